@@ -1,0 +1,134 @@
+//! Strings as they are meant: checked attributes with their values.
+
+use std::ops::Range;
+
+use super::keyword::Keyword;
+
+/// An attribute whose arguments were checked and computed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    /// Which attribute.
+    pub keyword: Keyword,
+    /// What it says.
+    pub value: Value,
+    /// Its arguments and flags as words, variables resolved, for people: `-cd default -5 5`.
+    pub words: String,
+    /// Where it stands in the decoded string, keyword included.
+    pub range: Range<usize>,
+}
+
+/// What an attribute says.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Value {
+    /// `Color`, straight sRGB and alpha, each 0 to 1. `alpha` is `None` where the string does not give it.
+    Color {
+        /// Red, green, blue.
+        rgb: [f64; 3],
+        /// Opacity, if given.
+        alpha: Option<f64>,
+    },
+    /// `Shape`
+    Shape(Shape),
+    /// `Origin`
+    Origin(Origin),
+    /// `Emissive`, straight sRGB, each 0 to 1.
+    Rgb([f64; 3]),
+    /// One number: `Offset Axis Segments Smooth Metallic Roughness Alpha Depth Tiles Bevel Roof Scale Size Walk Pose`
+    Number(f64),
+    /// Two numbers: `View Stand Limited`
+    Pair([f64; 2]),
+    /// One word or file: `Texture Tile Bind Strokes Perform Mark`
+    Word(String),
+    /// Several names: `Bone Follow`
+    Names(Vec<String>),
+    /// `Axes`: the signed world axes that the drawing's right, its up and the viewer's direction become.
+    Axes([SignedAxis; 3]),
+    /// `Ground`
+    Ground(Ground),
+    /// `Motion`: file and clip name.
+    Motion {
+        /// The BVH file, as written.
+        file: String,
+        /// The clip's name, if given.
+        clip: Option<String>,
+    },
+    /// `Let`: name and value.
+    Let(String, f64),
+    /// Nothing: `Backing Hidden`
+    Flag,
+}
+
+/// `Shape [-scd] kind parameters…`
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    /// The kind with its parameters, defaults filled in where they are plain numbers.
+    pub kind: ShapeKind,
+    /// `-s`: a second, mirrored solid in the same node.
+    pub mirrored: bool,
+    /// `-d`: a second, mirrored node.
+    pub doubled: bool,
+    /// `-c`: the origin is the centre.
+    pub centered: bool,
+}
+
+/// The kinds of `Shape` (language.md, Shapes). Angles in degrees, lengths in drawing units.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ShapeKind {
+    /// A prism between two depths; `None`: the page's thickness.
+    Default(Option<[f64; 2]>),
+    /// A cylinder about the axis, from angle to angle.
+    RoundV([f64; 2]),
+    /// A cylinder across the axis.
+    RoundH([f64; 2]),
+    /// An ellipsoid: angles, and the radius in depth (`None`: the smaller half extent).
+    Round([f64; 2], Option<f64>),
+    /// Scaled both ways: `z0 z1 top`.
+    Cone([f64; 3]),
+    /// Scaled across the axis.
+    ConeV([f64; 3]),
+    /// Scaled along the axis.
+    ConeH([f64; 3]),
+    /// A height field: the height (`None`: half the smaller extent).
+    Inflate(Option<f64>),
+    /// Turned about the axis by so many degrees.
+    Lathe(f64),
+    /// A ready model: its file, as written.
+    Model(String),
+    /// The outline alone at a depth.
+    Flat(f64),
+    /// No solid.
+    None,
+}
+
+/// `Origin center | start | end | x y`
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Origin {
+    /// The part's centre.
+    Center,
+    /// The end point nearer to the parent's centre.
+    Start,
+    /// The other end point.
+    End,
+    /// A point in drawing units.
+    Point([f64; 2]),
+}
+
+/// `Ground bottom | page | x y`
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Ground {
+    /// The middle of the figures' lower edge.
+    Bottom,
+    /// The page's top left corner.
+    Page,
+    /// A point in drawing units.
+    Point([f64; 2]),
+}
+
+/// `+x` and the like: axis 0 to 2 and its sign.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SignedAxis {
+    /// 0 is x, 1 is y, 2 is z.
+    pub axis: usize,
+    /// Whether it points the negative way.
+    pub negative: bool,
+}

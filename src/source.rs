@@ -1,0 +1,289 @@
+//! The drawing as bytes, and places in it.
+//!
+//! Invariant: every [`Span`] in the program is a byte range of the drawing's text as it is on disk
+//! (of the unpacked text for `.svgz`), whatever was decoded or rewritten on the way.
+
+use std::ops::Range;
+
+/// A byte range of the drawing's text, half open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+pub struct Span {
+    /// Offset of the first byte.
+    pub start: usize,
+    /// Offset behind the last byte; equal to `start` for a place between two characters.
+    pub end: usize,
+}
+
+impl Span {
+    /// The span `start..end`.
+    pub const fn new(start: usize, end: usize) -> Self {
+        Self { start, end }
+    }
+
+    /// The empty span at `offset`.
+    pub const fn at(offset: usize) -> Self {
+        Self {
+            start: offset,
+            end: offset,
+        }
+    }
+
+    /// The smallest span that holds both.
+    pub fn join(self, other: Self) -> Self {
+        Self {
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
+    }
+
+    /// Whether `offset` lies in the span or at its end.
+    pub fn touches(self, offset: usize) -> bool {
+        (self.start..=self.end).contains(&offset)
+    }
+}
+
+impl From<Range<usize>> for Span {
+    fn from(range: Range<usize>) -> Self {
+        Self::new(range.start, range.end)
+    }
+}
+
+/// One stretch of a decoded text and the bytes that it was decoded from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Run {
+    /// Where the stretch begins in the decoded text.
+    at: usize,
+    /// Where it begins in the drawing.
+    raw: usize,
+    /// How long it is in the drawing.
+    raw_len: usize,
+    /// How it was written there.
+    form: Form,
+}
+
+/// How a stretch of text is written in the drawing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Form {
+    /// Byte for byte.
+    Plain,
+    /// Byte for byte inside a CDATA section, where nothing is escaped.
+    Cdata,
+    /// As one unit: an entity, a line end, a line break that stands between elements.
+    Unit,
+}
+
+/// A decoded text that knows, for each of its characters, the bytes of the drawing it came from.
+///
+/// Texts of a drawing reach it through XML entities, CDATA sections and several elements; the
+/// annotation language sees only the decoded characters and asks here for the places.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Text {
+    text: String,
+    runs: Vec<Run>,
+    end: usize,
+}
+
+impl Text {
+    /// A text that stands in the drawing byte for byte, from `offset` on. Handy in tests.
+    pub fn plain(text: &str, offset: usize) -> Self {
+        let mut out = Self::default();
+        out.push(text, Span::new(offset, offset + text.len()), Form::Plain);
+        out
+    }
+
+    /// Appends a stretch of decoded characters that stand at `raw`.
+    ///
+    /// For [`Form::Plain`] and [`Form::Cdata`] both lengths must be equal.
+    pub fn push(&mut self, decoded: &str, raw: Span, form: Form) {
+        debug_assert!(form == Form::Unit || decoded.len() == raw.end - raw.start);
+        if decoded.is_empty() {
+            return;
+        }
+        let continues = form != Form::Unit
+            && self
+                .runs
+                .last()
+                .is_some_and(|run| run.form == form && run.raw + run.raw_len == raw.start);
+        match self.runs.last_mut() {
+            Some(run) if continues => run.raw_len += raw.end - raw.start,
+            _ => self.runs.push(Run {
+                at: self.text.len(),
+                raw: raw.start,
+                raw_len: raw.end - raw.start,
+                form,
+            }),
+        }
+        self.text.push_str(decoded);
+        self.end = raw.end;
+    }
+
+    /// The decoded characters.
+    pub fn as_str(&self) -> &str {
+        &self.text
+    }
+
+    /// The place in the drawing of the decoded characters `range` (byte offsets in [`Text::as_str`]).
+    ///
+    /// An empty range gives the place between two characters.
+    pub fn span(&self, range: Range<usize>) -> Span {
+        let start = self.raw_start(range.start);
+        if range.is_empty() {
+            return Span::at(start);
+        }
+        Span::new(start, self.raw_end(range.end).max(start))
+    }
+
+    /// The place of the whole text.
+    pub fn whole(&self) -> Span {
+        self.span(0..self.text.len())
+    }
+
+    /// The decoded offset of the character at the drawing's byte `raw`, if one of the text's characters is there
+    /// (the end of the text included).
+    pub fn offset_of(&self, raw: usize) -> Option<usize> {
+        for (index, run) in self.runs.iter().enumerate() {
+            if (run.raw..run.raw + run.raw_len.max(1)).contains(&raw) {
+                return Some(match run.form {
+                    Form::Unit => run.at,
+                    Form::Plain | Form::Cdata => run.at + (raw - run.raw),
+                });
+            }
+            let next = self.runs.get(index + 1);
+            if raw == run.raw + run.raw_len && next.is_none_or(|next| next.raw != raw) {
+                return Some(next.map_or(self.text.len(), |next| next.at));
+            }
+        }
+        None
+    }
+
+    /// `text`, written so that it can replace the decoded characters from `offset` on: escaped for XML
+    /// unless it goes into a CDATA section.
+    pub fn escape_at(&self, offset: usize, text: &str) -> String {
+        match self.run_at(offset).map(|run| run.form) {
+            Some(Form::Cdata) => text.to_owned(),
+            _ => escape_xml(text),
+        }
+    }
+
+    fn run_at(&self, offset: usize) -> Option<&Run> {
+        let next = self.runs.partition_point(|run| run.at <= offset);
+        self.runs.get(next.checked_sub(1)?)
+    }
+
+    fn raw_start(&self, offset: usize) -> usize {
+        match self.run_at(offset) {
+            None => self.end,
+            Some(run) if offset >= self.text.len() => {
+                let _ = run;
+                self.end
+            }
+            Some(run) if run.form == Form::Unit => run.raw,
+            Some(run) => run.raw + (offset - run.at),
+        }
+    }
+
+    fn raw_end(&self, offset: usize) -> usize {
+        match offset.checked_sub(1).and_then(|last| self.run_at(last)) {
+            None => self.end,
+            Some(run) if run.form == Form::Unit => run.raw + run.raw_len,
+            Some(run) => run.raw + (offset - run.at).min(run.raw_len),
+        }
+    }
+}
+
+/// `text` with the characters that XML reserves written as entities.
+pub fn escape_xml(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+/// Line starts of a text, to turn byte offsets into lines and columns.
+#[derive(Debug, Clone)]
+pub struct Lines {
+    starts: Vec<usize>,
+}
+
+impl Lines {
+    /// Reads the line starts of `text`.
+    pub fn new(text: &str) -> Self {
+        let mut starts = vec![0];
+        starts.extend(
+            text.bytes()
+                .enumerate()
+                .filter(|(_, byte)| *byte == b'\n')
+                .map(|(at, _)| at + 1),
+        );
+        Self { starts }
+    }
+
+    /// Line and column of byte `offset`, both from 1; columns count characters of `text`.
+    pub fn line_column(&self, text: &str, offset: usize) -> (usize, usize) {
+        let line = self.starts.partition_point(|start| *start <= offset);
+        let start = self.starts[line - 1];
+        let column = text
+            .get(start..offset)
+            .map_or(offset - start, |head| head.chars().count());
+        (line, column + 1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn mixed() -> Text {
+        // raw: `ab&amp;c` then, in another element, `de`
+        let mut text = Text::default();
+        text.push("ab", Span::new(10, 12), Form::Plain);
+        text.push("&", Span::new(12, 17), Form::Unit);
+        text.push("c", Span::new(17, 18), Form::Plain);
+        text.push("\n", Span::new(18, 18), Form::Unit);
+        text.push("de", Span::new(40, 42), Form::Plain);
+        text
+    }
+
+    #[test]
+    fn spans_go_through_entities_and_elements() {
+        let text = mixed();
+        assert_eq!(text.as_str(), "ab&c\nde");
+        assert_eq!(text.span(0..2), Span::new(10, 12));
+        assert_eq!(text.span(2..3), Span::new(12, 17));
+        assert_eq!(text.span(1..4), Span::new(11, 18));
+        assert_eq!(text.span(5..7), Span::new(40, 42));
+        assert_eq!(text.span(5..5), Span::at(40));
+        assert_eq!(text.span(7..7), Span::at(42));
+        assert_eq!(text.whole(), Span::new(10, 42));
+    }
+
+    #[test]
+    fn offsets_come_back() {
+        let text = mixed();
+        for (raw, offset) in [
+            (10, Some(0)),
+            (14, Some(2)),
+            (17, Some(3)),
+            (40, Some(5)),
+            (42, Some(7)),
+            (30, None),
+        ] {
+            assert_eq!(text.offset_of(raw), offset, "raw {raw}");
+        }
+    }
+
+    #[test]
+    fn lines_and_columns_count_from_one() {
+        let text = "a\nbあc\n";
+        let lines = Lines::new(text);
+        assert_eq!(lines.line_column(text, 0), (1, 1));
+        assert_eq!(lines.line_column(text, 2), (2, 1));
+        assert_eq!(lines.line_column(text, 6), (2, 3));
+    }
+}
