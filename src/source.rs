@@ -117,6 +117,14 @@ impl Text {
         self.end = raw.end;
     }
 
+    /// Appends another text.
+    pub fn append(&mut self, other: &Self) {
+        for (index, run) in other.runs.iter().enumerate() {
+            let end = other.runs.get(index + 1).map_or(other.text.len(), |next| next.at);
+            self.push(&other.text[run.at..end], Span::new(run.raw, run.raw + run.raw_len), run.form);
+        }
+    }
+
     /// The decoded characters.
     pub fn as_str(&self) -> &str {
         &self.text
@@ -173,10 +181,7 @@ impl Text {
     fn raw_start(&self, offset: usize) -> usize {
         match self.run_at(offset) {
             None => self.end,
-            Some(run) if offset >= self.text.len() => {
-                let _ = run;
-                self.end
-            }
+            Some(_) if offset >= self.text.len() => self.end,
             Some(run) if run.form == Form::Unit => run.raw,
             Some(run) => run.raw + (offset - run.at),
         }

@@ -1,0 +1,186 @@
+//! What an attribute of a part is, and who says so: own string, legend of its paint, `%`, built-in default
+//! (figure.md, Attributes of a part).
+
+use rustc_hash::FxHashMap;
+
+use super::sheet::{PartKind, Sheet};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lang::keyword::Keyword;
+use crate::lang::value::{Setting, Shape, ShapeKind, Value};
+use crate::svg::{Drawing, PaintKey};
+
+/// A legend: what parts of a paint have in common.
+#[derive(Debug)]
+pub struct Legend {
+    /// The paint.
+    pub paint: PaintKey,
+    /// What it says, each with the index of its string.
+    pub settings: Vec<(usize, Setting)>,
+}
+
+/// Who says what an attribute is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum SetBy {
+    /// The part's own string.
+    Own,
+    /// The legend of its paint.
+    Legend,
+    /// A `%` string.
+    Default,
+    /// Nobody: the program's default.
+    Builtin,
+}
+
+impl SetBy {
+    /// The word for `inspect`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Own => "own",
+            Self::Legend => "legend",
+            Self::Default => "default",
+            Self::Builtin => "builtin",
+        }
+    }
+}
+
+/// A setting and where it comes from.
+#[derive(Debug, Clone, Copy)]
+pub struct Source<'a> {
+    /// The setting.
+    pub setting: &'a Setting,
+    /// Who says so.
+    pub from: SetBy,
+    /// Index of the string that says so.
+    pub string: usize,
+}
+
+/// How a part's surface looks, all sources added up.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Look {
+    /// sRGB and opacity, each 0 to 1.
+    pub color: [f64; 4],
+    /// glTF's metallic factor.
+    pub metallic: f64,
+    /// glTF's roughness factor.
+    pub roughness: f64,
+    /// sRGB, each 0 to 1.
+    pub emissive: [f64; 3],
+}
+
+impl Sheet {
+    /// What a part's attribute is set to, and by whom; `None` leaves the built-in default.
+    pub fn setting(&self, part: usize, keyword: Keyword) -> Option<Source<'_>> {
+        let part = &self.parts[part];
+        let own = part.string.and_then(|string| {
+            let setting = self.strings[string].settings.iter().find(|setting| setting.keyword == keyword)?;
+            Some(Source { setting, from: SetBy::Own, string })
+        });
+        let found = |settings: &'_ [(usize, Setting)]| settings.iter().position(|(_, setting)| setting.keyword == keyword);
+        own.or_else(|| {
+            let legend = &self.legends[part.legend?].settings;
+            let (string, setting) = &legend[found(legend)?];
+            Some(Source { setting, from: SetBy::Legend, string: *string })
+        })
+        .or_else(|| {
+            let (string, setting) = &self.defaults[found(&self.defaults)?];
+            Some(Source { setting, from: SetBy::Default, string: *string })
+        })
+    }
+
+    /// The number that an attribute of a part is set to.
+    pub fn number(&self, part: usize, keyword: Keyword) -> Option<f64> {
+        match self.setting(part, keyword)?.setting.value {
+            Value::Number(number) => Some(number),
+            _ => None,
+        }
+    }
+
+    /// A part's `Shape`.
+    pub fn shape(&self, part: usize) -> Shape {
+        match self.setting(part, Keyword::Shape).map(|source| &source.setting.value) {
+            Some(Value::Shape(shape)) => shape.clone(),
+            _ => Shape { kind: ShapeKind::Default(None), mirrored: false, doubled: false, centered: false },
+        }
+    }
+
+    /// How a part's surface looks.
+    pub fn look(&self, drawing: &Drawing, part: usize) -> Look {
+        let shape = &drawing.shapes[self.parts[part].shape];
+        let mut color = shape.paint.color.map(|channel| f64::from(channel) / 255.0);
+        let mut alpha = shape.opacity;
+        let picture = matches!(shape.paint.key, PaintKey::Picture(_));
+        if let Some(Value::Color { rgb, alpha: own }) = self.setting(part, Keyword::Color).map(|source| &source.setting.value)
+            && !picture
+        {
+            color = *rgb;
+            alpha = own.unwrap_or(alpha);
+        }
+        if let Some(own) = self.number(part, Keyword::Alpha) {
+            alpha = own;
+        }
+        let emissive = match self.setting(part, Keyword::Emissive).map(|source| &source.setting.value) {
+            Some(Value::Rgb(rgb)) => *rgb,
+            _ => [0.0; 3],
+        };
+        Look {
+            color: [color[0], color[1], color[2], alpha],
+            metallic: self.number(part, Keyword::Metallic).unwrap_or(0.0),
+            roughness: self.number(part, Keyword::Roughness).unwrap_or(0.9),
+            emissive,
+        }
+    }
+}
+
+/// Merges the legends by paint and gives them to the parts of that paint.
+pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
+    let mut by_paint: FxHashMap<&PaintKey, usize> = FxHashMap::default();
+    let mut swatches = Vec::new();
+    for part in sheet.parts.iter().filter(|part| part.kind == PartKind::Legend && part.is_candidate()) {
+        let Some(string) = part.string else { continue };
+        let paint = &drawing.shapes[part.shape].paint.key;
+        let settings = sheet.strings[string].settings.iter().map(|setting| (string, setting.clone()));
+        if let Some(legend) = by_paint.get(paint) {
+            let (first, _): &(usize, usize) = &swatches[*legend];
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::TwoLegends,
+                    sheet.strings[string].text.whole(),
+                    "this legend's paint has a legend already; where both say something, this one wins",
+                )
+                .related(sheet.strings[*first].text.whole(), "the other legend")
+                .help("give the swatch another colour, or put both strings into one"),
+            );
+            let legend: &mut Legend = &mut sheet.legends[*legend];
+            for (string, setting) in settings {
+                legend.settings.retain(|(_, old)| old.keyword != setting.keyword);
+                legend.settings.push((string, setting));
+            }
+            continue;
+        }
+        by_paint.insert(paint, sheet.legends.len());
+        swatches.push((string, part.shape));
+        sheet.legends.push(Legend { paint: paint.clone(), settings: settings.collect() });
+    }
+    let mut used = vec![false; sheet.legends.len()];
+    for part in &mut sheet.parts {
+        if matches!(part.kind, PartKind::Main | PartKind::Sub)
+            && let Some(legend) = by_paint.get(&drawing.shapes[part.shape].paint.key)
+        {
+            part.legend = Some(*legend);
+            used[*legend] = true;
+        }
+    }
+    for ((string, shape), used) in swatches.into_iter().zip(used) {
+        if !used {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::UnusedLegend,
+                    sheet.strings[string].text.whole(),
+                    format!("no part is painted like this legend, {}", drawing.shapes[shape].element.describe()),
+                )
+                .related(drawing.shapes[shape].element.span, "the legend")
+                .help("pick the swatch's colour from the parts with the dropper, or delete the legend"),
+            );
+        }
+    }
+}

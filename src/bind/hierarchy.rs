@@ -1,0 +1,320 @@
+//! Names, parents and joints (figure.md, Hierarchy and local frames).
+
+use glam::DVec2;
+use rstar::RTree;
+use rstar::primitives::GeomWithData;
+use rustc_hash::FxHashMap;
+
+use super::sheet::{Part, PartKind, Place, Sheet};
+use crate::diagnostic::{Code, Diagnostic, nearest_word};
+use crate::geometry::{Measure, measure_along};
+use crate::lang::ast::{Annotation, Name};
+use crate::lang::keyword::Keyword;
+use crate::lang::value::{Origin, ShapeKind, Value};
+use crate::svg::Drawing;
+
+/// How much longer than wide a part must be for its turning about the middle to be worth a hint.
+const LONG: f64 = 2.0;
+
+/// Names every main part, finds its parent, its axis and its joint.
+pub(super) fn build(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
+    let mut names = names(drawing, sheet, diagnostics);
+    automatic(drawing, sheet, &mut names, diagnostics);
+    parents(drawing, sheet, &names, diagnostics);
+    break_cycles(drawing, sheet, diagnostics);
+    axes(drawing, sheet, diagnostics);
+    for part in 0..sheet.parts.len() {
+        if sheet.parts[part].kind == PartKind::Main {
+            sheet.parts[part].origin = origin(sheet, part);
+            turns_about_middle(drawing, sheet, part, diagnostics);
+        }
+    }
+}
+
+fn part_name(sheet: &Sheet, part: usize) -> Option<&Name> {
+    match &sheet.strings[sheet.parts[part].string?].annotation {
+        Annotation::Part(part) => part.name.as_ref(),
+        _ => None,
+    }
+}
+
+/// The main parts by name; of several parts of a name the first.
+fn names(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) -> FxHashMap<String, usize> {
+    let mut names: FxHashMap<String, usize> = FxHashMap::default();
+    let span = |part: usize| match (part_name(sheet, part), sheet.parts[part].string) {
+        (Some(name), Some(string)) => sheet.strings[string].text.span(name.range.clone()),
+        (None, Some(string)) => sheet.strings[string].text.whole(),
+        _ => drawing.shapes[sheet.parts[part].shape].element.span,
+    };
+    for (index, part) in sheet.parts.iter().enumerate() {
+        if part.kind != PartKind::Main || part.name.is_empty() {
+            continue;
+        }
+        if let Some(first) = names.get(&part.name) {
+            diagnostics.push(
+                Diagnostic::new(Code::DuplicateName, span(index), format!("two parts are named `{}`", part.name))
+                    .label("the second one")
+                    .related(span(*first), "the first one")
+                    .help("rename one of them"),
+            );
+        } else {
+            names.insert(part.name.clone(), index);
+        }
+    }
+    names
+}
+
+/// Names the parts without a string, and hangs them on the nearest named main part (rule 5).
+fn automatic(
+    drawing: &Drawing,
+    sheet: &mut Sheet,
+    names: &mut FxHashMap<String, usize>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let named = sheet.parts.iter().enumerate().filter(|(_, part)| part.kind == PartKind::Main && !part.name.is_empty());
+    let tree = RTree::bulk_load(
+        named.map(|(index, part)| GeomWithData::new(part.measure.center.to_array(), index)).collect(),
+    );
+    let mut counter = 0;
+    for index in 0..sheet.parts.len() {
+        let part = &sheet.parts[index];
+        if part.kind != PartKind::Main || !part.name.is_empty() {
+            continue;
+        }
+        let name = loop {
+            counter += 1;
+            let name = format!("U-{counter}");
+            if !names.contains_key(&name) {
+                break name;
+            }
+        };
+        let nearest = tree.nearest_neighbors(part.measure.center.to_array());
+        let parent = nearest.into_iter().map(|found| found.data).min();
+        if sheet.annotated {
+            let on = parent.map_or(String::new(), |parent| format!(" and hangs on `{}`", sheet.parts[parent].name));
+            let element = &drawing.shapes[part.shape].element;
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::AutomaticName,
+                    element.span,
+                    format!("{} has no string: it is named `{name}`{on}", element.describe()),
+                )
+                .help("write a name beside it, or `*` to leave it out"),
+            );
+        }
+        names.insert(name.clone(), index);
+        let part = &mut sheet.parts[index];
+        part.name = name;
+        part.automatic = true;
+        part.parent = parent;
+    }
+}
+
+/// Finds the parents that strings name.
+fn parents(
+    drawing: &Drawing,
+    sheet: &mut Sheet,
+    names: &FxHashMap<String, usize>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for index in 0..sheet.parts.len() {
+        let part = &sheet.parts[index];
+        if part.kind != PartKind::Main {
+            continue;
+        }
+        let Some(string) = part.string else { continue };
+        let Annotation::Part(annotation) = &sheet.strings[string].annotation else { continue };
+        let Some(parent) = &annotation.parent else { continue };
+        if let Some(parent) = names.get(&parent.text) {
+            sheet.parts[index].parent = Some(*parent);
+            continue;
+        }
+        let text = &sheet.strings[string].text;
+        let span = text.span(parent.range.clone());
+        let mut diagnostic =
+            Diagnostic::new(Code::UnknownParent, span, format!("there is no part named `{}`", parent.text));
+        let left_out = sheet.parts.iter().find(|part| part.name == parent.text && part.kind != PartKind::Main);
+        if let Some(other) = left_out {
+            diagnostic = diagnostic
+                .related(drawing.shapes[other.shape].element.span, "this sub-part has the name, but is no joint")
+                .help("name the main part of its group instead");
+        } else {
+            let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
+            known.sort_unstable();
+            if let Some(near) = nearest_word(&parent.text, known.iter().copied().filter(|name| *name != part.name)) {
+                diagnostic = diagnostic
+                    .label(format!("did you mean `{near}`?"))
+                    .fix(format!("write `{near}`"), span, text.escape_at(parent.range.start, &quoted(near)));
+            }
+            diagnostic = diagnostic.help("the name behind `@` must be that of a part, written alike");
+        }
+        diagnostics.push(diagnostic);
+    }
+}
+
+/// A name as it must be written in a string.
+fn quoted(name: &str) -> String {
+    if name.contains(|c: char| c.is_whitespace() || "@$\"()".contains(c)) { format!("\"{name}\"") } else { name.to_owned() }
+}
+
+/// Hangs one part of every cycle of parents on the root.
+fn break_cycles(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
+    // 0: not yet seen; otherwise the walk that saw it.
+    let mut seen = vec![0_usize; sheet.parts.len()];
+    for start in 0..sheet.parts.len() {
+        let mut part = start;
+        while seen[part] == 0 {
+            seen[part] = start + 1;
+            match sheet.parts[part].parent {
+                Some(parent) => part = parent,
+                None => break,
+            }
+        }
+        if seen[part] != start + 1 || sheet.parts[part].parent.is_none() {
+            continue;
+        }
+        let mut cycle = vec![part];
+        while let Some(parent) = cycle.last().and_then(|last| sheet.parts[*last].parent).filter(|parent| *parent != part) {
+            cycle.push(parent);
+        }
+        let span = |part: usize| {
+            let string = sheet.parts[part].string.map(|string| &sheet.strings[string]);
+            match string.map(|string| (&string.annotation, &string.text)) {
+                Some((Annotation::Part(annotation), text)) => {
+                    annotation.parent.as_ref().map_or(text.whole(), |parent| text.span(parent.range.clone()))
+                }
+                _ => drawing.shapes[sheet.parts[part].shape].element.span,
+            }
+        };
+        let chain: Vec<String> =
+            cycle.iter().chain([&part]).map(|part| format!("`{}`", sheet.parts[*part].name)).collect();
+        let mut diagnostic = Diagnostic::new(
+            Code::ParentCycle,
+            span(part),
+            if cycle.len() == 1 {
+                format!("{} is its own parent", chain[0])
+            } else {
+                format!("parts hang on each other in a circle: {}", chain.join(" on "))
+            },
+        )
+        .help("one of them must hang on a part outside the circle, or on none");
+        for other in &cycle[1..] {
+            diagnostic = diagnostic.related(span(*other), format!("`{}` hangs on this", sheet.parts[*other].name));
+        }
+        diagnostics.push(diagnostic);
+        sheet.parts[part].parent = None;
+    }
+}
+
+/// Turns the axis of parts whose strings say so.
+fn axes(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
+    for index in 0..sheet.parts.len() {
+        if !matches!(sheet.parts[index].kind, PartKind::Main | PartKind::Sub) {
+            continue;
+        }
+        if let Some(degrees) = sheet.number(index, Keyword::Axis) {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let turned = measure_along(&sheet.parts[index].outline, DVec2::new(cos, -sin));
+            if let Some(measure) = turned {
+                sheet.parts[index].measure = Measure { certain: true, ..measure };
+            }
+            continue;
+        }
+        let kind = sheet.shape(index).kind;
+        let turns = matches!(
+            kind,
+            ShapeKind::RoundV(_) | ShapeKind::RoundH(_) | ShapeKind::ConeV(_) | ShapeKind::ConeH(_) | ShapeKind::Lathe(_)
+        );
+        let part = &sheet.parts[index];
+        if turns && !part.measure.certain {
+            let name = sheet.describe(drawing, index);
+            let place = part.string.map_or(drawing.shapes[part.shape].element.span, |s| sheet.strings[s].text.whole());
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::AxisGuess,
+                    place,
+                    format!("{name} is as wide as long, so its axis is taken to be upright"),
+                )
+                .help("`Axis 90` says so, `Axis 0` lays it level"),
+            );
+        }
+    }
+}
+
+/// The joint of a main part (paper, section 3.5).
+fn origin(sheet: &Sheet, index: usize) -> DVec2 {
+    let part = &sheet.parts[index];
+    let parent = part.parent.map(|parent| sheet.parts[parent].measure.center);
+    let set = match sheet.setting(index, Keyword::Origin).map(|source| &source.setting.value) {
+        Some(Value::Origin(origin)) => Some(*origin),
+        _ => sheet.shape(index).centered.then_some(Origin::Center),
+    };
+    let [start, end] = sorted_ends(part, parent);
+    match set {
+        Some(Origin::Center) => part.measure.center,
+        Some(Origin::Start) => start,
+        Some(Origin::End) => end,
+        Some(Origin::Point([x, y])) => DVec2::new(x, y),
+        None => match parent {
+            None => part.measure.center,
+            Some(parent) => {
+                let candidates = [start, end, part.measure.center];
+                // The first of equals: an end rather than the middle, for a part centred on its parent alone.
+                let near = |p: &DVec2| p.distance_squared(parent);
+                candidates.into_iter().min_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or(part.measure.center)
+            }
+        },
+    }
+}
+
+/// The end points, the one nearer to the parent's centre first; without a parent, the upper one first.
+fn sorted_ends(part: &Part, parent: Option<DVec2>) -> [DVec2; 2] {
+    let [a, b] = part.measure.ends;
+    let swapped = match parent {
+        Some(parent) => b.distance_squared(parent) < a.distance_squared(parent),
+        None => b.y < a.y,
+    };
+    if swapped { [b, a] } else { [a, b] }
+}
+
+fn turns_about_middle(drawing: &Drawing, sheet: &Sheet, index: usize, diagnostics: &mut Vec<Diagnostic>) {
+    let part = &sheet.parts[index];
+    let long = part.measure.half_along > LONG * part.measure.half_across;
+    let chosen = sheet.setting(index, Keyword::Origin).is_some() || sheet.shape(index).centered;
+    let (Some(parent), Some(string)) = (part.parent, part.string) else { return };
+    if !long || chosen || part.origin != part.measure.center {
+        return;
+    }
+    let string = &sheet.strings[string];
+    let text = &string.text;
+    let has_attributes = match &string.annotation {
+        Annotation::Part(annotation) => {
+            !annotation.attributes.is_empty() || text.as_str().trim_end().ends_with(['$', '＄'])
+        }
+        _ => return,
+    };
+    let end = text.as_str().trim_end().len();
+    let place = match string.place {
+        Place::Label(_) | Place::Shape(_) | Place::Group(_) => text.span(end..end),
+    };
+    let [start, far] = sorted_ends(part, Some(sheet.parts[parent].measure.center));
+    let upper = if start.y <= far.y { "upper" } else { "lower" };
+    let lead = if has_attributes { " " } else { "$" };
+    let mut diagnostic = Diagnostic::new(
+        Code::TurnsAboutMiddle,
+        text.whole(),
+        format!(
+            "`{}` lies beside `{}`, so it turns about its middle",
+            part.name, sheet.parts[parent].name
+        ),
+    )
+    .related(drawing.shapes[part.shape].element.span, "the part")
+    .help(format!(
+        "for an arm or a leg write `Origin start`, the end nearer to the middle of `{}` (here the {upper} one), or `Origin end`",
+        sheet.parts[parent].name
+    ));
+    for word in ["start", "end"] {
+        diagnostic = diagnostic.fix(format!("turn about its {word}"), place, format!("{lead}Origin {word}"));
+    }
+    diagnostics.push(diagnostic);
+}

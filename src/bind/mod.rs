@@ -1,0 +1,318 @@
+//! Who is described by what: strings bound to parts, attributes and their sources, the hierarchy.
+//!
+//! This module knows both the drawing and the language. [`bind`] follows figure.md's order of rules; the
+//! result, a [`Sheet`], holds everything that the model is built from and that editors ask about.
+
+mod attributes;
+mod hierarchy;
+mod leaders;
+mod nearest;
+mod sheet;
+mod strings;
+mod units;
+
+pub use attributes::{Look, SetBy, Source};
+pub use sheet::{Binding, BoundBy, Part, PartKind, Place, Sheet, SheetString};
+
+use rayon::prelude::*;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::{Outline, bounds, measure};
+use crate::lang::ast::Annotation;
+use crate::lang::keyword::Keyword;
+use crate::svg::{Drawing, Element};
+use units::{Member, Units};
+
+/// Binds the strings of a drawing to its parts. Takes the outlines out of the drawing.
+pub fn bind(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
+    let mut sheet = strings::read(drawing, diagnostics);
+    let units = Units::read(drawing, &sheet);
+    let outlines = outlines(drawing, &units.members);
+    sheet.parts = units
+        .members
+        .par_iter()
+        .zip(outlines)
+        .filter_map(|(member, outline)| Part::measured(member, outline))
+        .collect();
+    let mut binder = Binder::new(drawing, &units, &mut sheet, diagnostics);
+    binder.descriptions();
+    binder.groups();
+    binder.leaders();
+    binder.nearest();
+    binder.left_over();
+    classify(drawing, &mut sheet);
+    attributes::legends(drawing, &mut sheet, diagnostics);
+    hierarchy::build(drawing, &mut sheet, diagnostics);
+    hints(drawing, &sheet, diagnostics);
+    sheet
+}
+
+/// The outlines of the members, made from strokes where that is what they are.
+fn outlines(drawing: &mut Drawing, members: &[Member]) -> Vec<Outline> {
+    let strokes: Vec<Option<Outline>> = members
+        .par_iter()
+        .map(|member| match drawing.shapes[member.shape].stroke.as_deref() {
+            Some(stroke) if member.is_stroke => Some(stroke.outline()),
+            _ => None,
+        })
+        .collect();
+    members
+        .iter()
+        .zip(strokes)
+        .map(|(member, stroke)| stroke.unwrap_or_else(|| std::mem::take(&mut drawing.shapes[member.shape].outline)))
+        .collect()
+}
+
+/// What binding works on.
+struct Binder<'a> {
+    drawing: &'a Drawing,
+    units: &'a Units,
+    sheet: &'a mut Sheet,
+    diagnostics: &'a mut Vec<Diagnostic>,
+    /// Per member of the units the part it became, if it has area.
+    part_of_member: Vec<Option<usize>>,
+    /// Per shape its first part.
+    part_of_shape: Vec<Option<usize>>,
+}
+
+impl<'a> Binder<'a> {
+    fn new(
+        drawing: &'a Drawing,
+        units: &'a Units,
+        sheet: &'a mut Sheet,
+        diagnostics: &'a mut Vec<Diagnostic>,
+    ) -> Self {
+        let mut part_of_member = vec![None; units.members.len()];
+        let mut part_of_shape = vec![None; drawing.shapes.len()];
+        for (index, part) in sheet.parts.iter().enumerate() {
+            part_of_member[part.member] = Some(index);
+            part_of_shape[part.shape].get_or_insert(index);
+        }
+        units::choose_mains(units, sheet);
+        Self { drawing, units, sheet, diagnostics, part_of_member, part_of_shape }
+    }
+
+    /// Rule 1: descriptions belong to their element.
+    fn descriptions(&mut self) {
+        for string in 0..self.sheet.strings.len() {
+            let part = match self.sheet.strings[string].place {
+                _ if !self.sheet.strings[string].wants_part() => continue,
+                Place::Label(_) => continue,
+                Place::Shape(shape) => self.part_of_shape[shape],
+                Place::Group(group) => self.backmost(group),
+            };
+            if let Some(part) = part {
+                self.bind(string, part, BoundBy::Desc);
+            }
+        }
+    }
+
+    /// Rule 2: strings in a group belong to the backmost part of the innermost group that holds a part.
+    fn groups(&mut self) {
+        for string in 0..self.sheet.strings.len() {
+            let Some(group) = self.waiting_label(string).map(|label| self.drawing.labels[label].1) else { continue };
+            let holder = self.units.chain(group).find(|group| {
+                self.units.is_container(*group) || (self.units.groups_strings(*group) && self.backmost(*group).is_some())
+            });
+            match holder {
+                Some(group) if self.units.is_container(group) => {
+                    self.sheet.strings[string].scope = Some(group);
+                }
+                Some(group) => {
+                    if let Some(part) = self.backmost(group) {
+                        self.bind(string, part, BoundBy::Group);
+                    }
+                }
+                None => {}
+            }
+        }
+    }
+
+    /// Rule 3: leaders and connectors.
+    fn leaders(&mut self) {
+        for (string, part) in leaders::find(self.drawing, self.sheet, &self.part_of_shape) {
+            self.bind(string, part, BoundBy::Leader);
+        }
+    }
+
+    /// Rule 4: every other string to the nearest main part candidate, containers among themselves first.
+    fn nearest(&mut self) {
+        let by_outline = self.sheet.word(Keyword::Bind).is_some_and(|word| word.eq_ignore_ascii_case("outline"));
+        let mut waiting: Vec<(Option<usize>, usize)> = (0..self.sheet.strings.len())
+            .filter(|string| self.waiting_label(*string).is_some())
+            .map(|string| (self.sheet.strings[string].scope, string))
+            .collect();
+        waiting.sort_by_key(|(scope, string)| (scope.is_none(), *scope, *string));
+        let mut contained = units::candidates_by_container(self.units, self.sheet);
+        let mode = if by_outline { nearest::Mode::Outline } else { nearest::Mode::Center };
+        for strings in waiting.chunk_by(|(one, _), (other, _)| one == other) {
+            let mut candidates: Vec<usize> = match strings[0].0 {
+                Some(container) => contained.remove(&container).unwrap_or_default(),
+                None => (0..self.sheet.parts.len()).filter(|part| self.sheet.parts[*part].is_candidate()).collect(),
+            };
+            candidates.retain(|part| self.sheet.parts[*part].string.is_none());
+            let strings: Vec<usize> = strings.iter().map(|(_, string)| *string).collect();
+            self.nearest_in(&strings, &candidates, mode);
+        }
+    }
+
+    fn nearest_in(&mut self, strings: &[usize], candidates: &[usize], mode: nearest::Mode) {
+        let corners: Vec<_> = strings
+            .iter()
+            .map(|string| match self.sheet.strings[*string].place {
+                Place::Label(label) => self.drawing.labels[label].0.corner,
+                Place::Shape(_) | Place::Group(_) => glam::DVec2::ZERO,
+            })
+            .collect();
+        let targets: Vec<_> = candidates
+            .iter()
+            .map(|part| nearest::Target {
+                center: self.sheet.parts[*part].measure.center,
+                outline: &self.sheet.parts[*part].outline,
+            })
+            .collect();
+        let pairs = nearest::pairs(&corners, &targets, mode);
+        let rivals = nearest::rivals(&corners, &targets, &pairs, mode);
+        for ((string, target), rival) in strings.iter().zip(&pairs).zip(rivals) {
+            let Some(target) = target else { continue };
+            self.bind(*string, candidates[*target], BoundBy::Nearest);
+            if let Some(rival) = rival {
+                self.sheet.strings[*string].rival = Some(candidates[rival]);
+            }
+        }
+    }
+
+    /// What no rule found a part for.
+    fn left_over(&mut self) {
+        for string in &self.sheet.strings {
+            if string.wants_part() && string.binding.is_none() {
+                let what = match &string.annotation {
+                    Annotation::Part(part) => part.name.as_ref().map_or("this string".to_owned(), |name| format!("`{}`", name.text)),
+                    Annotation::Legend(_) => "this legend".to_owned(),
+                    _ => "this string".to_owned(),
+                };
+                self.diagnostics.push(
+                    Diagnostic::new(
+                        Code::NoPartLeft,
+                        string.text.whole(),
+                        format!("there is no part left for {what}: every shape has a string already"),
+                    )
+                    .help("delete the string, draw its shape, or begin it with `#` to make it a comment"),
+                );
+            }
+        }
+    }
+
+    /// The label of a string that still wants a part.
+    fn waiting_label(&self, string: usize) -> Option<usize> {
+        let string = &self.sheet.strings[string];
+        match string.place {
+            Place::Label(label) if string.wants_part() && string.binding.is_none() => Some(label),
+            _ => None,
+        }
+    }
+
+    /// The backmost part in a group.
+    fn backmost(&self, group: usize) -> Option<usize> {
+        self.units.members_in(group).find_map(|member| self.part_of_member[member])
+    }
+
+    fn bind(&mut self, string: usize, part: usize, by: BoundBy) {
+        if let Some(other) = self.sheet.parts[part].string {
+            let other_span = self.sheet.strings[other].text.whole();
+            let element = &self.drawing.shapes[self.sheet.parts[part].shape].element;
+            self.diagnostics.push(
+                Diagnostic::new(
+                    Code::TwoStrings,
+                    self.sheet.strings[string].text.whole(),
+                    format!("this string and another one describe the same part, {}", element.describe()),
+                )
+                .related(other_span, "the other string")
+                .related(element.span, "the part")
+                .help("delete one of them, or move it out of the group"),
+            );
+            // It must not be said again that the string found no part.
+            self.sheet.strings[string].binding = Some(Binding { part, by });
+            return;
+        }
+        self.sheet.parts[part].string = Some(string);
+        self.sheet.strings[string].binding = Some(Binding { part, by });
+    }
+}
+
+/// Says of every part what it is, now that the strings are bound.
+fn classify(drawing: &Drawing, sheet: &mut Sheet) {
+    for index in 0..sheet.parts.len() {
+        let annotation = sheet.parts[index].string.map(|string| &sheet.strings[string].annotation);
+        let main = sheet.parts[index].is_candidate();
+        sheet.parts[index].kind = match annotation {
+            Some(Annotation::Unused) => PartKind::Unused,
+            Some(Annotation::Legend(_)) if main => PartKind::Legend,
+            _ if main => PartKind::Main,
+            _ => PartKind::Sub,
+        };
+        if let Some(Annotation::Part(part)) = annotation {
+            let name = part.name.as_ref().map(|name| name.text.clone());
+            sheet.parts[index].name = name.unwrap_or_else(|| described_element(drawing, sheet, index).own_name().to_owned());
+        }
+    }
+    // Sub-parts of what is left out are left out with it.
+    for index in 0..sheet.parts.len() {
+        let main = sheet.parts[index].main;
+        if main != index && matches!(sheet.parts[main].kind, PartKind::Unused | PartKind::Legend) {
+            sheet.parts[index].kind = sheet.parts[main].kind;
+        }
+    }
+}
+
+/// The element whose description a part's string is: the shape, or a group around it.
+fn described_element<'a>(drawing: &'a Drawing, sheet: &Sheet, part: usize) -> &'a Element {
+    let part = &sheet.parts[part];
+    match part.string.map(|string| sheet.strings[string].place) {
+        Some(Place::Group(group)) => &drawing.groups[group].element,
+        _ => &drawing.shapes[part.shape].element,
+    }
+}
+
+/// What is worth knowing about bindings and places.
+fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
+    if !sheet.annotated {
+        return;
+    }
+    for string in &sheet.strings {
+        if let (Some(binding), Some(rival)) = (string.binding, string.rival) {
+            let (bound, rival) = (sheet.describe(drawing, binding.part), sheet.describe(drawing, rival));
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::NearlyAsNear,
+                    string.text.whole(),
+                    format!("this string belongs to {bound}, but {rival} is almost as near"),
+                )
+                .related(drawing.shapes[sheet.parts[binding.part].shape].element.span, "the part it belongs to")
+                .help("move the string's top left corner closer to the middle of its part, or group both"),
+            );
+        }
+    }
+    let (page_low, page_size) = drawing.page;
+    for part in &sheet.parts {
+        let Some((low, high)) = bounds(&part.outline) else { continue };
+        let off = high.cmplt(page_low).any() || low.cmpgt(page_low + page_size).any();
+        if off && part.kind == PartKind::Main {
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::OffPage,
+                    drawing.shapes[part.shape].element.span,
+                    format!("`{}` lies off the page", part.name),
+                )
+                .help("it is built all the same; `*` in a string beside it leaves it out"),
+            );
+        }
+    }
+}
+
+impl Part {
+    fn measured(member: &Member, outline: Outline) -> Option<Self> {
+        let measure = measure(&outline)?;
+        Some(Self::new(member, outline, measure))
+    }
+}

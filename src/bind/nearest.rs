@@ -1,0 +1,321 @@
+//! Strings to the nearest parts, one to one, in order of distance (figure.md, Binding, rule 4).
+//!
+//! Taking all pairs by distance is quadratic. A pair in which each is the other's nearest is taken by
+//! that order in any case, so it can be taken at once, and a chain of nearest neighbours ends in such
+//! a pair: a few look-ups in two spatial indices a string.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use glam::DVec2;
+use rayon::prelude::*;
+use rstar::primitives::GeomWithData;
+use rstar::{AABB, PointDistance, RTree, RTreeObject};
+use rustc_hash::FxHashMap;
+
+use crate::geometry::{Outline, bounds, distance_squared};
+
+/// From where to where distances are measured.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mode {
+    /// From a string's corner to a part's centre, as in the paper.
+    Center,
+    /// From a string's corner to a part's outline.
+    Outline,
+}
+
+/// A part that a string can be bound to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Target<'a> {
+    pub(super) center: DVec2,
+    pub(super) outline: &'a Outline,
+}
+
+/// For each string's corner the index of its target. Ties go to the earlier string, then to the earlier target.
+pub(super) fn pairs(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Vec<Option<usize>> {
+    let mut strings = Points::new(corners.iter().copied());
+    let mut parts = Parts::new(targets, mode);
+    let mut bound = vec![None; corners.len()];
+    let mut chain = Vec::new();
+    for first in 0..corners.len() {
+        if bound[first].is_some() {
+            continue;
+        }
+        chain.clear();
+        chain.push(first);
+        while let Some(&string) = chain.last() {
+            let Some(part) = parts.nearest(corners[string]) else { return bound };
+            let back = parts.nearest_string(part, &strings, corners);
+            if back == Some(string) || back.is_none() {
+                bound[string] = Some(part);
+                strings.remove(corners[string]);
+                parts.remove(part);
+                chain.pop();
+            } else if let Some(other) = back {
+                chain.push(other);
+            }
+        }
+    }
+    bound
+}
+
+/// For each bound string another target that is at most a tenth farther away.
+pub(super) fn rivals(
+    corners: &[DVec2],
+    targets: &[Target<'_>],
+    pairs: &[Option<usize>],
+    mode: Mode,
+) -> Vec<Option<usize>> {
+    let parts = Parts::new(targets, mode);
+    corners
+        .par_iter()
+        .zip(pairs)
+        .map(|(corner, bound)| {
+            let bound = (*bound)?;
+            let own = parts.distance_squared(bound, *corner);
+            let (rival, distance) = parts.two_nearest(*corner).into_iter().find(|(part, _)| *part != bound)?;
+            (distance <= own * 1.1 * 1.1 && own > 0.0).then_some(rival)
+        })
+        .collect()
+}
+
+type Key = [u64; 2];
+
+fn key(p: DVec2) -> Key {
+    // Adding zero makes -0 and 0 one key.
+    [(p.x + 0.0).to_bits(), (p.y + 0.0).to_bits()]
+}
+
+/// A shrinking set of points, each with the indices that lie there.
+struct Points {
+    tree: RTree<GeomWithData<[f64; 2], ()>>,
+    indices: FxHashMap<Key, BinaryHeap<Reverse<usize>>>,
+}
+
+impl Points {
+    fn new(points: impl Iterator<Item = DVec2>) -> Self {
+        let mut indices: FxHashMap<Key, BinaryHeap<Reverse<usize>>> = FxHashMap::default();
+        let mut unique = Vec::new();
+        for (index, point) in points.enumerate() {
+            let heap = indices.entry(key(point)).or_default();
+            if heap.is_empty() {
+                unique.push(GeomWithData::new([point.x + 0.0, point.y + 0.0], ()));
+            }
+            heap.push(Reverse(index));
+        }
+        Self { tree: RTree::bulk_load(unique), indices }
+    }
+
+    fn first_at(&self, point: &[f64; 2]) -> Option<usize> {
+        self.indices.get(&key(DVec2::from(*point)))?.peek().map(|Reverse(index)| *index)
+    }
+
+    /// The nearest index, the least one among equals.
+    fn nearest(&self, to: DVec2) -> Option<usize> {
+        let to = [to.x, to.y];
+        self.tree.nearest_neighbors(to).into_iter().filter_map(|point| self.first_at(point.geom())).min()
+    }
+
+    /// Removes the least index at a point.
+    fn remove(&mut self, point: DVec2) {
+        if let Some(heap) = self.indices.get_mut(&key(point)) {
+            heap.pop();
+            if heap.is_empty() {
+                self.indices.remove(&key(point));
+                self.tree.remove_at_point([point.x + 0.0, point.y + 0.0]);
+            }
+        }
+    }
+}
+
+/// A part in the index of outlines.
+struct Shape<'a> {
+    index: usize,
+    envelope: AABB<[f64; 2]>,
+    outline: &'a Outline,
+}
+
+impl RTreeObject for Shape<'_> {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        self.envelope
+    }
+}
+
+impl PointDistance for Shape<'_> {
+    fn distance_2(&self, point: &[f64; 2]) -> f64 {
+        distance_squared(self.outline, DVec2::from(*point))
+    }
+}
+
+/// The parts that are left.
+enum Parts<'a> {
+    Centers { targets: &'a [Target<'a>], points: Points },
+    Outlines { targets: &'a [Target<'a>], tree: RTree<Shape<'a>> },
+}
+
+impl<'a> Parts<'a> {
+    fn new(targets: &'a [Target<'a>], mode: Mode) -> Self {
+        match mode {
+            Mode::Center => Self::Centers { targets, points: Points::new(targets.iter().map(|target| target.center)) },
+            Mode::Outline => {
+                let shapes = targets.iter().enumerate().map(|(index, target)| Shape {
+                    index,
+                    envelope: envelope(target),
+                    outline: target.outline,
+                });
+                Self::Outlines { targets, tree: RTree::bulk_load(shapes.collect()) }
+            }
+        }
+    }
+
+    fn nearest(&self, corner: DVec2) -> Option<usize> {
+        match self {
+            Self::Centers { points, .. } => points.nearest(corner),
+            Self::Outlines { tree, .. } => {
+                tree.nearest_neighbors([corner.x, corner.y]).into_iter().map(|shape| shape.index).min()
+            }
+        }
+    }
+
+    fn distance_squared(&self, part: usize, corner: DVec2) -> f64 {
+        match self {
+            Self::Centers { targets, .. } => targets[part].center.distance_squared(corner),
+            Self::Outlines { targets, .. } => distance_squared(targets[part].outline, corner),
+        }
+    }
+
+    /// The string nearest to a part.
+    fn nearest_string(&self, part: usize, strings: &Points, corners: &[DVec2]) -> Option<usize> {
+        match self {
+            Self::Centers { targets, .. } => strings.nearest(targets[part].center),
+            Self::Outlines { targets, .. } => {
+                let target = &targets[part];
+                let reach = reach(target);
+                let mut best: Option<(f64, usize)> = None;
+                let center = [target.center.x, target.center.y];
+                for (point, from_center) in strings.tree.nearest_neighbor_iter_with_distance_2(center) {
+                    if best.is_some_and(|(distance, _)| from_center.sqrt() - reach > distance.sqrt()) {
+                        break;
+                    }
+                    let Some(string) = strings.first_at(point.geom()) else { continue };
+                    let candidate = (distance_squared(target.outline, corners[string]), string);
+                    if best.is_none_or(|best| candidate < best) {
+                        best = Some(candidate);
+                    }
+                }
+                best.map(|(_, string)| string)
+            }
+        }
+    }
+
+    fn two_nearest(&self, corner: DVec2) -> Vec<(usize, f64)> {
+        let corner = [corner.x, corner.y];
+        match self {
+            Self::Centers { points, .. } => points
+                .tree
+                .nearest_neighbor_iter_with_distance_2(corner)
+                .take(2)
+                .filter_map(|(point, distance)| Some((points.first_at(point.geom())?, distance)))
+                .collect(),
+            Self::Outlines { tree, .. } => tree
+                .nearest_neighbor_iter_with_distance_2(corner)
+                .take(2)
+                .map(|(shape, distance)| (shape.index, distance))
+                .collect(),
+        }
+    }
+
+    fn remove(&mut self, part: usize) {
+        match self {
+            Self::Centers { targets, points } => points.remove(targets[part].center),
+            Self::Outlines { targets, tree } => {
+                let envelope = envelope(&targets[part]);
+                tree.remove_with_selection_function(Selected { part, envelope });
+            }
+        }
+    }
+}
+
+/// Selects one part out of the index of outlines.
+struct Selected {
+    part: usize,
+    envelope: AABB<[f64; 2]>,
+}
+
+impl<'a> rstar::SelectionFunction<Shape<'a>> for Selected {
+    fn should_unpack_parent(&self, envelope: &AABB<[f64; 2]>) -> bool {
+        use rstar::Envelope;
+        envelope.contains_envelope(&self.envelope)
+    }
+
+    fn should_unpack_leaf(&self, shape: &Shape<'a>) -> bool {
+        shape.index == self.part
+    }
+}
+
+fn envelope(target: &Target<'_>) -> AABB<[f64; 2]> {
+    let (low, high) = bounds(target.outline).unwrap_or((target.center, target.center));
+    AABB::from_corners(low.to_array(), high.to_array())
+}
+
+/// How far a part's outline reaches from its centre.
+fn reach(target: &Target<'_>) -> f64 {
+    let points = target.outline.polygons.iter().flat_map(|polygon| polygon.rings.iter().flatten());
+    points.map(|point| point.distance(target.center)).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// All pairs in order of distance, then of strings, then of targets.
+    fn plain(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Vec<Option<usize>> {
+        let distance = |s: usize, t: usize| match mode {
+            Mode::Center => corners[s].distance_squared(targets[t].center),
+            Mode::Outline => distance_squared(targets[t].outline, corners[s]),
+        };
+        let mut all: Vec<(f64, usize, usize)> = (0..corners.len())
+            .flat_map(|s| (0..targets.len()).map(move |t| (s, t)))
+            .map(|(s, t)| (distance(s, t), s, t))
+            .collect();
+        all.sort_by(|a, b| a.partial_cmp(b).unwrap());
+        let mut bound = vec![None; corners.len()];
+        let mut taken = vec![false; targets.len()];
+        for (_, s, t) in all {
+            if bound[s].is_none() && !taken[t] {
+                bound[s] = Some(t);
+                taken[t] = true;
+            }
+        }
+        bound
+    }
+
+    fn square(center: DVec2) -> Outline {
+        let ring = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)].map(|c| center + DVec2::from(c)).to_vec();
+        Outline { polygons: vec![crate::geometry::Polygon { rings: vec![ring] }] }
+    }
+
+    proptest! {
+        #[test]
+        fn chains_bind_as_all_pairs_do(
+            // A small grid makes ties and repeats common.
+            corners in prop::collection::vec((0..8_i32, 0..8_i32), 0..24),
+            centers in prop::collection::vec((0..8_i32, 0..8_i32), 0..24),
+        ) {
+            let point = |(x, y): (i32, i32)| DVec2::new(f64::from(x), f64::from(y));
+            let corners: Vec<_> = corners.into_iter().map(point).collect();
+            let outlines: Vec<_> = centers.iter().map(|center| square(point(*center))).collect();
+            let targets: Vec<_> = centers
+                .iter()
+                .zip(&outlines)
+                .map(|(center, outline)| Target { center: point(*center), outline })
+                .collect();
+            for mode in [Mode::Center, Mode::Outline] {
+                prop_assert_eq!(pairs(&corners, &targets, mode), plain(&corners, &targets, mode));
+            }
+        }
+    }
+}

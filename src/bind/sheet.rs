@@ -1,0 +1,225 @@
+//! The sheet: strings, parts, and how they belong together.
+
+use crate::geometry::{Measure, Outline};
+use crate::lang::ast::Annotation;
+use crate::lang::keyword::Keyword;
+use crate::lang::value::{Setting, Value};
+use crate::source::Text;
+use crate::svg::{Drawing, Element};
+
+use super::attributes::Legend;
+use super::units::Member;
+
+/// Everything that the strings say of the parts.
+#[derive(Debug, Default)]
+pub struct Sheet {
+    /// Whether the drawing is annotated at all (language.md, Where strings live).
+    pub annotated: bool,
+    /// The strings, in the order of the file.
+    pub strings: Vec<SheetString>,
+    /// The parts, hindmost first; sub-parts, legends and unused parts included.
+    pub parts: Vec<Part>,
+    /// The settings of all `%` strings, each with the index of its string; one a keyword, the last one.
+    pub defaults: Vec<(usize, Setting)>,
+    /// The legends, merged by paint.
+    pub legends: Vec<Legend>,
+}
+
+/// Where a string stands.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Place {
+    /// It is a text: index into [`Drawing::labels`].
+    Label(usize),
+    /// It is the description of a shape.
+    Shape(usize),
+    /// It is the description of a group.
+    Group(usize),
+}
+
+/// By which rule a string found its part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BoundBy {
+    /// It is the part's description.
+    Desc,
+    /// It is grouped with it.
+    Group,
+    /// A line leads there.
+    Leader,
+    /// It is the nearest.
+    Nearest,
+}
+
+impl BoundBy {
+    /// The word for `inspect`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Desc => "desc",
+            Self::Group => "group",
+            Self::Leader => "leader",
+            Self::Nearest => "nearest",
+        }
+    }
+}
+
+/// A string's part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Binding {
+    /// Index of the part.
+    pub part: usize,
+    /// Why that one.
+    pub by: BoundBy,
+}
+
+/// A string of the drawing.
+#[derive(Debug)]
+pub struct SheetString {
+    /// Where it stands.
+    pub place: Place,
+    /// Its characters.
+    pub text: Text,
+    /// How it reads.
+    pub annotation: Annotation,
+    /// What its attributes say.
+    pub settings: Vec<Setting>,
+    /// The part it belongs to.
+    pub binding: Option<Binding>,
+    /// A part that is almost as near.
+    pub rival: Option<usize>,
+    /// The container among whose children it is bound.
+    pub(super) scope: Option<usize>,
+}
+
+impl SheetString {
+    /// Whether the string describes a part, rather than nothing, everything or a group.
+    pub fn wants_part(&self) -> bool {
+        match &self.annotation {
+            Annotation::Unused | Annotation::Legend(_) => true,
+            Annotation::Part(part) => !part.attributes.iter().any(|attribute| {
+                matches!(attribute.keyword, Keyword::Tiles | Keyword::View | Keyword::Pose | Keyword::Walk)
+            }),
+            _ => false,
+        }
+    }
+}
+
+/// What a part is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PartKind {
+    /// A node of the hierarchy.
+    Main,
+    /// A solid in its main part's node.
+    Sub,
+    /// A swatch that gives its attributes to its paint.
+    Legend,
+    /// Left out.
+    Unused,
+}
+
+impl PartKind {
+    /// The word for `inspect`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Main => "main",
+            Self::Sub => "sub",
+            Self::Legend => "legend",
+            Self::Unused => "unused",
+        }
+    }
+}
+
+/// A part: a filled area of the drawing.
+#[derive(Debug)]
+pub struct Part {
+    /// Its name; empty for sub-parts, legends and unused parts without one.
+    pub name: String,
+    /// Whether the name was given by itself.
+    pub automatic: bool,
+    /// What it is.
+    pub kind: PartKind,
+    /// Index of its shape in the drawing.
+    pub shape: usize,
+    /// Its area, drawing units.
+    pub outline: Outline,
+    /// Its axis, centre and ends; the axis is what the strings say where they say it.
+    pub measure: Measure,
+    /// Index of its string.
+    pub string: Option<usize>,
+    /// Index of the legend of its paint.
+    pub legend: Option<usize>,
+    /// For a main part its parent; `None` hangs on the root.
+    pub parent: Option<usize>,
+    /// Index of the main part candidate whose node it belongs to: itself, if it is one.
+    pub main: usize,
+    /// The joint, drawing units.
+    pub origin: glam::DVec2,
+    /// Index of the member it was made from.
+    pub(super) member: usize,
+    index: usize,
+}
+
+impl Part {
+    pub(super) fn new(member: &Member, outline: Outline, measure: Measure) -> Self {
+        Self {
+            name: String::new(),
+            automatic: false,
+            kind: PartKind::Sub,
+            shape: member.shape,
+            outline,
+            origin: measure.center,
+            measure,
+            string: None,
+            legend: None,
+            parent: None,
+            main: usize::MAX,
+            member: member.index,
+            index: usize::MAX,
+        }
+    }
+
+    /// Whether it is its unit's main part candidate.
+    pub fn is_candidate(&self) -> bool {
+        self.main == self.index
+    }
+
+    pub(super) fn join_unit(&mut self, index: usize, main: usize) {
+        self.index = index;
+        self.main = main;
+    }
+}
+
+impl Sheet {
+    /// What a setting of the whole drawing says in one word.
+    pub fn word(&self, keyword: Keyword) -> Option<&str> {
+        match self.drawing_value(keyword)? {
+            Value::Word(word) => Some(word),
+            _ => None,
+        }
+    }
+
+    /// What a setting of the whole drawing says.
+    pub fn drawing_value(&self, keyword: Keyword) -> Option<&Value> {
+        self.defaults.iter().find(|(_, setting)| setting.keyword == keyword).map(|(_, setting)| &setting.value)
+    }
+
+    /// A part for people: its name, or its element.
+    pub fn describe(&self, drawing: &Drawing, part: usize) -> String {
+        let part = &self.parts[part];
+        if part.name.is_empty() { drawing.shapes[part.shape].element.describe() } else { format!("`{}`", part.name) }
+    }
+}
+
+impl Element {
+    /// The element for people: its label or id.
+    pub fn describe(&self) -> String {
+        match (&self.label, &self.id) {
+            (Some(label), _) => format!("`{label}`"),
+            (None, Some(id)) => format!("`#{id}`"),
+            (None, None) => format!("a `<{}>`", self.tag),
+        }
+    }
+
+    /// The name that the element gives to a part: its label, else its id.
+    pub fn own_name(&self) -> &str {
+        self.label.as_deref().or(self.id.as_deref()).unwrap_or("")
+    }
+}

@@ -1,0 +1,129 @@
+//! The strings of a drawing: found, parsed, their variables computed.
+
+use rayon::prelude::*;
+
+use super::sheet::{Place, Sheet, SheetString};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lang::ast::Annotation;
+use crate::lang::keyword::Keyword;
+use crate::lang::{self, variables::Variables};
+use crate::source::Text;
+use crate::svg::Drawing;
+
+/// Reads the strings.
+pub(super) fn read(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
+    let mut texts = descriptions(drawing);
+    let annotated =
+        !texts.is_empty() || drawing.labels.iter().any(|(label, _)| lang::looks_like_string(label.text.as_str()));
+    if !annotated {
+        return Sheet::default();
+    }
+    texts.extend(drawing.labels.iter_mut().enumerate().map(|(index, (label, _))| {
+        (Place::Label(index), std::mem::take(&mut label.text))
+    }));
+    texts.sort_by_key(|(_, text)| text.whole());
+    let parsed: Vec<_> = texts
+        .into_par_iter()
+        .map(|(place, text)| {
+            let kind = if matches!(place, Place::Label(_)) { lang::Place::Text } else { lang::Place::Desc };
+            let (annotation, findings) = lang::parse(&text, kind);
+            (place, text, annotation, findings)
+        })
+        .collect();
+    let mut sheet = Sheet { annotated, ..Sheet::default() };
+    for (place, text, annotation, findings) in parsed {
+        diagnostics.extend(findings);
+        if annotation == Annotation::Caption {
+            diagnostics.push(caption(&text));
+        }
+        sheet.strings.push(SheetString {
+            place,
+            text,
+            annotation,
+            settings: vec![],
+            binding: None,
+            rival: None,
+            scope: None,
+        });
+    }
+    let variables = Variables::collect(
+        sheet
+            .strings
+            .iter()
+            .filter(|string| matches!(string.annotation, Annotation::Defaults(_)))
+            .map(|string| (&string.text, &string.annotation)),
+        diagnostics,
+    );
+    let findings: Vec<Vec<Diagnostic>> = sheet
+        .strings
+        .par_iter_mut()
+        .map(|string| {
+            let mut findings = Vec::new();
+            string.settings = lang::settings(&string.text, &string.annotation, &variables, &mut findings);
+            findings
+        })
+        .collect();
+    diagnostics.extend(findings.into_iter().flatten());
+    add_up_defaults(&mut sheet, diagnostics);
+    sheet
+}
+
+/// Descriptions of shapes and groups that are strings.
+fn descriptions(drawing: &mut Drawing) -> Vec<(Place, Text)> {
+    let mut texts = Vec::new();
+    let mut take = |desc: &mut Option<Text>, place| {
+        if desc.as_ref().is_some_and(|text| lang::looks_like_string(text.as_str()))
+            && let Some(text) = desc.take()
+        {
+            texts.push((place, text));
+        }
+    };
+    for (index, shape) in drawing.shapes.iter_mut().enumerate() {
+        take(&mut shape.element.desc, Place::Shape(index));
+    }
+    for (index, group) in drawing.groups.iter_mut().enumerate() {
+        take(&mut group.element.desc, Place::Group(index));
+    }
+    texts
+}
+
+fn caption(text: &Text) -> Diagnostic {
+    let start = text.span(0..0);
+    Diagnostic::new(Code::Caption, text.whole(), "this text is no string, and is taken for a caption")
+        .help("begin it with `#` to make it a comment; a part's name with blanks in it needs quotes")
+        .fix("make it a comment", start, "#")
+}
+
+/// Later `%` strings win over earlier ones.
+fn add_up_defaults(sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
+    for (index, string) in sheet.strings.iter().enumerate() {
+        if !matches!(string.annotation, Annotation::Defaults(_)) {
+            continue;
+        }
+        for setting in &string.settings {
+            // Variables are checked for repeats where they are collected; motions add up.
+            if matches!(setting.keyword, Keyword::Let | Keyword::Motion) {
+                continue;
+            }
+            let earlier = sheet.defaults.iter().position(|(_, other)| other.keyword == setting.keyword);
+            let Some(slot) = earlier else {
+                sheet.defaults.push((index, setting.clone()));
+                continue;
+            };
+            let (other, old) = &sheet.defaults[slot];
+            if *other != index {
+                let text = &sheet.strings[*other].text;
+                diagnostics.push(
+                    Diagnostic::new(
+                        Code::Overridden,
+                        text.span(old.range.clone()),
+                        format!("`{}` is set again by a later `%` string, which wins", setting.keyword.name()),
+                    )
+                    .related(string.text.span(setting.range.clone()), "the later setting")
+                    .help("delete one of them"),
+                );
+            }
+            sheet.defaults[slot] = (index, setting.clone());
+        }
+    }
+}

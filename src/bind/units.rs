@@ -1,0 +1,226 @@
+//! Units: what becomes one node of the hierarchy (figure.md, Groups).
+//!
+//! A *member* is something with area: a fill, or a stroke where strokes are parts. The members of a unit
+//! share a node; the hindmost of them is the main part candidate.
+
+use rustc_hash::FxHashMap;
+
+use super::sheet::{Place, Sheet};
+use crate::lang::keyword::Keyword;
+use crate::svg::{Drawing, GroupKind};
+
+/// Something with area.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Member {
+    pub(super) index: usize,
+    pub(super) shape: usize,
+    /// Whether its area is the shape's stroke rather than its fill.
+    pub(super) is_stroke: bool,
+}
+
+/// How groups act.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Role {
+    /// Layers, the outermost `<svg>`, wrappers: as if they were not there.
+    Transparent,
+    /// Holds several strings: its children are units of their own.
+    Container,
+    /// Makes its content one unit.
+    Unit,
+}
+
+/// The units of a drawing.
+#[derive(Debug)]
+pub(super) struct Units {
+    pub(super) members: Vec<Member>,
+    roles: Vec<Role>,
+    parents: Vec<usize>,
+    /// Per member: the group that makes its unit.
+    unit: Vec<Option<usize>>,
+    /// Per member: the nearest container around it.
+    container: Vec<Option<usize>>,
+    /// Per group: members in it, hindmost first.
+    inside: Vec<Vec<usize>>,
+}
+
+impl Units {
+    pub(super) fn read(drawing: &Drawing, sheet: &Sheet) -> Self {
+        let parents: Vec<usize> = drawing.groups.iter().map(|group| group.parent).collect();
+        let mut strings = vec![0_usize; drawing.groups.len()];
+        for string in sheet.strings.iter().filter(|string| string.wants_part()) {
+            if let Place::Label(label) = string.place {
+                strings[drawing.labels[label].1] += 1;
+            }
+        }
+        let members = members(drawing, sheet);
+        let roles = roles(drawing, &strings);
+        let mut units = Self {
+            unit: vec![None; members.len()],
+            container: vec![None; members.len()],
+            inside: vec![Vec::new(); drawing.groups.len()],
+            members,
+            roles,
+            parents,
+        };
+        for index in 0..units.members.len() {
+            let group = drawing.shapes[units.members[index].shape].group;
+            let chain: Vec<usize> = units.chain(group).collect();
+            for group in &chain {
+                if units.roles[*group] != Role::Transparent {
+                    units.inside[*group].push(index);
+                }
+            }
+            for group in chain {
+                match units.roles[group] {
+                    Role::Transparent => {}
+                    Role::Unit => units.unit[index] = Some(group),
+                    Role::Container => {
+                        units.container[index] = Some(group);
+                        break;
+                    }
+                }
+            }
+        }
+        units
+    }
+
+    /// A group and the groups around it, innermost first.
+    pub(super) fn chain(&self, group: usize) -> impl Iterator<Item = usize> + '_ {
+        let mut next = self.parents.get(group).map(|_| group);
+        std::iter::from_fn(move || {
+            let group = next?;
+            next = (group != 0).then(|| self.parents[group]);
+            Some(group)
+        })
+    }
+
+    pub(super) fn is_container(&self, group: usize) -> bool {
+        self.roles[group] == Role::Container
+    }
+
+    /// Whether strings in the group belong to its backmost part.
+    pub(super) fn groups_strings(&self, group: usize) -> bool {
+        self.roles[group] == Role::Unit
+    }
+
+    /// The members in a group, hindmost first.
+    pub(super) fn members_in(&self, group: usize) -> impl Iterator<Item = usize> + '_ {
+        self.inside[group].iter().copied()
+    }
+}
+
+fn members(drawing: &Drawing, sheet: &Sheet) -> Vec<Member> {
+    let strokes = sheet.word(Keyword::Strokes).map(str::to_lowercase);
+    let (lines, borders) = match strokes.as_deref() {
+        Some("lines") => (true, false),
+        Some("all") => (true, true),
+        Some(_) => (false, false),
+        None => (!sheet.annotated, false),
+    };
+    let described = described_lines(drawing, sheet);
+    let mut members = Vec::with_capacity(drawing.shapes.len());
+    let mut add = |shape, is_stroke| members.push(Member { index: members.len(), shape, is_stroke });
+    for (index, shape) in drawing.shapes.iter().enumerate() {
+        let filled = !shape.outline.polygons.is_empty();
+        if filled {
+            add(index, false);
+        }
+        if shape.stroke.is_some() && if filled { borders } else { lines || described[index] } {
+            add(index, true);
+        }
+    }
+    members
+}
+
+/// Which unfilled lines have a string of their own, by description or by a group without filled shapes.
+fn described_lines(drawing: &Drawing, sheet: &Sheet) -> Vec<bool> {
+    let mut described = vec![false; drawing.shapes.len()];
+    let mut filled = vec![false; drawing.groups.len()];
+    let mut first_line = vec![None; drawing.groups.len()];
+    for (index, shape) in drawing.shapes.iter().enumerate() {
+        let mut group = shape.group;
+        loop {
+            if !shape.outline.polygons.is_empty() {
+                filled[group] = true;
+            } else if shape.stroke.is_some() {
+                first_line[group].get_or_insert(index);
+            }
+            if group == 0 {
+                break;
+            }
+            group = drawing.groups[group].parent;
+        }
+    }
+    for string in sheet.strings.iter().filter(|string| string.wants_part()) {
+        let group = match string.place {
+            Place::Shape(shape) => {
+                described[shape] = true;
+                continue;
+            }
+            Place::Group(group) => group,
+            Place::Label(label) => drawing.labels[label].1,
+        };
+        if drawing.groups[group].kind == GroupKind::Group
+            && !filled[group]
+            && let Some(line) = first_line[group]
+        {
+            described[line] = true;
+        }
+    }
+    described
+}
+
+fn roles(drawing: &Drawing, strings: &[usize]) -> Vec<Role> {
+    let mut children = vec![0_usize; drawing.groups.len()];
+    let mut drawn = vec![false; drawing.groups.len()];
+    for shape in &drawing.shapes {
+        children[shape.group] += 1;
+        let mut group = shape.group;
+        while group != 0 && !drawn[group] {
+            drawn[group] = true;
+            group = drawing.groups[group].parent;
+            children[group] += 1;
+        }
+    }
+    let mut roles = Vec::with_capacity(drawing.groups.len());
+    let mut wraps = vec![false; drawing.groups.len()];
+    for (index, group) in drawing.groups.iter().enumerate() {
+        // Several strings beside a lone group describe what is in it; a single one names the group.
+        let lone = wraps[group.parent] && children[group.parent] == 1 && strings[group.parent] != 1;
+        wraps[index] = group.kind == GroupKind::Root || (group.kind == GroupKind::Group && lone);
+        roles.push(match group.kind {
+            GroupKind::Root | GroupKind::Layer => Role::Transparent,
+            GroupKind::Group if wraps[index] => Role::Transparent,
+            GroupKind::Group if strings[index] > 1 => Role::Container,
+            GroupKind::Group => Role::Unit,
+        });
+    }
+    roles
+}
+
+/// Makes the hindmost part of each unit its main part candidate.
+pub(super) fn choose_mains(units: &Units, sheet: &mut Sheet) {
+    let mut mains: FxHashMap<(Option<usize>, usize), usize> = FxHashMap::default();
+    let mut main_of_shape: FxHashMap<usize, usize> = FxHashMap::default();
+    for index in 0..sheet.parts.len() {
+        let member = sheet.parts[index].member;
+        let shape = sheet.parts[index].shape;
+        let main = match units.unit[member] {
+            Some(group) => *mains.entry((units.container[member], group)).or_insert(index),
+            // A border belongs to the shape that it borders.
+            None => *main_of_shape.entry(shape).or_insert(index),
+        };
+        sheet.parts[index].join_unit(index, main);
+    }
+}
+
+/// The main part candidates in each container.
+pub(super) fn candidates_by_container(units: &Units, sheet: &Sheet) -> FxHashMap<usize, Vec<usize>> {
+    let mut candidates: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
+    for (index, part) in sheet.parts.iter().enumerate().filter(|(_, part)| part.is_candidate()) {
+        if let Some(container) = units.container[part.member] {
+            candidates.entry(container).or_default().push(index);
+        }
+    }
+    candidates
+}

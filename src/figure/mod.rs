@@ -1,0 +1,274 @@
+//! The articulated figure: from the sheet to nodes, joints and solids (figure.md).
+//!
+//! Invariant: a node's mesh is described in the part's own frame, +Y along its axis away from the joint,
+//! +Z towards the viewer; turning the node turns the limb about its joint.
+
+mod frame;
+mod materials;
+mod relief;
+mod tree;
+
+use glam::{DQuat, DVec2, DVec3};
+use rayon::prelude::*;
+
+use crate::bind::{PartKind, Sheet};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::{Outline, bounds};
+use crate::lang::keyword::Keyword;
+use crate::lang::value::{Ground, ShapeKind, Value};
+use crate::scene::{Mesh, Node, Primitive, Provenance, Scene, Surface};
+use crate::solid::{self, Placement};
+use crate::svg::Drawing;
+
+use frame::Frame;
+use materials::Materials;
+use relief::Relief;
+use tree::Tree;
+
+/// Metres in a centimetre: one drawing unit is `Scale` centimetres.
+const CENTIMETRE: f64 = 0.01;
+/// How far the faces of `default` lie from the drawing plane, as a share of the page's diagonal.
+const DEFAULT_DEPTH: f64 = 0.025;
+
+/// Builds the figures of a drawing.
+pub fn build(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) -> Scene {
+    let model = Model::new(drawing, sheet);
+    let materials = Materials::collect(drawing, sheet, diagnostics);
+    let relief = Relief::measure(&model);
+    let frames: Vec<Frame> = sheet.parts.par_iter().map(Frame::of).collect();
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); sheet.parts.len()];
+    for (index, part) in sheet.parts.iter().enumerate() {
+        if matches!(part.kind, PartKind::Main | PartKind::Sub) {
+            members[part.main].push(index);
+        }
+    }
+    let tree = Tree::grow(&model, &frames, diagnostics);
+    for part in 0..sheet.parts.len() {
+        model.check_copies(part, diagnostics);
+    }
+    let meshes: Vec<Option<Mesh>> = members
+        .par_iter()
+        .enumerate()
+        .map(|(main, parts)| model.mesh(main, parts, &frames, &relief, &materials))
+        .collect();
+    assemble(&model, &tree, meshes, materials)
+}
+
+/// What building needs to know of the whole drawing.
+struct Model<'a> {
+    drawing: &'a Drawing,
+    sheet: &'a Sheet,
+    /// Metres a drawing unit.
+    scale: f64,
+    /// The depths of `default` without parameters, drawing units.
+    depth: [f64; 2],
+}
+
+impl<'a> Model<'a> {
+    fn new(drawing: &'a Drawing, sheet: &'a Sheet) -> Self {
+        let scale = match sheet.drawing_value(Keyword::Scale) {
+            Some(Value::Number(scale)) => *scale,
+            _ => 1.0,
+        };
+        let depth = drawing.page.1.length() * DEFAULT_DEPTH;
+        Self { drawing, sheet, scale: scale * CENTIMETRE, depth: [-depth, depth] }
+    }
+
+    /// How far a part's solid, or its node, is moved along the viewer axis, drawing units.
+    fn offset(&self, part: usize) -> f64 {
+        let source = self.sheet.setting(part, Keyword::Offset);
+        let main = self.sheet.parts[part].main == part;
+        match source.map(|source| (&source.setting.value, source.from)) {
+            // What `%` says has moved the sub-part's node already.
+            Some((_, crate::bind::SetBy::Default)) if !main => 0.0,
+            Some((Value::Number(offset), _)) => *offset,
+            _ => 0.0,
+        }
+    }
+
+    /// The kind of a part with its depths filled in.
+    fn kind(&self, part: usize) -> ShapeKind {
+        match self.sheet.shape(part).kind {
+            ShapeKind::Default(None) => ShapeKind::Default(Some(self.depth)),
+            kind => kind,
+        }
+    }
+
+    /// Warns of copies that lie where their original lies.
+    fn check_copies(&self, part: usize, diagnostics: &mut Vec<Diagnostic>) {
+        let shape = self.sheet.shape(part);
+        let built = matches!(self.sheet.parts[part].kind, PartKind::Main | PartKind::Sub);
+        if !built || !(shape.mirrored || shape.doubled) || shape.kind == ShapeKind::None {
+            return;
+        }
+        let measure = &self.sheet.parts[part].measure;
+        let kind = self.kind(part);
+        let Some(layers) = solid::layers(&kind, measure.half_across, measure.half_along, &self.options(part)) else {
+            return;
+        };
+        let offset = self.offset(part);
+        let low = layers.iter().map(|layer| layer.z + offset).fold(f64::INFINITY, f64::min);
+        let high = layers.iter().map(|layer| layer.z + offset).fold(f64::NEG_INFINITY, f64::max);
+        if (low + high).abs() > 1e-9 * (high - low).abs().max(1e-12) {
+            return;
+        }
+        let source = self.sheet.setting(part, Keyword::Shape);
+        let span = source.map_or(self.drawing.shapes[self.sheet.parts[part].shape].element.span, |source| {
+            self.sheet.strings[source.string].text.span(source.setting.range.clone())
+        });
+        let flag = if shape.doubled { "-d" } else { "-s" };
+        let name = self.sheet.describe(self.drawing, part);
+        diagnostics.push(
+            Diagnostic::new(
+                Code::CopiesCoincide,
+                span,
+                format!("the copy that `{flag}` makes of {name} lies exactly where {name} lies"),
+            )
+            .help("give both sides a distance with `Offset`, or depths on one side only, as in `default 45 50`"),
+        );
+    }
+
+    fn options(&self, part: usize) -> solid::Options {
+        solid::Options {
+            segments: self.sheet.number(part, Keyword::Segments).unwrap_or(16.0) as u32,
+            crease: self.sheet.number(part, Keyword::Smooth).unwrap_or(30.0),
+            thickness: self.depth,
+            placement: Placement { rotation: 0.0, translation: DVec3::ZERO, scale: self.scale },
+        }
+    }
+
+    /// The solids of a main part and its sub-parts, in the main part's frame.
+    fn mesh(
+        &self,
+        main: usize,
+        parts: &[usize],
+        frames: &[Frame],
+        relief: &Relief,
+        materials: &Materials,
+    ) -> Option<Mesh> {
+        let mut primitives: Vec<Primitive> = Vec::new();
+        for &part in parts {
+            let Some(material) = materials.of(part) else { continue };
+            let Some(surface) = self.surface(main, part, frames, relief) else { continue };
+            match primitives.iter_mut().find(|primitive| primitive.material == material) {
+                Some(primitive) => primitive.surface.append(&surface),
+                None => primitives.push(Primitive { surface, material }),
+            }
+        }
+        (!primitives.is_empty()).then_some(Mesh { primitives })
+    }
+
+    fn surface(&self, main: usize, part: usize, frames: &[Frame], relief: &Relief) -> Option<Surface> {
+        let kind = relief.raised(part, self.kind(part));
+        if kind == ShapeKind::None {
+            return None;
+        }
+        let shape = self.sheet.shape(part);
+        // The node of a main part is moved already, but with `-s` its two solids are.
+        let moved = part != main || shape.mirrored;
+        let depth = if moved { self.offset(part) } else { 0.0 };
+        let own = &frames[part];
+        let node = &frames[main];
+        let center = node.to_local(own.center);
+        let mut options = self.options(part);
+        options.placement.rotation = own.angle - node.angle;
+        options.placement.translation = DVec3::new(center.x, center.y, depth);
+        let local = own.localize(&self.sheet.parts[part].outline);
+        let mut surface = solid::build(&local, &kind, &options);
+        // A sub-part has no node of its own that could be doubled.
+        if shape.mirrored || (shape.doubled && part != main) {
+            let back = solid::mirror(&surface);
+            surface.append(&back);
+        }
+        (!surface.triangles.is_empty()).then_some(surface)
+    }
+}
+
+/// The point of the drawing that lies at the world's origin.
+fn ground(model: &Model<'_>) -> DVec2 {
+    match model.sheet.drawing_value(Keyword::Ground) {
+        Some(Value::Ground(Ground::Page)) => model.drawing.page.0,
+        Some(Value::Ground(Ground::Point([x, y]))) => DVec2::new(*x, *y),
+        _ => {
+            let built = model.sheet.parts.iter().filter(|part| matches!(part.kind, PartKind::Main | PartKind::Sub));
+            let boxes: Vec<(DVec2, DVec2)> = built.filter_map(|part| bounds(&part.outline)).collect();
+            let Some(first) = boxes.first() else { return DVec2::ZERO };
+            let (low, high) = boxes.iter().fold(*first, |(low, high), other| (low.min(other.0), high.max(other.1)));
+            DVec2::new((low.x + high.x) / 2.0, high.y)
+        }
+    }
+}
+
+/// The rotation that `Axes` asks for.
+fn axes(sheet: &Sheet) -> DQuat {
+    match sheet.drawing_value(Keyword::Axes) {
+        Some(Value::Axes(axes)) => {
+            let [right, up, front] = axes.map(|axis| {
+                let mut vector = [0.0; 3];
+                vector[axis.axis] = if axis.negative { -1.0 } else { 1.0 };
+                DVec3::from(vector)
+            });
+            DQuat::from_mat3(&glam::DMat3::from_cols(right, up, front))
+        }
+        _ => DQuat::IDENTITY,
+    }
+}
+
+/// Puts nodes and meshes together.
+fn assemble(model: &Model<'_>, tree: &Tree, meshes: Vec<Option<Mesh>>, materials: Materials) -> Scene {
+    let sheet = model.sheet;
+    let ground = ground(model);
+    let turn = axes(sheet);
+    let mut scene = Scene { materials: materials.into_list(), ..Scene::default() };
+    let mut plain: Vec<Option<usize>> = vec![None; meshes.len()];
+    let mut mirrored: Vec<Option<usize>> = vec![None; meshes.len()];
+    let mut made = meshes;
+    for branch in &tree.branches {
+        // A mirrored copy stands behind its original, whose mesh has been moved into the scene by then.
+        if !branch.mirrored && plain[branch.part].is_none() && let Some(mesh) = made[branch.part].take() {
+            scene.meshes.push(mesh);
+            plain[branch.part] = Some(scene.meshes.len() - 1);
+        }
+        if branch.mirrored && mirrored[branch.part].is_none() && let Some(original) = plain[branch.part] {
+            let primitives = scene.meshes[original].primitives.iter().map(|primitive| Primitive {
+                surface: solid::mirror(&primitive.surface),
+                material: primitive.material,
+            });
+            let mesh = Mesh { primitives: primitives.collect() };
+            scene.meshes.push(mesh);
+            mirrored[branch.part] = Some(scene.meshes.len() - 1);
+        }
+        let part = &sheet.parts[branch.part];
+        let element = &model.drawing.shapes[part.shape].element;
+        let (place, rotation) = match branch.parent {
+            Some(_) => (branch.place * model.scale, DQuat::from_rotation_z(branch.angle)),
+            None => {
+                let place = branch.place - DVec3::new(ground.x, -ground.y, 0.0);
+                (turn * place * model.scale, turn * DQuat::from_rotation_z(branch.angle))
+            }
+        };
+        let index = scene.nodes.len();
+        match branch.parent {
+            Some(parent) => scene.nodes[parent].children.push(index),
+            None => scene.roots.push(index),
+        }
+        scene.nodes.push(Node {
+            name: branch.name.clone(),
+            children: vec![],
+            translation: place,
+            rotation,
+            mesh: if branch.mirrored { mirrored[branch.part] } else { plain[branch.part] },
+            provenance: Some(Provenance {
+                element: element.id.clone(),
+                string: part.string.map(|string| sheet.strings[string].text.as_str().to_owned()),
+            }),
+        });
+    }
+    scene
+}
+
+/// Whether two outlines have area in common.
+fn overlap(a: &Outline, b: &Outline) -> bool {
+    let common = crate::geometry::area(&crate::geometry::intersect(a, b));
+    common > 1e-6 * crate::geometry::area(a).min(crate::geometry::area(b))
+}

@@ -1,0 +1,157 @@
+//! Drawing order kept in depth (figure.md, Relief): where two parts overlap and their front or back faces
+//! would lie in one plane, the later drawn one stands out by a small step.
+
+use rayon::prelude::*;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use super::{Model, overlap};
+use crate::bind::PartKind;
+use crate::geometry::bounds;
+use crate::lang::value::ShapeKind;
+
+/// The step, as a share of the part's thickness.
+const STEP: f64 = 0.01;
+/// How many steps a face may stand out at most.
+const MOST_STEPS: f64 = 20.0;
+/// How many overlapping parts are looked at: in a higher pile the lowest have reached the cap anyway.
+const MOST_NEIGHBOURS: usize = 64;
+/// How many boxes are looked at to find them.
+const MOST_BOXES: usize = 4096;
+
+/// How far the faces of each part stand out, drawing units.
+pub(super) struct Relief {
+    steps: Vec<[f64; 2]>,
+}
+
+/// The plane faces of a part: back and front, where it has them.
+#[derive(Clone, Copy)]
+struct Faces {
+    planes: [Option<f64>; 2],
+    thickness: f64,
+}
+
+impl Relief {
+    pub(super) fn measure(model: &Model<'_>) -> Self {
+        let sheet = model.sheet;
+        let depths = node_depths(model);
+        let faces: Vec<Option<Faces>> =
+            (0..sheet.parts.len()).into_par_iter().map(|part| faces(model, part, &depths)).collect();
+        let boxes = faces.iter().enumerate().filter_map(|(index, faces)| {
+            faces.as_ref()?;
+            let (low, high) = bounds(&sheet.parts[index].outline)?;
+            Some(GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), index))
+        });
+        let tree = RTree::bulk_load(boxes.collect());
+        let below: Vec<Vec<usize>> =
+            (0..sheet.parts.len()).into_par_iter().map(|part| below(model, part, &faces, &tree)).collect();
+        let mut steps = vec![[0.0_f64; 2]; sheet.parts.len()];
+        for (part, below) in below.iter().enumerate() {
+            let Some(own) = faces[part] else { continue };
+            for side in 0..2 {
+                let same = |other: &&usize| faces[**other].is_some_and(|other| same_plane(own, other, side));
+                let highest = below.iter().filter(same).map(|other| steps[*other][side]).reduce(f64::max);
+                if let Some(highest) = highest {
+                    steps[part][side] = highest + STEP * own.thickness;
+                }
+            }
+            let most = MOST_STEPS * STEP * own.thickness;
+            steps[part] = steps[part].map(|step| step.min(most));
+        }
+        Self { steps }
+    }
+
+    /// A part's kind with its faces standing out.
+    pub(super) fn raised(&self, part: usize, kind: ShapeKind) -> ShapeKind {
+        let [back, front] = self.steps[part];
+        let between = |[a, b]: [f64; 2]| if a <= b { [a - back, b + front] } else { [a + front, b - back] };
+        let cone = |[a, b, top]: [f64; 3]| {
+            let [a, b] = between([a, b]);
+            [a, b, top]
+        };
+        match kind {
+            ShapeKind::Default(Some(depths)) => ShapeKind::Default(Some(between(depths))),
+            ShapeKind::Flat(z) => ShapeKind::Flat(z + front),
+            ShapeKind::Cone(depths) => ShapeKind::Cone(cone(depths)),
+            ShapeKind::ConeV(depths) => ShapeKind::ConeV(cone(depths)),
+            ShapeKind::ConeH(depths) => ShapeKind::ConeH(cone(depths)),
+            other => other,
+        }
+    }
+}
+
+fn same_plane(a: Faces, b: Faces, side: usize) -> bool {
+    match (a.planes[side], b.planes[side]) {
+        (Some(one), Some(other)) => (one - other).abs() <= 1e-3 * STEP * a.thickness.max(b.thickness),
+        _ => false,
+    }
+}
+
+/// Per part the depth of the node it belongs to, drawing units.
+fn node_depths(model: &Model<'_>) -> Vec<f64> {
+    let parts = &model.sheet.parts;
+    let mut depths: Vec<Option<f64>> = vec![None; parts.len()];
+    for start in 0..parts.len() {
+        let mut chain = Vec::new();
+        let mut next = Some(parts[start].main);
+        while let Some(part) = next.filter(|part| depths[*part].is_none()) {
+            chain.push(part);
+            next = parts[part].parent;
+        }
+        let mut depth = next.and_then(|part| depths[part]).unwrap_or(0.0);
+        for part in chain.into_iter().rev() {
+            depth += if model.sheet.shape(part).mirrored { 0.0 } else { model.offset(part) };
+            depths[part] = Some(depth);
+        }
+    }
+    parts.iter().map(|part| depths[part.main].unwrap_or(0.0)).collect()
+}
+
+fn faces(model: &Model<'_>, part: usize, depths: &[f64]) -> Option<Faces> {
+    if !matches!(model.sheet.parts[part].kind, PartKind::Main | PartKind::Sub) {
+        return None;
+    }
+    let main = model.sheet.parts[part].main;
+    let moved = part != main || model.sheet.shape(part).mirrored;
+    let depth = depths[part] + if moved { model.offset(part) } else { 0.0 };
+    let between = |a: f64, b: f64, top: f64| {
+        let (back, front) = if a <= b { (true, top > 0.0) } else { (top > 0.0, true) };
+        Faces {
+            planes: [back.then_some(depth + a.min(b)), front.then_some(depth + a.max(b))],
+            thickness: (b - a).abs(),
+        }
+    };
+    match model.kind(part) {
+        ShapeKind::Default(Some([a, b])) => Some(between(a, b, 1.0)),
+        ShapeKind::Flat(z) => {
+            Some(Faces { planes: [None, Some(depth + z)], thickness: model.depth[1] - model.depth[0] })
+        }
+        ShapeKind::Cone([a, b, top]) | ShapeKind::ConeV([a, b, top]) | ShapeKind::ConeH([a, b, top]) => {
+            Some(between(a, b, top))
+        }
+        _ => None,
+    }
+}
+
+/// The earlier parts that a part overlaps and shares a plane with.
+fn below(
+    model: &Model<'_>,
+    part: usize,
+    faces: &[Option<Faces>],
+    tree: &RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
+) -> Vec<usize> {
+    let parts = &model.sheet.parts;
+    let (Some(own), Some((low, high))) = (faces[part], bounds(&parts[part].outline)) else { return vec![] };
+    let area = AABB::from_corners(low.to_array(), high.to_array());
+    let mut found: Vec<usize> = tree
+        .locate_in_envelope_intersecting(&area)
+        .take(MOST_BOXES)
+        .map(|other| other.data)
+        .filter(|other| *other < part)
+        .filter(|other| faces[*other].is_some_and(|other| (0..2).any(|side| same_plane(own, other, side))))
+        .collect();
+    found.sort_unstable_by_key(|other| std::cmp::Reverse(*other));
+    found.truncate(MOST_NEIGHBOURS);
+    found.retain(|other| overlap(&parts[part].outline, &parts[*other].outline));
+    found
+}

@@ -1,0 +1,184 @@
+//! The drawing as usvg and roxmltree understand it together: shapes with their meaning, texts with
+//! their places.
+//!
+//! Invariants: coordinates are user units of the outermost `<svg>` after its `viewBox`, y down, f64;
+//! shapes stand in paint order; every element, group and text knows its bytes in the file. This module
+//! knows nothing of the annotation language.
+
+mod clip;
+mod image;
+mod prepare;
+mod shapes;
+mod style;
+mod text;
+
+use glam::DVec2;
+
+pub use shapes::StrokeSource;
+pub use text::Label;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::Outline;
+use crate::resolver::Resolver;
+use crate::source::{Span, Text};
+
+/// A drawing.
+#[derive(Debug, Default)]
+pub struct Drawing {
+    /// Least corner and size of the page.
+    pub page: (DVec2, DVec2),
+    /// The groups; the first is the outermost `<svg>`, and a group stands behind the one it is in.
+    pub groups: Vec<Group>,
+    /// The shapes in paint order, hindmost first.
+    pub shapes: Vec<Shape>,
+    /// The texts in document order, each with the index of its group.
+    pub labels: Vec<(Label, usize)>,
+}
+
+/// What groups can be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum GroupKind {
+    /// The outermost `<svg>`.
+    Root,
+    /// A layer of Inkscape's.
+    Layer,
+    /// `g`, `a`, `switch`, an inner `svg`, a clone.
+    Group,
+}
+
+/// A group of the drawing.
+#[derive(Debug)]
+pub struct Group {
+    /// Index of the group it is in; the first group is in itself.
+    pub parent: usize,
+    /// What it is.
+    pub kind: GroupKind,
+    /// Its element.
+    pub element: Element,
+}
+
+/// An element of the file.
+#[derive(Debug, Clone, Default)]
+pub struct Element {
+    /// Its start tag.
+    pub span: Span,
+    /// Its tag's name.
+    pub tag: String,
+    /// Its `id`.
+    pub id: Option<String>,
+    /// Its `inkscape:label`.
+    pub label: Option<String>,
+    /// Its `<desc>`.
+    pub desc: Option<Text>,
+}
+
+/// What a shape is painted with.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Paint {
+    /// What makes it the same as another paint (language.md, Paint identity).
+    pub key: PaintKey,
+    /// Its colour, or the mean of its colours, sRGB, each 0 to 255.
+    pub color: [u8; 3],
+}
+
+/// Paint identity.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum PaintKey {
+    /// A colour.
+    Solid([u8; 3]),
+    /// The id of the gradient or pattern at which the chain of links ends.
+    Server(String),
+    /// The picture of an `<image>`.
+    Picture(usize),
+}
+
+/// A shape of the drawing.
+#[derive(Debug)]
+pub struct Shape {
+    /// Index of the innermost group it is in.
+    pub group: usize,
+    /// Its element; for what a clone shows, the clone.
+    pub element: Element,
+    /// Its filled area; empty for lines.
+    pub outline: Outline,
+    /// Its fill, or its stroke where it has no fill.
+    pub paint: Paint,
+    /// Opacity of fill, element and groups together, 0 to 1.
+    pub opacity: f64,
+    /// Its stroke, if it has a visible one.
+    pub stroke: Option<Box<StrokeSource>>,
+    /// What a line leads from and to, if the shape is an unfilled open line.
+    pub line: Option<Line>,
+}
+
+/// An unfilled open line.
+#[derive(Debug, Clone, Default)]
+pub struct Line {
+    /// Its two ends, user units.
+    pub ends: [DVec2; 2],
+    /// The ids of the elements that an Inkscape connector joins.
+    pub connects: [Option<String>; 2],
+}
+
+/// Reads a drawing. `tolerance` is how far a flattened curve may lie off, as a share of its shape's
+/// larger extent.
+///
+/// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing.
+pub fn read(source: &str, tolerance: f64, resolver: &dyn Resolver) -> (Drawing, Vec<Diagnostic>) {
+    let mut diagnostics = Vec::new();
+    let drawing = match read_document(source, tolerance, resolver, &mut diagnostics) {
+        Ok(drawing) => drawing,
+        Err(diagnostic) => {
+            diagnostics.push(*diagnostic);
+            Drawing::default()
+        }
+    };
+    (drawing, diagnostics)
+}
+
+fn read_document(
+    source: &str,
+    tolerance: f64,
+    resolver: &dyn Resolver,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Result<Drawing, Box<Diagnostic>> {
+    if source.trim_start_matches('\u{feff}').trim().is_empty() {
+        return Err(Box::new(
+            Diagnostic::new(Code::EmptyFile, Span::at(0), "the file is empty")
+                .help("draw something, and save it as SVG"),
+        ));
+    }
+    let prepared = prepare::prepare(source)?;
+    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let document = roxmltree::Document::parse_with_options(&prepared.text, options)
+        .map_err(|error| Box::new(not_xml(&error, &prepared, source)))?;
+    let root = document.root_element();
+    if root.tag_name().name() != "svg"
+        || !matches!(root.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg"))
+    {
+        let start = prepared.original(root.range().start);
+        let span = Span::new(start, start + 1 + root.tag_name().name().len());
+        let message = format!("the file is XML, but its root element is `{}`, not `svg`", root.tag_name().name());
+        return Err(Box::new(Diagnostic::new(Code::NotSvg, span, message).help("save the drawing as SVG")));
+    }
+    shapes::read(&document, &prepared, tolerance, resolver, diagnostics)
+}
+
+/// What the XML parser says, at the byte of the original it says it of.
+fn not_xml(error: &roxmltree::Error, prepared: &prepare::Prepared, source: &str) -> Diagnostic {
+    let position = error.pos();
+    let line = prepared.text.split_inclusive('\n').take(position.row.saturating_sub(1) as usize);
+    let start: usize = line.map(str::len).sum();
+    let column = prepared.text[start..].char_indices().nth(position.col.saturating_sub(1) as usize);
+    let at = prepared.original(column.map_or(prepared.text.len(), |(offset, _)| start + offset)).min(source.len());
+    let next = source[at..].chars().next().map_or(0, char::len_utf8);
+    // The parser's message ends with the position, which the report shows better.
+    let message = error.to_string();
+    let message = message.rsplit_once(" at ").map_or(message.as_str(), |(head, _)| head);
+    let help = if matches!(error, roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream) {
+        "the file ends too early: was it cut off while it was saved?"
+    } else {
+        "open the drawing in Inkscape and save it again, or mend the text at this place"
+    };
+    Diagnostic::new(Code::NotXml, Span::new(at, at + next), format!("not well-formed XML: {message}")).help(help)
+}

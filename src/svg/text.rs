@@ -1,0 +1,270 @@
+//! The texts of a drawing: their characters with places, and where they stand on the page.
+
+use glam::{DAffine2, DMat2, DVec2};
+use roxmltree::Node;
+
+use super::prepare::{Prepared, character};
+use super::style::Styles;
+use crate::source::{Form, Span, Text};
+
+/// Share of the font size by which a line rises above its base line (figure.md, Binding).
+const ASCENT: f64 = 0.8;
+/// Distance of base lines over the font size.
+const LINE_HEIGHT: f64 = 1.25;
+
+/// A text that is seen on the page.
+#[derive(Debug, Clone)]
+pub struct Label {
+    /// Its characters.
+    pub text: Text,
+    /// The top left corner of its first line, user units.
+    pub corner: DVec2,
+    /// The box of all its lines, user units: the least and the greatest corner.
+    pub bounds: (DVec2, DVec2),
+    /// The font size on the page, user units.
+    pub font_size: f64,
+    /// The element's `id`.
+    pub id: Option<String>,
+    /// The element.
+    pub element: Span,
+}
+
+/// Reads a `<text>` or `<flowRoot>` element; `None` where it is hidden or has no place.
+pub fn read(node: Node<'_, '_>, styles: &Styles<'_>, prepared: &Prepared) -> Option<Label> {
+    if !styles.is_shown(node) {
+        return None;
+    }
+    let text = content(node, prepared);
+    let transform = page_transform(node);
+    let size = styles.font_size(first_run(node));
+    let anchor = styles.inherited(first_run(node), "text-anchor").unwrap_or("start").to_owned();
+    let base = position(node, styles)?;
+    let widths = text.as_str().split('\n').map(|line| width(line) * size);
+    let width = widths.fold(0.0, f64::max);
+    let left = match anchor.as_str() {
+        "middle" => base.x - width / 2.0,
+        "end" => base.x - width,
+        _ => base.x,
+    };
+    let lines = text.as_str().split('\n').count() as f64;
+    let top_left = DVec2::new(left, base.y - ASCENT * size);
+    let bottom_right = top_left + DVec2::new(width, (1.0 + LINE_HEIGHT * (lines - 1.0)) * size);
+    let corners = [
+        top_left,
+        DVec2::new(bottom_right.x, top_left.y),
+        DVec2::new(top_left.x, bottom_right.y),
+        bottom_right,
+    ]
+    .map(|corner| transform.transform_point2(corner));
+    let corner = corners[0];
+    if !corner.is_finite() {
+        return None;
+    }
+    let low = corners.iter().copied().fold(corner, DVec2::min);
+    let high = corners.iter().copied().fold(corner, DVec2::max);
+    Some(Label {
+        text,
+        corner,
+        bounds: (low, high),
+        font_size: size * transform.matrix2.determinant().abs().sqrt(),
+        id: node.attribute("id").map(str::to_owned),
+        element: prepared.span(node.range()),
+    })
+}
+
+/// The characters of an element: its lines joined by line feeds.
+///
+/// A new line begins at a `tspan` with `sodipodi:role="line"`, with a `y`, or with a `dy` other than 0, and
+/// at every paragraph of flowed text.
+pub fn content(node: Node<'_, '_>, prepared: &Prepared) -> Text {
+    let mut text = Text::default();
+    collect(node, prepared, &mut text);
+    text
+}
+
+fn collect(node: Node<'_, '_>, prepared: &Prepared, text: &mut Text) {
+    for child in node.children() {
+        if child.is_text() {
+            decode(child, prepared, text);
+        } else if child.is_element() && !matches!(child.tag_name().name(), "desc" | "title" | "style" | "flowRegion") {
+            if starts_line(child) && !text.as_str().is_empty() && !text.as_str().ends_with('\n') {
+                let at = prepared.original(child.range().start);
+                text.push("\n", Span::at(at), Form::Unit);
+            }
+            collect(child, prepared, text);
+        }
+    }
+}
+
+fn starts_line(node: Node<'_, '_>) -> bool {
+    let moved = |name| {
+        let value = node.attribute(name).unwrap_or("0");
+        value.split([' ', ',']).next().and_then(|first| first.trim_end_matches(char::is_alphabetic).parse().ok())
+            != Some(0.0)
+    };
+    match node.tag_name().name() {
+        "flowPara" | "flowDiv" => true,
+        _ => {
+            node.attributes().any(|attribute| attribute.name() == "role" && attribute.value() == "line")
+                || node.has_attribute("y")
+                || moved("dy")
+        }
+    }
+}
+
+/// Appends a text node, character by character, as it is written in the file.
+fn decode(node: Node<'_, '_>, prepared: &Prepared, out: &mut Text) {
+    let Some(expected) = node.text() else { return };
+    let range = node.range();
+    let source = &prepared.text[range.clone()];
+    let origin = prepared.original(range.start);
+    let mut text = Text::default();
+    let mut rest = 0;
+    let unit = |text: &mut Text, decoded: &str, from: usize, to: usize| {
+        text.push(decoded, Span::new(origin + from, origin + to), Form::Unit);
+    };
+    while rest < source.len() {
+        let tail = &source[rest..];
+        if let Some(cdata) = tail.strip_prefix("<![CDATA[") {
+            let end = cdata.find("]]>").unwrap_or(cdata.len());
+            let start = rest + "<![CDATA[".len();
+            plain(&mut text, &cdata[..end], origin + start, Form::Cdata);
+            rest = (start + end + "]]>".len()).min(source.len());
+        } else if tail.starts_with('&') {
+            let Some(end) = tail.find(';') else { break };
+            let name = &tail[1..end];
+            match (character(name), prepared.entities.get(name)) {
+                (Some(c), _) => unit(&mut text, c.encode_utf8(&mut [0; 4]), rest, rest + end + 1),
+                (None, Some(value)) => unit(&mut text, value, rest, rest + end + 1),
+                (None, None) => break,
+            }
+            rest += end + 1;
+        } else {
+            let end = tail.find(['&', '<']).unwrap_or(tail.len()).max(1);
+            plain(&mut text, &tail[..end], origin + rest, Form::Plain);
+            rest += end;
+        }
+    }
+    if text.as_str() == expected {
+        out.append(&text);
+    } else {
+        // Markup out of an entity: its characters have no places of their own.
+        out.push(expected, prepared.span(range), Form::Unit);
+    }
+}
+
+/// Appends characters that are not escaped; line ends become line feeds, as XML wants it.
+fn plain(text: &mut Text, source: &str, origin: usize, form: Form) {
+    let mut done = 0;
+    for (at, _) in source.match_indices('\r') {
+        let len = if source[at..].starts_with("\r\n") { 2 } else { 1 };
+        text.push(&source[done..at], Span::new(origin + done, origin + at), form);
+        text.push("\n", Span::new(origin + at, origin + at + len), Form::Unit);
+        done = at + len;
+    }
+    text.push(&source[done..], Span::new(origin + done, origin + source.len()), form);
+}
+
+/// The first element with characters of its own: its font size and anchor are the first line's.
+fn first_run<'a, 'input>(node: Node<'a, 'input>) -> Node<'a, 'input> {
+    node.descendants()
+        .find(|inner| inner.is_text() && inner.text().is_some_and(|text| !text.trim().is_empty()))
+        .and_then(|inner| inner.parent_element())
+        .unwrap_or(node)
+}
+
+/// The base point of the first line, in the element's own coordinates.
+fn position(node: Node<'_, '_>, styles: &Styles<'_>) -> Option<DVec2> {
+    if node.tag_name().name() == "flowRoot" {
+        let region = node.descendants().find(|inner| inner.tag_name().name() == "rect")?;
+        return Some(DVec2::new(number(region, "x")?, number(region, "y")? + ASCENT * styles.font_size(node)));
+    }
+    let mut chain: Vec<_> = first_run(node).ancestors().take_while(|inner| *inner != node).collect();
+    chain.push(node);
+    let find = |name| chain.iter().find_map(|element| number(*element, name));
+    if let (None, None, Some(shape)) = (find("x"), find("y"), styles.own(node, "shape-inside")) {
+        let id = shape.strip_prefix("url(#")?.strip_suffix(')')?;
+        let frame = node.document().descendants().find(|inner| inner.attribute("id") == Some(id))?;
+        return Some(DVec2::new(number(frame, "x")?, number(frame, "y")? + ASCENT * styles.font_size(node)));
+    }
+    Some(DVec2::new(find("x").unwrap_or(0.0), find("y").unwrap_or(0.0)))
+}
+
+/// The first number of an attribute that may be a list of lengths.
+fn number(node: Node<'_, '_>, name: &str) -> Option<f64> {
+    let value = node.attribute(name)?;
+    let first = value.split([' ', ',', '\n', '\t']).find(|part| !part.is_empty())?;
+    first.parse::<svgtypes::Length>().ok().map(|length| {
+        use svgtypes::LengthUnit as Unit;
+        length.number
+            * match length.unit {
+                Unit::Pt => 96.0 / 72.0,
+                Unit::Pc => 16.0,
+                Unit::In => 96.0,
+                Unit::Cm => 96.0 / 2.54,
+                Unit::Mm => 96.0 / 25.4,
+                _ => 1.0,
+            }
+    })
+}
+
+/// Estimated width of a line in font sizes: half a font size a character, a whole one for wide ones.
+fn width(line: &str) -> f64 {
+    use unicode_width::UnicodeWidthChar;
+    line.chars().map(|c| c.width().unwrap_or(0) as f64 * 0.5).sum()
+}
+
+/// From an element's own coordinates to the page's user units.
+pub fn page_transform(node: Node<'_, '_>) -> DAffine2 {
+    let mut chain: Vec<_> = node.ancestors().filter(|inner| inner.is_element()).collect();
+    chain.reverse();
+    let mut transform = DAffine2::IDENTITY;
+    for (depth, element) in chain.iter().enumerate() {
+        if let Some(value) = element.attribute("transform")
+            && let Ok(own) = value.parse::<svgtypes::Transform>()
+        {
+            transform *= DAffine2::from_mat2_translation(
+                DMat2::from_cols(DVec2::new(own.a, own.b), DVec2::new(own.c, own.d)),
+                DVec2::new(own.e, own.f),
+            );
+        }
+        if depth > 0 && element.tag_name().name() == "svg" {
+            transform *= viewport(*element);
+        }
+    }
+    transform
+}
+
+/// From the inside of a nested `<svg>` to the outside.
+fn viewport(node: Node<'_, '_>) -> DAffine2 {
+    let place = DVec2::new(number(node, "x").unwrap_or(0.0), number(node, "y").unwrap_or(0.0));
+    let view_box = node.attribute("viewBox").and_then(|value| value.parse::<svgtypes::ViewBox>().ok());
+    let (Some(view_box), Some(width), Some(height)) = (view_box, number(node, "width"), number(node, "height")) else {
+        return DAffine2::from_translation(place);
+    };
+    let aspect =
+        node.attribute("preserveAspectRatio").and_then(|value| value.parse::<svgtypes::AspectRatio>().ok());
+    let aspect = aspect.unwrap_or_default();
+    let mut scale = DVec2::new(width / view_box.w, height / view_box.h);
+    let mut spare = DVec2::ZERO;
+    if aspect.align != svgtypes::Align::None {
+        let both = if aspect.slice { scale.max_element() } else { scale.min_element() };
+        scale = DVec2::splat(both);
+        spare = DVec2::new(width, height) - both * DVec2::new(view_box.w, view_box.h);
+    }
+    use svgtypes::Align;
+    let share = match aspect.align {
+        Align::None | Align::XMinYMin => DVec2::new(0.0, 0.0),
+        Align::XMidYMin => DVec2::new(0.5, 0.0),
+        Align::XMaxYMin => DVec2::new(1.0, 0.0),
+        Align::XMinYMid => DVec2::new(0.0, 0.5),
+        Align::XMidYMid => DVec2::new(0.5, 0.5),
+        Align::XMaxYMid => DVec2::new(1.0, 0.5),
+        Align::XMinYMax => DVec2::new(0.0, 1.0),
+        Align::XMidYMax => DVec2::new(0.5, 1.0),
+        Align::XMaxYMax => DVec2::new(1.0, 1.0),
+    };
+    DAffine2::from_translation(place + spare * share)
+        * DAffine2::from_scale(scale)
+        * DAffine2::from_translation(-DVec2::new(view_box.x, view_box.y))
+}
