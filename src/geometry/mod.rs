@@ -6,6 +6,12 @@
 //! others are holes and run clockwise; no ring repeats its first point at its end, has fewer than
 //! three points or no area.
 
+pub mod clean;
+pub mod flatten;
+pub mod measure;
+mod query;
+mod touch;
+
 use glam::DVec2;
 
 /// A ring of points without repetition of the first.

@@ -1,0 +1,317 @@
+//! Clean polygons from rings that may cross, touch, overlap or repeat themselves.
+//!
+//! Input and output have y down, so borders have a negative shoelace sum (the module's
+//! convention: counter-clockwise where y is up). A single ring that is simple already keeps its
+//! points. Everything else is laid on a grid of about 1/4,000,000 of its extent, where crossings
+//! are found with whole numbers; that is fine enough for the `f32` that the model is written in.
+
+use std::cell::RefCell;
+
+use glam::DVec2;
+use i_overlay::core::fill_rule::FillRule as GridRule;
+use i_overlay::core::overlay::{ContourDirection, IntOverlayOptions, Overlay, ShapeType};
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::i_float::int::point::IntPoint;
+
+use super::touch::pull_apart;
+use super::{FillRule, Outline, Polygon, Ring};
+
+pub(crate) use super::query::shoelace;
+pub use super::query::{area, bounds, contains, distance_squared};
+
+/// The extent of an outline in grid steps.
+const GRID: f64 = (1u32 << 22) as f64;
+/// Points closer than this to the line between their neighbours go, relative to the extent.
+const FLAT: f64 = 5e-7;
+/// Rings narrower than this on average go, relative to the extent.
+const SLIVER: f64 = 1e-6;
+/// Extents outside of this are not geometry: their squares would overflow or vanish.
+const EXTENTS: std::ops::Range<f64> = 1e-60..1e60;
+
+/// The area that rings enclose, as clean polygons.
+pub fn clean(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
+    for ring in &mut rings {
+        if !ring.iter().all(|p| p.is_finite()) {
+            ring.retain(|p| p.is_finite());
+        }
+    }
+    rings.retain(|ring| ring.len() > 2);
+    let Some(grid) = Grid::over(rings.iter().flatten()) else {
+        return Outline::default();
+    };
+    let flat = FLAT * grid.extent;
+    if let [ring] = &mut rings[..] {
+        tidy(ring, flat);
+        if ring.len() < 3 {
+            return Outline::default();
+        }
+        let area = shoelace(ring);
+        if area > 0.0 {
+            ring.reverse();
+        }
+        if is_convex(ring) || is_simple(ring, &grid) {
+            if is_sliver(ring, grid.extent) {
+                return Outline::default();
+            }
+            let rings = vec![std::mem::take(ring)];
+            return Outline {
+                polygons: vec![Polygon { rings }],
+            };
+        }
+    }
+    let rule = match rule {
+        FillRule::NonZero => GridRule::NonZero,
+        FillRule::EvenOdd => GridRule::EvenOdd,
+    };
+    let shapes = OVERLAY.with_borrow_mut(|overlay| {
+        overlay.clear();
+        for ring in &rings {
+            let path = ring.iter().map(|p| grid.point(*p));
+            overlay.add_path_iter(path, ShapeType::Subject);
+        }
+        overlay.overlay(OverlayRule::Subject, rule)
+    });
+    finish(widen(shapes), &grid)
+}
+
+/// The area that two outlines have in common.
+pub fn intersect(a: &Outline, b: &Outline) -> Outline {
+    let (Some((a_low, a_high)), Some((b_low, b_high))) = (bounds(a), bounds(b)) else {
+        return Outline::default();
+    };
+    if !(a_low.max(b_low).cmplt(a_high.min(b_high))).all() {
+        return Outline::default();
+    }
+    if is_box_around(b, a_low, a_high) {
+        return a.clone();
+    }
+    if is_box_around(a, b_low, b_high) {
+        return b.clone();
+    }
+    combine(&[a], &[b], OverlayRule::Intersect)
+}
+
+/// The area that any of some outlines covers.
+pub fn union(outlines: &[Outline]) -> Outline {
+    let filled: Vec<_> = outlines.iter().filter(|o| !o.polygons.is_empty()).collect();
+    match filled[..] {
+        [] => Outline::default(),
+        [one] => one.clone(),
+        _ => combine(&filled, &[], OverlayRule::Subject),
+    }
+}
+
+fn combine(subjects: &[&Outline], clips: &[&Outline], rule: OverlayRule) -> Outline {
+    let points = |outlines: &[&Outline]| -> Vec<DVec2> {
+        let polygons = outlines.iter().flat_map(|o| &o.polygons);
+        polygons
+            .flat_map(|p| p.rings.iter().flatten())
+            .copied()
+            .collect()
+    };
+    let (subject, clip) = (points(subjects), points(clips));
+    // Of a small part under a large clip the part sets the grid.
+    let grids = [Grid::over(subject.iter()), Grid::over(clip.iter())];
+    let finer = grids
+        .into_iter()
+        .flatten()
+        .min_by(|a, b| a.extent.total_cmp(&b.extent));
+    let Some(grid) = finer else {
+        return Outline::default();
+    };
+    let mut overlay = Overlay::<i64>::new_custom(64, options(), Default::default());
+    for (outlines, kind) in [(subjects, ShapeType::Subject), (clips, ShapeType::Clip)] {
+        for ring in outlines
+            .iter()
+            .flat_map(|o| &o.polygons)
+            .flat_map(|p| &p.rings)
+        {
+            overlay.add_path_iter(ring.iter().map(|p| grid.far_point(*p)), kind);
+        }
+    }
+    let shapes = overlay.overlay(rule, GridRule::NonZero);
+    let shapes = shapes.into_iter().map(|shape| {
+        let rings = shape
+            .into_iter()
+            .map(|ring| ring.into_iter().map(|p| [p.x, p.y]).collect());
+        rings.collect()
+    });
+    finish(shapes.collect(), &grid)
+}
+
+fn is_box_around(outline: &Outline, low: DVec2, high: DVec2) -> bool {
+    let [Polygon { rings }] = &outline.polygons[..] else {
+        return false;
+    };
+    let [ring] = &rings[..] else { return false };
+    ring.len() == 4
+        && (0..4).all(|i| {
+            let edge = ring[(i + 1) % 4] - ring[i];
+            edge.x == 0.0 || edge.y == 0.0
+        })
+        && bounds(outline).is_some_and(|(l, h)| l.cmple(low).all() && h.cmpge(high).all())
+}
+
+thread_local! {
+    static OVERLAY: RefCell<Overlay<i32>> =
+        RefCell::new(Overlay::new_custom(64, options(), Default::default()));
+}
+
+fn options<U: i_overlay::i_float::int::number::uint::UIntNumber>() -> IntOverlayOptions<U> {
+    IntOverlayOptions {
+        output_direction: ContourDirection::Clockwise,
+        // A point where another ring touches an edge has to stay, or the touch would go unseen.
+        preserve_output_collinear: true,
+        ..Default::default()
+    }
+}
+
+/// Rings on the grid: polygons, their rings, their points.
+pub(super) type GridShapes = Vec<Vec<Vec<[i64; 2]>>>;
+
+fn widen(shapes: Vec<Vec<Vec<IntPoint<i32>>>>) -> GridShapes {
+    let ring = |ring: Vec<IntPoint<i32>>| ring.iter().map(|p| [p.x.into(), p.y.into()]).collect();
+    let shape = |shape: Vec<Vec<_>>| shape.into_iter().map(ring).collect();
+    shapes.into_iter().map(shape).collect()
+}
+
+fn finish(shapes: GridShapes, grid: &Grid) -> Outline {
+    let mut polygons: Vec<Polygon> = shapes
+        .iter()
+        .map(|shape| Polygon {
+            rings: shape
+                .iter()
+                .map(|ring| ring.iter().map(|p| grid.back(*p)).collect())
+                .collect(),
+        })
+        .collect();
+    pull_apart(&shapes, &mut polygons, grid.extent);
+    for polygon in &mut polygons {
+        for ring in &mut polygon.rings {
+            tidy(ring, FLAT * grid.extent);
+            if is_sliver(ring, grid.extent) {
+                ring.clear();
+            }
+        }
+        if polygon.rings.first().is_some_and(Vec::is_empty) {
+            polygon.rings.clear();
+        }
+        polygon.rings.retain(|ring| !ring.is_empty());
+    }
+    polygons.retain(|polygon| !polygon.rings.is_empty());
+    Outline { polygons }
+}
+
+/// Drops points that lie, within `flat`, on the line through their neighbours: repeated points,
+/// points on straight edges and the tips of spikes.
+fn tidy(ring: &mut Ring, flat: f64) {
+    loop {
+        let n = ring.len();
+        if n < 3 {
+            ring.clear();
+            return;
+        }
+        if (0..n).all(|i| {
+            let (a, c) = (ring[(i + n - 1) % n], ring[(i + 1) % n]);
+            stands_out(a, ring[i], c, flat)
+        }) {
+            return;
+        }
+        let mut kept: Ring = Vec::with_capacity(n);
+        for i in 0..n {
+            let (p, next) = (ring[i], ring[(i + 1) % n]);
+            let before = kept.last().copied().unwrap_or(ring[n - 1]);
+            if stands_out(before, p, next, flat) {
+                kept.push(p);
+            }
+        }
+        *ring = kept;
+    }
+}
+
+fn stands_out(a: DVec2, b: DVec2, c: DVec2, flat: f64) -> bool {
+    let (ab, bc) = (b - a, c - b);
+    let (near, far) = (ab.length_squared(), bc.length_squared());
+    let cross = ab.perp_dot(bc);
+    near.min(far) > flat * flat && cross * cross > flat * flat * near.max(far)
+}
+
+/// Whether a ring turns clockwise (as numbers go) all the way round, once.
+fn is_convex(ring: &Ring) -> bool {
+    let n = ring.len();
+    let mut before = ring[n - 1] - ring[n - 2];
+    let mut start = ring[n - 1];
+    let mut turns = 0;
+    for &p in ring {
+        let edge = p - start;
+        if before.perp_dot(edge) >= 0.0 {
+            return false;
+        }
+        turns += usize::from((before.x >= 0.0) != (edge.x >= 0.0));
+        (before, start) = (edge, p);
+    }
+    turns <= 2
+}
+
+fn is_simple(ring: &Ring, grid: &Grid) -> bool {
+    let path: Vec<_> = ring.iter().map(|p| grid.point(*p)).collect();
+    OVERLAY.with_borrow_mut(|overlay| overlay.simplify_contour(&path, GridRule::NonZero).is_none())
+}
+
+fn is_sliver(ring: &Ring, extent: f64) -> bool {
+    let mut around = 0.0;
+    let mut before = ring.last().copied().unwrap_or_default();
+    for &p in ring {
+        around += (p - before).length();
+        before = p;
+    }
+    shoelace(ring).abs() <= SLIVER * extent * around / 2.0
+}
+
+/// A square grid over an area.
+struct Grid {
+    origin: DVec2,
+    step: f64,
+    /// The larger extent of the area.
+    extent: f64,
+}
+
+impl Grid {
+    /// `None` where there is nothing that can be measured.
+    fn over<'a>(points: impl Iterator<Item = &'a DVec2>) -> Option<Grid> {
+        let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+        let (low, high) = points.fold(none, |(low, high), &p| (low.min(p), high.max(p)));
+        let extent = (high - low).max_element();
+        if !EXTENTS.contains(&extent) {
+            return None;
+        }
+        // A power of two, so that round coordinates come back as they were.
+        let step = (extent / GRID).log2().ceil().exp2();
+        let origin = (low.midpoint(high) / step).round() * step;
+        origin.is_finite().then_some(Grid {
+            origin,
+            step,
+            extent,
+        })
+    }
+
+    fn point(&self, p: DVec2) -> IntPoint<i32> {
+        let p = ((p - self.origin) / self.step).round();
+        IntPoint::new(p.x as i32, p.y as i32)
+    }
+
+    /// Points of other outlines may lie far off the grid; there they are pulled in.
+    fn far_point(&self, p: DVec2) -> IntPoint<i64> {
+        let far = DVec2::splat((1u64 << 60) as f64);
+        let p = ((p - self.origin) / self.step).round().clamp(-far, far);
+        IntPoint::new(p.x as i64, p.y as i64)
+    }
+
+    fn back(&self, [x, y]: [i64; 2]) -> DVec2 {
+        self.origin + DVec2::new(x as f64, y as f64) * self.step
+    }
+}
+
+#[cfg(test)]
+#[path = "clean_tests.rs"]
+mod tests;

@@ -1,0 +1,205 @@
+//! Axis, centre and end points of a part (Arai & Horry, section 3.3; figure.md, Parts).
+//!
+//! Drawing units, y down. The paper fits a regression line to the vertices; here the axis is the
+//! principal axis of the area within the borders, which does not depend on how curves were
+//! flattened nor on the frame.
+
+use glam::DVec2;
+
+use super::{Outline, query};
+
+/// Up on the drawing.
+const UP: DVec2 = DVec2::new(0.0, -1.0);
+/// Moments this close, relative to the larger, leave the axis open.
+const EQUAL: f64 = 0.01;
+/// Directions this close to level or upright are taken for it.
+const STRAIGHT: f64 = 1e-9;
+
+/// How an outline lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Measure {
+    /// Unit vector along the axis; it points up on the drawing, or right when level.
+    pub axis: DVec2,
+    /// The middle of the extents along the axis and across it.
+    pub center: DVec2,
+    /// The ends of the extent along the axis, on the line through the centre; the first is the one
+    /// that the axis points to.
+    pub ends: [DVec2; 2],
+    /// Half the extent along the axis.
+    pub half_along: f64,
+    /// Half the extent across the axis.
+    pub half_across: f64,
+    /// False where the moments leave the axis open, as for a circle or a square.
+    pub certain: bool,
+}
+
+/// The measure of an outline, `None` where there is no area.
+pub fn measure(outline: &Outline) -> Option<Measure> {
+    let (low, high) = query::bounds(outline)?;
+    let extent = (high - low).max_element();
+    if !(extent > 0.0 && extent.is_finite()) {
+        return None;
+    }
+    // Moments in units of the extent about the middle, so that no digits are lost far out.
+    let middle = low.midpoint(high);
+    let (mut area, mut first, mut second, mut mixed) = (0.0, DVec2::ZERO, DVec2::ZERO, 0.0);
+    for border in outline.polygons.iter().filter_map(|p| p.rings.first()) {
+        let Some(last) = border.last() else { continue };
+        let mut a = (*last - middle) / extent;
+        for &p in border {
+            let b = (p - middle) / extent;
+            let cross = a.perp_dot(b);
+            area += cross / 2.0;
+            first += (a + b) * (cross / 6.0);
+            second += (a * a + a * b + b * b) * (cross / 12.0);
+            mixed += (a.x * (2.0 * a.y + b.y) + b.x * (a.y + 2.0 * b.y)) * (cross / 24.0);
+            a = b;
+        }
+    }
+    if area == 0.0 {
+        return None;
+    }
+    let mean = first / area;
+    let square = second / area - mean * mean;
+    let mixed = mixed / area - mean.x * mean.y;
+    let difference = square.x - square.y;
+    let spread = difference.hypot(2.0 * mixed);
+    let larger = (square.x + square.y + spread) / 2.0;
+    let certain = spread > EQUAL * larger;
+    let axis = if certain {
+        DVec2::from_angle((2.0 * mixed).atan2(difference) / 2.0)
+    } else {
+        UP
+    };
+    let mut measure = measure_along(outline, axis)?;
+    measure.certain = certain;
+    Some(measure)
+}
+
+/// The measure of an outline about a given axis, `None` where either is empty.
+pub fn measure_along(outline: &Outline, axis: DVec2) -> Option<Measure> {
+    let axis = upright(axis.try_normalize()?);
+    let (low, high) = query::bounds(outline)?;
+    let middle = low.midpoint(high);
+    let (mut least, mut most) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for p in outline
+        .polygons
+        .iter()
+        .flat_map(|p| p.rings.first())
+        .flatten()
+    {
+        let p = *p - middle;
+        let p = DVec2::new(axis.dot(p), axis.perp_dot(p));
+        (least, most) = (least.min(p), most.max(p));
+    }
+    let half = (most - least) / 2.0;
+    let foot = least.midpoint(most);
+    let center = middle + axis * foot.x + axis.perp() * foot.y;
+    center.is_finite().then_some(Measure {
+        axis,
+        center,
+        ends: [center + axis * half.x, center - axis * half.x],
+        half_along: half.x,
+        half_across: half.y,
+        certain: true,
+    })
+}
+
+fn upright(axis: DVec2) -> DVec2 {
+    if axis.y.abs() < STRAIGHT {
+        DVec2::X
+    } else if axis.x.abs() < STRAIGHT {
+        UP
+    } else if axis.y > 0.0 {
+        -axis
+    } else {
+        axis
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{FillRule, Ring, clean::clean};
+    use proptest::prelude::*;
+
+    fn outline(ring: Ring) -> Outline {
+        clean(vec![ring], FillRule::NonZero)
+    }
+
+    fn rectangle(w: f64, h: f64, turn: f64, at: DVec2) -> Outline {
+        let turn = DVec2::from_angle(turn);
+        let corners = [(-w, -h), (w, -h), (w, h), (-w, h)];
+        outline(
+            corners
+                .map(|(x, y)| at + turn.rotate(DVec2::new(x, y)))
+                .to_vec(),
+        )
+    }
+
+    #[test]
+    fn upright_and_level_rectangles() {
+        let m = measure(&rectangle(1.0, 3.0, 0.0, DVec2::new(5.0, 7.0))).unwrap();
+        assert_eq!(
+            (m.axis, m.center, m.certain),
+            (UP, DVec2::new(5.0, 7.0), true)
+        );
+        assert_eq!(m.ends, [DVec2::new(5.0, 4.0), DVec2::new(5.0, 10.0)]);
+        assert_eq!((m.half_along, m.half_across), (3.0, 1.0));
+        let m = measure(&rectangle(3.0, 1.0, 0.0, DVec2::ZERO)).unwrap();
+        assert_eq!((m.axis, m.half_along), (DVec2::X, 3.0));
+        assert_eq!(m.ends[0], DVec2::new(3.0, 0.0));
+    }
+
+    #[test]
+    fn squares_and_circles_stand() {
+        let circle =
+            (0..48).map(|i| 1e4 + 7.0 * DVec2::from_angle(i as f64 / 48.0 * std::f64::consts::TAU));
+        for o in [
+            rectangle(2.0, 2.0, 0.3, DVec2::ONE),
+            outline(circle.collect()),
+        ] {
+            let m = measure(&o).unwrap();
+            assert_eq!((m.axis, m.certain), (UP, false));
+        }
+    }
+
+    #[test]
+    fn nothing_has_no_measure() {
+        assert_eq!(measure(&Outline::default()), None);
+        let o = rectangle(1.0, 2.0, 0.0, DVec2::ZERO);
+        assert_eq!(measure_along(&o, DVec2::ZERO), None);
+        assert_eq!(measure_along(&o, DVec2::NAN), None);
+        assert_eq!(
+            measure_along(&o, DVec2::new(2.0, 0.0)).unwrap().half_along,
+            1.0
+        );
+    }
+
+    #[test]
+    fn the_axis_of_a_slanting_triangle_is_its_principal_axis() {
+        let m = measure(&outline(vec![
+            DVec2::ZERO,
+            DVec2::new(10.0, -10.0),
+            DVec2::new(9.0, -11.0),
+        ]))
+        .unwrap();
+        assert!((m.axis - DVec2::new(1.0, -1.0).normalize()).length() < 0.1 && m.axis.y < 0.0);
+    }
+
+    proptest! {
+        #[test]
+        fn turning_and_moving_carry_the_measure_along(
+            w in 0.1..5.0f64, h in 6.0..20.0f64, turn in -3.1..3.1f64, x in -1e4..1e4f64, y in -1e4..1e4f64,
+        ) {
+            let at = DVec2::new(x, y);
+            let m = measure(&rectangle(w, h, turn, at)).unwrap();
+            let axis = DVec2::from_angle(turn).perp();
+            prop_assert!(m.axis.perp_dot(axis).abs() < 1e-6, "{:?}", m);
+            prop_assert!((m.center - at).length() < 1e-5);
+            prop_assert!((m.half_along - h).abs() < 1e-5 && (m.half_across - w).abs() < 1e-5);
+            prop_assert!(m.certain && m.axis.y < 1e-8);
+            prop_assert!((m.ends[0] - m.center).dot(m.axis) > 0.0);
+        }
+    }
+}

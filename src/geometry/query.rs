@@ -1,0 +1,72 @@
+//! Questions about clean outlines. They hold for either direction of y.
+
+use glam::DVec2;
+
+use super::{Outline, Ring};
+
+/// The filled area, square units.
+pub fn area(outline: &Outline) -> f64 {
+    outline
+        .polygons
+        .iter()
+        .map(|polygon| {
+            let mut rings = polygon.rings.iter().map(|ring| shoelace(ring).abs());
+            rings.next().unwrap_or(0.0) - rings.sum::<f64>()
+        })
+        .sum()
+}
+
+/// Whether a point is filled. Points on a border may fall either way.
+pub fn contains(outline: &Outline, point: DVec2) -> bool {
+    edges(outline).fold(false, |inside, [a, b]| {
+        let crosses = (a.y > point.y) != (b.y > point.y)
+            && point.x < (b.x - a.x) * ((point.y - a.y) / (b.y - a.y)) + a.x;
+        inside != crosses
+    })
+}
+
+/// The square of the distance from a point to the filled area: 0 inside, infinite where there is none.
+pub fn distance_squared(outline: &Outline, point: DVec2) -> f64 {
+    if contains(outline, point) {
+        return 0.0;
+    }
+    edges(outline).fold(f64::INFINITY, |nearest, [a, b]| {
+        let (edge, to) = (b - a, point - a);
+        let along = (to.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
+        nearest.min((to - edge * along).length_squared())
+    })
+}
+
+/// The least and the greatest coordinates, `None` where there are no points.
+pub fn bounds(outline: &Outline) -> Option<(DVec2, DVec2)> {
+    let mut points = outline
+        .polygons
+        .iter()
+        .flat_map(|p| p.rings.first())
+        .flatten();
+    let first = *points.next()?;
+    Some(points.fold((first, first), |(low, high), &p| (low.min(p), high.max(p))))
+}
+
+/// The signed area of a ring, positive where it runs from x to y. Relative to its
+/// first point, so that small rings far out keep their digits.
+pub(crate) fn shoelace(ring: &Ring) -> f64 {
+    let Some(&origin) = ring.first() else {
+        return 0.0;
+    };
+    ring.windows(2)
+        .map(|w| (w[0] - origin).perp_dot(w[1] - origin))
+        .sum::<f64>()
+        / 2.0
+}
+
+fn edges(outline: &Outline) -> impl Iterator<Item = [DVec2; 2]> {
+    outline
+        .polygons
+        .iter()
+        .flat_map(|p| &p.rings)
+        .flat_map(|ring| {
+            (0..ring.len())
+                .map(move |i| [ring[i], ring[if i + 1 < ring.len() { i + 1 } else { 0 }]])
+        })
+}
