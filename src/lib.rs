@@ -6,6 +6,7 @@
 
 pub mod diagnostic;
 pub mod geometry;
+pub mod gltf;
 pub mod lang;
 pub mod scene;
 pub mod source;
