@@ -35,7 +35,11 @@ pub enum Container {
 /// Primitives without triangles are left out, and meshes without primitives. A scene that breaks its
 /// own rules (a corner that is no number, an index out of range) or that does not fit into the
 /// container is an [`io::ErrorKind::InvalidInput`], seen before the first byte is written.
-pub fn write(scene: &Scene, container: Container, out: &mut impl Write) -> io::Result<()> {
+pub fn write(
+    scene: &Scene,
+    container: Container,
+    out: &mut (impl Write + ?Sized),
+) -> io::Result<()> {
     let layout = Layout::new(scene)?;
     match container {
         Container::Glb => write_glb(scene, &layout, out),
@@ -43,7 +47,7 @@ pub fn write(scene: &Scene, container: Container, out: &mut impl Write) -> io::R
     }
 }
 
-fn write_glb(scene: &Scene, layout: &Layout, out: &mut impl Write) -> io::Result<()> {
+fn write_glb(scene: &Scene, layout: &Layout, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
     const HEADER: u64 = 12;
     const CHUNK_HEADER: u64 = 8;
 
@@ -80,7 +84,7 @@ fn write_glb(scene: &Scene, layout: &Layout, out: &mut impl Write) -> io::Result
     Ok(())
 }
 
-fn write_gltf(scene: &Scene, layout: &Layout, out: &mut impl Write) -> io::Result<()> {
+fn write_gltf(scene: &Scene, layout: &Layout, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
     out.write_all(&json_without_buffer(scene, layout)?)?;
     let length = layout.byte_length();
     if length > 0 {

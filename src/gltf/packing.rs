@@ -9,7 +9,7 @@ use crate::scene::Scene;
 const BATCH: usize = 64 * 1024;
 
 /// Writes the whole buffer.
-pub(super) fn pack(scene: &Scene, out: &mut impl Write) -> io::Result<()> {
+pub(super) fn pack(scene: &Scene, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
     let mut packer = Packer {
         batch: Vec::with_capacity(BATCH),
         out,
@@ -38,12 +38,12 @@ pub(super) fn pack(scene: &Scene, out: &mut impl Write) -> io::Result<()> {
     packer.flush()
 }
 
-struct Packer<'a, W> {
+struct Packer<'a, W: ?Sized> {
     batch: Vec<u8>,
     out: &'a mut W,
 }
 
-impl<W: Write> Packer<'_, W> {
+impl<W: Write + ?Sized> Packer<'_, W> {
     fn put<T: Copy, const N: usize, const B: usize>(
         &mut self,
         rows: &[[T; N]],
