@@ -5,8 +5,11 @@
 )]
 
 pub mod diagnostic;
+pub mod disk;
 pub mod geometry;
+pub mod gltf;
 pub mod lang;
+pub mod resolver;
 pub mod scene;
 pub mod source;
 

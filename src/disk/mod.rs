@@ -1,0 +1,20 @@
+//! Files. No other module opens, reads, writes or renames one.
+
+mod folder;
+mod read;
+mod text;
+mod write;
+
+pub use folder::{FolderResolver, LINK_LIMIT};
+pub use read::{DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, read_drawing};
+pub use text::{Decode, decode};
+pub use write::{WriteError, write_atomic};
+
+use std::path::Path;
+
+/// The path that stands for stdin and stdout.
+const STANDARD_STREAM: &str = "-";
+
+fn is_standard_stream(path: &Path) -> bool {
+    path.as_os_str() == STANDARD_STREAM
+}

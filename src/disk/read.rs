@@ -1,0 +1,176 @@
+//! Drawings as bytes.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use flate2::read::MultiGzDecoder;
+
+/// The largest drawing that is read, in bytes.
+pub const DRAWING_LIMIT: u64 = 1 << 30;
+
+/// The largest size to which a packed drawing (`.svgz`) is unpacked, in bytes. A small file can
+/// unpack to anything.
+pub const UNPACKED_LIMIT: u64 = 256 << 20;
+
+/// Why a drawing cannot be read. Each message names the file and says what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// No such file.
+    #[error("`{}` is not there; check the path", .0.display())]
+    Missing(PathBuf),
+    /// A folder where a drawing is due.
+    #[error("`{}` is a folder; name a drawing in it", .0.display())]
+    Folder(PathBuf),
+    /// The file may not be read.
+    #[error("`{}` may not be read by you; change its permissions", .0.display())]
+    Denied(PathBuf),
+    /// Larger than [`DRAWING_LIMIT`].
+    #[error("`{}` is larger than the limit of {} MiB; split the drawing", .0.display(), DRAWING_LIMIT >> 20)]
+    TooLarge(PathBuf),
+    /// Larger than [`UNPACKED_LIMIT`] when unpacked.
+    #[error(
+        "`{}` is packed and larger than the limit of {} MiB when unpacked; save it as plain SVG",
+        .0.display(), UNPACKED_LIMIT >> 20
+    )]
+    TooLargeUnpacked(PathBuf),
+    /// Packed, and the packing is broken.
+    #[error("`{}` is packed, but damaged ({source}); save the drawing again", .path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What the unpacker says.
+        source: io::Error,
+    },
+    /// The system fails to read it.
+    #[error("`{}` cannot be read: {source}", .path.display())]
+    Failed {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+/// The bytes of the drawing at `path`, unpacked if they are gzip; `-` is stdin.
+///
+/// What is packed is seen by its first bytes, not by the file's name.
+pub fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
+    let bytes = if super::is_standard_stream(path) {
+        read_limited(io::stdin().lock(), DRAWING_LIMIT)
+    } else {
+        open(path)?
+    };
+    let bytes = bytes
+        .map_err(|source| failure(path, source))?
+        .ok_or_else(|| ReadError::TooLarge(path.to_owned()))?;
+    unpack(path, bytes)
+}
+
+fn open(path: &Path) -> Result<io::Result<Option<Vec<u8>>>, ReadError> {
+    let file = File::open(path).map_err(|source| failure(path, source))?;
+    let is_folder = file.metadata().is_ok_and(|metadata| metadata.is_dir());
+    match is_folder {
+        true => Err(ReadError::Folder(path.to_owned())),
+        false => Ok(read_limited(file, DRAWING_LIMIT)),
+    }
+}
+
+fn unpack(path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>, ReadError> {
+    const GZIP: [u8; 2] = [0x1F, 0x8B];
+
+    if !bytes.starts_with(&GZIP) {
+        return Ok(bytes);
+    }
+    read_limited(MultiGzDecoder::new(&*bytes), UNPACKED_LIMIT)
+        .map_err(|source| ReadError::Damaged {
+            path: path.to_owned(),
+            source,
+        })?
+        .ok_or_else(|| ReadError::TooLargeUnpacked(path.to_owned()))
+}
+
+/// Everything that `source` gives; none if that is more than `limit`.
+pub(super) fn read_limited(source: impl Read, limit: u64) -> io::Result<Option<Vec<u8>>> {
+    let mut bytes = vec![];
+    source.take(limit + 1).read_to_end(&mut bytes)?;
+    Ok((bytes.len() as u64 <= limit).then_some(bytes))
+}
+
+fn failure(path: &Path, source: io::Error) -> ReadError {
+    let path = path.to_owned();
+    match source.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => ReadError::Missing(path),
+        io::ErrorKind::IsADirectory => ReadError::Folder(path),
+        io::ErrorKind::PermissionDenied => ReadError::Denied(path),
+        _ => ReadError::Failed { path, source },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write as _;
+
+    use flate2::Compression;
+    use flate2::write::GzEncoder;
+
+    use super::*;
+
+    fn gzip(pieces: &[&[u8]]) -> Vec<u8> {
+        let mut encoder = GzEncoder::new(vec![], Compression::fast());
+        for piece in pieces {
+            encoder.write_all(piece).unwrap();
+        }
+        encoder.finish().unwrap()
+    }
+
+    #[test]
+    fn drawings_are_read_plain_and_packed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.svg");
+        for bytes in [b"<svg/>".to_vec(), gzip(&[b"<svg/>"]), {
+            let mut members = gzip(&[b"<sv"]);
+            members.extend(gzip(&[b"g/>"]));
+            members
+        }] {
+            std::fs::write(&path, bytes).unwrap();
+            assert_eq!(read_drawing(&path).unwrap(), b"<svg/>");
+        }
+        std::fs::write(&path, b"").unwrap();
+        assert_eq!(read_drawing(&path).unwrap(), b"");
+    }
+
+    #[test]
+    fn failures_say_what_to_do() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.svg");
+        let message = |path: &Path| {
+            let message = read_drawing(path).unwrap_err().to_string();
+            message.replace(folder.path().to_str().unwrap(), "")
+        };
+        assert_eq!(message(&path), "`/a.svg` is not there; check the path");
+        assert_eq!(
+            message(folder.path()),
+            "`` is a folder; name a drawing in it"
+        );
+        let mut cut = gzip(&[b"<svg/>"]);
+        cut.truncate(12);
+        std::fs::write(&path, cut).unwrap();
+        assert!(message(&path).starts_with("`/a.svg` is packed, but damaged"));
+        assert_eq!(
+            message(&path.join("b.svg")),
+            "`/a.svg/b.svg` is not there; check the path"
+        );
+    }
+
+    #[test]
+    fn a_bomb_is_not_unpacked() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("bomb.svgz");
+        let zeros = vec![0; 1 << 20];
+        let pieces = vec![&*zeros; (UNPACKED_LIMIT >> 20) as usize + 1];
+        std::fs::write(&path, gzip(&pieces)).unwrap();
+        let message = read_drawing(&path).unwrap_err().to_string();
+        assert!(message.contains("limit of 256 MiB"), "{message}");
+    }
+}

@@ -1,0 +1,308 @@
+//! Outputs, written whole or not at all.
+
+use std::fs::{self, File, Permissions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+/// Why an output cannot be written. Each message names the file and says what to do.
+#[derive(Debug, thiserror::Error)]
+pub enum WriteError {
+    /// A folder where a file is due.
+    #[error("`{}` is a folder; name a file in it", .0.display())]
+    Folder(PathBuf),
+    /// The folder that the file is to lie in is missing.
+    #[error("the folder `{}` is not there; create it or choose another with -o", .0.display())]
+    NoFolder(PathBuf),
+    /// The folder may not be written to.
+    #[error("you may not write in the folder `{}`; choose another with -o", .0.display())]
+    FolderDenied(PathBuf),
+    /// The file exists and is protected.
+    #[error("`{}` is write-protected; change that or choose another file with -o", .0.display())]
+    Protected(PathBuf),
+    /// The system fails to write it, or its content cannot be made.
+    #[error("`{}` cannot be written: {source}", .path.display())]
+    Failed {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+/// Writes a file through `fill`; `-` is stdout.
+///
+/// The file changes all at once: the content goes to a temporary file in the same folder
+/// (`.okoshi-….tmp`), which then takes the file's name. A program that is killed on the way leaves the
+/// old file, and so does a `fill` that fails. Permissions of an existing file stay; a symbolic link
+/// stays one, and the file that it points to changes. Devices and pipes are written to directly.
+pub fn write_atomic(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), WriteError> {
+    let failed = |source| WriteError::Failed {
+        path: path.to_owned(),
+        source,
+    };
+    if super::is_standard_stream(path) {
+        return fill_buffered(io::stdout().lock(), fill).map_err(failed);
+    }
+    let target = follow_links(path).map_err(failed)?;
+    let existing = match fs::metadata(&target) {
+        Ok(metadata) if metadata.is_dir() => return Err(WriteError::Folder(path.to_owned())),
+        Ok(metadata) if !metadata.is_file() => {
+            // The null device must not be replaced by a file, nor a pipe.
+            let device = File::options().write(true).open(&target).map_err(failed)?;
+            return fill_buffered(device, fill).map_err(failed);
+        }
+        Ok(metadata) if metadata.permissions().readonly() => {
+            return Err(WriteError::Protected(path.to_owned()));
+        }
+        Ok(metadata) => Some(metadata.permissions()),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+        Err(error) => return Err(folder_failure(&target, path, error)),
+    };
+    if target.file_name().is_none() || ends_with_separator(path) {
+        return Err(WriteError::Folder(path.to_owned()));
+    }
+
+    let mut temporary =
+        temporary_beside(&target).map_err(|error| folder_failure(&target, path, error))?;
+    fill_buffered(temporary.as_file_mut(), fill).map_err(failed)?;
+    if let Some(permissions) = existing {
+        temporary
+            .as_file()
+            .set_permissions(permissions)
+            .map_err(failed)?;
+    }
+    // Without waiting for the disk: outputs can be made again, and renaming is ordered behind the
+    // data on the file systems that people have.
+    temporary
+        .persist(&target)
+        .map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
+fn fill_buffered(
+    out: impl Write,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut out = BufWriter::with_capacity(256 * 1024, out);
+    fill(&mut out)?;
+    out.flush()
+}
+
+fn temporary_beside(target: &Path) -> io::Result<tempfile::NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".okoshi-").suffix(".tmp");
+    let permissions = new_file_permissions();
+    if let Some(permissions) = &permissions {
+        builder.permissions(permissions.clone());
+    }
+    builder.tempfile_in(folder_of(target))
+}
+
+/// What any program gives a new file; the system takes the user's mask off.
+#[cfg(unix)]
+fn new_file_permissions() -> Option<Permissions> {
+    use std::os::unix::fs::PermissionsExt as _;
+    Some(Permissions::from_mode(0o666))
+}
+
+#[cfg(not(unix))]
+fn new_file_permissions() -> Option<Permissions> {
+    None
+}
+
+/// The file that a chain of symbolic links ends at, which need not exist.
+fn follow_links(path: &Path) -> io::Result<PathBuf> {
+    const LONGEST_CHAIN: usize = 40;
+
+    let mut path = path.to_owned();
+    for _ in 0..LONGEST_CHAIN {
+        match fs::symlink_metadata(&path) {
+            Ok(metadata) if metadata.is_symlink() => {
+                path = folder_of(&path).join(fs::read_link(&path)?);
+            }
+            _ => return Ok(path),
+        }
+    }
+    Err(io::Error::other("its symbolic links go in a circle"))
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+fn ends_with_separator(path: &Path) -> bool {
+    let bytes = path.as_os_str().as_encoded_bytes();
+    bytes
+        .last()
+        .is_some_and(|byte| std::path::is_separator(char::from(*byte)))
+}
+
+fn folder_failure(target: &Path, path: &Path, source: io::Error) -> WriteError {
+    let folder = folder_of(target).to_owned();
+    match source.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => WriteError::NoFolder(folder),
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            WriteError::FolderDenied(folder)
+        }
+        _ => WriteError::Failed {
+            path: path.to_owned(),
+            source,
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_file_is_written_and_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.glb");
+        for content in [&b"old"[..], b"new"] {
+            write_atomic(&path, |out| out.write_all(content)).unwrap();
+            assert_eq!(fs::read(&path).unwrap(), content);
+        }
+        assert_eq!(names(folder.path()), ["a.glb"]);
+    }
+
+    #[test]
+    fn a_failure_leaves_the_old_file_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.glb");
+        fs::write(&path, "old").unwrap();
+        let error = write_atomic(&path, |out| {
+            out.write_all(b"half")?;
+            Err(io::Error::other("out of ideas"))
+        })
+        .unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .ends_with("cannot be written: out of ideas")
+        );
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        assert_eq!(names(folder.path()), ["a.glb"]);
+    }
+
+    #[test]
+    fn what_is_no_place_for_a_file_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        let write = |path: &Path| write_atomic(path, |out| out.write_all(b"x")).unwrap_err();
+        fs::write(path("file"), "").unwrap();
+        assert!(matches!(write(folder.path()), WriteError::Folder(_)));
+        assert!(matches!(write(&path("none/a")), WriteError::NoFolder(_)));
+        assert!(matches!(write(&path("file/a")), WriteError::NoFolder(_)));
+        assert!(matches!(
+            write(&path("new/")),
+            WriteError::Folder(_) | WriteError::NoFolder(_)
+        ));
+        let mut permissions = fs::metadata(path("file")).unwrap().permissions();
+        permissions.set_readonly(true);
+        fs::set_permissions(path("file"), permissions).unwrap();
+        assert!(matches!(write(&path("file")), WriteError::Protected(_)));
+        assert_eq!(names(folder.path()), ["file"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn permissions_are_a_new_files_or_the_old_files() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let folder = tempfile::tempdir().unwrap();
+        let mode = |name| {
+            let path = folder.path().join(name);
+            fs::metadata(path).unwrap().permissions().mode() & 0o7777
+        };
+        let write = |name| {
+            write_atomic(&folder.path().join(name), |out| out.write_all(b"x")).unwrap();
+        };
+        fs::write(folder.path().join("plain"), "").unwrap();
+        write("new");
+        assert_eq!(mode("new"), mode("plain"));
+        fs::set_permissions(folder.path().join("new"), Permissions::from_mode(0o640)).unwrap();
+        write("new");
+        assert_eq!(mode("new"), 0o640);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_and_devices_stay_what_they_are() {
+        use std::os::unix::fs::{FileTypeExt as _, symlink};
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::create_dir(path("sub")).unwrap();
+        symlink("sub/link", path("link")).unwrap();
+        symlink("../real", path("sub/link")).unwrap();
+        for content in ["new", "newer"] {
+            write_atomic(&path("link"), |out| out.write_all(content.as_bytes())).unwrap();
+            assert_eq!(fs::read_to_string(path("real")).unwrap(), content);
+            assert!(fs::symlink_metadata(path("link")).unwrap().is_symlink());
+        }
+        symlink("round", path("round")).unwrap();
+        let error = write_atomic(&path("round"), |_| Ok(())).unwrap_err();
+        assert!(error.to_string().ends_with("go in a circle"), "{error}");
+
+        let null = Path::new("/dev/null");
+        write_atomic(null, |out| out.write_all(b"x")).unwrap();
+        assert!(fs::metadata(null).unwrap().file_type().is_char_device());
+    }
+
+    const VICTIM: &str = "OKOSHI_TEST_VICTIM";
+
+    /// Not a test by itself: the program that `a_kill_leaves_the_old_file` kills.
+    #[test]
+    fn victim() {
+        let Some(path) = std::env::var_os(VICTIM) else {
+            return;
+        };
+        write_atomic(Path::new(&path), |out| {
+            for _ in 0..1000 {
+                out.write_all(&[0; 1024])?;
+                std::thread::sleep(std::time::Duration::from_millis(10));
+            }
+            Ok(())
+        })
+        .unwrap();
+    }
+
+    #[test]
+    fn a_kill_leaves_the_old_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.glb");
+        fs::write(&path, "old").unwrap();
+        let mut child = std::process::Command::new(std::env::current_exe().unwrap())
+            .args(["disk::write::tests::victim", "--exact"])
+            .env(VICTIM, &path)
+            .stdout(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        while names(folder.path()).len() < 2 {
+            assert!(
+                child.try_wait().unwrap().is_none(),
+                "ended before it was killed"
+            );
+            std::thread::sleep(std::time::Duration::from_millis(2));
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"old");
+        write_atomic(&path, |out| out.write_all(b"new")).unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"new");
+    }
+}

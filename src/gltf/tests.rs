@@ -1,0 +1,375 @@
+use glam::{DQuat, DVec3};
+use proptest::prelude::*;
+use serde_json::json;
+
+use super::*;
+use crate::scene::{Material, Mesh, Node, Primitive, Provenance, Surface};
+
+fn bytes(scene: &Scene, container: Container) -> Vec<u8> {
+    let mut out = vec![];
+    write(scene, container, &mut out).unwrap();
+    out
+}
+
+/// The file as a strict reader sees it.
+fn read(bytes: &[u8]) -> (gltf::Document, Vec<Vec<u8>>) {
+    let gltf::Gltf { document, blob } = gltf::Gltf::from_slice(bytes).unwrap();
+    let buffers = document
+        .buffers()
+        .map(|buffer| match buffer.source() {
+            gltf::buffer::Source::Bin => blob.clone().unwrap(),
+            gltf::buffer::Source::Uri(uri) => {
+                use base64::Engine as _;
+                let data = uri.split_once(";base64,").unwrap().1;
+                base64::engine::general_purpose::STANDARD
+                    .decode(data)
+                    .unwrap()
+            }
+        })
+        .collect::<Vec<_>>();
+    for (buffer, data) in document.buffers().zip(&buffers) {
+        assert!(buffer.length() <= data.len() && data.len() < buffer.length() + 4);
+    }
+    (document, buffers)
+}
+
+fn json(bytes: &[u8]) -> serde_json::Value {
+    if bytes.starts_with(b"glTF") {
+        let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+        serde_json::from_slice(&bytes[20..20 + length]).unwrap()
+    } else {
+        serde_json::from_slice(bytes).unwrap()
+    }
+}
+
+fn material(alpha: f32) -> Material {
+    Material {
+        name: "paint \"1\"\\\n".to_owned(),
+        base_color: [0.1, 0.5, 1.0, alpha],
+        metallic: 0.0,
+        roughness: 0.9,
+        emissive: [0.0, 0.25, 0.0],
+        double_sided: alpha < 1.0,
+    }
+}
+
+/// A strip of triangles over `corners` corners.
+fn strip(corners: u32) -> Surface {
+    Surface {
+        positions: (0..corners)
+            .map(|i| [i as f32 * 0.1, (i % 2) as f32, -0.3])
+            .collect(),
+        normals: vec![[0.0, 0.0, 1.0]; corners as usize],
+        uvs: vec![],
+        triangles: (2..corners).map(|i| [i - 2, i - 1, i]).collect(),
+    }
+}
+
+fn single(surface: Surface) -> Scene {
+    Scene {
+        nodes: vec![Node {
+            name: "Part".to_owned(),
+            mesh: Some(0),
+            ..Node::default()
+        }],
+        roots: vec![0],
+        meshes: vec![Mesh {
+            primitives: vec![Primitive {
+                surface,
+                material: 0,
+            }],
+        }],
+        materials: vec![material(1.0)],
+    }
+}
+
+/// Reads everything back and compares it with the scene.
+fn assert_round_trip(scene: &Scene, container: Container) {
+    let file = bytes(scene, container);
+    let (document, buffers) = read(&file);
+    let nodes = document.nodes().collect::<Vec<_>>();
+    assert_eq!(nodes.len(), scene.nodes.len() + 1);
+    let root = document.default_scene().unwrap().nodes().next().unwrap();
+    assert_eq!((root.name(), root.index()), (Some(ROOT), scene.nodes.len()));
+    let children = |node: &gltf::Node| node.children().map(|child| child.index()).collect();
+    let roots: Vec<usize> = children(&root);
+    assert_eq!(roots, scene.roots);
+
+    for (node, read) in scene.nodes.iter().zip(&nodes) {
+        assert_eq!(read.name(), (!node.name.is_empty()).then_some(&*node.name));
+        let read_children: Vec<usize> = children(read);
+        assert_eq!(read_children, node.children);
+        let (translation, rotation, scale) = read.transform().decomposed();
+        assert_eq!(translation, node.translation.as_vec3().to_array());
+        assert_eq!(rotation, node.rotation.as_quat().to_array());
+        assert_eq!(scale, [1.0; 3]);
+        let solid = node.mesh.map(|mesh| &scene.meshes[mesh].primitives);
+        let solid = solid.into_iter().flatten().collect::<Vec<_>>();
+        let solid = solid
+            .into_iter()
+            .filter(|part| !part.surface.triangles.is_empty());
+        let read_solid = read
+            .mesh()
+            .into_iter()
+            .flat_map(|mesh| mesh.primitives().collect::<Vec<_>>());
+        let read_solid = read_solid.collect::<Vec<_>>();
+        assert_eq!(solid.clone().count(), read_solid.len());
+        for (part, read) in solid.zip(read_solid) {
+            assert_primitive(part, &read, &buffers);
+        }
+    }
+}
+
+fn assert_primitive(part: &Primitive, read: &gltf::Primitive, buffers: &[Vec<u8>]) {
+    let surface = &part.surface;
+    let reader = read.reader(|buffer| buffers.get(buffer.index()).map(Vec::as_slice));
+    let positions = reader.read_positions().unwrap().collect::<Vec<_>>();
+    assert_eq!(positions, surface.positions);
+    let normals = reader.read_normals().unwrap().collect::<Vec<_>>();
+    assert_eq!(normals, surface.normals);
+    let uvs = reader
+        .read_tex_coords(0)
+        .map(|uvs| uvs.into_f32().collect::<Vec<_>>());
+    assert_eq!(uvs.unwrap_or_default(), surface.uvs);
+    let indices = reader
+        .read_indices()
+        .unwrap()
+        .into_u32()
+        .collect::<Vec<_>>();
+    assert_eq!(indices, surface.triangles.as_flattened());
+    assert_eq!(read.material().index(), Some(part.material));
+
+    // What was written as decimals is exactly the least and the greatest `f32`.
+    let mut min = [f32::INFINITY; 3];
+    let mut max = [f32::NEG_INFINITY; 3];
+    for position in &positions {
+        for axis in 0..3 {
+            min[axis] = min[axis].min(position[axis]);
+            max[axis] = max[axis].max(position[axis]);
+        }
+    }
+    let bounds = read.bounding_box();
+    assert_eq!((bounds.min, bounds.max), (min, max));
+}
+
+#[test]
+fn an_empty_scene_has_a_root_and_no_empty_arrays() {
+    for container in [Container::Glb, Container::Gltf] {
+        let file = bytes(&Scene::default(), container);
+        read(&file);
+        let json = json(&file);
+        let keys = json.as_object().unwrap().keys().collect::<Vec<_>>();
+        assert_eq!(keys, ["asset", "nodes", "scene", "scenes"]);
+        assert_eq!(json["nodes"], json!([{ "name": "Root" }]));
+    }
+}
+
+#[test]
+fn a_part_is_written_as_documented() {
+    let mut scene = single(strip(3));
+    scene.nodes[0].translation = DVec3::new(0.1, -2.0, 0.0);
+    scene.nodes[0].provenance = Some(Provenance {
+        element: Some("path12".to_owned()),
+        string: Some("腕@体$\n\"x\"".to_owned()),
+    });
+    let json = json(&bytes(&scene, Container::Glb));
+    assert_eq!(json["asset"]["version"], "2.0");
+    assert_eq!(json["scenes"], json!([{ "nodes": [1] }]));
+    assert_eq!(
+        json["nodes"],
+        json!([
+            {
+                "name": "Part",
+                "mesh": 0,
+                "translation": [0.1, -2, 0],
+                "extras": { "okoshi": { "element": "path12", "string": "腕@体$\n\"x\"" } },
+            },
+            { "name": "Root", "children": [0] },
+        ])
+    );
+    assert_eq!(
+        json["materials"],
+        json!([{
+            "name": "paint \"1\"\\\n",
+            "pbrMetallicRoughness": {
+                "baseColorFactor": [0.1, 0.5, 1, 1],
+                "metallicFactor": 0,
+                "roughnessFactor": 0.9,
+            },
+            "emissiveFactor": [0, 0.25, 0],
+        }])
+    );
+    assert_eq!(json["meshes"][0]["name"], "Part");
+    assert_round_trip(&scene, Container::Glb);
+    assert_round_trip(&scene, Container::Gltf);
+}
+
+#[test]
+fn see_through_paint_is_blended() {
+    let mut scene = single(strip(3));
+    scene.materials[0] = material(0.5);
+    let json = json(&bytes(&scene, Container::Glb));
+    assert_eq!(json["materials"][0]["alphaMode"], "BLEND");
+    assert_eq!(json["materials"][0]["doubleSided"], true);
+}
+
+#[test]
+fn the_glb_is_framed_by_the_book() {
+    let file = bytes(&single(strip(5)), Container::Glb);
+    let word = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
+    assert_eq!(word(8), file.len());
+    let json = word(12);
+    assert_eq!((json % 4, word(20 + json) % 4), (0, 0));
+    assert_eq!(20 + json + 8 + word(20 + json), file.len());
+}
+
+#[test]
+fn indices_take_the_smallest_type_that_holds_them() {
+    use gltf::accessor::DataType;
+    for (corners, expected) in [
+        (3, DataType::U8),
+        (255, DataType::U8),
+        (256, DataType::U16),
+        (65_535, DataType::U16),
+        (65_536, DataType::U32),
+    ] {
+        let scene = single(strip(corners));
+        let (document, _) = read(&bytes(&scene, Container::Glb));
+        let mesh = document.meshes().next().unwrap();
+        let indices = mesh.primitives().next().unwrap().indices().unwrap();
+        assert_eq!(indices.data_type(), expected, "{corners} corners");
+        assert_round_trip(&scene, Container::Glb);
+    }
+}
+
+#[test]
+fn kinds_of_data_share_a_view_each() {
+    let mut scene = single(strip(7));
+    for corners in [300, 4, 70_000, 9] {
+        let mut surface = strip(corners);
+        surface.uvs = vec![[0.25, 1.0]; corners as usize];
+        let material = scene.materials.len();
+        scene.materials.push(self::material(0.5));
+        scene.meshes[0]
+            .primitives
+            .push(Primitive { surface, material });
+    }
+    let (document, _) = read(&bytes(&scene, Container::Glb));
+    assert_eq!(document.views().count(), 6);
+    for accessor in document.accessors() {
+        let view = accessor.view().unwrap();
+        assert_eq!(
+            (view.offset() + accessor.offset()) % accessor.data_type().size(),
+            0
+        );
+    }
+    assert_round_trip(&scene, Container::Glb);
+    assert_round_trip(&scene, Container::Gltf);
+}
+
+#[test]
+fn parts_without_triangles_have_no_mesh() {
+    let mut scene = single(strip(2));
+    scene.nodes.push(Node {
+        name: "Other".to_owned(),
+        mesh: Some(1),
+        ..Node::default()
+    });
+    scene.roots.push(1);
+    scene.meshes.push(Mesh {
+        primitives: vec![Primitive {
+            surface: strip(4),
+            material: 0,
+        }],
+    });
+    let (document, _) = read(&bytes(&scene, Container::Glb));
+    assert_eq!(document.meshes().count(), 1);
+    assert_round_trip(&scene, Container::Glb);
+}
+
+#[test]
+fn a_broken_scene_is_refused_before_a_byte_is_written() {
+    let break_it: [fn(&mut Scene); 7] = [
+        |scene| scene.meshes[0].primitives[0].surface.positions[1][2] = f32::NAN,
+        |scene| scene.meshes[0].primitives[0].surface.triangles[0][1] = 3,
+        |scene| scene.meshes[0].primitives[0].material = 1,
+        |scene| scene.nodes[0].translation.x = f64::INFINITY,
+        |scene| scene.nodes[0].children.push(0),
+        |scene| scene.nodes[0].mesh = Some(1),
+        |scene| scene.materials[0].roughness = f32::NAN,
+    ];
+    for break_it in break_it {
+        let mut scene = single(strip(3));
+        break_it(&mut scene);
+        let mut out = vec![];
+        let error = write(&scene, Container::Glb, &mut out).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::InvalidInput);
+        assert!(out.is_empty(), "{error}");
+    }
+}
+
+fn any_surface() -> impl Strategy<Value = Surface> {
+    (
+        3..300_u32,
+        any::<bool>(),
+        prop::collection::vec(-1e6_f32..1e6, 3..40),
+    )
+        .prop_map(|(corners, textured, numbers)| {
+            let mut surface = strip(corners);
+            for (value, number) in surface.positions.as_flattened_mut().iter_mut().zip(numbers) {
+                *value = number;
+            }
+            if textured {
+                surface.uvs = surface.positions.iter().map(|p| [p[0], p[1]]).collect();
+            }
+            surface
+        })
+}
+
+fn any_scene() -> impl Strategy<Value = Scene> {
+    let node = (
+        any::<String>(),
+        any::<u16>(),
+        [-9.0..9.0, -9.0..9.0, -4.0..4.0],
+    );
+    let surfaces = prop::collection::vec(prop::collection::vec(any_surface(), 0..3), 1..6);
+    (prop::collection::vec(node, 1..6), surfaces).prop_map(|(nodes, meshes)| {
+        let mut scene = Scene {
+            materials: vec![material(1.0), material(0.5), material(0.0)],
+            ..Scene::default()
+        };
+        for (index, (name, parent, [x, y, angle])) in nodes.into_iter().enumerate() {
+            match (parent as usize % (index + 1)).checked_sub(1) {
+                Some(parent) => scene.nodes[parent].children.push(index),
+                None => scene.roots.push(index),
+            }
+            scene.nodes.push(Node {
+                name,
+                translation: DVec3::new(x, y, 0.0),
+                rotation: DQuat::from_rotation_z(angle),
+                mesh: (index < meshes.len()).then_some(index),
+                ..Node::default()
+            });
+        }
+        for surfaces in meshes {
+            let primitives = surfaces.into_iter().enumerate();
+            let primitives = primitives
+                .map(|(material, surface)| Primitive { surface, material })
+                .collect();
+            scene.meshes.push(Mesh { primitives });
+        }
+        scene
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(48))]
+
+    #[test]
+    fn what_is_written_reads_back(scene in any_scene()) {
+        for container in [Container::Glb, Container::Gltf] {
+            assert_round_trip(&scene, container);
+            prop_assert_eq!(bytes(&scene, container), bytes(&scene, container));
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! What a drawing links to, as the drawing names it.
+//!
+//! The compiler never opens files: it asks a [`Resolver`]. Every resolver follows the same rule, kept
+//! in [`inside`]: a link is a relative path that stays in the drawing's folder.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+/// Gives the bytes behind a link.
+pub trait Resolver {
+    /// Reads what `link`, written as in the drawing, leads to.
+    fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError>;
+}
+
+/// Why a link leads nowhere. Messages go behind the link's name: ``link `a.png` `` …
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum LinkError {
+    /// No such file.
+    #[error("is not there")]
+    Missing,
+    /// It leaves the drawing's folder, by `..` or by a symbolic link.
+    #[error("leads out of the drawing's folder")]
+    Outside,
+    /// It names a place on one machine.
+    #[error("is an absolute path")]
+    Absolute,
+    /// It names something on the net, or its scheme is not a file's.
+    #[error("is an address, not a file beside the drawing")]
+    Remote,
+    /// It is there but cannot be read; says why.
+    #[error("cannot be read: {0}")]
+    Unreadable(String),
+    /// It is longer than okoshi reads.
+    #[error("is larger than the limit of {} MiB", limit >> 20)]
+    TooLarge {
+        /// The limit in bytes.
+        limit: u64,
+    },
+}
+
+/// The relative path of `link`, with `/` between its parts and no `.` or `..` left, if it stays inside
+/// the folder that it starts from.
+///
+/// A backslash separates like a slash, so that a drawing means the same on every system.
+pub fn inside(link: &str) -> Result<String, LinkError> {
+    let link = link.replace('\\', "/");
+    if link.starts_with("//") {
+        return Err(LinkError::Remote);
+    }
+    if link.starts_with('/') {
+        return Err(LinkError::Absolute);
+    }
+    match scheme(&link) {
+        None => {}
+        // A drive letter.
+        Some(scheme) if scheme.len() == 1 || scheme.eq_ignore_ascii_case("file") => {
+            return Err(LinkError::Absolute);
+        }
+        Some(_) => return Err(LinkError::Remote),
+    }
+    if link.contains('\0') {
+        return Err(LinkError::Missing);
+    }
+    let mut parts = vec![];
+    for part in link.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => {
+                parts.pop().ok_or(LinkError::Outside)?;
+            }
+            part => parts.push(part),
+        }
+    }
+    match parts.is_empty() {
+        true => Err(LinkError::Missing),
+        false => Ok(parts.join("/")),
+    }
+}
+
+/// The spellings under which `link` is looked for: as it stands, then with `%20` and the like decoded,
+/// as links in XML are written.
+pub fn spellings(link: &str) -> impl Iterator<Item = String> {
+    let decoded = decode_percent(link).filter(|decoded| decoded != link);
+    std::iter::once(link.to_owned()).chain(decoded)
+}
+
+/// The first answer of `read` over the spellings of a link that is not [`LinkError::Missing`].
+///
+/// Both spellings are held to the rule of [`inside`]; an encoded `..` gains nothing.
+pub fn first_spelling<T>(
+    link: &str,
+    read: impl Fn(&str) -> Result<T, LinkError>,
+) -> Result<T, LinkError> {
+    spellings(link)
+        .map(|spelling| inside(&spelling).and_then(|path| read(&path)))
+        .find(|answer| !matches!(answer, Err(LinkError::Missing)))
+        .unwrap_or(Err(LinkError::Missing))
+}
+
+fn scheme(link: &str) -> Option<&str> {
+    let (scheme, _) = link.split_once(':')?;
+    let letter = scheme.starts_with(|c: char| c.is_ascii_alphabetic());
+    let rest = |c: char| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.');
+    (letter && scheme.chars().all(rest)).then_some(scheme)
+}
+
+/// None where the result would not be text; `%` without two hexadecimal digits stands for itself.
+fn decode_percent(link: &str) -> Option<String> {
+    let mut out = Vec::with_capacity(link.len());
+    let mut rest = link.as_bytes();
+    while let [byte, tail @ ..] = rest {
+        let digits = match (byte, tail) {
+            (b'%', [high, low, ..]) => hex(*high).zip(hex(*low)),
+            _ => None,
+        };
+        match digits {
+            Some((high, low)) => {
+                out.push(high << 4 | low);
+                rest = &tail[2..];
+            }
+            None => {
+                out.push(*byte);
+                rest = tail;
+            }
+        }
+    }
+    String::from_utf8(out).ok()
+}
+
+fn hex(digit: u8) -> Option<u8> {
+    char::from(digit).to_digit(16).map(|value| value as u8)
+}
+
+/// Files held in memory: for tests, and for drawings that come without a folder (then it is empty).
+#[derive(Debug, Clone, Default)]
+pub struct MemoryResolver {
+    files: BTreeMap<String, Arc<[u8]>>,
+}
+
+impl MemoryResolver {
+    /// Adds a file under its relative path.
+    #[must_use]
+    pub fn with(mut self, path: &str, bytes: impl Into<Arc<[u8]>>) -> Self {
+        self.files.insert(path.to_owned(), bytes.into());
+        self
+    }
+}
+
+impl Resolver for MemoryResolver {
+    fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
+        first_spelling(link, |path| {
+            self.files.get(path).cloned().ok_or(LinkError::Missing)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn links_stay_inside() {
+        for (link, expected) in [
+            ("a.png", Ok("a.png")),
+            ("./a/./b.png", Ok("a/b.png")),
+            ("a//b.png", Ok("a/b.png")),
+            ("a/../b.png", Ok("b.png")),
+            (r"a\b.png", Ok("a/b.png")),
+            ("腕 1.png", Ok("腕 1.png")),
+            ("..a", Ok("..a")),
+            ("../a.png", Err(LinkError::Outside)),
+            ("a/../../b.png", Err(LinkError::Outside)),
+            (r"..\a.png", Err(LinkError::Outside)),
+            ("/etc/passwd", Err(LinkError::Absolute)),
+            (r"\a", Err(LinkError::Absolute)),
+            ("file:///a.png", Err(LinkError::Absolute)),
+            ("File:a.png", Err(LinkError::Absolute)),
+            (r"C:\a.png", Err(LinkError::Absolute)),
+            ("c:a.png", Err(LinkError::Absolute)),
+            ("//server/a.png", Err(LinkError::Remote)),
+            (r"\\server\a.png", Err(LinkError::Remote)),
+            ("https://a.example/b.png", Err(LinkError::Remote)),
+            ("data:image/png;base64,AAAA", Err(LinkError::Remote)),
+            ("", Err(LinkError::Missing)),
+            ("a/..", Err(LinkError::Missing)),
+            ("a\0b", Err(LinkError::Missing)),
+        ] {
+            assert_eq!(inside(link), expected.map(str::to_owned), "{link}");
+        }
+    }
+
+    #[test]
+    fn percent_signs_are_read_both_ways() {
+        let files = MemoryResolver::default()
+            .with("a b.png", *b"space")
+            .with("100%.png", *b"percent")
+            .with("c%20d.png", *b"literal")
+            .with("c d.png", *b"decoded");
+        let read = |link| files.read(link).map(|bytes| bytes.to_vec());
+        assert_eq!(read("a%20b.png"), Ok(b"space".to_vec()));
+        assert_eq!(read("100%.png"), Ok(b"percent".to_vec()));
+        assert_eq!(read("100%25.png"), Ok(b"percent".to_vec()));
+        assert_eq!(read("c%20d.png"), Ok(b"literal".to_vec()));
+        assert_eq!(read("%2e%2e/a.png"), Err(LinkError::Outside));
+        assert_eq!(read("%2Fetc/passwd"), Err(LinkError::Absolute));
+        assert_eq!(read("%ff.png"), Err(LinkError::Missing));
+        assert_eq!(read("none.png"), Err(LinkError::Missing));
+    }
+}
