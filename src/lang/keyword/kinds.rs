@@ -1,0 +1,217 @@
+//! The kinds of `Shape`.
+
+use super::Status;
+use super::signature::{Bounds, Form, Grain, Parameter, Takes, number};
+
+/// What the table says about a kind of `Shape`.
+#[derive(Debug)]
+pub struct Kind {
+    /// How it is written.
+    pub name: &'static str,
+    /// Its parameters.
+    pub form: Form,
+    /// What they are where they are not given.
+    pub default: &'static str,
+    /// One line.
+    pub summary: &'static str,
+    /// The manual, in Markdown.
+    pub long: &'static str,
+    /// A whole string that uses it.
+    pub example: &'static str,
+    /// Whether this version acts upon it.
+    pub status: Status,
+}
+
+static ANGLES: [Parameter; 2] = [number("a0", Bounds::QUARTER), number("a1", Bounds::QUARTER)];
+static ROUND: [Parameter; 3] = [
+    number("a0", Bounds::QUARTER),
+    number("a1", Bounds::QUARTER),
+    number("r", Bounds::NOT_NEGATIVE),
+];
+static DEPTHS: [Parameter; 2] = [number("z0", Bounds::ANY), number("z1", Bounds::ANY)];
+static CONE: [Parameter; 3] = [
+    number("z0", Bounds::ANY),
+    number("z1", Bounds::ANY),
+    number("top", Bounds::NOT_NEGATIVE),
+];
+static HEIGHT: [Parameter; 1] = [number("h", Bounds::NOT_NEGATIVE)];
+static TURN: [Parameter; 1] = [number("degrees", Bounds::new(0., 360., Grain::Above))];
+static FILE: [Parameter; 1] = [Parameter {
+    name: "file.glb",
+    takes: Takes::File,
+}];
+static DEPTH: [Parameter; 1] = [number("z", Bounds::ANY)];
+
+const fn form(parameters: &'static [Parameter], counts: &'static [usize]) -> Form {
+    Form { parameters, counts }
+}
+
+/// All kinds, in the order of the reference.
+pub static KINDS: [Kind; 12] = [
+    Kind {
+        name: "default",
+        form: form(&DEPTHS, &[0, 2]),
+        default: "2.5 % of the page's diagonal to the front and to the back",
+        summary: "a plate: the outline from depth `z0` to depth `z1`",
+        long: "The drawn outline becomes a plate with straight walls, like something sawn out of \
+               wood. `z0` and `z1` say how far it reaches to the back (negative) and to the front \
+               (positive), in drawing units.",
+        example: "Ubody$Shape default -10 10",
+        status: Status::Built,
+    },
+    Kind {
+        name: "roundv",
+        form: form(&ANGLES, &[0, 2]),
+        default: "-90 90",
+        summary: "rounded about the part's axis: an arm, a leg, a trunk",
+        long: "The part is rounded about its long axis, so that a drawn bar becomes a cylinder and \
+               a drawn carrot a carrot. The angles say how much of the turn is kept: `-90 90` is \
+               the whole of it, `0 90` the front half, `-90 0` the back half.",
+        example: "Rarm@Ubody$Shape roundv -90 90",
+        status: Status::Built,
+    },
+    Kind {
+        name: "roundh",
+        form: form(&ANGLES, &[0, 2]),
+        default: "-90 90",
+        summary: "rounded across the part's axis: a wheel seen from its edge, a drum on its side",
+        long: "Like `roundv`, but rounded the other way: the cylinder lies across the part's long \
+               axis. The angles say how much of the turn is kept.",
+        example: "Drum$Shape roundh",
+        status: Status::Built,
+    },
+    Kind {
+        name: "round",
+        form: form(&ROUND, &[0, 2, 3]),
+        default: "-90 90, and as deep as the part's smaller half extent",
+        summary: "rounded on all sides: a ball, an egg, a head",
+        long: "The part is rounded both ways: a circle becomes a ball, an ellipse an egg. The \
+               angles say how much of the turn is kept (`0 90` is a dome), `r` how far it comes out \
+               of the drawing, in drawing units.",
+        example: "Head@Ubody$Shape round -90 90 25",
+        status: Status::Built,
+    },
+    Kind {
+        name: "cone",
+        form: form(&CONE, &[0, 2, 3]),
+        default: "0 20 0",
+        summary: "narrows from `z0` to `z1`: a cone, a pyramid, a nose",
+        long: "The outline stands in full size at depth `z0` and shrinks to `top` times its size at \
+               depth `z1`. A `top` of 0 is a point, 0.5 half the size, 1 a plate. A circle becomes \
+               a cone, a square a pyramid.",
+        example: "Nose@Head$Shape cone 0 12 0.2",
+        status: Status::Built,
+    },
+    Kind {
+        name: "conev",
+        form: form(&CONE, &[0, 2, 3]),
+        default: "0 20 0",
+        summary: "narrows across the axis only: a roof along the axis, a wedge",
+        long: "Like `cone`, but only the width across the part's axis shrinks. A bar becomes a roof \
+               whose ridge runs along the bar.",
+        example: "Roof$Shape conev 0 30",
+        status: Status::Built,
+    },
+    Kind {
+        name: "coneh",
+        form: form(&CONE, &[0, 2, 3]),
+        default: "0 20 0",
+        summary: "narrows along the axis only: a roof across the axis, a wedge",
+        long: "Like `cone`, but only the length along the part's axis shrinks. A bar becomes a roof \
+               whose ridge runs across the bar.",
+        example: "Roof$Shape coneh 0 30",
+        status: Status::Built,
+    },
+    Kind {
+        name: "inflate",
+        form: form(&HEIGHT, &[0, 1]),
+        default: "half the part's smaller extent",
+        summary: "blown up like a balloon: any outline, round inside",
+        long: "The outline is blown up to both sides, as if two pieces of cloth were sewn together \
+               along it and filled. `h` is the height of the highest point. Good for hands, leaves, \
+               clouds, animals: outlines for which the round kinds are too regular.",
+        example: "Cloud$Shape inflate 12",
+        status: Status::Planned,
+    },
+    Kind {
+        name: "lathe",
+        form: form(&TURN, &[0, 1]),
+        default: "360",
+        summary: "turned like a vase: half the outline, turned about the part's axis",
+        long: "The half of the outline on one side of the part's axis is turned about the axis, as \
+               on a potter's wheel. `degrees` is how far: 360 makes it whole, 180 half.",
+        example: "Vase$Shape lathe 360",
+        status: Status::Planned,
+    },
+    Kind {
+        name: "model",
+        form: form(&FILE, &[1]),
+        default: "",
+        summary: "a ready model from a file, fitted to the part's box",
+        long: "Instead of a solid made from the outline, a ready glTF model is put there, fitted to \
+               the part's box. The file must lie in the drawing's folder or below it.",
+        example: "Sword@Rarm$Shape model \"sword.glb\"",
+        status: Status::Planned,
+    },
+    Kind {
+        name: "flat",
+        form: form(&DEPTH, &[0, 1]),
+        default: "0",
+        summary: "the outline alone, like paper",
+        long: "The part stays a thin sheet that is seen from both sides. `z` is the depth at which \
+               it lies.",
+        example: "Eye@Head$Shape flat 26",
+        status: Status::Built,
+    },
+    Kind {
+        name: "none",
+        form: form(&[], &[0]),
+        default: "",
+        summary: "no solid: a joint only",
+        long: "The part makes no solid, but it is there as a joint on which other parts can hang.",
+        example: "Hips$Shape none",
+        status: Status::Built,
+    },
+];
+
+/// The kind that is written `name`, whatever its case.
+pub fn from_name(name: &str) -> Option<&'static Kind> {
+    KINDS.iter().find(|row| row.name.eq_ignore_ascii_case(name))
+}
+
+impl Kind {
+    /// The printed form: `round [a0 a1 [r]]`.
+    pub fn usage(&self) -> String {
+        format!("{} {}", self.name, self.form.print())
+            .trim_end()
+            .to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn usages_show_what_may_be_left_out() {
+        let usages: Vec<_> = KINDS.iter().map(Kind::usage).collect();
+        assert_eq!(
+            usages,
+            [
+                "default [z0 z1]",
+                "roundv [a0 a1]",
+                "roundh [a0 a1]",
+                "round [a0 a1 [r]]",
+                "cone [z0 z1 [top]]",
+                "conev [z0 z1 [top]]",
+                "coneh [z0 z1 [top]]",
+                "inflate [h]",
+                "lathe [degrees]",
+                "model \"file.glb\"",
+                "flat [z]",
+                "none",
+            ]
+        );
+        assert!(from_name("RoundV").is_some_and(|kind| kind.name == "roundv"));
+    }
+}

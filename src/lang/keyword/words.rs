@@ -1,0 +1,297 @@
+//! The small words: arguments that are one of a few, functions of expressions, kinds of string.
+
+use super::kinds;
+use crate::lang::ast::Function;
+
+/// A word that some attribute takes.
+#[derive(Debug)]
+pub struct Word {
+    /// How it is written.
+    pub name: &'static str,
+    /// One line.
+    pub summary: &'static str,
+}
+
+const fn word(name: &'static str, summary: &'static str) -> Word {
+    Word { name, summary }
+}
+
+/// The words of `Origin`.
+pub static ORIGIN: [Word; 3] = [
+    word("center", "the part's centre"),
+    word("start", "the end point nearer to the parent's centre"),
+    word("end", "the end point farther from the parent's centre"),
+];
+
+/// The words of `Ground`.
+pub static GROUND: [Word; 2] = [
+    word("bottom", "the middle of the figures' lower edge"),
+    word("page", "the page's top left corner"),
+];
+
+/// The words of `Bind`.
+pub static BIND: [Word; 2] = [
+    word(
+        "center",
+        "a string goes to the part whose centre is nearest",
+    ),
+    word(
+        "outline",
+        "a string goes to the part whose outline is nearest",
+    ),
+];
+
+/// The words of `Strokes`.
+pub static STROKES: [Word; 3] = [
+    word("none", "strokes are guides and make no parts"),
+    word("lines", "lines without a fill are parts"),
+    word("all", "lines and the borders of filled shapes are parts"),
+];
+
+/// The words of `Tile`.
+pub static TILE: [Word; 6] = [
+    word("green", "top of the ground"),
+    word("brown", "front of a cliff"),
+    word("blue", "water"),
+    word("red", "roof"),
+    word("beige", "wall of a house"),
+    word("none", "no tile at all"),
+];
+
+/// The signed axes of `Axes`.
+pub static AXES: [Word; 6] = [
+    word("+x", "along the world's x"),
+    word("-x", "against the world's x"),
+    word("+y", "along the world's y"),
+    word("-y", "against the world's y"),
+    word("+z", "along the world's z"),
+    word("-z", "against the world's z"),
+];
+
+/// What the reference says about a function of expressions.
+#[derive(Debug)]
+pub struct FunctionRow {
+    /// The function.
+    pub function: Function,
+    /// How it is written.
+    pub name: &'static str,
+    /// How many arguments it takes: the least and the most.
+    pub arguments: (usize, usize),
+    /// The printed form.
+    pub usage: &'static str,
+    /// One line.
+    pub summary: &'static str,
+    /// A whole string that uses it.
+    pub example: &'static str,
+}
+
+/// The functions of expressions.
+pub static FUNCTIONS: [FunctionRow; 6] = [
+    FunctionRow {
+        function: Function::Min,
+        name: "min",
+        arguments: (1, 64),
+        usage: "min(a, b, …)",
+        summary: "the smallest of the numbers",
+        example: "Hat$Shape default 0 (min(4, 6))",
+    },
+    FunctionRow {
+        function: Function::Max,
+        name: "max",
+        arguments: (1, 64),
+        usage: "max(a, b, …)",
+        summary: "the largest of the numbers",
+        example: "Hat$Shape default 0 (max(4, 6))",
+    },
+    FunctionRow {
+        function: Function::Abs,
+        name: "abs",
+        arguments: (1, 1),
+        usage: "abs(a)",
+        summary: "the number without its sign",
+        example: "Hat$Offset (abs(-3))",
+    },
+    FunctionRow {
+        function: Function::Sqrt,
+        name: "sqrt",
+        arguments: (1, 1),
+        usage: "sqrt(a)",
+        summary: "the square root; `a` must not be negative",
+        example: "Hat$Offset (sqrt(2) * 10)",
+    },
+    FunctionRow {
+        function: Function::Sin,
+        name: "sin",
+        arguments: (1, 1),
+        usage: "sin(degrees)",
+        summary: "the sine of an angle in degrees",
+        example: "Hat$Offset (10 * sin(30))",
+    },
+    FunctionRow {
+        function: Function::Cos,
+        name: "cos",
+        arguments: (1, 1),
+        usage: "cos(degrees)",
+        summary: "the cosine of an angle in degrees",
+        example: "Hat$Offset (10 * cos(60))",
+    },
+];
+
+impl Function {
+    /// The function that is written `name`.
+    pub fn from_name(name: &str) -> Option<Self> {
+        FUNCTIONS
+            .iter()
+            .find(|row| row.name.eq_ignore_ascii_case(name))
+            .map(|row| row.function)
+    }
+
+    /// The row of the table.
+    pub fn row(self) -> &'static FunctionRow {
+        &FUNCTIONS[self as usize]
+    }
+}
+
+/// What the reference says about a kind of string.
+#[derive(Debug)]
+pub struct StringRow {
+    /// What it starts with; empty for part strings.
+    pub sign: &'static str,
+    /// What it is called.
+    pub name: &'static str,
+    /// What it is bound to.
+    pub bound: &'static str,
+    /// One line.
+    pub summary: &'static str,
+    /// The manual, in Markdown.
+    pub long: &'static str,
+    /// A whole string.
+    pub example: &'static str,
+}
+
+/// The kinds of string.
+pub static STRINGS: [StringRow; 6] = [
+    StringRow {
+        sign: "#",
+        name: "comment",
+        bound: "nothing",
+        summary: "a note for people",
+        long: "Everything behind `#` is ignored. Use it to leave notes in the drawing.",
+        example: "# the left arm waves",
+    },
+    StringRow {
+        sign: "%",
+        name: "defaults",
+        bound: "nothing",
+        summary: "attributes for all parts, and settings of the whole drawing",
+        long: "Attributes in a `%` string hold for every part that does not say otherwise itself \
+               or by a legend. Settings of the whole drawing (`Scale`, `Ground` and so on) stand \
+               here and only here.\n\nThere may be several `%` strings, anywhere in the drawing. \
+               They add up from back to front; where two set the same thing the later one wins.",
+        example: "%Scale 2 Shape roundv",
+    },
+    StringRow {
+        sign: "*",
+        name: "unused",
+        bound: "a part",
+        summary: "the part is left out",
+        long: "The part that the string belongs to is left out of the model: a spare piece, a \
+               sample, a scribble. The rest of the string is a comment.",
+        example: "*Unuse",
+    },
+    StringRow {
+        sign: "$",
+        name: "legend",
+        bound: "a part",
+        summary: "a sample of paint that gives its attributes to all parts of that paint",
+        long: "Draw a small shape, fill it as your parts are filled, and write the legend beside \
+               it. The shape itself is left out of the model; every part with the same fill gets \
+               the attributes.\n\nIn an object's description (`<desc>`) `$ …` gives the attributes \
+               of that very object instead.",
+        example: "$Shape roundv Color #ffcc99",
+    },
+    StringRow {
+        sign: "",
+        name: "part",
+        bound: "a part",
+        summary: "names a part, hangs it on a parent, and gives its attributes",
+        long: "`Name` alone names the part. `Name@Parent` hangs it on another part: where the \
+               parent goes, it goes. Attributes stand behind `$`.\n\nA name with spaces, or with one \
+               of `@ $ ( )` in it, stands in quotes: `\"Left arm\"@Body`.",
+        example: "Rarm@Ubody$Shape roundv -90 90",
+    },
+    StringRow {
+        sign: "^",
+        name: "feature point",
+        bound: "an outline",
+        summary: "marks a point on the outline of a billboard's region",
+        long: "The same name in two views marks the same point on a region's outline, so that the \
+               outlines in between keep it.",
+        example: "^ nose",
+    },
+];
+
+/// Every word of the language that is no keyword: kinds, words of attributes, functions.
+pub fn all() -> impl Iterator<Item = &'static str> {
+    kinds::KINDS
+        .iter()
+        .map(|row| row.name)
+        .chain(choices().map(|word| word.name))
+        .chain(FUNCTIONS.iter().map(|row| row.name))
+}
+
+/// The words that attributes take.
+fn choices() -> impl Iterator<Item = &'static Word> {
+    ORIGIN
+        .iter()
+        .chain(&GROUND)
+        .chain(&BIND)
+        .chain(&STROKES)
+        .chain(&TILE)
+        .chain(&AXES)
+}
+
+/// Whether `word` means something in some attribute, colours included.
+pub fn is_known(word: &str) -> bool {
+    all().any(|known| known.eq_ignore_ascii_case(word)) || is_colour(word)
+}
+
+/// Whether `word` is a colour's name as in CSS.
+pub fn is_colour(word: &str) -> bool {
+    colour(word).is_some()
+}
+
+/// The colour that CSS calls `name`: red, green, blue and alpha, each 0 to 255.
+pub fn colour(name: &str) -> Option<[u8; 4]> {
+    use std::str::FromStr as _;
+    // Colour names of CSS are letters; functions and `currentColor` are no names.
+    if !name.bytes().all(|byte| byte.is_ascii_alphabetic()) || name.len() > 24 {
+        return None;
+    }
+    let lower = name.to_ascii_lowercase();
+    if lower == "currentcolor" {
+        return None;
+    }
+    let colour = svgtypes::Color::from_str(&lower).ok()?;
+    Some([colour.red, colour.green, colour.blue, colour.alpha])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn functions_stand_in_the_order_of_the_enum() {
+        for row in &FUNCTIONS {
+            assert_eq!(row.function.row().name, row.name);
+        }
+    }
+
+    #[test]
+    fn colours_are_those_of_css() {
+        assert_eq!(colour("Orange"), Some([255, 165, 0, 255]));
+        assert_eq!(colour("currentColor"), None);
+        assert_eq!(colour("rgb"), None);
+        assert_eq!(colour("orang"), None);
+    }
+}
