@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 /// Gives the bytes behind a link.
-pub trait Resolver {
+pub trait Resolver: Sync {
     /// Reads what `link`, written as in the drawing, leads to.
     fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError>;
 }

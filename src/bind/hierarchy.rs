@@ -88,7 +88,7 @@ fn automatic(
                 break name;
             }
         };
-        let nearest = tree.nearest_neighbors(part.measure.center.to_array());
+        let nearest = tree.nearest_neighbors(&part.measure.center.to_array());
         let parent = nearest.into_iter().map(|found| found.data).min();
         if sheet.annotated {
             let on = parent.map_or(String::new(), |parent| format!(" and hangs on `{}`", sheet.parts[parent].name));

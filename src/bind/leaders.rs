@@ -108,7 +108,7 @@ impl<'a> Context<'a> {
     fn string_at(&self, point: DVec2) -> Option<usize> {
         let near = AABB::from_corners((point - self.reach).to_array(), (point + self.reach).to_array());
         self.strings
-            .locate_in_envelope_intersecting(&near)
+            .locate_in_envelope_intersecting(near)
             .filter_map(|found| {
                 let Place::Label(label) = self.sheet.strings[found.data].place else { return None };
                 let label = &self.drawing.labels[label].0;

@@ -113,7 +113,7 @@ impl Points {
     /// The nearest index, the least one among equals.
     fn nearest(&self, to: DVec2) -> Option<usize> {
         let to = [to.x, to.y];
-        self.tree.nearest_neighbors(to).into_iter().filter_map(|point| self.first_at(point.geom())).min()
+        self.tree.nearest_neighbors(&to).into_iter().filter_map(|point| self.first_at(point.geom())).min()
     }
 
     /// Removes the least index at a point.
@@ -174,7 +174,7 @@ impl<'a> Parts<'a> {
         match self {
             Self::Centers { points, .. } => points.nearest(corner),
             Self::Outlines { tree, .. } => {
-                tree.nearest_neighbors([corner.x, corner.y]).into_iter().map(|shape| shape.index).min()
+                tree.nearest_neighbors(&[corner.x, corner.y]).into_iter().map(|shape| shape.index).min()
             }
         }
     }

@@ -144,7 +144,7 @@ fn below(
     let (Some(own), Some((low, high))) = (faces[part], bounds(&parts[part].outline)) else { return vec![] };
     let area = AABB::from_corners(low.to_array(), high.to_array());
     let mut found: Vec<usize> = tree
-        .locate_in_envelope_intersecting(&area)
+        .locate_in_envelope_intersecting(area)
         .take(MOST_BOXES)
         .map(|other| other.data)
         .filter(|other| *other < part)

@@ -38,14 +38,6 @@ struct Bud {
     parent: Option<usize>,
     mirrored: bool,
     copies: usize,
-    side: Side,
-}
-
-/// On which side of the drawing plane a copy of `-d` lies.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Front,
-    Back,
 }
 
 impl Tree {
@@ -63,13 +55,13 @@ impl Tree {
         let mut names: FxHashSet<String> = parts.iter().map(|part| part.name.clone()).collect();
         let mut branches: Vec<Branch> = Vec::with_capacity(parts.len());
         let mut buds: Vec<Bud> = Vec::new();
-        let sprout = |buds: &mut Vec<Bud>, part: usize, parent, mirrored, copies| {
-            let bud = |side, mirrored, copies| Bud { part, parent, mirrored, copies, side };
+        let sprout = |buds: &mut Vec<Bud>, part: usize, parent, mirrored: bool, copies| {
+            let bud = |mirrored, copies| Bud { part, parent, mirrored, copies };
             // The last one in is grown first: the copy stands behind its original.
             if model.sheet.shape(part).doubled {
-                buds.push(bud(Side::Back, !mirrored, copies + 1));
+                buds.push(bud(!mirrored, copies + 1));
             }
-            buds.push(bud(Side::Front, mirrored, copies));
+            buds.push(bud(mirrored, copies));
         };
         for root in roots.iter().rev() {
             sprout(&mut buds, *root, None, false, 0);

@@ -12,6 +12,11 @@ pub mod measure;
 mod query;
 mod touch;
 
+pub use clean::{clean, intersect, union};
+pub use flatten::flatten;
+pub use measure::{Measure, measure, measure_along};
+pub use query::{area, bounds, contains, distance_squared};
+
 use glam::DVec2;
 
 /// A ring of points without repetition of the first.

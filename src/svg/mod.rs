@@ -126,15 +126,30 @@ pub struct Line {
 /// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing.
 pub fn read(source: &str, tolerance: f64, resolver: &dyn Resolver) -> (Drawing, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
-    let drawing = match read_document(source, tolerance, resolver, &mut diagnostics) {
-        Ok(drawing) => drawing,
-        Err(diagnostic) => {
+    // usvg recurses over groups and clones, up to a thousand deep: more than a thread's usual stack holds.
+    let read = std::thread::scope(|scope| {
+        let work = || read_document(source, tolerance, resolver, &mut diagnostics);
+        let thread = std::thread::Builder::new().stack_size(READER_STACK).spawn_scoped(scope, work);
+        thread.map(|thread| thread.join())
+    });
+    let drawing = match read {
+        Ok(Ok(Ok(drawing))) => drawing,
+        Ok(Ok(Err(diagnostic))) => {
             diagnostics.push(*diagnostic);
+            Drawing::default()
+        }
+        Ok(Err(_)) | Err(_) => {
+            let message = "the drawing cannot be read: the SVG reader gave up on it";
+            let help = "open it in Inkscape, save it as Plain SVG, and tell us: this should not happen";
+            diagnostics.push(Diagnostic::new(Code::LimitPassed, Span::at(0), message).help(help));
             Drawing::default()
         }
     };
     (drawing, diagnostics)
 }
+
+/// Stack of the thread that reads drawings, bytes.
+const READER_STACK: usize = 256 << 20;
 
 fn read_document(
     source: &str,

@@ -12,10 +12,10 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
 /// How deep elements may be nested; usvg refuses a little more than this.
-pub const MAX_DEPTH: usize = 1000;
+pub(super) const MAX_DEPTH: usize = 1000;
 
 /// How many characters all entities of a drawing may become.
-pub const MAX_ENTITY_TEXT: usize = 16 << 20;
+pub(super) const MAX_ENTITY_TEXT: usize = 16 << 20;
 
 /// Elements that usvg turns into nodes.
 const JOINED: &[&str] = &[
@@ -24,7 +24,7 @@ const JOINED: &[&str] = &[
 
 /// The copy of a drawing's text that is parsed.
 #[derive(Debug, Clone)]
-pub struct Prepared {
+pub(super) struct Prepared {
     /// The text of the copy.
     pub text: String,
     /// What every id begins with that is not the drawing's own.
@@ -37,7 +37,7 @@ pub struct Prepared {
 
 impl Prepared {
     /// The original offset of the copy's byte `offset`; places inside something injected go to its start.
-    pub fn original(&self, offset: usize) -> usize {
+    pub(super) fn original(&self, offset: usize) -> usize {
         let next = self.replacements.partition_point(|[at, ..]| *at <= offset);
         match next.checked_sub(1).map(|last| self.replacements[last]) {
             None => offset,
@@ -47,7 +47,7 @@ impl Prepared {
     }
 
     /// The original place of a place in the copy.
-    pub fn span(&self, range: std::ops::Range<usize>) -> Span {
+    pub(super) fn span(&self, range: std::ops::Range<usize>) -> Span {
         Span::new(self.original(range.start), self.original(range.end))
     }
 }
@@ -64,7 +64,7 @@ struct Replacement {
 /// Nesting deeper than [`MAX_DEPTH`], and entities that grow beyond [`MAX_ENTITY_TEXT`]. Text that is not
 /// well-formed is no error here: the copy then equals the original from that place on, and the parser says
 /// what is wrong.
-pub fn prepare(text: &str) -> Result<Prepared, Box<Diagnostic>> {
+pub(super) fn prepare(text: &str) -> Result<Prepared, Box<Diagnostic>> {
     let mut prefix = "okoshi-".to_owned();
     while text.contains(&format!("\"{prefix}")) {
         prefix.push('-');
@@ -254,7 +254,7 @@ impl<'a> Scan<'a> {
 }
 
 /// The references in `text`: name, and the byte range of `&name;`.
-pub fn references(text: &str) -> impl Iterator<Item = (&str, std::ops::Range<usize>)> {
+pub(super) fn references(text: &str) -> impl Iterator<Item = (&str, std::ops::Range<usize>)> {
     text.match_indices('&').filter_map(move |(at, _)| {
         let tail = &text[at + 1..];
         let end = tail.find(';')?;
@@ -283,7 +283,7 @@ fn expand(text: &str, entities: &FxHashMap<String, String>) -> String {
 }
 
 /// The character that a predefined or numeric reference stands for.
-pub fn character(name: &str) -> Option<char> {
+pub(super) fn character(name: &str) -> Option<char> {
     match name {
         "amp" => Some('&'),
         "lt" => Some('<'),

@@ -124,7 +124,7 @@ fn unusable(error: &usvg::Error, document: &roxmltree::Document<'_>, prepared: &
     match error {
         usvg::Error::InvalidSize => Diagnostic::new(Code::OutOfRange, tag, "the page has no size")
             .help("give the drawing a page: in Inkscape, File → Document Properties → Resize to content"),
-        usvg::Error::ElementsLimitReached | usvg::Error::NodesLimitReached => Diagnostic::new(
+        usvg::Error::ElementsLimitReached => Diagnostic::new(
             Code::LimitPassed,
             tag,
             "the drawing has more than a million elements once its clones are drawn, or is nested too deep",
@@ -146,8 +146,21 @@ fn report_links(
             .flat_map(|node| node.attributes().collect::<Vec<_>>())
             .find(|attribute| attribute.name() == "href" && attribute.value() == href);
         let span = attribute.map_or(Span::at(0), |attribute| prepared.span(attribute.range_value()));
-        diagnostics.push(error.diagnostic(&href, span));
+        diagnostics.push(broken_link(&href, &error, span));
     }
+}
+
+/// What is wrong with a link.
+pub(crate) fn broken_link(link: &str, error: &LinkError, span: Span) -> Diagnostic {
+    let (code, help) = match error {
+        LinkError::Missing => (Code::MissingFile, "put the file beside the drawing, or write its name as it is"),
+        LinkError::Outside | LinkError::Absolute | LinkError::Remote => {
+            (Code::LinkOutside, "copy the file into the drawing's folder and link it there, or embed it")
+        }
+        LinkError::Unreadable(_) => (Code::MissingFile, "see whether the file can be opened"),
+        LinkError::TooLarge { .. } => (Code::LimitPassed, "use a smaller file"),
+    };
+    Diagnostic::new(code, span, format!("the link `{link}` {error}")).help(help)
 }
 
 fn page_corner(document: &roxmltree::Document<'_>) -> DVec2 {

@@ -4,7 +4,7 @@ use roxmltree::Node;
 use simplecss::{AttributeOperator, Declaration, PseudoClass, StyleSheet};
 
 /// The drawing's style sheets.
-pub struct Styles<'a> {
+pub(super) struct Styles<'a> {
     sheet: StyleSheet<'a>,
 }
 
@@ -35,7 +35,7 @@ impl simplecss::Element for Matched<'_, '_> {
 
 impl<'a> Styles<'a> {
     /// Reads the `<style>` elements of a document.
-    pub fn read(document: &'a roxmltree::Document<'_>) -> Self {
+    pub(super) fn read(document: &'a roxmltree::Document<'_>) -> Self {
         let mut sheet = StyleSheet::new();
         for node in document.descendants().filter(|node| node.is_element() && node.tag_name().name() == "style") {
             if matches!(node.attribute("type"), None | Some("" | "text/css")) {
@@ -48,7 +48,7 @@ impl<'a> Styles<'a> {
     }
 
     /// The value that `element` itself gives to `property`: its `style`, a rule, or its attribute.
-    pub fn own<'b>(&'b self, element: Node<'b, '_>, property: &str) -> Option<&'b str> {
+    pub(super) fn own<'b>(&'b self, element: Node<'b, '_>, property: &str) -> Option<&'b str> {
         let mut found: Option<(&'b str, bool)> = None;
         let mut take = |declaration: Declaration<'b>| {
             if declaration.name == property && (declaration.important || !found.is_some_and(|(_, important)| important)) {
@@ -70,7 +70,7 @@ impl<'a> Styles<'a> {
     }
 
     /// The value of an inherited property: the nearest ancestor's that gives one, the element included.
-    pub fn inherited<'b>(&'b self, element: Node<'b, '_>, property: &str) -> Option<&'b str> {
+    pub(super) fn inherited<'b>(&'b self, element: Node<'b, '_>, property: &str) -> Option<&'b str> {
         element
             .ancestors()
             .filter(|node| node.is_element())
@@ -78,7 +78,7 @@ impl<'a> Styles<'a> {
     }
 
     /// Whether the element and all it stands in is shown.
-    pub fn is_shown(&self, element: Node<'_, '_>) -> bool {
+    pub(super) fn is_shown(&self, element: Node<'_, '_>) -> bool {
         !matches!(self.inherited(element, "visibility"), Some("hidden" | "collapse"))
             && element
                 .ancestors()
@@ -87,7 +87,7 @@ impl<'a> Styles<'a> {
     }
 
     /// The font size in user units (CSS: medium is 16).
-    pub fn font_size(&self, element: Node<'_, '_>) -> f64 {
+    pub(super) fn font_size(&self, element: Node<'_, '_>) -> f64 {
         let mut factor = 1.0;
         for node in element.ancestors().filter(|node| node.is_element()) {
             let Some(value) = self.own(node, "font-size") else { continue };

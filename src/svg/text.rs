@@ -30,7 +30,7 @@ pub struct Label {
 }
 
 /// Reads a `<text>` or `<flowRoot>` element; `None` where it is hidden or has no place.
-pub fn read(node: Node<'_, '_>, styles: &Styles<'_>, prepared: &Prepared) -> Option<Label> {
+pub(super) fn read(node: Node<'_, '_>, styles: &Styles<'_>, prepared: &Prepared) -> Option<Label> {
     if !styles.is_shown(node) {
         return None;
     }
@@ -76,7 +76,7 @@ pub fn read(node: Node<'_, '_>, styles: &Styles<'_>, prepared: &Prepared) -> Opt
 ///
 /// A new line begins at a `tspan` with `sodipodi:role="line"`, with a `y`, or with a `dy` other than 0, and
 /// at every paragraph of flowed text.
-pub fn content(node: Node<'_, '_>, prepared: &Prepared) -> Text {
+pub(super) fn content(node: Node<'_, '_>, prepared: &Prepared) -> Text {
     let mut text = Text::default();
     collect(node, prepared, &mut text);
     text
@@ -215,7 +215,7 @@ fn width(line: &str) -> f64 {
 }
 
 /// From an element's own coordinates to the page's user units.
-pub fn page_transform(node: Node<'_, '_>) -> DAffine2 {
+pub(super) fn page_transform(node: Node<'_, '_>) -> DAffine2 {
     let mut chain: Vec<_> = node.ancestors().filter(|inner| inner.is_element()).collect();
     chain.reverse();
     let mut transform = DAffine2::IDENTITY;

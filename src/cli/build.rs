@@ -1,0 +1,176 @@
+//! `okoshi build`
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use rayon::prelude::*;
+
+use super::args::{Build, Common};
+use super::loading::{Detail, Loaded, describe, load, root};
+use super::progress::spinning;
+use super::{Outcome, fail, style};
+use crate::disk::{FolderResolver, write_atomic};
+use crate::gltf::{self, Container};
+
+/// Builds every drawing; several at once in parallel, reported in the order given.
+pub(super) fn run(arguments: &Build, common: Common) -> Outcome {
+    let outputs = match outputs(arguments) {
+        Ok(outputs) => outputs,
+        Err(message) => return fail(&message),
+    };
+    let built: Vec<(Outcome, String)> = spinning("building", || {
+        arguments
+            .drawings
+            .par_iter()
+            .zip(&outputs)
+            .map(|(drawing, output)| build(drawing, output, arguments, common))
+            .collect()
+    });
+    let mut worst = Outcome::Done;
+    for (outcome, text) in built {
+        eprint!("{text}");
+        worst = worst.max(outcome);
+    }
+    worst
+}
+
+/// Where each drawing's model goes.
+fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, String> {
+    let beside = |drawing: &Path| drawing.with_extension("glb");
+    let several = arguments.drawings.len() > 1;
+    if several && arguments.depfile.is_some() {
+        return Err("--depfile goes with one drawing; build the drawings one by one".to_owned());
+    }
+    let folder = arguments.output.as_ref().filter(|output| output.is_dir());
+    match (&arguments.output, folder) {
+        (Some(_), Some(folder)) => {
+            let name = |drawing: &PathBuf| match drawing.file_name() {
+                Some(name) if drawing.as_os_str() != "-" => Ok(folder.join(beside(Path::new(name)))),
+                _ => Err("a drawing from stdin has no name: name the output file with -o".to_owned()),
+            };
+            arguments.drawings.iter().map(name).collect()
+        }
+        (Some(_), None) if several => Err("with several drawings, -o must name a folder that exists".to_owned()),
+        (Some(output), None) => {
+            container(output)?;
+            Ok(vec![output.clone()])
+        }
+        (None, _) => {
+            let output = |drawing: &PathBuf| match drawing.as_os_str() == "-" {
+                true => Err("a drawing from stdin has no place of its own: name the output with -o".to_owned()),
+                false => Ok(beside(drawing)),
+            };
+            arguments.drawings.iter().map(output).collect()
+        }
+    }
+}
+
+/// The container that a file's ending asks for.
+fn container(output: &Path) -> Result<Container, String> {
+    let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    match ending.as_deref() {
+        _ if output.as_os_str() == "-" => Ok(Container::Glb),
+        Some("glb") => Ok(Container::Glb),
+        Some("gltf") => Ok(Container::Gltf),
+        Some("svg" | "svgz") => Err(format!(
+            "`{}` is a drawing, and okoshi never writes over drawings: the output must end in .glb or .gltf",
+            output.display()
+        )),
+        _ => Err(format!("the output `{}` must end in .glb or .gltf", output.display())),
+    }
+}
+
+fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (Outcome, String) {
+    let start = Instant::now();
+    let loaded = match load(drawing, &arguments.reading) {
+        Ok(loaded) => loaded,
+        Err(outcome) => return (outcome, String::new()),
+    };
+    let compiled = start.elapsed();
+    let mut text = describe(&loaded, common, Detail::Aside, style(common, &std::io::stderr()));
+    if loaded.compiled.has_errors() && !arguments.keep_going {
+        if !common.quiet {
+            let kept = if output.exists() { format!("; `{}` stays as it was", output.display()) } else { String::new() };
+            let _ = writeln!(text, "nothing was written{kept}");
+        }
+        return (Outcome::Errors, text);
+    }
+    let written = container(output).and_then(|container| {
+        write_atomic(output, |out| gltf::write(&loaded.compiled.scene, container, out)).map_err(|error| error.to_string())
+    });
+    let written = written.and_then(|()| match &arguments.depfile {
+        Some(depfile) => write_depfile(depfile, drawing, output, &loaded, arguments),
+        None => Ok(()),
+    });
+    if let Err(message) = written {
+        let _ = writeln!(text, "error: {message}");
+        return (Outcome::Failed, text);
+    }
+    if arguments.stats {
+        text.push_str(&stats(&loaded, output, compiled, start.elapsed()));
+    } else if !common.quiet {
+        let _ = writeln!(text, "wrote {}: {}", output.display(), summary(&loaded));
+    }
+    (loaded.outcome(), text)
+}
+
+fn triangles(loaded: &Loaded) -> usize {
+    let primitives = loaded.compiled.scene.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    primitives.map(|primitive| primitive.surface.triangles.len()).sum()
+}
+
+fn summary(loaded: &Loaded) -> String {
+    let nodes = loaded.compiled.scene.nodes.len();
+    format!("{nodes} node{}, {} triangles", if nodes == 1 { "" } else { "s" }, triangles(loaded))
+}
+
+/// What was built and how long it took, a line a figure.
+fn stats(loaded: &Loaded, output: &Path, compiled: Duration, whole: Duration) -> String {
+    let scene = &loaded.compiled.scene;
+    let primitives = scene.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let corners: usize = primitives.map(|primitive| primitive.surface.positions.len()).sum();
+    let milliseconds = |duration: Duration| format!("{:.1} ms", duration.as_secs_f64() * 1e3);
+    let bytes = std::fs::metadata(output).map_or(0, |metadata| metadata.len());
+    let rows = [
+        ("output", output.display().to_string()),
+        ("parts", loaded.compiled.sheet.parts.len().to_string()),
+        ("strings", loaded.compiled.sheet.strings.len().to_string()),
+        ("nodes", scene.nodes.len().to_string()),
+        ("meshes", scene.meshes.len().to_string()),
+        ("materials", scene.materials.len().to_string()),
+        ("triangles", triangles(loaded).to_string()),
+        ("corners", corners.to_string()),
+        ("bytes", bytes.to_string()),
+        ("compiled in", milliseconds(compiled)),
+        ("written in", milliseconds(whole - compiled)),
+    ];
+    rows.iter().fold(String::new(), |mut out, (name, value)| {
+        let _ = writeln!(out, "{name:>12}  {value}");
+        out
+    })
+}
+
+/// `output: drawing links…`, so that make and its kin know when to build again.
+fn write_depfile(depfile: &Path, drawing: &Path, output: &Path, loaded: &Loaded, arguments: &Build) -> Result<(), String> {
+    let resolver = FolderResolver::new(root(drawing, &arguments.reading));
+    let links = loaded.compiled.dependencies.iter().filter_map(|link| resolver.place(link).ok());
+    let inputs: Vec<String> = std::iter::once(drawing.to_path_buf()).chain(links).map(|path| for_make(&path)).collect();
+    let mut rule = format!("{}: {}\n", for_make(output), inputs.join(" "));
+    // A rule without recipe for each input keeps make going when one of them is gone.
+    inputs.iter().skip(1).for_each(|input| rule.push_str(&format!("{input}:\n")));
+    write_atomic(depfile, |out| out.write_all(rule.as_bytes())).map_err(|error| error.to_string())
+}
+
+/// A path as make wants it.
+fn for_make(path: &Path) -> String {
+    let mut out = String::new();
+    for c in path.display().to_string().chars() {
+        match c {
+            ' ' | '#' | '\\' => out.extend(['\\', c]),
+            '$' => out.push_str("$$"),
+            c => out.push(c),
+        }
+    }
+    out
+}

@@ -1,0 +1,124 @@
+//! Reading drawings for the commands.
+
+use std::borrow::Cow;
+use std::path::{Path, PathBuf};
+
+use super::args::{Common, Reading};
+use super::report::{self, Style};
+use super::{Findings, Outcome, fail};
+use crate::compile::{Compiled, Options, compile};
+use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::disk::{FolderResolver, decode, read_drawing};
+use crate::source::Span;
+
+/// How many hints a command that was not asked for them shows.
+const MOST_HINTS: usize = 10;
+/// How many findings are shown at all, unless everything is asked for.
+const MOST_FINDINGS: usize = 200;
+
+/// A drawing that was read and compiled.
+pub(super) struct Loaded {
+    /// As the user named it.
+    pub(super) path: String,
+    pub(super) text: String,
+    pub(super) compiled: Compiled,
+}
+
+impl Loaded {
+    pub(super) fn findings(&self) -> Findings<'_> {
+        Findings { path: &self.path, text: &self.text, diagnostics: &self.compiled.diagnostics }
+    }
+
+    pub(super) fn outcome(&self) -> Outcome {
+        if self.compiled.has_errors() { Outcome::Errors } else { Outcome::Done }
+    }
+}
+
+/// Reads and compiles a drawing.
+pub(super) fn load(path: &Path, reading: &Reading) -> Result<Loaded, Outcome> {
+    let name = if path.as_os_str() == "-" { "<stdin>".to_owned() } else { path.display().to_string() };
+    let bytes = read_drawing(path).map_err(|error| fail(&error.to_string()))?;
+    let lossy = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 12)]).into_owned();
+    let text = match decode(bytes) {
+        Ok(text) => text,
+        Err(error) => {
+            let help = "in Inkscape, File → Save As writes UTF-8; in an editor, choose the encoding when saving";
+            let diagnostic = Diagnostic::new(Code::NotUtf8, Span::at(0), error.to_string()).help(help);
+            let compiled = Compiled { diagnostics: vec![diagnostic], ..Compiled::default() };
+            return Ok(Loaded { path: name, text: lossy, compiled });
+        }
+    };
+    let resolver = FolderResolver::new(root(path, reading));
+    let options = Options { tolerance: reading.tolerance };
+    let compiled = compile(&text, &options, &resolver);
+    Ok(Loaded { path: name, text, compiled })
+}
+
+/// The folder that links are resolved in.
+pub(super) fn root(path: &Path, reading: &Reading) -> PathBuf {
+    reading.root.clone().unwrap_or_else(|| path.parent().map_or_else(PathBuf::new, Path::to_path_buf))
+}
+
+/// Which findings are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Detail {
+    /// The command was asked for findings: hints too.
+    Asked,
+    /// The command was asked for something else: a few hints.
+    Aside,
+}
+
+/// The findings of a drawing as text for people.
+pub(super) fn describe(loaded: &Loaded, common: Common, detail: Detail, style: Style) -> String {
+    let most_hints = match detail {
+        _ if common.quiet => 0,
+        _ if common.verbose => usize::MAX,
+        Detail::Asked => MOST_FINDINGS,
+        Detail::Aside => MOST_HINTS,
+    };
+    let most = if common.verbose { usize::MAX } else { MOST_FINDINGS };
+    let mut shown: Vec<Diagnostic> = Vec::new();
+    let mut hidden = [0_usize; 3];
+    let mut counts = [0_usize; 3];
+    for diagnostic in &loaded.compiled.diagnostics {
+        let slot = diagnostic.severity() as usize;
+        let limit = match diagnostic.severity() {
+            Severity::Error => most,
+            Severity::Warning if common.quiet => 0,
+            Severity::Warning => most,
+            Severity::Hint => most_hints,
+        };
+        counts[slot] += 1;
+        if counts[slot] <= limit {
+            shown.push(diagnostic.clone());
+        } else {
+            hidden[slot] += 1;
+        }
+    }
+    let mut out = report::human(Findings { diagnostics: &shown, ..loaded.findings() }, style);
+    if !common.quiet && hidden.iter().sum::<usize>() > 0 {
+        out.push_str(&format!("… and {}, which `okoshi check -v` shows\n", count(hidden)));
+    }
+    out
+}
+
+/// `2 errors, 1 warning`
+pub(super) fn count(counts: [usize; 3]) -> String {
+    let words = ["error", "warning", "hint"];
+    let parts: Vec<Cow<'_, str>> = counts
+        .into_iter()
+        .zip(words)
+        .filter(|(count, _)| *count > 0)
+        .map(|(count, word)| format!("{count} {word}{}", if count == 1 { "" } else { "s" }).into())
+        .collect();
+    parts.join(", ")
+}
+
+/// How many errors, warnings and hints there are.
+pub(super) fn tally(diagnostics: &[Diagnostic]) -> [usize; 3] {
+    let mut counts = [0; 3];
+    for diagnostic in diagnostics {
+        counts[diagnostic.severity() as usize] += 1;
+    }
+    counts
+}

@@ -1,0 +1,109 @@
+//! The `okoshi` command. No other module prints.
+//!
+//! Exit status: 0 done, 1 errors in a drawing, 2 wrong use, or a file that cannot be read or written.
+//! stdout carries only what was asked for.
+#![allow(clippy::print_stdout, clippy::print_stderr, reason = "this is the module that prints")]
+
+mod args;
+mod build;
+mod check;
+mod explain;
+mod inspect;
+pub mod json;
+mod loading;
+mod places;
+mod progress;
+pub mod report;
+#[cfg(test)]
+mod samples;
+pub mod sarif;
+
+use std::ffi::OsString;
+use std::io::{IsTerminal, Write};
+use std::process::ExitCode;
+
+use clap::{CommandFactory, Parser};
+
+use crate::diagnostic::Diagnostic;
+use args::{Cli, Color, Command, Common};
+use report::Style;
+
+/// A drawing and what was found in it, ready to be reported.
+#[derive(Debug, Clone, Copy)]
+pub struct Findings<'a> {
+    /// The drawing as the user named it.
+    pub path: &'a str,
+    /// Its text, which the spans are about.
+    pub text: &'a str,
+    /// What was found.
+    pub diagnostics: &'a [Diagnostic],
+}
+
+/// Indented JSON. Reports hold texts and numbers only, so writing them does not fail.
+fn pretty(report: &impl serde::Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(report).unwrap_or_default();
+    text.push('\n');
+    text
+}
+
+/// How a command ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Outcome {
+    Done,
+    /// A drawing has errors.
+    Errors,
+    /// Wrong use, or a file that cannot be read or written.
+    Failed,
+}
+
+/// Runs the command with its arguments, the program's name first.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    let cli = match Cli::try_parse_from(arguments) {
+        Ok(cli) => cli,
+        Err(error) => {
+            let _ = error.print();
+            return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
+        }
+    };
+    let outcome = match &cli.command {
+        Command::Build(arguments) => build::run(arguments, cli.common),
+        Command::Check(arguments) => check::run(arguments, cli.common),
+        Command::Inspect(arguments) => inspect::run(arguments, cli.common),
+        Command::Explain { topic } => explain::run(topic.as_deref(), cli.common),
+        Command::Completions { shell } => {
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Cli::command(), "okoshi", &mut script);
+            print_out(&String::from_utf8_lossy(&script))
+        }
+    };
+    ExitCode::from(match outcome {
+        Outcome::Done => 0,
+        Outcome::Errors => 1,
+        Outcome::Failed => 2,
+    })
+}
+
+/// Prints what was asked for. A reader that goes away early, `head` for example, is no failure.
+fn print_out(text: &str) -> Outcome {
+    let mut out = std::io::stdout().lock();
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => fail(&format!("stdout cannot be written: {error}")),
+        _ => Outcome::Done,
+    }
+}
+
+/// Says why a command cannot go on.
+fn fail(message: &str) -> Outcome {
+    eprintln!("error: {message}");
+    Outcome::Failed
+}
+
+/// Whether to use colours on a stream.
+fn style(common: Common, stream: &impl IsTerminal) -> Style {
+    let colored = match common.color {
+        Color::Always => true,
+        Color::Never => false,
+        Color::Auto => stream.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+    };
+    if colored { Style::Colored } else { Style::Plain }
+}
