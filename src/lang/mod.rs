@@ -8,10 +8,29 @@
 //! the `Let` of all `%` strings, and [`settings`] checks the attributes and computes their values.
 
 pub mod ast;
+pub mod check;
 pub mod keyword;
 pub mod parse;
 pub mod value;
+pub mod variables;
 
+mod evaluate;
 mod folded;
+#[cfg(test)]
+mod tests;
 
+pub use check::settings;
 pub use parse::{Place, looks_like_string, parse};
+pub use variables::Variables;
+
+use crate::diagnostic::Diagnostic;
+use crate::source::Text;
+
+/// Drops fixes that would replace tags between the parts of a text along with it.
+fn keep_safe_fixes(text: &Text, diagnostics: &mut [Diagnostic]) {
+    for diagnostic in diagnostics {
+        diagnostic
+            .fixes
+            .retain(|fix| fix.edits.iter().all(|edit| text.is_whole(edit.span)));
+    }
+}

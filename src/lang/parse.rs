@@ -42,6 +42,7 @@ pub fn parse(text: &Text, place: Place) -> (Annotation, Vec<Diagnostic>) {
     if !matches!(annotation, Annotation::Caption | Annotation::Empty) {
         diagnostics.extend(full_width(text, &folded));
     }
+    super::keep_safe_fixes(text, &mut diagnostics);
     (annotation, diagnostics)
 }
 
