@@ -146,6 +146,22 @@ impl Text {
         self.span(0..self.text.len())
     }
 
+    /// Whether all bytes of `span` are this text's, none of them tags or comments between its parts: only
+    /// then they can be replaced as one.
+    pub fn is_whole(&self, span: Span) -> bool {
+        let from = self
+            .runs
+            .partition_point(|run| run.raw + run.raw_len <= span.start);
+        let mut at = span.start;
+        for run in &self.runs[from..] {
+            if at >= span.end || run.raw > at {
+                break;
+            }
+            at = at.max(run.raw + run.raw_len);
+        }
+        at >= span.end
+    }
+
     /// The decoded offset of the character at the drawing's byte `raw`, if one of the text's characters is there
     /// (the end of the text included).
     pub fn offset_of(&self, raw: usize) -> Option<usize> {
@@ -266,6 +282,15 @@ mod tests {
         assert_eq!(text.span(5..5), Span::at(40));
         assert_eq!(text.span(7..7), Span::at(42));
         assert_eq!(text.whole(), Span::new(10, 42));
+    }
+
+    #[test]
+    fn bytes_between_the_parts_are_not_the_texts() {
+        let text = mixed();
+        assert!(text.is_whole(Span::new(10, 18)));
+        assert!(text.is_whole(Span::new(40, 42)));
+        assert!(text.is_whole(Span::at(30)));
+        assert!(!text.is_whole(Span::new(17, 41)));
     }
 
     #[test]

@@ -78,6 +78,10 @@ codes! {
     UnknownFlag = "E113", "unknown flag";
     /// An expression in parentheses that cannot be read.
     BadExpression = "E114", "malformed expression";
+    /// A name with spaces or signs in it that does not stand in quotes.
+    UnquotedName = "E115", "name needs quotes";
+    /// Attributes without a `$` before them.
+    MissingSign = "E116", "missing sign";
 
     // Strings and parts
     /// A string, and no part left for it.

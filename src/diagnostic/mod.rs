@@ -150,9 +150,12 @@ pub fn nearest_word<'a>(
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
     let word = word.to_lowercase();
-    let allowed = (word.chars().count() / 3).max(1);
+    let letters = word.chars().count();
+    let allowed = (letters / 3).max(1);
     candidates
         .into_iter()
+        // Comparing takes time and memory of the product of both lengths.
+        .filter(|candidate| candidate.chars().count().abs_diff(letters) <= allowed.min(64))
         .map(|candidate| {
             (
                 strsim::damerau_levenshtein(&word, &candidate.to_lowercase()),

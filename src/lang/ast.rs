@@ -84,6 +84,8 @@ pub enum ArgumentKind {
     Quoted(String),
     /// `#rrggbb`, without the sign
     Hex(String),
+    /// Something that could not be read; a diagnostic says why, so that nothing else need be said.
+    Unreadable,
 }
 
 /// An arithmetic expression.

@@ -1,0 +1,128 @@
+//! The diagnostics of attributes as a whole.
+
+use std::ops::Range;
+
+use super::{Checker, takes_a_name};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lang::ast::Attribute;
+use crate::lang::keyword::{Holder, Keyword};
+
+impl Checker<'_> {
+    pub(super) fn not_allowed(&mut self, attribute: &Attribute, holder: Holder) {
+        let name = attribute.keyword.name();
+        let here = match holder {
+            Holder::Part => "in a part string",
+            Holder::Legend => "in a legend",
+            Holder::Defaults => "in a `%` string",
+        };
+        let span = self.text.span(attribute.keyword_range.clone());
+        let places = attribute.keyword.row().allowed.places();
+        self.diagnostics.push(
+            Diagnostic::new(
+                Code::NotAllowedHere,
+                span,
+                format!("`{name}` cannot stand {here}"),
+            )
+            .help(format!("`{name}` stands {places}")),
+        );
+    }
+
+    pub(super) fn given_twice(&mut self, later: &Attribute, earlier: &Attribute) {
+        let name = later.keyword.name();
+        let related = self.text.span(earlier.range.clone());
+        self.diagnostics.push(
+            Diagnostic::new(
+                Code::GivenTwice,
+                self.text.span(later.keyword_range.clone()),
+                format!("`{name}` is given twice"),
+            )
+            .label("this one holds")
+            .related(related, "this one has no effect")
+            .help("delete one of them"),
+        );
+    }
+
+    pub(super) fn not_built(&mut self, name: &str, range: Range<usize>) {
+        self.diagnostics.push(
+            Diagnostic::new(
+                Code::NotBuiltYet,
+                self.text.span(range),
+                format!("`{name}` has no effect in this version"),
+            )
+            .label("understood, but not built yet"),
+        );
+    }
+
+    pub(super) fn unknown_flag(
+        &mut self,
+        attribute: &Attribute,
+        letter: char,
+        range: Range<usize>,
+    ) {
+        let name = attribute.keyword.name();
+        let flags = attribute.keyword.row().flags;
+        let mut diagnostic = Diagnostic::new(
+            Code::UnknownFlag,
+            self.text.span(range.clone()),
+            format!("`{name}` has no flag `-{letter}`"),
+        );
+        let word: String = attribute.flags.iter().map(|(letter, _)| *letter).collect();
+        if flags.is_empty() {
+            // Directly behind a keyword `-w` reads as flags.
+            let all = match (attribute.flags.first(), attribute.flags.last()) {
+                (Some((_, first)), Some((_, last))) => first.start.saturating_sub(1)..last.end,
+                _ => range,
+            };
+            let sign = self.text.as_str().get(all.clone());
+            if sign.is_some_and(|written| written.starts_with('-')) {
+                diagnostic = diagnostic
+                    .help(format!(
+                        "if `{word}` is a variable, write it in parentheses: `(-{word})`"
+                    ))
+                    .fix(
+                        format!("Write `(-{word})`"),
+                        self.text.span(all.clone()),
+                        self.text.escape_at(all.start, &format!("(-{word})")),
+                    );
+            }
+        } else {
+            let known: Vec<_> = flags
+                .iter()
+                .map(|flag| format!("`-{}` {}", flag.letter, flag.summary))
+                .collect();
+            diagnostic = diagnostic.help(format!("its flags are: {}", known.join("; ")));
+        }
+        self.diagnostics.push(diagnostic);
+    }
+
+    /// A keyword that needs arguments and has none.
+    pub(super) fn nothing_given(&mut self, attribute: &Attribute, before: Option<&Attribute>) {
+        let name = attribute.keyword.name();
+        let usage = attribute.keyword.usages().join("`, or `");
+        let range = attribute.keyword_range.clone();
+        let span = self.text.span(range.clone());
+        let diagnostic = Diagnostic::new(
+            Code::ArgumentCount,
+            span,
+            format!("`{name}` stands here without arguments"),
+        );
+        let written = self.text.as_str().get(range.clone()).unwrap_or(name);
+        let diagnostic = match before.filter(|before| takes_a_name(before)) {
+            Some(before) if before.keyword == Keyword::Let => diagnostic.help(format!(
+                "a variable cannot be called `{written}`, since that is a keyword"
+            )),
+            Some(before) => diagnostic
+                .help(format!(
+                    "write `{usage}`; if it is a name for `{}`, put it in quotes",
+                    before.keyword.name()
+                ))
+                .fix(
+                    "Put it in quotes",
+                    span,
+                    self.text.escape_at(range.start, &format!("\"{written}\"")),
+                ),
+            None => diagnostic.help(format!("write `{usage}`")),
+        };
+        self.diagnostics.push(diagnostic);
+    }
+}

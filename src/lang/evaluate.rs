@@ -1,0 +1,116 @@
+//! The value of an expression.
+
+use super::ast::{Expression, Function, Name};
+
+/// What is known about a variable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Known {
+    /// Its value.
+    Value(f64),
+    /// It is defined, but not well; its definition has the diagnostic.
+    Broken,
+    /// Nothing defines it.
+    Unknown,
+}
+
+/// Why an expression has no value.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Failure {
+    /// A variable that nothing defines.
+    Unknown(Name),
+    /// A variable without a value, of which its definition tells.
+    Broken,
+    /// There is no such number.
+    NoNumber(&'static str),
+}
+
+/// Computes `expression`.
+pub(super) fn evaluate(
+    expression: &Expression,
+    variable: &dyn Fn(&str) -> Known,
+) -> Result<f64, Failure> {
+    let value = match expression {
+        Expression::Number(value) => *value,
+        Expression::Variable(name) => match variable(&name.text) {
+            Known::Value(value) => value,
+            Known::Broken => return Err(Failure::Broken),
+            Known::Unknown => return Err(Failure::Unknown(name.clone())),
+        },
+        Expression::Negate(inner) => -evaluate(inner, variable)?,
+        Expression::Binary(sign, left, right) => {
+            let (left, right) = (evaluate(left, variable)?, evaluate(right, variable)?);
+            match sign {
+                '+' => left + right,
+                '-' => left - right,
+                '*' => left * right,
+                _ if right == 0. => return Err(Failure::NoNumber("divides by zero")),
+                _ => left / right,
+            }
+        }
+        Expression::Call(function, arguments) => {
+            let mut values = vec![];
+            for argument in arguments {
+                values.push(evaluate(argument, variable)?);
+            }
+            call(*function, &values)?
+        }
+    };
+    match value.is_finite() {
+        true => Ok(value),
+        false => Err(Failure::NoNumber("is too large to reckon with")),
+    }
+}
+
+fn call(function: Function, values: &[f64]) -> Result<f64, Failure> {
+    let first = values.first().copied().unwrap_or(0.);
+    Ok(match function {
+        Function::Min => values.iter().copied().fold(first, f64::min),
+        Function::Max => values.iter().copied().fold(first, f64::max),
+        Function::Abs => first.abs(),
+        Function::Sqrt if first < 0. => {
+            return Err(Failure::NoNumber(
+                "takes the square root of a negative number",
+            ));
+        }
+        Function::Sqrt => first.sqrt(),
+        Function::Sin => sine(first),
+        Function::Cos => sine(first + 90.),
+    })
+}
+
+/// The sine of an angle in degrees, exact where it is 0, ½ or 1.
+fn sine(degrees: f64) -> f64 {
+    let turn = degrees.rem_euclid(360.);
+    let (sign, half) = match turn < 180. {
+        true => (1., turn),
+        false => (-1., turn - 180.),
+    };
+    let quarter = half.min(180. - half);
+    let value = match quarter {
+        0. => return 0.,
+        30. => 0.5,
+        90. => 1.,
+        quarter => quarter.to_radians().sin(),
+    };
+    sign * value
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn round_angles_are_exact() {
+        for (degrees, value) in [
+            (0., 0.),
+            (30., 0.5),
+            (150., 0.5),
+            (180., 0.),
+            (-90., -1.),
+            (210., -0.5),
+        ] {
+            assert_eq!(sine(degrees), value, "{degrees}");
+        }
+        assert!((sine(45.) - 0.5_f64.sqrt()).abs() < 1e-15);
+    }
+}

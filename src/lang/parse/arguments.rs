@@ -1,0 +1,330 @@
+//! Arguments: numbers, words, quotes, colours and expressions.
+
+use std::ops::Range;
+
+use nom::Err;
+
+use super::expression::{DEPTH, Fault, OPERATIONS, Reader};
+use super::names::shorten;
+use super::{Parser, lexical, slips};
+use crate::diagnostic::{Code, Diagnostic, nearest_word};
+use crate::lang::ast::{Argument, ArgumentKind, Expression, Function};
+use crate::lang::keyword::Keyword;
+use crate::lang::keyword::signature::Takes;
+use crate::lang::keyword::words::FUNCTIONS;
+
+impl Parser<'_> {
+    /// Reads the argument that comes next; there is one.
+    pub(super) fn argument(
+        &mut self,
+        keyword: Keyword,
+        flags: &[(char, Range<usize>)],
+        before: &[Argument],
+    ) -> Argument {
+        let start = self.at;
+        let kind = match self.peek() {
+            Some('"') => self.quoted(),
+            Some('(') => self.expression(),
+            Some(')') => {
+                self.at += 1;
+                self.stray_parenthesis(start)
+            }
+            Some(_) => self.run(keyword, flags, before),
+            None => ArgumentKind::Unreadable,
+        };
+        Argument {
+            kind,
+            range: self.range(start..self.at),
+        }
+    }
+
+    fn quoted(&mut self) -> ArgumentKind {
+        if let Ok((rest, text)) = lexical::quoted(self.rest()) {
+            self.move_to(rest);
+            return ArgumentKind::Quoted(text.to_owned());
+        }
+        let start = self.at;
+        self.at += 1;
+        self.skip_to_attribute(false);
+        let end = start + self.folded.as_str()[start..self.at].trim_end().len();
+        self.at = end;
+        let diagnostic = Diagnostic::new(
+            Code::UnclosedQuote,
+            self.span(start..start + 1),
+            "this quote is never closed",
+        )
+        .fix(
+            "Close the quote",
+            self.span(end..end),
+            self.escape(end, "\""),
+        );
+        self.report(diagnostic);
+        ArgumentKind::Unreadable
+    }
+
+    fn stray_parenthesis(&mut self, start: usize) -> ArgumentKind {
+        let span = self.span(start..start + 1);
+        let diagnostic = Diagnostic::new(
+            Code::UnclosedParenthesis,
+            span,
+            "this `)` closes nothing: `(` is missing",
+        )
+        .fix("Delete it", span, "");
+        self.report(diagnostic);
+        ArgumentKind::Unreadable
+    }
+
+    fn expression(&mut self) -> ArgumentKind {
+        let folded = self.folded;
+        let whole = folded.as_str();
+        let start = self.at;
+        let (close, region) = match closing(self.rest()) {
+            Ok(close) => (Some(start + close), start + close),
+            Err(end) => (None, start + end),
+        };
+        let reader = Reader::new(folded);
+        let parsed = reader.sum(&whole[start + 1..], DEPTH);
+        let Some(close) = close else {
+            // What can be read of it is the calculation; go on behind that.
+            self.at = match &parsed {
+                Ok((rest, _)) => (whole.len() - rest.len()).min(region),
+                Err(_) => start + whole[start..region].trim_end().len(),
+            };
+            let end = self.at;
+            let diagnostic = Diagnostic::new(
+                Code::UnclosedParenthesis,
+                self.span(start..start + 1),
+                "this parenthesis is never closed",
+            )
+            .fix("Close it", self.span(end..end), self.escape(end, ")"));
+            self.report(diagnostic);
+            return ArgumentKind::Unreadable;
+        };
+        self.at = close + 1;
+        let fault = match parsed {
+            Ok((rest, value)) if whole.len() - rest.trim_start().len() == close => {
+                return ArgumentKind::Expression(value);
+            }
+            Ok((rest, _)) => {
+                Fault::Expected("a sign of arithmetic is due here", rest.trim_start().len())
+            }
+            Err(Err::Error(fault) | Err::Failure(fault)) => fault,
+            Err(Err::Incomplete(_)) => Fault::Mismatch,
+        };
+        let diagnostic = self.fault(fault, start..close + 1);
+        self.report(diagnostic);
+        ArgumentKind::Unreadable
+    }
+
+    /// What a fault of the expression in `range` is called.
+    fn fault(&self, fault: Fault, range: Range<usize>) -> Diagnostic {
+        let whole = self.folded.as_str();
+        let written = shorten(&whole[range.clone()]);
+        match fault {
+            Fault::Mismatch => Diagnostic::new(
+                Code::BadExpression,
+                self.span(range),
+                format!("`{written}` cannot be read as a calculation"),
+            ),
+            Fault::Expected(what, rest) => {
+                let at = (whole.len() - rest).min(range.end - 1);
+                let length = lexical::run(&whole[at..]).max(1);
+                let end = (at + length).min(range.end.max(at + 1));
+                Diagnostic::new(
+                    Code::BadExpression,
+                    self.span(at..end),
+                    format!("`{written}` cannot be read as a calculation"),
+                )
+                .label(what)
+            }
+            Fault::UnknownFunction(name, rest) => {
+                let at = whole.len() - rest;
+                let range = at..at + name.len();
+                let mut diagnostic = Diagnostic::new(
+                    Code::UnknownWord,
+                    self.span(range.clone()),
+                    format!("`{}` is no function", shorten(&name)),
+                )
+                .help(format!("the functions are {}", function_names()));
+                let names = FUNCTIONS.iter().map(|row| row.name);
+                if let Some(near) = nearest_word(&name, names) {
+                    diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
+                        format!("Write `{near}`"),
+                        self.span(range),
+                        near,
+                    );
+                }
+                diagnostic
+            }
+            Fault::ArgumentCount(function, from, to) => {
+                let row = function.row();
+                Diagnostic::new(
+                    Code::ArgumentCount,
+                    self.span(whole.len() - from..whole.len() - to),
+                    format!("`{}` takes {}", row.name, count(row.arguments.0)),
+                )
+                .help(format!("write `{}`", row.usage))
+            }
+            Fault::TooLarge(from, to) => Diagnostic::new(
+                Code::OutOfRange,
+                self.span(whole.len() - from..whole.len() - to),
+                "this number is too large to reckon with",
+            ),
+            Fault::Limit => Diagnostic::new(
+                Code::LimitPassed,
+                self.span(range),
+                format!(
+                    "this calculation is nested deeper than {DEPTH} parentheses or has more than \
+                     {OPERATIONS} signs"
+                ),
+            )
+            .help("give parts of it names with `Let`"),
+        }
+    }
+
+    fn run(
+        &mut self,
+        keyword: Keyword,
+        flags: &[(char, Range<usize>)],
+        before: &[Argument],
+    ) -> ArgumentKind {
+        let start = self.at;
+        let rest = self.rest();
+        let length = lexical::run(rest).max(rest.chars().next().map_or(0, char::len_utf8));
+        let run = &rest[..length];
+        self.at += length;
+        if lexical::is(run, lexical::number) {
+            return match run.parse::<f64>() {
+                Ok(value) if value.is_finite() => ArgumentKind::Number(value),
+                _ => {
+                    let diagnostic = Diagnostic::new(
+                        Code::OutOfRange,
+                        self.span(start..self.at),
+                        format!("`{}` is too large to reckon with", shorten(run)),
+                    );
+                    self.report(diagnostic);
+                    ArgumentKind::Unreadable
+                }
+            };
+        }
+        let calls = rest[length..].starts_with('(') && Function::from_name(run).is_some();
+        if calls {
+            return self.bare_call(start);
+        }
+        if lexical::is(run, lexical::word)
+            || (lexical::is(run, lexical::signed_axis)
+                && takes(keyword, |takes| matches!(takes, Takes::SignedAxis)))
+        {
+            return ArgumentKind::Word(run.to_owned());
+        }
+        if let Ok((behind, digits)) = lexical::hex(run)
+            && behind.is_empty()
+        {
+            return ArgumentKind::Hex(digits.to_owned());
+        }
+        let named = run.starts_with(|c: char| c.is_alphabetic() || c == '_');
+        if named && takes(keyword, |takes| matches!(takes, Takes::Names)) {
+            return ArgumentKind::Word(run.to_owned());
+        }
+        let commas_said = before.iter().any(|argument| {
+            argument.kind == ArgumentKind::Unreadable
+                && self.text.as_str()[argument.range.clone()].contains([',', '，'])
+        });
+        if run.contains(',') && commas_said {
+            return ArgumentKind::Unreadable;
+        }
+        let slip = slips::Slip {
+            keyword,
+            flags,
+            before,
+            run,
+        };
+        let place = slips::At {
+            text: self.text,
+            range: self.range(start..start + length),
+        };
+        let diagnostic = slips::malformed(&slip, &place, self.is_calculation(run));
+        self.report(diagnostic);
+        ArgumentKind::Unreadable
+    }
+
+    /// `min(1, 2)` without parentheses around it.
+    fn bare_call(&mut self, start: usize) -> ArgumentKind {
+        let whole = self.folded.as_str();
+        let Ok(close) = closing(self.rest()) else {
+            return self.expression();
+        };
+        self.at += close + 1;
+        let written = &whole[start..self.at];
+        let span = self.span(start..self.at);
+        let fixed = format!("({written})");
+        let diagnostic = Diagnostic::new(
+            Code::BadExpression,
+            span,
+            format!("the calculation `{}` needs parentheses", shorten(written)),
+        )
+        .fix("Put it in parentheses", span, self.escape(start, &fixed));
+        self.report(diagnostic);
+        ArgumentKind::Unreadable
+    }
+
+    /// Whether `run`, a stretch of the string, would be a calculation in parentheses.
+    fn is_calculation(&self, run: &str) -> bool {
+        let folded = super::Folded::new(run);
+        let reader = Reader::new(&folded);
+        let parsed = reader.sum(folded.as_str(), DEPTH);
+        matches!(
+            parsed,
+            Ok(("", Expression::Binary(..) | Expression::Negate(_)))
+        )
+    }
+}
+
+/// Whether some form of the keyword takes such an argument.
+fn takes(keyword: Keyword, what: fn(&Takes) -> bool) -> bool {
+    let mut parameters = keyword.row().forms.iter().flat_map(|form| form.parameters);
+    parameters.any(|parameter| what(&parameter.takes))
+}
+
+/// The offset of the parenthesis that closes the one at the start of `rest`; if there is none, where
+/// the calculation ends at the latest: at a keyword, a sign, a quote, or with the string.
+fn closing(rest: &str) -> Result<usize, usize> {
+    let mut depth = 0_usize;
+    let mut word = true;
+    for (at, c) in rest.char_indices() {
+        match c {
+            '(' => depth += 1,
+            ')' => {
+                depth -= 1;
+                if depth == 0 {
+                    return Ok(at);
+                }
+            }
+            '$' | '@' | '"' | '%' => return Err(at),
+            c if word && c.is_alphabetic() => {
+                let read = lexical::word(&rest[at..]);
+                if read.is_ok_and(|(_, word)| Keyword::from_name(word).is_some()) {
+                    return Err(at);
+                }
+            }
+            _ => {}
+        }
+        word = !lexical::in_word(c);
+    }
+    Err(rest.len())
+}
+
+fn count(number: usize) -> String {
+    match number {
+        1 => "one number".to_owned(),
+        number => format!("{number} numbers"),
+    }
+}
+
+fn function_names() -> String {
+    let names: Vec<_> = FUNCTIONS
+        .iter()
+        .map(|row| format!("`{}`", row.name))
+        .collect();
+    names.join(", ")
+}

@@ -1,0 +1,205 @@
+//! What holds for every string.
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::diagnostic::Code;
+
+/// Pieces that strings are made of, well or badly put together.
+fn piece() -> impl Strategy<Value = String> {
+    prop_oneof![
+        prop::sample::select(vec![
+            "%",
+            "$",
+            "@",
+            "*",
+            "#",
+            "^",
+            "\"",
+            "(",
+            ")",
+            " ",
+            "\n",
+            "　",
+            "＄",
+            "＠",
+            "％",
+            "（",
+            "）",
+            "＂",
+            "-",
+            "+",
+            "/",
+            ",",
+            "Rarm",
+            "左腕",
+            "Shape",
+            "Colr",
+            "roundv",
+            "default",
+            "Color",
+            "red",
+            "#ff0000",
+            "#12",
+            "Let",
+            "w",
+            "Scale",
+            "Axes",
+            "+x",
+            "-y",
+            "Motion",
+            "kick.bvh",
+            "Follow",
+            "-cd",
+            "1",
+            "-90",
+            "90",
+            ".5",
+            "1.0v",
+            "1e999",
+            "２",
+            "min",
+            "sqrt",
+            "Ｃｏｌｏｒ",
+            "cone",
+            "Origin",
+            "start",
+            "5px",
+            "0,5",
+            "−5",
+            "“a”",
+            "Segments",
+        ])
+        .prop_map(str::to_owned),
+        "\\PC{0,4}",
+    ]
+}
+
+fn string() -> impl Strategy<Value = String> {
+    let pieces = prop::collection::vec((piece(), prop::bool::ANY), 0..24);
+    pieces.prop_map(|pieces| {
+        let spaced = pieces
+            .into_iter()
+            .map(|(piece, space)| if space { piece + " " } else { piece });
+        spaced.collect()
+    })
+}
+
+fn places() -> impl Strategy<Value = Place> {
+    prop_oneof![Just(Place::Text), Just(Place::Desc)]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(1500))]
+
+    #[test]
+    fn everything_said_is_about_characters_of_the_string(input in string(), place in places()) {
+        let reading = read(&Text::plain(&input, 0), place);
+        let inside = |span: crate::source::Span| {
+            span.start <= span.end && input.is_char_boundary(span.start) && input.is_char_boundary(span.end)
+        };
+        for diagnostic in &reading.diagnostics {
+            prop_assert!(inside(diagnostic.span));
+            for related in &diagnostic.related {
+                prop_assert!(inside(related.span));
+            }
+            for edit in diagnostic.fixes.iter().flat_map(|fix| &fix.edits) {
+                prop_assert!(inside(edit.span));
+            }
+            // A message is one sentence without a full stop.
+            prop_assert!(!diagnostic.message.ends_with('.') || diagnostic.message.contains('…'));
+        }
+        for setting in &reading.settings {
+            prop_assert!(input.get(setting.range.clone()).is_some());
+        }
+    }
+
+    #[test]
+    fn ascii_needs_no_hint(input in string(), place in places()) {
+        let reading = read(&Text::plain(&input, 0), place);
+        let hints: Vec<_> = reading.diagnostics.iter().filter(|found| found.code == Code::FullWidth).collect();
+        prop_assert!(hints.len() <= 1);
+        if let Some(hint) = hints.first() {
+            let fixed = apply(&input, &hint.fixes[0]);
+            let again = read(&Text::plain(&fixed, 0), place);
+            prop_assert!(again.diagnostics.iter().all(|found| found.code != Code::FullWidth), "{fixed}");
+            let values = |reading: &Reading| reading.settings.iter().map(|s| s.value.clone()).collect::<Vec<_>>();
+            prop_assert_eq!(values(&reading), values(&again));
+        }
+    }
+
+    #[test]
+    fn words_of_a_setting_mean_the_same(input in string()) {
+        let reading = read(&Text::plain(&input, 0), Place::Text);
+        let sign = match reading.annotation {
+            Annotation::Defaults(_) => "%",
+            Annotation::Legend(_) => "$",
+            _ => "A$",
+        };
+        for setting in &reading.settings {
+            let printed = format!("{sign}{} {}", setting.keyword.name(), setting.words);
+            let again = read(&Text::plain(&printed, 0), Place::Text);
+            prop_assert_eq!(again.settings.len(), 1, "{}", printed);
+            prop_assert_eq!(&again.settings[0].value, &setting.value);
+            prop_assert_eq!(&again.settings[0].words, &setting.words);
+        }
+    }
+
+    #[test]
+    fn looking_never_fails(input in "\\PC{0,40}") {
+        let _ = crate::lang::looks_like_string(&input);
+        let _ = read(&Text::plain(&input, 0), Place::Text);
+    }
+}
+
+/// Long strings of one trick each, which would show a loop within a loop, or recursion.
+#[test]
+fn long_strings_take_no_longer_than_their_length() {
+    for unit in [
+        "(",
+        ")",
+        "\"",
+        "((",
+        "-",
+        "1+",
+        "Color (",
+        "$",
+        "@",
+        "a ",
+        "Let a ",
+        "Shape \"",
+        "Colr 1 ",
+        "＄",
+        "（",
+        "＂",
+        "1 ",
+        "#",
+        "x",
+        "min(",
+        "Color 1,2 ",
+        "Shape default 0 20 w ",
+    ] {
+        for head in ["%", "A$Color ", ""] {
+            let input = format!("{head}{}", unit.repeat(200_000 / unit.len()));
+            let start = std::time::Instant::now();
+            let reading = read(&Text::plain(&input, 0), Place::Text);
+            drop(reading);
+            let seconds = start.elapsed().as_secs_f64();
+            assert!(seconds < 5., "{head}{unit}…: {seconds} s");
+        }
+    }
+}
+
+#[test]
+fn long_chains_of_variables_are_followed() {
+    let mut input = String::from("%Let v0 1");
+    for index in 1..20_000 {
+        input.push_str(&format!(" Let v{} (v{} + 1)", index, index - 1));
+    }
+    // The last needs all others, and the names are looked up from the first.
+    let text = Text::plain(&input, 0);
+    let (annotation, mut diagnostics) = parse(&text, Place::Text);
+    let variables = Variables::collect([(&text, &annotation)], &mut diagnostics);
+    assert_eq!(diagnostics, []);
+    assert_eq!(variables.get("v19999"), Some(20_000.));
+}
