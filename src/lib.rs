@@ -8,6 +8,7 @@ pub mod diagnostic;
 pub mod geometry;
 pub mod lang;
 pub mod scene;
+pub mod solid;
 pub mod source;
 
 /// stub
