@@ -1,0 +1,185 @@
+//! Triangles that fill the rings of an outline, on the rings' own points.
+
+use std::cell::RefCell;
+use std::collections::HashMap;
+use std::ops::Range;
+
+use glam::DVec2;
+use i_triangle::i_overlay::core::fill_rule::FillRule;
+use i_triangle::i_overlay::core::overlay::{ContourDirection, IntOverlayOptions};
+use i_triangle::i_overlay::i_float::int::point::IntPoint;
+use i_triangle::int::triangulation::IntTriangulation;
+use i_triangle::int::triangulator::IntTriangulator;
+use i_triangle::int::validation::Validation;
+
+use super::ears;
+use super::rings::Rings;
+
+/// Polygons with more points than this are cut by a sweep.
+const SWEEP: usize = 200;
+/// Half the extent of a polygon in grid steps of the sweep.
+const GRID: f64 = (1u32 << 28) as f64;
+
+/// Triangles of all polygons, counter-clockwise. Their outer edges are the rings' edges.
+pub(super) fn triangles(rings: &Rings) -> Vec<[u32; 3]> {
+    let mut triangles = Vec::with_capacity(rings.len());
+    for polygon in &rings.polygons {
+        let polygon = &rings.rings[polygon.clone()];
+        let count: usize = polygon.iter().map(Range::len).sum();
+        match polygon {
+            [ring] if is_convex(&rings.points[ring.clone()]) => strip(ring, &mut triangles),
+            _ if count > SWEEP && sweep(&rings.points, polygon, &mut triangles) => {}
+            _ => ears::clip(&rings.points, polygon, &mut triangles),
+        }
+    }
+    triangles
+}
+
+fn is_convex(ring: &[DVec2]) -> bool {
+    let n = ring.len();
+    let mut before = ring[n - 1] - ring[n - 2];
+    let mut start = ring[n - 1];
+    let mut turns = 0;
+    for &p in ring {
+        let edge = p - start;
+        if before.perp_dot(edge) <= 0.0 {
+            return false;
+        }
+        turns += usize::from((before.x >= 0.0) != (edge.x >= 0.0));
+        (before, start) = (edge, p);
+    }
+    turns <= 2
+}
+
+fn strip(ring: &Range<usize>, triangles: &mut Vec<[u32; 3]>) {
+    let (mut low, mut high) = (ring.start as u32, ring.end as u32 - 1);
+    while high - low > 1 {
+        triangles.push([low, low + 1, high]);
+        low += 1;
+        if high - low > 1 {
+            triangles.push([low, high - 1, high]);
+            high -= 1;
+        }
+    }
+}
+
+thread_local! {
+    static SWEEPER: RefCell<IntTriangulator<i32, u32>> = RefCell::new({
+        let options = IntOverlayOptions {
+            output_direction: ContourDirection::CounterClockwise,
+            preserve_input_collinear: true,
+            preserve_output_collinear: true,
+            ..Default::default()
+        };
+        let validation = Validation { fill_rule: FillRule::NonZero, options };
+        IntTriangulator::new(256, validation, Default::default())
+    });
+}
+
+/// Cuts a polygon with whole numbers; false, and nothing added, where these are too coarse for it.
+fn sweep(points: &[DVec2], polygon: &[Range<usize>], triangles: &mut Vec<[u32; 3]>) -> bool {
+    let own = || polygon.iter().flat_map(|ring| &points[ring.clone()]);
+    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let (low, high) = own().fold(none, |(l, h), p| (l.min(*p), h.max(*p)));
+    let middle = low.midpoint(high);
+    let scale = GRID / (high - low).max_element();
+    let place = |p: &DVec2| {
+        let p = ((*p - middle) * scale).round();
+        IntPoint::new(p.x as i32, p.y as i32)
+    };
+    let shape: Vec<Vec<_>> = polygon
+        .iter()
+        .map(|ring| points[ring.clone()].iter().map(place).collect())
+        .collect();
+    let cut: IntTriangulation<i32, u32> =
+        SWEEPER.with_borrow_mut(|sweeper| sweeper.triangulate_shape(&shape));
+    let count: usize = polygon.iter().map(Range::len).sum();
+    if cut.points.len() != count || cut.indices.len() != 3 * (count + 2 * polygon.len() - 4) {
+        return false;
+    }
+    let mut sorted: Vec<(IntPoint<i32>, u32)> = Vec::with_capacity(count);
+    for (ring, places) in polygon.iter().zip(&shape) {
+        let ids = ring.clone().map(|i| i as u32);
+        sorted.extend(places.iter().copied().zip(ids));
+    }
+    sorted.sort_unstable();
+    if sorted.windows(2).any(|w| w[0].0 == w[1].0) {
+        return false;
+    }
+    let find = |p: &IntPoint<i32>| {
+        sorted
+            .binary_search_by(|(q, _)| q.cmp(p))
+            .map(|i| sorted[i].1)
+    };
+    let Ok(ids) = cut.points.iter().map(find).collect::<Result<Vec<u32>, _>>() else {
+        return false;
+    };
+    let start = triangles.len();
+    for corners in cut.indices.chunks_exact(3) {
+        triangles.push([corners[0], corners[1], corners[2]].map(|i| ids[i as usize]));
+    }
+    let whole = triangles[start..].iter().all(|t| area(points, t) > 0.0);
+    if !whole {
+        triangles.truncate(start);
+    }
+    whole
+}
+
+/// Twice the signed area.
+pub(super) fn area(points: &[DVec2], [a, b, c]: &[u32; 3]) -> f64 {
+    let [a, b, c] = [a, b, c].map(|i| points[*i as usize]);
+    (b - a).perp_dot(c - a)
+}
+
+/// Turns edges so that no triangle is empty at the points' final places; false where that fails.
+pub(super) fn turn_empty(points: &[DVec2], triangles: &mut [[u32; 3]]) -> bool {
+    if !triangles.iter().any(|t| area(points, t) <= 0.0) {
+        return true;
+    }
+    // Every turn mends one triangle, so few rounds are enough or none are.
+    for _ in 0..8 {
+        let empty: Vec<usize> = (0..triangles.len())
+            .filter(|i| area(points, &triangles[*i]) <= 0.0)
+            .collect();
+        if empty.is_empty() {
+            return true;
+        }
+        let mut owner: HashMap<[u32; 2], usize> = HashMap::new();
+        for (i, [a, b, c]) in triangles.iter().enumerate() {
+            owner.extend([([*a, *b], i), ([*b, *c], i), ([*c, *a], i)]);
+        }
+        for i in empty {
+            let t = triangles[i];
+            let length =
+                |k: usize| points[t[k] as usize].distance_squared(points[t[(k + 1) % 3] as usize]);
+            let longest = (0..3)
+                .max_by(|a, b| length(*a).total_cmp(&length(*b)))
+                .unwrap_or(0);
+            let [a, b, c] = [t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]];
+            let Some(&j) = owner.get(&[b, a]) else {
+                continue;
+            };
+            let Some(&d) = triangles[j].iter().find(|p| **p != a && **p != b) else {
+                continue;
+            };
+            if owner.contains_key(&[c, d]) || owner.contains_key(&[d, c]) {
+                continue;
+            }
+            triangles[i] = [a, d, c];
+            triangles[j] = [d, b, c];
+            for stale in [[a, b], [b, a], [b, c], [c, a], [a, d], [d, b]] {
+                owner.remove(&stale);
+            }
+            let [k, l] = [i, j];
+            owner.extend([
+                ([a, d], k),
+                ([d, c], k),
+                ([c, a], k),
+                ([d, b], l),
+                ([b, c], l),
+                ([c, d], l),
+            ]);
+        }
+    }
+    !triangles.iter().any(|t| area(points, t) <= 0.0)
+}

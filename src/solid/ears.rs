@@ -1,0 +1,260 @@
+//! Ear clipping that keeps every point of the rings and never fails.
+//!
+//! Holes are first joined to the border by bridges (Eberly, "Triangulation by Ear Clipping").
+//! Time grows with the square of the points, so this is for small polygons, and for those that
+//! nothing else can cut. However bad the rings, the triangles' outer edges are the rings' edges.
+
+use std::ops::Range;
+
+use glam::DVec2;
+
+/// A corner of the ring that is being cut.
+#[derive(Clone, Copy)]
+struct Corner {
+    point: u32,
+    next: u32,
+    before: u32,
+}
+
+/// How picky the choice of an ear is.
+#[derive(Clone, Copy, PartialEq, PartialOrd)]
+enum Care {
+    /// Some area, and no other corner in it or on its border.
+    Clean,
+    /// Some area, and no other corner strictly in it.
+    Empty,
+    /// Some area.
+    Convex,
+    /// Whatever comes.
+    Any,
+}
+
+struct Clip<'a> {
+    points: &'a [DVec2],
+    corners: Vec<Corner>,
+    /// Twice the area that counts as none.
+    nothing: f64,
+}
+
+/// Triangles of a polygon: a border and holes, given as places in a list of points. As many as
+/// there are points, and two more a hole, less two.
+pub(super) fn clip(points: &[DVec2], rings: &[Range<usize>], triangles: &mut Vec<[u32; 3]>) {
+    let Some(border) = rings.first() else { return };
+    let (low, high) = points[border.clone()]
+        .iter()
+        .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(l, h), p| {
+            (l.min(*p), h.max(*p))
+        });
+    let extent = (high - low).max_element();
+    let mut clip = Clip {
+        points,
+        corners: Vec::with_capacity(border.len() + 2 * rings.len()),
+        nothing: 1e-13 * extent * extent,
+    };
+    clip.add(border);
+    let mut holes: Vec<(usize, &Range<usize>)> = Vec::new();
+    for ring in &rings[1..] {
+        let leftmost = ring
+            .clone()
+            .min_by(|a, b| points[*a].x.total_cmp(&points[*b].x));
+        holes.extend(leftmost.map(|i| (i, ring)));
+    }
+    holes.sort_unstable_by(|a, b| points[a.0].x.total_cmp(&points[b.0].x));
+    let mut border: Vec<u32> = (0..clip.corners.len() as u32).collect();
+    for (leftmost, ring) in holes {
+        clip.join(&mut border, leftmost, ring);
+    }
+    clip.cut(triangles);
+}
+
+impl Clip<'_> {
+    fn add(&mut self, ring: &Range<usize>) {
+        let base = self.corners.len();
+        let n = ring.len();
+        self.corners
+            .extend(ring.clone().enumerate().map(|(i, point)| Corner {
+                point: point as u32,
+                next: (base + (i + 1) % n) as u32,
+                before: (base + (i + n - 1) % n) as u32,
+            }));
+    }
+
+    fn at(&self, corner: u32) -> DVec2 {
+        self.points[self.corners[corner as usize].point as usize]
+    }
+
+    fn next(&self, corner: u32) -> u32 {
+        self.corners[corner as usize].next
+    }
+
+    fn before(&self, corner: u32) -> u32 {
+        self.corners[corner as usize].before
+    }
+
+    /// Joins a hole to the border, from the hole's leftmost point to the left.
+    fn join(&mut self, border: &mut Vec<u32>, leftmost: usize, ring: &Range<usize>) {
+        let hole = self.points[leftmost];
+        // The nearest edge to the left, and where the line meets it.
+        let mut nearest: Option<(f64, u32)> = None;
+        for &corner in border.iter() {
+            let (p, q) = (self.at(corner), self.at(self.next(corner)));
+            if (p.y > hole.y) == (q.y > hole.y) {
+                continue;
+            }
+            let x = p.x + (q.x - p.x) * ((hole.y - p.y) / (q.y - p.y));
+            if x <= hole.x && nearest.is_none_or(|(most, _)| x > most) {
+                let end = if p.x < q.x { corner } else { self.next(corner) };
+                nearest = Some((x, end));
+            }
+        }
+        let bridge = match nearest {
+            Some((x, end)) => self.visible(border, hole, DVec2::new(x, hole.y), end),
+            None => border
+                .iter()
+                .copied()
+                .min_by(|a, b| {
+                    let far = |c: u32| self.at(c).distance_squared(hole);
+                    far(*a).total_cmp(&far(*b))
+                })
+                .unwrap_or(0),
+        };
+        let base = self.corners.len() as u32;
+        self.add(ring);
+        let entry = base + (leftmost - ring.start) as u32;
+        // Both ends of the bridge are there twice: once on the way in, once on the way out.
+        let (out, back) = (self.corners.len() as u32, self.corners.len() as u32 + 1);
+        let after = self.next(bridge);
+        let last = self.before(entry);
+        self.corners.push(Corner {
+            point: leftmost as u32,
+            next: back,
+            before: last,
+        });
+        let point = self.corners[bridge as usize].point;
+        self.corners.push(Corner {
+            point,
+            next: after,
+            before: out,
+        });
+        self.corners[last as usize].next = out;
+        self.corners[after as usize].before = back;
+        self.corners[bridge as usize].next = entry;
+        self.corners[entry as usize].before = bridge;
+        border.extend(base..self.corners.len() as u32);
+    }
+
+    /// The corner that a hole's point sees: the end of the edge it meets, unless others stand in
+    /// between; then the one of those nearest to the line.
+    fn visible(&self, border: &[u32], hole: DVec2, meets: DVec2, end: u32) -> u32 {
+        let mut best = end;
+        let tip = self.at(end);
+        let slope = |p: DVec2| (p.y - hole.y).abs() / (hole.x - p.x).max(f64::MIN_POSITIVE);
+        let mut least = (slope(tip), hole.x - tip.x);
+        let wound = if tip.y > hole.y {
+            [hole, tip, meets]
+        } else {
+            [hole, meets, tip]
+        };
+        for &corner in border {
+            let p = self.at(corner);
+            if corner == end || p.x > hole.x || !self.faces(corner, hole) {
+                continue;
+            }
+            let rank = (slope(p), hole.x - p.x);
+            if within(wound, p, 0.0) && (rank < least || (p == tip && !self.faces(best, hole))) {
+                (best, least) = (corner, rank);
+            }
+        }
+        best
+    }
+
+    /// Whether a point lies in the inner angle of a corner.
+    fn faces(&self, corner: u32, p: DVec2) -> bool {
+        let (a, b, c) = (
+            self.at(self.before(corner)),
+            self.at(corner),
+            self.at(self.next(corner)),
+        );
+        let (from, to, way) = (c - b, a - b, p - b);
+        if from.perp_dot(to) > 0.0 {
+            from.perp_dot(way) >= 0.0 && way.perp_dot(to) >= 0.0
+        } else {
+            !(to.perp_dot(way) > 0.0 && way.perp_dot(from) > 0.0)
+        }
+    }
+
+    fn cut(&mut self, triangles: &mut Vec<[u32; 3]>) {
+        let mut left = self.corners.len();
+        let mut reflex: Vec<u32> = (0..left as u32).filter(|c| self.is_reflex(*c)).collect();
+        let mut care = Care::Clean;
+        let mut corner = 0;
+        let mut tried = 0;
+        while left > 3 {
+            if self.is_ear(corner, &reflex, care) {
+                let (before, next) = (self.before(corner), self.next(corner));
+                triangles.push([before, corner, next].map(|c| self.corners[c as usize].point));
+                self.corners[before as usize].next = next;
+                self.corners[next as usize].before = before;
+                left -= 1;
+                reflex.retain(|r| {
+                    *r != corner && (!(*r == before || *r == next) || self.is_reflex(*r))
+                });
+                // Skipping one makes fewer slivers than a fan does.
+                corner = self.next(next);
+                (care, tried) = (Care::Clean, 0);
+            } else {
+                corner = self.next(corner);
+                tried += 1;
+                if tried > left {
+                    tried = 0;
+                    care = match care {
+                        Care::Clean => Care::Empty,
+                        Care::Empty => Care::Convex,
+                        Care::Convex | Care::Any => Care::Any,
+                    };
+                }
+            }
+        }
+        let (before, next) = (self.before(corner), self.next(corner));
+        triangles.push([before, corner, next].map(|c| self.corners[c as usize].point));
+    }
+
+    fn is_reflex(&self, corner: u32) -> bool {
+        let (a, b, c) = (
+            self.at(self.before(corner)),
+            self.at(corner),
+            self.at(self.next(corner)),
+        );
+        (b - a).perp_dot(c - b) <= self.nothing
+    }
+
+    fn is_ear(&self, corner: u32, reflex: &[u32], care: Care) -> bool {
+        let ends = [self.before(corner), corner, self.next(corner)];
+        let ear = ends.map(|c| self.at(c));
+        let area = (ear[1] - ear[0]).perp_dot(ear[2] - ear[1]);
+        if care == Care::Any {
+            return true;
+        }
+        if area <= self.nothing {
+            return false;
+        }
+        if care == Care::Convex {
+            return true;
+        }
+        let margin = if care == Care::Clean {
+            -self.nothing
+        } else {
+            self.nothing
+        };
+        let points = ends.map(|c| self.corners[c as usize].point);
+        !reflex.iter().any(|r| {
+            !points.contains(&self.corners[*r as usize].point) && within(ear, self.at(*r), margin)
+        })
+    }
+}
+
+fn within([a, b, c]: [DVec2; 3], p: DVec2, margin: f64) -> bool {
+    (b - a).perp_dot(p - a) >= margin
+        && (c - b).perp_dot(p - b) >= margin
+        && (a - c).perp_dot(p - c) >= margin
+}

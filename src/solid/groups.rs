@@ -1,0 +1,88 @@
+//! Which faces around a point share a corner there.
+
+use glam::DVec3;
+
+/// Angles below which edges are smooth.
+#[derive(Clone, Copy)]
+pub(super) struct Crease {
+    /// Smooth where the cosine between the normals is greater.
+    cosine: f64,
+}
+
+impl Crease {
+    pub(super) fn new(degrees: f64) -> Crease {
+        let degrees = if degrees.is_finite() {
+            degrees.clamp(0.0, 180.0)
+        } else {
+            0.0
+        };
+        // Beyond 1 nothing is smooth, not even faces in one plane.
+        let cosine = if degrees > 0.0 {
+            degrees.to_radians().cos()
+        } else {
+            2.0
+        };
+        Crease { cosine }
+    }
+
+    fn smooth(self, a: DVec3, b: DVec3) -> bool {
+        a.dot(b) > self.cosine
+    }
+}
+
+/// Gives the faces around a point their corners. `faces` are unit normals in their order round the
+/// point, each sharing an edge with the next and the last with the first; `corner` makes a corner
+/// of a unit normal; `out` receives one for every face.
+pub(super) fn share(
+    faces: &[DVec3],
+    weights: &[f64],
+    crease: Crease,
+    mut corner: impl FnMut(DVec3) -> u32,
+    out: &mut [u32],
+) {
+    let n = faces.len();
+    let first = (0..n).find(|&i| !crease.smooth(faces[(i + n - 1) % n], faces[i]));
+    let start = first.unwrap_or(0);
+    let mut k = 0;
+    while k < n {
+        let mut sum = DVec3::ZERO;
+        let mut end = k;
+        loop {
+            let i = (start + end) % n;
+            sum += faces[i] * weights[i];
+            end += 1;
+            if end == n || !crease.smooth(faces[i], faces[(start + end) % n]) {
+                break;
+            }
+        }
+        let normal = sum.normalize_or(faces[(start + k) % n]);
+        let id = corner(normal);
+        for i in k..end {
+            out[(start + i) % n] = id;
+        }
+        k = end;
+    }
+}
+
+/// The same about the tip of a cone: where the faces differ too much for one normal, as round a
+/// pointed tip, each gets a corner of its own.
+pub(super) fn share_tip(
+    faces: &[DVec3],
+    weights: &[f64],
+    crease: Crease,
+    mut corner: impl FnMut(DVec3) -> u32,
+    out: &mut [u32],
+) {
+    let mut sum = DVec3::ZERO;
+    for (face, weight) in faces.iter().zip(weights) {
+        sum += *face * *weight;
+    }
+    let mean = sum.normalize_or_zero();
+    if faces.iter().all(|face| crease.smooth(*face, mean)) {
+        out.fill(corner(mean));
+    } else {
+        for (face, out) in faces.iter().zip(out) {
+            *out = corner(*face);
+        }
+    }
+}

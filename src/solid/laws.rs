@@ -1,0 +1,108 @@
+//! Laws over random outlines.
+
+use glam::{DVec2, DVec3, Vec3};
+use proptest::prelude::*;
+
+use super::check::{closed, volume};
+use super::tests::{kinds, options, outline};
+use super::*;
+use crate::geometry::Ring;
+
+fn point() -> impl Strategy<Value = DVec2> {
+    (-1.0..1.0f64, -1.0..1.0f64).prop_map(|(x, y)| DVec2::new(x, y))
+}
+
+/// Points in order round the origin.
+fn star() -> impl Strategy<Value = Ring> {
+    proptest::collection::vec(0.2..1.0f64, 3..40).prop_map(|radii| {
+        let step = std::f64::consts::TAU / radii.len() as f64;
+        let at = |(i, r): (usize, f64)| r * DVec2::from_angle(i as f64 * step);
+        radii.into_iter().enumerate().map(at).collect()
+    })
+}
+
+/// Points of a coarse lattice: many touch and many lie on one line.
+fn lattice() -> impl Strategy<Value = Ring> {
+    proptest::collection::vec((-4i32..4, -4i32..4), 3..20).prop_map(|points| {
+        let point = |(x, y): (i32, i32)| DVec2::new(x.into(), y.into()) / 4.0;
+        points.into_iter().map(point).collect()
+    })
+}
+
+fn rings() -> impl Strategy<Value = Vec<Ring>> {
+    let holed = (star(), star(), 0.05..0.6f64, point()).prop_map(|(a, b, size, at)| {
+        let hole = b.iter().map(|p| *p * size + at * 0.3).collect();
+        vec![a, hole]
+    });
+    let crossing = proptest::collection::vec(point(), 3..40);
+    prop_oneof![
+        star().prop_map(|r| vec![r]),
+        crossing.prop_map(|r| vec![r]),
+        proptest::collection::vec(lattice(), 1..4),
+        holed,
+    ]
+}
+
+/// Every law for one surface.
+fn lawful(surface: &Surface) -> Result<(), String> {
+    closed(surface)?;
+    if volume(surface) <= 0.0 {
+        return Err(format!("volume {}", volume(surface)));
+    }
+    for n in &surface.normals {
+        let length = Vec3::from(*n).length();
+        if (length - 1.0).abs() > 1e-4 || length.is_nan() {
+            return Err(format!("normal {n:?}"));
+        }
+    }
+    let mut used = vec![false; surface.positions.len()];
+    for t in &surface.triangles {
+        let [a, b, c] = t.map(|i| Vec3::from(surface.positions[i as usize]).as_dvec3());
+        if (b - a).cross(c - a) == DVec3::ZERO {
+            return Err(format!("empty triangle {a} {b} {c}"));
+        }
+        t.iter().for_each(|i| used[*i as usize] = true);
+    }
+    if used.contains(&false) {
+        return Err("a corner is not used".into());
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(
+        std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(128)
+    ))]
+
+    #[test]
+    fn solids_are_lawful(
+        rings in rings(), size in -3.0..4.0f64, turn in -3.2..3.2f64,
+        segments in prop_oneof![1u32..20, Just(64u32)],
+        crease in prop_oneof![Just(0.0), Just(30.0), Just(180.0)],
+        at in (point(), -1.0..1.0f64),
+    ) {
+        let size = 10f64.powf(size);
+        let turned = DVec2::from_angle(turn) * size;
+        let rings: Vec<Ring> =
+            rings.iter().map(|r| r.iter().map(|p| turned.rotate(*p)).collect()).collect();
+        let outline = outline(rings);
+        prop_assume!(!outline.polygons.is_empty());
+        let placement = Placement {
+            rotation: turn * 3.0,
+            translation: at.0.extend(at.1) * size,
+            scale: 0.01,
+        };
+        let o = Options { crease, placement, thickness: [-0.1 * size, 0.2 * size], ..options(segments) };
+        for kind in kinds() {
+            let surface = build(&outline, &kind, &o);
+            if let Err(error) = lawful(&surface) {
+                return Err(TestCaseError::fail(format!("{kind:?}: {error}")));
+            }
+            if kind == ShapeKind::Default(None) {
+                let expected = clean::area(&outline) * 0.3 * size * 1e-6;
+                let found = volume(&surface);
+                prop_assert!((found / expected - 1.0).abs() < 1e-3, "{} {}", found, expected);
+            }
+        }
+    }
+}
