@@ -4,6 +4,7 @@
     allow(clippy::unwrap_used, reason = "a test that fails to unwrap has failed")
 )]
 
+pub mod cli;
 pub mod diagnostic;
 pub mod disk;
 pub mod geometry;
@@ -12,11 +13,3 @@ pub mod lang;
 pub mod resolver;
 pub mod scene;
 pub mod source;
-
-/// stub
-pub mod cli {
-    /// stub
-    pub fn run(_: std::env::ArgsOs) -> std::process::ExitCode {
-        std::process::ExitCode::SUCCESS
-    }
-}
