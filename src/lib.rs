@@ -1,10 +1,15 @@
 //! okoshi turns one annotated 2D drawing into a moving 3D model.
+//!
+//! [`compile::compile`] is the whole of it: a pure function from an SVG drawing to a [`scene::Scene`], with
+//! [`diagnostic::Diagnostic`]s beside it; [`gltf::write`] writes the scene. What the strings in a drawing
+//! can say is one table, [`lang::keyword`].
 #![cfg_attr(
     test,
     allow(clippy::unwrap_used, reason = "a test that fails to unwrap has failed")
 )]
 
 pub mod bind;
+pub mod cli;
 pub mod compile;
 pub mod diagnostic;
 pub mod disk;
@@ -17,11 +22,3 @@ pub mod scene;
 pub mod solid;
 pub mod source;
 pub mod svg;
-
-/// stub
-pub mod cli {
-    /// stub
-    pub fn run(_: std::env::ArgsOs) -> std::process::ExitCode {
-        std::process::ExitCode::SUCCESS
-    }
-}

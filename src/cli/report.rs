@@ -1,0 +1,269 @@
+//! Diagnostics for people, in the manner of rustc.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use annotate_snippets::{AnnotationKind, Group, Level, Patch, Renderer, Snippet};
+
+use super::Findings;
+use super::places::Places;
+use crate::diagnostic::{Diagnostic, Fix, Severity};
+use crate::source::Span;
+
+/// Whether the report goes to a terminal that shows colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Style {
+    /// Text alone.
+    Plain,
+    /// With escape sequences for colours.
+    Colored,
+}
+
+/// A line longer than this is cut to what lies around the span. In bytes.
+const LONGEST_LINE: usize = 600;
+
+/// How much of a cut line is shown on either side of the span. In bytes.
+const AROUND: usize = 40;
+
+/// The longest span of a cut line that is shown whole. In bytes.
+const LONGEST_SPAN: usize = 120;
+
+/// How much text two places may have between them and still be shown together. In bytes.
+const TOGETHER: usize = 32 * 1024;
+
+/// A span over more lines than this is shown by its first line.
+const MOST_LINES: usize = 8;
+
+/// The findings as text, one paragraph each.
+pub fn human(findings: Findings, style: Style) -> String {
+    let renderer = match style {
+        Style::Plain => Renderer::plain(),
+        Style::Colored => Renderer::styled(),
+    };
+    let page = Page {
+        path: findings.path,
+        text: findings.text,
+        places: Places::new(findings.text),
+    };
+    let mut out = String::new();
+    for diagnostic in findings.diagnostics {
+        let (groups, shown) = page.report(diagnostic);
+        out.push_str(&page.with_places(renderer.render(&groups), &shown));
+        out.push_str("\n\n");
+    }
+    out
+}
+
+/// A drawing that is reported on.
+struct Page<'a> {
+    path: &'a str,
+    text: &'a str,
+    places: Places<'a>,
+}
+
+impl Page<'_> {
+    /// What to render, and the spans whose places its headers are to name.
+    fn report<'d>(&self, diagnostic: &'d Diagnostic) -> (Vec<Group<'d>>, Vec<Span>) {
+        let title = level(diagnostic.severity())
+            .primary_title(&*diagnostic.message)
+            .id(diagnostic.code.id());
+        let mut spans = vec![diagnostic.span];
+        spans.extend(diagnostic.related.iter().map(|related| related.span));
+        let together = self.excerpt(&spans);
+        let excerpt = match &together {
+            Some(excerpt) => excerpt.clone(),
+            None => self.window(diagnostic.span),
+        };
+
+        let mut shown = vec![diagnostic.span];
+        let mut snippet = excerpt.snippet().path(token(0)).annotation(
+            AnnotationKind::Primary
+                .span(excerpt.ranges[0].clone())
+                .label(diagnostic.label.as_deref()),
+        );
+        if together.is_some() {
+            let related = diagnostic.related.iter().zip(&excerpt.ranges[1..]);
+            snippet = snippet.annotations(related.map(|(related, range)| {
+                let kind = AnnotationKind::Context;
+                kind.span(range.clone()).label(&*related.message)
+            }));
+        }
+        let mut main = Group::with_title(title).element(snippet);
+        if let Some(help) = &diagnostic.help {
+            main = main.element(Level::HELP.message(tame(help)));
+        }
+
+        let mut groups = vec![main];
+        if together.is_none() {
+            for related in &diagnostic.related {
+                let excerpt = self.window(related.span);
+                let range = excerpt.ranges[0].clone();
+                let snippet = excerpt.snippet().path(token(shown.len()));
+                let snippet = snippet.annotation(AnnotationKind::Primary.span(range));
+                let title = Level::NOTE.secondary_title(tame(&related.message));
+                groups.push(title.element(snippet));
+                shown.push(related.span);
+            }
+        }
+        groups.extend(diagnostic.fixes.iter().map(|fix| self.fix(fix)));
+        (groups, shown)
+    }
+
+    /// A rendered report with the true places in its headers.
+    ///
+    /// The renderer takes a column from the text that it shows, and of a cut line that is not where
+    /// the drawing has it. So it is given a token for a path, and token and place are replaced.
+    fn with_places(&self, rendered: String, shown: &[Span]) -> String {
+        let mut out = String::with_capacity(rendered.len());
+        let mut rest = &*rendered;
+        for (number, span) in shown.iter().enumerate() {
+            let Some((before, after)) = rest.split_once(&token(number)) else {
+                continue;
+            };
+            let (line, column) = self.places.line_column(span.start);
+            out.push_str(before);
+            out.push_str(&format!("{}:{line}:{column}", tame(self.path)));
+            rest = after.trim_start_matches(|c: char| c == ':' || c.is_ascii_digit());
+        }
+        out.push_str(rest);
+        out
+    }
+
+    /// A fix as the lines that it would leave, or by its title alone if those lie far apart.
+    fn fix<'d>(&self, fix: &'d Fix) -> Group<'d> {
+        let group = Group::with_title(Level::HELP.secondary_title(tame(&fix.title)));
+        let spans: Vec<_> = fix.edits.iter().map(|edit| edit.span).collect();
+        let short = fix.edits.iter().all(|edit| edit.text.len() <= LONGEST_LINE);
+        match self.excerpt(&spans).filter(|_| short) {
+            None => group,
+            Some(excerpt) => {
+                let edits = fix.edits.iter().zip(excerpt.ranges.clone());
+                let patches = edits.map(|(edit, range)| Patch::new(range, &*edit.text));
+                group.element(excerpt.snippet().patches(patches))
+            }
+        }
+    }
+
+    /// The lines that hold all `spans`, if they can be shown in one piece.
+    fn excerpt(&self, spans: &[Span]) -> Option<Excerpt> {
+        let whole = spans.iter().copied().reduce(Span::join)?;
+        let (first, last) = (self.first_line(whole), self.last_line(whole));
+        let (start, end) = (self.places.extent(first).0, self.places.extent(last).1);
+        let lines_of = |span: &Span| self.last_line(*span) - self.first_line(*span);
+        let whole_lines = end - start <= TOGETHER
+            && spans.iter().all(|span| lines_of(span) <= MOST_LINES)
+            && !self.text[start..end]
+                .split('\n')
+                .any(|line| line.len() > LONGEST_LINE);
+        if !whole_lines {
+            let one_line = first == last && whole.end.saturating_sub(whole.start) <= LONGEST_SPAN;
+            return one_line.then(|| self.cut(first, whole, spans));
+        }
+        Some(Excerpt {
+            source: self.text[start..end].to_owned(),
+            line: first,
+            ranges: spans
+                .iter()
+                .map(|span| self.shift(*span, start, end))
+                .collect(),
+        })
+    }
+
+    /// What is shown of one span, always: its first line at least, cut if it is long.
+    fn window(&self, span: Span) -> Excerpt {
+        self.excerpt(&[span]).unwrap_or_else(|| {
+            let line = self.first_line(span);
+            let end = self.places.extent(line).1;
+            let end = span.end.min(end).min(span.start + LONGEST_SPAN);
+            let seen = Span::new(span.start, end.max(span.start));
+            self.cut(line, seen, &[seen])
+        })
+    }
+
+    /// A line from a little before `whole` to a little behind it.
+    fn cut(&self, line: usize, whole: Span, spans: &[Span]) -> Excerpt {
+        const MARK: &str = "…";
+
+        let (line_start, line_end) = self.places.extent(line);
+        let start = self
+            .places
+            .clamp(whole.start.saturating_sub(AROUND))
+            .max(line_start);
+        let end = self
+            .places
+            .clamp(whole.end + AROUND)
+            .min(line_end)
+            .max(start);
+        let before = if start > line_start { MARK } else { "" };
+        let after = if end < line_end { MARK } else { "" };
+        let shifted = spans.iter().map(|span| {
+            let range = self.shift(*span, start, end);
+            range.start + before.len()..range.end + before.len()
+        });
+        Excerpt {
+            ranges: shifted.collect(),
+            source: format!("{before}{}{after}", &self.text[start..end]),
+            line,
+        }
+    }
+
+    /// Where `span` is in the text's stretch `start..end`.
+    fn shift(&self, span: Span, start: usize, end: usize) -> Range<usize> {
+        let place = |offset: usize| self.places.clamp(offset).clamp(start, end) - start;
+        place(span.start)..place(span.end.max(span.start))
+    }
+
+    fn first_line(&self, span: Span) -> usize {
+        self.places.line(self.places.clamp(span.start))
+    }
+
+    /// The line of the span's last character.
+    fn last_line(&self, span: Span) -> usize {
+        let last = span.end.saturating_sub(1).max(span.start);
+        self.places.line(self.places.clamp(last))
+    }
+}
+
+/// A piece of the drawing, and where the spans are in it.
+#[derive(Clone)]
+struct Excerpt {
+    source: String,
+    line: usize,
+    ranges: Vec<Range<usize>>,
+}
+
+impl Excerpt {
+    fn snippet<'a, T: Clone>(&self) -> Snippet<'a, T> {
+        Snippet::source(self.source.clone()).line_start(self.line)
+    }
+}
+
+/// Stands for a path while a report is rendered: private characters, which nobody writes.
+fn token(number: usize) -> String {
+    format!("\u{10FFFD}{number}\u{10FFFD}")
+}
+
+fn level(severity: Severity) -> Level<'static> {
+    match severity {
+        Severity::Error => Level::ERROR,
+        Severity::Warning => Level::WARNING,
+        Severity::Hint => Level::INFO.with_name(severity.name()),
+    }
+}
+
+/// Words of the drawing can stand in any message: none of them may steer the terminal. (The renderer
+/// sees to titles, labels and sources, but lets these through.)
+fn tame(text: &str) -> Cow<'_, str> {
+    let steers = |c: char| {
+        (c.is_control() && c != '\n')
+            || matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}')
+    };
+    match text.contains(steers) {
+        true => text.replace(steers, "\u{FFFD}").into(),
+        false => text.into(),
+    }
+}
+
+#[cfg(test)]
+#[path = "report_tests.rs"]
+mod tests;

@@ -1,0 +1,131 @@
+#!/usr/bin/env bash
+# Runs everything that tells whether okoshi is in order: bash tests/all.sh [--quick]
+#
+# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender is installed if it is missing and that is
+# allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the summary says why.
+# --quick leaves Blender out. Exit status 1 if anything failed. All of cargo's work is done in one profile.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+quick=no
+for argument in "$@"; do
+  case $argument in
+    --quick) quick=yes ;;
+    *) echo "usage: bash tests/all.sh [--quick]" >&2; exit 2 ;;
+  esac
+done
+
+tools=tests/tools
+target=${CARGO_TARGET_DIR:-target}
+okoshi=$target/debug/okoshi
+models=$target/examples
+export CARGO_TERM_PROGRESS_WHEN=never
+
+# ---- Steps. Each is a function; a failing command ends it; `skip REASON` leaves it.
+
+reason=$(mktemp)
+trap 'rm -f "$reason"' EXIT
+skip() { echo "skipped: $1"; echo "$1" > "$reason"; exit 77; }
+need() { command -v "$1" > /dev/null || skip "$1 is not installed"; }
+
+summary=()
+failed=0
+step() { # NAME FUNCTION
+  local began=$SECONDS status verdict
+  printf '\n==== %s\n' "$1"
+  : > "$reason"
+  # Not in a condition: there `set -e` would not hold.
+  set +e
+  (set -e; "$2")
+  status=$?
+  set -e
+  case $status in
+    0) verdict=ok ;;
+    77) verdict="skipped: $(cat "$reason")" ;;
+    *) verdict="FAILED (status $status)"; failed=1 ;;
+  esac
+  printf -- '---- %s: %s, %d s\n' "$1" "$verdict" $((SECONDS - began))
+  summary+=("$(printf '%-12s %4d s  %s' "$1" $((SECONDS - began)) "$verdict")")
+}
+
+formatting() { cargo fmt --check; }
+lints() { cargo clippy --locked --all-targets -- -D warnings; }
+tests() { cargo test --locked; }
+manual() { RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps; }
+
+licences() {
+  need node
+  local host
+  host=$(rustc -vV | sed -n 's/^host: //p')
+  cargo metadata --format-version 1 --locked --offline --filter-platform "$host" > "$target/metadata.json"
+  node $tools/licences.mjs $tools/package-lock.json < "$target/metadata.json"
+}
+
+examples() {
+  compgen -G 'examples/*.svg' > /dev/null || skip "there are no examples"
+  cargo build --locked
+  rm -rf "$models"
+  mkdir -p "$models"
+  local drawing name
+  for drawing in examples/*.svg; do
+    name=$(basename "$drawing" .svg)
+    "$okoshi" build "$drawing" -o "$models/$name.glb"
+    "$okoshi" build "$drawing" -o "$models/$name.again.glb"
+    cmp "$models/$name.glb" "$models/$name.again.glb"
+    rm "$models/$name.again.glb"
+    "$okoshi" inspect "$drawing" --json > "$models/$name.json"
+    echo "built $drawing: $(stat -c %s "$models/$name.glb") bytes"
+  done
+}
+
+built() { compgen -G "$models/*.glb" > /dev/null || skip "there are no built examples"; }
+
+validator() {
+  need npm
+  built
+  (cd $tools && npm ci --no-audit --no-fund)
+  node $tools/validate.mjs "$models"/*.glb
+}
+
+install_blender() {
+  command -v blender > /dev/null && return
+  command -v apt-get > /dev/null || skip "blender is not installed, and there is no apt-get"
+  local sudo=
+  if [ "$(id -u)" != 0 ]; then
+    sudo -n true 2> /dev/null || skip "blender is not installed, and installing it takes root or sudo without password"
+    sudo="sudo -n"
+  fi
+  $sudo apt-get update -q
+  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends blender python3-numpy
+}
+
+blender_import() {
+  [ $quick = no ] || skip "--quick"
+  need node
+  built
+  install_blender
+  blender -b --factory-startup --python-exit-code 1 --python $tools/blender_tree.py -- \
+    -o "$target/trees.json" "$models"/*.glb
+  node $tools/same_tree.mjs "$target/trees.json"
+}
+
+readme() {
+  [ -f README.md ] || skip "there is no README.md"
+  cargo build --locked
+  bash tests/readme.sh "$(realpath "$okoshi")"
+}
+
+step format formatting
+step clippy lints
+step test tests
+step doc manual
+step licences licences
+step examples examples
+step validator validator
+step blender blender_import
+step readme readme
+
+printf '\n==== summary, %d s\n' $SECONDS
+printf '%s\n' "${summary[@]}"
+if [ $failed = 0 ]; then echo "all well"; else echo "SOMETHING FAILED"; fi
+exit $failed

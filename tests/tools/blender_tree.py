@@ -1,0 +1,54 @@
+"""Imports glTF files into Blender and prints what it finds: one JSON object a file.
+
+    blender -b --factory-startup --python-exit-code 1 --python blender_tree.py -- [-o OUT.json] FILE.glb...
+
+[{"file": ..., "nodes": [{"name", "parent", "mesh", "triangles"}]}]; a node without parent has null there.
+Blender talks on stdout too, so -o is for programs.
+"""
+
+import json
+import sys
+
+import bpy
+import numpy
+
+# Blender 3.4 reads glTF by a name that NumPy has given up since.
+if "bool" not in vars(numpy):
+    numpy.bool = bool
+
+
+def node(thing):
+    """One object of the tree; triangles are counted after triangulation."""
+    solid = thing.type == "MESH"
+    if solid:
+        thing.data.calc_loop_triangles()
+    return {
+        "name": thing.name,
+        "parent": thing.parent.name if thing.parent else None,
+        "mesh": solid,
+        "triangles": len(thing.data.loop_triangles) if solid else 0,
+    }
+
+
+def tree(file):
+    """The objects that an import of `file` makes, by name."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=file)
+    nodes = sorted(map(node, bpy.data.objects), key=lambda one: one["name"])
+    return {"file": file, "nodes": nodes}
+
+
+def main(arguments):
+    """Reads the command line behind `--`."""
+    out = None
+    if arguments[:1] == ["-o"]:
+        out, arguments = arguments[1], arguments[2:]
+    text = json.dumps([tree(file) for file in arguments], ensure_ascii=False, indent=1)
+    if out is None:
+        print(text)
+    else:
+        with open(out, "w", encoding="utf-8") as stream:
+            stream.write(text)
+
+
+main(sys.argv[sys.argv.index("--") + 1 :])
