@@ -9,7 +9,7 @@ use super::loading::{Detail, Loaded, describe, load};
 use super::progress::spinning;
 use super::{Outcome, pretty, print_out, style};
 use crate::bind::{Part, PartKind, SetBy};
-use crate::lang::keyword::Keyword;
+use crate::lang::keyword::{Holder, Keyword};
 use crate::source::Lines;
 
 /// Prints the hierarchy; findings go to stderr.
@@ -97,7 +97,7 @@ fn name<'a>(loaded: &'a Loaded, part: &'a Part) -> &'a str {
 fn attributes(loaded: &Loaded, part: usize) -> BTreeMap<&'static str, AttributeReport> {
     let sheet = &loaded.compiled.sheet;
     let mut out = BTreeMap::new();
-    for keyword in Keyword::ALL.iter().filter(|keyword| keyword.is_for_parts()) {
+    for keyword in Keyword::ALL.iter().filter(|keyword| keyword.row().allowed.permits(Holder::Part)) {
         if let Some(source) = sheet.setting(part, *keyword) {
             let value = source.setting.words.clone();
             out.insert(keyword.name(), AttributeReport { value, from: source.from.name() });

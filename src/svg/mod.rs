@@ -60,7 +60,7 @@ pub struct Group {
 /// An element of the file.
 #[derive(Debug, Clone, Default)]
 pub struct Element {
-    /// Its start tag.
+    /// Its start tag's bracket and name, `<rect`.
     pub span: Span,
     /// Its tag's name.
     pub tag: String,

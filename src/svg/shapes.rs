@@ -178,12 +178,11 @@ fn ids<'a>(document: &'a roxmltree::Document<'_>) -> FxHashMap<&'a str, NodeId> 
     ids
 }
 
-/// The original place of an element's start tag.
+/// The original place of an element's opening bracket and name: short enough to point at.
 pub(super) fn start_tag(node: Node<'_, '_>, prepared: &Prepared) -> Span {
-    let range = node.range();
-    let mut end = node.attributes().map(|attribute| attribute.range().end).max().unwrap_or(range.start);
-    end += prepared.text[end..range.end].find('>').map_or(0, |at| at + 1);
-    prepared.span(range.start..end)
+    let start = node.range().start;
+    let name = prepared.text[start..].find(|c: char| c.is_whitespace() || matches!(c, '>' | '/'));
+    prepared.span(start..name.map_or(node.range().end, |end| start + end))
 }
 
 fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
