@@ -161,8 +161,8 @@ fn full_width(text: &Text, folded: &Folded<'_>) -> Option<Diagnostic> {
             text: text.escape_at(range.start, ascii),
         })
         .collect();
-    let shown: String = text.as_str()[first.0.clone()].chars().take(12).collect();
-    let ascii: String = first.1.chars().take(24).collect();
+    let shown = names::shorten(&text.as_str()[first.0.clone()]);
+    let ascii = names::shorten(first.1);
     let message = if first.1.trim().is_empty() {
         "an ideographic or special space is read as a space".to_owned()
     } else {

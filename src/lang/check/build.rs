@@ -17,6 +17,12 @@ impl Checker<'_> {
             name: attribute.keyword.name(),
             usage: &usage,
             place: &attribute.keyword_range,
+            parameters: attribute
+                .keyword
+                .row()
+                .forms
+                .first()
+                .map_or(0, |form| form.parameters.len()),
             keyword: attribute.keyword,
         };
         if attribute.keyword == Keyword::Shape {
@@ -167,6 +173,7 @@ impl Checker<'_> {
             name: kind.name,
             usage: &usage,
             place: &first.range,
+            parameters: kind.form.parameters.len(),
             keyword: Keyword::Shape,
         };
         let given = self.fit(taker, &kind.form, parameters)?;

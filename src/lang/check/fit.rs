@@ -42,6 +42,8 @@ pub(super) struct Taker<'a> {
     pub(super) usage: &'a str,
     /// The place of its name.
     pub(super) place: &'a std::ops::Range<usize>,
+    /// How many parameters there are.
+    pub(super) parameters: usize,
     /// Whose values `Let` tells about: there nothing is said here.
     pub(super) keyword: Keyword,
 }
@@ -180,9 +182,9 @@ impl Checker<'_> {
         if bounds.holds(value) {
             return Ok(Given::Number(value));
         }
-        let owner = match taker.name == parameter.name {
-            true => format!("`{}`", taker.name),
-            false => format!("`{}` of `{}`", parameter.name, taker.name),
+        let owner = match taker.parameters {
+            1 => format!("`{}`", taker.name),
+            _ => format!("`{}` of `{}`", parameter.name, taker.name),
         };
         self.diagnostics.push(
             Diagnostic::new(

@@ -1,7 +1,10 @@
 use super::check;
 #[test]
 fn zz() {
-    check(r##"Rarm@Ubody$Shape round$Shape default 0 20 Color 0.0 0.0 1.0v -90 90"##, "");
+    check(
+        r##"Rarm@Ubody$Shape round$Shape default 0 20 Color 0.0 0.0 1.0v -90 90"##,
+        "",
+    );
     check(r##"Rarm@Ubody$Colr 1 0 0 Shape roundv"##, "");
     check(r##"Rarm@Ubody$Shape roundw -90 90 Offset 3"##, "");
     check(r##"Rarm@Ubody$Shape default 0 20 Colr 1 0 0 Offset 2"##, "");
