@@ -1,7 +1,9 @@
 //! Strings in, diagnostics out.
 
+mod arguments;
 mod laws;
 mod recovery;
+mod structure;
 mod tables;
 
 use super::ast::Annotation;
