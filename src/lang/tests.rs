@@ -5,6 +5,7 @@ mod laws;
 mod recovery;
 mod structure;
 mod tables;
+mod warnings;
 
 use super::ast::Annotation;
 use super::value::Setting;

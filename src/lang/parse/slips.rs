@@ -7,7 +7,7 @@ use super::names::shorten;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::{Argument, ArgumentKind};
 use crate::lang::keyword::signature::Takes;
-use crate::lang::keyword::{Keyword, kinds, words};
+use crate::lang::keyword::{Keyword, colours, kinds, words};
 use crate::source::{Span, Text};
 
 /// Whether `word`, found while looking for the next attribute, is a keyword with a slip of the pen.
@@ -71,7 +71,7 @@ fn owner_of(word: &str) -> Option<Keyword> {
             Takes::Choice(words) => words
                 .iter()
                 .any(|known| known.name.eq_ignore_ascii_case(word)),
-            Takes::ColourName => words::is_colour(word),
+            Takes::ColourName => colours::is_colour(word),
             _ => false,
         })
     };

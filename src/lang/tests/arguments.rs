@@ -208,6 +208,15 @@ fn e104_argument_type() {
         "#,
     );
     check(
+        "Arm$Follow Rarm 5",
+        r#"
+            Arm$Follow Rarm 5
+                ^^^^^^ W310: `Follow` has no effect in this version (understood, but not built yet)
+                            ^ E104: `5` is not what `Follow` needs here (one or more names is due)
+              help: write `Follow name…`
+        "#,
+    );
+    check(
         "Arm$Color #12345",
         r#"
             Arm$Color #12345
