@@ -162,7 +162,10 @@ pub fn nearest_word<'a>(
                 candidate,
             )
         })
-        .filter(|(distance, _)| *distance <= allowed)
+        // Words of one letter each have nothing in common.
+        .filter(|(distance, candidate)| {
+            *distance <= allowed && *distance < letters.max(candidate.chars().count())
+        })
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
 }

@@ -109,21 +109,22 @@ impl Checker<'_> {
 
     fn attribute(&mut self, attribute: &Attribute, before: Option<&Attribute>) -> Option<Setting> {
         let row = attribute.keyword.row();
+        let flags_are_known = self.flags(attribute);
+        let needs_arguments = !row.forms.iter().any(|form| form.fits(0));
+        if attribute.arguments.is_empty() && needs_arguments {
+            if flags_are_known {
+                self.nothing_given(attribute, before);
+            }
+            return None;
+        }
         if row.status == Status::Planned {
             self.not_built(attribute.keyword.name(), attribute.keyword_range.clone());
         }
-        let flags_are_known = self.flags(attribute);
         let unreadable = attribute
             .arguments
             .iter()
             .any(|argument| argument.kind == ArgumentKind::Unreadable);
         if unreadable {
-            return None;
-        }
-        if attribute.arguments.is_empty() && !row.forms.iter().any(|form| form.fits(0)) {
-            if flags_are_known {
-                self.nothing_given(attribute, before);
-            }
             return None;
         }
         let (value, words) = self.value(attribute)?;

@@ -8,6 +8,7 @@ mod drawing;
 mod figure;
 mod scenes;
 
+pub mod colours;
 pub mod kinds;
 pub mod signature;
 pub mod words;

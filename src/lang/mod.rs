@@ -9,8 +9,10 @@
 
 pub mod ast;
 pub mod check;
+pub mod explain;
 pub mod keyword;
 pub mod parse;
+pub mod reference;
 pub mod value;
 pub mod variables;
 

@@ -161,12 +161,14 @@ fn full_width(text: &Text, folded: &Folded<'_>) -> Option<Diagnostic> {
             text: text.escape_at(range.start, ascii),
         })
         .collect();
-    let shown: String = text.as_str()[first.0.clone()].chars().take(12).collect();
-    let ascii: String = first.1.chars().take(24).collect();
-    let message = if first.1.trim().is_empty() {
-        "an ideographic or special space is read as a space".to_owned()
-    } else {
-        format!("`{shown}` is read as `{ascii}`")
+    let sign = folds.iter().find(|(_, ascii)| !ascii.trim().is_empty());
+    let message = match sign {
+        Some((range, ascii)) => format!(
+            "`{}` is read as `{}`",
+            names::shorten(&text.as_str()[range.clone()]),
+            names::shorten(ascii)
+        ),
+        None => "a special space is read as a plain one".to_owned(),
     };
     let mut hint = Diagnostic::new(Code::FullWidth, span, message)
         .label("full-width signs")

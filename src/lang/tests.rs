@@ -1,8 +1,11 @@
 //! Strings in, diagnostics out.
 
+mod arguments;
 mod laws;
 mod recovery;
+mod structure;
 mod tables;
+mod warnings;
 
 use super::ast::Annotation;
 use super::value::Setting;

@@ -24,7 +24,7 @@ pub struct Variable {
 }
 
 /// Names offered instead of an unknown one are looked for among so many variables at most.
-const OFFERED: usize = 500;
+const OFFERED: usize = 200;
 
 /// A definition as it is written.
 struct Definition<'a> {

@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::lang::ast::{Argument, ArgumentKind, Attribute};
 use crate::lang::evaluate::Known;
 use crate::lang::keyword::signature::{Form, Takes};
-use crate::lang::keyword::{Keyword, Status, kinds, words};
+use crate::lang::keyword::{Keyword, Status, colours, kinds};
 use crate::lang::value::{Ground, Origin, Shape, ShapeKind, SignedAxis, Value};
 
 impl Checker<'_> {
@@ -17,6 +17,12 @@ impl Checker<'_> {
             name: attribute.keyword.name(),
             usage: &usage,
             place: &attribute.keyword_range,
+            parameters: attribute
+                .keyword
+                .row()
+                .forms
+                .first()
+                .map_or(0, |form| form.parameters.len()),
             keyword: attribute.keyword,
         };
         if attribute.keyword == Keyword::Shape {
@@ -55,7 +61,7 @@ impl Checker<'_> {
                 (Some(Takes::Choice(words)), ArgumentKind::Word(word)) => words
                     .iter()
                     .any(|choice| choice.name.eq_ignore_ascii_case(word)),
-                (Some(Takes::ColourName), ArgumentKind::Word(word)) => words::is_colour(word),
+                (Some(Takes::ColourName), ArgumentKind::Word(word)) => colours::is_colour(word),
                 _ => false,
             }
         };
@@ -167,6 +173,7 @@ impl Checker<'_> {
             name: kind.name,
             usage: &usage,
             place: &first.range,
+            parameters: kind.form.parameters.len(),
             keyword: Keyword::Shape,
         };
         let given = self.fit(taker, &kind.form, parameters)?;

@@ -4,6 +4,7 @@ use super::Checker;
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::{Argument, ArgumentKind, Name};
 use crate::lang::evaluate::{Failure, Known, evaluate};
+use crate::lang::keyword::colours::{self, COLOURS};
 use crate::lang::keyword::signature::{Bounds, Form, Parameter, Takes};
 use crate::lang::keyword::{Keyword, words};
 use crate::lang::parse::slips;
@@ -42,6 +43,8 @@ pub(super) struct Taker<'a> {
     pub(super) usage: &'a str,
     /// The place of its name.
     pub(super) place: &'a std::ops::Range<usize>,
+    /// How many parameters there are.
+    pub(super) parameters: usize,
     /// Whose values `Let` tells about: there nothing is said here.
     pub(super) keyword: Keyword,
 }
@@ -68,8 +71,8 @@ impl Checker<'_> {
             match self.argument(taker, parameter, argument) {
                 Ok(value) => given.push(value),
                 Err(Misfit::Fault) => {
-                    if self.blame_name_before(parameter, &arguments[..index], &mut given) {
-                        return (!given.is_empty()).then_some(given);
+                    if matches!(parameter.takes, Takes::Names) {
+                        return self.no_name(taker, parameter, &arguments[..=index], given);
                     }
                     whole = false;
                     given.push(Given::Number(0.));
@@ -108,10 +111,10 @@ impl Checker<'_> {
                 let names = words::AXES.iter().map(|axis| axis.name);
                 return self.word(taker, argument, word, names);
             }
-            (Takes::ColourName, ArgumentKind::Word(word)) => match words::colour(word) {
+            (Takes::ColourName, ArgumentKind::Word(word)) => match colours::colour(word) {
                 Some(colour) => Some(Given::Colour(colour, word.to_ascii_lowercase())),
                 None => {
-                    let names = words::COLOURS.iter().copied();
+                    let names = COLOURS.iter().copied();
                     return self.word(taker, argument, word, names);
                 }
             },
@@ -139,12 +142,8 @@ impl Checker<'_> {
             _ => None,
         };
         found.ok_or_else(|| {
+            // Of a list of names the caller tells, who knows the name before.
             if !matches!(parameter.takes, Takes::Names) {
-                self.wrong_type(taker, parameter, argument);
-            } else if !matches!(
-                argument.kind,
-                ArgumentKind::Number(_) | ArgumentKind::Hex(_)
-            ) {
                 self.wrong_type(taker, parameter, argument);
             }
             Misfit::Fault
@@ -180,9 +179,9 @@ impl Checker<'_> {
         if bounds.holds(value) {
             return Ok(Given::Number(value));
         }
-        let owner = match taker.name == parameter.name {
-            true => format!("`{}`", taker.name),
-            false => format!("`{}` of `{}`", parameter.name, taker.name),
+        let owner = match taker.parameters {
+            1 => format!("`{}`", taker.name),
+            _ => format!("`{}` of `{}`", parameter.name, taker.name),
         };
         self.diagnostics.push(
             Diagnostic::new(
@@ -252,24 +251,28 @@ impl Checker<'_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// In `Follow Rarm Colr 1 0 0` the number shows that the name before it was to be a keyword.
-    fn blame_name_before(
+    /// The last of `arguments` is no name. In `Follow Rarm Colr 1 0 0` this shows that the name before
+    /// it was to be a keyword.
+    fn no_name(
         &mut self,
+        taker: Taker<'_>,
         parameter: &Parameter,
-        before: &[Argument],
-        given: &mut Vec<Given>,
-    ) -> bool {
-        if !matches!(parameter.takes, Takes::Names) {
-            return false;
-        }
-        if let Some((last, _)) = before.split_last()
-            && let ArgumentKind::Word(word) = &last.kind
+        arguments: &[Argument],
+        mut given: Vec<Given>,
+    ) -> Option<Vec<Given>> {
+        if let [.., name, _] = arguments
+            && let ArgumentKind::Word(word) = &name.kind
+            && slips::is_nearly_keyword(word, true)
         {
             given.pop();
-            let diagnostic = slips::no_keyword(self.text, last.range.clone(), word);
+            let diagnostic = slips::no_keyword(self.text, name.range.clone(), word);
             self.diagnostics.push(diagnostic);
+            return (!given.is_empty()).then_some(given);
         }
-        true
+        if let Some(last) = arguments.last() {
+            self.wrong_type(taker, parameter, last);
+        }
+        None
     }
 
     /// Too many arguments. Whether the attribute ended properly before them.

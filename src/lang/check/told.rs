@@ -121,6 +121,9 @@ impl Checker<'_> {
                     span,
                     self.text.escape_at(range.start, &format!("\"{written}\"")),
                 ),
+            _ if attribute.keyword == Keyword::Let => diagnostic.help(format!(
+                "write `{usage}`; a variable cannot have the name of a keyword"
+            )),
             None => diagnostic.help(format!("write `{usage}`")),
         };
         self.diagnostics.push(diagnostic);

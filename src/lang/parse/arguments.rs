@@ -226,7 +226,8 @@ impl Parser<'_> {
         if named && takes(keyword, |takes| matches!(takes, Takes::Names)) {
             return ArgumentKind::Word(run.to_owned());
         }
-        let commas_said = before.iter().any(|argument| {
+        // From the end, so that many such arguments are found in few steps each.
+        let commas_said = before.iter().rev().any(|argument| {
             argument.kind == ArgumentKind::Unreadable
                 && self.text.as_str()[argument.range.clone()].contains([',', '，'])
         });

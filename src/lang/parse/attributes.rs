@@ -127,22 +127,25 @@ impl Parser<'_> {
         self.at += sign.len_utf8();
         if !self.sign_reported {
             self.sign_reported = true;
-            let mut diagnostic = Diagnostic::new(
+            let span = self.span(at..self.at);
+            let diagnostic = Diagnostic::new(
                 Code::UnexpectedSign,
-                self.span(at..self.at),
+                span,
                 format!("`{sign}` cannot stand here"),
-            )
-            .label("a new string seems to begin here");
-            let doubled = at > 0 && self.folded.as_str()[..at].ends_with(sign);
-            diagnostic = if doubled {
-                diagnostic.fix("Delete the second sign", self.span(at..self.at), "")
-            } else {
-                diagnostic
+            );
+            let doubled = self.folded.as_str()[..at].ends_with(sign);
+            let diagnostic = match doubled {
+                true => diagnostic.label("the sign is typed twice").fix(
+                    "Delete the second sign",
+                    span,
+                    "",
+                ),
+                false => diagnostic.label("a new string seems to begin here").help(
+                    "two strings seem to have been typed into one text: cut the second one out and \
+                     give it a text of its own",
+                ),
             };
-            self.report(diagnostic.help(
-                "two strings seem to have been typed into one text: cut the second one out and give \
-                 it a text of its own",
-            ));
+            self.report(diagnostic);
         }
         if matches!(sign, '@' | '*' | '^') {
             self.skip_blank();

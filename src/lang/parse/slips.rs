@@ -7,7 +7,7 @@ use super::names::shorten;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::{Argument, ArgumentKind};
 use crate::lang::keyword::signature::Takes;
-use crate::lang::keyword::{Keyword, kinds, words};
+use crate::lang::keyword::{Keyword, colours, kinds, words};
 use crate::source::{Span, Text};
 
 /// Whether `word`, found while looking for the next attribute, is a keyword with a slip of the pen.
@@ -32,13 +32,19 @@ pub(in crate::lang) fn no_keyword(text: &Text, range: Range<usize>, found: &str)
             text.escape_at(range.start, better),
         )
     };
-    let bare = found.trim_end_matches([':', '=', ',', ';']);
-    let exact = Keyword::from_name(bare).map(|keyword| (keyword, 0));
-    if let Some((keyword, _)) = exact.or_else(|| Keyword::nearly(found)) {
+    let (head, tail) = found
+        .split_once([':', '=', ',', ';'])
+        .unwrap_or((found, ""));
+    if let Some(keyword) = Keyword::from_name(head) {
+        let better = format!("{} {tail}", keyword.name());
+        let said = diagnostic.label("only a space stands behind a keyword");
+        return write(said, better.trim_end());
+    }
+    let owner = owner_of(found);
+    if let (None, Some((keyword, _))) = (owner, Keyword::nearly(found)) {
         let name = keyword.name();
         return write(diagnostic.label(format!("did you mean `{name}`?")), name);
     }
-    let owner = owner_of(found);
     match owner {
         Some(owner) => {
             let better = format!("{} {found}", owner.name());
@@ -65,7 +71,7 @@ fn owner_of(word: &str) -> Option<Keyword> {
             Takes::Choice(words) => words
                 .iter()
                 .any(|known| known.name.eq_ignore_ascii_case(word)),
-            Takes::ColourName => words::is_colour(word),
+            Takes::ColourName => colours::is_colour(word),
             _ => false,
         })
     };

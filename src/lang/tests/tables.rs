@@ -28,6 +28,36 @@ fn examples_of_keywords() {
     }
 }
 
+/// The wrong example on a code's manual page shows just that fault.
+#[test]
+fn examples_of_diagnostics() {
+    for code in Code::ALL {
+        let language = matches!(code.id().as_bytes(), [b'E', b'1', ..])
+            || ["E005", "W301", "W302", "W305", "W310", "H405"].contains(&code.id());
+        if !language {
+            continue;
+        }
+        let manual = code.manual();
+        let (_, rest) = manual.split_once("```text\n").unwrap();
+        let example = rest.split_once("```").unwrap().0.trim();
+        let example = example.replace(
+            "((((…))))",
+            &format!("{}1{}", "(".repeat(99), ")".repeat(99)),
+        );
+        let mut reading = read(&Text::plain(&example, 0), Place::Text);
+        reading
+            .diagnostics
+            .retain(|found| found.code != Code::NotBuiltYet || *code == Code::NotBuiltYet);
+        let codes: Vec<_> = reading.diagnostics.iter().map(|found| found.code).collect();
+        // Two strings in one text break a word besides.
+        let expected = match code {
+            Code::UnexpectedSign => vec![Code::UnexpectedSign, Code::ArgumentType],
+            code => vec![*code],
+        };
+        assert_eq!(codes, expected, "{example}");
+    }
+}
+
 #[test]
 fn examples_of_kinds_functions_and_strings() {
     for kind in &kinds::KINDS {

@@ -1,0 +1,206 @@
+//! The manual, page by page, in Markdown that reads well in a terminal too.
+
+use std::fmt::Write as _;
+
+use super::keyword::kinds::{KINDS, Kind};
+use super::keyword::signature::{Form, Takes};
+use super::keyword::words::{FUNCTIONS, STRINGS};
+use super::keyword::{Keyword, Status};
+use crate::diagnostic::Code;
+
+/// What is said about rows of the table that have no effect yet.
+const PLANNED: &str = "*Read and checked, but without effect in this version.*";
+
+/// The page that `word` names: a keyword, a kind of `Shape`, or a diagnostic's code, whatever its case.
+///
+/// A keyword goes before a kind of the same name.
+pub fn page(word: &str) -> Option<String> {
+    Keyword::from_name(word)
+        .map(keyword)
+        .or_else(|| super::keyword::kinds::from_name(word).map(kind))
+        .or_else(|| Code::from_id(word).map(code))
+}
+
+/// Every word that has a page.
+pub fn words() -> impl Iterator<Item = &'static str> {
+    let keywords = Keyword::ALL.iter().map(|keyword| keyword.name());
+    let kinds = KINDS.iter().map(|kind| kind.name);
+    keywords
+        .chain(kinds)
+        .chain(Code::ALL.iter().map(|code| code.id()))
+}
+
+/// The manual of a keyword.
+pub fn keyword(keyword: Keyword) -> String {
+    let row = keyword.row();
+    let mut out = format!(
+        "# {}\n\n{}.\n\n```\n",
+        keyword.name(),
+        sentence(row.summary)
+    );
+    for usage in keyword.usages() {
+        let _ = writeln!(out, "{usage}");
+    }
+    out.push_str("```\n\n");
+    if row.status == Status::Planned {
+        let _ = writeln!(out, "{PLANNED}\n");
+    }
+    let _ = writeln!(out, "{}\n", row.long);
+    out.push_str(&parameters(row.forms));
+    for flag in row.flags {
+        let _ = writeln!(out, "- `-{}`: {}", flag.letter, flag.summary);
+    }
+    if !row.flags.is_empty() {
+        out.push('\n');
+    }
+    if keyword == Keyword::Shape {
+        out.push_str("Kinds:\n\n");
+        for kind in &KINDS {
+            let _ = writeln!(out, "- `{}`: {}", kind.usage(), kind.summary);
+        }
+        out.push('\n');
+    }
+    if !row.default.is_empty() {
+        let _ = writeln!(out, "Default: {}\n", row.default);
+    }
+    let _ = writeln!(out, "Stands {}.\n", row.allowed.places());
+    let _ = write!(out, "Example:\n\n```\n{}\n```\n", row.example);
+    out
+}
+
+/// The manual of a kind of `Shape`.
+pub fn kind(kind: &Kind) -> String {
+    let mut out = format!(
+        "# Shape {}\n\n{}.\n\n```\nShape {}\n```\n\n",
+        kind.name,
+        sentence(kind.summary),
+        kind.usage()
+    );
+    if kind.status == Status::Planned {
+        let _ = writeln!(out, "{PLANNED}\n");
+    }
+    let _ = writeln!(out, "{}\n", kind.long);
+    out.push_str(&parameters(std::slice::from_ref(&kind.form)));
+    if !kind.default.is_empty() {
+        let _ = writeln!(out, "Default: {}\n", kind.default);
+    }
+    let _ = write!(out, "Example:\n\n```\n{}\n```\n", kind.example);
+    out
+}
+
+/// The manual of a diagnostic's code.
+pub fn code(code: Code) -> String {
+    format!(
+        "# {}: {}\n\n*{}*\n\n{}",
+        code.id(),
+        code.title(),
+        code.severity().name(),
+        paragraphs(code.manual())
+    )
+}
+
+/// The language at a glance.
+pub fn overview() -> String {
+    let mut out = String::from("# The strings of a drawing\n\n");
+    for row in &STRINGS {
+        let start = match row.sign {
+            "" => "Name@Parent$ …".to_owned(),
+            sign => format!("{sign} …"),
+        };
+        let _ = writeln!(out, "- `{start}` {}: {}", row.name, row.summary);
+    }
+    out.push_str("\n# Keywords\n\n");
+    for keyword in Keyword::ALL {
+        let row = keyword.row();
+        let later = match row.status {
+            Status::Built => "",
+            Status::Planned => " (no effect yet)",
+        };
+        let _ = writeln!(out, "- `{}`: {}{later}", keyword.name(), row.summary);
+    }
+    out.push_str("\n# Kinds of `Shape`\n\n");
+    for kind in &KINDS {
+        let later = match kind.status {
+            Status::Built => "",
+            Status::Planned => " (no effect yet)",
+        };
+        let _ = writeln!(out, "- `{}`: {}{later}", kind.usage(), kind.summary);
+    }
+    out.push_str(
+        "\n# Calculations\n\nIn parentheses, with `+ - * /` and variables; functions:\n\n",
+    );
+    for row in &FUNCTIONS {
+        let _ = writeln!(out, "- `{}`: {}", row.usage, row.summary);
+    }
+    out.push_str(
+        "\n`okoshi explain WORD` tells more about a keyword, a kind, or a diagnostic's code.\n",
+    );
+    out
+}
+
+/// What the parameters of some forms take, as a list; nothing where the printed form says it all.
+pub(super) fn parameters(forms: &[Form]) -> String {
+    let mut out = String::new();
+    for parameter in forms.iter().flat_map(|form| form.parameters) {
+        match &parameter.takes {
+            Takes::Choice(words) => {
+                for word in *words {
+                    let _ = writeln!(out, "- `{}`: {}", word.name, word.summary);
+                }
+            }
+            Takes::Kind => {}
+            takes => {
+                let _ = writeln!(out, "- `{}`: {}", parameter.print(), takes.describe());
+            }
+        }
+    }
+    if !out.is_empty() {
+        out.push('\n');
+    }
+    out
+}
+
+/// `text` with a capital letter first.
+pub(super) fn sentence(text: &str) -> String {
+    let mut chars = text.chars();
+    match chars.next() {
+        Some(first) => first.to_uppercase().chain(chars).collect(),
+        None => String::new(),
+    }
+}
+
+/// Doc comments as Markdown: each line without the space it begins with.
+pub(super) fn paragraphs(manual: &str) -> String {
+    let lines: Vec<_> = manual
+        .lines()
+        .map(|line| line.strip_prefix(' ').unwrap_or(line).trim_end())
+        .collect();
+    let mut out = lines.join("\n").trim().to_owned();
+    out.push('\n');
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_word_has_a_page() {
+        for word in words() {
+            let page = page(word).unwrap();
+            assert!(page.starts_with("# ") && page.ends_with('\n'), "{page}");
+            assert!(!page.contains("\n\n\n"), "{page}");
+        }
+        assert_eq!(page("nonsense"), None);
+        assert!(page("ROUNDV").unwrap().contains("Shape roundv [a0 a1]"));
+        assert!(page("e112").unwrap().starts_with("# E112: unexpected sign"));
+    }
+
+    #[test]
+    fn the_overview_names_all() {
+        let overview = overview();
+        for keyword in Keyword::ALL {
+            assert!(overview.contains(&format!("`{}`", keyword.name())));
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Colours by name.
+
+/// The colours' names as in CSS.
+#[rustfmt::skip]
+pub static COLOURS: [&str; 148] = [
+    "aliceblue", "antiquewhite", "aqua", "aquamarine", "azure", "beige", "bisque", "black",
+    "blanchedalmond", "blue", "blueviolet", "brown", "burlywood", "cadetblue", "chartreuse",
+    "chocolate", "coral", "cornflowerblue", "cornsilk", "crimson", "cyan", "darkblue",
+    "darkcyan", "darkgoldenrod", "darkgray", "darkgreen", "darkgrey", "darkkhaki",
+    "darkmagenta", "darkolivegreen", "darkorange", "darkorchid", "darkred", "darksalmon",
+    "darkseagreen", "darkslateblue", "darkslategray", "darkslategrey", "darkturquoise",
+    "darkviolet", "deeppink", "deepskyblue", "dimgray", "dimgrey", "dodgerblue", "firebrick",
+    "floralwhite", "forestgreen", "fuchsia", "gainsboro", "ghostwhite", "gold", "goldenrod",
+    "gray", "green", "greenyellow", "grey", "honeydew", "hotpink", "indianred", "indigo",
+    "ivory", "khaki", "lavender", "lavenderblush", "lawngreen", "lemonchiffon", "lightblue",
+    "lightcoral", "lightcyan", "lightgoldenrodyellow", "lightgray", "lightgreen", "lightgrey",
+    "lightpink", "lightsalmon", "lightseagreen", "lightskyblue", "lightslategray",
+    "lightslategrey", "lightsteelblue", "lightyellow", "lime", "limegreen", "linen",
+    "magenta", "maroon", "mediumaquamarine", "mediumblue", "mediumorchid", "mediumpurple",
+    "mediumseagreen", "mediumslateblue", "mediumspringgreen", "mediumturquoise",
+    "mediumvioletred", "midnightblue", "mintcream", "mistyrose", "moccasin", "navajowhite",
+    "navy", "oldlace", "olive", "olivedrab", "orange", "orangered", "orchid", "palegoldenrod",
+    "palegreen", "paleturquoise", "palevioletred", "papayawhip", "peachpuff", "peru", "pink",
+    "plum", "powderblue", "purple", "rebeccapurple", "red", "rosybrown", "royalblue",
+    "saddlebrown", "salmon", "sandybrown", "seagreen", "seashell", "sienna", "silver",
+    "skyblue", "slateblue", "slategray", "slategrey", "snow", "springgreen", "steelblue",
+    "tan", "teal", "thistle", "tomato", "turquoise", "violet", "wheat", "white", "whitesmoke",
+    "yellow", "yellowgreen",
+];
+
+/// Whether `word` is a colour's name as in CSS.
+pub fn is_colour(word: &str) -> bool {
+    colour(word).is_some()
+}
+
+/// The colour that CSS calls `name`: red, green, blue and alpha, each 0 to 255.
+pub fn colour(name: &str) -> Option<[u8; 4]> {
+    use std::str::FromStr as _;
+    // Colour names of CSS are letters; functions and `currentColor` are no names.
+    if !name.bytes().all(|byte| byte.is_ascii_alphabetic()) || name.len() > 24 {
+        return None;
+    }
+    let lower = name.to_ascii_lowercase();
+    match lower.as_str() {
+        "currentcolor" => return None,
+        // Newer than the list of names that `svgtypes` has.
+        "rebeccapurple" => return Some([102, 51, 153, 255]),
+        _ => {}
+    }
+    let colour = svgtypes::Color::from_str(&lower).ok()?;
+    Some([colour.red, colour.green, colour.blue, colour.alpha])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_those_of_css() {
+        assert_eq!(colour("Orange"), Some([255, 165, 0, 255]));
+        assert_eq!(colour("currentColor"), None);
+        assert_eq!(colour("rgb"), None);
+        assert_eq!(colour("orang"), None);
+        for name in COLOURS {
+            assert!(is_colour(name), "{name}");
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! What is generated from the table: the reference, the manual of diagnostics, the grammars.
+//!
+//! A test compares each with the file in the repository, and rewrites it on demand.
+
+mod ebnf;
+mod textmate;
+
+use std::fmt::Write as _;
+
+use super::explain::{keyword, kind, paragraphs, sentence};
+use super::keyword::kinds::KINDS;
+use super::keyword::words::{FUNCTIONS, STRINGS};
+use super::keyword::{Keyword, Status};
+use crate::diagnostic::{Code, Severity};
+
+pub use ebnf::ebnf;
+pub use textmate::{injection, textmate};
+
+const GENERATED: &str =
+    "<!-- Generated from the keyword table: `OKOSHI_REWRITE=1 cargo test --test generated`. -->\n";
+
+/// Where the README's table begins.
+pub const TABLE_START: &str = "<!-- keywords -->";
+/// Where the README's table ends.
+pub const TABLE_END: &str = "<!-- /keywords -->";
+
+/// `docs/reference.md`: the whole language.
+pub fn reference() -> String {
+    let mut out = format!("# Language reference\n\n{GENERATED}\n");
+    out.push_str(include_str!("reference/strings.md"));
+    out.push_str("\n| starts with | kind | belongs to | meaning |\n|---|---|---|---|\n");
+    for row in &STRINGS {
+        let sign = match row.sign {
+            "" => "anything else".to_owned(),
+            sign => format!("`{sign}`"),
+        };
+        let _ = writeln!(
+            out,
+            "| {sign} | [{}](#{}-string) | {} | {} |",
+            row.name,
+            row.name.replace(' ', "-"),
+            row.bound,
+            row.summary
+        );
+    }
+    for row in &STRINGS {
+        let _ = write!(
+            out,
+            "\n### {} string\n\n{}\n\n```\n{}\n```\n",
+            sentence(row.name),
+            row.long,
+            row.example
+        );
+    }
+    out.push('\n');
+    out.push_str(include_str!("reference/writing.md"));
+    out.push_str("\n| function | value |\n|---|---|\n");
+    for row in &FUNCTIONS {
+        let _ = writeln!(out, "| `{}` | {} |", row.usage, row.summary);
+    }
+    out.push_str("\n## Attributes\n\n");
+    out.push_str(&keyword_table());
+    for each in Keyword::ALL {
+        out.push('\n');
+        out.push_str(&deeper(&keyword(*each)));
+    }
+    out.push_str("\n## Shapes\n\n| kind | meaning |\n|---|---|\n");
+    for each in &KINDS {
+        let _ = writeln!(
+            out,
+            "| [`{}`](#shape-{}) | {}{} |",
+            each.usage(),
+            each.name,
+            each.summary,
+            later(each.status)
+        );
+    }
+    for each in &KINDS {
+        out.push('\n');
+        out.push_str(&deeper(&kind(each)));
+    }
+    out
+}
+
+/// `docs/diagnostics.md`: a section a code.
+pub fn diagnostics() -> String {
+    let mut out = format!(
+        "# Diagnostics\n\n{GENERATED}\nErrors keep `okoshi build` from writing; warnings and hints do \
+         not. `okoshi explain CODE` prints a section in the terminal.\n"
+    );
+    for severity in [Severity::Error, Severity::Warning, Severity::Hint] {
+        let _ = write!(out, "\n## {}s\n", sentence(severity.name()));
+        for each in Code::ALL.iter().filter(|code| code.severity() == severity) {
+            let _ = write!(
+                out,
+                "\n<a id=\"{}\"></a>\n\n### {}: {}\n\n{}",
+                each.id().to_ascii_lowercase(),
+                each.id(),
+                each.title(),
+                paragraphs(each.manual())
+            );
+        }
+    }
+    out
+}
+
+/// The table of keywords, as the README has it.
+pub fn keyword_table() -> String {
+    let mut out = String::from("| keyword | where | meaning | default |\n|---|---|---|---|\n");
+    for keyword in Keyword::ALL {
+        let row = keyword.row();
+        let usages: Vec<_> = keyword
+            .usages()
+            .iter()
+            .map(|usage| format!("`{}`", usage.replace('|', "\\|")))
+            .collect();
+        let _ = writeln!(
+            out,
+            "| {} | {} | {}{} | {} |",
+            usages.join("<br>"),
+            row.allowed.name(),
+            row.summary,
+            later(row.status),
+            row.default
+        );
+    }
+    out
+}
+
+/// `readme` with its table of keywords renewed; `None` if it has no place for one.
+pub fn renew_readme(readme: &str) -> Option<String> {
+    let (head, rest) = readme.split_once(TABLE_START)?;
+    let (_, tail) = rest.split_once(TABLE_END)?;
+    let table = keyword_table();
+    Some(format!("{head}{TABLE_START}\n{table}{TABLE_END}{tail}"))
+}
+
+fn later(status: Status) -> &'static str {
+    match status {
+        Status::Built => "",
+        Status::Planned => " *(no effect yet)*",
+    }
+}
+
+/// A manual page as a section of a larger one.
+fn deeper(page: &str) -> String {
+    match page.strip_prefix("# ") {
+        Some(rest) => format!("### {rest}"),
+        None => page.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_readme_keeps_its_words() {
+        let readme = "a\n<!-- keywords -->\nold\n<!-- /keywords -->\nb\n";
+        let renewed = renew_readme(readme).unwrap();
+        assert!(renewed.starts_with("a\n<!-- keywords -->\n| keyword"));
+        assert!(renewed.ends_with("|\n<!-- /keywords -->\nb\n"));
+        assert_eq!(renew_readme(&renewed), Some(renewed.clone()));
+        assert_eq!(renew_readme("nothing"), None);
+    }
+}

@@ -1,0 +1,173 @@
+//! What strings are read as.
+
+use super::*;
+use crate::lang::looks_like_string;
+use crate::lang::value::{Origin, Shape, ShapeKind, Value};
+use crate::source::{Form, Span};
+
+fn head(input: &str, place: Place) -> String {
+    let name = |name: Option<crate::lang::ast::Name>| name.map_or("-".to_owned(), |name| name.text);
+    match read(&Text::plain(input, 0), place).annotation {
+        Annotation::Empty => "empty".to_owned(),
+        Annotation::Comment => "comment".to_owned(),
+        Annotation::Unused => "unused".to_owned(),
+        Annotation::Caption => "caption".to_owned(),
+        Annotation::Feature(feature) => format!("feature {}", feature.text),
+        Annotation::Defaults(attributes) => format!("defaults {}", attributes.len()),
+        Annotation::Legend(attributes) => format!("legend {}", attributes.len()),
+        Annotation::Part(part) => format!(
+            "part {} of {}, {}",
+            name(part.name),
+            name(part.parent),
+            part.attributes.len()
+        ),
+    }
+}
+
+#[test]
+fn kinds_of_string() {
+    for (input, found) in [
+        (" \n　", "empty"),
+        ("# a", "comment"),
+        ("＃ a", "comment"),
+        (" * Unuse this", "unused"),
+        ("^ nose", "feature nose"),
+        ("%Scale 2\nGround page", "defaults 2"),
+        ("$Color red", "legend 1"),
+        ("Head", "part Head of -, 0"),
+        ("右腕＠胴", "part 右腕 of 胴, 0"),
+        (
+            "\"Left\n arm\"@\"Upper body\"$Offset 2",
+            "part Left arm of Upper body, 1",
+        ),
+        ("U-1@Tyre.back", "part U-1 of Tyre.back, 0"),
+        ("Arm @ Body $ Offset 2 Color red", "part Arm of Body, 2"),
+        ("Left arm@Body", "part Left arm of Body, 0"),
+        ("two words", "caption"),
+        ("$", "legend 0"),
+        ("Ｈｅａｄ", "part Head of -, 0"),
+    ] {
+        assert_eq!(head(input, Place::Text), found, "{input}");
+    }
+    for (input, found) in [
+        ("$Color red", "part - of -, 1"),
+        ("@Body$Color red", "part - of Body, 1"),
+        ("Arm@Body", "part Arm of Body, 0"),
+        ("%Scale 2", "defaults 1"),
+    ] {
+        assert_eq!(head(input, Place::Desc), found, "{input}");
+        let reading = read(&Text::plain(input, 0), Place::Desc);
+        assert_eq!(reading.diagnostics, [], "{input}");
+    }
+}
+
+#[test]
+fn strings_are_told_from_other_texts() {
+    for text in [
+        "%",
+        " $Color",
+        "*Unuse",
+        "@Body",
+        "＄",
+        "Arm@",
+        "Arm$",
+        "\"Left arm\"@Body",
+        "Ａ＠Ｂ",
+    ] {
+        assert!(looks_like_string(text), "{text}");
+    }
+    for text in [
+        "",
+        "Arm",
+        "two words",
+        "# note",
+        "^nose",
+        "to me@home",
+        "\"quoted\"",
+        "5 $",
+        "(a)@b",
+    ] {
+        assert!(!looks_like_string(text), "{text}");
+    }
+}
+
+#[test]
+fn values_are_computed() {
+    let input = "%Let w 4 Offset (w * (2 + 1) / 2 - -1) Shape -cs round Origin 1 w Color #f008";
+    let reading = read(&Text::plain(input, 0), Place::Text);
+    assert_eq!(reading.diagnostics, []);
+    let values: Vec<_> = reading
+        .settings
+        .iter()
+        .map(|setting| (&setting.value, setting.words.as_str()))
+        .collect();
+    let round = Shape {
+        kind: ShapeKind::Round([-90., 90.], None),
+        mirrored: true,
+        doubled: false,
+        centered: true,
+    };
+    let red = Value::Color {
+        rgb: [1., 0., 0.],
+        alpha: Some(f64::from(0x88) / 255.),
+    };
+    assert_eq!(
+        values,
+        [
+            (&Value::Let("w".to_owned(), 4.), "w 4"),
+            (&Value::Number(7.), "7"),
+            (&Value::Shape(round), "-cs round"),
+            (&Value::Origin(Origin::Point([1., 4.])), "1 4"),
+            (&red, "#f008"),
+        ]
+    );
+}
+
+#[test]
+fn what_is_right_counts_beside_what_is_wrong() {
+    for (input, kept) in [
+        (
+            "Arm$Shape rond Offset 3 Colr red Alpha .5",
+            vec!["Offset", "Alpha"],
+        ),
+        ("Arm$Color red Color 2 2 2", vec!["Color"]),
+        (
+            "Rarm@Ubody$Shape round$Shape default 0 20 Color 0.0 0.0 1.0v -90 90",
+            vec!["Shape"],
+        ),
+        ("Arm$Texture \"a.png Offset 3", vec!["Offset"]),
+        ("Arm$Offset (1 Alpha .5", vec!["Alpha"]),
+        ("Arm$Shape default 0 20 Colr 1 0 0", vec!["Shape"]),
+    ] {
+        let reading = read(&Text::plain(input, 0), Place::Text);
+        let found: Vec<_> = reading
+            .settings
+            .iter()
+            .map(|setting| setting.keyword.name())
+            .collect();
+        assert_eq!(found, kept, "{input}");
+    }
+}
+
+#[test]
+fn places_and_fixes_go_through_entities_and_elements() {
+    // `Arm$Co` `lr` in a second element, `red`, all behind an entity for `$`.
+    let mut text = Text::default();
+    text.push("Arm", Span::new(10, 13), Form::Plain);
+    text.push("$", Span::new(13, 18), Form::Unit);
+    text.push("Colr red Offset wx", Span::new(18, 36), Form::Plain);
+    let reading = read(&text, Place::Text);
+    assert_eq!(reading.diagnostics[0].span, Span::new(18, 22));
+    assert_eq!(reading.diagnostics[0].fixes.len(), 1);
+
+    let mut torn = Text::default();
+    torn.push("Arm$Co", Span::new(10, 16), Form::Plain);
+    torn.push("lr red", Span::new(40, 46), Form::Plain);
+    let reading = read(&torn, Place::Text);
+    assert_eq!(reading.diagnostics[0].span, Span::new(14, 42));
+    assert_eq!(
+        reading.diagnostics[0].fixes,
+        [],
+        "a fix would delete the tags in between"
+    );
+}

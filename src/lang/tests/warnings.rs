@@ -1,0 +1,99 @@
+//! What is warned of and hinted at, to the letter.
+
+use super::check;
+
+#[test]
+fn h405_full_width() {
+    check(
+        "Ｒａｒｍ＠Ｕｂｏｄｙ＄Ｓｈａｐｅ　ｒｏｕｎｄｖ",
+        r#"
+            Ｒａｒｍ＠Ｕｂｏｄｙ＄Ｓｈａｐｅ　ｒｏｕｎｄｖ
+            ^^^^^^^^^^^^^^^^^^^^^^^ H405: `Ｒａｒｍ＠Ｕｂｏｄｙ＄Ｓｈａｐｅ　ｒｏｕｎｄｖ` is read as `Rarm@Ubody$Shape roundv` (full-width signs)
+              help: switch the input method to half-width, or apply the fix
+              fix: Write full-width signs as ASCII -> Rarm@Ubody$Shape roundv
+        "#,
+    );
+    check(
+        "右腕@胴$Shape　round（１）",
+        r#"
+            右腕@胴$Shape　round（１）
+                      ^^^^^^^^^ H405: `（１）` is read as `(1)` (full-width signs)
+              help: switch the input method to half-width, or apply the fix
+              fix: Write full-width signs as ASCII -> 右腕@胴$Shape round(1)
+                       ^^^^^^^^ E103: `round` has too few arguments (`a1` is missing)
+              help: write `Shape round [a0 a1 [r]]`
+        "#,
+    );
+    check(
+        "＃ ＡＢＣ",
+        r#"
+            ＃ ＡＢＣ
+            ^ H405: `＃` is read as `#` (full-width signs)
+              help: switch the input method to half-width, or apply the fix
+              fix: Write full-width signs as ASCII -> # ＡＢＣ
+        "#,
+    );
+}
+
+#[test]
+fn w301_given_twice() {
+    check(
+        "%Scale 2 Scale 3",
+        r#"
+            %Scale 2 Scale 3
+                     ^^^^^ W301: `Scale` is given twice (this one holds)
+              see `Scale 2`: this one has no effect
+              help: delete one of them
+        "#,
+    );
+}
+
+#[test]
+fn w302_overridden() {
+    check(
+        "%Let a 1 Let a 2",
+        r#"
+            %Let a 1 Let a 2
+                         ^ W302: `a` is defined again (this definition holds)
+              see `a`: this one has no effect
+        "#,
+    );
+}
+
+#[test]
+fn w305_zero_thickness() {
+    check(
+        "Arm$Shape default 5 5",
+        r#"
+            Arm$Shape default 5 5
+                              ^^^ W305: this `default` has no thickness
+              help: for a thin sheet write `Shape flat`, for no solid at all `Shape none`
+        "#,
+    );
+    check(
+        "Arm$Shape round -90 90 0",
+        r#"
+            Arm$Shape round -90 90 0
+                            ^^^^^^^^ W305: this `round` has no thickness
+              help: for a thin sheet write `Shape flat`, for no solid at all `Shape none`
+        "#,
+    );
+}
+
+#[test]
+fn w310_not_built_yet() {
+    check(
+        "Arm$Shape inflate 3",
+        r#"
+            Arm$Shape inflate 3
+                      ^^^^^^^ W310: `inflate` has no effect in this version (understood, but not built yet)
+        "#,
+    );
+    check(
+        "Boy$View 0 0",
+        r#"
+            Boy$View 0 0
+                ^^^^ W310: `View` has no effect in this version (understood, but not built yet)
+        "#,
+    );
+}

@@ -1,0 +1,67 @@
+//! What is generated from the keyword table is what the repository has.
+//!
+//! `OKOSHI_REWRITE=1 cargo test --test generated` rewrites it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use okoshi::lang::reference;
+
+fn path(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(name)
+}
+
+#[track_caller]
+fn same(name: &str, generated: &str) {
+    let path = path(name);
+    if std::env::var_os("OKOSHI_REWRITE").is_some() {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).expect("folder");
+        }
+        fs::write(&path, generated).expect("rewritten");
+        return;
+    }
+    let written = fs::read_to_string(&path).unwrap_or_default();
+    assert!(
+        written == generated,
+        "{name} is out of date: run `OKOSHI_REWRITE=1 cargo test --test generated`"
+    );
+}
+
+#[test]
+fn reference_page() {
+    same("docs/reference.md", &reference::reference());
+}
+
+#[test]
+fn diagnostics_page() {
+    same("docs/diagnostics.md", &reference::diagnostics());
+}
+
+#[test]
+fn ebnf() {
+    same("grammar/okoshi.ebnf", &reference::ebnf());
+}
+
+#[test]
+fn textmate() {
+    same("grammar/okoshi.tmLanguage.json", &reference::textmate());
+}
+
+#[test]
+fn injection() {
+    same(
+        "grammar/okoshi-injection.tmLanguage.json",
+        &reference::injection(),
+    );
+}
+
+#[test]
+fn readme_table() {
+    // The README has its place for the table once it is written.
+    let Ok(readme) = fs::read_to_string(path("README.md")) else {
+        return;
+    };
+    let renewed = reference::renew_readme(&readme).expect("README.md has the markers of its table");
+    same("README.md", &renewed);
+}
