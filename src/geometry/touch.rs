@@ -13,6 +13,9 @@ use super::clean::GridShapes;
 const GAP: f64 = 1e-4;
 /// How much of an edge may be cut away at each end.
 const MOST: f64 = 0.25;
+/// By how much less the next corner in the same place is cut, relative to the first: edges may
+/// leave a place in almost one direction.
+const LESS: f64 = 0.1;
 
 /// A point of a ring that another one lies on, or the same ring once more.
 #[derive(Clone, Copy)]
@@ -35,7 +38,7 @@ pub(super) fn pull_apart(shapes: &GridShapes, polygons: &mut [Polygon], extent: 
         }
     }
     places.sort_unstable();
-    let mut cuts: Vec<[usize; 3]> = Vec::new();
+    let mut cuts: Vec<([usize; 3], f64)> = Vec::new();
     for shared in places.chunk_by(|a, b| a.0 == b.0).filter(|c| c.len() > 1) {
         let corners = shared.iter().map(|(_, place)| {
             let ring = &shapes[place[0]][place[1]];
@@ -50,19 +53,24 @@ pub(super) fn pull_apart(shapes: &GridShapes, polygons: &mut [Polygon], extent: 
                 on: towards(i + 1),
             }
         });
+        let first = cuts.len();
         choose(corners.collect(), &mut cuts);
+        for (k, cut) in cuts[first..].iter_mut().enumerate() {
+            cut.1 = (1.0 - LESS).powi(k as i32);
+        }
     }
-    cuts.sort_unstable();
-    for cuts in cuts.chunk_by(|a, b| a[..2] == b[..2]) {
-        let ring = &mut polygons[cuts[0][0]].rings[cuts[0][1]];
+    cuts.sort_unstable_by_key(|cut| cut.0);
+    for cuts in cuts.chunk_by(|a, b| a.0[..2] == b.0[..2]) {
+        let [polygon, ring, _] = cuts[0].0;
+        let ring = &mut polygons[polygon].rings[ring];
         let n = ring.len();
-        let mut cuts = cuts.iter().map(|c| c[2]).peekable();
+        let mut cuts = cuts.iter().peekable();
         let mut cut = Vec::with_capacity(n + cuts.len());
         for i in 0..n {
-            if cuts.next_if_eq(&i).is_some() {
+            if let Some((_, share)) = cuts.next_if(|cut| cut.0[2] == i) {
                 for end in [ring[(i + n - 1) % n], ring[(i + 1) % n]] {
                     let edge = end - ring[i];
-                    let part = (GAP * extent / edge.length()).min(MOST);
+                    let part = share * (GAP * extent / edge.length()).min(MOST);
                     cut.push(ring[i] + edge * part);
                 }
             } else {
@@ -75,7 +83,7 @@ pub(super) fn pull_apart(shapes: &GridShapes, polygons: &mut [Polygon], extent: 
 
 /// Which of the corners in one place are cut: again and again those that no other one reaches
 /// into on the side where they are convex, until one is left.
-fn choose(mut corners: Vec<Corner>, cuts: &mut Vec<[usize; 3]>) {
+fn choose(mut corners: Vec<Corner>, cuts: &mut Vec<([usize; 3], f64)>) {
     while corners.len() > 1 {
         let free = |i: usize| {
             let Corner { back, on, .. } = corners[i];
@@ -98,7 +106,7 @@ fn choose(mut corners: Vec<Corner>, cuts: &mut Vec<[usize; 3]>) {
             let cut = free.next() == Some(true);
             // The last one can stay where it is.
             if cut {
-                cuts.extend(kept.replace(corner.place));
+                cuts.extend(kept.replace((corner.place, 1.0)));
             }
             !cut
         });

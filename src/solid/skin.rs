@@ -161,9 +161,10 @@ fn levels(layers: &[Layer], base: &Base, floor: f64, put: &Put) -> Vec<Level> {
             }
             let tip = scale.x < floor && scale.y < floor;
             form = if tip { Form::Tip } else { Form::Ridge };
-            // Without a fold this is a copy that turned out too small.
+            // A narrow copy that turned out too narrow, though the kind does not collapse.
             if form == Form::Ridge && !matches!(base, Base::Ridge(_)) {
                 form = Form::Rings;
+                scale = scale.max(DVec2::splat(floor));
             } else {
                 scale = DVec2::select(scale.cmplt(DVec2::splat(floor)), DVec2::ZERO, scale);
             }
@@ -488,6 +489,13 @@ impl Skin<'_> {
         }
     }
 
+    /// Whether an edge is cut from its start to its end's copy, or the other way. Both sides of a
+    /// narrow part are cut alike, or their warped walls would cross.
+    fn rises(&self, i: usize, j: usize) -> bool {
+        let (from, to) = (self.rings.points[i], self.rings.points[j]);
+        (from.y, from.x) <= (to.y, to.x)
+    }
+
     fn band(&mut self, k: usize, lower: &Corners, upper: &Corners) {
         for i in 0..self.rings.len() {
             let j = self.rings.next[i] as usize;
@@ -497,8 +505,10 @@ impl Skin<'_> {
                 self.surface.triangles.push([a, c, d]);
             } else if self.merged(k + 1, i, j) {
                 self.surface.triangles.push([a, b, c]);
-            } else {
+            } else if self.rises(i, j) {
                 self.surface.triangles.extend([[a, b, c], [a, c, d]]);
+            } else {
+                self.surface.triangles.extend([[a, b, d], [b, c, d]]);
             }
         }
     }
