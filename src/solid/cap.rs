@@ -35,6 +35,17 @@ pub(super) fn triangles(rings: &Rings) -> Vec<[u32; 3]> {
     triangles
 }
 
+/// A distance that all points are known to keep from each other; 0 where that is not plain to see.
+pub(super) fn least_gap(rings: &Rings) -> f64 {
+    let points = &rings.points;
+    if rings.rings.len() != 1 || !is_convex(points) {
+        return 0.0;
+    }
+    let edges = rings.next.iter().zip(points);
+    let least = edges.map(|(next, p)| p.distance_squared(points[*next as usize]));
+    least.fold(f64::INFINITY, f64::min).sqrt()
+}
+
 fn is_convex(ring: &[DVec2]) -> bool {
     let n = ring.len();
     let mut before = ring[n - 1] - ring[n - 2];

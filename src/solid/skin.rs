@@ -15,15 +15,17 @@ use crate::scene::Surface;
 
 /// Scales below which copies are given up, tried in turn until all points keep apart in `f32`.
 const FLOORS: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
+/// Empty triangles in copies smaller than this are taken to come of the scale.
+const NARROW: f64 = 0.05;
 /// How often a surface is tried.
 const ATTEMPTS: usize = 12;
 /// How far a point is moved off an edge that it cannot be told from in `f32`, relative to the
 /// largest coordinate.
 const NUDGE: f64 = 1e-6;
-/// Copies smaller than this are checked for points that fall together.
-const SMALL: f64 = 0.05;
-/// So are copies further away than this, relative to their extent.
-const FAR: f64 = 4.0;
+/// Gaps in a copy wider than this, relative to its largest coordinate, survive in `f32`.
+const GAP: f64 = 1e-6;
+/// Copies further away than this, relative to their extent, are checked even if not scaled.
+const FAR: f64 = 1.0;
 /// Layers closer than this, relative to the whole depth, are one.
 const NEAR: f64 = 1e-6;
 
@@ -42,22 +44,23 @@ pub(super) fn flat(outline: &Outline, z: f64, options: &Options) -> Surface {
 
 /// An outline as its stack is built from it.
 enum Base {
-    /// Copies of scale 0 are points.
-    Tip(Rings),
-    /// They are lines, on which both sides of the outline match.
+    /// Scaled both ways; copies of scale 0 are points.
+    Even(Rings),
+    /// Scaled one way, towards a line on which both sides of the outline match.
     Ridge(Matched),
-    /// They would be lines that are met several times; a narrow copy takes their place.
+    /// Scaled one way, towards a line that would be met several times; a narrow copy takes the
+    /// place of copies of scale 0.
     Narrow(Rings),
 }
 
 impl Base {
     fn new(outline: &Outline, layers: &[Layer]) -> Base {
-        let across = layers.iter().any(|l| l.across == 0.0);
-        let along = layers.iter().any(|l| l.along == 0.0);
-        let collapse = match (across, along) {
-            (true, false) => Collapse::Across,
-            (false, true) => Collapse::Along,
-            _ => return Base::Tip(Rings::of(outline)),
+        let collapse = if layers.iter().any(|l| l.across != l.along && l.along == 1.0) {
+            Collapse::Across
+        } else if layers.iter().any(|l| l.across != l.along) {
+            Collapse::Along
+        } else {
+            return Base::Even(Rings::of(outline));
         };
         match matched(outline, collapse) {
             Some(matched) => Base::Ridge(matched),
@@ -67,7 +70,7 @@ impl Base {
 
     fn rings(&self) -> &Rings {
         match self {
-            Base::Tip(rings) | Base::Narrow(rings) => rings,
+            Base::Even(rings) | Base::Narrow(rings) => rings,
             Base::Ridge(matched) => &matched.rings,
         }
     }
@@ -75,16 +78,38 @@ impl Base {
     fn stations(&self) -> Option<&[u32]> {
         match self {
             Base::Ridge(matched) => Some(&matched.stations),
-            Base::Tip(_) | Base::Narrow(_) => None,
+            Base::Even(_) | Base::Narrow(_) => None,
         }
     }
 
     fn caps(&self) -> Vec<[u32; 3]> {
         match self {
-            Base::Tip(rings) | Base::Narrow(rings) => cap::triangles(rings),
+            Base::Even(rings) | Base::Narrow(rings) => cap::triangles(rings),
             Base::Ridge(matched) => matched.triangles(),
         }
     }
+}
+
+impl Base {
+    /// Whether walls are so warped, for how thin the outline is, that two triangles are too coarse
+    /// for each: the volumes that they would add or lose come near to the whole.
+    fn is_warped(&self) -> bool {
+        let Base::Narrow(rings) = self else {
+            return false;
+        };
+        let (mut warp, mut area) = (0.0, 0.0);
+        for (p, next) in rings.points.iter().zip(&rings.next) {
+            let q = rings.points[*next as usize];
+            warp += (q.x - p.x) * (q.y - p.y).abs();
+            area += p.perp_dot(q) / 2.0;
+        }
+        warp.abs() > area / 2.0
+    }
+}
+
+/// Whether an edge leads up.
+fn rises(from: DVec2, to: DVec2) -> bool {
+    (from.y, from.x) <= (to.y, to.x)
 }
 
 /// The closed surface over two or more layers.
@@ -115,7 +140,7 @@ pub(super) fn stack(outline: &Outline, layers: &[Layer], options: &Options) -> S
             None => return skin(&base, &levels, triangles, crease, &put),
             Some(Fault::Small) => floor = floors.next().unwrap_or(floor),
             Some(Fault::Empty(empty)) => {
-                if let Base::Tip(rings) | Base::Narrow(rings) = &mut base {
+                if let Base::Even(rings) | Base::Narrow(rings) = &mut base {
                     rings.widen(&empty, nudge);
                     nudge *= 2.0;
                 } else {
@@ -199,16 +224,18 @@ enum Fault {
 /// The first fault of a stack, after edges within the caps were turned to avoid empty triangles.
 fn fault(rings: &Rings, levels: &[Level], caps: &mut [[u32; 3]], put: &Put) -> Option<Fault> {
     let extent = rings.extent();
-    let far = put.translation.truncate().abs().max_element() > FAR * extent;
+    let away = put.translation.truncate().abs().max_element();
+    let gap = cap::least_gap(rings);
     let ends = [0, levels.len() - 1];
     for (k, level) in levels
         .iter()
         .enumerate()
         .filter(|(_, l)| l.form == Form::Rings)
     {
-        let small = level.scale.min_element() < SMALL;
+        let scale = level.scale.min_element();
+        let small = (scale < 1.0 || away > FAR * extent) && scale * gap < GAP * (extent + away);
         let capped = ends.contains(&k);
-        if !(small || far || capped) {
+        if !(small || capped) {
             continue;
         }
         let place = |p: &DVec2| {
@@ -216,9 +243,12 @@ fn fault(rings: &Rings, levels: &[Level], caps: &mut [[u32; 3]], put: &Put) -> O
             DVec2::new(x.into(), y.into())
         };
         let points: Vec<DVec2> = rings.points.iter().map(place).collect();
-        if small || far {
-            let bits = |p: &DVec2| [(p.x + 0.0).to_bits(), (p.y + 0.0).to_bits()];
-            let mut places: Vec<[u64; 2]> = points.iter().map(bits).collect();
+        if small {
+            let bits = |p: &DVec2| {
+                let [x, y] = [p.x, p.y].map(|x| u64::from((x as f32 + 0.0).to_bits()));
+                x << 32 | y
+            };
+            let mut places: Vec<u64> = points.iter().map(bits).collect();
             places.sort_unstable();
             if places.windows(2).any(|w| w[0] == w[1]) {
                 return Some(Fault::Small);
@@ -282,6 +312,10 @@ struct Corners {
 struct Skin<'a> {
     rings: &'a Rings,
     stations: Option<&'a [u32]>,
+    /// The last station.
+    last: u32,
+    /// Walls are cut about their middles.
+    warped: bool,
     levels: &'a [Level],
     /// Unit normals of the walls, band by band; a wall bears the number of the point it starts at.
     walls: Vec<DVec3>,
@@ -297,6 +331,8 @@ fn skin(base: &Base, levels: &[Level], caps: &[[u32; 3]], crease: Crease, put: &
     let mut skin = Skin {
         rings,
         stations,
+        warped: base.is_warped(),
+        last: stations.and_then(|s| s.iter().copied().max()).unwrap_or(0),
         levels,
         walls: Vec::with_capacity(n * end),
         crease,
@@ -489,11 +525,20 @@ impl Skin<'_> {
         }
     }
 
-    /// Whether an edge is cut from its start to its end's copy, or the other way. Both sides of a
-    /// narrow part are cut alike, or their warped walls would cross.
-    fn rises(&self, i: usize, j: usize) -> bool {
-        let (from, to) = (self.rings.points[i], self.rings.points[j]);
-        (from.y, from.x) <= (to.y, to.x)
+    /// Whether the wall on an edge is cut from the edge's start to the copy of its end, or the
+    /// other way. Both sides of a narrow part are cut alike, or their warped walls would cross.
+    fn rises(&self, k: usize, i: usize, j: usize) -> bool {
+        let Some(stations) = self.stations else {
+            return rises(self.rings.points[i], self.rings.points[j]);
+        };
+        let (low, high) = (stations[i].min(stations[j]), stations[i].max(stations[j]));
+        // Where both sides meet in a point they would be cut by the same edge.
+        let meets = match (self.levels[k].form, self.levels[k + 1].form) {
+            (Form::Ridge, _) => high == self.last,
+            (_, Form::Ridge) => low == 0,
+            _ => false,
+        };
+        (stations[i] <= stations[j]) != meets
     }
 
     fn band(&mut self, k: usize, lower: &Corners, upper: &Corners) {
@@ -505,7 +550,15 @@ impl Skin<'_> {
                 self.surface.triangles.push([a, c, d]);
             } else if self.merged(k + 1, i, j) {
                 self.surface.triangles.push([a, b, c]);
-            } else if self.rises(i, j) {
+            } else if self.warped && self.levels[k].scale != self.levels[k + 1].scale {
+                let middle = self.point(k, i) + self.point(k, j);
+                let middle = (middle + self.point(k + 1, i) + self.point(k + 1, j)) / 4.0;
+                let normal = self.walls[k * self.rings.len() + i];
+                let (position, normal) = (self.put.position(middle), self.put.normal(normal));
+                let m = add(&mut self.surface, position, normal);
+                let around = [[a, b, m], [b, c, m], [c, d, m], [d, a, m]];
+                self.surface.triangles.extend(around);
+            } else if self.rises(k, i, j) {
                 self.surface.triangles.extend([[a, b, c], [a, c, d]]);
             } else {
                 self.surface.triangles.extend([[a, b, d], [b, c, d]]);
