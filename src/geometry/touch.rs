@@ -1,119 +1,117 @@
 //! Rings that touch in a point are pulled apart there.
 //!
 //! The solid over two squares that share a corner would have four faces on the edge above that
-//! corner. A gap too small to be seen keeps every edge between exactly two faces.
+//! corner. A gap too small to be seen keeps every edge between exactly two faces. Corners are cut
+//! rather than moved: edges then stay on their lines and cross nothing that they did not before.
 
 use glam::DVec2;
 
 use super::Polygon;
 use super::clean::GridShapes;
 
-/// How far a point is moved, relative to the outline's extent.
+/// How far from its tip a corner is cut, relative to the outline's extent.
 const GAP: f64 = 1e-4;
-/// The most that a point is moved, relative to the shorter edge beside it.
+/// How much of an edge may be cut away at each end.
 const MOST: f64 = 0.25;
-/// Rounds of pulling: each frees the outermost rings of those that touch in one point.
-const ROUNDS: usize = 8;
+/// By how much less the next corner in the same place is cut, relative to the first: edges may
+/// leave a place in almost one direction.
+const LESS: f64 = 0.1;
 
-/// A point of a ring that another one lies on.
+/// A point of a ring that another one lies on, or the same ring once more.
 #[derive(Clone, Copy)]
 struct Corner {
-    polygon: usize,
-    ring: usize,
-    index: usize,
-    /// Towards the ring's previous point; the filled angle lies counter-clockwise, as numbers go,
-    /// from here
-    from: DVec2,
-    /// to the direction of its next point.
-    to: DVec2,
+    /// Polygon, ring and point.
+    place: [usize; 3],
+    /// Towards the ring's previous point.
+    back: DVec2,
+    /// Towards its next point.
+    on: DVec2,
 }
 
-/// Pulls points of clean polygons that coincide on the grid apart: into their own area where no
-/// other ring leads there, else out of it. `shapes` are the same rings on the grid.
+/// Pulls points of clean polygons that coincide on the grid apart. `shapes` are the same rings on
+/// the grid.
 pub(super) fn pull_apart(shapes: &GridShapes, polygons: &mut [Polygon], extent: f64) {
-    let mut places: Vec<([i64; 2], [u32; 3])> = Vec::new();
+    let mut places: Vec<([i64; 2], [usize; 3])> = Vec::new();
     for (s, shape) in shapes.iter().enumerate() {
         for (r, ring) in shape.iter().enumerate() {
-            let place = |(i, p): (usize, &[i64; 2])| (*p, [s as u32, r as u32, i as u32]);
-            places.extend(ring.iter().enumerate().map(place));
+            places.extend(ring.iter().enumerate().map(|(i, p)| (*p, [s, r, i])));
         }
     }
     places.sort_unstable();
-    let mut start = 0;
-    while start < places.len() {
-        let mut end = start + 1;
-        while end < places.len() && places[end].0 == places[start].0 {
-            end += 1;
+    let mut cuts: Vec<([usize; 3], f64)> = Vec::new();
+    for shared in places.chunk_by(|a, b| a.0 == b.0).filter(|c| c.len() > 1) {
+        let corners = shared.iter().map(|(_, place)| {
+            let ring = &shapes[place[0]][place[1]];
+            let (n, i) = (ring.len(), place[2]);
+            let towards = |j: usize| {
+                let ([x, y], [u, v]) = (ring[i], ring[j % n]);
+                DVec2::new((u - x) as f64, (v - y) as f64)
+            };
+            Corner {
+                place: *place,
+                back: towards(i + n - 1),
+                on: towards(i + 1),
+            }
+        });
+        let first = cuts.len();
+        choose(corners.collect(), &mut cuts);
+        for (k, cut) in cuts[first..].iter_mut().enumerate() {
+            cut.1 = (1.0 - LESS).powi(k as i32);
         }
-        if end - start > 1 {
-            let corners = places[start..end].iter().map(|(_, [s, r, i])| {
-                let [polygon, ring, index] = [*s as usize, *r as usize, *i as usize];
-                let points = &shapes[polygon][ring];
-                let n = points.len();
-                let direction = |other: [i64; 2]| {
-                    let [x, y] = points[index];
-                    DVec2::new((other[0] - x) as f64, (other[1] - y) as f64)
-                };
-                Corner {
-                    polygon,
-                    ring,
-                    index,
-                    from: direction(points[(index + n - 1) % n]),
-                    to: direction(points[(index + 1) % n]),
+    }
+    cuts.sort_unstable_by_key(|cut| cut.0);
+    for cuts in cuts.chunk_by(|a, b| a.0[..2] == b.0[..2]) {
+        let [polygon, ring, _] = cuts[0].0;
+        let ring = &mut polygons[polygon].rings[ring];
+        let n = ring.len();
+        let mut cuts = cuts.iter().peekable();
+        let mut cut = Vec::with_capacity(n + cuts.len());
+        for i in 0..n {
+            if let Some((_, share)) = cuts.next_if(|cut| cut.0[2] == i) {
+                for end in [ring[(i + n - 1) % n], ring[(i + 1) % n]] {
+                    let edge = end - ring[i];
+                    let part = share * (GAP * extent / edge.length()).min(MOST);
+                    cut.push(ring[i] + edge * part);
                 }
-            });
-            pull(corners.collect(), polygons, extent);
-        }
-        start = end;
-    }
-}
-
-fn pull(mut corners: Vec<Corner>, polygons: &mut [Polygon], extent: f64) {
-    for round in 1..=ROUNDS {
-        if corners.len() < 2 {
-            return;
-        }
-        let mut left = Vec::new();
-        for (i, corner) in corners.iter().enumerate() {
-            let others = || {
-                let others = corners.iter().enumerate().filter(|(j, _)| *j != i);
-                others.flat_map(|(_, c)| [c.from, c.to])
-            };
-            let inner = |d: DVec2| turn(corner.from, d) < turn(corner.from, corner.to);
-            let outer = |d: DVec2| turn(corner.from, d) > turn(corner.from, corner.to);
-            let way = if !others().any(inner) {
-                1.0
-            } else if !others().any(outer) {
-                -1.0
             } else {
-                left.push(*corner);
-                continue;
-            };
-            let ring = &mut polygons[corner.polygon].rings[corner.ring];
-            let n = ring.len();
-            let here = ring[corner.index];
-            let before = (ring[(corner.index + n - 1) % n] - here).length();
-            let after = (ring[(corner.index + 1) % n] - here).length();
-            let gap = (GAP * extent / round as f64).min(MOST * before.min(after));
-            ring[corner.index] += inward(corner) * (way * gap);
+                cut.push(ring[i]);
+            }
         }
-        if left.len() == corners.len() {
-            return;
-        }
-        corners = left;
+        *ring = cut;
     }
 }
 
-/// The angle from one direction to another, counter-clockwise as numbers go, 0 to 2π.
-fn turn(from: DVec2, to: DVec2) -> f64 {
-    let angle = from.perp_dot(to).atan2(from.dot(to));
-    angle.rem_euclid(std::f64::consts::TAU)
-}
-
-/// The unit vector that halves the filled angle of a corner.
-fn inward(corner: &Corner) -> DVec2 {
-    let half = turn(corner.from, corner.to) / 2.0;
-    DVec2::from_angle(half)
-        .rotate(corner.from)
-        .normalize_or(DVec2::X)
+/// Which of the corners in one place are cut: again and again those that no other one reaches
+/// into on the side where they are convex, until one is left.
+fn choose(mut corners: Vec<Corner>, cuts: &mut Vec<([usize; 3], f64)>) {
+    while corners.len() > 1 {
+        let free = |i: usize| {
+            let Corner { back, on, .. } = corners[i];
+            let (from, to) = if back.perp_dot(on) > 0.0 {
+                (back, on)
+            } else {
+                (on, back)
+            };
+            let within = |d: DVec2| from.perp_dot(d) > 0.0 && d.perp_dot(to) > 0.0;
+            let mut others = corners.iter().enumerate().filter(|(j, _)| *j != i);
+            !others.any(|(_, c)| within(c.back) || within(c.on))
+        };
+        let free: Vec<bool> = (0..corners.len()).map(free).collect();
+        if !free.contains(&true) {
+            return;
+        }
+        let mut free = free.into_iter();
+        let mut kept = None;
+        corners.retain(|corner| {
+            let cut = free.next() == Some(true);
+            // The last one can stay where it is.
+            if cut {
+                cuts.extend(kept.replace((corner.place, 1.0)));
+            }
+            !cut
+        });
+        if !corners.is_empty() {
+            cuts.extend(kept);
+        }
+    }
 }

@@ -35,6 +35,17 @@ pub(super) fn triangles(rings: &Rings) -> Vec<[u32; 3]> {
     triangles
 }
 
+/// A distance that all points are known to keep from each other; 0 where that is not plain to see.
+pub(super) fn least_gap(rings: &Rings) -> f64 {
+    let points = &rings.points;
+    if rings.rings.len() != 1 || !is_convex(points) {
+        return 0.0;
+    }
+    let edges = rings.next.iter().zip(points);
+    let least = edges.map(|(next, p)| p.distance_squared(points[*next as usize]));
+    least.fold(f64::INFINITY, f64::min).sqrt()
+}
+
 fn is_convex(ring: &[DVec2]) -> bool {
     let n = ring.len();
     let mut before = ring[n - 1] - ring[n - 2];
@@ -131,55 +142,53 @@ pub(super) fn area(points: &[DVec2], [a, b, c]: &[u32; 3]) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Turns edges so that no triangle is empty at the points' final places; false where that fails.
-pub(super) fn turn_empty(points: &[DVec2], triangles: &mut [[u32; 3]]) -> bool {
-    if !triangles.iter().any(|t| area(points, t) <= 0.0) {
-        return true;
-    }
-    // Every turn mends one triangle, so few rounds are enough or none are.
+/// Turns edges so that no triangle is empty at the points' final places; returns those that are.
+pub(super) fn turn_empty(points: &[DVec2], triangles: &mut [[u32; 3]]) -> Vec<[u32; 3]> {
+    let empty = |triangles: &[[u32; 3]]| -> Vec<usize> {
+        let is_empty = |i: &usize| area(points, &triangles[*i]) <= 0.0;
+        (0..triangles.len()).filter(is_empty).collect()
+    };
+    let mut left = empty(triangles);
+    let mut owner: HashMap<[u32; 2], usize> = HashMap::new();
+    // Every turn mends one triangle, so that few rounds are enough or none are.
     for _ in 0..8 {
-        let empty: Vec<usize> = (0..triangles.len())
-            .filter(|i| area(points, &triangles[*i]) <= 0.0)
-            .collect();
-        if empty.is_empty() {
-            return true;
+        if left.is_empty() {
+            break;
         }
-        let mut owner: HashMap<[u32; 2], usize> = HashMap::new();
+        owner.clear();
         for (i, [a, b, c]) in triangles.iter().enumerate() {
             owner.extend([([*a, *b], i), ([*b, *c], i), ([*c, *a], i)]);
         }
-        for i in empty {
-            let t = triangles[i];
-            let length =
-                |k: usize| points[t[k] as usize].distance_squared(points[t[(k + 1) % 3] as usize]);
-            let longest = (0..3)
-                .max_by(|a, b| length(*a).total_cmp(&length(*b)))
-                .unwrap_or(0);
-            let [a, b, c] = [t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]];
-            let Some(&j) = owner.get(&[b, a]) else {
-                continue;
-            };
-            let Some(&d) = triangles[j].iter().find(|p| **p != a && **p != b) else {
-                continue;
-            };
-            if owner.contains_key(&[c, d]) || owner.contains_key(&[d, c]) {
-                continue;
-            }
-            triangles[i] = [a, d, c];
-            triangles[j] = [d, b, c];
-            for stale in [[a, b], [b, a], [b, c], [c, a], [a, d], [d, b]] {
-                owner.remove(&stale);
-            }
-            let [k, l] = [i, j];
-            owner.extend([
-                ([a, d], k),
-                ([d, c], k),
-                ([c, a], k),
-                ([d, b], l),
-                ([b, c], l),
-                ([c, d], l),
-            ]);
+        for i in left {
+            turn(points, triangles, i, &mut owner);
         }
+        left = empty(triangles);
     }
-    !triangles.iter().any(|t| area(points, t) <= 0.0)
+    left.into_iter().map(|i| triangles[i]).collect()
+}
+
+/// Replaces the longest edge of a triangle by the other diagonal with its neighbour.
+fn turn(
+    points: &[DVec2],
+    triangles: &mut [[u32; 3]],
+    i: usize,
+    owner: &mut HashMap<[u32; 2], usize>,
+) {
+    let t = triangles[i];
+    let length = |k: usize| points[t[k] as usize].distance_squared(points[t[(k + 1) % 3] as usize]);
+    let longest = (0..3).max_by(|a, b| length(*a).total_cmp(&length(*b)));
+    let longest = longest.unwrap_or(0);
+    let [a, b, c] = [t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]];
+    let Some(&j) = owner.get(&[b, a]) else { return };
+    let Some(&d) = triangles[j].iter().find(|p| **p != a && **p != b) else {
+        return;
+    };
+    if owner.contains_key(&[c, d]) || owner.contains_key(&[d, c]) {
+        return;
+    }
+    (triangles[i], triangles[j]) = ([a, d, c], [d, b, c]);
+    owner.remove(&[a, b]);
+    owner.remove(&[b, a]);
+    owner.extend([([a, d], i), ([d, c], i), ([c, a], i)]);
+    owner.extend([([d, b], j), ([b, c], j), ([c, d], j)]);
 }

@@ -65,4 +65,24 @@ impl Rings {
     pub(super) fn len(&self) -> usize {
         self.points.len()
     }
+
+    /// The largest coordinate.
+    pub(super) fn extent(&self) -> f64 {
+        self.points
+            .iter()
+            .fold(0.0, |most, p| p.abs().max_element().max(most))
+    }
+
+    /// Moves the point opposite to the longest edge of each triangle away from that edge.
+    pub(super) fn widen(&mut self, triangles: &[[u32; 3]], by: f64) {
+        for corners in triangles {
+            let [a, b, c] = corners.map(|i| self.points[i as usize]);
+            let longest = [(a, b, 2), (b, c, 0), (c, a, 1)]
+                .into_iter()
+                .max_by(|l, r| l.0.distance(l.1).total_cmp(&r.0.distance(r.1)));
+            if let Some((from, to, tip)) = longest {
+                self.points[corners[tip] as usize] += (to - from).perp().normalize_or_zero() * by;
+            }
+        }
+    }
 }

@@ -14,11 +14,18 @@ use crate::geometry::Outline;
 use crate::scene::Surface;
 
 /// Scales below which copies are given up, tried in turn until all points keep apart in `f32`.
-const FLOORS: [f64; 5] = [LEAST, 0.01, 0.05, 0.25, 1.0];
-/// Copies smaller than this are checked for points that fall together.
-const SMALL: f64 = 0.05;
-/// So are copies further away than this, relative to their extent.
-const FAR: f64 = 4.0;
+const FLOORS: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
+/// Empty triangles in copies smaller than this are taken to come of the scale.
+const NARROW: f64 = 0.05;
+/// How often a surface is tried.
+const ATTEMPTS: usize = 12;
+/// How far a point is moved off an edge that it cannot be told from in `f32`, relative to the
+/// largest coordinate.
+const NUDGE: f64 = 1e-6;
+/// Gaps in a copy wider than this, relative to its largest coordinate, survive in `f32`.
+const GAP: f64 = 1e-6;
+/// Copies further away than this, relative to their extent, are checked even if not scaled.
+const FAR: f64 = 1.0;
 /// Layers closer than this, relative to the whole depth, are one.
 const NEAR: f64 = 1e-6;
 
@@ -35,66 +42,117 @@ pub(super) fn flat(outline: &Outline, z: f64, options: &Options) -> Surface {
     }
 }
 
-/// What the copies of scale 0 are.
-enum Fold {
-    /// Points.
-    Tip,
-    /// Lines, on which both sides of the outline match.
+/// An outline as its stack is built from it.
+enum Base {
+    /// Scaled both ways; copies of scale 0 are points.
+    Even(Rings),
+    /// Scaled one way, towards a line on which both sides of the outline match.
     Ridge(Matched),
-    /// Lines that would be met several times; a narrow copy takes their place.
+    /// Scaled one way, towards a line that would be met several times; a narrow copy takes the
+    /// place of copies of scale 0.
     Narrow(Rings),
+}
+
+impl Base {
+    fn new(outline: &Outline, layers: &[Layer]) -> Base {
+        let collapse = if layers.iter().any(|l| l.across != l.along && l.along == 1.0) {
+            Collapse::Across
+        } else if layers.iter().any(|l| l.across != l.along) {
+            Collapse::Along
+        } else {
+            return Base::Even(Rings::of(outline));
+        };
+        match matched(outline, collapse) {
+            Some(matched) => Base::Ridge(matched),
+            None => Base::Narrow(Rings::of(outline)),
+        }
+    }
+
+    fn rings(&self) -> &Rings {
+        match self {
+            Base::Even(rings) | Base::Narrow(rings) => rings,
+            Base::Ridge(matched) => &matched.rings,
+        }
+    }
+
+    fn stations(&self) -> Option<&[u32]> {
+        match self {
+            Base::Ridge(matched) => Some(&matched.stations),
+            Base::Even(_) | Base::Narrow(_) => None,
+        }
+    }
+
+    fn caps(&self) -> Vec<[u32; 3]> {
+        match self {
+            Base::Even(rings) | Base::Narrow(rings) => cap::triangles(rings),
+            Base::Ridge(matched) => matched.triangles(),
+        }
+    }
+}
+
+impl Base {
+    /// Whether walls are so warped, for how thin the outline is, that two triangles are too coarse
+    /// for each: the volumes that they would add or lose come near to the whole.
+    fn is_warped(&self) -> bool {
+        let Base::Narrow(rings) = self else {
+            return false;
+        };
+        let (mut warp, mut area) = (0.0, 0.0);
+        for (p, next) in rings.points.iter().zip(&rings.next) {
+            let q = rings.points[*next as usize];
+            warp += (q.x - p.x) * (q.y - p.y).abs();
+            area += p.perp_dot(q) / 2.0;
+        }
+        warp.abs() > area / 2.0
+    }
+}
+
+/// Whether an edge leads up.
+fn rises(from: DVec2, to: DVec2) -> bool {
+    (from.y, from.x) <= (to.y, to.x)
 }
 
 /// The closed surface over two or more layers.
 pub(super) fn stack(outline: &Outline, layers: &[Layer], options: &Options) -> Surface {
-    let across = layers.iter().any(|l| l.across == 0.0);
-    let along = layers.iter().any(|l| l.along == 0.0);
-    let fold = match (across, along) {
-        (true, false) => line(outline, Collapse::Across),
-        (false, true) => line(outline, Collapse::Along),
-        _ => Fold::Tip,
-    };
-    let plain;
-    let (rings, stations) = match &fold {
-        Fold::Tip => {
-            plain = Rings::of(outline);
-            (&plain, None)
-        }
-        Fold::Ridge(matched) => (&matched.rings, Some(&matched.stations[..])),
-        Fold::Narrow(rings) => (rings, None),
-    };
-    if rings.len() < 3 {
-        return Surface::default();
-    }
     let put = Put::new(options);
     let crease = Crease::new(options.crease);
+    let mut base = Base::new(outline, layers);
+    if base.rings().len() < 3 {
+        return Surface::default();
+    }
+    let extent = base.rings().extent();
+    let largest = layers
+        .iter()
+        .map(|l| l.across.min(l.along))
+        .fold(0.0, f64::max);
+    let mut floors = FLOORS.iter().map(|floor| floor.min(largest));
+    let mut floor = LEAST.min(largest);
+    let mut nudge = NUDGE * (extent + put.translation.truncate().abs().max_element());
     let mut caps = None;
-    for (i, floor) in FLOORS.into_iter().enumerate() {
-        let levels = levels(layers, &fold, floor, &put);
-        if levels.len() < 2 || levels.iter().all(|l| l.form != Form::Rings) {
-            continue;
+    for _ in 0..ATTEMPTS {
+        let levels = levels(layers, &base, floor, &put);
+        let ends = [levels[0].form, levels[levels.len() - 1].form];
+        if caps.is_none() && ends.contains(&Form::Rings) {
+            caps = Some(base.caps());
         }
-        let capped = levels[0].form == Form::Rings || levels[levels.len() - 1].form == Form::Rings;
-        if capped && caps.is_none() {
-            caps = Some(match &fold {
-                Fold::Ridge(matched) => matched.triangles(),
-                Fold::Tip | Fold::Narrow(_) => cap::triangles(rings),
-            });
-        }
-        let caps = caps.as_deref_mut().unwrap_or_default();
-        let last = i + 1 == FLOORS.len();
-        if keeps_apart(rings, &levels, caps, &put) || last {
-            return skin(rings, stations, &levels, caps, crease, &put);
+        let triangles = caps.as_deref_mut().unwrap_or_default();
+        match fault(base.rings(), &levels, triangles, &put) {
+            None => return skin(&base, &levels, triangles, crease, &put),
+            Some(Fault::Small) => floor = floors.next().unwrap_or(floor),
+            Some(Fault::Empty(empty)) => {
+                if let Base::Even(rings) | Base::Narrow(rings) = &mut base {
+                    rings.widen(&empty, nudge);
+                    nudge *= 2.0;
+                } else {
+                    base = Base::Narrow(Rings::of(outline));
+                }
+                caps = None;
+            }
         }
     }
-    Surface::default()
-}
-
-fn line(outline: &Outline, collapse: Collapse) -> Fold {
-    match matched(outline, collapse) {
-        Some(matched) => Fold::Ridge(matched),
-        None => Fold::Narrow(Rings::of(outline)),
-    }
+    // Some points fall together as they are written; that is all that is wrong with it.
+    let levels = levels(layers, &base, floor, &put);
+    skin(&base, &levels, &base.caps(), crease, &put)
 }
 
 /// What a copy consists of.
@@ -113,14 +171,14 @@ struct Level {
 }
 
 /// The layers as they are built: without those that are too small or too close.
-fn levels(layers: &[Layer], fold: &Fold, floor: f64, put: &Put) -> Vec<Level> {
+fn levels(layers: &[Layer], base: &Base, floor: f64, put: &Put) -> Vec<Level> {
     let end = layers.len() - 1;
     let depth = layers[end].z - layers[0].z;
     let mut levels: Vec<Level> = Vec::with_capacity(layers.len());
     for (i, layer) in layers.iter().enumerate() {
         let mut scale = DVec2::new(layer.across, layer.along);
         let mut form = Form::Rings;
-        if let Fold::Narrow(_) = fold {
+        if let Base::Narrow(_) = base {
             scale = scale.max(DVec2::splat(floor));
         } else if scale.min_element() < floor {
             if i != 0 && i != end {
@@ -128,9 +186,10 @@ fn levels(layers: &[Layer], fold: &Fold, floor: f64, put: &Put) -> Vec<Level> {
             }
             let tip = scale.x < floor && scale.y < floor;
             form = if tip { Form::Tip } else { Form::Ridge };
-            // Without a fold this is a copy that turned out too small.
-            if form == Form::Ridge && !matches!(fold, Fold::Ridge(_)) {
+            // A narrow copy that turned out too narrow, though the kind does not collapse.
+            if form == Form::Ridge && !matches!(base, Base::Ridge(_)) {
                 form = Form::Rings;
+                scale = scale.max(DVec2::splat(floor));
             } else {
                 scale = DVec2::select(scale.cmplt(DVec2::splat(floor)), DVec2::ZERO, scale);
             }
@@ -154,50 +213,59 @@ fn levels(layers: &[Layer], fold: &Fold, floor: f64, put: &Put) -> Vec<Level> {
     levels
 }
 
-/// Whether the points of all copies differ as they are written, and no triangle of a cap is empty.
-fn keeps_apart(rings: &Rings, levels: &[Level], caps: &mut [[u32; 3]], put: &Put) -> bool {
-    let extent = rings
-        .points
-        .iter()
-        .fold(0.0, |most: f64, p| most.max(p.abs().max_element()));
-    let far = put.translation.truncate().abs().max_element() > FAR * extent;
+/// What is wrong with a stack as it would be written.
+enum Fault {
+    /// A copy is so small that points fall together.
+    Small,
+    /// Triangles of a cap are empty.
+    Empty(Vec<[u32; 3]>),
+}
+
+/// The first fault of a stack, after edges within the caps were turned to avoid empty triangles.
+fn fault(rings: &Rings, levels: &[Level], caps: &mut [[u32; 3]], put: &Put) -> Option<Fault> {
+    let extent = rings.extent();
+    let away = put.translation.truncate().abs().max_element();
+    let gap = cap::least_gap(rings);
     let ends = [0, levels.len() - 1];
     for (k, level) in levels
         .iter()
         .enumerate()
         .filter(|(_, l)| l.form == Form::Rings)
     {
-        let risky = far || level.scale.min_element() < SMALL;
+        let scale = level.scale.min_element();
+        let small = (scale < 1.0 || away > FAR * extent) && scale * gap < GAP * (extent + away);
         let capped = ends.contains(&k);
-        if !(risky || capped) {
+        if !(small || capped) {
             continue;
         }
-        let points: Vec<[f32; 3]> = rings
-            .points
-            .iter()
-            .map(|p| put.position((*p * level.scale).extend(level.z)))
-            .collect();
-        if risky {
-            let mut places: Vec<[u32; 2]> = points
-                .iter()
-                .map(|[x, y, _]| [(x + 0.0).to_bits(), (y + 0.0).to_bits()])
-                .collect();
+        let place = |p: &DVec2| {
+            let [x, y, _] = put.position((*p * level.scale).extend(level.z));
+            DVec2::new(x.into(), y.into())
+        };
+        let points: Vec<DVec2> = rings.points.iter().map(place).collect();
+        if small {
+            let bits = |p: &DVec2| {
+                let [x, y] = [p.x, p.y].map(|x| u64::from((x as f32 + 0.0).to_bits()));
+                x << 32 | y
+            };
+            let mut places: Vec<u64> = points.iter().map(bits).collect();
             places.sort_unstable();
             if places.windows(2).any(|w| w[0] == w[1]) {
-                return false;
+                return Some(Fault::Small);
             }
         }
         if capped {
-            let points: Vec<DVec2> = points
-                .iter()
-                .map(|[x, y, _]| DVec2::new((*x).into(), (*y).into()))
-                .collect();
-            if !cap::turn_empty(&points, caps) {
-                return false;
+            let empty = cap::turn_empty(&points, caps);
+            if !empty.is_empty() {
+                return Some(if small {
+                    Fault::Small
+                } else {
+                    Fault::Empty(empty)
+                });
             }
         }
     }
-    true
+    None
 }
 
 /// Carries points to their final places.
@@ -244,6 +312,10 @@ struct Corners {
 struct Skin<'a> {
     rings: &'a Rings,
     stations: Option<&'a [u32]>,
+    /// The last station.
+    last: u32,
+    /// Walls are cut about their middles.
+    warped: bool,
     levels: &'a [Level],
     /// Unit normals of the walls, band by band; a wall bears the number of the point it starts at.
     walls: Vec<DVec3>,
@@ -252,19 +324,15 @@ struct Skin<'a> {
     surface: Surface,
 }
 
-fn skin(
-    rings: &Rings,
-    stations: Option<&[u32]>,
-    levels: &[Level],
-    caps: &[[u32; 3]],
-    crease: Crease,
-    put: &Put,
-) -> Surface {
+fn skin(base: &Base, levels: &[Level], caps: &[[u32; 3]], crease: Crease, put: &Put) -> Surface {
+    let (rings, stations) = (base.rings(), base.stations());
     let n = rings.len();
     let end = levels.len() - 1;
     let mut skin = Skin {
         rings,
         stations,
+        warped: base.is_warped(),
+        last: stations.and_then(|s| s.iter().copied().max()).unwrap_or(0),
         levels,
         walls: Vec::with_capacity(n * end),
         crease,
@@ -457,6 +525,22 @@ impl Skin<'_> {
         }
     }
 
+    /// Whether the wall on an edge is cut from the edge's start to the copy of its end, or the
+    /// other way. Both sides of a narrow part are cut alike, or their warped walls would cross.
+    fn rises(&self, k: usize, i: usize, j: usize) -> bool {
+        let Some(stations) = self.stations else {
+            return rises(self.rings.points[i], self.rings.points[j]);
+        };
+        let (low, high) = (stations[i].min(stations[j]), stations[i].max(stations[j]));
+        // Where both sides meet in a point they would be cut by the same edge.
+        let meets = match (self.levels[k].form, self.levels[k + 1].form) {
+            (Form::Ridge, _) => high == self.last,
+            (_, Form::Ridge) => low == 0,
+            _ => false,
+        };
+        (stations[i] <= stations[j]) != meets
+    }
+
     fn band(&mut self, k: usize, lower: &Corners, upper: &Corners) {
         for i in 0..self.rings.len() {
             let j = self.rings.next[i] as usize;
@@ -466,8 +550,18 @@ impl Skin<'_> {
                 self.surface.triangles.push([a, c, d]);
             } else if self.merged(k + 1, i, j) {
                 self.surface.triangles.push([a, b, c]);
-            } else {
+            } else if self.warped && self.levels[k].scale != self.levels[k + 1].scale {
+                let middle = self.point(k, i) + self.point(k, j);
+                let middle = (middle + self.point(k + 1, i) + self.point(k + 1, j)) / 4.0;
+                let normal = self.walls[k * self.rings.len() + i];
+                let (position, normal) = (self.put.position(middle), self.put.normal(normal));
+                let m = add(&mut self.surface, position, normal);
+                let around = [[a, b, m], [b, c, m], [c, d, m], [d, a, m]];
+                self.surface.triangles.extend(around);
+            } else if self.rises(k, i, j) {
                 self.surface.triangles.extend([[a, b, c], [a, c, d]]);
+            } else {
+                self.surface.triangles.extend([[a, b, d], [b, c, d]]);
             }
         }
     }
