@@ -21,7 +21,9 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { tolerance: TOLERANCE }
+        Self {
+            tolerance: TOLERANCE,
+        }
     }
 }
 
@@ -43,13 +45,18 @@ pub struct Compiled {
 impl Compiled {
     /// Whether there are errors, which keep the model from being written.
     pub fn has_errors(&self) -> bool {
-        self.diagnostics.iter().any(|diagnostic| diagnostic.severity() == Severity::Error)
+        self.diagnostics
+            .iter()
+            .any(|diagnostic| diagnostic.severity() == Severity::Error)
     }
 }
 
 /// Compiles a drawing. Never fails and never panics; takes about as long as parsing the SVG does.
 pub fn compile(source: &str, options: &Options, resolver: &dyn Resolver) -> Compiled {
-    let recorder = Recorder { inner: resolver, links: Mutex::default() };
+    let recorder = Recorder {
+        inner: resolver,
+        links: Mutex::default(),
+    };
     let (mut drawing, mut diagnostics) = svg::read(source, options.tolerance, &recorder);
     let sheet = bind::bind(&mut drawing, &mut diagnostics);
     let scene = figure::build(&drawing, &sheet, &mut diagnostics);
@@ -57,7 +64,13 @@ pub fn compile(source: &str, options: &Options, resolver: &dyn Resolver) -> Comp
     let mut dependencies = recorder.links.into_inner().unwrap_or_default();
     dependencies.sort();
     dependencies.dedup();
-    Compiled { scene, sheet, drawing, diagnostics, dependencies }
+    Compiled {
+        scene,
+        sheet,
+        drawing,
+        diagnostics,
+        dependencies,
+    }
 }
 
 /// A resolver that remembers what it was asked for.

@@ -120,8 +120,15 @@ impl Text {
     /// Appends another text.
     pub fn append(&mut self, other: &Self) {
         for (index, run) in other.runs.iter().enumerate() {
-            let end = other.runs.get(index + 1).map_or(other.text.len(), |next| next.at);
-            self.push(&other.text[run.at..end], Span::new(run.raw, run.raw + run.raw_len), run.form);
+            let end = other
+                .runs
+                .get(index + 1)
+                .map_or(other.text.len(), |next| next.at);
+            self.push(
+                &other.text[run.at..end],
+                Span::new(run.raw, run.raw + run.raw_len),
+                run.form,
+            );
         }
     }
 

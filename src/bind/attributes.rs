@@ -72,18 +72,37 @@ impl Sheet {
     pub fn setting(&self, part: usize, keyword: Keyword) -> Option<Source<'_>> {
         let part = &self.parts[part];
         let own = part.string.and_then(|string| {
-            let setting = self.strings[string].settings.iter().find(|setting| setting.keyword == keyword)?;
-            Some(Source { setting, from: SetBy::Own, string })
+            let setting = self.strings[string]
+                .settings
+                .iter()
+                .find(|setting| setting.keyword == keyword)?;
+            Some(Source {
+                setting,
+                from: SetBy::Own,
+                string,
+            })
         });
-        let found = |settings: &'_ [(usize, Setting)]| settings.iter().position(|(_, setting)| setting.keyword == keyword);
+        let found = |settings: &'_ [(usize, Setting)]| {
+            settings
+                .iter()
+                .position(|(_, setting)| setting.keyword == keyword)
+        };
         own.or_else(|| {
             let legend = &self.legends[part.legend?].settings;
             let (string, setting) = &legend[found(legend)?];
-            Some(Source { setting, from: SetBy::Legend, string: *string })
+            Some(Source {
+                setting,
+                from: SetBy::Legend,
+                string: *string,
+            })
         })
         .or_else(|| {
             let (string, setting) = &self.defaults[found(&self.defaults)?];
-            Some(Source { setting, from: SetBy::Default, string: *string })
+            Some(Source {
+                setting,
+                from: SetBy::Default,
+                string: *string,
+            })
         })
     }
 
@@ -97,9 +116,17 @@ impl Sheet {
 
     /// A part's `Shape`.
     pub fn shape(&self, part: usize) -> Shape {
-        match self.setting(part, Keyword::Shape).map(|source| &source.setting.value) {
+        match self
+            .setting(part, Keyword::Shape)
+            .map(|source| &source.setting.value)
+        {
             Some(Value::Shape(shape)) => shape.clone(),
-            _ => Shape { kind: ShapeKind::Default(None), mirrored: false, doubled: false, centered: false },
+            _ => Shape {
+                kind: ShapeKind::Default(None),
+                mirrored: false,
+                doubled: false,
+                centered: false,
+            },
         }
     }
 
@@ -109,7 +136,9 @@ impl Sheet {
         let mut color = shape.paint.color.map(|channel| f64::from(channel) / 255.0);
         let mut alpha = shape.opacity;
         let picture = matches!(shape.paint.key, PaintKey::Picture(_));
-        if let Some(Value::Color { rgb, alpha: own }) = self.setting(part, Keyword::Color).map(|source| &source.setting.value)
+        if let Some(Value::Color { rgb, alpha: own }) = self
+            .setting(part, Keyword::Color)
+            .map(|source| &source.setting.value)
             && !picture
         {
             color = *rgb;
@@ -118,7 +147,10 @@ impl Sheet {
         if let Some(own) = self.number(part, Keyword::Alpha) {
             alpha = own;
         }
-        let emissive = match self.setting(part, Keyword::Emissive).map(|source| &source.setting.value) {
+        let emissive = match self
+            .setting(part, Keyword::Emissive)
+            .map(|source| &source.setting.value)
+        {
             Some(Value::Rgb(rgb)) => *rgb,
             _ => [0.0; 3],
         };
@@ -135,10 +167,17 @@ impl Sheet {
 pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
     let mut by_paint: FxHashMap<&PaintKey, usize> = FxHashMap::default();
     let mut swatches = Vec::new();
-    for part in sheet.parts.iter().filter(|part| part.kind == PartKind::Legend && part.is_candidate()) {
+    for part in sheet
+        .parts
+        .iter()
+        .filter(|part| part.kind == PartKind::Legend && part.is_candidate())
+    {
         let Some(string) = part.string else { continue };
         let paint = &drawing.shapes[part.shape].paint.key;
-        let settings = sheet.strings[string].settings.iter().map(|setting| (string, setting.clone()));
+        let settings = sheet.strings[string]
+            .settings
+            .iter()
+            .map(|setting| (string, setting.clone()));
         if let Some(legend) = by_paint.get(paint) {
             let (first, _): &(usize, usize) = &swatches[*legend];
             diagnostics.push(
@@ -152,14 +191,19 @@ pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Ve
             );
             let legend: &mut Legend = &mut sheet.legends[*legend];
             for (string, setting) in settings {
-                legend.settings.retain(|(_, old)| old.keyword != setting.keyword);
+                legend
+                    .settings
+                    .retain(|(_, old)| old.keyword != setting.keyword);
                 legend.settings.push((string, setting));
             }
             continue;
         }
         by_paint.insert(paint, sheet.legends.len());
         swatches.push((string, part.shape));
-        sheet.legends.push(Legend { paint: paint.clone(), settings: settings.collect() });
+        sheet.legends.push(Legend {
+            paint: paint.clone(),
+            settings: settings.collect(),
+        });
     }
     let mut used = vec![false; sheet.legends.len()];
     for part in &mut sheet.parts {

@@ -39,7 +39,11 @@ fn part_name(sheet: &Sheet, part: usize) -> Option<&Name> {
 }
 
 /// The main parts by name; of several parts of a name the first.
-fn names(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) -> FxHashMap<String, usize> {
+fn names(
+    drawing: &Drawing,
+    sheet: &Sheet,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> FxHashMap<String, usize> {
     let mut names: FxHashMap<String, usize> = FxHashMap::default();
     let span = |part: usize| match (part_name(sheet, part), sheet.parts[part].string) {
         (Some(name), Some(string)) => sheet.strings[string].text.span(name.range.clone()),
@@ -52,10 +56,14 @@ fn names(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) ->
         }
         if let Some(first) = names.get(&part.name) {
             diagnostics.push(
-                Diagnostic::new(Code::DuplicateName, span(index), format!("two parts are named `{}`", part.name))
-                    .label("the second one")
-                    .related(span(*first), "the first one")
-                    .help("rename one of them"),
+                Diagnostic::new(
+                    Code::DuplicateName,
+                    span(index),
+                    format!("two parts are named `{}`", part.name),
+                )
+                .label("the second one")
+                .related(span(*first), "the first one")
+                .help("rename one of them"),
             );
         } else {
             names.insert(part.name.clone(), index);
@@ -71,9 +79,15 @@ fn automatic(
     names: &mut FxHashMap<String, usize>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let named = sheet.parts.iter().enumerate().filter(|(_, part)| part.kind == PartKind::Main && !part.name.is_empty());
+    let named = sheet
+        .parts
+        .iter()
+        .enumerate()
+        .filter(|(_, part)| part.kind == PartKind::Main && !part.name.is_empty());
     let tree = RTree::bulk_load(
-        named.map(|(index, part)| GeomWithData::new(part.measure.center.to_array(), index)).collect(),
+        named
+            .map(|(index, part)| GeomWithData::new(part.measure.center.to_array(), index))
+            .collect(),
     );
     let mut counter = 0;
     for index in 0..sheet.parts.len() {
@@ -91,13 +105,18 @@ fn automatic(
         let nearest = tree.nearest_neighbors(&part.measure.center.to_array());
         let parent = nearest.into_iter().map(|found| found.data).min();
         if sheet.annotated {
-            let on = parent.map_or(String::new(), |parent| format!(" and hangs on `{}`", sheet.parts[parent].name));
+            let on = parent.map_or(String::new(), |parent| {
+                format!(" and hangs on `{}`", sheet.parts[parent].name)
+            });
             let element = &drawing.shapes[part.shape].element;
             diagnostics.push(
                 Diagnostic::new(
                     Code::AutomaticName,
                     element.span,
-                    format!("{} has no string: it is named `{name}`{on}", element.describe()),
+                    format!(
+                        "{} has no string: it is named `{name}`{on}",
+                        element.describe()
+                    ),
                 )
                 .help("write a name beside it, or `*` to leave it out"),
             );
@@ -123,30 +142,49 @@ fn parents(
             continue;
         }
         let Some(string) = part.string else { continue };
-        let Annotation::Part(annotation) = &sheet.strings[string].annotation else { continue };
-        let Some(parent) = &annotation.parent else { continue };
+        let Annotation::Part(annotation) = &sheet.strings[string].annotation else {
+            continue;
+        };
+        let Some(parent) = &annotation.parent else {
+            continue;
+        };
         if let Some(parent) = names.get(&parent.text) {
             sheet.parts[index].parent = Some(*parent);
             continue;
         }
         let text = &sheet.strings[string].text;
         let span = text.span(parent.range.clone());
-        let mut diagnostic =
-            Diagnostic::new(Code::UnknownParent, span, format!("there is no part named `{}`", parent.text));
-        let left_out = sheet.parts.iter().find(|part| part.name == parent.text && part.kind != PartKind::Main);
+        let mut diagnostic = Diagnostic::new(
+            Code::UnknownParent,
+            span,
+            format!("there is no part named `{}`", parent.text),
+        );
+        let left_out = sheet
+            .parts
+            .iter()
+            .find(|part| part.name == parent.text && part.kind != PartKind::Main);
         if let Some(other) = left_out {
             diagnostic = diagnostic
-                .related(drawing.shapes[other.shape].element.span, "this sub-part has the name, but is no joint")
+                .related(
+                    drawing.shapes[other.shape].element.span,
+                    "this sub-part has the name, but is no joint",
+                )
                 .help("name the main part of its group instead");
         } else {
             let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
             known.sort_unstable();
-            if let Some(near) = nearest_word(&parent.text, known.iter().copied().filter(|name| *name != part.name)) {
-                diagnostic = diagnostic
-                    .label(format!("did you mean `{near}`?"))
-                    .fix(format!("write `{near}`"), span, text.escape_at(parent.range.start, &quoted(near)));
+            if let Some(near) = nearest_word(
+                &parent.text,
+                known.iter().copied().filter(|name| *name != part.name),
+            ) {
+                diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
+                    format!("write `{near}`"),
+                    span,
+                    text.escape_at(parent.range.start, &quoted(near)),
+                );
             }
-            diagnostic = diagnostic.help("the name behind `@` must be that of a part, written alike");
+            diagnostic =
+                diagnostic.help("the name behind `@` must be that of a part, written alike");
         }
         diagnostics.push(diagnostic);
     }
@@ -154,7 +192,11 @@ fn parents(
 
 /// A name as it must be written in a string.
 fn quoted(name: &str) -> String {
-    if name.contains(|c: char| c.is_whitespace() || "@$\"()".contains(c)) { format!("\"{name}\"") } else { name.to_owned() }
+    if name.contains(|c: char| c.is_whitespace() || "@$\"()".contains(c)) {
+        format!("\"{name}\"")
+    } else {
+        name.to_owned()
+    }
 }
 
 /// Hangs one part of every cycle of parents on the root.
@@ -174,32 +216,48 @@ fn break_cycles(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diag
             continue;
         }
         let mut cycle = vec![part];
-        while let Some(parent) = cycle.last().and_then(|last| sheet.parts[*last].parent).filter(|parent| *parent != part) {
+        while let Some(parent) = cycle
+            .last()
+            .and_then(|last| sheet.parts[*last].parent)
+            .filter(|parent| *parent != part)
+        {
             cycle.push(parent);
         }
         let span = |part: usize| {
-            let string = sheet.parts[part].string.map(|string| &sheet.strings[string]);
+            let string = sheet.parts[part]
+                .string
+                .map(|string| &sheet.strings[string]);
             match string.map(|string| (&string.annotation, &string.text)) {
-                Some((Annotation::Part(annotation), text)) => {
-                    annotation.parent.as_ref().map_or(text.whole(), |parent| text.span(parent.range.clone()))
-                }
+                Some((Annotation::Part(annotation), text)) => annotation
+                    .parent
+                    .as_ref()
+                    .map_or(text.whole(), |parent| text.span(parent.range.clone())),
                 _ => drawing.shapes[sheet.parts[part].shape].element.span,
             }
         };
-        let chain: Vec<String> =
-            cycle.iter().chain([&part]).map(|part| format!("`{}`", sheet.parts[*part].name)).collect();
+        let chain: Vec<String> = cycle
+            .iter()
+            .chain([&part])
+            .map(|part| format!("`{}`", sheet.parts[*part].name))
+            .collect();
         let mut diagnostic = Diagnostic::new(
             Code::ParentCycle,
             span(part),
             if cycle.len() == 1 {
                 format!("{} is its own parent", chain[0])
             } else {
-                format!("parts hang on each other in a circle: {}", chain.join(" on "))
+                format!(
+                    "parts hang on each other in a circle: {}",
+                    chain.join(" on ")
+                )
             },
         )
         .help("one of them must hang on a part outside the circle, or on none");
         for other in &cycle[1..] {
-            diagnostic = diagnostic.related(span(*other), format!("`{}` hangs on this", sheet.parts[*other].name));
+            diagnostic = diagnostic.related(
+                span(*other),
+                format!("`{}` hangs on this", sheet.parts[*other].name),
+            );
         }
         diagnostics.push(diagnostic);
         sheet.parts[part].parent = None;
@@ -216,19 +274,30 @@ fn axes(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>)
             let (sin, cos) = degrees.to_radians().sin_cos();
             let turned = measure_along(&sheet.parts[index].outline, DVec2::new(cos, -sin));
             if let Some(measure) = turned {
-                sheet.parts[index].measure = Measure { certain: true, ..measure };
+                sheet.parts[index].measure = Measure {
+                    certain: true,
+                    ..measure
+                };
             }
             continue;
         }
         let kind = sheet.shape(index).kind;
         let turns = matches!(
             kind,
-            ShapeKind::RoundV(_) | ShapeKind::RoundH(_) | ShapeKind::ConeV(_) | ShapeKind::ConeH(_) | ShapeKind::Lathe(_)
+            ShapeKind::RoundV(_)
+                | ShapeKind::RoundH(_)
+                | ShapeKind::ConeV(_)
+                | ShapeKind::ConeH(_)
+                | ShapeKind::Lathe(_)
         );
         let part = &sheet.parts[index];
         if turns && !part.measure.certain {
             let name = sheet.describe(drawing, index);
-            let place = part.string.map_or(drawing.shapes[part.shape].element.span, |s| sheet.strings[s].text.whole());
+            let place = part
+                .string
+                .map_or(drawing.shapes[part.shape].element.span, |s| {
+                    sheet.strings[s].text.whole()
+                });
             diagnostics.push(
                 Diagnostic::new(
                     Code::AxisGuess,
@@ -245,7 +314,10 @@ fn axes(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>)
 fn origin(sheet: &Sheet, index: usize) -> DVec2 {
     let part = &sheet.parts[index];
     let parent = part.parent.map(|parent| sheet.parts[parent].measure.center);
-    let set = match sheet.setting(index, Keyword::Origin).map(|source| &source.setting.value) {
+    let set = match sheet
+        .setting(index, Keyword::Origin)
+        .map(|source| &source.setting.value)
+    {
         Some(Value::Origin(origin)) => Some(*origin),
         _ => sheet.shape(index).centered.then_some(Origin::Center),
     };
@@ -261,7 +333,10 @@ fn origin(sheet: &Sheet, index: usize) -> DVec2 {
                 let candidates = [start, end, part.measure.center];
                 // The first of equals: an end rather than the middle, for a part centred on its parent alone.
                 let near = |p: &DVec2| p.distance_squared(parent);
-                candidates.into_iter().min_by(|a, b| near(a).total_cmp(&near(b))).unwrap_or(part.measure.center)
+                candidates
+                    .into_iter()
+                    .min_by(|a, b| near(a).total_cmp(&near(b)))
+                    .unwrap_or(part.measure.center)
             }
         },
     }
@@ -277,11 +352,18 @@ fn sorted_ends(part: &Part, parent: Option<DVec2>) -> [DVec2; 2] {
     if swapped { [b, a] } else { [a, b] }
 }
 
-fn turns_about_middle(drawing: &Drawing, sheet: &Sheet, index: usize, diagnostics: &mut Vec<Diagnostic>) {
+fn turns_about_middle(
+    drawing: &Drawing,
+    sheet: &Sheet,
+    index: usize,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     let part = &sheet.parts[index];
     let long = part.measure.half_along > LONG * part.measure.half_across;
     let chosen = sheet.setting(index, Keyword::Origin).is_some() || sheet.shape(index).centered;
-    let (Some(parent), Some(string)) = (part.parent, part.string) else { return };
+    let (Some(parent), Some(string)) = (part.parent, part.string) else {
+        return;
+    };
     if !long || chosen || part.origin != part.measure.center {
         return;
     }
@@ -314,7 +396,11 @@ fn turns_about_middle(drawing: &Drawing, sheet: &Sheet, index: usize, diagnostic
         sheet.parts[parent].name
     ));
     for word in ["start", "end"] {
-        diagnostic = diagnostic.fix(format!("turn about its {word}"), place, format!("{lead}Origin {word}"));
+        diagnostic = diagnostic.fix(
+            format!("turn about its {word}"),
+            place,
+            format!("{lead}Origin {word}"),
+        );
     }
     diagnostics.push(diagnostic);
 }

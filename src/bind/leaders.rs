@@ -18,7 +18,11 @@ pub(super) fn find(
     sheet: &Sheet,
     part_of_shape: &[Option<usize>],
 ) -> Vec<(usize, usize)> {
-    let lines: Vec<&Line> = drawing.shapes.iter().filter_map(|shape| shape.line.as_ref()).collect();
+    let lines: Vec<&Line> = drawing
+        .shapes
+        .iter()
+        .filter_map(|shape| shape.line.as_ref())
+        .collect();
     if lines.is_empty() || sheet.strings.is_empty() {
         return vec![];
     }
@@ -63,7 +67,8 @@ impl<'a> Context<'a> {
             }
         }
         let parts = sheet.parts.iter().enumerate();
-        let parts = parts.filter_map(|(index, part)| Some(rectangle(bounds(&part.outline)?, index)));
+        let parts =
+            parts.filter_map(|(index, part)| Some(rectangle(bounds(&part.outline)?, index)));
         Self {
             drawing,
             sheet,
@@ -76,16 +81,21 @@ impl<'a> Context<'a> {
 
     /// What an Inkscape connector joins.
     fn connected(&self, line: &Line) -> Option<(usize, usize)> {
-        let [Some(a), Some(b)] = &line.connects else { return None };
+        let [Some(a), Some(b)] = &line.connects else {
+            return None;
+        };
         let string = |id: &str| {
-            self.sheet.strings.iter().position(|string| match string.place {
-                Place::Label(label) => {
-                    string.wants_part()
-                        && string.binding.is_none()
-                        && self.drawing.labels[label].0.id.as_deref() == Some(id)
-                }
-                _ => false,
-            })
+            self.sheet
+                .strings
+                .iter()
+                .position(|string| match string.place {
+                    Place::Label(label) => {
+                        string.wants_part()
+                            && string.binding.is_none()
+                            && self.drawing.labels[label].0.id.as_deref() == Some(id)
+                    }
+                    _ => false,
+                })
         };
         let part = |id: &str| {
             let shape = self.drawing.shapes.iter().position(|shape| {
@@ -106,11 +116,16 @@ impl<'a> Context<'a> {
     }
 
     fn string_at(&self, point: DVec2) -> Option<usize> {
-        let near = AABB::from_corners((point - self.reach).to_array(), (point + self.reach).to_array());
+        let near = AABB::from_corners(
+            (point - self.reach).to_array(),
+            (point + self.reach).to_array(),
+        );
         self.strings
             .locate_in_envelope_intersecting(near)
             .filter_map(|found| {
-                let Place::Label(label) = self.sheet.strings[found.data].place else { return None };
+                let Place::Label(label) = self.sheet.strings[found.data].place else {
+                    return None;
+                };
                 let label = &self.drawing.labels[label].0;
                 let (low, high) = label.bounds;
                 let distance = (point - point.clamp(low, high)).length();
@@ -136,5 +151,8 @@ impl<'a> Context<'a> {
 }
 
 fn rectangle((low, high): (DVec2, DVec2), data: usize) -> Box2 {
-    GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), data)
+    GeomWithData::new(
+        Rectangle::from_corners(low.to_array(), high.to_array()),
+        data,
+    )
 }

@@ -51,15 +51,19 @@ pub fn bind(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
 fn outlines(drawing: &mut Drawing, members: &[Member]) -> Vec<Outline> {
     let strokes: Vec<Option<Outline>> = members
         .par_iter()
-        .map(|member| match drawing.shapes[member.shape].stroke.as_deref() {
-            Some(stroke) if member.is_stroke => Some(stroke.outline()),
-            _ => None,
-        })
+        .map(
+            |member| match drawing.shapes[member.shape].stroke.as_deref() {
+                Some(stroke) if member.is_stroke => Some(stroke.outline()),
+                _ => None,
+            },
+        )
         .collect();
     members
         .iter()
         .zip(strokes)
-        .map(|(member, stroke)| stroke.unwrap_or_else(|| std::mem::take(&mut drawing.shapes[member.shape].outline)))
+        .map(|(member, stroke)| {
+            stroke.unwrap_or_else(|| std::mem::take(&mut drawing.shapes[member.shape].outline))
+        })
         .collect()
 }
 
@@ -89,7 +93,14 @@ impl<'a> Binder<'a> {
             part_of_shape[part.shape].get_or_insert(index);
         }
         units::choose_mains(units, sheet);
-        Self { drawing, units, sheet, diagnostics, part_of_member, part_of_shape }
+        Self {
+            drawing,
+            units,
+            sheet,
+            diagnostics,
+            part_of_member,
+            part_of_shape,
+        }
     }
 
     /// Rule 1: descriptions belong to their element.
@@ -110,9 +121,15 @@ impl<'a> Binder<'a> {
     /// Rule 2: strings in a group belong to the backmost part of the innermost group that holds a part.
     fn groups(&mut self) {
         for string in 0..self.sheet.strings.len() {
-            let Some(group) = self.waiting_label(string).map(|label| self.drawing.labels[label].1) else { continue };
+            let Some(group) = self
+                .waiting_label(string)
+                .map(|label| self.drawing.labels[label].1)
+            else {
+                continue;
+            };
             let holder = self.units.chain(group).find(|group| {
-                self.units.is_container(*group) || (self.units.groups_strings(*group) && self.backmost(*group).is_some())
+                self.units.is_container(*group)
+                    || (self.units.groups_strings(*group) && self.backmost(*group).is_some())
             });
             match holder {
                 Some(group) if self.units.is_container(group) => {
@@ -137,18 +154,27 @@ impl<'a> Binder<'a> {
 
     /// Rule 4: every other string to the nearest main part candidate, containers among themselves first.
     fn nearest(&mut self) {
-        let by_outline = self.sheet.word(Keyword::Bind).is_some_and(|word| word.eq_ignore_ascii_case("outline"));
+        let by_outline = self
+            .sheet
+            .word(Keyword::Bind)
+            .is_some_and(|word| word.eq_ignore_ascii_case("outline"));
         let mut waiting: Vec<(Option<usize>, usize)> = (0..self.sheet.strings.len())
             .filter(|string| self.waiting_label(*string).is_some())
             .map(|string| (self.sheet.strings[string].scope, string))
             .collect();
         waiting.sort_by_key(|(scope, string)| (scope.is_none(), *scope, *string));
         let mut contained = units::candidates_by_container(self.units, self.sheet);
-        let mode = if by_outline { nearest::Mode::Outline } else { nearest::Mode::Center };
+        let mode = if by_outline {
+            nearest::Mode::Outline
+        } else {
+            nearest::Mode::Center
+        };
         for strings in waiting.chunk_by(|(one, _), (other, _)| one == other) {
             let mut candidates: Vec<usize> = match strings[0].0 {
                 Some(container) => contained.remove(&container).unwrap_or_default(),
-                None => (0..self.sheet.parts.len()).filter(|part| self.sheet.parts[*part].is_candidate()).collect(),
+                None => (0..self.sheet.parts.len())
+                    .filter(|part| self.sheet.parts[*part].is_candidate())
+                    .collect(),
             };
             candidates.retain(|part| self.sheet.parts[*part].string.is_none());
             let strings: Vec<usize> = strings.iter().map(|(_, string)| *string).collect();
@@ -187,7 +213,10 @@ impl<'a> Binder<'a> {
         for string in &self.sheet.strings {
             if string.wants_part() && string.binding.is_none() {
                 let what = match &string.annotation {
-                    Annotation::Part(part) => part.name.as_ref().map_or("this string".to_owned(), |name| format!("`{}`", name.text)),
+                    Annotation::Part(part) => part
+                        .name
+                        .as_ref()
+                        .map_or("this string".to_owned(), |name| format!("`{}`", name.text)),
                     Annotation::Legend(_) => "this legend".to_owned(),
                     _ => "this string".to_owned(),
                 };
@@ -214,7 +243,9 @@ impl<'a> Binder<'a> {
 
     /// The backmost part in a group.
     fn backmost(&self, group: usize) -> Option<usize> {
-        self.units.members_in(group).find_map(|member| self.part_of_member[member])
+        self.units
+            .members_in(group)
+            .find_map(|member| self.part_of_member[member])
     }
 
     fn bind(&mut self, string: usize, part: usize, by: BoundBy) {
@@ -225,7 +256,10 @@ impl<'a> Binder<'a> {
                 Diagnostic::new(
                     Code::TwoStrings,
                     self.sheet.strings[string].text.whole(),
-                    format!("this string and another one describe the same part, {}", element.describe()),
+                    format!(
+                        "this string and another one describe the same part, {}",
+                        element.describe()
+                    ),
                 )
                 .related(other_span, "the other string")
                 .related(element.span, "the part")
@@ -243,7 +277,9 @@ impl<'a> Binder<'a> {
 /// Says of every part what it is, now that the strings are bound.
 fn classify(drawing: &Drawing, sheet: &mut Sheet) {
     for index in 0..sheet.parts.len() {
-        let annotation = sheet.parts[index].string.map(|string| &sheet.strings[string].annotation);
+        let annotation = sheet.parts[index]
+            .string
+            .map(|string| &sheet.strings[string].annotation);
         let main = sheet.parts[index].is_candidate();
         sheet.parts[index].kind = match annotation {
             Some(Annotation::Unused) => PartKind::Unused,
@@ -253,7 +289,11 @@ fn classify(drawing: &Drawing, sheet: &mut Sheet) {
         };
         if let Some(Annotation::Part(part)) = annotation {
             let name = part.name.as_ref().map(|name| name.text.clone());
-            sheet.parts[index].name = name.unwrap_or_else(|| described_element(drawing, sheet, index).own_name().to_owned());
+            sheet.parts[index].name = name.unwrap_or_else(|| {
+                described_element(drawing, sheet, index)
+                    .own_name()
+                    .to_owned()
+            });
         }
     }
     // Sub-parts of what is left out are left out with it.
@@ -281,7 +321,10 @@ fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
     }
     for string in &sheet.strings {
         if let (Some(binding), Some(rival)) = (string.binding, string.rival) {
-            let (bound, rival) = (sheet.describe(drawing, binding.part), sheet.describe(drawing, rival));
+            let (bound, rival) = (
+                sheet.describe(drawing, binding.part),
+                sheet.describe(drawing, rival),
+            );
             diagnostics.push(
                 Diagnostic::new(
                     Code::NearlyAsNear,
@@ -295,7 +338,9 @@ fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
     }
     let (page_low, page_size) = drawing.page;
     for part in &sheet.parts {
-        let Some((low, high)) = bounds(&part.outline) else { continue };
+        let Some((low, high)) = bounds(&part.outline) else {
+            continue;
+        };
         let off = high.cmplt(page_low).any() || low.cmpgt(page_low + page_size).any();
         if off && part.kind == PartKind::Main {
             diagnostics.push(

@@ -44,7 +44,9 @@ pub(super) fn pairs(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Ve
         chain.clear();
         chain.push(first);
         while let Some(&string) = chain.last() {
-            let Some(part) = parts.nearest(corners[string]) else { return bound };
+            let Some(part) = parts.nearest(corners[string]) else {
+                return bound;
+            };
             let back = parts.nearest_string(part, &strings, corners);
             if back == Some(string) || back.is_none() {
                 bound[string] = Some(part);
@@ -73,7 +75,10 @@ pub(super) fn rivals(
         .map(|(corner, bound)| {
             let bound = (*bound)?;
             let own = parts.distance_squared(bound, *corner);
-            let (rival, distance) = parts.two_nearest(*corner).into_iter().find(|(part, _)| *part != bound)?;
+            let (rival, distance) = parts
+                .two_nearest(*corner)
+                .into_iter()
+                .find(|(part, _)| *part != bound)?;
             (distance <= own * 1.1 * 1.1 && own > 0.0).then_some(rival)
         })
         .collect()
@@ -103,17 +108,27 @@ impl Points {
             }
             heap.push(Reverse(index));
         }
-        Self { tree: RTree::bulk_load(unique), indices }
+        Self {
+            tree: RTree::bulk_load(unique),
+            indices,
+        }
     }
 
     fn first_at(&self, point: &[f64; 2]) -> Option<usize> {
-        self.indices.get(&key(DVec2::from(*point)))?.peek().map(|Reverse(index)| *index)
+        self.indices
+            .get(&key(DVec2::from(*point)))?
+            .peek()
+            .map(|Reverse(index)| *index)
     }
 
     /// The nearest index, the least one among equals.
     fn nearest(&self, to: DVec2) -> Option<usize> {
         let to = [to.x, to.y];
-        self.tree.nearest_neighbors(&to).into_iter().filter_map(|point| self.first_at(point.geom())).min()
+        self.tree
+            .nearest_neighbors(&to)
+            .into_iter()
+            .filter_map(|point| self.first_at(point.geom()))
+            .min()
     }
 
     /// Removes the least index at a point.
@@ -151,21 +166,33 @@ impl PointDistance for Shape<'_> {
 
 /// The parts that are left.
 enum Parts<'a> {
-    Centers { targets: &'a [Target<'a>], points: Points },
-    Outlines { targets: &'a [Target<'a>], tree: RTree<Shape<'a>> },
+    Centers {
+        targets: &'a [Target<'a>],
+        points: Points,
+    },
+    Outlines {
+        targets: &'a [Target<'a>],
+        tree: RTree<Shape<'a>>,
+    },
 }
 
 impl<'a> Parts<'a> {
     fn new(targets: &'a [Target<'a>], mode: Mode) -> Self {
         match mode {
-            Mode::Center => Self::Centers { targets, points: Points::new(targets.iter().map(|target| target.center)) },
+            Mode::Center => Self::Centers {
+                targets,
+                points: Points::new(targets.iter().map(|target| target.center)),
+            },
             Mode::Outline => {
                 let shapes = targets.iter().enumerate().map(|(index, target)| Shape {
                     index,
                     envelope: envelope(target),
                     outline: target.outline,
                 });
-                Self::Outlines { targets, tree: RTree::bulk_load(shapes.collect()) }
+                Self::Outlines {
+                    targets,
+                    tree: RTree::bulk_load(shapes.collect()),
+                }
             }
         }
     }
@@ -173,9 +200,11 @@ impl<'a> Parts<'a> {
     fn nearest(&self, corner: DVec2) -> Option<usize> {
         match self {
             Self::Centers { points, .. } => points.nearest(corner),
-            Self::Outlines { tree, .. } => {
-                tree.nearest_neighbors(&[corner.x, corner.y]).into_iter().map(|shape| shape.index).min()
-            }
+            Self::Outlines { tree, .. } => tree
+                .nearest_neighbors(&[corner.x, corner.y])
+                .into_iter()
+                .map(|shape| shape.index)
+                .min(),
         }
     }
 
@@ -195,11 +224,17 @@ impl<'a> Parts<'a> {
                 let reach = reach(target);
                 let mut best: Option<(f64, usize)> = None;
                 let center = [target.center.x, target.center.y];
-                for (point, from_center) in strings.tree.nearest_neighbor_iter_with_distance_2(center) {
-                    if best.is_some_and(|(distance, _)| from_center.sqrt() - reach > distance.sqrt()) {
+                for (point, from_center) in
+                    strings.tree.nearest_neighbor_iter_with_distance_2(center)
+                {
+                    if best
+                        .is_some_and(|(distance, _)| from_center.sqrt() - reach > distance.sqrt())
+                    {
                         break;
                     }
-                    let Some(string) = strings.first_at(point.geom()) else { continue };
+                    let Some(string) = strings.first_at(point.geom()) else {
+                        continue;
+                    };
                     let candidate = (distance_squared(target.outline, corners[string]), string);
                     if best.is_none_or(|best| candidate < best) {
                         best = Some(candidate);
@@ -262,8 +297,14 @@ fn envelope(target: &Target<'_>) -> AABB<[f64; 2]> {
 
 /// How far a part's outline reaches from its centre.
 fn reach(target: &Target<'_>) -> f64 {
-    let points = target.outline.polygons.iter().flat_map(|polygon| polygon.rings.iter().flatten());
-    points.map(|point| point.distance(target.center)).fold(0.0, f64::max)
+    let points = target
+        .outline
+        .polygons
+        .iter()
+        .flat_map(|polygon| polygon.rings.iter().flatten());
+    points
+        .map(|point| point.distance(target.center))
+        .fold(0.0, f64::max)
 }
 
 #[cfg(test)]
@@ -294,8 +335,12 @@ mod tests {
     }
 
     fn square(center: DVec2) -> Outline {
-        let ring = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)].map(|c| center + DVec2::from(c)).to_vec();
-        Outline { polygons: vec![crate::geometry::Polygon { rings: vec![ring] }] }
+        let ring = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)]
+            .map(|c| center + DVec2::from(c))
+            .to_vec();
+        Outline {
+            polygons: vec![crate::geometry::Polygon { rings: vec![ring] }],
+        }
     }
 
     proptest! {

@@ -95,7 +95,10 @@ impl SheetString {
         match &self.annotation {
             Annotation::Unused | Annotation::Legend(_) => true,
             Annotation::Part(part) => !part.attributes.iter().any(|attribute| {
-                matches!(attribute.keyword, Keyword::Tiles | Keyword::View | Keyword::Pose | Keyword::Walk)
+                matches!(
+                    attribute.keyword,
+                    Keyword::Tiles | Keyword::View | Keyword::Pose | Keyword::Walk
+                )
             }),
             _ => false,
         }
@@ -198,13 +201,20 @@ impl Sheet {
 
     /// What a setting of the whole drawing says.
     pub fn drawing_value(&self, keyword: Keyword) -> Option<&Value> {
-        self.defaults.iter().find(|(_, setting)| setting.keyword == keyword).map(|(_, setting)| &setting.value)
+        self.defaults
+            .iter()
+            .find(|(_, setting)| setting.keyword == keyword)
+            .map(|(_, setting)| &setting.value)
     }
 
     /// A part for people: its name, or its element.
     pub fn describe(&self, drawing: &Drawing, part: usize) -> String {
         let part = &self.parts[part];
-        if part.name.is_empty() { drawing.shapes[part.shape].element.describe() } else { format!("`{}`", part.name) }
+        if part.name.is_empty() {
+            drawing.shapes[part.shape].element.describe()
+        } else {
+            format!("`{}`", part.name)
+        }
     }
 }
 

@@ -13,24 +13,38 @@ use crate::svg::Drawing;
 /// Reads the strings.
 pub(super) fn read(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
     let mut texts = descriptions(drawing);
-    let annotated =
-        !texts.is_empty() || drawing.labels.iter().any(|(label, _)| lang::looks_like_string(label.text.as_str()));
+    let annotated = !texts.is_empty()
+        || drawing
+            .labels
+            .iter()
+            .any(|(label, _)| lang::looks_like_string(label.text.as_str()));
     if !annotated {
         return Sheet::default();
     }
-    texts.extend(drawing.labels.iter_mut().enumerate().map(|(index, (label, _))| {
-        (Place::Label(index), std::mem::take(&mut label.text))
-    }));
+    texts.extend(
+        drawing
+            .labels
+            .iter_mut()
+            .enumerate()
+            .map(|(index, (label, _))| (Place::Label(index), std::mem::take(&mut label.text))),
+    );
     texts.sort_by_key(|(_, text)| text.whole());
     let parsed: Vec<_> = texts
         .into_par_iter()
         .map(|(place, text)| {
-            let kind = if matches!(place, Place::Label(_)) { lang::Place::Text } else { lang::Place::Desc };
+            let kind = if matches!(place, Place::Label(_)) {
+                lang::Place::Text
+            } else {
+                lang::Place::Desc
+            };
             let (annotation, findings) = lang::parse(&text, kind);
             (place, text, annotation, findings)
         })
         .collect();
-    let mut sheet = Sheet { annotated, ..Sheet::default() };
+    let mut sheet = Sheet {
+        annotated,
+        ..Sheet::default()
+    };
     for (place, text, annotation, findings) in parsed {
         diagnostics.extend(findings);
         if annotation == Annotation::Caption {
@@ -59,7 +73,8 @@ pub(super) fn read(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> 
         .par_iter_mut()
         .map(|string| {
             let mut findings = Vec::new();
-            string.settings = lang::settings(&string.text, &string.annotation, &variables, &mut findings);
+            string.settings =
+                lang::settings(&string.text, &string.annotation, &variables, &mut findings);
             findings
         })
         .collect();
@@ -72,7 +87,9 @@ pub(super) fn read(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> 
 fn descriptions(drawing: &mut Drawing) -> Vec<(Place, Text)> {
     let mut texts = Vec::new();
     let mut take = |desc: &mut Option<Text>, place| {
-        if desc.as_ref().is_some_and(|text| lang::looks_like_string(text.as_str()))
+        if desc
+            .as_ref()
+            .is_some_and(|text| lang::looks_like_string(text.as_str()))
             && let Some(text) = desc.take()
         {
             texts.push((place, text));
@@ -89,9 +106,13 @@ fn descriptions(drawing: &mut Drawing) -> Vec<(Place, Text)> {
 
 fn caption(text: &Text) -> Diagnostic {
     let start = text.span(0..0);
-    Diagnostic::new(Code::Caption, text.whole(), "this text is no string, and is taken for a caption")
-        .help("begin it with `#` to make it a comment; a part's name with blanks in it needs quotes")
-        .fix("make it a comment", start, "#")
+    Diagnostic::new(
+        Code::Caption,
+        text.whole(),
+        "this text is no string, and is taken for a caption",
+    )
+    .help("begin it with `#` to make it a comment; a part's name with blanks in it needs quotes")
+    .fix("make it a comment", start, "#")
 }
 
 /// Later `%` strings win over earlier ones.
@@ -105,7 +126,10 @@ fn add_up_defaults(sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
             if matches!(setting.keyword, Keyword::Let | Keyword::Motion) {
                 continue;
             }
-            let earlier = sheet.defaults.iter().position(|(_, other)| other.keyword == setting.keyword);
+            let earlier = sheet
+                .defaults
+                .iter()
+                .position(|(_, other)| other.keyword == setting.keyword);
             let Some(slot) = earlier else {
                 sheet.defaults.push((index, setting.clone()));
                 continue;
@@ -117,7 +141,10 @@ fn add_up_defaults(sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
                     Diagnostic::new(
                         Code::Overridden,
                         text.span(old.range.clone()),
-                        format!("`{}` is set again by a later `%` string, which wins", setting.keyword.name()),
+                        format!(
+                            "`{}` is set again by a later `%` string, which wins",
+                            setting.keyword.name()
+                        ),
                     )
                     .related(string.text.span(setting.range.clone()), "the later setting")
                     .help("delete one of them"),

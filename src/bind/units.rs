@@ -119,13 +119,25 @@ fn members(drawing: &Drawing, sheet: &Sheet) -> Vec<Member> {
     };
     let described = described_lines(drawing, sheet);
     let mut members = Vec::with_capacity(drawing.shapes.len());
-    let mut add = |shape, is_stroke| members.push(Member { index: members.len(), shape, is_stroke });
+    let mut add = |shape, is_stroke| {
+        members.push(Member {
+            index: members.len(),
+            shape,
+            is_stroke,
+        })
+    };
     for (index, shape) in drawing.shapes.iter().enumerate() {
         let filled = !shape.outline.polygons.is_empty();
         if filled {
             add(index, false);
         }
-        if shape.stroke.is_some() && if filled { borders } else { lines || described[index] } {
+        if shape.stroke.is_some()
+            && if filled {
+                borders
+            } else {
+                lines || described[index]
+            }
+        {
             add(index, true);
         }
     }
@@ -206,7 +218,9 @@ pub(super) fn choose_mains(units: &Units, sheet: &mut Sheet) {
         let member = sheet.parts[index].member;
         let shape = sheet.parts[index].shape;
         let main = match units.unit[member] {
-            Some(group) => *mains.entry((units.container[member], group)).or_insert(index),
+            Some(group) => *mains
+                .entry((units.container[member], group))
+                .or_insert(index),
             // A border belongs to the shape that it borders.
             None => *main_of_shape.entry(shape).or_insert(index),
         };
@@ -215,9 +229,17 @@ pub(super) fn choose_mains(units: &Units, sheet: &mut Sheet) {
 }
 
 /// The main part candidates in each container.
-pub(super) fn candidates_by_container(units: &Units, sheet: &Sheet) -> FxHashMap<usize, Vec<usize>> {
+pub(super) fn candidates_by_container(
+    units: &Units,
+    sheet: &Sheet,
+) -> FxHashMap<usize, Vec<usize>> {
     let mut candidates: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
-    for (index, part) in sheet.parts.iter().enumerate().filter(|(_, part)| part.is_candidate()) {
+    for (index, part) in sheet
+        .parts
+        .iter()
+        .enumerate()
+        .filter(|(_, part)| part.is_candidate())
+    {
         if let Some(container) = units.container[part.member] {
             candidates.entry(container).or_default().push(index);
         }

@@ -46,19 +46,28 @@ fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, String> {
     match (&arguments.output, folder) {
         (Some(_), Some(folder)) => {
             let name = |drawing: &PathBuf| match drawing.file_name() {
-                Some(name) if drawing.as_os_str() != "-" => Ok(folder.join(beside(Path::new(name)))),
-                _ => Err("a drawing from stdin has no name: name the output file with -o".to_owned()),
+                Some(name) if drawing.as_os_str() != "-" => {
+                    Ok(folder.join(beside(Path::new(name))))
+                }
+                _ => {
+                    Err("a drawing from stdin has no name: name the output file with -o".to_owned())
+                }
             };
             arguments.drawings.iter().map(name).collect()
         }
-        (Some(_), None) if several => Err("with several drawings, -o must name a folder that exists".to_owned()),
+        (Some(_), None) if several => {
+            Err("with several drawings, -o must name a folder that exists".to_owned())
+        }
         (Some(output), None) => {
             container(output)?;
             Ok(vec![output.clone()])
         }
         (None, _) => {
             let output = |drawing: &PathBuf| match drawing.as_os_str() == "-" {
-                true => Err("a drawing from stdin has no place of its own: name the output with -o".to_owned()),
+                true => Err(
+                    "a drawing from stdin has no place of its own: name the output with -o"
+                        .to_owned(),
+                ),
                 false => Ok(beside(drawing)),
             };
             arguments.drawings.iter().map(output).collect()
@@ -68,7 +77,9 @@ fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, String> {
 
 /// The container that a file's ending asks for.
 fn container(output: &Path) -> Result<Container, String> {
-    let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    let ending = output
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_lowercase());
     match ending.as_deref() {
         _ if output.as_os_str() == "-" => Ok(Container::Glb),
         Some("glb") => Ok(Container::Glb),
@@ -77,7 +88,10 @@ fn container(output: &Path) -> Result<Container, String> {
             "`{}` is a drawing, and okoshi never writes over drawings: the output must end in .glb or .gltf",
             output.display()
         )),
-        _ => Err(format!("the output `{}` must end in .glb or .gltf", output.display())),
+        _ => Err(format!(
+            "the output `{}` must end in .glb or .gltf",
+            output.display()
+        )),
     }
 }
 
@@ -88,16 +102,28 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
         Err(outcome) => return (outcome, String::new()),
     };
     let compiled = start.elapsed();
-    let mut text = describe(&loaded, common, Detail::Aside, style(common, &std::io::stderr()));
+    let mut text = describe(
+        &loaded,
+        common,
+        Detail::Aside,
+        style(common, &std::io::stderr()),
+    );
     if loaded.compiled.has_errors() && !arguments.keep_going {
         if !common.quiet {
-            let kept = if output.exists() { format!("; `{}` stays as it was", output.display()) } else { String::new() };
+            let kept = if output.exists() {
+                format!("; `{}` stays as it was", output.display())
+            } else {
+                String::new()
+            };
             let _ = writeln!(text, "nothing was written{kept}");
         }
         return (Outcome::Errors, text);
     }
     let written = container(output).and_then(|container| {
-        write_atomic(output, |out| gltf::write(&loaded.compiled.scene, container, out)).map_err(|error| error.to_string())
+        write_atomic(output, |out| {
+            gltf::write(&loaded.compiled.scene, container, out)
+        })
+        .map_err(|error| error.to_string())
     });
     let written = written.and_then(|()| match &arguments.depfile {
         Some(depfile) => write_depfile(depfile, drawing, output, &loaded, arguments),
@@ -116,20 +142,33 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
 }
 
 fn triangles(loaded: &Loaded) -> usize {
-    let primitives = loaded.compiled.scene.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    primitives.map(|primitive| primitive.surface.triangles.len()).sum()
+    let primitives = loaded
+        .compiled
+        .scene
+        .meshes
+        .iter()
+        .flat_map(|mesh| &mesh.primitives);
+    primitives
+        .map(|primitive| primitive.surface.triangles.len())
+        .sum()
 }
 
 fn summary(loaded: &Loaded) -> String {
     let nodes = loaded.compiled.scene.nodes.len();
-    format!("{nodes} node{}, {} triangles", if nodes == 1 { "" } else { "s" }, triangles(loaded))
+    format!(
+        "{nodes} node{}, {} triangles",
+        if nodes == 1 { "" } else { "s" },
+        triangles(loaded)
+    )
 }
 
 /// What was built and how long it took, a line a figure.
 fn stats(loaded: &Loaded, output: &Path, compiled: Duration, whole: Duration) -> String {
     let scene = &loaded.compiled.scene;
     let primitives = scene.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    let corners: usize = primitives.map(|primitive| primitive.surface.positions.len()).sum();
+    let corners: usize = primitives
+        .map(|primitive| primitive.surface.positions.len())
+        .sum();
     let milliseconds = |duration: Duration| format!("{:.1} ms", duration.as_secs_f64() * 1e3);
     let bytes = std::fs::metadata(output).map_or(0, |metadata| metadata.len());
     let rows = [
@@ -152,13 +191,29 @@ fn stats(loaded: &Loaded, output: &Path, compiled: Duration, whole: Duration) ->
 }
 
 /// `output: drawing links…`, so that make and its kin know when to build again.
-fn write_depfile(depfile: &Path, drawing: &Path, output: &Path, loaded: &Loaded, arguments: &Build) -> Result<(), String> {
+fn write_depfile(
+    depfile: &Path,
+    drawing: &Path,
+    output: &Path,
+    loaded: &Loaded,
+    arguments: &Build,
+) -> Result<(), String> {
     let resolver = FolderResolver::new(root(drawing, &arguments.reading));
-    let links = loaded.compiled.dependencies.iter().filter_map(|link| resolver.place(link).ok());
-    let inputs: Vec<String> = std::iter::once(drawing.to_path_buf()).chain(links).map(|path| for_make(&path)).collect();
+    let links = loaded
+        .compiled
+        .dependencies
+        .iter()
+        .filter_map(|link| resolver.place(link).ok());
+    let inputs: Vec<String> = std::iter::once(drawing.to_path_buf())
+        .chain(links)
+        .map(|path| for_make(&path))
+        .collect();
     let mut rule = format!("{}: {}\n", for_make(output), inputs.join(" "));
     // A rule without recipe for each input keeps make going when one of them is gone.
-    inputs.iter().skip(1).for_each(|input| rule.push_str(&format!("{input}:\n")));
+    inputs
+        .iter()
+        .skip(1)
+        .for_each(|input| rule.push_str(&format!("{input}:\n")));
     write_atomic(depfile, |out| out.write_all(rule.as_bytes())).map_err(|error| error.to_string())
 }
 

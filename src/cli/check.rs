@@ -10,7 +10,11 @@ use super::{Outcome, json, print_out, sarif, style};
 /// Checks every drawing and reports in the order given.
 pub(super) fn run(arguments: &Check, common: Common) -> Outcome {
     let loaded: Vec<Result<Loaded, Outcome>> = spinning("checking", || {
-        arguments.drawings.par_iter().map(|drawing| load(drawing, &arguments.reading)).collect()
+        arguments
+            .drawings
+            .par_iter()
+            .map(|drawing| load(drawing, &arguments.reading))
+            .collect()
     });
     let mut worst = Outcome::Done;
     let mut read = Vec::new();
@@ -39,7 +43,11 @@ fn human(read: &[Loaded], common: Common) -> String {
         out.push_str(&describe(loaded, common, Detail::Asked, style));
         if !common.quiet {
             let counts = tally(&loaded.compiled.diagnostics);
-            let findings = if counts == [0; 3] { "nothing to say".to_owned() } else { count(counts) };
+            let findings = if counts == [0; 3] {
+                "nothing to say".to_owned()
+            } else {
+                count(counts)
+            };
             out.push_str(&format!("{}: {findings}\n", loaded.path));
         }
     }

@@ -14,12 +14,26 @@ use crate::source::Lines;
 
 /// Prints the hierarchy; findings go to stderr.
 pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
-    let loaded = match spinning("inspecting", || load(&arguments.drawing, &arguments.reading)) {
+    let loaded = match spinning("inspecting", || {
+        load(&arguments.drawing, &arguments.reading)
+    }) {
         Ok(loaded) => loaded,
         Err(outcome) => return outcome,
     };
-    eprint!("{}", describe(&loaded, common, Detail::Aside, style(common, &std::io::stderr())));
-    let text = if arguments.json { json(&loaded) } else { tree(&loaded) };
+    eprint!(
+        "{}",
+        describe(
+            &loaded,
+            common,
+            Detail::Aside,
+            style(common, &std::io::stderr())
+        )
+    );
+    let text = if arguments.json {
+        json(&loaded)
+    } else {
+        tree(&loaded)
+    };
     loaded.outcome().max(print_out(&text))
 }
 
@@ -64,50 +78,91 @@ struct AttributeReport {
 fn json(loaded: &Loaded) -> String {
     let sheet = &loaded.compiled.sheet;
     let lines = Lines::new(&loaded.text);
-    let parts = sheet.parts.iter().enumerate().map(|(index, part)| PartReport {
-        name: name(loaded, part),
-        parent: match part.kind {
-            PartKind::Main => part.parent.map(|parent| sheet.parts[parent].name.as_str()),
-            _ => (part.main != index).then(|| name(loaded, &sheet.parts[part.main])),
-        },
-        kind: part.kind.name(),
-        element: loaded.compiled.drawing.shapes[part.shape].element.id.as_deref(),
-        string: part.string.map(|string| {
-            let string = &sheet.strings[string];
-            let (line, column) = lines.line_column(&loaded.text, string.text.whole().start);
-            let bound_by = string.binding.map_or("none", |binding| binding.by.name());
-            StringReport { line, column, text: string.text.as_str(), bound_by }
-        }),
-        center: part.measure.center.to_array(),
-        ends: part.measure.ends.map(|end| end.to_array()),
-        origin: part.origin.to_array(),
-        axis: part.measure.axis.to_array(),
-        attributes: attributes(loaded, index),
-    });
+    let parts = sheet
+        .parts
+        .iter()
+        .enumerate()
+        .map(|(index, part)| PartReport {
+            name: name(loaded, part),
+            parent: match part.kind {
+                PartKind::Main => part.parent.map(|parent| sheet.parts[parent].name.as_str()),
+                _ => (part.main != index).then(|| name(loaded, &sheet.parts[part.main])),
+            },
+            kind: part.kind.name(),
+            element: loaded.compiled.drawing.shapes[part.shape]
+                .element
+                .id
+                .as_deref(),
+            string: part.string.map(|string| {
+                let string = &sheet.strings[string];
+                let (line, column) = lines.line_column(&loaded.text, string.text.whole().start);
+                let bound_by = string.binding.map_or("none", |binding| binding.by.name());
+                StringReport {
+                    line,
+                    column,
+                    text: string.text.as_str(),
+                    bound_by,
+                }
+            }),
+            center: part.measure.center.to_array(),
+            ends: part.measure.ends.map(|end| end.to_array()),
+            origin: part.origin.to_array(),
+            axis: part.measure.axis.to_array(),
+            attributes: attributes(loaded, index),
+        });
     let (terrain, billboards, clips) = ([], [], []);
-    pretty(&Report { drawing: &loaded.path, parts: parts.collect(), terrain, billboards, clips })
+    pretty(&Report {
+        drawing: &loaded.path,
+        parts: parts.collect(),
+        terrain,
+        billboards,
+        clips,
+    })
 }
 
 /// A part's name; sub-parts, legends and unused parts without one go by their element.
 fn name<'a>(loaded: &'a Loaded, part: &'a Part) -> &'a str {
-    if part.name.is_empty() { loaded.compiled.drawing.shapes[part.shape].element.own_name() } else { &part.name }
+    if part.name.is_empty() {
+        loaded.compiled.drawing.shapes[part.shape]
+            .element
+            .own_name()
+    } else {
+        &part.name
+    }
 }
 
 /// Every attribute that is set, and the ones that every solid has.
 fn attributes(loaded: &Loaded, part: usize) -> BTreeMap<&'static str, AttributeReport> {
     let sheet = &loaded.compiled.sheet;
     let mut out = BTreeMap::new();
-    for keyword in Keyword::ALL.iter().filter(|keyword| keyword.row().allowed.permits(Holder::Part)) {
+    for keyword in Keyword::ALL
+        .iter()
+        .filter(|keyword| keyword.row().allowed.permits(Holder::Part))
+    {
         if let Some(source) = sheet.setting(part, *keyword) {
             let value = source.setting.words.clone();
-            out.insert(keyword.name(), AttributeReport { value, from: source.from.name() });
+            out.insert(
+                keyword.name(),
+                AttributeReport {
+                    value,
+                    from: source.from.name(),
+                },
+            );
         }
     }
     let look = sheet.look(&loaded.compiled.drawing, part);
-    let [r, g, b, _] = look.color.map(|channel| (channel * 1000.0).round() / 1000.0);
-    let builtin = [("Color", format!("{r} {g} {b}")), ("Shape", "default".to_owned())];
+    let [r, g, b, _] = look
+        .color
+        .map(|channel| (channel * 1000.0).round() / 1000.0);
+    let builtin = [
+        ("Color", format!("{r} {g} {b}")),
+        ("Shape", "default".to_owned()),
+    ];
     for (keyword, value) in builtin {
-        out.entry(keyword).or_insert(AttributeReport { value, from: SetBy::Builtin.name() });
+        out.entry(keyword).or_insert(AttributeReport {
+            value,
+            from: SetBy::Builtin.name(),
+        });
     }
     out
 }
@@ -115,7 +170,12 @@ fn attributes(loaded: &Loaded, part: usize) -> BTreeMap<&'static str, AttributeR
 fn tree(loaded: &Loaded) -> String {
     let sheet = &loaded.compiled.sheet;
     let mut children: BTreeMap<Option<usize>, Vec<usize>> = BTreeMap::new();
-    for (index, part) in sheet.parts.iter().enumerate().filter(|(_, part)| part.kind == PartKind::Main) {
+    for (index, part) in sheet
+        .parts
+        .iter()
+        .enumerate()
+        .filter(|(_, part)| part.kind == PartKind::Main)
+    {
         children.entry(part.parent).or_default().push(index);
     }
     let mut rows: Vec<[String; 2]> = vec![["Root".to_owned(), String::new()]];
@@ -128,8 +188,15 @@ fn tree(loaded: &Loaded) -> String {
     };
     push(&mut stack, None, "");
     while let Some((part, indent, last)) = stack.pop() {
-        let (branch, below) = if last { ("└─ ", "   ") } else { ("├─ ", "│  ") };
-        rows.push([format!("{indent}{branch}{}", sheet.parts[part].name), describe_part(loaded, part)]);
+        let (branch, below) = if last {
+            ("└─ ", "   ")
+        } else {
+            ("├─ ", "│  ")
+        };
+        rows.push([
+            format!("{indent}{branch}{}", sheet.parts[part].name),
+            describe_part(loaded, part),
+        ]);
         push(&mut stack, Some(part), &format!("{indent}{below}"));
     }
     let mut out = columns(&rows);
@@ -137,8 +204,15 @@ fn tree(loaded: &Loaded) -> String {
         .parts
         .iter()
         .enumerate()
-        .filter(|(_, part)| matches!(part.kind, PartKind::Legend | PartKind::Unused) && part.is_candidate())
-        .map(|(index, part)| [format!("   {}", name(loaded, part)), format!("{}, {}", part.kind.name(), string(loaded, index))])
+        .filter(|(_, part)| {
+            matches!(part.kind, PartKind::Legend | PartKind::Unused) && part.is_candidate()
+        })
+        .map(|(index, part)| {
+            [
+                format!("   {}", name(loaded, part)),
+                format!("{}, {}", part.kind.name(), string(loaded, index)),
+            ]
+        })
         .collect();
     if !left_out.is_empty() {
         out.push_str("left out\n");
@@ -155,20 +229,28 @@ fn describe_part(loaded: &Loaded, index: usize) -> String {
         SetBy::Own => source.setting.words.clone(),
         from => format!("{} ({})", source.setting.words, from.name()),
     });
-    let subs = sheet.parts.iter().filter(|other| other.main == index && other.kind == PartKind::Sub).count();
+    let subs = sheet
+        .parts
+        .iter()
+        .filter(|other| other.main == index && other.kind == PartKind::Sub)
+        .count();
     let subs = match subs {
         0 => String::new(),
         1 => ", 1 sub-part".to_owned(),
         count => format!(", {count} sub-parts"),
     };
-    let element = loaded.compiled.drawing.shapes[part.shape].element.describe();
+    let element = loaded.compiled.drawing.shapes[part.shape]
+        .element
+        .describe();
     format!("{solid}{subs}; {element}, {}", string(loaded, index))
 }
 
 /// By what rule a part has its string.
 fn string(loaded: &Loaded, part: usize) -> String {
     let sheet = &loaded.compiled.sheet;
-    let binding = sheet.parts[part].string.and_then(|string| sheet.strings[string].binding);
+    let binding = sheet.parts[part]
+        .string
+        .and_then(|string| sheet.strings[string].binding);
     match binding {
         None => "no string".to_owned(),
         Some(binding) => format!("bound by {}", binding.by.name()),
@@ -178,7 +260,11 @@ fn string(loaded: &Loaded, part: usize) -> String {
 /// Two columns, the second one aligned.
 fn columns(rows: &[[String; 2]]) -> String {
     use unicode_width::UnicodeWidthStr;
-    let width = rows.iter().map(|[first, _]| first.width()).max().unwrap_or(0);
+    let width = rows
+        .iter()
+        .map(|[first, _]| first.width())
+        .max()
+        .unwrap_or(0);
     rows.iter().fold(String::new(), |mut out, [first, second]| {
         let padding = " ".repeat(width - first.width() + 2);
         out.push_str(format!("{first}{padding}{second}").trim_end());

@@ -26,37 +26,66 @@ pub(super) struct Loaded {
 
 impl Loaded {
     pub(super) fn findings(&self) -> Findings<'_> {
-        Findings { path: &self.path, text: &self.text, diagnostics: &self.compiled.diagnostics }
+        Findings {
+            path: &self.path,
+            text: &self.text,
+            diagnostics: &self.compiled.diagnostics,
+        }
     }
 
     pub(super) fn outcome(&self) -> Outcome {
-        if self.compiled.has_errors() { Outcome::Errors } else { Outcome::Done }
+        if self.compiled.has_errors() {
+            Outcome::Errors
+        } else {
+            Outcome::Done
+        }
     }
 }
 
 /// Reads and compiles a drawing.
 pub(super) fn load(path: &Path, reading: &Reading) -> Result<Loaded, Outcome> {
-    let name = if path.as_os_str() == "-" { "<stdin>".to_owned() } else { path.display().to_string() };
+    let name = if path.as_os_str() == "-" {
+        "<stdin>".to_owned()
+    } else {
+        path.display().to_string()
+    };
     let bytes = read_drawing(path).map_err(|error| fail(&error.to_string()))?;
     let lossy = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 12)]).into_owned();
     let text = match decode(bytes) {
         Ok(text) => text,
         Err(error) => {
             let help = "in Inkscape, File → Save As writes UTF-8; in an editor, choose the encoding when saving";
-            let diagnostic = Diagnostic::new(Code::NotUtf8, Span::at(0), error.to_string()).help(help);
-            let compiled = Compiled { diagnostics: vec![diagnostic], ..Compiled::default() };
-            return Ok(Loaded { path: name, text: lossy, compiled });
+            let diagnostic =
+                Diagnostic::new(Code::NotUtf8, Span::at(0), error.to_string()).help(help);
+            let compiled = Compiled {
+                diagnostics: vec![diagnostic],
+                ..Compiled::default()
+            };
+            return Ok(Loaded {
+                path: name,
+                text: lossy,
+                compiled,
+            });
         }
     };
     let resolver = FolderResolver::new(root(path, reading));
-    let options = Options { tolerance: reading.tolerance };
+    let options = Options {
+        tolerance: reading.tolerance,
+    };
     let compiled = compile(&text, &options, &resolver);
-    Ok(Loaded { path: name, text, compiled })
+    Ok(Loaded {
+        path: name,
+        text,
+        compiled,
+    })
 }
 
 /// The folder that links are resolved in.
 pub(super) fn root(path: &Path, reading: &Reading) -> PathBuf {
-    reading.root.clone().unwrap_or_else(|| path.parent().map_or_else(PathBuf::new, Path::to_path_buf))
+    reading
+        .root
+        .clone()
+        .unwrap_or_else(|| path.parent().map_or_else(PathBuf::new, Path::to_path_buf))
 }
 
 /// Which findings are shown.
@@ -76,7 +105,11 @@ pub(super) fn describe(loaded: &Loaded, common: Common, detail: Detail, style: S
         Detail::Asked => MOST_FINDINGS,
         Detail::Aside => MOST_HINTS,
     };
-    let most = if common.verbose { usize::MAX } else { MOST_FINDINGS };
+    let most = if common.verbose {
+        usize::MAX
+    } else {
+        MOST_FINDINGS
+    };
     let mut shown: Vec<Diagnostic> = Vec::new();
     let mut hidden = [0_usize; 3];
     let mut counts = [0_usize; 3];
@@ -95,9 +128,18 @@ pub(super) fn describe(loaded: &Loaded, common: Common, detail: Detail, style: S
             hidden[slot] += 1;
         }
     }
-    let mut out = report::human(Findings { diagnostics: &shown, ..loaded.findings() }, style);
+    let mut out = report::human(
+        Findings {
+            diagnostics: &shown,
+            ..loaded.findings()
+        },
+        style,
+    );
     if !common.quiet && hidden.iter().sum::<usize>() > 0 {
-        out.push_str(&format!("… and {}, which `okoshi check -v` shows\n", count(hidden)));
+        out.push_str(&format!(
+            "… and {}, which `okoshi check -v` shows\n",
+            count(hidden)
+        ));
     }
     out
 }

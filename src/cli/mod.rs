@@ -2,7 +2,11 @@
 //!
 //! Exit status: 0 done, 1 errors in a drawing, 2 wrong use, or a file that cannot be read or written.
 //! stdout carries only what was asked for.
-#![allow(clippy::print_stdout, clippy::print_stderr, reason = "this is the module that prints")]
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "this is the module that prints"
+)]
 
 mod args;
 mod build;
@@ -87,7 +91,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
 fn print_out(text: &str) -> Outcome {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => fail(&format!("stdout cannot be written: {error}")),
+        Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+            fail(&format!("stdout cannot be written: {error}"))
+        }
         _ => Outcome::Done,
     }
 }
@@ -103,7 +109,14 @@ fn style(common: Common, stream: &impl IsTerminal) -> Style {
     let colored = match common.color {
         Color::Always => true,
         Color::Never => false,
-        Color::Auto => stream.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty()),
+        Color::Auto => {
+            stream.is_terminal()
+                && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+        }
     };
-    if colored { Style::Colored } else { Style::Plain }
+    if colored {
+        Style::Colored
+    } else {
+        Style::Plain
+    }
 }

@@ -31,9 +31,17 @@ impl Frame {
         let lead = axis.dot(center - origin);
         let level = axis.y.abs() < 1e-9;
         let upward = if level { axis.x < 0.0 } else { axis.y < 0.0 };
-        let backward = if lead.abs() > 1e-9 * part.measure.half_along { lead < 0.0 } else { upward };
+        let backward = if lead.abs() > 1e-9 * part.measure.half_along {
+            lead < 0.0
+        } else {
+            upward
+        };
         let y = if backward { -axis } else { axis };
-        Self { origin, center, angle: (-y.x).atan2(y.y) }
+        Self {
+            origin,
+            center,
+            angle: (-y.x).atan2(y.y),
+        }
     }
 
     /// A point of the plane in this frame.
@@ -46,8 +54,14 @@ impl Frame {
         let back = DVec2::from_angle(-self.angle);
         let point = |p: &DVec2| back.rotate(up(*p) - self.center);
         let polygon = |polygon: &Polygon| Polygon {
-            rings: polygon.rings.iter().map(|ring| ring.iter().map(point).collect()).collect(),
+            rings: polygon
+                .rings
+                .iter()
+                .map(|ring| ring.iter().map(point).collect())
+                .collect(),
         };
-        Outline { polygons: outline.polygons.iter().map(polygon).collect() }
+        Outline {
+            polygons: outline.polygons.iter().map(polygon).collect(),
+        }
     }
 }

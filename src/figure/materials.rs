@@ -16,7 +16,11 @@ pub(super) struct Materials {
 }
 
 impl Materials {
-    pub(super) fn collect(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) -> Self {
+    pub(super) fn collect(
+        drawing: &Drawing,
+        sheet: &Sheet,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Self {
         let mut list = Vec::new();
         let mut known: FxHashMap<Vec<u64>, usize> = FxHashMap::default();
         let mut warned = FxHashSet::default();
@@ -28,8 +32,12 @@ impl Materials {
                 continue;
             }
             let paint = &drawing.shapes[part.shape].paint.key;
-            let own_paint = sheet.setting(index, Keyword::Color).map_or(SetBy::Builtin, |source| source.from) == SetBy::Builtin;
-            if (own_paint || matches!(paint, PaintKey::Picture(_))) && warned.insert(paint.clone()) {
+            let own_paint = sheet
+                .setting(index, Keyword::Color)
+                .map_or(SetBy::Builtin, |source| source.from)
+                == SetBy::Builtin;
+            if (own_paint || matches!(paint, PaintKey::Picture(_))) && warned.insert(paint.clone())
+            {
                 diagnostics.extend(mean_color(drawing, part.shape));
             }
             let look = sheet.look(drawing, index);
@@ -71,8 +79,15 @@ fn mean_color(drawing: &Drawing, shape: usize) -> Option<Diagnostic> {
 }
 
 fn key(look: &Look, double_sided: bool) -> Vec<u64> {
-    let numbers = look.color.iter().chain([&look.metallic, &look.roughness]).chain(&look.emissive);
-    numbers.map(|number| number.to_bits()).chain([u64::from(double_sided)]).collect()
+    let numbers = look
+        .color
+        .iter()
+        .chain([&look.metallic, &look.roughness])
+        .chain(&look.emissive);
+    numbers
+        .map(|number| number.to_bits())
+        .chain([u64::from(double_sided)])
+        .collect()
 }
 
 fn material(look: &Look, double_sided: bool) -> Material {
@@ -80,7 +95,12 @@ fn material(look: &Look, double_sided: bool) -> Material {
     let byte = |channel: f64| (channel.clamp(0.0, 1.0) * 255.0).round() as u8;
     Material {
         name: format!("#{:02x}{:02x}{:02x}", byte(r), byte(g), byte(b)),
-        base_color: [linear(r), linear(g), linear(b), alpha.clamp(0.0, 1.0) as f32],
+        base_color: [
+            linear(r),
+            linear(g),
+            linear(b),
+            alpha.clamp(0.0, 1.0) as f32,
+        ],
         metallic: look.metallic as f32,
         roughness: look.roughness as f32,
         emissive: look.emissive.map(linear),
@@ -91,6 +111,10 @@ fn material(look: &Look, double_sided: bool) -> Material {
 /// A channel of sRGB in linear light (IEC 61966-2-1).
 fn linear(channel: f64) -> f32 {
     let channel = channel.clamp(0.0, 1.0);
-    let linear = if channel <= 0.040_45 { channel / 12.92 } else { ((channel + 0.055) / 1.055).powf(2.4) };
+    let linear = if channel <= 0.040_45 {
+        channel / 12.92
+    } else {
+        ((channel + 0.055) / 1.055).powf(2.4)
+    };
     linear as f32
 }

@@ -71,7 +71,12 @@ impl<'a> Model<'a> {
             _ => 1.0,
         };
         let depth = drawing.page.1.length() * DEFAULT_DEPTH;
-        Self { drawing, sheet, scale: scale * CENTIMETRE, depth: [-depth, depth] }
+        Self {
+            drawing,
+            sheet,
+            scale: scale * CENTIMETRE,
+            depth: [-depth, depth],
+        }
     }
 
     /// How far a part's solid, or its node, is moved along the viewer axis, drawing units.
@@ -103,19 +108,37 @@ impl<'a> Model<'a> {
         }
         let measure = &self.sheet.parts[part].measure;
         let kind = self.kind(part);
-        let Some(layers) = solid::layers(&kind, measure.half_across, measure.half_along, &self.options(part)) else {
+        let Some(layers) = solid::layers(
+            &kind,
+            measure.half_across,
+            measure.half_along,
+            &self.options(part),
+        ) else {
             return;
         };
         let offset = self.offset(part);
-        let low = layers.iter().map(|layer| layer.z + offset).fold(f64::INFINITY, f64::min);
-        let high = layers.iter().map(|layer| layer.z + offset).fold(f64::NEG_INFINITY, f64::max);
+        let low = layers
+            .iter()
+            .map(|layer| layer.z + offset)
+            .fold(f64::INFINITY, f64::min);
+        let high = layers
+            .iter()
+            .map(|layer| layer.z + offset)
+            .fold(f64::NEG_INFINITY, f64::max);
         if (low + high).abs() > 1e-9 * (high - low).abs().max(1e-12) {
             return;
         }
         let source = self.sheet.setting(part, Keyword::Shape);
-        let span = source.map_or(self.drawing.shapes[self.sheet.parts[part].shape].element.span, |source| {
-            self.sheet.strings[source.string].text.span(source.setting.range.clone())
-        });
+        let span = source.map_or(
+            self.drawing.shapes[self.sheet.parts[part].shape]
+                .element
+                .span,
+            |source| {
+                self.sheet.strings[source.string]
+                    .text
+                    .span(source.setting.range.clone())
+            },
+        );
         let flag = if shape.doubled { "-d" } else { "-s" };
         let name = self.sheet.describe(self.drawing, part);
         diagnostics.push(
@@ -133,7 +156,11 @@ impl<'a> Model<'a> {
             segments: self.sheet.number(part, Keyword::Segments).unwrap_or(16.0) as u32,
             crease: self.sheet.number(part, Keyword::Smooth).unwrap_or(30.0),
             thickness: self.depth,
-            placement: Placement { rotation: 0.0, translation: DVec3::ZERO, scale: self.scale },
+            placement: Placement {
+                rotation: 0.0,
+                translation: DVec3::ZERO,
+                scale: self.scale,
+            },
         }
     }
 
@@ -148,9 +175,16 @@ impl<'a> Model<'a> {
     ) -> Option<Mesh> {
         let mut primitives: Vec<Primitive> = Vec::new();
         for &part in parts {
-            let Some(material) = materials.of(part) else { continue };
-            let Some(surface) = self.surface(main, part, frames, relief) else { continue };
-            match primitives.iter_mut().find(|primitive| primitive.material == material) {
+            let Some(material) = materials.of(part) else {
+                continue;
+            };
+            let Some(surface) = self.surface(main, part, frames, relief) else {
+                continue;
+            };
+            match primitives
+                .iter_mut()
+                .find(|primitive| primitive.material == material)
+            {
                 Some(primitive) => primitive.surface.append(&surface),
                 None => primitives.push(Primitive { surface, material }),
             }
@@ -158,7 +192,13 @@ impl<'a> Model<'a> {
         (!primitives.is_empty()).then_some(Mesh { primitives })
     }
 
-    fn surface(&self, main: usize, part: usize, frames: &[Frame], relief: &Relief) -> Option<Surface> {
+    fn surface(
+        &self,
+        main: usize,
+        part: usize,
+        frames: &[Frame],
+        relief: &Relief,
+    ) -> Option<Surface> {
         let kind = relief.raised(part, self.kind(part));
         if kind == ShapeKind::None {
             return None;
@@ -190,10 +230,19 @@ fn ground(model: &Model<'_>) -> DVec2 {
         Some(Value::Ground(Ground::Page)) => model.drawing.page.0,
         Some(Value::Ground(Ground::Point([x, y]))) => DVec2::new(*x, *y),
         _ => {
-            let built = model.sheet.parts.iter().filter(|part| matches!(part.kind, PartKind::Main | PartKind::Sub));
-            let boxes: Vec<(DVec2, DVec2)> = built.filter_map(|part| bounds(&part.outline)).collect();
-            let Some(first) = boxes.first() else { return DVec2::ZERO };
-            let (low, high) = boxes.iter().fold(*first, |(low, high), other| (low.min(other.0), high.max(other.1)));
+            let built = model
+                .sheet
+                .parts
+                .iter()
+                .filter(|part| matches!(part.kind, PartKind::Main | PartKind::Sub));
+            let boxes: Vec<(DVec2, DVec2)> =
+                built.filter_map(|part| bounds(&part.outline)).collect();
+            let Some(first) = boxes.first() else {
+                return DVec2::ZERO;
+            };
+            let (low, high) = boxes.iter().fold(*first, |(low, high), other| {
+                (low.min(other.0), high.max(other.1))
+            });
             DVec2::new((low.x + high.x) / 2.0, high.y)
         }
     }
@@ -215,36 +264,61 @@ fn axes(sheet: &Sheet) -> DQuat {
 }
 
 /// Puts nodes and meshes together.
-fn assemble(model: &Model<'_>, tree: &Tree, meshes: Vec<Option<Mesh>>, materials: Materials) -> Scene {
+fn assemble(
+    model: &Model<'_>,
+    tree: &Tree,
+    meshes: Vec<Option<Mesh>>,
+    materials: Materials,
+) -> Scene {
     let sheet = model.sheet;
     let ground = ground(model);
     let turn = axes(sheet);
-    let mut scene = Scene { materials: materials.into_list(), ..Scene::default() };
+    let mut scene = Scene {
+        materials: materials.into_list(),
+        ..Scene::default()
+    };
     let mut plain: Vec<Option<usize>> = vec![None; meshes.len()];
     let mut mirrored: Vec<Option<usize>> = vec![None; meshes.len()];
     let mut made = meshes;
     for branch in &tree.branches {
         // A mirrored copy stands behind its original, whose mesh has been moved into the scene by then.
-        if !branch.mirrored && plain[branch.part].is_none() && let Some(mesh) = made[branch.part].take() {
+        if !branch.mirrored
+            && plain[branch.part].is_none()
+            && let Some(mesh) = made[branch.part].take()
+        {
             scene.meshes.push(mesh);
             plain[branch.part] = Some(scene.meshes.len() - 1);
         }
-        if branch.mirrored && mirrored[branch.part].is_none() && let Some(original) = plain[branch.part] {
-            let primitives = scene.meshes[original].primitives.iter().map(|primitive| Primitive {
-                surface: solid::mirror(&primitive.surface),
-                material: primitive.material,
-            });
-            let mesh = Mesh { primitives: primitives.collect() };
+        if branch.mirrored
+            && mirrored[branch.part].is_none()
+            && let Some(original) = plain[branch.part]
+        {
+            let primitives = scene.meshes[original]
+                .primitives
+                .iter()
+                .map(|primitive| Primitive {
+                    surface: solid::mirror(&primitive.surface),
+                    material: primitive.material,
+                });
+            let mesh = Mesh {
+                primitives: primitives.collect(),
+            };
             scene.meshes.push(mesh);
             mirrored[branch.part] = Some(scene.meshes.len() - 1);
         }
         let part = &sheet.parts[branch.part];
         let element = &model.drawing.shapes[part.shape].element;
         let (place, rotation) = match branch.parent {
-            Some(_) => (branch.place * model.scale, DQuat::from_rotation_z(branch.angle)),
+            Some(_) => (
+                branch.place * model.scale,
+                DQuat::from_rotation_z(branch.angle),
+            ),
             None => {
                 let place = branch.place - DVec3::new(ground.x, -ground.y, 0.0);
-                (turn * place * model.scale, turn * DQuat::from_rotation_z(branch.angle))
+                (
+                    turn * place * model.scale,
+                    turn * DQuat::from_rotation_z(branch.angle),
+                )
             }
         };
         let index = scene.nodes.len();
@@ -257,10 +331,16 @@ fn assemble(model: &Model<'_>, tree: &Tree, meshes: Vec<Option<Mesh>>, materials
             children: vec![],
             translation: place,
             rotation,
-            mesh: if branch.mirrored { mirrored[branch.part] } else { plain[branch.part] },
+            mesh: if branch.mirrored {
+                mirrored[branch.part]
+            } else {
+                plain[branch.part]
+            },
             provenance: Some(Provenance {
                 element: element.id.clone(),
-                string: part.string.map(|string| sheet.strings[string].text.as_str().to_owned()),
+                string: part
+                    .string
+                    .map(|string| sheet.strings[string].text.as_str().to_owned()),
             }),
         });
     }

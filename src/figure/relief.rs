@@ -35,22 +35,35 @@ impl Relief {
     pub(super) fn measure(model: &Model<'_>) -> Self {
         let sheet = model.sheet;
         let depths = node_depths(model);
-        let faces: Vec<Option<Faces>> =
-            (0..sheet.parts.len()).into_par_iter().map(|part| faces(model, part, &depths)).collect();
+        let faces: Vec<Option<Faces>> = (0..sheet.parts.len())
+            .into_par_iter()
+            .map(|part| faces(model, part, &depths))
+            .collect();
         let boxes = faces.iter().enumerate().filter_map(|(index, faces)| {
             faces.as_ref()?;
             let (low, high) = bounds(&sheet.parts[index].outline)?;
-            Some(GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), index))
+            Some(GeomWithData::new(
+                Rectangle::from_corners(low.to_array(), high.to_array()),
+                index,
+            ))
         });
         let tree = RTree::bulk_load(boxes.collect());
-        let below: Vec<Vec<usize>> =
-            (0..sheet.parts.len()).into_par_iter().map(|part| below(model, part, &faces, &tree)).collect();
+        let below: Vec<Vec<usize>> = (0..sheet.parts.len())
+            .into_par_iter()
+            .map(|part| below(model, part, &faces, &tree))
+            .collect();
         let mut steps = vec![[0.0_f64; 2]; sheet.parts.len()];
         for (part, below) in below.iter().enumerate() {
             let Some(own) = faces[part] else { continue };
             for side in 0..2 {
-                let same = |other: &&usize| faces[**other].is_some_and(|other| same_plane(own, other, side));
-                let highest = below.iter().filter(same).map(|other| steps[*other][side]).reduce(f64::max);
+                let same = |other: &&usize| {
+                    faces[**other].is_some_and(|other| same_plane(own, other, side))
+                };
+                let highest = below
+                    .iter()
+                    .filter(same)
+                    .map(|other| steps[*other][side])
+                    .reduce(f64::max);
                 if let Some(highest) = highest {
                     steps[part][side] = highest + STEP * own.thickness;
                 }
@@ -64,7 +77,13 @@ impl Relief {
     /// A part's kind with its faces standing out.
     pub(super) fn raised(&self, part: usize, kind: ShapeKind) -> ShapeKind {
         let [back, front] = self.steps[part];
-        let between = |[a, b]: [f64; 2]| if a <= b { [a - back, b + front] } else { [a + front, b - back] };
+        let between = |[a, b]: [f64; 2]| {
+            if a <= b {
+                [a - back, b + front]
+            } else {
+                [a + front, b - back]
+            }
+        };
         let cone = |[a, b, top]: [f64; 3]| {
             let [a, b] = between([a, b]);
             [a, b, top]
@@ -82,7 +101,9 @@ impl Relief {
 
 fn same_plane(a: Faces, b: Faces, side: usize) -> bool {
     match (a.planes[side], b.planes[side]) {
-        (Some(one), Some(other)) => (one - other).abs() <= 1e-3 * STEP * a.thickness.max(b.thickness),
+        (Some(one), Some(other)) => {
+            (one - other).abs() <= 1e-3 * STEP * a.thickness.max(b.thickness)
+        }
         _ => false,
     }
 }
@@ -100,11 +121,18 @@ fn node_depths(model: &Model<'_>) -> Vec<f64> {
         }
         let mut depth = next.and_then(|part| depths[part]).unwrap_or(0.0);
         for part in chain.into_iter().rev() {
-            depth += if model.sheet.shape(part).mirrored { 0.0 } else { model.offset(part) };
+            depth += if model.sheet.shape(part).mirrored {
+                0.0
+            } else {
+                model.offset(part)
+            };
             depths[part] = Some(depth);
         }
     }
-    parts.iter().map(|part| depths[part.main].unwrap_or(0.0)).collect()
+    parts
+        .iter()
+        .map(|part| depths[part.main].unwrap_or(0.0))
+        .collect()
 }
 
 fn faces(model: &Model<'_>, part: usize, depths: &[f64]) -> Option<Faces> {
@@ -115,20 +143,28 @@ fn faces(model: &Model<'_>, part: usize, depths: &[f64]) -> Option<Faces> {
     let moved = part != main || model.sheet.shape(part).mirrored;
     let depth = depths[part] + if moved { model.offset(part) } else { 0.0 };
     let between = |a: f64, b: f64, top: f64| {
-        let (back, front) = if a <= b { (true, top > 0.0) } else { (top > 0.0, true) };
+        let (back, front) = if a <= b {
+            (true, top > 0.0)
+        } else {
+            (top > 0.0, true)
+        };
         Faces {
-            planes: [back.then_some(depth + a.min(b)), front.then_some(depth + a.max(b))],
+            planes: [
+                back.then_some(depth + a.min(b)),
+                front.then_some(depth + a.max(b)),
+            ],
             thickness: (b - a).abs(),
         }
     };
     match model.kind(part) {
         ShapeKind::Default(Some([a, b])) => Some(between(a, b, 1.0)),
-        ShapeKind::Flat(z) => {
-            Some(Faces { planes: [None, Some(depth + z)], thickness: model.depth[1] - model.depth[0] })
-        }
-        ShapeKind::Cone([a, b, top]) | ShapeKind::ConeV([a, b, top]) | ShapeKind::ConeH([a, b, top]) => {
-            Some(between(a, b, top))
-        }
+        ShapeKind::Flat(z) => Some(Faces {
+            planes: [None, Some(depth + z)],
+            thickness: model.depth[1] - model.depth[0],
+        }),
+        ShapeKind::Cone([a, b, top])
+        | ShapeKind::ConeV([a, b, top])
+        | ShapeKind::ConeH([a, b, top]) => Some(between(a, b, top)),
         _ => None,
     }
 }
@@ -141,14 +177,18 @@ fn below(
     tree: &RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
 ) -> Vec<usize> {
     let parts = &model.sheet.parts;
-    let (Some(own), Some((low, high))) = (faces[part], bounds(&parts[part].outline)) else { return vec![] };
+    let (Some(own), Some((low, high))) = (faces[part], bounds(&parts[part].outline)) else {
+        return vec![];
+    };
     let area = AABB::from_corners(low.to_array(), high.to_array());
     let mut found: Vec<usize> = tree
         .locate_in_envelope_intersecting(area)
         .take(MOST_BOXES)
         .map(|other| other.data)
         .filter(|other| *other < part)
-        .filter(|other| faces[*other].is_some_and(|other| (0..2).any(|side| same_plane(own, other, side))))
+        .filter(|other| {
+            faces[*other].is_some_and(|other| (0..2).any(|side| same_plane(own, other, side)))
+        })
         .collect();
     found.sort_unstable_by_key(|other| std::cmp::Reverse(*other));
     found.truncate(MOST_NEIGHBOURS);

@@ -42,11 +42,19 @@ struct Bud {
 
 impl Tree {
     /// Grows the hierarchy, `-d` copies included.
-    pub(super) fn grow(model: &Model<'_>, frames: &[Frame], diagnostics: &mut Vec<Diagnostic>) -> Self {
+    pub(super) fn grow(
+        model: &Model<'_>,
+        frames: &[Frame],
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Self {
         let parts = &model.sheet.parts;
         let mut children: Vec<Vec<usize>> = vec![Vec::new(); parts.len()];
         let mut roots = Vec::new();
-        for (index, part) in parts.iter().enumerate().filter(|(_, part)| part.kind == PartKind::Main) {
+        for (index, part) in parts
+            .iter()
+            .enumerate()
+            .filter(|(_, part)| part.kind == PartKind::Main)
+        {
             match part.parent {
                 Some(parent) => children[parent].push(index),
                 None => roots.push(index),
@@ -56,7 +64,12 @@ impl Tree {
         let mut branches: Vec<Branch> = Vec::with_capacity(parts.len());
         let mut buds: Vec<Bud> = Vec::new();
         let sprout = |buds: &mut Vec<Bud>, part: usize, parent, mirrored: bool, copies| {
-            let bud = |mirrored, copies| Bud { part, parent, mirrored, copies };
+            let bud = |mirrored, copies| Bud {
+                part,
+                parent,
+                mirrored,
+                copies,
+            };
             // The last one in is grown first: the copy stands behind its original.
             if model.sheet.shape(part).doubled {
                 buds.push(bud(!mirrored, copies + 1));
@@ -98,10 +111,17 @@ fn place(model: &Model<'_>, frames: &[Frame], bud: &Bud) -> Branch {
     let part = &model.sheet.parts[bud.part];
     let own = &frames[bud.part];
     // With `-s` the two solids are moved, not the node.
-    let offset = if model.sheet.shape(bud.part).mirrored { 0.0 } else { model.offset(bud.part) };
+    let offset = if model.sheet.shape(bud.part).mirrored {
+        0.0
+    } else {
+        model.offset(bud.part)
+    };
     let depth = if bud.mirrored { -offset } else { offset };
     let (place, angle) = match part.parent {
-        Some(parent) if bud.parent.is_some() => (frames[parent].to_local(own.origin), own.angle - frames[parent].angle),
+        Some(parent) if bud.parent.is_some() => (
+            frames[parent].to_local(own.origin),
+            own.angle - frames[parent].angle,
+        ),
         _ => (own.origin, own.angle),
     };
     Branch {

@@ -33,7 +33,9 @@ impl Clip {
 
     /// What is left of `outline`.
     pub(super) fn cut(&self, outline: Outline) -> Outline {
-        let Some((low, high)) = bounds(&outline) else { return outline };
+        let Some((low, high)) = bounds(&outline) else {
+            return outline;
+        };
         match self.rectangle {
             // The frame that Figma and nested drawings clip everything to seldom cuts anything.
             Some((least, most)) if low.cmpge(least).all() && high.cmple(most).all() => outline,
@@ -49,9 +51,12 @@ fn collect(group: &usvg::Group, transform: DAffine2, tolerance: f64, out: &mut V
                 let first = out.len();
                 collect(inner, transform, tolerance, out);
                 if let Some(clip) = inner.clip_path() {
-                    let clips = Clip::read(clip, transform * affine(inner.abs_transform()), tolerance);
+                    let clips =
+                        Clip::read(clip, transform * affine(inner.abs_transform()), tolerance);
                     for outline in &mut out[first..] {
-                        *outline = clips.iter().fold(std::mem::take(outline), |outline, clip| clip.cut(outline));
+                        *outline = clips
+                            .iter()
+                            .fold(std::mem::take(outline), |outline, clip| clip.cut(outline));
                     }
                 }
             }
@@ -69,8 +74,12 @@ fn collect(group: &usvg::Group, transform: DAffine2, tolerance: f64, out: &mut V
 }
 
 fn rectangle(outline: &Outline) -> Option<(DVec2, DVec2)> {
-    let [polygon] = outline.polygons.as_slice() else { return None };
-    let [ring] = polygon.rings.as_slice() else { return None };
+    let [polygon] = outline.polygons.as_slice() else {
+        return None;
+    };
+    let [ring] = polygon.rings.as_slice() else {
+        return None;
+    };
     let (low, high) = bounds(outline)?;
     let corner = |p: &DVec2| (p.x == low.x || p.x == high.x) && (p.y == low.y || p.y == high.y);
     (ring.len() == 4 && ring.iter().all(corner)).then_some((low, high))

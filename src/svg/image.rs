@@ -29,7 +29,10 @@ pub(super) fn opaque(picture: &usvg::Image) -> Result<Opaque, String> {
         | usvg::ImageKind::WEBP(bytes) => bytes,
         usvg::ImageKind::SVG(tree) => {
             return Ok(Opaque {
-                rings: vec![rectangle(tree.size().width().into(), tree.size().height().into())],
+                rings: vec![rectangle(
+                    tree.size().width().into(),
+                    tree.size().height().into(),
+                )],
                 color: [128; 3],
             });
         }
@@ -72,7 +75,9 @@ pub(super) fn opaque(picture: &usvg::Image) -> Result<Opaque, String> {
 }
 
 fn rectangle(width: f64, height: f64) -> Ring {
-    [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)].map(DVec2::from).to_vec()
+    [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
+        .map(DVec2::from)
+        .to_vec()
 }
 
 /// The rings of pixel edges between solid and other pixels, solid on the right hand, simplified.
@@ -119,9 +124,15 @@ fn border(width: i64, height: i64, solid: impl Fn(i64, i64) -> bool) -> Vec<Ring
 
 /// Douglas and Peucker's simplification of a ring, cut at its first point and the one farthest from it.
 fn simplify(ring: &[DVec2]) -> Ring {
-    let Some(first) = ring.first() else { return Ring::new() };
+    let Some(first) = ring.first() else {
+        return Ring::new();
+    };
     let far = (0..ring.len())
-        .max_by(|a, b| first.distance_squared(ring[*a]).total_cmp(&first.distance_squared(ring[*b])))
+        .max_by(|a, b| {
+            first
+                .distance_squared(ring[*a])
+                .total_cmp(&first.distance_squared(ring[*b]))
+        })
         .unwrap_or(0);
     let mut out = halves(&ring[..=far]);
     let mut back = ring[far..].to_vec();
@@ -143,12 +154,17 @@ fn halves(line: &[DVec2]) -> Vec<DVec2> {
             true => p.distance(line[from]),
             false => direction.perp_dot(p - line[from]).abs(),
         };
-        let farthest = (from + 1..to).max_by(|a, b| distance(line[*a]).total_cmp(&distance(line[*b])));
+        let farthest =
+            (from + 1..to).max_by(|a, b| distance(line[*a]).total_cmp(&distance(line[*b])));
         if let Some(middle) = farthest.filter(|index| distance(line[*index]) > BORDER_TOLERANCE) {
             keep[middle] = true;
             stack.push((from, middle));
             stack.push((middle, to));
         }
     }
-    line.iter().zip(keep).filter(|(_, keep)| *keep).map(|(p, _)| *p).collect()
+    line.iter()
+        .zip(keep)
+        .filter(|(_, keep)| *keep)
+        .map(|(p, _)| *p)
+        .collect()
 }

@@ -129,7 +129,9 @@ pub fn read(source: &str, tolerance: f64, resolver: &dyn Resolver) -> (Drawing, 
     // usvg recurses over groups and clones, up to a thousand deep: more than a thread's usual stack holds.
     let read = std::thread::scope(|scope| {
         let work = || read_document(source, tolerance, resolver, &mut diagnostics);
-        let thread = std::thread::Builder::new().stack_size(READER_STACK).spawn_scoped(scope, work);
+        let thread = std::thread::Builder::new()
+            .stack_size(READER_STACK)
+            .spawn_scoped(scope, work);
         thread.map(|thread| thread.join())
     });
     let drawing = match read {
@@ -140,7 +142,8 @@ pub fn read(source: &str, tolerance: f64, resolver: &dyn Resolver) -> (Drawing, 
         }
         Ok(Err(_)) | Err(_) => {
             let message = "the drawing cannot be read: the SVG reader gave up on it";
-            let help = "open it in Inkscape, save it as Plain SVG, and tell us: this should not happen";
+            let help =
+                "open it in Inkscape, save it as Plain SVG, and tell us: this should not happen";
             diagnostics.push(Diagnostic::new(Code::LimitPassed, Span::at(0), message).help(help));
             Drawing::default()
         }
@@ -164,17 +167,28 @@ fn read_document(
         ));
     }
     let prepared = prepare::prepare(source)?;
-    let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+    let options = roxmltree::ParsingOptions {
+        allow_dtd: true,
+        ..Default::default()
+    };
     let document = roxmltree::Document::parse_with_options(&prepared.text, options)
         .map_err(|error| Box::new(not_xml(&error, &prepared, source)))?;
     let root = document.root_element();
     if root.tag_name().name() != "svg"
-        || !matches!(root.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg"))
+        || !matches!(
+            root.tag_name().namespace(),
+            None | Some("http://www.w3.org/2000/svg")
+        )
     {
         let start = prepared.original(root.range().start);
         let span = Span::new(start, start + 1 + root.tag_name().name().len());
-        let message = format!("the file is XML, but its root element is `{}`, not `svg`", root.tag_name().name());
-        return Err(Box::new(Diagnostic::new(Code::NotSvg, span, message).help("save the drawing as SVG")));
+        let message = format!(
+            "the file is XML, but its root element is `{}`, not `svg`",
+            root.tag_name().name()
+        );
+        return Err(Box::new(
+            Diagnostic::new(Code::NotSvg, span, message).help("save the drawing as SVG"),
+        ));
     }
     shapes::read(&document, &prepared, tolerance, resolver, diagnostics)
 }
@@ -182,18 +196,35 @@ fn read_document(
 /// What the XML parser says, at the byte of the original it says it of.
 fn not_xml(error: &roxmltree::Error, prepared: &prepare::Prepared, source: &str) -> Diagnostic {
     let position = error.pos();
-    let line = prepared.text.split_inclusive('\n').take(position.row.saturating_sub(1) as usize);
+    let line = prepared
+        .text
+        .split_inclusive('\n')
+        .take(position.row.saturating_sub(1) as usize);
     let start: usize = line.map(str::len).sum();
-    let column = prepared.text[start..].char_indices().nth(position.col.saturating_sub(1) as usize);
-    let at = prepared.original(column.map_or(prepared.text.len(), |(offset, _)| start + offset)).min(source.len());
+    let column = prepared.text[start..]
+        .char_indices()
+        .nth(position.col.saturating_sub(1) as usize);
+    let at = prepared
+        .original(column.map_or(prepared.text.len(), |(offset, _)| start + offset))
+        .min(source.len());
     let next = source[at..].chars().next().map_or(0, char::len_utf8);
     // The parser's message ends with the position, which the report shows better.
     let message = error.to_string();
-    let message = message.rsplit_once(" at ").map_or(message.as_str(), |(head, _)| head);
-    let help = if matches!(error, roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream) {
+    let message = message
+        .rsplit_once(" at ")
+        .map_or(message.as_str(), |(head, _)| head);
+    let help = if matches!(
+        error,
+        roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream
+    ) {
         "the file ends too early: was it cut off while it was saved?"
     } else {
         "open the drawing in Inkscape and save it again, or mend the text at this place"
     };
-    Diagnostic::new(Code::NotXml, Span::new(at, at + next), format!("not well-formed XML: {message}")).help(help)
+    Diagnostic::new(
+        Code::NotXml,
+        Span::new(at, at + next),
+        format!("not well-formed XML: {message}"),
+    )
+    .help(help)
 }

@@ -19,7 +19,8 @@ pub(super) const MAX_ENTITY_TEXT: usize = 16 << 20;
 
 /// Elements that usvg turns into nodes.
 const JOINED: &[&str] = &[
-    "path", "rect", "g", "circle", "ellipse", "polygon", "use", "image", "line", "polyline", "a", "switch", "svg",
+    "path", "rect", "g", "circle", "ellipse", "polygon", "use", "image", "line", "polyline", "a",
+    "switch", "svg",
 ];
 
 /// The copy of a drawing's text that is parsed.
@@ -140,7 +141,12 @@ impl<'a> Scan<'a> {
                 };
                 self.seen_root = true;
             }
-            Token::Attribute { prefix, local, value, .. } => {
+            Token::Attribute {
+                prefix,
+                local,
+                value,
+                ..
+            } => {
                 if prefix.as_str().is_empty() {
                     let place = Some(Span::from(value.range()));
                     match local.as_str() {
@@ -161,10 +167,16 @@ impl<'a> Scan<'a> {
                 }
                 ElementEnd::Close(..) => self.depth = self.depth.saturating_sub(1),
             },
-            Token::EntityDeclaration { name, definition: EntityDefinition::EntityValue(value), .. } => {
+            Token::EntityDeclaration {
+                name,
+                definition: EntityDefinition::EntityValue(value),
+                ..
+            } => {
                 self.count_entities(value.as_str(), value.start())?;
                 let text = expand(value.as_str(), &self.entities);
-                self.entities.entry(name.as_str().to_owned()).or_insert(text);
+                self.entities
+                    .entry(name.as_str().to_owned())
+                    .or_insert(text);
             }
             Token::Text { text } => self.count_entities(text.as_str(), text.start())?,
             _ => {}
@@ -184,7 +196,10 @@ impl<'a> Scan<'a> {
                     Diagnostic::new(
                         Code::LimitPassed,
                         Span::new(at, at + text.len()),
-                        format!("the drawing's entities become more than {} MiB of text", MAX_ENTITY_TEXT >> 20),
+                        format!(
+                            "the drawing's entities become more than {} MiB of text",
+                            MAX_ENTITY_TEXT >> 20
+                        ),
                     )
                     .help("save the drawing without entities, as Plain SVG"),
                 ));
@@ -214,7 +229,10 @@ impl<'a> Scan<'a> {
             }
             None => {
                 let text = format!(" id=\"{}\"", self.fresh_id());
-                self.replacements.push(Replacement { span: Span::at(tag.name_end), text });
+                self.replacements.push(Replacement {
+                    span: Span::at(tag.name_end),
+                    text,
+                });
             }
         }
     }
@@ -227,18 +245,34 @@ impl<'a> Scan<'a> {
     /// Makes the page as large as its `viewBox`, so that usvg's pixels are user units.
     fn unscale(&mut self, tag: &Tag) {
         let Some(span) = tag.view_box else { return };
-        let Ok(view_box) = self.text[span.start..span.end].parse::<svgtypes::ViewBox>() else { return };
-        for (attribute, length, name) in [(tag.width, view_box.w, "width"), (tag.height, view_box.h, "height")] {
+        let Ok(view_box) = self.text[span.start..span.end].parse::<svgtypes::ViewBox>() else {
+            return;
+        };
+        for (attribute, length, name) in [
+            (tag.width, view_box.w, "width"),
+            (tag.height, view_box.h, "height"),
+        ] {
             self.replacements.push(match attribute {
-                Some(span) => Replacement { span, text: length.to_string() },
-                None => Replacement { span: Span::at(tag.name_end), text: format!(" {name}=\"{length}\"") },
+                Some(span) => Replacement {
+                    span,
+                    text: length.to_string(),
+                },
+                None => Replacement {
+                    span: Span::at(tag.name_end),
+                    text: format!(" {name}=\"{length}\""),
+                },
             });
         }
     }
 
     fn finish(mut self) -> Result<Prepared, Box<Diagnostic>> {
-        self.replacements.sort_by_key(|replacement| replacement.span.start);
-        let grown: usize = self.replacements.iter().map(|replacement| replacement.text.len()).sum();
+        self.replacements
+            .sort_by_key(|replacement| replacement.span.start);
+        let grown: usize = self
+            .replacements
+            .iter()
+            .map(|replacement| replacement.text.len())
+            .sum();
         let mut text = String::with_capacity(self.text.len() + grown);
         let mut replacements = Vec::with_capacity(self.replacements.len());
         let mut done = 0;
@@ -249,7 +283,12 @@ impl<'a> Scan<'a> {
             done = span.end;
         }
         text.push_str(&self.text[done..]);
-        Ok(Prepared { text, id_prefix: self.prefix.to_owned(), entities: self.entities, replacements })
+        Ok(Prepared {
+            text,
+            id_prefix: self.prefix.to_owned(),
+            entities: self.entities,
+            replacements,
+        })
     }
 }
 
@@ -271,7 +310,11 @@ fn expand(text: &str, entities: &FxHashMap<String, String>) -> String {
             continue;
         }
         out.push_str(&text[done..range.start]);
-        match entities.get(name).cloned().or_else(|| character(name).map(String::from)) {
+        match entities
+            .get(name)
+            .cloned()
+            .or_else(|| character(name).map(String::from))
+        {
             // Nested entities may multiply; what passes the limit is refused where it is used.
             Some(value) if out.len() + value.len() <= 2 * MAX_ENTITY_TEXT => out.push_str(&value),
             _ => out.push_str(&text[range.clone()]),
@@ -321,20 +364,36 @@ mod tests {
         let prepared = prepare(text).unwrap();
         for needle in ["<g", "<rect", "<text", ">x<", "</svg>"] {
             let copy = prepared.text.find(needle).unwrap();
-            assert_eq!(prepared.original(copy), text.find(needle).unwrap(), "{needle}");
+            assert_eq!(
+                prepared.original(copy),
+                text.find(needle).unwrap(),
+                "{needle}"
+            );
         }
-        assert!(prepared.text.contains(r#"width="20""#) && prepared.text.contains(r#"height="10""#));
+        assert!(
+            prepared.text.contains(r#"width="20""#) && prepared.text.contains(r#"height="10""#)
+        );
     }
 
     #[test]
     fn entity_bombs_and_deep_nesting_are_refused() {
-        let mut bomb = String::from("<!DOCTYPE svg [<!ENTITY a \"aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\">");
-        for (name, inner) in ["b", "c", "d", "e", "f", "g"].iter().zip(["a", "b", "c", "d", "e", "f"]) {
-            bomb.push_str(&format!("<!ENTITY {name} \"{}\">", format!("&{inner};").repeat(32)));
+        let mut bomb =
+            String::from("<!DOCTYPE svg [<!ENTITY a \"aaaaaaaaaaaaaaaaaaaaaaaaaaaaaaaa\">");
+        for (name, inner) in ["b", "c", "d", "e", "f", "g"]
+            .iter()
+            .zip(["a", "b", "c", "d", "e", "f"])
+        {
+            bomb.push_str(&format!(
+                "<!ENTITY {name} \"{}\">",
+                format!("&{inner};").repeat(32)
+            ));
         }
         bomb.push_str("]><svg><text>&g;</text></svg>");
         assert_eq!(prepare(&bomb).unwrap_err().code, Code::LimitPassed);
         let deep = "<g>".repeat(100_000);
-        assert_eq!(prepare(&format!("<svg>{deep}")).unwrap_err().code, Code::LimitPassed);
+        assert_eq!(
+            prepare(&format!("<svg>{deep}")).unwrap_err().code,
+            Code::LimitPassed
+        );
     }
 }

@@ -31,10 +31,23 @@ pub struct StrokeSource {
 impl StrokeSource {
     /// The area that the stroke covers.
     pub fn outline(&self) -> Outline {
-        let extent = self.path.bounds().width().max(self.path.bounds().height()).max(self.stroke.width);
+        let extent = self
+            .path
+            .bounds()
+            .width()
+            .max(self.path.bounds().height())
+            .max(self.stroke.width);
         let resolution = (1000.0 / extent).clamp(1e-3, 1e4);
-        let dashed = self.stroke.dash.as_ref().and_then(|dash| self.path.dash(dash, resolution));
-        match dashed.as_ref().unwrap_or(&self.path).stroke(&self.stroke, resolution) {
+        let dashed = self
+            .stroke
+            .dash
+            .as_ref()
+            .and_then(|dash| self.path.dash(dash, resolution));
+        match dashed
+            .as_ref()
+            .unwrap_or(&self.path)
+            .stroke(&self.stroke, resolution)
+        {
             None => Outline::default(),
             Some(path) => {
                 let path = bez_path(&path, self.transform);
@@ -70,7 +83,12 @@ pub(super) fn read(
     let tree = usvg::Tree::from_xmltree(document, &options(resolver, &broken_links))
         .map_err(|error| Box::new(unusable(&error, document, prepared)))?;
     let styles = Styles::read(document);
-    report_links(document, prepared, broken_links.into_inner().unwrap_or_default(), diagnostics);
+    report_links(
+        document,
+        prepared,
+        broken_links.into_inner().unwrap_or_default(),
+        diagnostics,
+    );
     let offset = page_corner(document);
     let mut walk = Walk {
         prepared,
@@ -87,19 +105,47 @@ pub(super) fn read(
     let root = document.root_element().id();
     walk.children(tree.root(), root, 1.0, None);
     let labels = labels(document, &styles, &mut walk);
-    let Walk { groups, tasks, page, by_id, .. } = walk;
-    let size = DVec2::new(f64::from(tree.size().width()), f64::from(tree.size().height()));
-    let context = Context { document, styles: &styles, prepared, by_id, page, tolerance };
-    let made: Vec<_> = tasks.par_iter().enumerate().map(|(index, task)| context.shape(index, task)).collect();
+    let Walk {
+        groups,
+        tasks,
+        page,
+        by_id,
+        ..
+    } = walk;
+    let size = DVec2::new(
+        f64::from(tree.size().width()),
+        f64::from(tree.size().height()),
+    );
+    let context = Context {
+        document,
+        styles: &styles,
+        prepared,
+        by_id,
+        page,
+        tolerance,
+    };
+    let made: Vec<_> = tasks
+        .par_iter()
+        .enumerate()
+        .map(|(index, task)| context.shape(index, task))
+        .collect();
     let mut shapes = Vec::with_capacity(made.len());
     for (shape, finding) in made {
         shapes.extend(shape);
         diagnostics.extend(finding);
     }
-    Ok(Drawing { page: (offset, size), groups, shapes, labels })
+    Ok(Drawing {
+        page: (offset, size),
+        groups,
+        shapes,
+        labels,
+    })
 }
 
-fn options<'a>(resolver: &'a dyn Resolver, broken: &'a Mutex<Vec<(String, LinkError)>>) -> usvg::Options<'a> {
+fn options<'a>(
+    resolver: &'a dyn Resolver,
+    broken: &'a Mutex<Vec<(String, LinkError)>>,
+) -> usvg::Options<'a> {
     let data = usvg::ImageHrefResolver::default_data_resolver();
     usvg::Options {
         image_href_resolver: usvg::ImageHrefResolver {
@@ -119,7 +165,11 @@ fn options<'a>(resolver: &'a dyn Resolver, broken: &'a Mutex<Vec<(String, LinkEr
     }
 }
 
-fn unusable(error: &usvg::Error, document: &roxmltree::Document<'_>, prepared: &Prepared) -> Diagnostic {
+fn unusable(
+    error: &usvg::Error,
+    document: &roxmltree::Document<'_>,
+    prepared: &Prepared,
+) -> Diagnostic {
     let tag = start_tag(document.root_element(), prepared);
     match error {
         usvg::Error::InvalidSize => Diagnostic::new(Code::OutOfRange, tag, "the page has no size")
@@ -141,11 +191,15 @@ fn report_links(
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     for (href, error) in broken {
-        let images = document.descendants().filter(|node| node.tag_name().name() == "image");
+        let images = document
+            .descendants()
+            .filter(|node| node.tag_name().name() == "image");
         let attribute = images
             .flat_map(|node| node.attributes().collect::<Vec<_>>())
             .find(|attribute| attribute.name() == "href" && attribute.value() == href);
-        let span = attribute.map_or(Span::at(0), |attribute| prepared.span(attribute.range_value()));
+        let span = attribute.map_or(Span::at(0), |attribute| {
+            prepared.span(attribute.range_value())
+        });
         diagnostics.push(broken_link(&href, &error, span));
     }
 }
@@ -153,10 +207,14 @@ fn report_links(
 /// What is wrong with a link.
 pub(crate) fn broken_link(link: &str, error: &LinkError, span: Span) -> Diagnostic {
     let (code, help) = match error {
-        LinkError::Missing => (Code::MissingFile, "put the file beside the drawing, or write its name as it is"),
-        LinkError::Outside | LinkError::Absolute | LinkError::Remote => {
-            (Code::LinkOutside, "copy the file into the drawing's folder and link it there, or embed it")
-        }
+        LinkError::Missing => (
+            Code::MissingFile,
+            "put the file beside the drawing, or write its name as it is",
+        ),
+        LinkError::Outside | LinkError::Absolute | LinkError::Remote => (
+            Code::LinkOutside,
+            "copy the file into the drawing's folder and link it there, or embed it",
+        ),
         LinkError::Unreadable(_) => (Code::MissingFile, "see whether the file can be opened"),
         LinkError::TooLarge { .. } => (Code::LimitPassed, "use a smaller file"),
     };
@@ -164,8 +222,13 @@ pub(crate) fn broken_link(link: &str, error: &LinkError, span: Span) -> Diagnost
 }
 
 fn page_corner(document: &roxmltree::Document<'_>) -> DVec2 {
-    let view_box = document.root_element().attribute("viewBox").and_then(|value| value.parse().ok());
-    view_box.map_or(DVec2::ZERO, |view_box: svgtypes::ViewBox| DVec2::new(view_box.x, view_box.y))
+    let view_box = document
+        .root_element()
+        .attribute("viewBox")
+        .and_then(|value| value.parse().ok());
+    view_box.map_or(DVec2::ZERO, |view_box: svgtypes::ViewBox| {
+        DVec2::new(view_box.x, view_box.y)
+    })
 }
 
 fn ids<'a>(document: &'a roxmltree::Document<'_>) -> FxHashMap<&'a str, NodeId> {
@@ -186,8 +249,12 @@ pub(super) fn start_tag(node: Node<'_, '_>, prepared: &Prepared) -> Span {
 }
 
 fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
-    let own_id = node.attribute("id").filter(|id| !id.starts_with(&prepared.id_prefix));
-    let desc = node.children().find(|child| child.is_element() && child.tag_name().name() == "desc");
+    let own_id = node
+        .attribute("id")
+        .filter(|id| !id.starts_with(&prepared.id_prefix));
+    let desc = node
+        .children()
+        .find(|child| child.is_element() && child.tag_name().name() == "desc");
     Element {
         span: start_tag(node, prepared),
         tag: node.tag_name().name().to_owned(),
@@ -209,9 +276,16 @@ fn labels(
     let texts: Vec<_> = document
         .descendants()
         .filter(|node| node.is_element() && matches!(node.tag_name().name(), "text" | "flowRoot"))
-        .filter(|node| !node.ancestors().any(|inner| NOT_DRAWN.contains(&inner.tag_name().name())))
+        .filter(|node| {
+            !node
+                .ancestors()
+                .any(|inner| NOT_DRAWN.contains(&inner.tag_name().name()))
+        })
         .collect();
-    let made: Vec<_> = texts.par_iter().map(|node| text::read(*node, styles, walk.prepared)).collect();
+    let made: Vec<_> = texts
+        .par_iter()
+        .map(|node| text::read(*node, styles, walk.prepared))
+        .collect();
     for (node, label) in texts.into_iter().zip(made) {
         if let Some(label) = label {
             let group = walk.group(node);
@@ -222,7 +296,9 @@ fn labels(
 }
 
 /// Elements whose content is not drawn where it stands.
-const NOT_DRAWN: &[&str] = &["defs", "symbol", "pattern", "clipPath", "mask", "marker", "metadata"];
+const NOT_DRAWN: &[&str] = &[
+    "defs", "symbol", "pattern", "clipPath", "mask", "marker", "metadata",
+];
 
 /// The walk over usvg's tree.
 struct Walk<'a, 'input, 'd> {
@@ -247,7 +323,9 @@ impl<'a> Walk<'a, '_, '_> {
         }
         let parent = node.parent_element().map(|parent| self.group(parent));
         let layer = node.attributes().any(|attribute| {
-            attribute.name() == "groupmode" && attribute.namespace().is_some() && attribute.value() == "layer"
+            attribute.name() == "groupmode"
+                && attribute.namespace().is_some()
+                && attribute.value() == "layer"
         });
         let group = match (parent, node.tag_name().name()) {
             (None, _) => Some(GroupKind::Root),
@@ -259,7 +337,11 @@ impl<'a> Walk<'a, '_, '_> {
             None => parent.unwrap_or(0),
             Some(kind) => {
                 let element = element(node, self.prepared);
-                self.groups.push(Group { parent: parent.unwrap_or(0), kind, element });
+                self.groups.push(Group {
+                    parent: parent.unwrap_or(0),
+                    kind,
+                    element,
+                });
                 self.groups.len() - 1
             }
         };
@@ -267,7 +349,13 @@ impl<'a> Walk<'a, '_, '_> {
         index
     }
 
-    fn children(&mut self, group: &'a usvg::Group, xml: NodeId, opacity: f64, clips: Option<&Arc<Vec<Clip>>>) {
+    fn children(
+        &mut self,
+        group: &'a usvg::Group,
+        xml: NodeId,
+        opacity: f64,
+        clips: Option<&Arc<Vec<Clip>>>,
+    ) {
         for node in group.children() {
             match node {
                 usvg::Node::Group(inner) => self.inner(inner, xml, opacity, clips),
@@ -282,39 +370,78 @@ impl<'a> Walk<'a, '_, '_> {
         }
     }
 
-    fn inner(&mut self, group: &'a usvg::Group, xml: NodeId, opacity: f64, clips: Option<&Arc<Vec<Clip>>>) {
+    fn inner(
+        &mut self,
+        group: &'a usvg::Group,
+        xml: NodeId,
+        opacity: f64,
+        clips: Option<&Arc<Vec<Clip>>>,
+    ) {
         let xml = self.by_id.get(group.id()).copied().unwrap_or(xml);
         if group.mask().is_some() {
-            self.no_solid_meaning(xml, "mask", "the part is built as if it were not masked; cut the shape itself instead");
+            self.no_solid_meaning(
+                xml,
+                "mask",
+                "the part is built as if it were not masked; cut the shape itself instead",
+            );
         }
         if !group.filters().is_empty() {
-            self.no_solid_meaning(xml, "filter", "the part is built without the filter's effect");
+            self.no_solid_meaning(
+                xml,
+                "filter",
+                "the part is built without the filter's effect",
+            );
         }
         let opacity = opacity * f64::from(group.opacity().get());
         match group.clip_path() {
             None => self.children(group, xml, opacity, clips),
             Some(clip) => {
                 let mut all = clips.map(|clips| Vec::clone(clips)).unwrap_or_default();
-                all.extend(Clip::read(clip, self.page * affine(group.abs_transform()), self.tolerance));
+                all.extend(Clip::read(
+                    clip,
+                    self.page * affine(group.abs_transform()),
+                    self.tolerance,
+                ));
                 self.children(group, xml, opacity, Some(&Arc::new(all)));
             }
         }
     }
 
     fn no_solid_meaning(&mut self, xml: NodeId, what: &str, help: &str) {
-        let Some(node) = self.root.document().get_node(xml) else { return };
+        let Some(node) = self.root.document().get_node(xml) else {
+            return;
+        };
         let span = start_tag(node, self.prepared);
         let message = format!("a {what} has no meaning for solids");
-        self.diagnostics.push(Diagnostic::new(Code::NoSolidMeaning, span, message).help(help));
+        self.diagnostics
+            .push(Diagnostic::new(Code::NoSolidMeaning, span, message).help(help));
     }
 
-    fn leaf(&mut self, leaf: Leaf<'a>, id: &str, xml: NodeId, opacity: f64, clips: Option<&Arc<Vec<Clip>>>) {
+    fn leaf(
+        &mut self,
+        leaf: Leaf<'a>,
+        id: &str,
+        xml: NodeId,
+        opacity: f64,
+        clips: Option<&Arc<Vec<Clip>>>,
+    ) {
         let xml = self.by_id.get(id).copied().unwrap_or(xml);
-        let Some(node) = self.root.document().get_node(xml).filter(|node| node.parent_element().is_some()) else {
+        let Some(node) = self
+            .root
+            .document()
+            .get_node(xml)
+            .filter(|node| node.parent_element().is_some())
+        else {
             return;
         };
         let group = self.group(node);
-        self.tasks.push(Task { node: leaf, xml, group, opacity, clips: clips.cloned() });
+        self.tasks.push(Task {
+            node: leaf,
+            xml,
+            group,
+            opacity,
+            clips: clips.cloned(),
+        });
     }
 }
 
@@ -330,7 +457,9 @@ struct Context<'a, 'input> {
 
 impl Context<'_, '_> {
     fn shape(&self, index: usize, task: &Task<'_>) -> (Option<Shape>, Option<Diagnostic>) {
-        let Some(node) = self.document.get_node(task.xml) else { return (None, None) };
+        let Some(node) = self.document.get_node(task.xml) else {
+            return (None, None);
+        };
         match task.node {
             Leaf::Path(path) => (self.path(path, node, task), None),
             Leaf::Image(image) => self.image(index, image, node, task),
@@ -366,10 +495,15 @@ impl Context<'_, '_> {
             })
         });
         let (paint, opacity) = match (fill, &stroke) {
-            (Some(fill), _) => (self.paint(fill.paint(), node, "fill"), f64::from(fill.opacity().get())),
-            (None, Some(stroke)) => {
-                (stroke.paint.clone(), path.stroke().map_or(1.0, |stroke| f64::from(stroke.opacity().get())))
-            }
+            (Some(fill), _) => (
+                self.paint(fill.paint(), node, "fill"),
+                f64::from(fill.opacity().get()),
+            ),
+            (None, Some(stroke)) => (
+                stroke.paint.clone(),
+                path.stroke()
+                    .map_or(1.0, |stroke| f64::from(stroke.opacity().get())),
+            ),
             (None, None) => return None,
         };
         let mut element = element(node, self.prepared);
@@ -378,7 +512,15 @@ impl Context<'_, '_> {
             element.desc = None;
         }
         let opacity = opacity * task.opacity;
-        Some(Shape { group: task.group, element, outline, paint, opacity, stroke, line })
+        Some(Shape {
+            group: task.group,
+            element,
+            outline,
+            paint,
+            opacity,
+            stroke,
+            line,
+        })
     }
 
     fn image(
@@ -394,27 +536,55 @@ impl Context<'_, '_> {
             Ok(opaque) => opaque,
             Err(message) => {
                 let help = "link a smaller picture, or save it again as PNG";
-                return (None, Some(Diagnostic::new(Code::LimitPassed, element.span, message).help(help)));
+                return (
+                    None,
+                    Some(Diagnostic::new(Code::LimitPassed, element.span, message).help(help)),
+                );
             }
         };
-        let rings = rings.into_iter().map(|ring| ring.into_iter().map(|p| transform.transform_point2(p)).collect());
+        let rings = rings.into_iter().map(|ring| {
+            ring.into_iter()
+                .map(|p| transform.transform_point2(p))
+                .collect()
+        });
         let mut outline = clean(rings.collect(), FillRule::EvenOdd);
         for clip in task.clips.iter().flat_map(|clips| clips.iter()) {
             outline = clip.cut(outline);
         }
-        let paint = Paint { key: PaintKey::Picture(index), color };
+        let paint = Paint {
+            key: PaintKey::Picture(index),
+            color,
+        };
         let opacity = task.opacity;
-        (Some(Shape { group: task.group, element, outline, paint, opacity, stroke: None, line: None }), None)
+        (
+            Some(Shape {
+                group: task.group,
+                element,
+                outline,
+                paint,
+                opacity,
+                stroke: None,
+                line: None,
+            }),
+            None,
+        )
     }
 
     fn paint(&self, paint: &usvg::Paint, node: Node<'_, '_>, property: &str) -> Paint {
         let stops = |stops: &[usvg::Stop]| {
-            mean(stops.iter().map(|stop| [stop.color().red, stop.color().green, stop.color().blue]))
+            mean(
+                stops
+                    .iter()
+                    .map(|stop| [stop.color().red, stop.color().green, stop.color().blue]),
+            )
         };
         let color = match paint {
             usvg::Paint::Color(color) => {
                 let color = [color.red, color.green, color.blue];
-                return Paint { key: PaintKey::Solid(color), color };
+                return Paint {
+                    key: PaintKey::Solid(color),
+                    color,
+                };
             }
             usvg::Paint::LinearGradient(gradient) => stops(gradient.stops()),
             usvg::Paint::RadialGradient(gradient) => stops(gradient.stops()),
@@ -430,7 +600,10 @@ impl Context<'_, '_> {
             usvg::Paint::Pattern(pattern) => pattern.id().to_owned(),
             usvg::Paint::Color(_) => String::new(),
         });
-        Paint { key: PaintKey::Server(id), color }
+        Paint {
+            key: PaintKey::Server(id),
+            color,
+        }
     }
 
     /// The id at which the chain of links of an element's paint ends.
@@ -443,11 +616,19 @@ impl Context<'_, '_> {
             node = self.linked(node)?;
         }
         let value = self.styles.inherited(node, property)?;
-        let mut id = value.strip_prefix("url(")?.split(')').next()?.trim_matches(['"', '\'', ' ']).strip_prefix('#')?;
+        let mut id = value
+            .strip_prefix("url(")?
+            .split(')')
+            .next()?
+            .trim_matches(['"', '\'', ' '])
+            .strip_prefix('#')?;
         // A link may lead in a circle; nobody chains more gradients than this.
         for _ in 0..32 {
             let server = self.by_attribute_id(id)?;
-            match server.attributes().find(|attribute| attribute.name() == "href") {
+            match server
+                .attributes()
+                .find(|attribute| attribute.name() == "href")
+            {
                 Some(href) => id = href.value().strip_prefix('#')?,
                 None => break,
             }
@@ -456,7 +637,12 @@ impl Context<'_, '_> {
     }
 
     fn linked(&self, node: Node<'_, '_>) -> Option<Node<'_, '_>> {
-        let href = node.attributes().find(|attribute| attribute.name() == "href")?.value().strip_prefix('#')?.to_owned();
+        let href = node
+            .attributes()
+            .find(|attribute| attribute.name() == "href")?
+            .value()
+            .strip_prefix('#')?
+            .to_owned();
         self.by_attribute_id(&href)
     }
 
@@ -481,7 +667,9 @@ fn solid_colors(group: &usvg::Group, out: &mut Vec<[u8; 3]>) {
 
 fn mean(colors: impl ExactSizeIterator<Item = [u8; 3]>) -> [u8; 3] {
     let count = colors.len().max(1) as f64;
-    let sum = colors.fold([0.0; 3], |sum, color| [0, 1, 2].map(|i| sum[i] + f64::from(color[i])));
+    let sum = colors.fold([0.0; 3], |sum, color| {
+        [0, 1, 2].map(|i| sum[i] + f64::from(color[i]))
+    });
     sum.map(|channel| (channel / count).round() as u8)
 }
 
@@ -536,8 +724,13 @@ fn open_line(path: &BezPath, node: Node<'_, '_>) -> Option<Line> {
         }
     }
     let connects = ["connection-start", "connection-end"].map(|name| {
-        let attribute = node.attributes().find(|attribute| attribute.name() == name)?;
+        let attribute = node
+            .attributes()
+            .find(|attribute| attribute.name() == name)?;
         attribute.value().strip_prefix('#').map(str::to_owned)
     });
-    ends.map(|ends| Line { ends: ends.map(|p| DVec2::new(p.x, p.y)), connects })
+    ends.map(|ends| Line {
+        ends: ends.map(|p| DVec2::new(p.x, p.y)),
+        connects,
+    })
 }

@@ -25,7 +25,9 @@ impl simplecss::Element for Matched<'_, '_> {
     }
 
     fn attribute_matches(&self, local_name: &str, operator: AttributeOperator<'_>) -> bool {
-        self.0.attribute(local_name).is_some_and(|value| operator.matches(value))
+        self.0
+            .attribute(local_name)
+            .is_some_and(|value| operator.matches(value))
     }
 
     fn pseudo_class_matches(&self, class: PseudoClass<'_>) -> bool {
@@ -37,7 +39,10 @@ impl<'a> Styles<'a> {
     /// Reads the `<style>` elements of a document.
     pub(super) fn read(document: &'a roxmltree::Document<'_>) -> Self {
         let mut sheet = StyleSheet::new();
-        for node in document.descendants().filter(|node| node.is_element() && node.tag_name().name() == "style") {
+        for node in document
+            .descendants()
+            .filter(|node| node.is_element() && node.tag_name().name() == "style")
+        {
             if matches!(node.attribute("type"), None | Some("" | "text/css")) {
                 for text in node.children().filter_map(|child| child.text()) {
                     sheet.parse_more(text);
@@ -51,13 +56,17 @@ impl<'a> Styles<'a> {
     pub(super) fn own<'b>(&'b self, element: Node<'b, '_>, property: &str) -> Option<&'b str> {
         let mut found: Option<(&'b str, bool)> = None;
         let mut take = |declaration: Declaration<'b>| {
-            if declaration.name == property && (declaration.important || !found.is_some_and(|(_, important)| important)) {
+            if declaration.name == property
+                && (declaration.important || !found.is_some_and(|(_, important)| important))
+            {
                 found = Some((declaration.value, declaration.important));
             }
         };
         for rule in &self.sheet.rules {
             if rule.selector.matches(&Matched(element)) {
-                rule.declarations.iter().for_each(|declaration| take(*declaration));
+                rule.declarations
+                    .iter()
+                    .for_each(|declaration| take(*declaration));
             }
         }
         if let Some(style) = element.attribute("style") {
@@ -70,7 +79,11 @@ impl<'a> Styles<'a> {
     }
 
     /// The value of an inherited property: the nearest ancestor's that gives one, the element included.
-    pub(super) fn inherited<'b>(&'b self, element: Node<'b, '_>, property: &str) -> Option<&'b str> {
+    pub(super) fn inherited<'b>(
+        &'b self,
+        element: Node<'b, '_>,
+        property: &str,
+    ) -> Option<&'b str> {
         element
             .ancestors()
             .filter(|node| node.is_element())
@@ -79,18 +92,22 @@ impl<'a> Styles<'a> {
 
     /// Whether the element and all it stands in is shown.
     pub(super) fn is_shown(&self, element: Node<'_, '_>) -> bool {
-        !matches!(self.inherited(element, "visibility"), Some("hidden" | "collapse"))
-            && element
-                .ancestors()
-                .filter(|node| node.is_element())
-                .all(|node| self.own(node, "display") != Some("none"))
+        !matches!(
+            self.inherited(element, "visibility"),
+            Some("hidden" | "collapse")
+        ) && element
+            .ancestors()
+            .filter(|node| node.is_element())
+            .all(|node| self.own(node, "display") != Some("none"))
     }
 
     /// The font size in user units (CSS: medium is 16).
     pub(super) fn font_size(&self, element: Node<'_, '_>) -> f64 {
         let mut factor = 1.0;
         for node in element.ancestors().filter(|node| node.is_element()) {
-            let Some(value) = self.own(node, "font-size") else { continue };
+            let Some(value) = self.own(node, "font-size") else {
+                continue;
+            };
             match relative_size(value) {
                 Some(Size::Absolute(size)) => return size * factor,
                 Some(Size::Relative(scale)) => factor *= scale,

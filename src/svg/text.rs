@@ -37,7 +37,10 @@ pub(super) fn read(node: Node<'_, '_>, styles: &Styles<'_>, prepared: &Prepared)
     let text = content(node, prepared);
     let transform = page_transform(node);
     let size = styles.font_size(first_run(node));
-    let anchor = styles.inherited(first_run(node), "text-anchor").unwrap_or("start").to_owned();
+    let anchor = styles
+        .inherited(first_run(node), "text-anchor")
+        .unwrap_or("start")
+        .to_owned();
     let base = position(node, styles)?;
     let widths = text.as_str().split('\n').map(|line| width(line) * size);
     let width = widths.fold(0.0, f64::max);
@@ -86,7 +89,12 @@ fn collect(node: Node<'_, '_>, prepared: &Prepared, text: &mut Text) {
     for child in node.children() {
         if child.is_text() {
             decode(child, prepared, text);
-        } else if child.is_element() && !matches!(child.tag_name().name(), "desc" | "title" | "style" | "flowRegion") {
+        } else if child.is_element()
+            && !matches!(
+                child.tag_name().name(),
+                "desc" | "title" | "style" | "flowRegion"
+            )
+        {
             if starts_line(child) && !text.as_str().is_empty() && !text.as_str().ends_with('\n') {
                 let at = prepared.original(child.range().start);
                 text.push("\n", Span::at(at), Form::Unit);
@@ -99,13 +107,17 @@ fn collect(node: Node<'_, '_>, prepared: &Prepared, text: &mut Text) {
 fn starts_line(node: Node<'_, '_>) -> bool {
     let moved = |name| {
         let value = node.attribute(name).unwrap_or("0");
-        value.split([' ', ',']).next().and_then(|first| first.trim_end_matches(char::is_alphabetic).parse().ok())
+        value
+            .split([' ', ','])
+            .next()
+            .and_then(|first| first.trim_end_matches(char::is_alphabetic).parse().ok())
             != Some(0.0)
     };
     match node.tag_name().name() {
         "flowPara" | "flowDiv" => true,
         _ => {
-            node.attributes().any(|attribute| attribute.name() == "role" && attribute.value() == "line")
+            node.attributes()
+                .any(|attribute| attribute.name() == "role" && attribute.value() == "line")
                 || node.has_attribute("y")
                 || moved("dy")
         }
@@ -157,12 +169,24 @@ fn decode(node: Node<'_, '_>, prepared: &Prepared, out: &mut Text) {
 fn plain(text: &mut Text, source: &str, origin: usize, form: Form) {
     let mut done = 0;
     for (at, _) in source.match_indices('\r') {
-        let len = if source[at..].starts_with("\r\n") { 2 } else { 1 };
-        text.push(&source[done..at], Span::new(origin + done, origin + at), form);
+        let len = if source[at..].starts_with("\r\n") {
+            2
+        } else {
+            1
+        };
+        text.push(
+            &source[done..at],
+            Span::new(origin + done, origin + at),
+            form,
+        );
         text.push("\n", Span::new(origin + at, origin + at + len), Form::Unit);
         done = at + len;
     }
-    text.push(&source[done..], Span::new(origin + done, origin + source.len()), form);
+    text.push(
+        &source[done..],
+        Span::new(origin + done, origin + source.len()),
+        form,
+    );
 }
 
 /// The first element with characters of its own: its font size and anchor are the first line's.
@@ -176,24 +200,43 @@ fn first_run<'a, 'input>(node: Node<'a, 'input>) -> Node<'a, 'input> {
 /// The base point of the first line, in the element's own coordinates.
 fn position(node: Node<'_, '_>, styles: &Styles<'_>) -> Option<DVec2> {
     if node.tag_name().name() == "flowRoot" {
-        let region = node.descendants().find(|inner| inner.tag_name().name() == "rect")?;
-        return Some(DVec2::new(number(region, "x")?, number(region, "y")? + ASCENT * styles.font_size(node)));
+        let region = node
+            .descendants()
+            .find(|inner| inner.tag_name().name() == "rect")?;
+        return Some(DVec2::new(
+            number(region, "x")?,
+            number(region, "y")? + ASCENT * styles.font_size(node),
+        ));
     }
-    let mut chain: Vec<_> = first_run(node).ancestors().take_while(|inner| *inner != node).collect();
+    let mut chain: Vec<_> = first_run(node)
+        .ancestors()
+        .take_while(|inner| *inner != node)
+        .collect();
     chain.push(node);
     let find = |name| chain.iter().find_map(|element| number(*element, name));
     if let (None, None, Some(shape)) = (find("x"), find("y"), styles.own(node, "shape-inside")) {
         let id = shape.strip_prefix("url(#")?.strip_suffix(')')?;
-        let frame = node.document().descendants().find(|inner| inner.attribute("id") == Some(id))?;
-        return Some(DVec2::new(number(frame, "x")?, number(frame, "y")? + ASCENT * styles.font_size(node)));
+        let frame = node
+            .document()
+            .descendants()
+            .find(|inner| inner.attribute("id") == Some(id))?;
+        return Some(DVec2::new(
+            number(frame, "x")?,
+            number(frame, "y")? + ASCENT * styles.font_size(node),
+        ));
     }
-    Some(DVec2::new(find("x").unwrap_or(0.0), find("y").unwrap_or(0.0)))
+    Some(DVec2::new(
+        find("x").unwrap_or(0.0),
+        find("y").unwrap_or(0.0),
+    ))
 }
 
 /// The first number of an attribute that may be a list of lengths.
 fn number(node: Node<'_, '_>, name: &str) -> Option<f64> {
     let value = node.attribute(name)?;
-    let first = value.split([' ', ',', '\n', '\t']).find(|part| !part.is_empty())?;
+    let first = value
+        .split([' ', ',', '\n', '\t'])
+        .find(|part| !part.is_empty())?;
     first.parse::<svgtypes::Length>().ok().map(|length| {
         use svgtypes::LengthUnit as Unit;
         length.number
@@ -211,12 +254,17 @@ fn number(node: Node<'_, '_>, name: &str) -> Option<f64> {
 /// Estimated width of a line in font sizes: half a font size a character, a whole one for wide ones.
 fn width(line: &str) -> f64 {
     use unicode_width::UnicodeWidthChar;
-    line.chars().map(|c| c.width().unwrap_or(0) as f64 * 0.5).sum()
+    line.chars()
+        .map(|c| c.width().unwrap_or(0) as f64 * 0.5)
+        .sum()
 }
 
 /// From an element's own coordinates to the page's user units.
 pub(super) fn page_transform(node: Node<'_, '_>) -> DAffine2 {
-    let mut chain: Vec<_> = node.ancestors().filter(|inner| inner.is_element()).collect();
+    let mut chain: Vec<_> = node
+        .ancestors()
+        .filter(|inner| inner.is_element())
+        .collect();
     chain.reverse();
     let mut transform = DAffine2::IDENTITY;
     for (depth, element) in chain.iter().enumerate() {
@@ -237,18 +285,30 @@ pub(super) fn page_transform(node: Node<'_, '_>) -> DAffine2 {
 
 /// From the inside of a nested `<svg>` to the outside.
 fn viewport(node: Node<'_, '_>) -> DAffine2 {
-    let place = DVec2::new(number(node, "x").unwrap_or(0.0), number(node, "y").unwrap_or(0.0));
-    let view_box = node.attribute("viewBox").and_then(|value| value.parse::<svgtypes::ViewBox>().ok());
-    let (Some(view_box), Some(width), Some(height)) = (view_box, number(node, "width"), number(node, "height")) else {
+    let place = DVec2::new(
+        number(node, "x").unwrap_or(0.0),
+        number(node, "y").unwrap_or(0.0),
+    );
+    let view_box = node
+        .attribute("viewBox")
+        .and_then(|value| value.parse::<svgtypes::ViewBox>().ok());
+    let (Some(view_box), Some(width), Some(height)) =
+        (view_box, number(node, "width"), number(node, "height"))
+    else {
         return DAffine2::from_translation(place);
     };
-    let aspect =
-        node.attribute("preserveAspectRatio").and_then(|value| value.parse::<svgtypes::AspectRatio>().ok());
+    let aspect = node
+        .attribute("preserveAspectRatio")
+        .and_then(|value| value.parse::<svgtypes::AspectRatio>().ok());
     let aspect = aspect.unwrap_or_default();
     let mut scale = DVec2::new(width / view_box.w, height / view_box.h);
     let mut spare = DVec2::ZERO;
     if aspect.align != svgtypes::Align::None {
-        let both = if aspect.slice { scale.max_element() } else { scale.min_element() };
+        let both = if aspect.slice {
+            scale.max_element()
+        } else {
+            scale.min_element()
+        };
         scale = DVec2::splat(both);
         spare = DVec2::new(width, height) - both * DVec2::new(view_box.w, view_box.h);
     }
