@@ -12,6 +12,7 @@ mod cap;
 mod ears;
 mod groups;
 mod layers;
+mod recipe;
 mod ridge;
 mod rings;
 mod skin;
@@ -23,6 +24,7 @@ use crate::lang::value::ShapeKind;
 use crate::scene::Surface;
 
 pub use layers::{Layer, layers};
+pub use recipe::{Sides, Solid};
 
 /// How a solid is made, besides its kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
