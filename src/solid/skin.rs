@@ -22,6 +22,8 @@ const ATTEMPTS: usize = 12;
 /// How far a point is moved off an edge that it cannot be told from in `f32`, relative to the
 /// largest coordinate.
 const NUDGE: f64 = 1e-6;
+/// The most of it, relative to the extent.
+const MOST: f64 = 1e-4;
 /// Gaps in a copy wider than this, relative to its largest coordinate, survive in `f32`.
 const GAP: f64 = 1e-6;
 /// Copies further away than this, relative to their extent, are checked even if not scaled.
@@ -128,31 +130,32 @@ pub(super) fn stack(outline: &Outline, layers: &[Layer], options: &Options) -> S
     let mut floors = FLOORS.iter().map(|floor| floor.min(largest));
     let mut floor = LEAST.min(largest);
     let mut nudge = NUDGE * (extent + put.translation.truncate().abs().max_element());
-    let mut caps = None;
     for _ in 0..ATTEMPTS {
         let levels = levels(layers, &base, floor, &put);
         let ends = [levels[0].form, levels[levels.len() - 1].form];
-        if caps.is_none() && ends.contains(&Form::Rings) {
-            caps = Some(base.caps());
+        let mut caps = [Vec::new(), Vec::new()];
+        if ends.contains(&Form::Rings) {
+            // Each end may need other edges turned.
+            let cap = base.caps();
+            caps = [cap.clone(), cap];
         }
-        let triangles = caps.as_deref_mut().unwrap_or_default();
-        match fault(base.rings(), &levels, triangles, &put) {
-            None => return skin(&base, &levels, triangles, crease, &put),
+        match fault(base.rings(), &levels, &mut caps, &put) {
+            None => return skin(&base, &levels, &caps, crease, &put),
             Some(Fault::Small) => floor = floors.next().unwrap_or(floor),
             Some(Fault::Empty(empty)) => {
                 if let Base::Even(rings) | Base::Narrow(rings) = &mut base {
                     rings.widen(&empty, nudge);
-                    nudge *= 2.0;
+                    nudge = (2.0 * nudge).min(MOST * extent);
                 } else {
                     base = Base::Narrow(Rings::of(outline));
                 }
-                caps = None;
             }
         }
     }
     // Some points fall together as they are written; that is all that is wrong with it.
     let levels = levels(layers, &base, floor, &put);
-    skin(&base, &levels, &base.caps(), crease, &put)
+    let caps = base.caps();
+    skin(&base, &levels, &[caps.clone(), caps], crease, &put)
 }
 
 /// What a copy consists of.
@@ -222,7 +225,12 @@ enum Fault {
 }
 
 /// The first fault of a stack, after edges within the caps were turned to avoid empty triangles.
-fn fault(rings: &Rings, levels: &[Level], caps: &mut [[u32; 3]], put: &Put) -> Option<Fault> {
+fn fault(
+    rings: &Rings,
+    levels: &[Level],
+    caps: &mut [Vec<[u32; 3]>; 2],
+    put: &Put,
+) -> Option<Fault> {
     let extent = rings.extent();
     let away = put.translation.truncate().abs().max_element();
     let gap = cap::least_gap(rings);
@@ -255,9 +263,9 @@ fn fault(rings: &Rings, levels: &[Level], caps: &mut [[u32; 3]], put: &Put) -> O
             }
         }
         if capped {
-            let empty = cap::turn_empty(&points, caps);
+            let empty = cap::turn_empty(&points, &mut caps[usize::from(k > 0)]);
             if !empty.is_empty() {
-                return Some(if small {
+                return Some(if scale < NARROW {
                     Fault::Small
                 } else {
                     Fault::Empty(empty)
@@ -324,7 +332,13 @@ struct Skin<'a> {
     surface: Surface,
 }
 
-fn skin(base: &Base, levels: &[Level], caps: &[[u32; 3]], crease: Crease, put: &Put) -> Surface {
+fn skin(
+    base: &Base,
+    levels: &[Level],
+    caps: &[Vec<[u32; 3]>; 2],
+    crease: Crease,
+    put: &Put,
+) -> Surface {
     let (rings, stations) = (base.rings(), base.stations());
     let n = rings.len();
     let end = levels.len() - 1;
@@ -342,7 +356,9 @@ fn skin(base: &Base, levels: &[Level], caps: &[[u32; 3]], crease: Crease, put: &
     let corners = n * (2 * end + 4);
     skin.surface.positions.reserve(corners);
     skin.surface.normals.reserve(corners);
-    skin.surface.triangles.reserve(2 * (n * end + caps.len()));
+    skin.surface
+        .triangles
+        .reserve(2 * (n * end + caps[0].len()));
     for k in 0..end {
         for i in 0..n {
             let wall = skin.wall(k, i);
@@ -354,7 +370,7 @@ fn skin(base: &Base, levels: &[Level], caps: &[[u32; 3]], crease: Crease, put: &
     for k in 0..=end {
         skin.corners(k, &mut upper);
         if k == 0 && levels[k].form == Form::Rings {
-            let turned = caps.iter().map(|[a, b, c]| [*a, *c, *b]);
+            let turned = caps[0].iter().map(|[a, b, c]| [*a, *c, *b]);
             let turned = turned.map(|t| t.map(|i| upper.cap[i as usize]));
             skin.surface.triangles.extend(turned);
         }
@@ -362,7 +378,7 @@ fn skin(base: &Base, levels: &[Level], caps: &[[u32; 3]], crease: Crease, put: &
             skin.band(k - 1, &lower, &upper);
         }
         if k == end && levels[k].form == Form::Rings {
-            let caps = caps.iter().map(|t| t.map(|i| upper.cap[i as usize]));
+            let caps = caps[1].iter().map(|t| t.map(|i| upper.cap[i as usize]));
             skin.surface.triangles.extend(caps);
         }
         std::mem::swap(&mut lower, &mut upper);
