@@ -16,6 +16,7 @@ mod recipe;
 mod ridge;
 mod rings;
 mod skin;
+mod stack;
 
 use glam::{DMat2, DVec3};
 
@@ -78,10 +79,10 @@ pub fn build(outline: &Outline, kind: &ShapeKind, options: &Options) -> Surface 
     };
     if layers.len() < 2 {
         return layers.first().map_or_else(Surface::default, |layer| {
-            skin::flat(outline, layer.z, options)
+            stack::flat(outline, layer.z, options)
         });
     }
-    skin::stack(outline, &layers, options)
+    stack::stack(outline, &layers, options)
 }
 
 /// The surface on the other side of the plane z = 0.
