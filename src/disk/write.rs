@@ -10,7 +10,7 @@ pub trait Output: Write + Seek + Send {}
 impl<T: Write + Seek + Send> Output for T {}
 
 /// How much is gathered before it is written, bytes.
-const BUFFER: usize = 256 << 10;
+const BUFFER: usize = 64 << 10;
 
 /// Why an output cannot be written. Each message names the file and says what to do.
 #[derive(Debug, thiserror::Error)]
