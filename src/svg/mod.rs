@@ -63,13 +63,13 @@ pub struct Element {
     /// Its start tag's bracket and name, `<rect`.
     pub span: Span,
     /// Its tag's name.
-    pub tag: String,
+    pub tag: &'static str,
     /// Its `id`.
     pub id: Option<String>,
     /// Its `inkscape:label`.
     pub label: Option<String>,
     /// Its `<desc>`.
-    pub desc: Option<Text>,
+    pub desc: Option<Box<Text>>,
 }
 
 /// What a shape is painted with.
@@ -108,7 +108,7 @@ pub struct Shape {
     /// Its stroke, if it has a visible one.
     pub stroke: Option<Box<StrokeSource>>,
     /// What a line leads from and to, if the shape is an unfilled open line.
-    pub line: Option<Line>,
+    pub line: Option<Box<Line>>,
 }
 
 /// An unfilled open line.

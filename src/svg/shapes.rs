@@ -132,7 +132,7 @@ pub(super) fn read(
     let mut shapes = Vec::with_capacity(made.len());
     for (shape, finding) in made {
         shapes.extend(shape);
-        diagnostics.extend(finding);
+        diagnostics.extend(finding.map(|finding| *finding));
     }
     Ok(Drawing {
         page: (offset, size),
@@ -248,6 +248,15 @@ pub(super) fn start_tag(node: Node<'_, '_>, prepared: &Prepared) -> Span {
     prepared.span(start..name.map_or(node.range().end, |end| start + end))
 }
 
+/// The tag's name, as far as it can become a part or a group.
+fn known_tag(name: &str) -> &'static str {
+    super::prepare::JOINED
+        .iter()
+        .find(|known| **known == name)
+        .copied()
+        .unwrap_or("element")
+}
+
 fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
     let own_id = node
         .attribute("id")
@@ -257,13 +266,13 @@ fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
         .find(|child| child.is_element() && child.tag_name().name() == "desc");
     Element {
         span: start_tag(node, prepared),
-        tag: node.tag_name().name().to_owned(),
+        tag: known_tag(node.tag_name().name()),
         id: own_id.map(str::to_owned),
         label: node
             .attributes()
             .find(|attribute| attribute.name() == "label" && attribute.namespace().is_some())
             .map(|attribute| attribute.value().to_owned()),
-        desc: desc.map(|desc| text::content(desc, prepared)),
+        desc: desc.map(|desc| Box::new(text::content(desc, prepared))),
     }
 }
 
@@ -407,7 +416,7 @@ impl<'a> Walk<'a, '_, '_> {
         }
     }
 
-    fn no_solid_meaning(&mut self, xml: NodeId, what: &str, help: &str) {
+    fn no_solid_meaning(&mut self, xml: NodeId, what: &str, help: &'static str) {
         let Some(node) = self.root.document().get_node(xml) else {
             return;
         };
@@ -456,7 +465,7 @@ struct Context<'a, 'input> {
 }
 
 impl Context<'_, '_> {
-    fn shape(&self, index: usize, task: &Task<'_>) -> (Option<Shape>, Option<Diagnostic>) {
+    fn shape(&self, index: usize, task: &Task<'_>) -> (Option<Shape>, Option<Box<Diagnostic>>) {
         let Some(node) = self.document.get_node(task.xml) else {
             return (None, None);
         };
@@ -529,7 +538,7 @@ impl Context<'_, '_> {
         picture: &usvg::Image,
         node: Node<'_, '_>,
         task: &Task<'_>,
-    ) -> (Option<Shape>, Option<Diagnostic>) {
+    ) -> (Option<Shape>, Option<Box<Diagnostic>>) {
         let element = element(node, self.prepared);
         let transform = self.page * affine(picture.abs_transform());
         let image::Opaque { rings, color } = match image::opaque(picture) {
@@ -538,7 +547,9 @@ impl Context<'_, '_> {
                 let help = "link a smaller picture, or save it again as PNG";
                 return (
                     None,
-                    Some(Diagnostic::new(Code::LimitPassed, element.span, message).help(help)),
+                    Some(Box::new(
+                        Diagnostic::new(Code::LimitPassed, element.span, message).help(help),
+                    )),
                 );
             }
         };
@@ -709,7 +720,7 @@ pub(super) fn rings(path: &BezPath, tolerance: f64) -> Vec<crate::geometry::Ring
     flatten(path, tolerance * bounds.width().max(bounds.height()))
 }
 
-fn open_line(path: &BezPath, node: Node<'_, '_>) -> Option<Line> {
+fn open_line(path: &BezPath, node: Node<'_, '_>) -> Option<Box<Line>> {
     let mut ends = None;
     for element in path.elements() {
         match element {
@@ -729,8 +740,10 @@ fn open_line(path: &BezPath, node: Node<'_, '_>) -> Option<Line> {
             .find(|attribute| attribute.name() == name)?;
         attribute.value().strip_prefix('#').map(str::to_owned)
     });
-    ends.map(|ends| Line {
-        ends: ends.map(|p| DVec2::new(p.x, p.y)),
-        connects,
+    ends.map(|ends| {
+        Box::new(Line {
+            ends: ends.map(|p| DVec2::new(p.x, p.y)),
+            connects,
+        })
     })
 }
