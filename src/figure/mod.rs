@@ -45,9 +45,11 @@ pub fn build(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>
         }
     }
     let tree = Tree::grow(&model, &frames, diagnostics);
-    for part in 0..sheet.parts.len() {
-        model.check_copies(part, diagnostics);
-    }
+    let copies: Vec<Diagnostic> = (0..sheet.parts.len())
+        .into_par_iter()
+        .filter_map(|part| model.check_copies(part))
+        .collect();
+    diagnostics.extend(copies);
     let meshes: Vec<Option<Mesh>> = members
         .par_iter()
         .enumerate()
@@ -102,22 +104,20 @@ impl<'a> Model<'a> {
     }
 
     /// Warns of copies that lie where their original lies.
-    fn check_copies(&self, part: usize, diagnostics: &mut Vec<Diagnostic>) {
+    fn check_copies(&self, part: usize) -> Option<Diagnostic> {
         let shape = self.sheet.shape(part);
         let built = matches!(self.sheet.parts[part].kind, PartKind::Main | PartKind::Sub);
         if !built || !(shape.mirrored || shape.doubled) || shape.kind == ShapeKind::None {
-            return;
+            return None;
         }
         let measure = &self.sheet.parts[part].measure;
         let kind = self.kind(part);
-        let Some(layers) = solid::layers(
+        let layers = solid::layers(
             &kind,
             measure.half_across,
             measure.half_along,
             &self.options(part),
-        ) else {
-            return;
-        };
+        )?;
         let offset = self.offset(part);
         let low = layers
             .iter()
@@ -128,7 +128,7 @@ impl<'a> Model<'a> {
             .map(|layer| layer.z + offset)
             .fold(f64::NEG_INFINITY, f64::max);
         if (low + high).abs() > 1e-9 * (high - low).abs().max(1e-12) {
-            return;
+            return None;
         }
         let source = self.sheet.setting(part, Keyword::Shape);
         let span = source.map_or(
@@ -143,14 +143,14 @@ impl<'a> Model<'a> {
         );
         let flag = if shape.doubled { "-d" } else { "-s" };
         let name = self.sheet.describe(self.drawing, part);
-        diagnostics.push(
+        Some(
             Diagnostic::new(
                 Code::CopiesCoincide,
                 span,
                 format!("the copy that `{flag}` makes of {name} lies exactly where {name} lies"),
             )
             .help("give both sides a distance with `Offset`, or depths on one side only, as in `default 45 50`"),
-        );
+        )
     }
 
     fn options(&self, part: usize) -> solid::Options {

@@ -80,9 +80,13 @@ pub(super) fn read(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Drawing, Box<Diagnostic>> {
     let broken_links = Mutex::new(Vec::new());
-    let tree = usvg::Tree::from_xmltree(document, &options(resolver, &broken_links))
-        .map_err(|error| Box::new(unusable(&error, document, prepared)))?;
     let styles = Styles::read(document);
+    // usvg works on one core; the texts, which it does not read, need only the XML.
+    let (tree, labels) = rayon::join(
+        || usvg::Tree::from_xmltree(document, &options(resolver, &broken_links)),
+        || labels(document, &styles, prepared),
+    );
+    let tree = tree.map_err(|error| Box::new(unusable(&error, document, prepared)))?;
     report_links(
         document,
         prepared,
@@ -104,7 +108,10 @@ pub(super) fn read(
     walk.group(document.root_element());
     let root = document.root_element().id();
     walk.children(tree.root(), root, 1.0, None);
-    let labels = labels(document, &styles, &mut walk);
+    let labels = labels
+        .into_iter()
+        .map(|(node, label)| (label, walk.group(node)))
+        .collect();
     let Walk {
         groups,
         tasks,
@@ -129,6 +136,9 @@ pub(super) fn read(
         .enumerate()
         .map(|(index, task)| context.shape(index, task))
         .collect();
+    drop(tasks);
+    // Taking a large tree apart takes a tenth of the time of making it: nobody need wait for that.
+    let _ = std::thread::Builder::new().stack_size(super::READER_STACK).spawn(move || drop(tree));
     let mut shapes = Vec::with_capacity(made.len());
     for (shape, finding) in made {
         shapes.extend(shape);
@@ -276,32 +286,26 @@ fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
     }
 }
 
-fn labels(
-    document: &roxmltree::Document<'_>,
+/// The texts that are seen, in document order.
+fn labels<'a, 'input>(
+    document: &'a roxmltree::Document<'input>,
     styles: &Styles<'_>,
-    walk: &mut Walk<'_, '_, '_>,
-) -> Vec<(text::Label, usize)> {
-    let mut labels = Vec::new();
+    prepared: &Prepared,
+) -> Vec<(Node<'a, 'input>, text::Label)> {
+    let drawn = |node: &Node<'_, '_>| {
+        !node
+            .ancestors()
+            .any(|inner| NOT_DRAWN.contains(&inner.tag_name().name()))
+    };
     let texts: Vec<_> = document
         .descendants()
         .filter(|node| node.is_element() && matches!(node.tag_name().name(), "text" | "flowRoot"))
-        .filter(|node| {
-            !node
-                .ancestors()
-                .any(|inner| NOT_DRAWN.contains(&inner.tag_name().name()))
-        })
+        .filter(drawn)
         .collect();
-    let made: Vec<_> = texts
-        .par_iter()
-        .map(|node| text::read(*node, styles, walk.prepared))
-        .collect();
-    for (node, label) in texts.into_iter().zip(made) {
-        if let Some(label) = label {
-            let group = walk.group(node);
-            labels.push((label, group));
-        }
-    }
-    labels
+    texts
+        .into_par_iter()
+        .filter_map(|node| Some((node, text::read(node, styles, prepared)?)))
+        .collect()
 }
 
 /// Elements whose content is not drawn where it stands.
