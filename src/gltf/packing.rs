@@ -12,9 +12,9 @@ use super::invalid;
 use crate::scene::{Primitive, Scene, Surface};
 
 /// Primitives in a window.
-pub(super) const WINDOW: usize = 2048;
+pub(super) const WINDOW: usize = 512;
 /// Primitives that are packed by one thread at a time.
-const BATCH: usize = 128;
+const BATCH: usize = 32;
 /// Kinds of data.
 const KINDS: usize = 6;
 
