@@ -41,10 +41,11 @@ struct Bud {
 }
 
 impl Tree {
-    /// Grows the hierarchy, `-d` copies included.
+    /// Grows the hierarchy, `-d` copies included; `mirrored` turns all of it inside out in depth.
     pub(super) fn grow(
         model: &Model<'_>,
         frames: &[Frame],
+        mirrored: bool,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let parts = &model.sheet.parts;
@@ -77,7 +78,7 @@ impl Tree {
             buds.push(bud(mirrored, copies));
         };
         for root in roots.iter().rev() {
-            sprout(&mut buds, *root, None, false, 0);
+            sprout(&mut buds, *root, None, mirrored, 0);
         }
         while let Some(bud) = buds.pop() {
             if branches.len() >= MOST_NODES {

@@ -138,7 +138,9 @@ pub(super) fn read(
         .collect();
     drop(tasks);
     // Taking a large tree apart takes a tenth of the time of making it: nobody need wait for that.
-    let _ = std::thread::Builder::new().stack_size(super::READER_STACK).spawn(move || drop(tree));
+    let _ = std::thread::Builder::new()
+        .stack_size(super::READER_STACK)
+        .spawn(move || drop(tree));
     let mut shapes = Vec::with_capacity(made.len());
     for (shape, finding) in made {
         shapes.extend(shape);
