@@ -375,7 +375,10 @@ fn turns_about_middle(
     let (Some(parent), Some(string)) = (part.parent, part.string) else {
         return;
     };
-    if !long || chosen || part.origin != part.measure.center {
+    let beside = &sheet.parts[parent].measure;
+    // A hat or a foot lies across the end of what it hangs on, and is meant to turn about its middle.
+    let alike = !beside.certain || beside.axis.dot(part.measure.axis).abs() > std::f64::consts::FRAC_1_SQRT_2;
+    if !long || !alike || chosen || part.origin != part.measure.center {
         return;
     }
     let string = &sheet.strings[string];
