@@ -186,11 +186,12 @@ pub(crate) fn tree(nodes: &[Node]) -> String {
     for node in nodes {
         let parent = node.parent.as_deref().unwrap_or("–");
         let _ = write!(out, "{} on {parent}", node.name);
-        if node.translation != [0.0; 3] {
-            let _ = write!(out, ", at {}", numbers(&node.translation));
+        let (place, turn) = (numbers(&node.translation), numbers(&node.rotation));
+        if place != "0 0 0" {
+            let _ = write!(out, ", at {place}");
         }
-        if node.rotation != [0.0, 0.0, 0.0, 1.0] {
-            let _ = write!(out, ", turned {}", numbers(&node.rotation));
+        if turn != "0 0 0 1" {
+            let _ = write!(out, ", turned {turn}");
         }
         out.push('\n');
         for primitive in &node.primitives {
