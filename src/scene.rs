@@ -3,7 +3,11 @@
 //! Conventions, stated once: right-handed axes, +Y up, metres, counter-clockwise front faces seen
 //! from outside, quaternions `x y z w`, colours linear RGBA.
 
+use std::borrow::Cow;
+
 use glam::{DQuat, DVec3};
+
+use crate::solid::Solid;
 
 /// A model.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -54,10 +58,43 @@ pub struct Mesh {
 /// Triangles of one material.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Primitive {
-    /// Their corners.
-    pub surface: Surface,
+    /// What they are made of.
+    pub pieces: Vec<Piece>,
     /// Index of the material.
     pub material: usize,
+}
+
+/// A piece of a primitive.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Piece {
+    /// Triangles.
+    Surface(Surface),
+    /// A solid, whose triangles are made when they are asked for: most who look at a scene never do, and a
+    /// large one would fill the memory.
+    Solid(Solid),
+}
+
+impl Piece {
+    /// Its triangles.
+    pub fn surface(&self) -> Cow<'_, Surface> {
+        match self {
+            Self::Surface(surface) => Cow::Borrowed(surface),
+            Self::Solid(solid) => Cow::Owned(solid.surface()),
+        }
+    }
+}
+
+impl Primitive {
+    /// The triangles of all its pieces.
+    pub fn surface(&self) -> Cow<'_, Surface> {
+        match self.pieces.as_slice() {
+            [piece] => piece.surface(),
+            pieces => Cow::Owned(pieces.iter().fold(Surface::default(), |mut all, piece| {
+                all.append(&piece.surface());
+                all
+            })),
+        }
+    }
 }
 
 /// Triangles with shared corners. All lists of corners have one length; `uvs` may be empty.

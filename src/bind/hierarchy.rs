@@ -1,6 +1,7 @@
 //! Names, parents and joints (figure.md, Hierarchy and local frames).
 
 use glam::DVec2;
+use rayon::prelude::*;
 use rstar::RTree;
 use rstar::primitives::GeomWithData;
 use rustc_hash::FxHashMap;
@@ -89,12 +90,24 @@ fn automatic(
             .map(|(index, part)| GeomWithData::new(part.measure.center.to_array(), index))
             .collect(),
     );
+    let waiting: Vec<usize> = (0..sheet.parts.len())
+        .filter(|part| {
+            sheet.parts[*part].kind == PartKind::Main && sheet.parts[*part].name.is_empty()
+        })
+        .collect();
+    let parents: Vec<Option<usize>> = waiting
+        .par_iter()
+        .map(|part| {
+            let center = sheet.parts[*part].measure.center.to_array();
+            tree.nearest_neighbors(&center)
+                .into_iter()
+                .map(|found| found.data)
+                .min()
+        })
+        .collect();
     let mut counter = 0;
-    for index in 0..sheet.parts.len() {
+    for (index, parent) in waiting.into_iter().zip(parents) {
         let part = &sheet.parts[index];
-        if part.kind != PartKind::Main || !part.name.is_empty() {
-            continue;
-        }
         let name = loop {
             counter += 1;
             let name = format!("U-{counter}");
@@ -102,8 +115,6 @@ fn automatic(
                 break name;
             }
         };
-        let nearest = tree.nearest_neighbors(&part.measure.center.to_array());
-        let parent = nearest.into_iter().map(|found| found.data).min();
         if sheet.annotated {
             let on = parent.map_or(String::new(), |parent| {
                 format!(" and hangs on `{}`", sheet.parts[parent].name)

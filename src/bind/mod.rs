@@ -67,6 +67,13 @@ fn outlines(drawing: &mut Drawing, members: &[Member]) -> Vec<Outline> {
         .collect()
 }
 
+/// A string, the part it is nearest to, and another part that is almost as near.
+struct Match {
+    string: usize,
+    part: usize,
+    rival: Option<usize>,
+}
+
 /// What binding works on.
 struct Binder<'a> {
     drawing: &'a Drawing,
@@ -158,37 +165,54 @@ impl<'a> Binder<'a> {
             .sheet
             .word(Keyword::Bind)
             .is_some_and(|word| word.eq_ignore_ascii_case("outline"));
+        let mode = match by_outline {
+            true => nearest::Mode::Outline,
+            false => nearest::Mode::Center,
+        };
         let mut waiting: Vec<(Option<usize>, usize)> = (0..self.sheet.strings.len())
             .filter(|string| self.waiting_label(*string).is_some())
             .map(|string| (self.sheet.strings[string].scope, string))
             .collect();
         waiting.sort_by_key(|(scope, string)| (scope.is_none(), *scope, *string));
-        let mut contained = units::candidates_by_container(self.units, self.sheet);
-        let mode = if by_outline {
-            nearest::Mode::Outline
-        } else {
-            nearest::Mode::Center
-        };
-        for strings in waiting.chunk_by(|(one, _), (other, _)| one == other) {
-            let mut candidates: Vec<usize> = match strings[0].0 {
-                Some(container) => contained.remove(&container).unwrap_or_default(),
-                None => (0..self.sheet.parts.len())
-                    .filter(|part| self.sheet.parts[*part].is_candidate())
-                    .collect(),
-            };
-            candidates.retain(|part| self.sheet.parts[*part].string.is_none());
-            let strings: Vec<usize> = strings.iter().map(|(_, string)| *string).collect();
-            self.nearest_in(&strings, &candidates, mode);
+        let free = waiting.partition_point(|(scope, _)| scope.is_some());
+        let contained = units::candidates_by_container(self.units, self.sheet);
+        let scopes: Vec<&[(Option<usize>, usize)]> = waiting[..free]
+            .chunk_by(|(one, _), (other, _)| one == other)
+            .collect();
+        let found: Vec<Vec<Match>> = scopes
+            .par_iter()
+            .map(|strings| {
+                let candidates = strings[0].0.and_then(|container| contained.get(&container));
+                self.matches(strings, candidates.map_or(&[], Vec::as_slice), mode)
+            })
+            .collect();
+        self.bind_matches(found.into_iter().flatten());
+        if free < waiting.len() {
+            let candidates: Vec<usize> = (0..self.sheet.parts.len())
+                .filter(|part| self.sheet.parts[*part].is_candidate())
+                .collect();
+            let found = self.matches(&waiting[free..], &candidates, mode);
+            self.bind_matches(found.into_iter());
         }
     }
 
-    fn nearest_in(&mut self, strings: &[usize], candidates: &[usize], mode: nearest::Mode) {
-        let corners: Vec<_> = strings
+    /// Strings of one scope with the parts they are nearest to.
+    fn matches(
+        &self,
+        strings: &[(Option<usize>, usize)],
+        candidates: &[usize],
+        mode: nearest::Mode,
+    ) -> Vec<Match> {
+        let corner = |(_, string): &(Option<usize>, usize)| match self.sheet.strings[*string].place
+        {
+            Place::Label(label) => self.drawing.labels[label].0.corner,
+            Place::Shape(_) | Place::Group(_) => glam::DVec2::ZERO,
+        };
+        let corners: Vec<_> = strings.iter().map(corner).collect();
+        let candidates: Vec<usize> = candidates
             .iter()
-            .map(|string| match self.sheet.strings[*string].place {
-                Place::Label(label) => self.drawing.labels[label].0.corner,
-                Place::Shape(_) | Place::Group(_) => glam::DVec2::ZERO,
-            })
+            .copied()
+            .filter(|part| self.sheet.parts[*part].string.is_none())
             .collect();
         let targets: Vec<_> = candidates
             .iter()
@@ -199,12 +223,27 @@ impl<'a> Binder<'a> {
             .collect();
         let pairs = nearest::pairs(&corners, &targets, mode);
         let rivals = nearest::rivals(&corners, &targets, &pairs, mode);
-        for ((string, target), rival) in strings.iter().zip(&pairs).zip(rivals) {
-            let Some(target) = target else { continue };
-            self.bind(*string, candidates[*target], BoundBy::Nearest);
-            if let Some(rival) = rival {
-                self.sheet.strings[*string].rival = Some(candidates[rival]);
-            }
+        let pairs = strings.iter().zip(pairs).zip(rivals);
+        pairs
+            .filter_map(|(((_, string), target), rival)| {
+                Some(Match {
+                    string: *string,
+                    part: candidates[target?],
+                    rival: rival.map(|rival| candidates[rival]),
+                })
+            })
+            .collect()
+    }
+
+    fn bind_matches(&mut self, matches: impl Iterator<Item = Match>) {
+        for Match {
+            string,
+            part,
+            rival,
+        } in matches
+        {
+            self.bind(string, part, BoundBy::Nearest);
+            self.sheet.strings[string].rival = rival;
         }
     }
 

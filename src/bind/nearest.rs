@@ -31,8 +31,51 @@ pub(super) struct Target<'a> {
     pub(super) outline: &'a Outline,
 }
 
+impl Target<'_> {
+    fn distance_squared(&self, corner: DVec2, mode: Mode) -> f64 {
+        match mode {
+            Mode::Center => self.center.distance_squared(corner),
+            Mode::Outline => distance_squared(self.outline, corner),
+        }
+    }
+}
+
+/// Up to so many pairs are all looked at.
+const FEW: usize = 4096;
+
 /// For each string's corner the index of its target. Ties go to the earlier string, then to the earlier target.
 pub(super) fn pairs(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Vec<Option<usize>> {
+    if corners.len() * targets.len() <= FEW {
+        return all_pairs(corners, targets, mode);
+    }
+    chains(corners, targets, mode)
+}
+
+/// All pairs in order of distance, then of strings, then of targets.
+fn all_pairs(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Vec<Option<usize>> {
+    let mut all = Vec::with_capacity(corners.len() * targets.len());
+    for (string, corner) in corners.iter().enumerate() {
+        all.extend(
+            targets
+                .iter()
+                .enumerate()
+                .map(|(part, target)| (target.distance_squared(*corner, mode), string, part)),
+        );
+    }
+    all.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+    let mut bound = vec![None; corners.len()];
+    let mut taken = vec![false; targets.len()];
+    for (_, string, part) in all {
+        if bound[string].is_none() && !taken[part] {
+            bound[string] = Some(part);
+            taken[part] = true;
+        }
+    }
+    bound
+}
+
+/// The same by chains of nearest neighbours.
+fn chains(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Vec<Option<usize>> {
     let mut strings = Points::new(corners.iter().copied());
     let mut parts = Parts::new(targets, mode);
     let mut bound = vec![None; corners.len()];
@@ -68,20 +111,37 @@ pub(super) fn rivals(
     pairs: &[Option<usize>],
     mode: Mode,
 ) -> Vec<Option<usize>> {
-    let parts = Parts::new(targets, mode);
-    corners
-        .par_iter()
-        .zip(pairs)
-        .map(|(corner, bound)| {
-            let bound = (*bound)?;
-            let own = parts.distance_squared(bound, *corner);
-            let (rival, distance) = parts
+    let index = (corners.len() * targets.len() > FEW).then(|| Parts::new(targets, mode));
+    let mut string_of = vec![None; targets.len()];
+    for (string, target) in pairs.iter().enumerate() {
+        if let Some(target) = target {
+            string_of[*target] = Some(string);
+        }
+    }
+    let find = |(corner, bound): (&DVec2, &Option<usize>)| {
+        let bound = (*bound)?;
+        let own = targets[bound].distance_squared(*corner, mode);
+        let near = |distance: f64| distance <= own * 1.1 * 1.1 && own > 0.0;
+        let (rival, distance) = match &index {
+            Some(index) => index
                 .two_nearest(*corner)
                 .into_iter()
-                .find(|(part, _)| *part != bound)?;
-            (distance <= own * 1.1 * 1.1 && own > 0.0).then_some(rival)
-        })
-        .collect()
+                .find(|(part, _)| *part != bound)?,
+            None => targets
+                .iter()
+                .enumerate()
+                .filter(|(part, _)| *part != bound)
+                .map(|(part, target)| (part, target.distance_squared(*corner, mode)))
+                .min_by(|a, b| a.1.total_cmp(&b.1))?,
+        };
+        // A rival with a string much closer to it is in no doubt.
+        let taken = string_of[rival];
+        let settled = taken.is_some_and(|string| {
+            targets[rival].distance_squared(corners[string], mode) * 4.0 < distance
+        });
+        (near(distance) && !settled).then_some(rival)
+    };
+    corners.par_iter().zip(pairs).map(find).collect()
 }
 
 type Key = [u64; 2];
@@ -208,13 +268,6 @@ impl<'a> Parts<'a> {
         }
     }
 
-    fn distance_squared(&self, part: usize, corner: DVec2) -> f64 {
-        match self {
-            Self::Centers { targets, .. } => targets[part].center.distance_squared(corner),
-            Self::Outlines { targets, .. } => distance_squared(targets[part].outline, corner),
-        }
-    }
-
     /// The string nearest to a part.
     fn nearest_string(&self, part: usize, strings: &Points, corners: &[DVec2]) -> Option<usize> {
         match self {
@@ -312,28 +365,6 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// All pairs in order of distance, then of strings, then of targets.
-    fn plain(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Vec<Option<usize>> {
-        let distance = |s: usize, t: usize| match mode {
-            Mode::Center => corners[s].distance_squared(targets[t].center),
-            Mode::Outline => distance_squared(targets[t].outline, corners[s]),
-        };
-        let mut all: Vec<(f64, usize, usize)> = (0..corners.len())
-            .flat_map(|s| (0..targets.len()).map(move |t| (s, t)))
-            .map(|(s, t)| (distance(s, t), s, t))
-            .collect();
-        all.sort_by(|a, b| a.partial_cmp(b).unwrap());
-        let mut bound = vec![None; corners.len()];
-        let mut taken = vec![false; targets.len()];
-        for (_, s, t) in all {
-            if bound[s].is_none() && !taken[t] {
-                bound[s] = Some(t);
-                taken[t] = true;
-            }
-        }
-        bound
-    }
-
     fn square(center: DVec2) -> Outline {
         let ring = [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)]
             .map(|c| center + DVec2::from(c))
@@ -359,7 +390,7 @@ mod tests {
                 .map(|(center, outline)| Target { center: point(*center), outline })
                 .collect();
             for mode in [Mode::Center, Mode::Outline] {
-                prop_assert_eq!(pairs(&corners, &targets, mode), plain(&corners, &targets, mode));
+                prop_assert_eq!(chains(&corners, &targets, mode), all_pairs(&corners, &targets, mode));
             }
         }
     }

@@ -1,5 +1,7 @@
 //! The sheet: strings, parts, and how they belong together.
 
+use std::sync::Arc;
+
 use crate::geometry::{Measure, Outline};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
@@ -142,7 +144,7 @@ pub struct Part {
     /// Index of its shape in the drawing.
     pub shape: usize,
     /// Its area, drawing units.
-    pub outline: Outline,
+    pub outline: Arc<Outline>,
     /// Its axis, centre and ends; the axis is what the strings say where they say it.
     pub measure: Measure,
     /// Index of its string.
@@ -167,7 +169,7 @@ impl Part {
             automatic: false,
             kind: PartKind::Sub,
             shape: member.shape,
-            outline,
+            outline: Arc::new(outline),
             origin: measure.center,
             measure,
             string: None,

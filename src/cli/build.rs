@@ -11,7 +11,7 @@ use super::loading::{Detail, Loaded, describe, load, root};
 use super::progress::spinning;
 use super::{Outcome, fail, style};
 use crate::disk::{FolderResolver, write_atomic};
-use crate::gltf::{self, Container};
+use crate::gltf::{self, Container, Written};
 
 /// Builds every drawing; several at once in parallel, reported in the order given.
 pub(super) fn run(arguments: &Build, common: Common) -> Outcome {
@@ -125,52 +125,50 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
         })
         .map_err(|error| error.to_string())
     });
-    let written = written.and_then(|()| match &arguments.depfile {
-        Some(depfile) => write_depfile(depfile, drawing, output, &loaded, arguments),
-        None => Ok(()),
+    let written = written.and_then(|written| match &arguments.depfile {
+        Some(depfile) => {
+            write_depfile(depfile, drawing, output, &loaded, arguments).map(|()| written)
+        }
+        None => Ok(written),
     });
-    if let Err(message) = written {
-        let _ = writeln!(text, "error: {message}");
-        return (Outcome::Failed, text);
-    }
+    let written = match written {
+        Ok(written) => written,
+        Err(message) => {
+            let _ = writeln!(text, "error: {message}");
+            return (Outcome::Failed, text);
+        }
+    };
     if arguments.stats {
-        text.push_str(&stats(&loaded, output, compiled, start.elapsed()));
+        text.push_str(&stats(
+            &loaded,
+            output,
+            written,
+            [compiled, start.elapsed() - compiled],
+        ));
     } else if !common.quiet {
-        let _ = writeln!(text, "wrote {}: {}", output.display(), summary(&loaded));
+        let _ = writeln!(
+            text,
+            "wrote {}: {}",
+            output.display(),
+            summary(&loaded, written)
+        );
     }
     (loaded.outcome(), text)
 }
 
-fn triangles(loaded: &Loaded) -> usize {
-    let primitives = loaded
-        .compiled
-        .scene
-        .meshes
-        .iter()
-        .flat_map(|mesh| &mesh.primitives);
-    primitives
-        .map(|primitive| primitive.surface.triangles.len())
-        .sum()
-}
-
-fn summary(loaded: &Loaded) -> String {
+fn summary(loaded: &Loaded, written: Written) -> String {
     let nodes = loaded.compiled.scene.nodes.len();
     format!(
         "{nodes} node{}, {} triangles",
         if nodes == 1 { "" } else { "s" },
-        triangles(loaded)
+        written.triangles
     )
 }
 
 /// What was built and how long it took, a line a figure.
-fn stats(loaded: &Loaded, output: &Path, compiled: Duration, whole: Duration) -> String {
+fn stats(loaded: &Loaded, output: &Path, written: Written, times: [Duration; 2]) -> String {
     let scene = &loaded.compiled.scene;
-    let primitives = scene.meshes.iter().flat_map(|mesh| &mesh.primitives);
-    let corners: usize = primitives
-        .map(|primitive| primitive.surface.positions.len())
-        .sum();
     let milliseconds = |duration: Duration| format!("{:.1} ms", duration.as_secs_f64() * 1e3);
-    let bytes = std::fs::metadata(output).map_or(0, |metadata| metadata.len());
     let rows = [
         ("output", output.display().to_string()),
         ("parts", loaded.compiled.sheet.parts.len().to_string()),
@@ -178,11 +176,11 @@ fn stats(loaded: &Loaded, output: &Path, compiled: Duration, whole: Duration) ->
         ("nodes", scene.nodes.len().to_string()),
         ("meshes", scene.meshes.len().to_string()),
         ("materials", scene.materials.len().to_string()),
-        ("triangles", triangles(loaded).to_string()),
-        ("corners", corners.to_string()),
-        ("bytes", bytes.to_string()),
-        ("compiled in", milliseconds(compiled)),
-        ("written in", milliseconds(whole - compiled)),
+        ("triangles", written.triangles.to_string()),
+        ("corners", written.corners.to_string()),
+        ("data bytes", written.bytes.to_string()),
+        ("compiled in", milliseconds(times[0])),
+        ("written in", milliseconds(times[1])),
     ];
     rows.iter().fold(String::new(), |mut out, (name, value)| {
         let _ = writeln!(out, "{name:>12}  {value}");

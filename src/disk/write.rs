@@ -1,8 +1,16 @@
 //! Outputs, written whole or not at all.
 
 use std::fs::{self, File, Permissions};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, Cursor, Seek, Write};
 use std::path::{Path, PathBuf};
+
+/// What an output can do: be written, also out of order.
+pub trait Output: Write + Seek + Send {}
+
+impl<T: Write + Seek + Send> Output for T {}
+
+/// How much is gathered before it is written, bytes.
+const BUFFER: usize = 64 << 10;
 
 /// Why an output cannot be written. Each message names the file and says what to do.
 #[derive(Debug, thiserror::Error)]
@@ -35,16 +43,16 @@ pub enum WriteError {
 /// (`.okoshi-….tmp`), which then takes the file's name. A program that is killed on the way leaves the
 /// old file, and so does a `fill` that fails. Permissions of an existing file stay; a symbolic link
 /// stays one, and the file that it points to changes. Devices and pipes are written to directly.
-pub fn write_atomic(
+pub fn write_atomic<T>(
     path: &Path,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> Result<(), WriteError> {
+    fill: impl FnOnce(&mut dyn Output) -> io::Result<T>,
+) -> Result<T, WriteError> {
     let failed = |source| WriteError::Failed {
         path: path.to_owned(),
         source,
     };
     if super::is_standard_stream(path) {
-        return fill_buffered(io::stdout().lock(), fill).map_err(failed);
+        return fill_stream(io::stdout().lock(), fill).map_err(failed);
     }
     let target = follow_links(path).map_err(failed)?;
     let existing = match fs::metadata(&target) {
@@ -52,7 +60,7 @@ pub fn write_atomic(
         Ok(metadata) if !metadata.is_file() => {
             // The null device must not be replaced by a file, nor a pipe.
             let device = File::options().write(true).open(&target).map_err(failed)?;
-            return fill_buffered(device, fill).map_err(failed);
+            return fill_stream(device, fill).map_err(failed);
         }
         Ok(metadata) if metadata.permissions().readonly() => {
             return Err(WriteError::Protected(path.to_owned()));
@@ -67,7 +75,11 @@ pub fn write_atomic(
 
     let mut temporary =
         temporary_beside(&target).map_err(|error| folder_failure(&target, path, error))?;
-    fill_buffered(temporary.as_file_mut(), fill).map_err(failed)?;
+    let mut out = BufWriter::with_capacity(BUFFER, temporary.as_file_mut());
+    let answer = fill(&mut out)
+        .and_then(|answer| out.flush().map(|()| answer))
+        .map_err(failed)?;
+    drop(out);
     if let Some(permissions) = existing {
         temporary
             .as_file()
@@ -79,16 +91,19 @@ pub fn write_atomic(
     temporary
         .persist(&target)
         .map_err(|error| failed(error.error))?;
-    Ok(())
+    Ok(answer)
 }
 
-fn fill_buffered(
-    out: impl Write,
-    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut out = BufWriter::with_capacity(256 * 1024, out);
-    fill(&mut out)?;
-    out.flush()
+/// Fills something that can only be written forwards, a pipe for example.
+fn fill_stream<T>(
+    mut out: impl Write,
+    fill: impl FnOnce(&mut dyn Output) -> io::Result<T>,
+) -> io::Result<T> {
+    let mut content = Cursor::new(Vec::new());
+    let answer = fill(&mut content)?;
+    out.write_all(content.get_ref())?;
+    out.flush()?;
+    Ok(answer)
 }
 
 fn temporary_beside(target: &Path) -> io::Result<tempfile::NamedTempFile> {
@@ -188,7 +203,7 @@ mod tests {
         fs::write(&path, "old").unwrap();
         let error = write_atomic(&path, |out| {
             out.write_all(b"half")?;
-            Err(io::Error::other("out of ideas"))
+            Err::<(), _>(io::Error::other("out of ideas"))
         })
         .unwrap_err();
         assert!(

@@ -1,9 +1,8 @@
 //! Local frames (paper, section 3.5; figure.md, Hierarchy and local frames).
 
-use glam::DVec2;
+use glam::{DAffine2, DVec2};
 
 use crate::bind::Part;
-use crate::geometry::{Outline, Polygon};
 
 /// A part's frame in the drawing plane, y up.
 #[derive(Debug, Clone, Copy)]
@@ -49,19 +48,9 @@ impl Frame {
         DVec2::from_angle(-self.angle).rotate(p - self.origin)
     }
 
-    /// An outline as drawn, in a frame turned like this one, with the part's centre at its origin.
-    pub(super) fn localize(self, outline: &Outline) -> Outline {
-        let back = DVec2::from_angle(-self.angle);
-        let point = |p: &DVec2| back.rotate(up(*p) - self.center);
-        let polygon = |polygon: &Polygon| Polygon {
-            rings: polygon
-                .rings
-                .iter()
-                .map(|ring| ring.iter().map(point).collect())
-                .collect(),
-        };
-        Outline {
-            polygons: outline.polygons.iter().map(polygon).collect(),
-        }
+    /// From the drawing, y down, to a frame turned like this one with the part's centre at its origin.
+    pub(super) fn from_drawing(self) -> DAffine2 {
+        let flip = DAffine2::from_scale(DVec2::new(1.0, -1.0));
+        DAffine2::from_angle(-self.angle) * DAffine2::from_translation(-self.center) * flip
     }
 }

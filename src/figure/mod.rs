@@ -8,6 +8,8 @@ mod materials;
 mod relief;
 mod tree;
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 
@@ -16,8 +18,8 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Outline, bounds};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Ground, ShapeKind, Value};
-use crate::scene::{Mesh, Node, Primitive, Provenance, Scene, Surface};
-use crate::solid::{self, Placement};
+use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene};
+use crate::solid::{self, Placement, Sides, Solid};
 use crate::svg::Drawing;
 
 use frame::Frame;
@@ -178,27 +180,25 @@ impl<'a> Model<'a> {
             let Some(material) = materials.of(part) else {
                 continue;
             };
-            let Some(surface) = self.surface(main, part, frames, relief) else {
+            let Some(solid) = self.solid(main, part, frames, relief) else {
                 continue;
             };
+            let piece = Piece::Solid(solid);
             match primitives
                 .iter_mut()
                 .find(|primitive| primitive.material == material)
             {
-                Some(primitive) => primitive.surface.append(&surface),
-                None => primitives.push(Primitive { surface, material }),
+                Some(primitive) => primitive.pieces.push(piece),
+                None => primitives.push(Primitive {
+                    pieces: vec![piece],
+                    material,
+                }),
             }
         }
         (!primitives.is_empty()).then_some(Mesh { primitives })
     }
 
-    fn surface(
-        &self,
-        main: usize,
-        part: usize,
-        frames: &[Frame],
-        relief: &Relief,
-    ) -> Option<Surface> {
+    fn solid(&self, main: usize, part: usize, frames: &[Frame], relief: &Relief) -> Option<Solid> {
         let kind = relief.raised(part, self.kind(part));
         if kind == ShapeKind::None {
             return None;
@@ -207,20 +207,19 @@ impl<'a> Model<'a> {
         // The node of a main part is moved already, but with `-s` its two solids are.
         let moved = part != main || shape.mirrored;
         let depth = if moved { self.offset(part) } else { 0.0 };
-        let own = &frames[part];
-        let node = &frames[main];
-        let center = node.to_local(own.center);
+        let (own, node) = (&frames[part], &frames[main]);
         let mut options = self.options(part);
         options.placement.rotation = own.angle - node.angle;
-        options.placement.translation = DVec3::new(center.x, center.y, depth);
-        let local = own.localize(&self.sheet.parts[part].outline);
-        let mut surface = solid::build(&local, &kind, &options);
+        options.placement.translation = node.to_local(own.center).extend(depth);
         // A sub-part has no node of its own that could be doubled.
-        if shape.mirrored || (shape.doubled && part != main) {
-            let back = solid::mirror(&surface);
-            surface.append(&back);
-        }
-        (!surface.triangles.is_empty()).then_some(surface)
+        let both = shape.mirrored || (shape.doubled && part != main);
+        Some(Solid {
+            outline: Arc::clone(&self.sheet.parts[part].outline),
+            to_frame: own.from_drawing(),
+            kind,
+            options,
+            sides: if both { Sides::Both } else { Sides::Front },
+        })
     }
 }
 
@@ -297,7 +296,7 @@ fn assemble(
                 .primitives
                 .iter()
                 .map(|primitive| Primitive {
-                    surface: solid::mirror(&primitive.surface),
+                    pieces: primitive.pieces.iter().map(mirrored_piece).collect(),
                     material: primitive.material,
                 });
             let mesh = Mesh {
@@ -345,6 +344,13 @@ fn assemble(
         });
     }
     scene
+}
+
+fn mirrored_piece(piece: &Piece) -> Piece {
+    match piece {
+        Piece::Solid(solid) => Piece::Solid(solid.mirrored()),
+        Piece::Surface(surface) => Piece::Surface(solid::mirror(surface)),
+    }
 }
 
 /// Whether two outlines have area in common.

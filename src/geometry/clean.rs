@@ -13,14 +13,19 @@ use i_overlay::core::overlay::{ContourDirection, IntOverlayOptions, Overlay, Sha
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
-use super::touch::pull_apart;
+use super::touch::{pull_apart, touches};
 use super::{FillRule, Outline, Polygon, Ring};
 
 pub(crate) use super::query::shoelace;
 pub use super::query::{area, bounds, contains, distance_squared};
 
-/// The extent of an outline in grid steps.
-const GRID: f64 = (1u32 << 22) as f64;
+/// The extent of an outline in grid steps. Where rings touch and come close to touching in the
+/// same place the finest is too fine to tell both apart, and the next is tried.
+const GRIDS: [f64; 3] = [
+    (1u32 << 22) as f64,
+    (1u32 << 17) as f64,
+    (1u32 << 13) as f64,
+];
 /// Points closer than this to the line between their neighbours go, relative to the extent.
 const FLAT: f64 = 5e-7;
 /// Rings narrower than this on average go, relative to the extent.
@@ -36,7 +41,7 @@ pub fn clean(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
         }
     }
     rings.retain(|ring| ring.len() > 2);
-    let Some(grid) = Grid::over(rings.iter().flatten()) else {
+    let Some(grid) = Grid::over(rings.iter().flatten(), GRIDS[0]) else {
         return Outline::default();
     };
     let flat = FLAT * grid.extent;
@@ -63,15 +68,42 @@ pub fn clean(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
         FillRule::NonZero => GridRule::NonZero,
         FillRule::EvenOdd => GridRule::EvenOdd,
     };
+    let mut outline = Outline::default();
+    for steps in GRIDS {
+        let Some(coarse) = Grid::over(rings.iter().flatten(), steps) else {
+            break;
+        };
+        let shapes = overlay(rings.iter(), &coarse, rule);
+        let touches;
+        (outline, touches) = finish(shapes, &coarse);
+        if !touches || keeps_apart(&outline, &grid) {
+            break;
+        }
+    }
+    outline
+}
+
+fn overlay<'a>(rings: impl Iterator<Item = &'a Ring>, grid: &Grid, rule: GridRule) -> GridShapes {
     let shapes = OVERLAY.with_borrow_mut(|overlay| {
         overlay.clear();
-        for ring in &rings {
+        for ring in rings {
             let path = ring.iter().map(|p| grid.point(*p));
             overlay.add_path_iter(path, ShapeType::Subject);
         }
         overlay.overlay(OverlayRule::Subject, rule)
     });
-    finish(widen(shapes), &grid)
+    widen(shapes)
+}
+
+/// Whether the rings of an outline neither cross nor touch.
+fn keeps_apart(outline: &Outline, grid: &Grid) -> bool {
+    let rings = || outline.polygons.iter().flat_map(|p| &p.rings);
+    let shapes = overlay(rings(), grid, GridRule::NonZero);
+    let count = |rings: usize, points: usize| (rings, points);
+    let found = shapes.iter().flatten();
+    count(rings().count(), rings().map(Vec::len).sum())
+        == count(found.clone().count(), found.map(Vec::len).sum())
+        && !touches(&shapes)
 }
 
 /// The area that two outlines have in common.
@@ -111,7 +143,7 @@ fn combine(subjects: &[&Outline], clips: &[&Outline], rule: OverlayRule) -> Outl
     };
     let (subject, clip) = (points(subjects), points(clips));
     // Of a small part under a large clip the part sets the grid.
-    let grids = [Grid::over(subject.iter()), Grid::over(clip.iter())];
+    let grids = [&subject, &clip].map(|points| Grid::over(points.iter(), GRIDS[0]));
     let finer = grids
         .into_iter()
         .flatten()
@@ -136,7 +168,12 @@ fn combine(subjects: &[&Outline], clips: &[&Outline], rule: OverlayRule) -> Outl
             .map(|ring| ring.into_iter().map(|p| [p.x, p.y]).collect());
         rings.collect()
     });
-    finish(shapes.collect(), &grid)
+    let (outline, touches) = finish(shapes.collect(), &grid);
+    if touches {
+        let rings = outline.polygons.into_iter().flat_map(|p| p.rings);
+        return clean(rings.collect(), FillRule::NonZero);
+    }
+    outline
 }
 
 fn is_box_around(outline: &Outline, low: DVec2, high: DVec2) -> bool {
@@ -175,7 +212,8 @@ fn widen(shapes: Vec<Vec<Vec<IntPoint<i32>>>>) -> GridShapes {
     shapes.into_iter().map(shape).collect()
 }
 
-fn finish(shapes: GridShapes, grid: &Grid) -> Outline {
+/// The outline of shapes on a grid, and whether they touch, so that it had to be changed.
+fn finish(shapes: GridShapes, grid: &Grid) -> (Outline, bool) {
     let mut polygons: Vec<Polygon> = shapes
         .iter()
         .map(|shape| Polygon {
@@ -185,7 +223,7 @@ fn finish(shapes: GridShapes, grid: &Grid) -> Outline {
                 .collect(),
         })
         .collect();
-    pull_apart(&shapes, &mut polygons, grid.extent);
+    let touches = pull_apart(&shapes, &mut polygons, grid.extent);
     for polygon in &mut polygons {
         for ring in &mut polygon.rings {
             tidy(ring, FLAT * grid.extent);
@@ -199,7 +237,7 @@ fn finish(shapes: GridShapes, grid: &Grid) -> Outline {
         polygon.rings.retain(|ring| !ring.is_empty());
     }
     polygons.retain(|polygon| !polygon.rings.is_empty());
-    Outline { polygons }
+    (Outline { polygons }, touches)
 }
 
 /// Drops points that lie, within `flat`, on the line through their neighbours: repeated points,
@@ -278,7 +316,7 @@ struct Grid {
 
 impl Grid {
     /// `None` where there is nothing that can be measured.
-    fn over<'a>(points: impl Iterator<Item = &'a DVec2>) -> Option<Grid> {
+    fn over<'a>(points: impl Iterator<Item = &'a DVec2>, steps: f64) -> Option<Grid> {
         let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         let (low, high) = points.fold(none, |(low, high), &p| (low.min(p), high.max(p)));
         let extent = (high - low).max_element();
@@ -286,7 +324,7 @@ impl Grid {
             return None;
         }
         // A power of two, so that round coordinates come back as they were.
-        let step = (extent / GRID).log2().ceil().exp2();
+        let step = (extent / steps).log2().ceil().exp2();
         let origin = (low.midpoint(high) / step).round() * step;
         origin.is_finite().then_some(Grid {
             origin,

@@ -29,15 +29,9 @@ struct Corner {
 }
 
 /// Pulls points of clean polygons that coincide on the grid apart. `shapes` are the same rings on
-/// the grid.
-pub(super) fn pull_apart(shapes: &GridShapes, polygons: &mut [Polygon], extent: f64) {
-    let mut places: Vec<([i64; 2], [usize; 3])> = Vec::new();
-    for (s, shape) in shapes.iter().enumerate() {
-        for (r, ring) in shape.iter().enumerate() {
-            places.extend(ring.iter().enumerate().map(|(i, p)| (*p, [s, r, i])));
-        }
-    }
-    places.sort_unstable();
+/// the grid. Returns whether there were any.
+pub(super) fn pull_apart(shapes: &GridShapes, polygons: &mut [Polygon], extent: f64) -> bool {
+    let places = places(shapes);
     let mut cuts: Vec<([usize; 3], f64)> = Vec::new();
     for shared in places.chunk_by(|a, b| a.0 == b.0).filter(|c| c.len() > 1) {
         let corners = shared.iter().map(|(_, place)| {
@@ -79,6 +73,24 @@ pub(super) fn pull_apart(shapes: &GridShapes, polygons: &mut [Polygon], extent: 
         }
         *ring = cut;
     }
+    !cuts.is_empty()
+}
+
+/// Whether any points coincide.
+pub(super) fn touches(shapes: &GridShapes) -> bool {
+    places(shapes).windows(2).any(|w| w[0].0 == w[1].0)
+}
+
+/// All points in order, with their polygons, rings and numbers there.
+fn places(shapes: &GridShapes) -> Vec<([i64; 2], [usize; 3])> {
+    let mut places = Vec::new();
+    for (s, shape) in shapes.iter().enumerate() {
+        for (r, ring) in shape.iter().enumerate() {
+            places.extend(ring.iter().enumerate().map(|(i, p)| (*p, [s, r, i])));
+        }
+    }
+    places.sort_unstable();
+    places
 }
 
 /// Which of the corners in one place are cut: again and again those that no other one reaches

@@ -3,7 +3,7 @@
 use serde::{Serialize, Serializer};
 
 use super::ROOT;
-use super::layout::{IndexType, Kind, Layout, is_written, kinds};
+use super::packing::{Entry, IndexType, Kind, Packed};
 use crate::scene::{self, Scene};
 
 /// All of the JSON but the buffer.
@@ -25,9 +25,9 @@ pub(super) struct Document<'a> {
 }
 
 impl<'a> Document<'a> {
-    pub(super) fn new(scene: &'a Scene, layout: &'a Layout) -> Self {
+    pub(super) fn new(scene: &'a Scene, packed: &'a Packed) -> Self {
         // glTF has no empty arrays.
-        let solid = !layout.views.is_empty();
+        let solid = !packed.views.is_empty();
         Self {
             asset: Asset {
                 version: "2.0",
@@ -37,11 +37,14 @@ impl<'a> Document<'a> {
             scenes: [Stage {
                 nodes: [scene.nodes.len()],
             }],
-            nodes: Nodes(scene, layout),
-            meshes: solid.then_some(Meshes(scene, layout)),
+            nodes: Nodes {
+                scene,
+                mesh_numbers: mesh_numbers(scene, packed),
+            },
+            meshes: solid.then_some(Meshes(scene, packed)),
             materials: (!scene.materials.is_empty()).then_some(Materials(scene)),
-            accessors: solid.then_some(Accessors(scene, layout)),
-            buffer_views: solid.then_some(BufferViews(layout)),
+            accessors: solid.then_some(Accessors(packed)),
+            buffer_views: solid.then_some(BufferViews(packed)),
         }
     }
 }
@@ -72,11 +75,81 @@ impl Serialize for Number {
     }
 }
 
-struct Nodes<'a>(&'a Scene, &'a Layout);
+/// The number in the file of each mesh of the scene; none for one without triangles.
+fn mesh_numbers(scene: &Scene, packed: &Packed) -> Vec<Option<usize>> {
+    let mut entries = packed.entries.iter();
+    let mut numbers = 0..;
+    let written = |mesh: &scene::Mesh| {
+        entries
+            .by_ref()
+            .take(mesh.primitives.len())
+            .flatten()
+            .count()
+            > 0
+    };
+    scene
+        .meshes
+        .iter()
+        .map(written)
+        .map(|written| if written { numbers.next() } else { None })
+        .collect()
+}
+
+/// More bytes than the JSON of a scene takes, reckoned before its solids are made.
+pub(super) fn room(scene: &Scene) -> u64 {
+    const HEAD: usize = 4096;
+    const NODE: usize = 240;
+    const MESH: usize = 64;
+    const MATERIAL: usize = 512;
+    /// Up to four accessors and what refers to them, every number of the greatest length.
+    const PRIMITIVE: usize = 640;
+    /// One view a kind for each window, of which there is at least one.
+    const VIEWS: usize = 6 * 160;
+
+    let text = |text: &str| {
+        text.bytes()
+            .map(|byte| {
+                if byte < 0x20 {
+                    6
+                } else if matches!(byte, b'"' | b'\\') {
+                    2
+                } else {
+                    1
+                }
+            })
+            .sum::<usize>()
+    };
+    let nodes = scene.nodes.iter().map(|node| {
+        let provenance = node
+            .provenance
+            .iter()
+            .flat_map(|provenance| [&provenance.element, &provenance.string]);
+        let provenance = provenance.flatten().map(|word| text(word)).sum::<usize>();
+        // The name may stand a second time, as its mesh's.
+        NODE + 2 * text(&node.name) + provenance + node.children.len() * 12
+    });
+    let materials = scene
+        .materials
+        .iter()
+        .map(|material| MATERIAL + text(&material.name));
+    let primitives: usize = scene.meshes.iter().map(|mesh| mesh.primitives.len()).sum();
+    let views = (primitives / super::packing::WINDOW + 1) * VIEWS;
+    let rest =
+        HEAD + scene.roots.len() * 12 + scene.meshes.len() * MESH + primitives * PRIMITIVE + views;
+    (nodes.sum::<usize>() + materials.sum::<usize>() + rest) as u64
+}
+
+struct Nodes<'a> {
+    scene: &'a Scene,
+    mesh_numbers: Vec<Option<usize>>,
+}
 
 impl Serialize for Nodes<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self(scene, layout) = *self;
+        let Self {
+            scene,
+            mesh_numbers,
+        } = self;
         let root = Node {
             name: ROOT,
             children: &scene.roots,
@@ -85,7 +158,7 @@ impl Serialize for Nodes<'_> {
             rotation: None,
             extras: None,
         };
-        let nodes = scene.nodes.iter().map(|node| Node::new(node, layout));
+        let nodes = scene.nodes.iter().map(|node| Node::new(node, mesh_numbers));
         serializer.collect_seq(nodes.chain([root]))
     }
 }
@@ -107,7 +180,7 @@ struct Node<'a> {
 }
 
 impl<'a> Node<'a> {
-    fn new(node: &'a scene::Node, layout: &Layout) -> Self {
+    fn new(node: &'a scene::Node, mesh_numbers: &[Option<usize>]) -> Self {
         let translation = node.translation.as_vec3().to_array();
         let rotation = node.rotation.as_quat().to_array();
         let moved = translation != [0.0; 3];
@@ -117,7 +190,7 @@ impl<'a> Node<'a> {
         Self {
             name: &node.name,
             children: &node.children,
-            mesh: node.mesh.and_then(|mesh| layout.mesh_numbers[mesh]),
+            mesh: node.mesh.and_then(|mesh| mesh_numbers[mesh]),
             translation: moved.then(|| translation.map(Number)),
             rotation: turned.then(|| rotation.map(Number)),
             extras: provenance.and_then(Extras::new),
@@ -148,11 +221,11 @@ impl<'a> Extras<'a> {
     }
 }
 
-struct Meshes<'a>(&'a Scene, &'a Layout);
+struct Meshes<'a>(&'a Scene, &'a Packed);
 
 impl Serialize for Meshes<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let Self(scene, layout) = *self;
+        let Self(scene, packed) = *self;
         // A mesh is named after the first node that shows it.
         let mut names = vec![""; scene.meshes.len()];
         for node in scene.nodes.iter().rev() {
@@ -161,14 +234,18 @@ impl Serialize for Meshes<'_> {
             }
         }
         let mut accessor = 0;
-        let meshes = scene.meshes.iter().zip(names).zip(&layout.mesh_numbers);
-        serializer.collect_seq(meshes.filter_map(|((mesh, name), number)| {
-            number.as_ref()?;
-            let primitives = mesh.primitives.iter().filter(|part| is_written(part));
-            let primitives = primitives
-                .map(|part| Primitive::new(part, &mut accessor))
+        let mut entries = packed.entries.iter();
+        serializer.collect_seq(scene.meshes.iter().zip(names).filter_map(|(mesh, name)| {
+            let entries = entries.by_ref().take(mesh.primitives.len());
+            let primitives: Vec<Primitive> = mesh
+                .primitives
+                .iter()
+                .zip(entries)
+                .filter_map(|(primitive, entry)| {
+                    Some(Primitive::new(primitive, entry.as_ref()?, &mut accessor))
+                })
                 .collect();
-            Some(Mesh { name, primitives })
+            (!primitives.is_empty()).then_some(Mesh { name, primitives })
         }))
     }
 }
@@ -198,12 +275,12 @@ struct Attributes {
 }
 
 impl Primitive {
-    /// Takes the primitive's accessors, the next ones in the order of [`Layout::runs`].
-    fn new(primitive: &scene::Primitive, accessor: &mut usize) -> Self {
+    /// Takes the primitive's accessors, the next ones in the order of the file.
+    fn new(primitive: &scene::Primitive, entry: &Entry, accessor: &mut usize) -> Self {
         let mut attributes = Attributes::default();
         let mut indices = 0;
-        for kind in kinds(&primitive.surface).into_iter().flatten() {
-            match kind {
+        for run in entry.runs.iter().flatten() {
+            match run.kind {
                 Kind::Positions => attributes.position = *accessor,
                 Kind::Normals => attributes.normal = Some(*accessor),
                 Kind::Uvs => attributes.uv = Some(*accessor),
@@ -259,7 +336,7 @@ struct MetallicRoughness {
     roughness_factor: Number,
 }
 
-struct Accessors<'a>(&'a Scene, &'a Layout);
+struct Accessors<'a>(&'a Packed);
 
 impl Serialize for Accessors<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -268,8 +345,13 @@ impl Serialize for Accessors<'_> {
         const UNSIGNED_INT: u16 = 5125;
         const FLOAT: u16 = 5126;
 
-        let Self(scene, layout) = *self;
-        serializer.collect_seq(layout.runs(scene).map(|(primitive, run)| {
+        let runs = self
+            .0
+            .entries
+            .iter()
+            .flatten()
+            .flat_map(|entry| entry.runs.iter().flatten().map(move |run| (entry, run)));
+        serializer.collect_seq(runs.map(|(entry, run)| {
             let (component_type, element) = match run.kind {
                 Kind::Positions | Kind::Normals => (FLOAT, "VEC3"),
                 Kind::Uvs => (FLOAT, "VEC2"),
@@ -277,15 +359,15 @@ impl Serialize for Accessors<'_> {
                 Kind::Indices(IndexType::U16) => (UNSIGNED_SHORT, "SCALAR"),
                 Kind::Indices(IndexType::U32) => (UNSIGNED_INT, "SCALAR"),
             };
-            let bounds = (run.kind == Kind::Positions).then(|| layout.bounds[primitive]);
+            let bounds = (run.kind == Kind::Positions).then_some(entry.bounds);
             Accessor {
                 buffer_view: run.view,
                 byte_offset: run.offset,
                 component_type,
                 count: run.count,
                 element,
-                min: bounds.map(|bounds| bounds.min.map(Number)),
-                max: bounds.map(|bounds| bounds.max.map(Number)),
+                min: bounds.map(|[min, _]| min.map(Number)),
+                max: bounds.map(|[_, max]| max.map(Number)),
             }
         }))
     }
@@ -307,7 +389,7 @@ struct Accessor {
     max: Option<[Number; 3]>,
 }
 
-struct BufferViews<'a>(&'a Layout);
+struct BufferViews<'a>(&'a Packed);
 
 impl Serialize for BufferViews<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

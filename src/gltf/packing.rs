@@ -1,68 +1,323 @@
-//! The binary data: the scene's arrays, packed little-endian in the order of the layout.
+//! The binary data: surfaces made, packed little-endian and handed on, a window of primitives at a time.
+//!
+//! A model of a hundred thousand parts is never in memory as a whole: while one window is written, the next
+//! one is made, on all cores. A window's data lies together, a buffer view for each kind in it; the size of
+//! windows is fixed, so that the bytes do not depend on the machine.
 
-use std::io::{self, Write};
+use std::io;
 
-use super::layout::{IndexType, Kind, kinds, written};
-use crate::scene::Scene;
+use rayon::prelude::*;
 
-/// How much is packed before it is written.
-const BATCH: usize = 64 * 1024;
+use super::invalid;
+use crate::scene::{Primitive, Scene, Surface};
 
-/// Writes the whole buffer.
-pub(super) fn pack(scene: &Scene, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
-    let mut packer = Packer {
-        batch: Vec::with_capacity(BATCH),
-        out,
+/// Primitives in a window.
+pub(super) const WINDOW: usize = 4096;
+/// Primitives that are packed by one thread at a time.
+const BATCH: usize = 128;
+/// Kinds of data.
+const KINDS: usize = 6;
+
+/// A kind of data. The order, widest components first, keeps every accessor aligned without padding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kind {
+    Positions,
+    Normals,
+    Uvs,
+    Indices(IndexType),
+}
+
+impl Kind {
+    const ALL: [Self; KINDS] = [
+        Self::Positions,
+        Self::Normals,
+        Self::Uvs,
+        Self::Indices(IndexType::U32),
+        Self::Indices(IndexType::U16),
+        Self::Indices(IndexType::U8),
+    ];
+
+    fn slot(self) -> usize {
+        match self {
+            Self::Positions => 0,
+            Self::Normals => 1,
+            Self::Uvs => 2,
+            Self::Indices(IndexType::U32) => 3,
+            Self::Indices(IndexType::U16) => 4,
+            Self::Indices(IndexType::U8) => 5,
+        }
+    }
+}
+
+/// The component type of an index.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum IndexType {
+    U8,
+    U16,
+    U32,
+}
+
+impl IndexType {
+    /// The smallest type for so many corners. A type's greatest value is not an index: it restarts primitives.
+    fn of(corners: usize) -> Self {
+        match corners {
+            0..=0xFF => Self::U8,
+            0x100..=0xFFFF => Self::U16,
+            _ => Self::U32,
+        }
+    }
+}
+
+/// A stretch of the buffer that holds data of one kind.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct View {
+    pub(super) kind: Kind,
+    pub(super) offset: u64,
+    pub(super) length: u64,
+}
+
+/// Elements of one kind that belong to one primitive.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Run {
+    pub(super) kind: Kind,
+    /// Number of the view.
+    pub(super) view: usize,
+    /// Where the run begins in its view.
+    pub(super) offset: u64,
+    pub(super) count: usize,
+}
+
+/// A primitive that was packed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Entry {
+    /// Its accessors, in the order of the file.
+    pub(super) runs: [Option<Run>; 4],
+    /// Its box: least and greatest corner.
+    pub(super) bounds: [[f32; 3]; 2],
+}
+
+/// What was packed, and where it lies.
+#[derive(Debug, Default)]
+pub(super) struct Packed {
+    /// The views, in the order of the buffer.
+    pub(super) views: Vec<View>,
+    /// The primitives of all meshes in order; none for one without triangles, which glTF cannot hold.
+    pub(super) entries: Vec<Option<Entry>>,
+    /// The length of the buffer, a multiple of four.
+    pub(super) length: u64,
+}
+
+impl Packed {
+    /// How much was packed.
+    pub(super) fn total(&self) -> super::Written {
+        let count = |slot: usize| -> usize {
+            let runs = self
+                .entries
+                .iter()
+                .flatten()
+                .filter_map(|entry| entry.runs[slot]);
+            runs.map(|run| run.count).sum()
+        };
+        super::Written {
+            corners: count(0),
+            triangles: count(3) / 3,
+            bytes: self.length,
+        }
+    }
+}
+
+/// Data of a batch of primitives, a buffer a kind.
+#[derive(Default)]
+struct Batch {
+    data: [Vec<u8>; KINDS],
+    entries: Vec<Option<Entry>>,
+}
+
+/// Packs every primitive and hands the bytes to `write` in order.
+///
+/// # Errors
+/// What `write` answers; [`io::ErrorKind::InvalidInput`] for a surface that breaks its own rules.
+pub(super) fn pack(
+    scene: &Scene,
+    mut write: impl FnMut(&[u8]) -> io::Result<()> + Send,
+) -> io::Result<Packed> {
+    let primitives: Vec<&Primitive> = scene
+        .meshes
+        .iter()
+        .flat_map(|mesh| &mesh.primitives)
+        .collect();
+    let mut packed = Packed {
+        entries: Vec::with_capacity(primitives.len()),
+        ..Packed::default()
     };
-    for kind in Kind::ALL {
-        for primitive in written(scene) {
-            let surface = &primitive.surface;
-            if !kinds(surface).contains(&Some(kind)) {
+    let make = |window: &[&Primitive]| -> io::Result<Vec<Batch>> {
+        window
+            .par_chunks(BATCH)
+            .map(|batch| Batch::make(batch, scene.materials.len()))
+            .collect()
+    };
+    let mut windows = primitives.chunks(WINDOW);
+    let mut ready = match windows.next() {
+        Some(window) => make(window)?,
+        None => return Ok(packed),
+    };
+    loop {
+        let next = windows.next();
+        let (written, made) = rayon::join(
+            || packed.take(&mut ready, &mut write),
+            || next.map(make).transpose(),
+        );
+        written?;
+        match made? {
+            Some(batches) => ready = batches,
+            None => return Ok(packed),
+        }
+    }
+}
+
+impl Packed {
+    /// Writes a window and notes where its data lies.
+    fn take(
+        &mut self,
+        window: &mut [Batch],
+        write: &mut impl FnMut(&[u8]) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let mut numbers = [0; KINDS];
+        for kind in Kind::ALL {
+            let slot = kind.slot();
+            let length: usize = window.iter().map(|batch| batch.data[slot].len()).sum();
+            if length == 0 {
                 continue;
             }
-            match kind {
-                Kind::Positions => packer.put(&surface.positions, f32::to_le_bytes)?,
-                Kind::Normals => packer.put(&surface.normals, f32::to_le_bytes)?,
-                Kind::Uvs => packer.put(&surface.uvs, f32::to_le_bytes)?,
-                // The layout chose the type so that every corner fits.
-                Kind::Indices(IndexType::U8) => packer.put(&surface.triangles, |i| [i as u8])?,
-                Kind::Indices(IndexType::U16) => {
-                    packer.put(&surface.triangles, |i| (i as u16).to_le_bytes())?;
-                }
-                Kind::Indices(IndexType::U32) => {
-                    packer.put(&surface.triangles, u32::to_le_bytes)?;
-                }
+            numbers[slot] = self.views.len();
+            self.views.push(View {
+                kind,
+                offset: self.length,
+                length: length as u64,
+            });
+            self.length += length as u64;
+            for batch in window.iter() {
+                write(&batch.data[slot])?;
             }
         }
-    }
-    packer.flush()
-}
+        let padding = self.length.next_multiple_of(4) - self.length;
+        write(&[0; 3][..padding as usize])?;
+        self.length += padding;
 
-struct Packer<'a, W: ?Sized> {
-    batch: Vec<u8>,
-    out: &'a mut W,
-}
-
-impl<W: Write + ?Sized> Packer<'_, W> {
-    fn put<T: Copy, const N: usize, const B: usize>(
-        &mut self,
-        rows: &[[T; N]],
-        bytes: impl Fn(T) -> [u8; B],
-    ) -> io::Result<()> {
-        for rows in rows.chunks(BATCH / (N * B)) {
-            if self.batch.len() + rows.len() * N * B > BATCH {
-                self.flush()?;
+        let mut before = [0_u64; KINDS];
+        for batch in window.iter_mut() {
+            for entry in &mut batch.entries {
+                for run in entry
+                    .iter_mut()
+                    .flat_map(|entry| entry.runs.iter_mut().flatten())
+                {
+                    run.view = numbers[run.kind.slot()];
+                    run.offset += before[run.kind.slot()];
+                }
             }
-            for value in rows.as_flattened() {
-                self.batch.extend_from_slice(&bytes(*value));
+            for (before, data) in before.iter_mut().zip(&batch.data) {
+                *before += data.len() as u64;
             }
+            self.entries.append(&mut batch.entries);
         }
         Ok(())
     }
+}
 
-    fn flush(&mut self) -> io::Result<()> {
-        self.out.write_all(&self.batch)?;
-        self.batch.clear();
-        Ok(())
+impl Batch {
+    fn make(primitives: &[&Primitive], materials: usize) -> io::Result<Self> {
+        let mut batch = Self::default();
+        for primitive in primitives {
+            let surface = primitive.surface();
+            if primitive.material >= materials {
+                return Err(invalid("a primitive with a material out of range"));
+            }
+            let entry = match surface.triangles.is_empty() {
+                true => None,
+                false => Some(batch.put(&surface)?),
+            };
+            batch.entries.push(entry);
+        }
+        Ok(batch)
     }
+
+    fn put(&mut self, surface: &Surface) -> io::Result<Entry> {
+        let bounds = checked_bounds(surface)?;
+        let corners = surface.positions.len();
+        let index = IndexType::of(corners);
+        let run = |batch: &Self, kind: Kind, count: usize| {
+            Some(Run {
+                kind,
+                view: 0,
+                offset: batch.data[kind.slot()].len() as u64,
+                count,
+            })
+        };
+        let mut runs = [None; 4];
+        runs[0] = run(self, Kind::Positions, corners);
+        floats(&mut self.data[Kind::Positions.slot()], &surface.positions);
+        if !surface.normals.is_empty() {
+            runs[1] = run(self, Kind::Normals, corners);
+            floats(&mut self.data[Kind::Normals.slot()], &surface.normals);
+        }
+        if !surface.uvs.is_empty() {
+            runs[2] = run(self, Kind::Uvs, corners);
+            floats(&mut self.data[Kind::Uvs.slot()], &surface.uvs);
+        }
+        let indices = surface.triangles.as_flattened();
+        runs[3] = run(self, Kind::Indices(index), indices.len());
+        let out = &mut self.data[Kind::Indices(index).slot()];
+        // The type was chosen so that every corner fits.
+        match index {
+            IndexType::U8 => out.extend(indices.iter().map(|corner| *corner as u8)),
+            IndexType::U16 => out.extend(
+                indices
+                    .iter()
+                    .flat_map(|corner| (*corner as u16).to_le_bytes()),
+            ),
+            IndexType::U32 => out.extend(indices.iter().flat_map(|corner| corner.to_le_bytes())),
+        }
+        Ok(Entry { runs, bounds })
+    }
+}
+
+/// Appends numbers as little-endian bytes.
+fn floats<const N: usize>(out: &mut Vec<u8>, rows: &[[f32; N]]) {
+    if cfg!(target_endian = "little") {
+        out.extend_from_slice(bytemuck::cast_slice(rows.as_flattened()));
+    } else {
+        out.extend(
+            rows.as_flattened()
+                .iter()
+                .flat_map(|number| number.to_le_bytes()),
+        );
+    }
+}
+
+/// The box of a surface, which must be sound.
+fn checked_bounds(surface: &Surface) -> io::Result<[[f32; 3]; 2]> {
+    let corners = surface.positions.len();
+    let lengths = [surface.normals.len(), surface.uvs.len()];
+    if !lengths.iter().all(|length| [0, corners].contains(length)) {
+        return Err(invalid("a surface whose lists of corners differ in length"));
+    }
+    let greatest = surface.triangles.as_flattened().iter().max();
+    if greatest.is_none_or(|corner| *corner as usize >= corners) || corners > u32::MAX as usize {
+        return Err(invalid("a surface with a corner out of range"));
+    }
+    // A sum is finite only if all its terms are, and adds up without branches.
+    let sum = |rows: &[f32]| rows.iter().map(|number| number * 0.0).sum::<f32>();
+    let sums = sum(surface.positions.as_flattened())
+        + sum(surface.normals.as_flattened())
+        + sum(surface.uvs.as_flattened());
+    if !sums.is_finite() {
+        return Err(invalid("a surface with a corner that is not a number"));
+    }
+    let first = [surface.positions[0]; 2];
+    Ok(surface.positions.iter().fold(first, |[min, max], p| {
+        [
+            [0, 1, 2].map(|i| min[i].min(p[i])),
+            [0, 1, 2].map(|i| max[i].max(p[i])),
+        ]
+    }))
 }

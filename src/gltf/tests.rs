@@ -3,12 +3,27 @@ use proptest::prelude::*;
 use serde_json::json;
 
 use super::*;
-use crate::scene::{Material, Mesh, Node, Primitive, Provenance, Surface};
+use crate::scene::{Material, Mesh, Node, Piece, Primitive, Provenance, Surface};
 
 fn bytes(scene: &Scene, container: Container) -> Vec<u8> {
-    let mut out = vec![];
+    let mut out = io::Cursor::new(vec![]);
     write(scene, container, &mut out).unwrap();
-    out
+    out.into_inner()
+}
+
+fn primitive(surface: Surface, material: usize) -> Primitive {
+    Primitive {
+        pieces: vec![Piece::Surface(surface)],
+        material,
+    }
+}
+
+/// The surface of a primitive, to be spoiled.
+fn first_surface(scene: &mut Scene) -> &mut Surface {
+    match &mut scene.meshes[0].primitives[0].pieces[0] {
+        Piece::Surface(surface) => surface,
+        Piece::Solid(_) => panic!("these scenes have surfaces only"),
+    }
 }
 
 /// The file as a strict reader sees it.
@@ -74,10 +89,7 @@ fn single(surface: Surface) -> Scene {
         }],
         roots: vec![0],
         meshes: vec![Mesh {
-            primitives: vec![Primitive {
-                surface,
-                material: 0,
-            }],
+            primitives: vec![primitive(surface, 0)],
         }],
         materials: vec![material(1.0)],
     }
@@ -107,7 +119,7 @@ fn assert_round_trip(scene: &Scene, container: Container) {
         let solid = solid.into_iter().flatten().collect::<Vec<_>>();
         let solid = solid
             .into_iter()
-            .filter(|part| !part.surface.triangles.is_empty());
+            .filter(|part| !part.surface().triangles.is_empty());
         let read_solid = read
             .mesh()
             .into_iter()
@@ -121,7 +133,7 @@ fn assert_round_trip(scene: &Scene, container: Container) {
 }
 
 fn assert_primitive(part: &Primitive, read: &gltf::Primitive, buffers: &[Vec<u8>]) {
-    let surface = &part.surface;
+    let surface = part.surface();
     let reader = read.reader(|buffer| buffers.get(buffer.index()).map(Vec::as_slice));
     let positions = reader.read_positions().unwrap().collect::<Vec<_>>();
     assert_eq!(positions, surface.positions);
@@ -252,7 +264,7 @@ fn kinds_of_data_share_a_view_each() {
         scene.materials.push(self::material(0.5));
         scene.meshes[0]
             .primitives
-            .push(Primitive { surface, material });
+            .push(primitive(surface, material));
     }
     let (document, _) = read(&bytes(&scene, Container::Glb));
     assert_eq!(document.views().count(), 6);
@@ -277,10 +289,7 @@ fn parts_without_triangles_have_no_mesh() {
     });
     scene.roots.push(1);
     scene.meshes.push(Mesh {
-        primitives: vec![Primitive {
-            surface: strip(4),
-            material: 0,
-        }],
+        primitives: vec![primitive(strip(4), 0)],
     });
     let (document, _) = read(&bytes(&scene, Container::Glb));
     assert_eq!(document.meshes().count(), 1);
@@ -290,8 +299,8 @@ fn parts_without_triangles_have_no_mesh() {
 #[test]
 fn a_broken_scene_is_refused_before_a_byte_is_written() {
     let break_it: [fn(&mut Scene); 7] = [
-        |scene| scene.meshes[0].primitives[0].surface.positions[1][2] = f32::NAN,
-        |scene| scene.meshes[0].primitives[0].surface.triangles[0][1] = 3,
+        |scene| first_surface(scene).positions[1][2] = f32::NAN,
+        |scene| first_surface(scene).triangles[0][1] = 3,
         |scene| scene.meshes[0].primitives[0].material = 1,
         |scene| scene.nodes[0].translation.x = f64::INFINITY,
         |scene| scene.nodes[0].children.push(0),
@@ -301,10 +310,38 @@ fn a_broken_scene_is_refused_before_a_byte_is_written() {
     for break_it in break_it {
         let mut scene = single(strip(3));
         break_it(&mut scene);
-        let mut out = vec![];
+        let mut out = io::Cursor::new(vec![]);
         let error = write(&scene, Container::Glb, &mut out).unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::InvalidInput);
-        assert!(out.is_empty(), "{error}");
+        assert!(out.get_ref().is_empty(), "{error}");
+    }
+}
+
+#[test]
+fn a_large_model_is_written_behind_a_gap() {
+    let count = 40_000;
+    let mut scene = single(strip(120));
+    let node = scene.nodes[0].clone();
+    let mesh = scene.meshes[0].clone();
+    for index in 1..count {
+        scene.nodes.push(Node {
+            name: format!("Part{index}"),
+            mesh: Some(index),
+            ..node.clone()
+        });
+        scene.roots.push(index);
+        scene.meshes.push(mesh.clone());
+    }
+    let bytes = bytes(&scene, Container::Glb);
+    assert!(bytes.len() > 100 << 20);
+    let (document, buffers) = read(&bytes);
+    assert_eq!(document.meshes().count(), count);
+    for mesh in document.meshes().step_by(997) {
+        let primitive = mesh.primitives().next().unwrap();
+        let reader = primitive.reader(|_| Some(&buffers[0]));
+        let indices: Vec<u32> = reader.read_indices().unwrap().into_u32().collect();
+        assert_eq!(indices, strip(120).triangles.as_flattened());
+        assert!(reader.read_positions().unwrap().eq(strip(120).positions));
     }
 }
 
@@ -354,7 +391,7 @@ fn any_scene() -> impl Strategy<Value = Scene> {
         for surfaces in meshes {
             let primitives = surfaces.into_iter().enumerate();
             let primitives = primitives
-                .map(|(material, surface)| Primitive { surface, material })
+                .map(|(material, surface)| primitive(surface, material))
                 .collect();
             scene.meshes.push(Mesh { primitives });
         }

@@ -12,9 +12,11 @@ mod cap;
 mod ears;
 mod groups;
 mod layers;
+mod recipe;
 mod ridge;
 mod rings;
 mod skin;
+mod stack;
 
 use glam::{DMat2, DVec3};
 
@@ -23,6 +25,7 @@ use crate::lang::value::ShapeKind;
 use crate::scene::Surface;
 
 pub use layers::{Layer, layers};
+pub use recipe::{Sides, Solid};
 
 /// How a solid is made, besides its kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,10 +79,10 @@ pub fn build(outline: &Outline, kind: &ShapeKind, options: &Options) -> Surface 
     };
     if layers.len() < 2 {
         return layers.first().map_or_else(Surface::default, |layer| {
-            skin::flat(outline, layer.z, options)
+            stack::flat(outline, layer.z, options)
         });
     }
-    skin::stack(outline, &layers, options)
+    stack::stack(outline, &layers, options)
 }
 
 /// The surface on the other side of the plane z = 0.

@@ -120,23 +120,25 @@ impl Matched {
     fn sides(&self) -> Vec<[Side; 2]> {
         let none = Side { below: 0, above: 0 };
         let mut sides = vec![[none; 2]; self.count];
-        let n = self.turned.len();
-        let top = (self.count - 1) as u32;
-        for k in 0..n {
-            let i = k;
-            let (j, s) = (self.rings.next[i] as usize, self.stations[i]);
-            if self.stations[j] > s {
-                sides[s as usize][1].above = i as u32;
-                sides[s as usize + 1][1].below = j as u32;
-            } else if self.stations[j] < s {
-                sides[s as usize][0].below = i as u32;
-                sides[s as usize - 1][0].above = j as u32;
+        for (i, (j, s)) in self.rings.next.iter().zip(&self.stations).enumerate() {
+            let (from, to) = (*s as usize, self.stations[*j as usize] as usize);
+            if to > from {
+                sides[from][1].above = i as u32;
+                sides[to][1].below = *j;
+            } else if to < from {
+                sides[from][0].below = i as u32;
+                sides[to][0].above = *j;
             }
         }
-        for side in 0..2 {
-            sides[0][side].below = sides[0][side].above;
-            sides[top as usize][side].above = sides[top as usize][side].below;
-        }
+        sides[0] = sides[0].map(|Side { above, .. }| Side {
+            below: above,
+            above,
+        });
+        let top = &mut sides[self.count - 1];
+        *top = top.map(|Side { below, .. }| Side {
+            below,
+            above: below,
+        });
         sides
     }
 

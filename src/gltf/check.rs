@@ -1,0 +1,53 @@
+//! What a scene must keep to, seen before the first byte is written.
+
+use std::io;
+
+use super::invalid;
+use crate::scene::Scene;
+
+/// Refuses nodes and materials that would make a file that no reader takes.
+pub(super) fn check(scene: &Scene) -> io::Result<()> {
+    check_nodes(scene)?;
+    check_materials(scene)
+}
+
+fn check_nodes(scene: &Scene) -> io::Result<()> {
+    for (index, node) in scene.nodes.iter().enumerate() {
+        let name = &node.name;
+        if !node.translation.is_finite() || !node.rotation.is_finite() {
+            return Err(invalid(format!(
+                "node `{name}` stands nowhere: not a number"
+            )));
+        }
+        // A child stands behind its parent, so no cycle gets past this.
+        let in_order = |child: &usize| (index + 1..scene.nodes.len()).contains(child);
+        if !node.children.iter().all(in_order) {
+            return Err(invalid(format!("node `{name}` has a child out of order")));
+        }
+        if node.mesh.is_some_and(|mesh| mesh >= scene.meshes.len()) {
+            return Err(invalid(format!("node `{name}` has a mesh out of range")));
+        }
+    }
+    if scene.roots.iter().any(|root| *root >= scene.nodes.len()) {
+        return Err(invalid("a root out of range"));
+    }
+    Ok(())
+}
+
+fn check_materials(scene: &Scene) -> io::Result<()> {
+    for material in &scene.materials {
+        let factors = [material.metallic, material.roughness];
+        let numbers = material
+            .base_color
+            .iter()
+            .chain(&material.emissive)
+            .chain(&factors);
+        if !numbers.into_iter().all(|number| number.is_finite()) {
+            return Err(invalid(format!(
+                "material `{}` has a factor that is not a number",
+                material.name
+            )));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,308 @@
+//! What a stack of layers is built from: which copies there are, whether they are points, lines or
+//! rings, and that all of it survives being written in `f32`.
+
+use glam::{DMat2, DVec2, DVec3};
+
+use super::groups::Crease;
+use super::layers::{LEAST, Layer};
+use super::ridge::{Collapse, Matched, matched};
+use super::rings::Rings;
+use super::skin::skin;
+use super::{Options, cap};
+use crate::geometry::Outline;
+use crate::scene::Surface;
+
+/// Scales below which copies are given up, tried in turn until all points keep apart in `f32`.
+const FLOORS: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
+/// Empty triangles in copies smaller than this are taken to come of the scale.
+const NARROW: f64 = 0.05;
+/// How often a surface is tried.
+const ATTEMPTS: usize = 12;
+/// How far a point is moved off an edge that it cannot be told from in `f32`, relative to the
+/// largest coordinate.
+const NUDGE: f64 = 1e-6;
+/// The most of it, relative to the extent.
+const MOST: f64 = 1e-4;
+/// Gaps in a copy wider than this, relative to its largest coordinate, survive in `f32`.
+const GAP: f64 = 1e-6;
+/// Copies further away than this, relative to their extent, are checked even if not scaled.
+const FAR: f64 = 1.0;
+/// Layers closer than this, relative to the whole depth, are one.
+const NEAR: f64 = 1e-6;
+
+/// The outline alone, seen from the front.
+pub(super) fn flat(outline: &Outline, z: f64, options: &Options) -> Surface {
+    let rings = Rings::of(outline);
+    let put = Put::new(options);
+    let put = |p: &DVec2| put.position(p.extend(z));
+    Surface {
+        positions: rings.points.iter().map(put).collect(),
+        normals: vec![[0.0, 0.0, 1.0]; rings.len()],
+        uvs: Vec::new(),
+        triangles: cap::triangles(&rings),
+    }
+}
+
+/// An outline as its stack is built from it.
+pub(super) enum Base {
+    /// Scaled both ways; copies of scale 0 are points.
+    Even(Rings),
+    /// Scaled one way, towards a line on which both sides of the outline match.
+    Ridge(Matched),
+    /// Scaled one way, towards a line that would be met several times; a narrow copy takes the
+    /// place of copies of scale 0.
+    Narrow(Rings),
+}
+
+impl Base {
+    fn new(outline: &Outline, layers: &[Layer]) -> Base {
+        let collapse = if layers.iter().any(|l| l.across != l.along && l.along == 1.0) {
+            Collapse::Across
+        } else if layers.iter().any(|l| l.across != l.along) {
+            Collapse::Along
+        } else {
+            return Base::Even(Rings::of(outline));
+        };
+        match matched(outline, collapse) {
+            Some(matched) => Base::Ridge(matched),
+            None => Base::Narrow(Rings::of(outline)),
+        }
+    }
+
+    pub(super) fn rings(&self) -> &Rings {
+        match self {
+            Base::Even(rings) | Base::Narrow(rings) => rings,
+            Base::Ridge(matched) => &matched.rings,
+        }
+    }
+
+    pub(super) fn stations(&self) -> Option<&[u32]> {
+        match self {
+            Base::Ridge(matched) => Some(&matched.stations),
+            Base::Even(_) | Base::Narrow(_) => None,
+        }
+    }
+
+    fn caps(&self) -> Vec<[u32; 3]> {
+        match self {
+            Base::Even(rings) | Base::Narrow(rings) => cap::triangles(rings),
+            Base::Ridge(matched) => matched.triangles(),
+        }
+    }
+}
+
+impl Base {
+    /// Whether walls are so warped, for how thin the outline is, that two triangles are too coarse
+    /// for each: the volumes that they would add or lose come near to the whole.
+    pub(super) fn is_warped(&self) -> bool {
+        let Base::Narrow(rings) = self else {
+            return false;
+        };
+        let (mut warp, mut area) = (0.0, 0.0);
+        for (p, next) in rings.points.iter().zip(&rings.next) {
+            let q = rings.points[*next as usize];
+            warp += (q.x - p.x) * (q.y - p.y).abs();
+            area += p.perp_dot(q) / 2.0;
+        }
+        warp.abs() > area / 2.0
+    }
+}
+
+/// Whether an edge leads up.
+pub(super) fn rises(from: DVec2, to: DVec2) -> bool {
+    (from.y, from.x) <= (to.y, to.x)
+}
+
+/// The closed surface over two or more layers.
+pub(super) fn stack(outline: &Outline, layers: &[Layer], options: &Options) -> Surface {
+    let put = Put::new(options);
+    let crease = Crease::new(options.crease);
+    let mut base = Base::new(outline, layers);
+    if base.rings().len() < 3 {
+        return Surface::default();
+    }
+    let extent = base.rings().extent();
+    let largest = layers
+        .iter()
+        .map(|l| l.across.min(l.along))
+        .fold(0.0, f64::max);
+    let mut floors = FLOORS.iter().map(|floor| floor.min(largest));
+    let mut floor = LEAST.min(largest);
+    let mut nudge = NUDGE * (extent + put.translation.truncate().abs().max_element());
+    for _ in 0..ATTEMPTS {
+        let levels = levels(layers, &base, floor, &put);
+        let ends = [levels[0].form, levels[levels.len() - 1].form];
+        let mut caps = [Vec::new(), Vec::new()];
+        if ends.contains(&Form::Rings) {
+            // Each end may need other edges turned.
+            let cap = base.caps();
+            caps = [cap.clone(), cap];
+        }
+        match fault(base.rings(), &levels, &mut caps, &put) {
+            None => return skin(&base, &levels, &caps, crease, &put),
+            Some(Fault::Small) => floor = floors.next().unwrap_or(floor),
+            Some(Fault::Empty(empty)) => {
+                if let Base::Even(rings) | Base::Narrow(rings) = &mut base {
+                    rings.widen(&empty, nudge);
+                    nudge = (2.0 * nudge).min(MOST * extent);
+                } else {
+                    base = Base::Narrow(Rings::of(outline));
+                }
+            }
+        }
+    }
+    // Some points fall together as they are written; that is all that is wrong with it.
+    let levels = levels(layers, &base, floor, &put);
+    let caps = base.caps();
+    skin(&base, &levels, &[caps.clone(), caps], crease, &put)
+}
+
+/// What a copy consists of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Form {
+    Rings,
+    Ridge,
+    Tip,
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct Level {
+    pub(super) scale: DVec2,
+    pub(super) z: f64,
+    pub(super) form: Form,
+}
+
+/// The layers as they are built: without those that are too small or too close.
+fn levels(layers: &[Layer], base: &Base, floor: f64, put: &Put) -> Vec<Level> {
+    let end = layers.len() - 1;
+    let depth = layers[end].z - layers[0].z;
+    let mut levels: Vec<Level> = Vec::with_capacity(layers.len());
+    for (i, layer) in layers.iter().enumerate() {
+        let mut scale = DVec2::new(layer.across, layer.along);
+        let mut form = Form::Rings;
+        if let Base::Narrow(_) = base {
+            scale = scale.max(DVec2::splat(floor));
+        } else if scale.min_element() < floor {
+            if i != 0 && i != end {
+                continue;
+            }
+            let tip = scale.x < floor && scale.y < floor;
+            form = if tip { Form::Tip } else { Form::Ridge };
+            // A narrow copy that turned out too narrow, though the kind does not collapse.
+            if form == Form::Ridge && !matches!(base, Base::Ridge(_)) {
+                form = Form::Rings;
+                scale = scale.max(DVec2::splat(floor));
+            } else {
+                scale = DVec2::select(scale.cmplt(DVec2::splat(floor)), DVec2::ZERO, scale);
+            }
+        }
+        if let Some(before) = levels.last()
+            && (layer.z - before.z <= NEAR * depth || put.depth(layer.z) == put.depth(before.z))
+        {
+            if i != end {
+                continue;
+            }
+            if levels.len() > 1 {
+                levels.pop();
+            }
+        }
+        levels.push(Level {
+            scale,
+            z: layer.z,
+            form,
+        });
+    }
+    levels
+}
+
+/// What is wrong with a stack as it would be written.
+enum Fault {
+    /// A copy is so small that points fall together.
+    Small,
+    /// Triangles of a cap are empty.
+    Empty(Vec<[u32; 3]>),
+}
+
+/// The first fault of a stack, after edges within the caps were turned to avoid empty triangles.
+fn fault(
+    rings: &Rings,
+    levels: &[Level],
+    caps: &mut [Vec<[u32; 3]>; 2],
+    put: &Put,
+) -> Option<Fault> {
+    let extent = rings.extent();
+    let away = put.translation.truncate().abs().max_element();
+    let gap = cap::least_gap(rings);
+    let ends = [0, levels.len() - 1];
+    for (k, level) in levels
+        .iter()
+        .enumerate()
+        .filter(|(_, l)| l.form == Form::Rings)
+    {
+        let scale = level.scale.min_element();
+        let small = (scale < 1.0 || away > FAR * extent) && scale * gap < GAP * (extent + away);
+        let capped = ends.contains(&k);
+        if !(small || capped) {
+            continue;
+        }
+        let place = |p: &DVec2| {
+            let [x, y, _] = put.position((*p * level.scale).extend(level.z));
+            DVec2::new(x.into(), y.into())
+        };
+        let points: Vec<DVec2> = rings.points.iter().map(place).collect();
+        if small {
+            let bits = |p: &DVec2| {
+                let [x, y] = [p.x, p.y].map(|x| u64::from((x as f32 + 0.0).to_bits()));
+                x << 32 | y
+            };
+            let mut places: Vec<u64> = points.iter().map(bits).collect();
+            places.sort_unstable();
+            if places.windows(2).any(|w| w[0] == w[1]) {
+                return Some(Fault::Small);
+            }
+        }
+        if capped {
+            let empty = cap::turn_empty(&points, &mut caps[usize::from(k > 0)]);
+            if !empty.is_empty() {
+                return Some(if scale < NARROW {
+                    Fault::Small
+                } else {
+                    Fault::Empty(empty)
+                });
+            }
+        }
+    }
+    None
+}
+
+/// Carries points to their final places.
+pub(super) struct Put {
+    turn: DMat2,
+    translation: DVec3,
+    scale: f64,
+}
+
+impl Put {
+    fn new(options: &Options) -> Put {
+        Put {
+            turn: options.placement.turn(),
+            translation: options.placement.translation,
+            scale: options.placement.scale,
+        }
+    }
+
+    pub(super) fn position(&self, p: DVec3) -> [f32; 3] {
+        let turned = (self.turn * p.truncate()).extend(p.z);
+        (self.scale * (turned + self.translation))
+            .as_vec3()
+            .to_array()
+    }
+
+    fn depth(&self, z: f64) -> f32 {
+        (self.scale * (z + self.translation.z)) as f32
+    }
+
+    pub(super) fn normal(&self, n: DVec3) -> [f32; 3] {
+        (self.turn * n.truncate()).extend(n.z).as_vec3().to_array()
+    }
+}
