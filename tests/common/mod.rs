@@ -6,6 +6,7 @@
 
 use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
+use std::io::Cursor;
 
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::gltf::{Container, write};
@@ -35,9 +36,9 @@ pub(crate) fn compiled(text: &str, resolver: &dyn Resolver) -> Compiled {
 
 /// The GLB of a compiled drawing.
 pub(crate) fn glb(compiled: &Compiled) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    write(&compiled.scene, Container::Glb, &mut bytes).expect("a scene keeps its own rules");
-    bytes
+    let mut out = Cursor::new(Vec::new());
+    write(&compiled.scene, Container::Glb, &mut out).expect("a scene keeps its own rules");
+    out.into_inner()
 }
 
 /// The nodes of a GLB, parents before children. Reading validates it.
