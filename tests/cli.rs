@@ -186,7 +186,7 @@ fn stdin_and_stdout() {
         "error: a drawing from stdin has no place of its own: name the output with -o",
     );
     let run = Run::of(room.pipe(&["check", "-"], BAD.as_bytes()));
-    run.ends(1, "--> <stdin>:3:43", "");
+    run.ends(1, "--> <stdin>:3:42", "");
     let run = Run::of(room.pipe(&["inspect", "-"], GOOD.as_bytes()));
     run.ends(0, "└─ Body", "");
 }
@@ -454,12 +454,6 @@ fn stats_say_what_was_built() {
     ] {
         assert!(run.err.contains(row), "{row} in\n{}", run.err);
     }
-    let bytes = room.read("a.glb").len();
-    assert!(
-        run.err.contains(&format!("bytes  {bytes}\n")),
-        "{}",
-        run.err
-    );
 }
 
 #[test]
@@ -556,7 +550,7 @@ fn json_reports() {
     let place = &error["locations"][0]["physicalLocation"];
     assert_eq!(place["artifactLocation"]["uri"], "bad.svg");
     assert_eq!(place["region"]["startLine"], 3);
-    assert_eq!(place["region"]["startColumn"], 43);
+    assert_eq!(place["region"]["startColumn"], 42);
 }
 
 /// The JSON of `inspect`, name by name.
@@ -582,7 +576,7 @@ fn inspect_as_json() {
     let expected = serde_json::json!({
         "name": "Arm", "parent": "Body", "kind": "main", "element": "arm",
         "string": { "line": 5, "column": 38, "text": "Arm@Body$Shape roundv", "bound_by": "nearest" },
-        "center": [120.0, 35.0], "ends": [[90.0, 35.0], [150.0, 35.0]], "origin": [90.0, 35.0], "axis": [1.0, 0.0],
+        "center": [120.0, 35.0], "ends": [[150.0, 35.0], [90.0, 35.0]], "origin": [90.0, 35.0], "axis": [1.0, 0.0],
         "attributes": {
             "Color": { "value": "0 0 0.8", "from": "builtin" },
             "Metallic": { "value": "1", "from": "legend" },
@@ -681,11 +675,12 @@ fn a_broken_pipe_is_no_panic() {
         .map(|i| format!("<rect x=\"{i}\" y=\"90\" width=\"9\" height=\"9\"/>"))
         .collect();
     let room = Room::with("many.svg", HINT.replace("</svg>", &format!("{many}</svg>")));
-    for arguments in [
-        &["inspect", "many.svg"][..],
-        &["inspect", "--json", "many.svg"],
-        &["check", "-v", "many.svg"],
-        &["build", "many.svg", "-o", "-"],
+    for (arguments, status) in [
+        (&["inspect", "many.svg"][..], 0),
+        (&["inspect", "--json", "many.svg"], 0),
+        (&["check", "-v", "many.svg"], 0),
+        // Half a model is none.
+        (&["build", "many.svg", "-o", "-"], 2),
     ] {
         let mut child = room
             .command(arguments)
@@ -700,11 +695,8 @@ fn a_broken_pipe_is_no_panic() {
         drop(out);
         let mut told = String::new();
         err.read_to_string(&mut told).expect("text");
-        assert_eq!(
-            child.wait().expect("it ends").code(),
-            Some(0),
-            "{arguments:?}: {told}"
-        );
+        let ended = child.wait().expect("it ends").code();
+        assert_eq!(ended, Some(status), "{arguments:?}: {told}");
         assert!(!told.contains("panicked"), "{told}");
     }
 }

@@ -195,6 +195,10 @@ fn read_document(
 
 /// What the XML parser says, at the byte of the original it says it of.
 fn not_xml(error: &roxmltree::Error, prepared: &prepare::Prepared, source: &str) -> Diagnostic {
+    let ended = matches!(
+        error,
+        roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream
+    );
     let position = error.pos();
     let line = prepared
         .text
@@ -204,19 +208,18 @@ fn not_xml(error: &roxmltree::Error, prepared: &prepare::Prepared, source: &str)
     let column = prepared.text[start..]
         .char_indices()
         .nth(position.col.saturating_sub(1) as usize);
-    let at = prepared
-        .original(column.map_or(prepared.text.len(), |(offset, _)| start + offset))
-        .min(source.len());
+    // The parser does not say where a file ends too early: at its end.
+    let at = match column {
+        Some((offset, _)) if !ended => prepared.original(start + offset).min(source.len()),
+        _ => source.trim_end().len(),
+    };
     let next = source[at..].chars().next().map_or(0, char::len_utf8);
     // The parser's message ends with the position, which the report shows better.
     let message = error.to_string();
     let message = message
         .rsplit_once(" at ")
         .map_or(message.as_str(), |(head, _)| head);
-    let help = if matches!(
-        error,
-        roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream
-    ) {
+    let help = if ended {
         "the file ends too early: was it cut off while it was saved?"
     } else {
         "open the drawing in Inkscape and save it again, or mend the text at this place"
