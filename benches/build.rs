@@ -23,8 +23,14 @@ const CELL: f64 = 40.0;
 
 fn main() {
     // cargo passes `--bench`.
-    let asked: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
-    let sizes = if asked.is_empty() { vec![1_000, 10_000, 100_000] } else { asked };
+    let asked: Vec<usize> = std::env::args()
+        .filter_map(|argument| argument.parse().ok())
+        .collect();
+    let sizes = if asked.is_empty() {
+        vec![1_000, 10_000, 100_000]
+    } else {
+        asked
+    };
     println!("parts    usvg ms  compile ms  write ms  ratio  triangles   MB  area");
     for size in sizes {
         measure(size);
@@ -42,7 +48,8 @@ fn measure(parts: usize) {
     // The first round warms up.
     for round in 0..=rounds {
         let start = Instant::now();
-        let tree = usvg::Tree::from_str(&drawing, &usvg::Options::default()).expect("a sound drawing");
+        let tree =
+            usvg::Tree::from_str(&drawing, &usvg::Options::default()).expect("a sound drawing");
         let usvg = start.elapsed();
         drop(tree);
 
@@ -50,13 +57,24 @@ fn measure(parts: usize) {
         let compiled = compile(&drawing, &Options::default(), &MemoryResolver::default());
         let compiling = start.elapsed();
         let start = Instant::now();
-        written = write_atomic(&output, |out| gltf::write(&compiled.scene, Container::Glb, out)).expect("room for it");
+        written = write_atomic(&output, |out| {
+            gltf::write(&compiled.scene, Container::Glb, out)
+        })
+        .expect("room for it");
         let writing = start.elapsed();
 
         assert!(!compiled.has_errors());
-        found_area = compiled.sheet.parts.iter().map(|part| area(&part.outline)).sum();
+        found_area = compiled
+            .sheet
+            .parts
+            .iter()
+            .map(|part| area(&part.outline))
+            .sum();
         if round > 0 {
-            times.iter_mut().zip([usvg, compiling, writing]).for_each(|(list, time)| list.push(time));
+            times
+                .iter_mut()
+                .zip([usvg, compiling, writing])
+                .for_each(|(list, time)| list.push(time));
         }
     }
     let [usvg, compiling, writing] = times.map(median);
@@ -98,16 +116,26 @@ fn drawing(parts: usize) -> (String, f64) {
             left = 4 + random.below(20);
         }
         left -= 1;
-        let center = Point::new((index as f64 % columns + 0.5) * CELL, ((index as f64 / columns).floor() + 0.5) * CELL);
+        let center = Point::new(
+            (index as f64 % columns + 0.5) * CELL,
+            ((index as f64 / columns).floor() + 0.5) * CELL,
+        );
         total += part(&mut svg, &mut random, center);
         if random.below(3) == 0 {
             let parent = match named.len() {
                 0 => String::new(),
                 count => format!("@P{}", named[count - 1 - random.below(count.min(12))]),
             };
-            let shape = if random.below(2) == 0 { "$Shape default -8 8" } else { "" };
+            let shape = if random.below(2) == 0 {
+                "$Shape default -8 8"
+            } else {
+                ""
+            };
             let (x, y) = (center.x, center.y);
-            let _ = writeln!(svg, "<text x=\"{x}\" y=\"{y}\" font-size=\"3\">P{index}{parent}{shape}</text>");
+            let _ = writeln!(
+                svg,
+                "<text x=\"{x}\" y=\"{y}\" font-size=\"3\">P{index}{parent}{shape}</text>"
+            );
             named.push(index);
         }
     }
@@ -117,7 +145,9 @@ fn drawing(parts: usize) -> (String, f64) {
 
 /// Appends a part of a random kind and returns its area.
 fn part(svg: &mut String, random: &mut Random, center: Point) -> f64 {
-    const FILLS: [&str; 6] = ["#c83737", "#2a7fff", "#37c871", "#ffcc00", "#8d5fd3", "#ff7f2a"];
+    const FILLS: [&str; 6] = [
+        "#c83737", "#2a7fff", "#37c871", "#ffcc00", "#8d5fd3", "#ff7f2a",
+    ];
     let radius = (9.0 + 8.0 * random.unit()).round();
     let fill = FILLS[random.below(FILLS.len())];
     let (Point { x, y }, r) = (center, radius);
@@ -125,15 +155,25 @@ fn part(svg: &mut String, random: &mut Random, center: Point) -> f64 {
         0..5 => {
             let rect = Rect::from_center_size(center, (1.2 * r, r));
             let (x, y, w, h) = (rect.x0, rect.y0, rect.width(), rect.height());
-            let _ = writeln!(svg, "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"{fill}\"/>");
+            let _ = writeln!(
+                svg,
+                "<rect x=\"{x}\" y=\"{y}\" width=\"{w}\" height=\"{h}\" fill=\"{fill}\"/>"
+            );
             rect.area()
         }
         5..8 => {
-            let _ = writeln!(svg, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"/>");
+            let _ = writeln!(
+                svg,
+                "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" fill=\"{fill}\"/>"
+            );
             Circle::new(center, r).area()
         }
         8..11 => {
-            let _ = writeln!(svg, "<ellipse cx=\"{x}\" cy=\"{y}\" rx=\"{r}\" ry=\"{}\" fill=\"{fill}\"/>", 0.6 * r);
+            let _ = writeln!(
+                svg,
+                "<ellipse cx=\"{x}\" cy=\"{y}\" rx=\"{r}\" ry=\"{}\" fill=\"{fill}\"/>",
+                0.6 * r
+            );
             Ellipse::new(center, (r, 0.6 * r), 0.0).area()
         }
         11..15 => {
@@ -143,7 +183,11 @@ fn part(svg: &mut String, random: &mut Random, center: Point) -> f64 {
                 let reach = r * if corner % 2 == 0 { 1.0 } else { 0.6 };
                 let angle = TAU * corner as f64 / corners as f64;
                 let point = center + reach * kurbo::Vec2::from_angle(angle);
-                if corner == 0 { path.move_to(point) } else { path.line_to(point) }
+                if corner == 0 {
+                    path.move_to(point)
+                } else {
+                    path.line_to(point)
+                }
             }
             path.close_path();
             let _ = writeln!(svg, "<path d=\"{}\" fill=\"{fill}\"/>", path.to_svg());
@@ -174,7 +218,12 @@ fn blob(random: &mut Random, center: Point, radius: f64) -> BezPath {
     let mut path = BezPath::new();
     path.move_to(knots[0]);
     for index in 0..count {
-        let (before, from, to, after) = (knot(index + count - 1), knot(index), knot(index + 1), knot(index + 2));
+        let (before, from, to, after) = (
+            knot(index + count - 1),
+            knot(index),
+            knot(index + 1),
+            knot(index + 2),
+        );
         path.curve_to(from + (to - before) / 6.0, to - (after - from) / 6.0, to);
     }
     path.close_path();
@@ -186,7 +235,10 @@ struct Random(u64);
 
 impl Random {
     fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 

@@ -133,9 +133,10 @@ impl Sheet {
     /// How a part's surface looks.
     pub fn look(&self, drawing: &Drawing, part: usize) -> Look {
         let shape = &drawing.shapes[self.parts[part].shape];
-        let mut color = shape.paint.color.map(|channel| f64::from(channel) / 255.0);
+        let paint = self.parts[part].paint(drawing);
+        let mut color = paint.color.map(|channel| f64::from(channel) / 255.0);
         let mut alpha = shape.opacity;
-        let picture = matches!(shape.paint.key, PaintKey::Picture(_));
+        let picture = matches!(paint.key, PaintKey::Picture(_));
         if let Some(Value::Color { rgb, alpha: own }) = self
             .setting(part, Keyword::Color)
             .map(|source| &source.setting.value)
@@ -173,7 +174,7 @@ pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Ve
         .filter(|part| part.kind == PartKind::Legend && part.is_candidate())
     {
         let Some(string) = part.string else { continue };
-        let paint = &drawing.shapes[part.shape].paint.key;
+        let paint = &part.paint(drawing).key;
         let settings = sheet.strings[string]
             .settings
             .iter()
@@ -208,7 +209,7 @@ pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Ve
     let mut used = vec![false; sheet.legends.len()];
     for part in &mut sheet.parts {
         if matches!(part.kind, PartKind::Main | PartKind::Sub)
-            && let Some(legend) = by_paint.get(&drawing.shapes[part.shape].paint.key)
+            && let Some(legend) = by_paint.get(&part.paint(drawing).key)
         {
             part.legend = Some(*legend);
             used[*legend] = true;

@@ -377,7 +377,8 @@ fn turns_about_middle(
     };
     let beside = &sheet.parts[parent].measure;
     // A hat or a foot lies across the end of what it hangs on, and is meant to turn about its middle.
-    let alike = !beside.certain || beside.axis.dot(part.measure.axis).abs() > std::f64::consts::FRAC_1_SQRT_2;
+    let alike = !beside.certain
+        || beside.axis.dot(part.measure.axis).abs() > std::f64::consts::FRAC_1_SQRT_2;
     if !long || !alike || chosen || part.origin != part.measure.center {
         return;
     }
@@ -394,7 +395,13 @@ fn turns_about_middle(
         Place::Label(_) | Place::Shape(_) | Place::Group(_) => text.span(end..end),
     };
     let [start, far] = sorted_ends(part, Some(sheet.parts[parent].measure.center));
-    let upper = if start.y <= far.y { "upper" } else { "lower" };
+    let way = far - start;
+    let side = match (way.y.abs() >= way.x.abs(), way.x >= 0.0, way.y >= 0.0) {
+        (true, _, true) => "upper",
+        (true, _, false) => "lower",
+        (false, true, _) => "left",
+        (false, false, _) => "right",
+    };
     let lead = if has_attributes { " " } else { "$" };
     let mut diagnostic = Diagnostic::new(
         Code::TurnsAboutMiddle,
@@ -406,7 +413,7 @@ fn turns_about_middle(
     )
     .related(drawing.shapes[part.shape].element.span, "the part")
     .help(format!(
-        "for an arm or a leg write `Origin start`, the end nearer to the middle of `{}` (here the {upper} one), or `Origin end`",
+        "for an arm or a leg write `Origin start`, the end nearer to the middle of `{}` (here the {side} one), or `Origin end`",
         sheet.parts[parent].name
     ));
     for word in ["start", "end"] {

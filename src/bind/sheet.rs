@@ -7,7 +7,7 @@ use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Setting, Value};
 use crate::source::Text;
-use crate::svg::{Drawing, Element};
+use crate::svg::{Drawing, Element, Paint};
 
 use super::attributes::Legend;
 use super::units::Member;
@@ -143,6 +143,8 @@ pub struct Part {
     pub kind: PartKind,
     /// Index of its shape in the drawing.
     pub shape: usize,
+    /// Whether its area is the shape's stroke rather than its fill.
+    pub is_stroke: bool,
     /// Its area, drawing units.
     pub outline: Arc<Outline>,
     /// Its axis, centre and ends; the axis is what the strings say where they say it.
@@ -169,6 +171,7 @@ impl Part {
             automatic: false,
             kind: PartKind::Sub,
             shape: member.shape,
+            is_stroke: member.is_stroke,
             outline: Arc::new(outline),
             origin: measure.center,
             measure,
@@ -184,6 +187,15 @@ impl Part {
     /// Whether it is its unit's main part candidate.
     pub fn is_candidate(&self) -> bool {
         self.main == self.index
+    }
+
+    /// What it is painted with.
+    pub fn paint<'a>(&self, drawing: &'a Drawing) -> &'a Paint {
+        let shape = &drawing.shapes[self.shape];
+        match &shape.stroke {
+            Some(stroke) if self.is_stroke => &stroke.paint,
+            _ => &shape.paint,
+        }
     }
 
     pub(super) fn join_unit(&mut self, index: usize, main: usize) {

@@ -1,13 +1,13 @@
 //! `okoshi build`
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
-
 use super::args::{Build, Common};
 use super::loading::{Detail, Loaded, describe, load, root};
+use super::parallel::each;
 use super::progress::spinning;
 use super::{Outcome, fail, style};
 use crate::disk::{FolderResolver, write_atomic};
@@ -15,17 +15,15 @@ use crate::gltf::{self, Container, Written};
 
 /// Builds every drawing; several at once in parallel, reported in the order given.
 pub(super) fn run(arguments: &Build, common: Common) -> Outcome {
-    let outputs = match outputs(arguments) {
+    let outputs = match outputs(arguments).and_then(distinct) {
         Ok(outputs) => outputs,
         Err(message) => return fail(&message),
     };
-    let built: Vec<(Outcome, String)> = spinning("building", || {
-        arguments
-            .drawings
-            .par_iter()
-            .zip(&outputs)
-            .map(|(drawing, output)| build(drawing, output, arguments, common))
-            .collect()
+    let tasks: Vec<(&PathBuf, &PathBuf)> = arguments.drawings.iter().zip(&outputs).collect();
+    let built = spinning("building", || {
+        each(&tasks, |(drawing, output)| {
+            build(drawing, output, arguments, common)
+        })
     });
     let mut worst = Outcome::Done;
     for (outcome, text) in built {
@@ -72,6 +70,18 @@ fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, String> {
             };
             arguments.drawings.iter().map(output).collect()
         }
+    }
+}
+
+/// Refuses two drawings that would be written to one file.
+fn distinct(outputs: Vec<PathBuf>) -> Result<Vec<PathBuf>, String> {
+    let mut seen = BTreeSet::new();
+    match outputs.iter().find(|output| !seen.insert(*output)) {
+        Some(twice) => Err(format!(
+            "two drawings would both be written to `{}`; build them one by one, each with its own -o",
+            twice.display()
+        )),
+        None => Ok(outputs),
     }
 }
 

@@ -1,20 +1,17 @@
 //! `okoshi check`
 
-use rayon::prelude::*;
-
 use super::args::{Check, Common, Format};
 use super::loading::{Detail, Loaded, count, describe, load, tally};
+use super::parallel::each;
 use super::progress::spinning;
 use super::{Outcome, json, print_out, sarif, style};
 
 /// Checks every drawing and reports in the order given.
 pub(super) fn run(arguments: &Check, common: Common) -> Outcome {
-    let loaded: Vec<Result<Loaded, Outcome>> = spinning("checking", || {
-        arguments
-            .drawings
-            .par_iter()
-            .map(|drawing| load(drawing, &arguments.reading))
-            .collect()
+    let loaded = spinning("checking", || {
+        each(&arguments.drawings, |drawing| {
+            load(drawing, &arguments.reading)
+        })
     });
     let mut worst = Outcome::Done;
     let mut read = Vec::new();

@@ -15,6 +15,7 @@ mod explain;
 mod inspect;
 pub mod json;
 mod loading;
+mod parallel;
 mod places;
 mod progress;
 pub mod report;

@@ -72,14 +72,15 @@ codes! {
     /// Make the thing smaller or simpler. Calculations become shorter when parts of them get names with
     /// `Let`.
     LimitPassed = "E005", "limit passed";
-    /// The drawing names a file that is not there. Names of files are read from the drawing's own folder
-    /// on, and upper and lower case matter.
+    /// The drawing names a file that is not there, or that is there but cannot be read as what it should be.
+    /// Names of files are read from the drawing's own folder on, and upper and lower case matter.
     ///
     /// ```text
     /// Lbody$Motion "Kick.bvh"
     /// ```
     ///
-    /// Put the file there, or write its name as it is.
+    /// Put the file there, or write its name as it is. A picture that cannot be read is mended by saving it
+    /// again as PNG.
     MissingFile = "E006", "missing linked file";
     /// The drawing names a file outside its own folder, by `..`, a full path or a web address. Such files
     /// are not read, so that a drawing from somebody else cannot look around in your computer.

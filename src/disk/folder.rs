@@ -27,11 +27,27 @@ impl FolderResolver {
         }
     }
 
-    /// Where the file behind `link` is, or would be if it existed: what a watcher watches.
+    /// Where the file behind `link` is, or would be if it existed: what a watcher watches. Named from where the
+    /// root is named from, so that the same drawing in another place has the same answer.
     pub fn place(&self, link: &str) -> Result<PathBuf, LinkError> {
         match first_spelling(link, |path| self.locate(path)) {
-            Err(LinkError::Missing) => inside(link).map(|path| self.root.join(path)),
+            Err(LinkError::Missing) => inside(link).map(|path| self.named(Path::new(&path))),
+            Ok(place) => {
+                let root = fs::canonicalize(&self.root).map_err(failure)?;
+                Ok(place
+                    .strip_prefix(root)
+                    .map_or(place.clone(), |path| self.named(path)))
+            }
             answer => answer,
+        }
+    }
+
+    /// A path in the root as seen from here.
+    fn named(&self, path: &Path) -> PathBuf {
+        if self.root == Path::new(".") {
+            path.to_owned()
+        } else {
+            self.root.join(path)
         }
     }
 

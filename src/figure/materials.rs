@@ -2,7 +2,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::bind::{Look, PartKind, SetBy, Sheet};
+use crate::bind::{Look, Part, PartKind, SetBy, Sheet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::ShapeKind;
@@ -31,14 +31,14 @@ impl Materials {
                 of_part.push(None);
                 continue;
             }
-            let paint = &drawing.shapes[part.shape].paint.key;
+            let paint = &part.paint(drawing).key;
             let own_paint = sheet
                 .setting(index, Keyword::Color)
                 .map_or(SetBy::Builtin, |source| source.from)
                 == SetBy::Builtin;
             if (own_paint || matches!(paint, PaintKey::Picture(_))) && warned.insert(paint.clone())
             {
-                diagnostics.extend(mean_color(drawing, part.shape));
+                diagnostics.extend(mean_color(drawing, part));
             }
             let look = sheet.look(drawing, index);
             let double_sided = matches!(kind, ShapeKind::Flat(_));
@@ -62,8 +62,8 @@ impl Materials {
 }
 
 /// Says that gradients, patterns and pictures appear in one colour.
-fn mean_color(drawing: &Drawing, shape: usize) -> Option<Diagnostic> {
-    let what = match &drawing.shapes[shape].paint.key {
+fn mean_color(drawing: &Drawing, part: &Part) -> Option<Diagnostic> {
+    let what = match &part.paint(drawing).key {
         PaintKey::Solid(_) => return None,
         PaintKey::Server(id) => format!("the gradient or pattern `#{id}`"),
         PaintKey::Picture(_) => "the picture".to_owned(),
@@ -71,7 +71,7 @@ fn mean_color(drawing: &Drawing, shape: usize) -> Option<Diagnostic> {
     Some(
         Diagnostic::new(
             Code::NotBuiltYet,
-            drawing.shapes[shape].element.span,
+            drawing.shapes[part.shape].element.span,
             format!("{what} appears in the model as its mean colour"),
         )
         .help("`Color` sets another one"),

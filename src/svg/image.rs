@@ -5,6 +5,7 @@ use std::io::Cursor;
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
+use crate::diagnostic::Code;
 use crate::geometry::Ring;
 
 /// Most pixels along one side of a picture.
@@ -21,7 +22,10 @@ pub(super) struct Opaque {
 }
 
 /// The opaque area of a picture: alpha over one half, the whole rectangle where it has no alpha.
-pub(super) fn opaque(picture: &usvg::Image) -> Result<Opaque, String> {
+///
+/// # Errors
+/// What is wrong with it: it passes a limit, or cannot be read.
+pub(super) fn opaque(picture: &usvg::Image) -> Result<Opaque, (Code, String)> {
     let bytes = match picture.kind() {
         usvg::ImageKind::JPEG(bytes)
         | usvg::ImageKind::PNG(bytes)
@@ -39,16 +43,17 @@ pub(super) fn opaque(picture: &usvg::Image) -> Result<Opaque, String> {
     };
     let mut reader = image::ImageReader::new(Cursor::new(bytes.as_slice()))
         .with_guessed_format()
-        .map_err(|error| format!("the picture cannot be read: {error}"))?;
+        .map_err(|error| unreadable(&error))?;
     let mut limits = image::Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
     reader.limits(limits);
     let decoded = reader.decode().map_err(|error| match error {
-        image::ImageError::Limits(_) => {
-            format!("the picture has more than {MAX_SIDE} pixels along one side, or needs more than 512 MiB")
-        }
-        other => format!("the picture cannot be read: {other}"),
+        image::ImageError::Limits(_) => (
+            Code::LimitPassed,
+            format!("the picture has more than {MAX_SIDE} pixels along one side, or needs more than 512 MiB"),
+        ),
+        other => unreadable(&other),
     })?;
     let rgba = decoded.to_rgba8();
     let (width, height) = rgba.dimensions();
@@ -72,6 +77,11 @@ pub(super) fn opaque(picture: &usvg::Image) -> Result<Opaque, String> {
         border(width.into(), height.into(), solid)
     };
     Ok(Opaque { rings, color })
+}
+
+fn unreadable(error: &dyn std::fmt::Display) -> (Code, String) {
+    let message = format!("the picture cannot be read: {error}");
+    (Code::MissingFile, message)
 }
 
 fn rectangle(width: f64, height: f64) -> Ring {

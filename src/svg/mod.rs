@@ -6,6 +6,7 @@
 //! knows nothing of the annotation language.
 
 mod clip;
+mod deep;
 mod image;
 mod prepare;
 mod shapes;
@@ -126,21 +127,14 @@ pub struct Line {
 /// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing.
 pub fn read(source: &str, tolerance: f64, resolver: &dyn Resolver) -> (Drawing, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
-    // usvg recurses over groups and clones, up to a thousand deep: more than a thread's usual stack holds.
-    let read = std::thread::scope(|scope| {
-        let work = || read_document(source, tolerance, resolver, &mut diagnostics);
-        let thread = std::thread::Builder::new()
-            .stack_size(READER_STACK)
-            .spawn_scoped(scope, work);
-        thread.map(|thread| thread.join())
-    });
+    let read = deep::run(|| read_document(source, tolerance, resolver, &mut diagnostics));
     let drawing = match read {
-        Ok(Ok(Ok(drawing))) => drawing,
-        Ok(Ok(Err(diagnostic))) => {
+        Some(Ok(drawing)) => drawing,
+        Some(Err(diagnostic)) => {
             diagnostics.push(*diagnostic);
             Drawing::default()
         }
-        Ok(Err(_)) | Err(_) => {
+        None => {
             let message = "the drawing cannot be read: the SVG reader gave up on it";
             let help =
                 "open it in Inkscape, save it as Plain SVG, and tell us: this should not happen";
@@ -150,9 +144,6 @@ pub fn read(source: &str, tolerance: f64, resolver: &dyn Resolver) -> (Drawing, 
     };
     (drawing, diagnostics)
 }
-
-/// Stack of the thread that reads drawings, bytes.
-const READER_STACK: usize = 256 << 20;
 
 fn read_document(
     source: &str,
@@ -195,6 +186,10 @@ fn read_document(
 
 /// What the XML parser says, at the byte of the original it says it of.
 fn not_xml(error: &roxmltree::Error, prepared: &prepare::Prepared, source: &str) -> Diagnostic {
+    let ended = matches!(
+        error,
+        roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream
+    );
     let position = error.pos();
     let line = prepared
         .text
@@ -204,19 +199,18 @@ fn not_xml(error: &roxmltree::Error, prepared: &prepare::Prepared, source: &str)
     let column = prepared.text[start..]
         .char_indices()
         .nth(position.col.saturating_sub(1) as usize);
-    let at = prepared
-        .original(column.map_or(prepared.text.len(), |(offset, _)| start + offset))
-        .min(source.len());
+    // The parser does not say where a file ends too early: at its end.
+    let at = match column {
+        Some((offset, _)) if !ended => prepared.original(start + offset).min(source.len()),
+        _ => source.trim_end().len(),
+    };
     let next = source[at..].chars().next().map_or(0, char::len_utf8);
     // The parser's message ends with the position, which the report shows better.
     let message = error.to_string();
     let message = message
         .rsplit_once(" at ")
         .map_or(message.as_str(), |(head, _)| head);
-    let help = if matches!(
-        error,
-        roxmltree::Error::UnclosedRootNode | roxmltree::Error::UnexpectedEndOfStream
-    ) {
+    let help = if ended {
         "the file ends too early: was it cut off while it was saved?"
     } else {
         "open the drawing in Inkscape and save it again, or mend the text at this place"

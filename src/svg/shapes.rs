@@ -138,9 +138,7 @@ pub(super) fn read(
         .collect();
     drop(tasks);
     // Taking a large tree apart takes a tenth of the time of making it: nobody need wait for that.
-    let _ = std::thread::Builder::new()
-        .stack_size(super::READER_STACK)
-        .spawn(move || drop(tree));
+    super::deep::run_aside(move || drop(tree));
     let mut shapes = Vec::with_capacity(made.len());
     for (shape, finding) in made {
         shapes.extend(shape);
@@ -476,9 +474,38 @@ impl Context<'_, '_> {
             return (None, None);
         };
         match task.node {
-            Leaf::Path(path) => (self.path(path, node, task), None),
+            Leaf::Path(path) => {
+                let shape = self.path(path, node, task);
+                let finding = shape
+                    .as_ref()
+                    .and_then(|shape| self.clipped_away(shape, path, task));
+                (shape, finding.map(Box::new))
+            }
             Leaf::Image(image) => self.image(index, image, node, task),
         }
+    }
+
+    /// Says that a clip leaves nothing of a fill.
+    fn clipped_away(
+        &self,
+        shape: &Shape,
+        path: &usvg::Path,
+        task: &Task<'_>,
+    ) -> Option<Diagnostic> {
+        let filled = path.fill().is_some_and(|fill| fill.opacity().get() > 0.0);
+        if task.clips.is_none() || !filled || !shape.outline.polygons.is_empty() {
+            return None;
+        }
+        let whole = bez_path(path.data(), self.page * affine(path.abs_transform()));
+        let whole = clean(rings(&whole, self.tolerance), FillRule::NonZero);
+        (!whole.polygons.is_empty()).then(|| {
+            Diagnostic::new(
+                Code::Vanishes,
+                shape.element.span,
+                format!("its clip leaves nothing of {}", shape.element.describe()),
+            )
+            .help("release the clip, or delete the shape")
+        })
     }
 
     fn path(&self, path: &usvg::Path, node: Node<'_, '_>, task: &Task<'_>) -> Option<Shape> {
@@ -549,14 +576,10 @@ impl Context<'_, '_> {
         let transform = self.page * affine(picture.abs_transform());
         let image::Opaque { rings, color } = match image::opaque(picture) {
             Ok(opaque) => opaque,
-            Err(message) => {
+            Err((code, message)) => {
                 let help = "link a smaller picture, or save it again as PNG";
-                return (
-                    None,
-                    Some(Box::new(
-                        Diagnostic::new(Code::LimitPassed, element.span, message).help(help),
-                    )),
-                );
+                let finding = Diagnostic::new(code, element.span, message).help(help);
+                return (None, Some(Box::new(finding)));
             }
         };
         let rings = rings.into_iter().map(|ring| {
@@ -568,6 +591,14 @@ impl Context<'_, '_> {
         for clip in task.clips.iter().flat_map(|clips| clips.iter()) {
             outline = clip.cut(outline);
         }
+        let finding = outline.polygons.is_empty().then(|| {
+            let message = format!(
+                "nothing opaque is left of the picture {}",
+                element.describe()
+            );
+            let finding = Diagnostic::new(Code::Vanishes, element.span, message);
+            Box::new(finding.help("delete it, or show what its clip hides"))
+        });
         let paint = Paint {
             key: PaintKey::Picture(index),
             color,
@@ -583,7 +614,7 @@ impl Context<'_, '_> {
                 stroke: None,
                 line: None,
             }),
-            None,
+            finding,
         )
     }
 

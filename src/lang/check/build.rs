@@ -140,7 +140,7 @@ impl Checker<'_> {
     fn distinct(&mut self, axes: &[SignedAxis; 3], attribute: &Attribute) -> Option<()> {
         let [right, up, front] = axes.map(|axis| axis.axis);
         if right != up && up != front && front != right {
-            return Some(());
+            return self.right_handed(axes, attribute);
         }
         self.diagnostics.push(
             Diagnostic::new(
@@ -150,6 +150,35 @@ impl Checker<'_> {
             )
             .help("each of x, y and z must occur once: `%Axes +x +y +z`"),
         );
+        None
+    }
+
+    /// Directions that make a left hand would show the figure as in a mirror.
+    fn right_handed(&mut self, axes: &[SignedAxis; 3], attribute: &Attribute) -> Option<()> {
+        let negative = axes.iter().filter(|axis| axis.negative).count();
+        let cyclic = (axes[0].axis + 1) % 3 == axes[1].axis;
+        if cyclic == (negative % 2 == 0) {
+            return Some(());
+        }
+        let mut diagnostic = Diagnostic::new(
+            Code::OutOfRange,
+            self.text.span(attribute.range.clone()),
+            "these directions of `Axes` would turn the model into its mirror image",
+        )
+        .help("turn one of the three round, `+z` into `-z` for example");
+        if let Some(front) = attribute.arguments.last() {
+            let written = &self.text.as_str()[front.range.clone()];
+            let turned = match written.strip_prefix('-') {
+                Some(axis) => format!("+{axis}"),
+                None => format!("-{}", written.trim_start_matches('+')),
+            };
+            diagnostic = diagnostic.fix(
+                format!("Write `{turned}`"),
+                self.text.span(front.range.clone()),
+                turned,
+            );
+        }
+        self.diagnostics.push(diagnostic);
         None
     }
 

@@ -1,0 +1,50 @@
+//! Several drawings at once.
+
+use std::num::NonZero;
+use std::sync::Mutex;
+use std::thread::{available_parallelism, scope};
+
+/// What `work` makes of every item, several at once, in the order of the items.
+///
+/// By threads outside rayon's pools: a worker there that waits for one drawing would begin others on top of it.
+pub(super) fn each<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let threads = available_parallelism()
+        .map_or(1, NonZero::get)
+        .min(items.len());
+    let next = Mutex::new(items.iter().enumerate());
+    let take = || next.lock().ok()?.next();
+    let share = || -> Vec<(usize, R)> {
+        std::iter::from_fn(take)
+            .map(|(index, item)| (index, work(item)))
+            .collect()
+    };
+    let mut made: Vec<(usize, R)> = scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(share)).collect();
+        let mut made = share();
+        for other in others {
+            match other.join() {
+                Ok(share) => made.extend(share),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        made
+    });
+    made.sort_by_key(|(index, _)| *index);
+    made.into_iter().map(|(_, made)| made).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::each;
+
+    #[test]
+    fn the_order_stays() {
+        let items: Vec<u64> = (0..100).collect();
+        let made = each(&items, |item| {
+            std::thread::sleep(std::time::Duration::from_micros(100 - item));
+            item * 2
+        });
+        assert_eq!(made, (0..100).map(|item| item * 2).collect::<Vec<_>>());
+        assert!(each(&Vec::<u8>::new(), |item| *item).is_empty());
+    }
+}

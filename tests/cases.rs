@@ -1,0 +1,194 @@
+//! Drawings with what becomes of them: `tests/cases/<name>/drawing.svg` and `expected.txt` beside it.
+//!
+//! A new case is a new folder. `OKOSHI_REWRITE=1 cargo test --test cases` writes what is expected; look at it
+//! against the design before you keep it. The comment in a drawing says the rule that it is a case of.
+#![allow(
+    clippy::print_stdout,
+    reason = "a failing test prints what it expected"
+)]
+
+mod common;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use okoshi::cli::Findings;
+use okoshi::cli::report::{Style, human};
+use okoshi::diagnostic::Code;
+use okoshi::disk::FolderResolver;
+
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases")
+}
+
+fn cases() -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder()).expect("tests/cases");
+    let mut cases: Vec<PathBuf> = entries
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.is_dir())
+        .collect();
+    cases.sort();
+    cases
+}
+
+/// Everything that is expected of a drawing.
+fn outcome(case: &Path) -> Result<String, String> {
+    let drawing = case.join("drawing.svg");
+    let text = fs::read_to_string(&drawing).map_err(|error| error.to_string())?;
+    let compiled = common::compiled(&text, &FolderResolver::new(case));
+    let findings = human(
+        Findings {
+            path: "drawing.svg",
+            text: &text,
+            diagnostics: &compiled.diagnostics,
+        },
+        Style::Plain,
+    );
+    let glb = common::glb(&compiled);
+    if glb != common::glb(&common::compiled(&text, &FolderResolver::new(case))) {
+        return Err("two builds differ".to_owned());
+    }
+    let nodes = common::nodes(&glb)?;
+    common::check_laws(&nodes)?;
+    if let Some(name) = common::repeated_name(&nodes).filter(|_| !compiled.has_errors()) {
+        return Err(format!("two nodes are named `{name}`, and nothing is said"));
+    }
+    let inspected = Command::new(env!("CARGO_BIN_EXE_okoshi"))
+        .args(["inspect", "-q", "drawing.svg"])
+        .current_dir(case)
+        .output()
+        .map_err(|error| error.to_string())?;
+    Ok(format!(
+        "{findings}==== inspect\n{}\n==== nodes\n{}",
+        String::from_utf8_lossy(&inspected.stdout),
+        common::tree(&nodes)
+    ))
+}
+
+#[test]
+fn drawings_become_what_is_expected() {
+    let cases = cases();
+    assert!(cases.len() > 100, "only {} cases were found", cases.len());
+    let mut failed = Vec::new();
+    for case in &cases {
+        let name = case.file_name().unwrap_or_default().to_string_lossy();
+        let file = case.join("expected.txt");
+        let outcome = outcome(case).unwrap_or_else(|error| format!("BROKEN: {error}\n"));
+        if outcome.starts_with("BROKEN") {
+            println!("---- {name}: {outcome}");
+            failed.push(name.into_owned());
+            continue;
+        }
+        if std::env::var_os("OKOSHI_REWRITE").is_some() {
+            fs::write(&file, outcome).expect("expected.txt can be written");
+            continue;
+        }
+        let expected = fs::read_to_string(&file).unwrap_or_default();
+        if expected != outcome {
+            println!("---- {name}\n{}", difference(&expected, &outcome));
+            failed.push(name.into_owned());
+        }
+    }
+    assert!(
+        failed.is_empty(),
+        "{} cases differ: {}\nlook at them above; `OKOSHI_REWRITE=1 cargo test --test cases` takes them as they are",
+        failed.len(),
+        failed.join(", ")
+    );
+}
+
+/// The lines that differ, with `-` and `+`.
+fn difference(expected: &str, outcome: &str) -> String {
+    let old: Vec<&str> = expected.lines().collect();
+    let new: Vec<&str> = outcome.lines().collect();
+    let same = |(a, b): &(&&str, &&str)| a == b;
+    let head = old.iter().zip(&new).take_while(same).count();
+    let most = old.len().min(new.len()) - head;
+    let tail = old.iter().rev().zip(new.iter().rev()).take_while(same);
+    let tail = tail.count().min(most);
+    let removed = old[head..old.len() - tail].iter();
+    let added = new[head..new.len() - tail].iter();
+    removed
+        .map(|line| format!("- {line}\n"))
+        .chain(added.map(|line| format!("+ {line}\n")))
+        .collect()
+}
+
+/// Codes that no drawing of the cases can show, and where they are tested instead.
+const ELSEWHERE: &[(Code, &str)] = &[(
+    Code::NotUtf8,
+    "the file is no text; tests/cli.rs, `encodings`",
+)];
+
+#[test]
+fn every_diagnostic_has_a_case() {
+    let mut seen = BTreeSet::new();
+    for case in cases() {
+        let expected = fs::read_to_string(case.join("expected.txt")).unwrap_or_default();
+        for code in Code::ALL {
+            if expected.contains(&format!("[{}]: ", code.id())) {
+                seen.insert(code.id());
+            }
+        }
+    }
+    for code in Code::ALL {
+        let elsewhere = ELSEWHERE.iter().any(|(other, _)| other == code);
+        let id = code.id();
+        assert!(
+            seen.contains(id) || elsewhere,
+            "no case shows {id}, {}",
+            code.title()
+        );
+        assert!(
+            !(seen.contains(id) && elsewhere),
+            "a case shows {id}: take it off the list of exceptions"
+        );
+    }
+}
+
+/// The paper's figure 8: a rectangle rounded about its axis in four layers is a prism over an octagon.
+#[test]
+fn four_segments_make_an_octagonal_prism() {
+    let case = folder().join("shape-octagonal-prism");
+    let text = fs::read_to_string(case.join("drawing.svg")).expect("the case");
+    let compiled = common::compiled(&text, &FolderResolver::new(&case));
+    let nodes = common::nodes(&common::glb(&compiled)).expect("a model");
+    let prism = &nodes
+        .iter()
+        .find(|node| node.name == "A")
+        .expect("the part")
+        .primitives[0];
+    // Half the width is 0.2 m, half the length 0.6 m.
+    let mut places: Vec<[i64; 3]> = prism
+        .positions
+        .iter()
+        .map(|p| p.map(|x| (f64::from(x) * 1e5).round() as i64))
+        .collect();
+    places.sort_unstable();
+    places.dedup();
+    let mut octagon = Vec::new();
+    for step in 0..8 {
+        let (sin, cos) = (f64::from(step) * 45.0).to_radians().sin_cos();
+        for end in [-60_000, 60_000] {
+            let at = |x: f64| (x * 0.2 * 1e5).round() as i64;
+            octagon.push([at(cos), end, at(sin)]);
+        }
+    }
+    octagon.sort_unstable();
+    assert_eq!(places, octagon);
+    // Eight side faces and two ends: a normal each, as it is shaded flat.
+    let mut faces: Vec<[i64; 3]> = prism
+        .normals
+        .iter()
+        .map(|n| n.map(|x| (f64::from(x) * 1e3).round() as i64))
+        .collect();
+    faces.sort_unstable();
+    faces.dedup();
+    assert_eq!(faces.len(), 10, "{faces:?}");
+    assert_eq!(faces.iter().filter(|n| n[1].abs() == 1000).count(), 2);
+    assert_eq!(faces.iter().filter(|n| n[1] == 0).count(), 8);
+    // Two triangles a side, six an end.
+    assert_eq!(prism.triangles.len(), 8 * 2 + 2 * 6);
+}

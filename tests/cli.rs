@@ -1,0 +1,734 @@
+//! The program end to end: what it prints, writes and returns.
+
+mod common;
+
+use std::fs;
+use std::io::{Read, Write};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use serde_json::Value;
+use tempfile::TempDir;
+
+const GOOD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
+  <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
+  <rect x="90" y="30" width="60" height="10" fill="#0000cc" id="arm"/>
+  <text x="50" y="44" font-size="5">Body</text>
+  <text x="120" y="39" font-size="5">Arm@Body$Shape roundv</text>
+</svg>
+"##;
+
+const BAD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
+  <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
+  <text x="50" y="44" font-size="5">Body$Shap roundv</text>
+</svg>
+"##;
+
+const HINT: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
+  <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
+  <rect x="90" y="30" width="60" height="10" fill="#0000cc" id="arm"/>
+  <text x="50" y="44" font-size="5">Body$Color red Color blue</text>
+</svg>
+"##;
+
+/// A folder of its own for a test.
+struct Room(TempDir);
+
+/// What a run gave.
+struct Run {
+    status: i32,
+    out: String,
+    err: String,
+}
+
+impl Room {
+    fn new() -> Self {
+        Self(tempfile::tempdir().expect("a folder"))
+    }
+
+    fn with(name: &str, bytes: impl AsRef<[u8]>) -> Self {
+        let room = Self::new();
+        room.write(name, bytes);
+        room
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
+        let path = self.path(name);
+        let parent = path.parent().expect("a parent");
+        fs::create_dir_all(parent).expect("folders");
+        fs::write(path, bytes).expect("written");
+    }
+
+    fn read(&self, name: &str) -> Vec<u8> {
+        fs::read(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
+    }
+
+    fn files(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.0.path()).expect("the folder");
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.expect("an entry").file_name())
+            .map(|name| name.to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    fn command(&self, arguments: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_okoshi"));
+        command.args(arguments).current_dir(self.0.path());
+        command.env_remove("NO_COLOR");
+        command
+    }
+
+    fn run(&self, arguments: &[&str]) -> Run {
+        Run::of(self.command(arguments).output().expect("it starts"))
+    }
+
+    fn pipe(&self, arguments: &[&str], input: &[u8]) -> Output {
+        let mut child = self
+            .command(arguments)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("it starts");
+        let mut stdin = child.stdin.take().expect("stdin");
+        stdin.write_all(input).expect("it reads");
+        drop(stdin);
+        child.wait_with_output().expect("it ends")
+    }
+}
+
+impl Run {
+    fn of(output: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).expect("text");
+        Self {
+            status: output.status.code().expect("it was not killed"),
+            out: text(output.stdout),
+            err: text(output.stderr),
+        }
+    }
+
+    #[track_caller]
+    fn ends(self, status: i32, out: &str, err: &str) {
+        let told = format!("stdout:\n{}\nstderr:\n{}", self.out, self.err);
+        assert_eq!(self.status, status, "{told}");
+        if out.is_empty() {
+            assert_eq!(self.out, "", "{told}");
+        }
+        assert!(self.out.contains(out), "stdout lacks {out:?}\n{told}");
+        if err.is_empty() {
+            assert_eq!(self.err, "", "{told}");
+        }
+        assert!(self.err.contains(err), "stderr lacks {err:?}\n{told}");
+        assert!(!told.contains("panicked"), "{told}");
+    }
+}
+
+fn names(glb: &[u8]) -> Vec<String> {
+    let nodes = common::nodes(glb).expect("a model");
+    nodes.into_iter().map(|node| node.name).collect()
+}
+
+#[test]
+fn a_drawing_becomes_a_model_beside_it() {
+    let room = Room::with("a.svg", GOOD);
+    room.run(&["build", "a.svg"])
+        .ends(0, "", "wrote a.glb: 2 nodes, ");
+    assert_eq!(room.files(), ["a.glb", "a.svg"]);
+    assert_eq!(names(&room.read("a.glb")), ["Root", "Body", "Arm"]);
+    assert_eq!(room.read("a.svg"), GOOD.as_bytes());
+    let first = room.read("a.glb");
+    room.run(&["build", "a.svg", "-o", "b.glb"])
+        .ends(0, "", "wrote b.glb");
+    assert_eq!(first, room.read("b.glb"), "the same bytes twice");
+}
+
+#[test]
+fn a_gltf_holds_its_buffers() {
+    let room = Room::with("a.svg", GOOD);
+    room.run(&["build", "a.svg", "-o", "a.gltf"])
+        .ends(0, "", "wrote a.gltf");
+    let json: Value = serde_json::from_slice(&room.read("a.gltf")).expect("JSON");
+    let buffers = json["buffers"].as_array().expect("buffers");
+    assert_eq!(buffers.len(), 1);
+    let uri = buffers[0]["uri"].as_str().expect("an address");
+    assert!(
+        uri.starts_with("data:application/octet-stream;base64,")
+            || uri.starts_with("data:application/gltf-buffer;base64,"),
+        "{}",
+        &uri[..60]
+    );
+    gltf::Gltf::from_slice(&room.read("a.gltf")).expect("valid");
+}
+
+#[test]
+fn stdin_and_stdout() {
+    let room = Room::with("a.svg", GOOD);
+    room.run(&["build", "a.svg"]).ends(0, "", "wrote");
+    let output = room.pipe(&["build", "-", "-o", "-"], GOOD.as_bytes());
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(
+        output.stdout,
+        room.read("a.glb"),
+        "stdout carries the model and nothing else"
+    );
+    let run = Run::of(room.pipe(&["build", "-"], GOOD.as_bytes()));
+    run.ends(
+        2,
+        "",
+        "error: a drawing from stdin has no place of its own: name the output with -o",
+    );
+    let run = Run::of(room.pipe(&["check", "-"], BAD.as_bytes()));
+    run.ends(1, "--> <stdin>:3:42", "");
+    let run = Run::of(room.pipe(&["inspect", "-"], GOOD.as_bytes()));
+    run.ends(0, "└─ Body", "");
+}
+
+#[test]
+fn nothing_is_written_on_errors() {
+    let room = Room::with("bad.svg", BAD);
+    room.run(&["build", "bad.svg"])
+        .ends(1, "", "error[E101]: `Shap` is no keyword");
+    assert_eq!(room.files(), ["bad.svg"]);
+    room.write("bad.glb", b"the last good one");
+    let run = room.run(&["build", "bad.svg"]);
+    run.ends(1, "", "nothing was written; `bad.glb` stays as it was\n");
+    assert_eq!(room.read("bad.glb"), b"the last good one");
+    assert_eq!(room.files(), ["bad.glb", "bad.svg"]);
+    room.run(&["build", "bad.svg", "--keep-going"]).ends(
+        1,
+        "",
+        "wrote bad.glb: 1 node, 12 triangles\n",
+    );
+    assert_eq!(names(&room.read("bad.glb")), ["Root", "Body"]);
+}
+
+/// A file that is no drawing: its name, its bytes, and what is said of it.
+const NO_DRAWINGS: &[(&str, &[u8], i32, &str)] = &[
+    ("text.svg", b"hello", 1, "error[E001]: not well-formed XML"),
+    (
+        "cut.svg",
+        b"<svg xmlns=\"http://www.w3.org/2000/svg\"><rect wid",
+        1,
+        "the file ends too early: was it cut off while it was saved?",
+    ),
+    (
+        "cut2.svg",
+        b"<svg xmlns=\"http://www.w3.org/2000/svg\"><g>",
+        1,
+        "the file ends too early: was it cut off while it was saved?",
+    ),
+    (
+        "page.svg",
+        b"<html/>",
+        1,
+        "error[E002]: the file is XML, but its root element is `html`, not `svg`",
+    ),
+    ("empty.svg", b"", 1, "error[E003]: the file is empty"),
+    (
+        "latin1.svg",
+        b"<svg xmlns=\"http://www.w3.org/2000/svg\"><text>K\xf6rper$</text></svg>",
+        1,
+        "error[E004]",
+    ),
+    (
+        "packed.svgz",
+        b"\x1f\x8b\x08\x00broken",
+        2,
+        "`packed.svgz` is packed, but damaged",
+    ),
+];
+
+#[test]
+fn what_is_no_drawing() {
+    for (name, bytes, status, message) in NO_DRAWINGS {
+        let room = Room::with(name, bytes);
+        room.run(&["build", name]).ends(*status, "", message);
+        assert_eq!(room.files(), [*name], "nothing is written");
+        let run = room.run(&["check", name]);
+        assert_eq!(run.status, *status, "{name}");
+        assert!(
+            format!("{}{}", run.out, run.err).contains(message),
+            "{name}: {}{}",
+            run.out,
+            run.err
+        );
+    }
+}
+
+#[test]
+fn encodings() {
+    let utf16 = |order: fn(u16) -> [u8; 2]| -> Vec<u8> {
+        std::iter::once('\u{feff}')
+            .chain(GOOD.chars())
+            .flat_map(|c| order(c as u16))
+            .collect()
+    };
+    for bytes in [utf16(u16::to_le_bytes), utf16(u16::to_be_bytes)] {
+        let room = Room::with("a.svg", bytes);
+        room.run(&["build", "a.svg"]).ends(1, "", "UTF-16");
+        room.run(&["check", "a.svg"]).ends(1, "error[E004]", "");
+        assert_eq!(room.files(), ["a.svg"]);
+    }
+    let room = Room::with("a.svg", format!("\u{feff}{GOOD}"));
+    room.run(&["check", "a.svg"])
+        .ends(0, "a.svg: nothing to say\n", "");
+}
+
+#[test]
+fn packed_drawings() {
+    let mut packed = GzEncoder::new(Vec::new(), Compression::default());
+    packed.write_all(GOOD.as_bytes()).expect("packed");
+    let room = Room::with("a.svgz", packed.finish().expect("packed"));
+    room.run(&["build", "a.svgz"]).ends(0, "", "wrote a.glb");
+    room.write("b.svg", GOOD);
+    room.run(&["build", "b.svg"]).ends(0, "", "wrote b.glb");
+    assert_eq!(room.read("a.glb"), room.read("b.glb"));
+}
+
+#[test]
+fn files_that_cannot_be_read_or_written() {
+    let room = Room::with("a.svg", GOOD);
+    fs::create_dir(room.path("folder.svg")).expect("made");
+    room.run(&["build", "gone.svg"])
+        .ends(2, "", "error: `gone.svg` is not there; check the path");
+    room.run(&["build", "folder.svg"]).ends(
+        2,
+        "",
+        "error: `folder.svg` is a folder; name a drawing in it",
+    );
+    room.run(&["build", "a.svg", "-o", "gone/a.glb"])
+        .ends(2, "", "error: ");
+    room.run(&["build", "a.svg", "-o", "a.stl"]).ends(
+        2,
+        "",
+        "error: the output `a.stl` must end in .glb or .gltf",
+    );
+    room.run(&["build", "a.svg", "-o", "out"]).ends(
+        2,
+        "",
+        "error: the output `out` must end in .glb or .gltf",
+    );
+    room.run(&["build", "a.svg", "-o", "a.svg"])
+        .ends(2, "", "okoshi never writes over drawings");
+    assert_eq!(room.read("a.svg"), GOOD.as_bytes());
+    fs::create_dir(room.path("a.glb")).expect("made");
+    room.run(&["build", "a.svg"]).ends(2, "", "error: ");
+    assert_eq!(
+        room.files(),
+        ["a.glb", "a.svg", "folder.svg"],
+        "no leavings"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn files_without_permission() {
+    use std::os::unix::fs::PermissionsExt;
+    let room = Room::with("a.svg", GOOD);
+    room.write("shut/b.svg", GOOD);
+    let mode = |name: &str, mode| {
+        fs::set_permissions(room.path(name), fs::Permissions::from_mode(mode)).expect("permitted");
+    };
+    mode("a.svg", 0o000);
+    mode("shut", 0o555);
+    let denied = fs::read(room.path("a.svg")).is_err();
+    if denied {
+        room.run(&["build", "a.svg"]).ends(
+            2,
+            "",
+            "error: `a.svg` may not be read by you; change its permissions",
+        );
+        room.run(&["build", "shut/b.svg"]).ends(2, "", "error: ");
+        assert!(!room.path("shut/b.glb").exists());
+    } else {
+        // The administrator may read and write everything; then this says nothing.
+        room.run(&["build", "a.svg"]).ends(0, "", "wrote");
+    }
+    mode("shut", 0o755);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_leaves_the_old_model() {
+    let room = Room::with("a.svg", GOOD);
+    let out = fs::OpenOptions::new()
+        .write(true)
+        .open("/dev/full")
+        .expect("/dev/full");
+    let run = room
+        .command(&["build", "a.svg", "-o", "-"])
+        .stdout(out)
+        .output()
+        .expect("it starts");
+    assert_eq!(run.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&run.stderr).starts_with("error: "));
+}
+
+#[test]
+fn several_drawings_at_once() {
+    let room = Room::with("a.svg", GOOD);
+    room.write("b.svg", GOOD.replace("Arm", "Bein"));
+    room.write("c.svg", BAD);
+    room.run(&["build", "a.svg", "b.svg", "-o", "x.glb"]).ends(
+        2,
+        "",
+        "error: with several drawings, -o must name a folder that exists",
+    );
+    fs::create_dir(room.path("out")).expect("made");
+    let run = room.run(&["build", "a.svg", "c.svg", "b.svg", "-o", "out"]);
+    let places: Vec<_> = ["wrote out/a.glb", "error[E101]", "wrote out/b.glb"]
+        .map(|what| run.err.find(what))
+        .into();
+    assert!(
+        places.iter().all(Option::is_some) && places.is_sorted(),
+        "reported in the order given: {}",
+        run.err
+    );
+    assert_eq!(run.status, 1);
+    assert_eq!(names(&room.read("out/b.glb")), ["Root", "Body", "Bein"]);
+    assert!(!room.path("out/c.glb").exists());
+    room.run(&["check", "a.svg", "gone.svg"]).ends(
+        2,
+        "a.svg: nothing to say",
+        "`gone.svg` is not there",
+    );
+    room.run(&["build", "a.svg", "b.svg", "--depfile", "d"])
+        .ends(2, "", "--depfile goes with one drawing");
+}
+
+#[test]
+fn two_drawings_never_write_one_file() {
+    let room = Room::with("one/a.svg", GOOD);
+    room.write("two/a.svg", GOOD.replace("Arm", "Bein"));
+    fs::create_dir(room.path("out")).expect("made");
+    let run = room.run(&["build", "one/a.svg", "two/a.svg", "-o", "out"]);
+    run.ends(2, "", "error: ");
+    assert!(!room.path("out/a.glb").exists());
+}
+
+#[test]
+fn depfiles_are_escaped_for_make() {
+    let picture =
+        "<image x=\"10\" y=\"100\" width=\"50\" height=\"50\" href=\"my%20full.png\"/></svg>";
+    let room = Room::with("my $drawing.svg", GOOD.replace("</svg>", picture));
+    let png =
+        fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/image-linked/full.png"));
+    room.write("my full.png", png.expect("a picture"));
+    room.run(&[
+        "build",
+        "my $drawing.svg",
+        "-o",
+        "the model.glb",
+        "--depfile",
+        "d.mk",
+    ])
+    .ends(0, "", "wrote the model.glb");
+    let text = String::from_utf8(room.read("d.mk")).expect("text");
+    assert_eq!(
+        text,
+        "the\\ model.glb: my\\ $$drawing.svg my\\ full.png\nmy\\ full.png:\n"
+    );
+}
+
+#[test]
+fn stats_say_what_was_built() {
+    let room = Room::with("a.svg", GOOD);
+    let run = room.run(&["build", "a.svg", "--stats"]);
+    assert_eq!(run.out, "");
+    for row in [
+        "output  a.glb",
+        "parts  2",
+        "strings  2",
+        "nodes  2",
+        "meshes  2",
+        "materials  2",
+        "triangles  136",
+    ] {
+        assert!(run.err.contains(row), "{row} in\n{}", run.err);
+    }
+}
+
+#[test]
+fn quiet_and_verbose() {
+    let room = Room::with("a.svg", HINT);
+    room.run(&["build", "-q", "a.svg"]).ends(0, "", "");
+    let usual = room.run(&["build", "a.svg"]);
+    assert!(
+        usual.err.contains("warning[W301]") && usual.err.contains("hint[H402]"),
+        "{}",
+        usual.err
+    );
+    room.write("bad.svg", BAD);
+    let quiet = room.run(&["build", "-q", "bad.svg"]);
+    assert!(
+        quiet.err.contains("error[E101]") && !quiet.err.contains("nothing was written"),
+        "{}",
+        quiet.err
+    );
+    room.run(&["build", "-q", "-v", "a.svg"])
+        .ends(2, "", "cannot be used with");
+    // Many hints: a build shows some, and all if asked to.
+    let many: String = (0..30)
+        .map(|i| format!("<rect x=\"{i}\" y=\"90\" width=\"9\" height=\"9\"/>"))
+        .collect();
+    room.write("many.svg", HINT.replace("</svg>", &format!("{many}</svg>")));
+    let count = |run: Run| run.err.matches("hint[H402]").count();
+    let usual = room.run(&["build", "many.svg"]);
+    assert!(
+        usual.err.contains("which `okoshi check -v` shows"),
+        "{}",
+        usual.err
+    );
+    assert_eq!(count(usual), 10);
+    assert_eq!(count(room.run(&["build", "-v", "many.svg"])), 31);
+}
+
+#[test]
+fn colours() {
+    let room = Room::with("bad.svg", BAD);
+    let colored = |run: Run| format!("{}{}", run.out, run.err).contains('\x1b');
+    assert!(
+        !colored(room.run(&["check", "bad.svg"])),
+        "no terminal, no colours"
+    );
+    assert!(colored(
+        room.run(&["--color", "always", "check", "bad.svg"])
+    ));
+    assert!(colored(room.run(&["build", "--color=always", "bad.svg"])));
+    assert!(!colored(
+        room.run(&["--color", "never", "check", "bad.svg"])
+    ));
+    let output = room
+        .command(&["check", "bad.svg", "--color", "always"])
+        .env("NO_COLOR", "1")
+        .output()
+        .expect("it starts");
+    assert!(
+        colored(Run::of(output)),
+        "what is said outright wins over NO_COLOR"
+    );
+    room.run(&["--color", "red", "check", "bad.svg"]).ends(
+        2,
+        "",
+        "possible values: auto, always, never",
+    );
+}
+
+#[test]
+fn json_reports() {
+    let room = Room::with("bad.svg", BAD);
+    room.write("a.svg", HINT);
+    let run = room.run(&["check", "--format", "json", "bad.svg", "a.svg"]);
+    assert_eq!((run.status, run.err.as_str()), (1, ""));
+    let json: Value = serde_json::from_str(&run.out).expect("JSON");
+    let text = json.to_string();
+    for code in ["E101", "W301", "H402"] {
+        assert!(
+            text.contains(&format!("\"{code}\"")),
+            "{code} in {}",
+            run.out
+        );
+    }
+    let run = room.run(&["check", "--format", "sarif", "bad.svg", "a.svg"]);
+    assert_eq!((run.status, run.err.as_str()), (1, ""));
+    let sarif: Value = serde_json::from_str(&run.out).expect("SARIF");
+    assert_eq!(sarif["version"], "2.1.0");
+    let results = sarif["runs"][0]["results"].as_array().expect("results");
+    let error = results
+        .iter()
+        .find(|result| result["ruleId"] == "E101")
+        .expect("the error");
+    assert_eq!(error["level"], "error");
+    let place = &error["locations"][0]["physicalLocation"];
+    assert_eq!(place["artifactLocation"]["uri"], "bad.svg");
+    assert_eq!(place["region"]["startLine"], 3);
+    assert_eq!(place["region"]["startColumn"], 42);
+}
+
+/// The JSON of `inspect`, name by name.
+#[test]
+fn inspect_as_json() {
+    let legend = "<rect x=\"5\" y=\"180\" width=\"9\" height=\"9\" fill=\"#0000cc\" id=\"swatch\"/><text x=\"9\" y=\"186\" font-size=\"5\">$Metallic 1</text></svg>";
+    let room = Room::with("a.svg", GOOD.replace("</svg>", legend));
+    let run = room.run(&["inspect", "--json", "a.svg"]);
+    assert_eq!(run.status, 0);
+    let json: Value = serde_json::from_str(&run.out).expect("JSON");
+    assert_eq!(json["drawing"], "a.svg");
+    for list in ["terrain", "billboards", "clips"] {
+        assert_eq!(json[list], serde_json::json!([]), "{list}");
+    }
+    let parts = json["parts"].as_array().expect("parts");
+    let names: Vec<_> = parts
+        .iter()
+        .map(|part| part["name"].as_str().expect("a name"))
+        .collect();
+    assert_eq!(names, ["Body", "Arm", "swatch"]);
+    assert_eq!(parts[0]["parent"], Value::Null);
+    assert_eq!(parts[2]["kind"], "legend");
+    let expected = serde_json::json!({
+        "name": "Arm", "parent": "Body", "kind": "main", "element": "arm",
+        "string": { "line": 5, "column": 38, "text": "Arm@Body$Shape roundv", "bound_by": "nearest" },
+        "center": [120.0, 35.0], "ends": [[150.0, 35.0], [90.0, 35.0]], "origin": [90.0, 35.0], "axis": [1.0, 0.0],
+        "attributes": {
+            "Color": { "value": "0 0 0.8", "from": "builtin" },
+            "Metallic": { "value": "1", "from": "legend" },
+            "Shape": { "value": "roundv", "from": "own" },
+        },
+    });
+    assert_eq!(parts[1], expected);
+    room.write("bad.svg", BAD);
+    let run = room.run(&["inspect", "--json", "bad.svg"]);
+    serde_json::from_str::<Value>(&run.out).expect("stdout carries JSON alone");
+    assert_eq!(run.status, 1);
+    assert!(run.err.contains("error[E101]"), "{}", run.err);
+}
+
+#[test]
+fn the_manual() {
+    let room = Room::new();
+    room.run(&["explain"]).ends(0, "Shape", "");
+    room.run(&["explain", "shape"]).ends(0, "Shape", "");
+    room.run(&["explain", "roundv"]).ends(0, "a0 a1", "");
+    room.run(&["explain", "e204"]).ends(0, "E204", "");
+    room.run(&["explain", "Shap"]).ends(
+        2,
+        "",
+        "there is no page on `Shap`: did you mean `Shape`? `okoshi explain` lists them all",
+    );
+    room.run(&["explain", "E999"])
+        .ends(2, "", "there is no page on `E999`");
+    // What a report names can be looked up.
+    for code in okoshi::diagnostic::Code::ALL {
+        room.run(&["explain", code.id()]).ends(0, code.title(), "");
+    }
+    for keyword in okoshi::lang::keyword::Keyword::ALL {
+        room.run(&["explain", keyword.name()])
+            .ends(0, keyword.name(), "");
+    }
+}
+
+#[test]
+fn completions() {
+    let room = Room::new();
+    for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
+        let run = room.run(&["completions", shell]);
+        assert_eq!((run.status, run.err.as_str()), (0, ""));
+        for command in ["build", "check", "inspect", "explain", "keep-going"] {
+            assert!(run.out.contains(command), "{shell}: {command}");
+        }
+    }
+    let script = room.run(&["completions", "bash"]).out;
+    room.write("okoshi.bash", script);
+    let bash = Command::new("bash")
+        .args(["-n", "okoshi.bash"])
+        .current_dir(room.0.path())
+        .output();
+    if let Ok(bash) = bash {
+        assert!(
+            bash.status.success(),
+            "bash reads it: {}",
+            String::from_utf8_lossy(&bash.stderr)
+        );
+    }
+    room.run(&["completions", "tcsh"])
+        .ends(2, "", "possible values");
+}
+
+#[test]
+fn help_teaches() {
+    let room = Room::new();
+    for topic in [
+        "okoshi build human.svg",
+        "`Rarm@Ubody$Shape roundv`",
+        "okoshi explain",
+    ] {
+        room.run(&["--help"]).ends(0, topic, "");
+    }
+    for command in ["build", "check", "inspect", "explain", "completions"] {
+        room.run(&["--help"]).ends(0, command, "");
+        room.run(&[command, "--help"]).ends(0, "Usage: okoshi ", "");
+    }
+    room.run(&["--version"])
+        .ends(0, env!("CARGO_PKG_VERSION"), "");
+    room.run(&[]).ends(2, "", "Usage: okoshi");
+    room.run(&["bild", "a.svg"]).ends(2, "", "build");
+    room.run(&["build"]).ends(2, "", "<DRAWING>");
+    room.run(&["build", "--tolerance", "2", "a.svg"]).ends(
+        2,
+        "",
+        "a number from 0.000001 to 0.1 is due",
+    );
+}
+
+/// A reader that goes away early, like `head -1`, is no failure.
+#[test]
+fn a_broken_pipe_is_no_panic() {
+    let many: String = (0..3000)
+        .map(|i| format!("<rect x=\"{i}\" y=\"90\" width=\"9\" height=\"9\"/>"))
+        .collect();
+    let room = Room::with("many.svg", HINT.replace("</svg>", &format!("{many}</svg>")));
+    for (arguments, status) in [
+        (&["inspect", "many.svg"][..], 0),
+        (&["inspect", "--json", "many.svg"], 0),
+        (&["check", "-v", "many.svg"], 0),
+        // Half a model is none.
+        (&["build", "many.svg", "-o", "-"], 2),
+    ] {
+        let mut child = room
+            .command(arguments)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("it starts");
+        let mut first = [0; 16];
+        let mut out = child.stdout.take().expect("stdout");
+        let mut err = child.stderr.take().expect("stderr");
+        out.read_exact(&mut first).expect("it begins");
+        drop(out);
+        let mut told = String::new();
+        err.read_to_string(&mut told).expect("text");
+        let ended = child.wait().expect("it ends").code();
+        assert_eq!(ended, Some(status), "{arguments:?}: {told}");
+        assert!(!told.contains("panicked"), "{told}");
+    }
+}
+
+#[test]
+fn links_are_followed_in_the_folder_of_the_drawing() {
+    let png =
+        fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/image-linked/full.png"))
+            .expect("a picture");
+    let drawing = |link: &str| {
+        GOOD.replace(
+            "</svg>",
+            &format!(
+                "<image x=\"10\" y=\"100\" width=\"50\" height=\"50\" href=\"{link}\"/></svg>"
+            ),
+        )
+    };
+    let room = Room::with("in/a.svg", drawing("full.png"));
+    room.write("in/full.png", &png);
+    room.write("full.png", &png);
+    room.run(&["build", "in/a.svg"])
+        .ends(0, "", "wrote in/a.glb: 3 nodes");
+    room.write("in/b.svg", drawing("../full.png"));
+    room.run(&["build", "in/b.svg"]).ends(
+        1,
+        "",
+        "error[E007]: the link `../full.png` leads out of the drawing's folder",
+    );
+    room.write("in/c.svg", drawing("full.png"));
+    fs::remove_file(room.path("in/full.png")).expect("removed");
+    room.run(&["build", "in/c.svg"])
+        .ends(1, "", "error[E006]: the link `full.png` is not there");
+    room.run(&["build", "in/c.svg", "--root", "."])
+        .ends(0, "", "wrote in/c.glb");
+}

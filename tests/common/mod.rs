@@ -1,0 +1,228 @@
+//! What the tests share: models read back from GLB with the `gltf` crate.
+#![allow(
+    dead_code,
+    reason = "each test file is a crate of its own and uses its share"
+)]
+
+use std::collections::{HashMap, HashSet};
+use std::fmt::Write as _;
+use std::io::Cursor;
+
+use okoshi::compile::{Compiled, Options, compile};
+use okoshi::gltf::{Container, write};
+use okoshi::resolver::Resolver;
+
+/// A solid, or several solids of one material, as the file has them.
+pub(crate) struct Primitive {
+    pub(crate) positions: Vec<[f32; 3]>,
+    pub(crate) normals: Vec<[f32; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    pub(crate) material: String,
+    pub(crate) double_sided: bool,
+}
+
+/// A node as the file has it.
+pub(crate) struct Node {
+    pub(crate) name: String,
+    pub(crate) parent: Option<String>,
+    pub(crate) translation: [f32; 3],
+    pub(crate) rotation: [f32; 4],
+    pub(crate) primitives: Vec<Primitive>,
+}
+
+pub(crate) fn compiled(text: &str, resolver: &dyn Resolver) -> Compiled {
+    compile(text, &Options::default(), resolver)
+}
+
+/// The GLB of a compiled drawing.
+pub(crate) fn glb(compiled: &Compiled) -> Vec<u8> {
+    let mut out = Cursor::new(Vec::new());
+    write(&compiled.scene, Container::Glb, &mut out).expect("a scene keeps its own rules");
+    out.into_inner()
+}
+
+/// The nodes of a GLB, parents before children. Reading validates it.
+pub(crate) fn nodes(glb: &[u8]) -> Result<Vec<Node>, String> {
+    let gltf::Gltf { document, blob } =
+        gltf::Gltf::from_slice(glb).map_err(|error| error.to_string())?;
+    let blob = blob.unwrap_or_default();
+    let mut out = Vec::new();
+    let scene = document.default_scene().ok_or("no scene")?;
+    let mut stack: Vec<(gltf::Node<'_>, Option<String>)> =
+        scene.nodes().map(|node| (node, None)).collect();
+    stack.reverse();
+    while let Some((node, parent)) = stack.pop() {
+        let name = node.name().unwrap_or_default().to_owned();
+        let children: Vec<_> = node.children().collect();
+        stack.extend(
+            children
+                .into_iter()
+                .rev()
+                .map(|child| (child, Some(name.clone()))),
+        );
+        let (translation, rotation, scale) = node.transform().decomposed();
+        if scale != [1.0; 3] {
+            return Err(format!("`{name}` is scaled by {scale:?}"));
+        }
+        let mut primitives = Vec::new();
+        for primitive in node.mesh().iter().flat_map(gltf::Mesh::primitives) {
+            primitives.push(read_primitive(&primitive, &blob)?);
+        }
+        out.push(Node {
+            name,
+            parent,
+            translation,
+            rotation,
+            primitives,
+        });
+    }
+    Ok(out)
+}
+
+fn read_primitive(primitive: &gltf::Primitive<'_>, blob: &[u8]) -> Result<Primitive, String> {
+    let reader = primitive.reader(|buffer| (buffer.index() == 0).then_some(blob));
+    let positions: Vec<[f32; 3]> = reader.read_positions().ok_or("no positions")?.collect();
+    let normals: Vec<[f32; 3]> = reader.read_normals().ok_or("no normals")?.collect();
+    let indices: Vec<u32> = reader
+        .read_indices()
+        .ok_or("no indices")?
+        .into_u32()
+        .collect();
+    if normals.len() != positions.len() || indices.len() % 3 != 0 {
+        return Err("lists of different lengths".to_owned());
+    }
+    if let Some(index) = indices.iter().find(|i| **i as usize >= positions.len()) {
+        return Err(format!("corner {index} does not exist"));
+    }
+    let finite = |list: &[[f32; 3]]| list.iter().flatten().all(|x| x.is_finite());
+    if !finite(&positions) || !finite(&normals) {
+        return Err("a corner is no number".to_owned());
+    }
+    let long = |n: &&[f32; 3]| (n.iter().map(|x| x * x).sum::<f32>() - 1.0).abs() > 1e-3;
+    if let Some(normal) = normals.iter().find(long) {
+        return Err(format!("the normal {normal:?} is not of length 1"));
+    }
+    let material = primitive.material();
+    Ok(Primitive {
+        positions,
+        normals,
+        triangles: indices.chunks(3).map(|t| [t[0], t[1], t[2]]).collect(),
+        double_sided: material.double_sided(),
+        material: describe_material(&material),
+    })
+}
+
+fn describe_material(material: &gltf::Material<'_>) -> String {
+    let pbr = material.pbr_metallic_roughness();
+    let mut out = material.name().unwrap_or_default().to_owned();
+    let [_, _, _, alpha] = pbr.base_color_factor();
+    for (name, value, usual) in [
+        ("alpha", alpha, 1.0),
+        ("metallic", pbr.metallic_factor(), 0.0),
+        ("roughness", pbr.roughness_factor(), 0.9),
+    ] {
+        if (value - usual).abs() > 1e-6 {
+            let _ = write!(out, " {name} {}", number(value));
+        }
+    }
+    if material.emissive_factor() != [0.0; 3] {
+        let _ = write!(out, " emissive {}", numbers(&material.emissive_factor()));
+    }
+    if material.double_sided() {
+        out.push_str(" two-sided");
+    }
+    out
+}
+
+/// Whether the solids of a primitive are closed: after corners in one place are taken for one, every edge is
+/// walked as often one way as the other. (Solids that touch may share an edge, so once each way is not due.)
+pub(crate) fn closed(primitive: &Primitive) -> Result<(), String> {
+    let key = |index: u32| primitive.positions[index as usize].map(|x| (x + 0.0).to_bits());
+    let mut edges: HashMap<[[u32; 3]; 2], i64> = HashMap::new();
+    for triangle in &primitive.triangles {
+        for (from, to) in [(0, 1), (1, 2), (2, 0)] {
+            let (from, to) = (key(triangle[from]), key(triangle[to]));
+            *edges.entry([from, to]).or_default() += 1;
+            *edges.entry([to, from]).or_default() -= 1;
+        }
+    }
+    let open = edges.values().filter(|count| **count != 0).count();
+    match open {
+        0 => Ok(()),
+        open => Err(format!("{} edges are open", open / 2)),
+    }
+}
+
+/// The volume that a primitive encloses; positive where it is wound outward.
+pub(crate) fn volume(primitive: &Primitive) -> f64 {
+    let at = |index: u32| glam::Vec3::from(primitive.positions[index as usize]).as_dvec3();
+    let sixth = |t: &[u32; 3]| at(t[0]).dot(at(t[1]).cross(at(t[2]))) / 6.0;
+    primitive.triangles.iter().map(sixth).sum()
+}
+
+/// What every model must keep, whatever the drawing.
+pub(crate) fn check_laws(nodes: &[Node]) -> Result<(), String> {
+    for node in nodes {
+        for primitive in node.primitives.iter().filter(|p| !p.double_sided) {
+            closed(primitive).map_err(|error| format!("`{}`: {error}", node.name))?;
+            let volume = volume(primitive);
+            if volume <= 0.0 {
+                return Err(format!("`{}` has the volume {volume:e}", node.name));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// A name that two nodes have: never without an error in the drawing.
+pub(crate) fn repeated_name(nodes: &[Node]) -> Option<&str> {
+    let mut names = HashSet::new();
+    let mut nodes = nodes.iter().map(|node| node.name.as_str());
+    nodes.find(|name| !names.insert(*name))
+}
+
+/// The nodes as text: names, parents, places to four digits, what hangs on them.
+pub(crate) fn tree(nodes: &[Node]) -> String {
+    let mut out = String::new();
+    for node in nodes {
+        let parent = node.parent.as_deref().unwrap_or("–");
+        let _ = write!(out, "{} on {parent}", node.name);
+        let (place, turn) = (numbers(&node.translation), numbers(&node.rotation));
+        if place != "0 0 0" {
+            let _ = write!(out, ", at {place}");
+        }
+        if turn != "0 0 0 1" {
+            let _ = write!(out, ", turned {turn}");
+        }
+        out.push('\n');
+        for primitive in &node.primitives {
+            let mut low = [f32::INFINITY; 3];
+            let mut high = [f32::NEG_INFINITY; 3];
+            for position in &primitive.positions {
+                for axis in 0..3 {
+                    low[axis] = low[axis].min(position[axis]);
+                    high[axis] = high[axis].max(position[axis]);
+                }
+            }
+            let _ = writeln!(
+                out,
+                "  {} triangles, {}, from {} to {}",
+                primitive.triangles.len(),
+                primitive.material,
+                numbers(&low),
+                numbers(&high)
+            );
+        }
+    }
+    out
+}
+
+fn numbers(list: &[f32]) -> String {
+    let numbers: Vec<String> = list.iter().map(|x| number(*x)).collect();
+    numbers.join(" ")
+}
+
+fn number(x: f32) -> String {
+    let rounded = (f64::from(x) * 1e4).round() / 1e4 + 0.0;
+    format!("{rounded}")
+}
