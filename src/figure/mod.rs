@@ -218,7 +218,7 @@ impl<'a> Model<'a> {
         let both = shape.mirrored || (shape.doubled && part != main);
         Some(Solid {
             outline: Arc::clone(&self.sheet.parts[part].outline),
-            to_frame: own.from_drawing(),
+            to_frame: own.placing(),
             kind,
             options,
             sides: if both { Sides::Both } else { Sides::Front },

@@ -61,7 +61,10 @@ impl Tree {
                 None => roots.push(index),
             }
         }
-        let mut names: FxHashSet<String> = parts.iter().map(|part| part.name.clone()).collect();
+        let copied = (0..parts.len())
+            .any(|part| parts[part].kind == PartKind::Main && model.sheet.shape(part).doubled);
+        let known = if copied { parts.as_slice() } else { &[] };
+        let mut names: FxHashSet<String> = known.iter().map(|part| part.name.clone()).collect();
         let mut branches: Vec<Branch> = Vec::with_capacity(parts.len());
         let mut buds: Vec<Bud> = Vec::new();
         let sprout = |buds: &mut Vec<Bud>, part: usize, parent, mirrored: bool, copies| {
