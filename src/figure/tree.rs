@@ -1,15 +1,15 @@
 //! The hierarchy with its copies: every node's place in its parent's frame.
 
 use glam::DVec3;
-use rustc_hash::FxHashSet;
+use rustc_hash::FxHashMap;
 
 use super::Model;
 use super::frame::Frame;
 use crate::bind::PartKind;
 use crate::diagnostic::{Code, Diagnostic};
 
-/// Most nodes that `-d` may make: nested copies double each time.
-const MOST_NODES: usize = 1 << 20;
+/// Most nodes that `-d` may add: nested copies double each time.
+const MOST_COPIES: usize = 1 << 16;
 
 /// A node to be.
 #[derive(Debug, Clone)]
@@ -64,7 +64,8 @@ impl Tree {
         let copied = (0..parts.len())
             .any(|part| parts[part].kind == PartKind::Main && model.sheet.shape(part).doubled);
         let known = if copied { parts.as_slice() } else { &[] };
-        let mut names: FxHashSet<String> = known.iter().map(|part| part.name.clone()).collect();
+        let mut names: FxHashMap<String, usize> =
+            known.iter().map(|part| (part.name.clone(), 1)).collect();
         let mut branches: Vec<Branch> = Vec::with_capacity(parts.len());
         let mut buds: Vec<Bud> = Vec::new();
         let sprout = |buds: &mut Vec<Bud>, part: usize, parent, mirrored: bool, copies| {
@@ -84,13 +85,13 @@ impl Tree {
             sprout(&mut buds, *root, None, mirrored, 0);
         }
         while let Some(bud) = buds.pop() {
-            if branches.len() >= MOST_NODES {
+            if branches.len() >= parts.len() + MOST_COPIES {
                 let element = &model.drawing.shapes[parts[bud.part].shape].element;
                 diagnostics.push(
                     Diagnostic::new(
                         Code::LimitPassed,
                         element.span,
-                        format!("the copies of `-d` make more than {MOST_NODES} nodes"),
+                        format!("the copies of `-d` add more than {MOST_COPIES} nodes"),
                     )
                     .help("a part with `-d` on a part with `-d` is copied four times, and so on: take some away"),
                 );
@@ -98,9 +99,8 @@ impl Tree {
             }
             let index = branches.len();
             let mut branch = place(model, frames, &bud);
-            // A copy of a copy may meet a name that is taken.
-            while bud.copies > 0 && !names.insert(branch.name.clone()) {
-                branch.name.push_str(".back");
+            if bud.copies > 0 {
+                branch.name = free_name(branch.name, &mut names);
             }
             branches.push(branch);
             for child in children[bud.part].iter().rev() {
@@ -108,6 +108,24 @@ impl Tree {
             }
         }
         Self { branches }
+    }
+}
+
+/// The name of a copy, with a number behind it where a copy of a copy meets a name that is taken.
+fn free_name(name: String, names: &mut FxHashMap<String, usize>) -> String {
+    let mut count = names.get(&name).copied().unwrap_or(0);
+    if count == 0 {
+        names.insert(name.clone(), 1);
+        return name;
+    }
+    loop {
+        count += 1;
+        let numbered = format!("{name}-{count}");
+        if !names.contains_key(&numbered) {
+            names.insert(name, count);
+            names.insert(numbered.clone(), 1);
+            return numbered;
+        }
     }
 }
 
