@@ -16,6 +16,8 @@ use crate::svg::Drawing;
 
 /// How much longer than wide a part must be for its turning about the middle to be worth a hint.
 const LONG: f64 = 2.0;
+/// How many parts that were named by themselves are spoken of one by one.
+const MOST_NAMED: usize = 200;
 
 /// Names every main part, finds its parent, its axis and its joint.
 pub(super) fn build(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
@@ -106,8 +108,7 @@ fn automatic(
         })
         .collect();
     let mut counter = 0;
-    for (index, parent) in waiting.into_iter().zip(parents) {
-        let part = &sheet.parts[index];
+    for (place, (index, parent)) in waiting.iter().copied().zip(parents).enumerate() {
         let name = loop {
             counter += 1;
             let name = format!("U-{counter}");
@@ -115,22 +116,8 @@ fn automatic(
                 break name;
             }
         };
-        if sheet.annotated {
-            let on = parent.map_or(String::new(), |parent| {
-                format!(" and hangs on `{}`", sheet.parts[parent].name)
-            });
-            let element = &drawing.shapes[part.shape].element;
-            diagnostics.push(
-                Diagnostic::new(
-                    Code::AutomaticName,
-                    element.span,
-                    format!(
-                        "{} has no string: it is named `{name}`{on}",
-                        element.describe()
-                    ),
-                )
-                .help("write a name beside it, or `*` to leave it out"),
-            );
+        if sheet.annotated && place < MOST_NAMED {
+            diagnostics.push(named_by_itself(drawing, sheet, index, &name, parent));
         }
         names.insert(name.clone(), index);
         let part = &mut sheet.parts[index];
@@ -138,6 +125,38 @@ fn automatic(
         part.automatic = true;
         part.parent = parent;
     }
+    if let (true, [first, .., last]) = (
+        sheet.annotated,
+        waiting.get(MOST_NAMED..).unwrap_or_default(),
+    ) {
+        let [from, to] = [first, last].map(|part| &sheet.parts[*part].name);
+        let count = waiting.len() - MOST_NAMED;
+        let message =
+            format!("{count} more parts have no string: they are named `{from}` to `{to}`");
+        let span = drawing.shapes[sheet.parts[*first].shape].element.span;
+        let help = "`okoshi inspect` lists them all, each with the part that it hangs on";
+        diagnostics.push(Diagnostic::new(Code::AutomaticName, span, message).help(help));
+    }
+}
+
+/// Says how a part without a string is called.
+fn named_by_itself(
+    drawing: &Drawing,
+    sheet: &Sheet,
+    part: usize,
+    name: &str,
+    parent: Option<usize>,
+) -> Diagnostic {
+    let on = parent.map_or(String::new(), |parent| {
+        format!(" and hangs on `{}`", sheet.parts[parent].name)
+    });
+    let element = &drawing.shapes[sheet.parts[part].shape].element;
+    let message = format!(
+        "{} has no string: it is named `{name}`{on}",
+        element.describe()
+    );
+    Diagnostic::new(Code::AutomaticName, element.span, message)
+        .help("write a name beside it, or `*` to leave it out")
 }
 
 /// Finds the parents that strings name.
@@ -375,7 +394,11 @@ fn turns_about_middle(
     let (Some(parent), Some(string)) = (part.parent, part.string) else {
         return;
     };
-    if !long || chosen || part.origin != part.measure.center {
+    let beside = &sheet.parts[parent].measure;
+    // A hat or a foot lies across the end of what it hangs on, and is meant to turn about its middle.
+    let alike = !beside.certain
+        || beside.axis.dot(part.measure.axis).abs() > std::f64::consts::FRAC_1_SQRT_2;
+    if !long || !alike || chosen || part.origin != part.measure.center {
         return;
     }
     let string = &sheet.strings[string];

@@ -21,7 +21,7 @@ pub(super) fn find(
     let lines: Vec<&Line> = drawing
         .shapes
         .iter()
-        .filter_map(|shape| shape.line.as_ref())
+        .filter_map(|shape| shape.line.as_deref())
         .collect();
     if lines.is_empty() || sheet.strings.is_empty() {
         return vec![];

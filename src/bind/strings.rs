@@ -86,13 +86,13 @@ pub(super) fn read(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> 
 /// Descriptions of shapes and groups that are strings.
 fn descriptions(drawing: &mut Drawing) -> Vec<(Place, Text)> {
     let mut texts = Vec::new();
-    let mut take = |desc: &mut Option<Text>, place| {
+    let mut take = |desc: &mut Option<Box<Text>>, place| {
         if desc
             .as_ref()
             .is_some_and(|text| lang::looks_like_string(text.as_str()))
             && let Some(text) = desc.take()
         {
-            texts.push((place, text));
+            texts.push((place, *text));
         }
     };
     for (index, shape) in drawing.shapes.iter_mut().enumerate() {

@@ -6,8 +6,7 @@ use std::thread::{available_parallelism, scope};
 
 /// What `work` makes of every item, several at once, in the order of the items.
 ///
-/// By threads outside rayon's pool: reading a drawing waits for a thread whose work the pool shares, and if all
-/// of the pool waited like that, nobody would be left to do it.
+/// By threads outside rayon's pools: a worker there that waits for one drawing would begin others on top of it.
 pub(super) fn each<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = available_parallelism()
         .map_or(1, NonZero::get)

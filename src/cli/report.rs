@@ -36,6 +36,9 @@ const MOST_LINES: usize = 8;
 
 /// The findings as text, one paragraph each.
 pub fn human(findings: Findings, style: Style) -> String {
+    if findings.diagnostics.is_empty() {
+        return String::new();
+    }
     let renderer = match style {
         Style::Plain => Renderer::plain(),
         Style::Colored => Renderer::styled(),

@@ -7,6 +7,8 @@ pub mod codes;
 
 pub use codes::Code;
 
+use std::borrow::Cow;
+
 use crate::source::Span;
 
 /// How bad it is. Errors keep `build` from writing.
@@ -68,11 +70,11 @@ pub struct Diagnostic {
     /// The exact characters that it is about.
     pub span: Span,
     /// A few words under the caret.
-    pub label: Option<String>,
+    pub label: Option<Cow<'static, str>>,
     /// Other places.
     pub related: Vec<Related>,
     /// What to do, in a sentence.
-    pub help: Option<String>,
+    pub help: Option<Cow<'static, str>>,
     /// What can be done at a click.
     pub fixes: Vec<Fix>,
 }
@@ -93,7 +95,7 @@ impl Diagnostic {
 
     /// Adds the words under the caret.
     #[must_use]
-    pub fn label(mut self, label: impl Into<String>) -> Self {
+    pub fn label(mut self, label: impl Into<Cow<'static, str>>) -> Self {
         self.label = Some(label.into());
         self
     }
@@ -110,7 +112,7 @@ impl Diagnostic {
 
     /// Adds what to do.
     #[must_use]
-    pub fn help(mut self, help: impl Into<String>) -> Self {
+    pub fn help(mut self, help: impl Into<Cow<'static, str>>) -> Self {
         self.help = Some(help.into());
         self
     }

@@ -49,7 +49,7 @@ impl Frame {
     }
 
     /// From the drawing, y down, to a frame turned like this one with the part's centre at its origin.
-    pub(super) fn from_drawing(self) -> DAffine2 {
+    pub(super) fn placing(self) -> DAffine2 {
         let flip = DAffine2::from_scale(DVec2::new(1.0, -1.0));
         DAffine2::from_angle(-self.angle) * DAffine2::from_translation(-self.center) * flip
     }

@@ -3,6 +3,7 @@
 //! Invariant: a node's mesh is described in the part's own frame, +Y along its axis away from the joint,
 //! +Z towards the viewer; turning the node turns the limb about its joint.
 
+mod assemble;
 mod frame;
 mod materials;
 mod relief;
@@ -10,18 +11,19 @@ mod tree;
 
 use std::sync::Arc;
 
-use glam::{DQuat, DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::bind::{PartKind, Sheet};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::{Outline, bounds};
+use crate::geometry::Outline;
 use crate::lang::keyword::Keyword;
-use crate::lang::value::{Ground, ShapeKind, Value};
-use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene};
+use crate::lang::value::{ShapeKind, Value};
+use crate::scene::{Mesh, Piece, Primitive, Scene};
 use crate::solid::{self, Placement, Sides, Solid};
 use crate::svg::Drawing;
 
+use assemble::Axes;
 use frame::Frame;
 use materials::Materials;
 use relief::Relief;
@@ -44,16 +46,19 @@ pub fn build(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>
             members[part.main].push(index);
         }
     }
-    let tree = Tree::grow(&model, &frames, diagnostics);
-    for part in 0..sheet.parts.len() {
-        model.check_copies(part, diagnostics);
-    }
+    let axes = Axes::of(sheet);
+    let tree = Tree::grow(&model, &frames, axes.mirrored, diagnostics);
+    let copies: Vec<Diagnostic> = (0..sheet.parts.len())
+        .into_par_iter()
+        .filter_map(|part| model.check_copies(part))
+        .collect();
+    diagnostics.extend(copies);
     let meshes: Vec<Option<Mesh>> = members
         .par_iter()
         .enumerate()
         .map(|(main, parts)| model.mesh(main, parts, &frames, &relief, &materials))
         .collect();
-    assemble(&model, &tree, meshes, materials)
+    assemble::assemble(&model, &tree, &axes, meshes, materials)
 }
 
 /// What building needs to know of the whole drawing.
@@ -102,22 +107,20 @@ impl<'a> Model<'a> {
     }
 
     /// Warns of copies that lie where their original lies.
-    fn check_copies(&self, part: usize, diagnostics: &mut Vec<Diagnostic>) {
+    fn check_copies(&self, part: usize) -> Option<Diagnostic> {
         let shape = self.sheet.shape(part);
         let built = matches!(self.sheet.parts[part].kind, PartKind::Main | PartKind::Sub);
         if !built || !(shape.mirrored || shape.doubled) || shape.kind == ShapeKind::None {
-            return;
+            return None;
         }
         let measure = &self.sheet.parts[part].measure;
         let kind = self.kind(part);
-        let Some(layers) = solid::layers(
+        let layers = solid::layers(
             &kind,
             measure.half_across,
             measure.half_along,
             &self.options(part),
-        ) else {
-            return;
-        };
+        )?;
         let offset = self.offset(part);
         let low = layers
             .iter()
@@ -128,7 +131,7 @@ impl<'a> Model<'a> {
             .map(|layer| layer.z + offset)
             .fold(f64::NEG_INFINITY, f64::max);
         if (low + high).abs() > 1e-9 * (high - low).abs().max(1e-12) {
-            return;
+            return None;
         }
         let source = self.sheet.setting(part, Keyword::Shape);
         let span = source.map_or(
@@ -143,14 +146,14 @@ impl<'a> Model<'a> {
         );
         let flag = if shape.doubled { "-d" } else { "-s" };
         let name = self.sheet.describe(self.drawing, part);
-        diagnostics.push(
+        Some(
             Diagnostic::new(
                 Code::CopiesCoincide,
                 span,
                 format!("the copy that `{flag}` makes of {name} lies exactly where {name} lies"),
             )
             .help("give both sides a distance with `Offset`, or depths on one side only, as in `default 45 50`"),
-        );
+        )
     }
 
     fn options(&self, part: usize) -> solid::Options {
@@ -215,141 +218,11 @@ impl<'a> Model<'a> {
         let both = shape.mirrored || (shape.doubled && part != main);
         Some(Solid {
             outline: Arc::clone(&self.sheet.parts[part].outline),
-            to_frame: own.from_drawing(),
+            to_frame: own.placing(),
             kind,
             options,
             sides: if both { Sides::Both } else { Sides::Front },
         })
-    }
-}
-
-/// The point of the drawing that lies at the world's origin.
-fn ground(model: &Model<'_>) -> DVec2 {
-    match model.sheet.drawing_value(Keyword::Ground) {
-        Some(Value::Ground(Ground::Page)) => model.drawing.page.0,
-        Some(Value::Ground(Ground::Point([x, y]))) => DVec2::new(*x, *y),
-        _ => {
-            let built = model
-                .sheet
-                .parts
-                .iter()
-                .filter(|part| matches!(part.kind, PartKind::Main | PartKind::Sub));
-            let boxes: Vec<(DVec2, DVec2)> =
-                built.filter_map(|part| bounds(&part.outline)).collect();
-            let Some(first) = boxes.first() else {
-                return DVec2::ZERO;
-            };
-            let (low, high) = boxes.iter().fold(*first, |(low, high), other| {
-                (low.min(other.0), high.max(other.1))
-            });
-            DVec2::new((low.x + high.x) / 2.0, high.y)
-        }
-    }
-}
-
-/// The rotation that `Axes` asks for.
-fn axes(sheet: &Sheet) -> DQuat {
-    match sheet.drawing_value(Keyword::Axes) {
-        Some(Value::Axes(axes)) => {
-            let [right, up, front] = axes.map(|axis| {
-                let mut vector = [0.0; 3];
-                vector[axis.axis] = if axis.negative { -1.0 } else { 1.0 };
-                DVec3::from(vector)
-            });
-            DQuat::from_mat3(&glam::DMat3::from_cols(right, up, front))
-        }
-        _ => DQuat::IDENTITY,
-    }
-}
-
-/// Puts nodes and meshes together.
-fn assemble(
-    model: &Model<'_>,
-    tree: &Tree,
-    meshes: Vec<Option<Mesh>>,
-    materials: Materials,
-) -> Scene {
-    let sheet = model.sheet;
-    let ground = ground(model);
-    let turn = axes(sheet);
-    let mut scene = Scene {
-        materials: materials.into_list(),
-        ..Scene::default()
-    };
-    let mut plain: Vec<Option<usize>> = vec![None; meshes.len()];
-    let mut mirrored: Vec<Option<usize>> = vec![None; meshes.len()];
-    let mut made = meshes;
-    for branch in &tree.branches {
-        // A mirrored copy stands behind its original, whose mesh has been moved into the scene by then.
-        if !branch.mirrored
-            && plain[branch.part].is_none()
-            && let Some(mesh) = made[branch.part].take()
-        {
-            scene.meshes.push(mesh);
-            plain[branch.part] = Some(scene.meshes.len() - 1);
-        }
-        if branch.mirrored
-            && mirrored[branch.part].is_none()
-            && let Some(original) = plain[branch.part]
-        {
-            let primitives = scene.meshes[original]
-                .primitives
-                .iter()
-                .map(|primitive| Primitive {
-                    pieces: primitive.pieces.iter().map(mirrored_piece).collect(),
-                    material: primitive.material,
-                });
-            let mesh = Mesh {
-                primitives: primitives.collect(),
-            };
-            scene.meshes.push(mesh);
-            mirrored[branch.part] = Some(scene.meshes.len() - 1);
-        }
-        let part = &sheet.parts[branch.part];
-        let element = &model.drawing.shapes[part.shape].element;
-        let (place, rotation) = match branch.parent {
-            Some(_) => (
-                branch.place * model.scale,
-                DQuat::from_rotation_z(branch.angle),
-            ),
-            None => {
-                let place = branch.place - DVec3::new(ground.x, -ground.y, 0.0);
-                (
-                    turn * place * model.scale,
-                    turn * DQuat::from_rotation_z(branch.angle),
-                )
-            }
-        };
-        let index = scene.nodes.len();
-        match branch.parent {
-            Some(parent) => scene.nodes[parent].children.push(index),
-            None => scene.roots.push(index),
-        }
-        scene.nodes.push(Node {
-            name: branch.name.clone(),
-            children: vec![],
-            translation: place,
-            rotation,
-            mesh: if branch.mirrored {
-                mirrored[branch.part]
-            } else {
-                plain[branch.part]
-            },
-            provenance: Some(Provenance {
-                element: element.id.clone(),
-                string: part
-                    .string
-                    .map(|string| sheet.strings[string].text.as_str().to_owned()),
-            }),
-        });
-    }
-    scene
-}
-
-fn mirrored_piece(piece: &Piece) -> Piece {
-    match piece {
-        Piece::Solid(solid) => Piece::Solid(solid.mirrored()),
-        Piece::Surface(surface) => Piece::Surface(solid::mirror(surface)),
     }
 }
 

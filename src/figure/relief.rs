@@ -55,7 +55,7 @@ impl Relief {
         let mut steps = vec![[0.0_f64; 2]; sheet.parts.len()];
         for (part, below) in below.iter().enumerate() {
             let Some(own) = faces[part] else { continue };
-            for side in 0..2 {
+            let raised = [0, 1].map(|side| {
                 let same = |other: &&usize| {
                     faces[**other].is_some_and(|other| same_plane(own, other, side))
                 };
@@ -64,12 +64,10 @@ impl Relief {
                     .filter(same)
                     .map(|other| steps[*other][side])
                     .reduce(f64::max);
-                if let Some(highest) = highest {
-                    steps[part][side] = highest + STEP * own.thickness;
-                }
-            }
+                highest.map_or(0.0, |highest| highest + STEP * own.thickness)
+            });
             let most = MOST_STEPS * STEP * own.thickness;
-            steps[part] = steps[part].map(|step| step.min(most));
+            steps[part] = raised.map(|step| step.min(most));
         }
         Self { steps }
     }

@@ -41,10 +41,11 @@ struct Bud {
 }
 
 impl Tree {
-    /// Grows the hierarchy, `-d` copies included.
+    /// Grows the hierarchy, `-d` copies included; `mirrored` turns all of it inside out in depth.
     pub(super) fn grow(
         model: &Model<'_>,
         frames: &[Frame],
+        mirrored: bool,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let parts = &model.sheet.parts;
@@ -60,7 +61,10 @@ impl Tree {
                 None => roots.push(index),
             }
         }
-        let mut names: FxHashSet<String> = parts.iter().map(|part| part.name.clone()).collect();
+        let copied = (0..parts.len())
+            .any(|part| parts[part].kind == PartKind::Main && model.sheet.shape(part).doubled);
+        let known = if copied { parts.as_slice() } else { &[] };
+        let mut names: FxHashSet<String> = known.iter().map(|part| part.name.clone()).collect();
         let mut branches: Vec<Branch> = Vec::with_capacity(parts.len());
         let mut buds: Vec<Bud> = Vec::new();
         let sprout = |buds: &mut Vec<Bud>, part: usize, parent, mirrored: bool, copies| {
@@ -77,7 +81,7 @@ impl Tree {
             buds.push(bud(mirrored, copies));
         };
         for root in roots.iter().rev() {
-            sprout(&mut buds, *root, None, false, 0);
+            sprout(&mut buds, *root, None, mirrored, 0);
         }
         while let Some(bud) = buds.pop() {
             if branches.len() >= MOST_NODES {

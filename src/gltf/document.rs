@@ -2,11 +2,11 @@
 
 use serde::{Serialize, Serializer};
 
-use super::ROOT;
 use super::packing::{Entry, IndexType, Kind, Packed};
+use super::{Container, ROOT};
 use crate::scene::{self, Scene};
 
-/// All of the JSON but the buffer.
+/// All of the JSON; in a `.gltf` the buffer is written behind it.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct Document<'a> {
@@ -22,10 +22,12 @@ pub(super) struct Document<'a> {
     accessors: Option<Accessors<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     buffer_views: Option<BufferViews<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    buffers: Option<[Buffer; 1]>,
 }
 
 impl<'a> Document<'a> {
-    pub(super) fn new(scene: &'a Scene, packed: &'a Packed) -> Self {
+    pub(super) fn new(scene: &'a Scene, packed: &'a Packed, container: Container) -> Self {
         // glTF has no empty arrays.
         let solid = !packed.views.is_empty();
         Self {
@@ -45,8 +47,17 @@ impl<'a> Document<'a> {
             materials: (!scene.materials.is_empty()).then_some(Materials(scene)),
             accessors: solid.then_some(Accessors(packed)),
             buffer_views: solid.then_some(BufferViews(packed)),
+            buffers: (solid && container == Container::Glb).then_some([Buffer {
+                byte_length: packed.length,
+            }]),
         }
     }
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Buffer {
+    byte_length: u64,
 }
 
 #[derive(Serialize)]

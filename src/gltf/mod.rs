@@ -16,7 +16,6 @@ use std::io::{self, Seek, Write};
 
 use crate::scene::Scene;
 use document::Document;
-use packing::Packed;
 use spool::Spool;
 
 /// The name of the virtual node that holds the parts without a parent.
@@ -59,12 +58,8 @@ pub fn write(
         Container::Glb => {
             let mut spool = Spool::new(out, document::room(scene));
             let packed = packing::pack(scene, |bytes| spool.push(bytes))?;
-            let mut json = json_without_buffer(scene, &packed)?;
-            if packed.length > 0 {
-                write!(json, r#","buffers":[{{"byteLength":{}}}]"#, packed.length)?;
-            }
-            json.push(b'}');
-            spool.finish(json)?;
+            let document = Document::new(scene, &packed, container);
+            spool.finish(|out| Ok(serde_json::to_writer(out, &document)?))?;
             Ok(packed.total())
         }
         Container::Gltf => write_gltf(scene, out),
@@ -77,7 +72,10 @@ fn write_gltf(scene: &Scene, out: &mut (impl Write + ?Sized)) -> io::Result<Writ
         data.extend_from_slice(bytes);
         Ok(())
     })?;
-    out.write_all(&json_without_buffer(scene, &packed)?)?;
+    // The buffer comes last in the file because it holds all the data: the closing brace must wait.
+    let mut json = serde_json::to_vec(&Document::new(scene, &packed, Container::Gltf))?;
+    json.pop();
+    out.write_all(&json)?;
     if packed.length > 0 {
         let length = packed.length;
         write!(
@@ -93,17 +91,6 @@ fn write_gltf(scene: &Scene, out: &mut (impl Write + ?Sized)) -> io::Result<Writ
     }
     out.write_all(b"}")?;
     Ok(packed.total())
-}
-
-/// The JSON up to the buffer, which comes last in the file because it may hold all the data: the
-/// closing brace is missing.
-fn json_without_buffer(scene: &Scene, packed: &Packed) -> io::Result<Vec<u8>> {
-    // Room for nearly all of it, so that it is not copied while it grows.
-    let room = 1024 + scene.nodes.len() * 320 + scene.meshes.len() * 480;
-    let mut json = Vec::with_capacity(room);
-    serde_json::to_writer(&mut json, &Document::new(scene, packed))?;
-    json.pop();
-    Ok(json)
 }
 
 fn invalid(message: impl Into<String>) -> io::Error {

@@ -12,9 +12,9 @@ use super::invalid;
 use crate::scene::{Primitive, Scene, Surface};
 
 /// Primitives in a window.
-pub(super) const WINDOW: usize = 4096;
+pub(super) const WINDOW: usize = 512;
 /// Primitives that are packed by one thread at a time.
-const BATCH: usize = 128;
+const BATCH: usize = 32;
 /// Kinds of data.
 const KINDS: usize = 6;
 
@@ -150,29 +150,26 @@ pub(super) fn pack(
         entries: Vec::with_capacity(primitives.len()),
         ..Packed::default()
     };
-    let make = |window: &[&Primitive]| -> io::Result<Vec<Batch>> {
-        window
-            .par_chunks(BATCH)
-            .map(|batch| Batch::make(batch, scene.materials.len()))
-            .collect()
+    let make = |window: &[&Primitive], batches: &mut Vec<Batch>| -> io::Result<()> {
+        batches.resize_with(window.len().div_ceil(BATCH), Batch::default);
+        let batches = batches.par_iter_mut().zip(window.par_chunks(BATCH));
+        batches.try_for_each(|(batch, window)| batch.fill(window, scene.materials.len()))
     };
     let mut windows = primitives.chunks(WINDOW);
-    let mut ready = match windows.next() {
-        Some(window) => make(window)?,
-        None => return Ok(packed),
-    };
-    loop {
-        let next = windows.next();
+    // Two sets of buffers take turns, so that no memory is asked for after the second window.
+    let (mut ready, mut next) = (Vec::new(), Vec::new());
+    make(windows.next().unwrap_or(&[]), &mut ready)?;
+    while !ready.is_empty() {
+        let window = windows.next().unwrap_or(&[]);
         let (written, made) = rayon::join(
             || packed.take(&mut ready, &mut write),
-            || next.map(make).transpose(),
+            || make(window, &mut next),
         );
         written?;
-        match made? {
-            Some(batches) => ready = batches,
-            None => return Ok(packed),
-        }
+        made?;
+        std::mem::swap(&mut ready, &mut next);
     }
+    Ok(packed)
 }
 
 impl Packed {
@@ -225,8 +222,9 @@ impl Packed {
 }
 
 impl Batch {
-    fn make(primitives: &[&Primitive], materials: usize) -> io::Result<Self> {
-        let mut batch = Self::default();
+    fn fill(&mut self, primitives: &[&Primitive], materials: usize) -> io::Result<()> {
+        self.data.iter_mut().for_each(Vec::clear);
+        self.entries.clear();
         for primitive in primitives {
             let surface = primitive.surface();
             if primitive.material >= materials {
@@ -234,11 +232,11 @@ impl Batch {
             }
             let entry = match surface.triangles.is_empty() {
                 true => None,
-                false => Some(batch.put(&surface)?),
+                false => Some(self.put(&surface)?),
             };
-            batch.entries.push(entry);
+            self.entries.push(entry);
         }
-        Ok(batch)
+        Ok(())
     }
 
     fn put(&mut self, surface: &Surface) -> io::Result<Entry> {

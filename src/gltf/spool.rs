@@ -8,7 +8,7 @@ use std::io::{self, Seek, SeekFrom, Write};
 use super::invalid;
 
 /// How much waits in memory, bytes.
-const PATIENCE: usize = 64 << 20;
+const PATIENCE: usize = 8 << 20;
 /// The file's header and that of the first chunk.
 const HEADERS: u64 = 20;
 /// The header of the second chunk.
@@ -55,46 +55,101 @@ impl<'a, W: Write + Seek + ?Sized> Spool<'a, W> {
         self.out.write_all(bytes)
     }
 
-    /// Puts the JSON in front.
-    pub(super) fn finish(self, mut json: Vec<u8>) -> io::Result<()> {
-        let padded = match self.begun {
-            Some(_) => self.room,
-            None => json.len().next_multiple_of(4) as u64,
-        };
-        if json.len() as u64 > padded {
-            return Err(invalid(
-                "the model's description is longer than was reckoned with",
-            ));
+    /// Puts the JSON in front, as `describe` writes it.
+    pub(super) fn finish(
+        self,
+        describe: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        match self.begun {
+            None => self.finish_small(describe),
+            Some(start) => self.finish_large(start, describe),
         }
-        json.resize(padded as usize, b' ');
-        let data_chunk = if self.length == 0 {
-            0
-        } else {
-            CHUNK_HEADER + self.length
-        };
-        let total = HEADERS + padded + data_chunk;
-        let total = u32::try_from(total).map_err(|_| {
-            invalid(format!(
-                "the model takes {total} bytes, but a .glb file ends at 4 GiB; write .gltf instead"
-            ))
-        })?;
-        if let Some(start) = self.begun {
-            self.out.seek(SeekFrom::Start(start))?;
-        }
-        self.out.write_all(b"glTF")?;
-        self.out.write_all(&2_u32.to_le_bytes())?;
-        self.out.write_all(&total.to_le_bytes())?;
-        self.out.write_all(&(padded as u32).to_le_bytes())?;
-        self.out.write_all(b"JSON")?;
+    }
+
+    fn finish_small(
+        self,
+        describe: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let mut json = Vec::new();
+        describe(&mut json)?;
+        json.resize(json.len().next_multiple_of(4), b' ');
+        let total = total(json.len() as u64, self.length)?;
+        head(self.out, total, json.len() as u64)?;
         self.out.write_all(&json)?;
         if self.length > 0 {
-            self.out.write_all(&(self.length as u32).to_le_bytes())?;
-            self.out.write_all(b"BIN\0")?;
+            chunk_head(self.out, self.length)?;
             self.out.write_all(&self.waiting)?;
-        }
-        if let Some(start) = self.begun {
-            self.out.seek(SeekFrom::Start(start + u64::from(total)))?;
         }
         Ok(())
     }
+
+    fn finish_large(
+        self,
+        start: u64,
+        describe: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let total = total(self.room, self.length)?;
+        self.out.seek(SeekFrom::Start(start))?;
+        head(self.out, total, self.room)?;
+        let mut json = Counted {
+            out: &mut *self.out,
+            count: 0,
+        };
+        describe(&mut json)?;
+        let Some(mut rest) = self.room.checked_sub(json.count) else {
+            return Err(invalid(
+                "the model's description is longer than was reckoned with",
+            ));
+        };
+        const BLANKS: [u8; 4096] = [b' '; 4096];
+        while rest > 0 {
+            let some = rest.min(BLANKS.len() as u64);
+            self.out.write_all(&BLANKS[..some as usize])?;
+            rest -= some;
+        }
+        chunk_head(self.out, self.length)?;
+        self.out.seek(SeekFrom::Start(start + u64::from(total)))?;
+        Ok(())
+    }
+}
+
+/// Counts what is written.
+struct Counted<'a, W: ?Sized> {
+    out: &'a mut W,
+    count: u64,
+}
+
+impl<W: Write + ?Sized> Write for Counted<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let count = self.out.write(bytes)?;
+        self.count += count as u64;
+        Ok(count)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
+/// The length of the whole file.
+fn total(json: u64, data: u64) -> io::Result<u32> {
+    let total = HEADERS + json + if data == 0 { 0 } else { CHUNK_HEADER + data };
+    u32::try_from(total).map_err(|_| {
+        invalid(format!(
+            "the model takes {total} bytes, but a .glb file ends at 4 GiB; write .gltf instead"
+        ))
+    })
+}
+
+fn head(out: &mut (impl Write + ?Sized), total: u32, json: u64) -> io::Result<()> {
+    out.write_all(b"glTF")?;
+    out.write_all(&2_u32.to_le_bytes())?;
+    out.write_all(&total.to_le_bytes())?;
+    out.write_all(&(json as u32).to_le_bytes())?;
+    out.write_all(b"JSON")
+}
+
+fn chunk_head(out: &mut (impl Write + ?Sized), length: u64) -> io::Result<()> {
+    out.write_all(&(length as u32).to_le_bytes())?;
+    out.write_all(b"BIN\0")
 }

@@ -25,8 +25,18 @@ impl Crease {
         Crease { cosine }
     }
 
+    /// Whether an edge is smooth over which the normals have this cosine.
+    pub(super) fn is_smooth(self, cosine: f64) -> bool {
+        cosine > self.cosine
+    }
+
+    /// Whether edges of right angles are smooth, or nearly.
+    pub(super) fn spans_right_angles(self) -> bool {
+        self.cosine < 1e-3
+    }
+
     fn smooth(self, a: DVec3, b: DVec3) -> bool {
-        a.dot(b) > self.cosine
+        self.is_smooth(a.dot(b))
     }
 }
 

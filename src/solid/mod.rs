@@ -12,6 +12,7 @@ mod cap;
 mod ears;
 mod groups;
 mod layers;
+mod prism;
 mod recipe;
 mod ridge;
 mod rings;

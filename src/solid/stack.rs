@@ -5,6 +5,7 @@ use glam::{DMat2, DVec2, DVec3};
 
 use super::groups::Crease;
 use super::layers::{LEAST, Layer};
+use super::prism::prism;
 use super::ridge::{Collapse, Matched, matched};
 use super::rings::Rings;
 use super::skin::skin;
@@ -139,7 +140,10 @@ pub(super) fn stack(outline: &Outline, layers: &[Layer], options: &Options) -> S
             caps = [cap.clone(), cap];
         }
         match fault(base.rings(), &levels, &mut caps, &put) {
-            None => return skin(&base, &levels, &caps, crease, &put),
+            None => {
+                let prism = prism(base.rings(), &levels, &caps, crease, &put);
+                return prism.unwrap_or_else(|| skin(&base, &levels, &caps, crease, &put));
+            }
             Some(Fault::Small) => floor = floors.next().unwrap_or(floor),
             Some(Fault::Empty(empty)) => {
                 if let Base::Even(rings) | Base::Narrow(rings) = &mut base {
@@ -239,6 +243,16 @@ fn fault(
         .enumerate()
         .filter(|(_, l)| l.form == Form::Rings)
     {
+        if k > 0
+            && levels.len() == 2
+            && level.scale == levels[0].scale
+            && levels[0].form == Form::Rings
+        {
+            // Both ends of a prism are alike.
+            let [first, last] = caps;
+            last.clone_from(first);
+            continue;
+        }
         let scale = level.scale.min_element();
         let small = (scale < 1.0 || away > FAR * extent) && scale * gap < GAP * (extent + away);
         let capped = ends.contains(&k);
@@ -298,7 +312,14 @@ impl Put {
             .to_array()
     }
 
-    fn depth(&self, z: f64) -> f32 {
+    /// Where a point lies seen along z.
+    pub(super) fn in_plane(&self, p: DVec2) -> [f32; 2] {
+        (self.scale * (self.turn * p + self.translation.truncate()))
+            .as_vec2()
+            .to_array()
+    }
+
+    pub(super) fn depth(&self, z: f64) -> f32 {
         (self.scale * (z + self.translation.z)) as f32
     }
 

@@ -6,6 +6,7 @@
 //! knows nothing of the annotation language.
 
 mod clip;
+mod deep;
 mod image;
 mod prepare;
 mod shapes;
@@ -63,13 +64,13 @@ pub struct Element {
     /// Its start tag's bracket and name, `<rect`.
     pub span: Span,
     /// Its tag's name.
-    pub tag: String,
+    pub tag: &'static str,
     /// Its `id`.
     pub id: Option<String>,
     /// Its `inkscape:label`.
     pub label: Option<String>,
     /// Its `<desc>`.
-    pub desc: Option<Text>,
+    pub desc: Option<Box<Text>>,
 }
 
 /// What a shape is painted with.
@@ -108,7 +109,7 @@ pub struct Shape {
     /// Its stroke, if it has a visible one.
     pub stroke: Option<Box<StrokeSource>>,
     /// What a line leads from and to, if the shape is an unfilled open line.
-    pub line: Option<Line>,
+    pub line: Option<Box<Line>>,
 }
 
 /// An unfilled open line.
@@ -126,21 +127,14 @@ pub struct Line {
 /// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing.
 pub fn read(source: &str, tolerance: f64, resolver: &dyn Resolver) -> (Drawing, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
-    // usvg recurses over groups and clones, up to a thousand deep: more than a thread's usual stack holds.
-    let read = std::thread::scope(|scope| {
-        let work = || read_document(source, tolerance, resolver, &mut diagnostics);
-        let thread = std::thread::Builder::new()
-            .stack_size(READER_STACK)
-            .spawn_scoped(scope, work);
-        thread.map(|thread| thread.join())
-    });
+    let read = deep::run(|| read_document(source, tolerance, resolver, &mut diagnostics));
     let drawing = match read {
-        Ok(Ok(Ok(drawing))) => drawing,
-        Ok(Ok(Err(diagnostic))) => {
+        Some(Ok(drawing)) => drawing,
+        Some(Err(diagnostic)) => {
             diagnostics.push(*diagnostic);
             Drawing::default()
         }
-        Ok(Err(_)) | Err(_) => {
+        None => {
             let message = "the drawing cannot be read: the SVG reader gave up on it";
             let help =
                 "open it in Inkscape, save it as Plain SVG, and tell us: this should not happen";
@@ -150,9 +144,6 @@ pub fn read(source: &str, tolerance: f64, resolver: &dyn Resolver) -> (Drawing, 
     };
     (drawing, diagnostics)
 }
-
-/// Stack of the thread that reads drawings, bytes.
-const READER_STACK: usize = 256 << 20;
 
 fn read_document(
     source: &str,

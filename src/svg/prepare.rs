@@ -18,7 +18,7 @@ pub(super) const MAX_DEPTH: usize = 1000;
 pub(super) const MAX_ENTITY_TEXT: usize = 16 << 20;
 
 /// Elements that usvg turns into nodes.
-const JOINED: &[&str] = &[
+pub(super) const JOINED: &[&str] = &[
     "path", "rect", "g", "circle", "ellipse", "polygon", "use", "image", "line", "polyline", "a",
     "switch", "svg",
 ];

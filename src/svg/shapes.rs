@@ -80,9 +80,13 @@ pub(super) fn read(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Drawing, Box<Diagnostic>> {
     let broken_links = Mutex::new(Vec::new());
-    let tree = usvg::Tree::from_xmltree(document, &options(resolver, &broken_links))
-        .map_err(|error| Box::new(unusable(&error, document, prepared)))?;
     let styles = Styles::read(document);
+    // usvg works on one core; the texts, which it does not read, need only the XML.
+    let (tree, labels) = rayon::join(
+        || usvg::Tree::from_xmltree(document, &options(resolver, &broken_links)),
+        || labels(document, &styles, prepared),
+    );
+    let tree = tree.map_err(|error| Box::new(unusable(&error, document, prepared)))?;
     report_links(
         document,
         prepared,
@@ -104,7 +108,10 @@ pub(super) fn read(
     walk.group(document.root_element());
     let root = document.root_element().id();
     walk.children(tree.root(), root, 1.0, None);
-    let labels = labels(document, &styles, &mut walk);
+    let labels = labels
+        .into_iter()
+        .map(|(node, label)| (label, walk.group(node)))
+        .collect();
     let Walk {
         groups,
         tasks,
@@ -129,10 +136,13 @@ pub(super) fn read(
         .enumerate()
         .map(|(index, task)| context.shape(index, task))
         .collect();
+    drop(tasks);
+    // Taking a large tree apart takes a tenth of the time of making it: nobody need wait for that.
+    super::deep::run_aside(move || drop(tree));
     let mut shapes = Vec::with_capacity(made.len());
     for (shape, finding) in made {
         shapes.extend(shape);
-        diagnostics.extend(finding);
+        diagnostics.extend(finding.map(|finding| *finding));
     }
     Ok(Drawing {
         page: (offset, size),
@@ -248,6 +258,15 @@ pub(super) fn start_tag(node: Node<'_, '_>, prepared: &Prepared) -> Span {
     prepared.span(start..name.map_or(node.range().end, |end| start + end))
 }
 
+/// The tag's name, as far as it can become a part or a group.
+fn known_tag(name: &str) -> &'static str {
+    super::prepare::JOINED
+        .iter()
+        .find(|known| **known == name)
+        .copied()
+        .unwrap_or("element")
+}
+
 fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
     let own_id = node
         .attribute("id")
@@ -257,42 +276,36 @@ fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
         .find(|child| child.is_element() && child.tag_name().name() == "desc");
     Element {
         span: start_tag(node, prepared),
-        tag: node.tag_name().name().to_owned(),
+        tag: known_tag(node.tag_name().name()),
         id: own_id.map(str::to_owned),
         label: node
             .attributes()
             .find(|attribute| attribute.name() == "label" && attribute.namespace().is_some())
             .map(|attribute| attribute.value().to_owned()),
-        desc: desc.map(|desc| text::content(desc, prepared)),
+        desc: desc.map(|desc| Box::new(text::content(desc, prepared))),
     }
 }
 
-fn labels(
-    document: &roxmltree::Document<'_>,
+/// The texts that are seen, in document order.
+fn labels<'a, 'input>(
+    document: &'a roxmltree::Document<'input>,
     styles: &Styles<'_>,
-    walk: &mut Walk<'_, '_, '_>,
-) -> Vec<(text::Label, usize)> {
-    let mut labels = Vec::new();
+    prepared: &Prepared,
+) -> Vec<(Node<'a, 'input>, text::Label)> {
+    let drawn = |node: &Node<'_, '_>| {
+        !node
+            .ancestors()
+            .any(|inner| NOT_DRAWN.contains(&inner.tag_name().name()))
+    };
     let texts: Vec<_> = document
         .descendants()
         .filter(|node| node.is_element() && matches!(node.tag_name().name(), "text" | "flowRoot"))
-        .filter(|node| {
-            !node
-                .ancestors()
-                .any(|inner| NOT_DRAWN.contains(&inner.tag_name().name()))
-        })
+        .filter(drawn)
         .collect();
-    let made: Vec<_> = texts
-        .par_iter()
-        .map(|node| text::read(*node, styles, walk.prepared))
-        .collect();
-    for (node, label) in texts.into_iter().zip(made) {
-        if let Some(label) = label {
-            let group = walk.group(node);
-            labels.push((label, group));
-        }
-    }
-    labels
+    texts
+        .into_par_iter()
+        .filter_map(|node| Some((node, text::read(node, styles, prepared)?)))
+        .collect()
 }
 
 /// Elements whose content is not drawn where it stands.
@@ -407,7 +420,7 @@ impl<'a> Walk<'a, '_, '_> {
         }
     }
 
-    fn no_solid_meaning(&mut self, xml: NodeId, what: &str, help: &str) {
+    fn no_solid_meaning(&mut self, xml: NodeId, what: &str, help: &'static str) {
         let Some(node) = self.root.document().get_node(xml) else {
             return;
         };
@@ -456,7 +469,7 @@ struct Context<'a, 'input> {
 }
 
 impl Context<'_, '_> {
-    fn shape(&self, index: usize, task: &Task<'_>) -> (Option<Shape>, Option<Diagnostic>) {
+    fn shape(&self, index: usize, task: &Task<'_>) -> (Option<Shape>, Option<Box<Diagnostic>>) {
         let Some(node) = self.document.get_node(task.xml) else {
             return (None, None);
         };
@@ -466,7 +479,7 @@ impl Context<'_, '_> {
                 let finding = shape
                     .as_ref()
                     .and_then(|shape| self.clipped_away(shape, path, task));
-                (shape, finding)
+                (shape, finding.map(Box::new))
             }
             Leaf::Image(image) => self.image(index, image, node, task),
         }
@@ -558,7 +571,7 @@ impl Context<'_, '_> {
         picture: &usvg::Image,
         node: Node<'_, '_>,
         task: &Task<'_>,
-    ) -> (Option<Shape>, Option<Diagnostic>) {
+    ) -> (Option<Shape>, Option<Box<Diagnostic>>) {
         let element = element(node, self.prepared);
         let transform = self.page * affine(picture.abs_transform());
         let image::Opaque { rings, color } = match image::opaque(picture) {
@@ -566,7 +579,7 @@ impl Context<'_, '_> {
             Err((code, message)) => {
                 let help = "link a smaller picture, or save it again as PNG";
                 let finding = Diagnostic::new(code, element.span, message).help(help);
-                return (None, Some(finding));
+                return (None, Some(Box::new(finding)));
             }
         };
         let rings = rings.into_iter().map(|ring| {
@@ -583,8 +596,8 @@ impl Context<'_, '_> {
                 "nothing opaque is left of the picture {}",
                 element.describe()
             );
-            Diagnostic::new(Code::Vanishes, element.span, message)
-                .help("delete it, or show what its clip hides")
+            let finding = Diagnostic::new(Code::Vanishes, element.span, message);
+            Box::new(finding.help("delete it, or show what its clip hides"))
         });
         let paint = Paint {
             key: PaintKey::Picture(index),
@@ -744,7 +757,7 @@ pub(super) fn rings(path: &BezPath, tolerance: f64) -> Vec<crate::geometry::Ring
     flatten(path, tolerance * bounds.width().max(bounds.height()))
 }
 
-fn open_line(path: &BezPath, node: Node<'_, '_>) -> Option<Line> {
+fn open_line(path: &BezPath, node: Node<'_, '_>) -> Option<Box<Line>> {
     let mut ends = None;
     for element in path.elements() {
         match element {
@@ -764,8 +777,10 @@ fn open_line(path: &BezPath, node: Node<'_, '_>) -> Option<Line> {
             .find(|attribute| attribute.name() == name)?;
         attribute.value().strip_prefix('#').map(str::to_owned)
     });
-    ends.map(|ends| Line {
-        ends: ends.map(|p| DVec2::new(p.x, p.y)),
-        connects,
+    ends.map(|ends| {
+        Box::new(Line {
+            ends: ends.map(|p| DVec2::new(p.x, p.y)),
+            connects,
+        })
     })
 }

@@ -1,0 +1,159 @@
+//! Nodes and meshes put together, in the world's axes.
+
+use glam::{DMat3, DQuat, DVec2, DVec3};
+
+use super::Model;
+use super::materials::Materials;
+use super::tree::{Branch, Tree};
+use crate::bind::{PartKind, Sheet};
+use crate::geometry::bounds;
+use crate::lang::keyword::Keyword;
+use crate::lang::value::{Ground, Value};
+use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene};
+use crate::solid;
+
+/// What the drawing's right, its up and the viewer's direction become in the world (`Axes`).
+pub(super) struct Axes {
+    turn: DQuat,
+    /// The axes make a left-handed system: the model is mirrored in the drawing plane, then turned.
+    pub(super) mirrored: bool,
+}
+
+impl Axes {
+    pub(super) fn of(sheet: &Sheet) -> Self {
+        let Some(Value::Axes(axes)) = sheet.drawing_value(Keyword::Axes) else {
+            return Self {
+                turn: DQuat::IDENTITY,
+                mirrored: false,
+            };
+        };
+        let [right, up, front] = axes.map(|axis| {
+            let mut vector = [0.0; 3];
+            vector[axis.axis] = if axis.negative { -1.0 } else { 1.0 };
+            DVec3::from(vector)
+        });
+        let matrix = DMat3::from_cols(right, up, right.cross(up));
+        Self {
+            turn: DQuat::from_mat3(&matrix),
+            mirrored: right.cross(up) != front,
+        }
+    }
+}
+
+/// Puts nodes and meshes together.
+pub(super) fn assemble(
+    model: &Model<'_>,
+    tree: &Tree,
+    axes: &Axes,
+    meshes: Vec<Option<Mesh>>,
+    materials: Materials,
+) -> Scene {
+    let ground = ground(model);
+    let mut scene = Scene {
+        materials: materials.into_list(),
+        ..Scene::default()
+    };
+    scene.nodes.reserve(tree.branches.len());
+    let mut meshes = Meshes {
+        placed: vec![[None; 2]; meshes.len()],
+        made: meshes,
+    };
+    for branch in &tree.branches {
+        let (translation, rotation) = match branch.parent {
+            Some(_) => (branch.place, DQuat::from_rotation_z(branch.angle)),
+            None => {
+                let place = branch.place - DVec3::new(ground.x, -ground.y, 0.0);
+                (
+                    axes.turn * place,
+                    axes.turn * DQuat::from_rotation_z(branch.angle),
+                )
+            }
+        };
+        let index = scene.nodes.len();
+        match branch.parent {
+            Some(parent) => scene.nodes[parent].children.push(index),
+            None => scene.roots.push(index),
+        }
+        let mesh = meshes.of(branch, &mut scene);
+        let part = &model.sheet.parts[branch.part];
+        scene.nodes.push(Node {
+            name: branch.name.clone(),
+            children: vec![],
+            translation: translation * model.scale,
+            rotation,
+            mesh,
+            provenance: Some(Provenance {
+                element: model.drawing.shapes[part.shape].element.id.clone(),
+                string: part
+                    .string
+                    .map(|string| model.sheet.strings[string].text.as_str().to_owned()),
+            }),
+        });
+    }
+    scene
+}
+
+/// The meshes of parts on their way into the scene.
+struct Meshes {
+    made: Vec<Option<Mesh>>,
+    /// Per part the scene's mesh as described, and mirrored.
+    placed: Vec<[Option<usize>; 2]>,
+}
+
+impl Meshes {
+    /// The mesh that a branch shows, made from its twin where that is in the scene already.
+    fn of(&mut self, branch: &Branch, scene: &mut Scene) -> Option<usize> {
+        let side = usize::from(branch.mirrored);
+        let placed = self.placed[branch.part];
+        if placed[side].is_none() {
+            let mesh = match (self.made[branch.part].take(), placed[1 - side]) {
+                (Some(mesh), _) if branch.mirrored => mirrored(&mesh),
+                (Some(mesh), _) => mesh,
+                (None, Some(twin)) => mirrored(&scene.meshes[twin]),
+                (None, None) => return None,
+            };
+            scene.meshes.push(mesh);
+            self.placed[branch.part][side] = Some(scene.meshes.len() - 1);
+        }
+        self.placed[branch.part][side]
+    }
+}
+
+/// A mesh mirrored in the drawing plane.
+fn mirrored(mesh: &Mesh) -> Mesh {
+    let piece = |piece: &Piece| match piece {
+        Piece::Solid(solid) => Piece::Solid(solid.mirrored()),
+        Piece::Surface(surface) => Piece::Surface(solid::mirror(surface)),
+    };
+    let primitive = |primitive: &Primitive| Primitive {
+        pieces: primitive.pieces.iter().map(piece).collect(),
+        material: primitive.material,
+    };
+    Mesh {
+        primitives: mesh.primitives.iter().map(primitive).collect(),
+    }
+}
+
+/// The point of the drawing that lies at the world's origin.
+fn ground(model: &Model<'_>) -> DVec2 {
+    match model.sheet.drawing_value(Keyword::Ground) {
+        Some(Value::Ground(Ground::Page)) => model.drawing.page.0,
+        Some(Value::Ground(Ground::Point([x, y]))) => DVec2::new(*x, *y),
+        _ => {
+            let built = model
+                .sheet
+                .parts
+                .iter()
+                .filter(|part| matches!(part.kind, PartKind::Main | PartKind::Sub));
+            let boxes: Vec<(DVec2, DVec2)> =
+                built.filter_map(|part| bounds(&part.outline)).collect();
+            let Some(first) = boxes.first() else {
+                return DVec2::ZERO;
+            };
+            let (low, high) = boxes.iter().fold(*first, |(low, high), other| {
+                (low.min(other.0), high.max(other.1))
+            });
+            DVec2::new((low.x + high.x) / 2.0, high.y)
+        }
+    }
+}

@@ -1,0 +1,80 @@
+//! Prisms, the commonest of solids, without the general machinery of [`super::skin`].
+
+use glam::DVec2;
+
+use super::groups::Crease;
+use super::rings::Rings;
+use super::stack::{Form, Level, Put};
+use crate::scene::Surface;
+
+/// The prism between two copies of an outline, if the levels are one and its walls never share corners
+/// with its caps.
+pub(super) fn prism(
+    rings: &Rings,
+    levels: &[Level],
+    caps: &[Vec<[u32; 3]>; 2],
+    crease: Crease,
+    put: &Put,
+) -> Option<Surface> {
+    let [low, high] = levels else { return None };
+    let whole = |level: &Level| level.form == Form::Rings && level.scale == DVec2::ONE;
+    if !whole(low) || !whole(high) || crease.spans_right_angles() {
+        return None;
+    }
+    let n = rings.len();
+    let depths = [put.depth(low.z), put.depth(high.z)];
+    let plane: Vec<[f32; 2]> = rings.points.iter().map(|p| put.in_plane(*p)).collect();
+    let mut surface = Surface::default();
+    surface.positions.reserve(6 * n);
+    surface.normals.reserve(6 * n);
+    surface
+        .triangles
+        .reserve(2 * n + caps[0].len() + caps[1].len());
+
+    for (depth, normal) in [(depths[0], -1.0), (depths[1], 1.0)] {
+        surface
+            .positions
+            .extend(plane.iter().map(|[x, y]| [*x, *y, depth]));
+        surface
+            .normals
+            .resize(surface.positions.len(), [0.0, 0.0, normal]);
+    }
+    surface
+        .triangles
+        .extend(caps[0].iter().map(|[a, b, c]| [*a, *c, *b]));
+    let top = n as u32;
+    surface.triangles.extend(
+        caps[1]
+            .iter()
+            .map(|triangle| triangle.map(|corner| corner + top)),
+    );
+
+    let walls: Vec<DVec2> = (0..n)
+        .map(|i| {
+            let along = rings.points[rings.next[i] as usize] - rings.points[i];
+            DVec2::new(along.y, -along.x).normalize_or(DVec2::X)
+        })
+        .collect();
+    // The lower corner at each point: of the wall before it and of the wall after it; the upper one follows it.
+    let mut corners: Vec<[u32; 2]> = Vec::with_capacity(n);
+    let mut edge = |normal: DVec2, [x, y]: [f32; 2]| {
+        let corner = surface.positions.len() as u32;
+        surface.positions.extend(depths.map(|depth| [x, y, depth]));
+        let normal = put.normal(normal.extend(0.0));
+        surface.normals.extend([normal; 2]);
+        corner
+    };
+    for i in 0..n {
+        let (before, after) = (walls[rings.before[i] as usize], walls[i]);
+        corners.push(if crease.is_smooth(before.dot(after)) {
+            [edge((before + after).normalize_or(after), plane[i]); 2]
+        } else {
+            [edge(before, plane[i]), edge(after, plane[i])]
+        });
+    }
+    for i in 0..n {
+        let (a, b) = (corners[i][1], corners[rings.next[i] as usize][0]);
+        surface.triangles.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+    }
+    Some(surface)
+}
