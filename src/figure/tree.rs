@@ -8,8 +8,10 @@ use super::frame::Frame;
 use crate::bind::PartKind;
 use crate::diagnostic::{Code, Diagnostic};
 
-/// Most nodes that `-d` may make: nested copies double each time.
+/// Most nodes that `-d` may make.
 const MOST_NODES: usize = 1 << 20;
+/// How deep `-d` may stand on `-d`: each doubles what hangs on it, so that a part becomes 256.
+const MOST_NESTED: usize = 8;
 
 /// A node to be.
 #[derive(Debug, Clone)]
@@ -38,6 +40,8 @@ struct Bud {
     parent: Option<usize>,
     mirrored: bool,
     copies: usize,
+    /// How many parts with `-d` it hangs on, itself counted.
+    nested: usize,
 }
 
 impl Tree {
@@ -67,22 +71,31 @@ impl Tree {
         let mut names: FxHashSet<String> = known.iter().map(|part| part.name.clone()).collect();
         let mut branches: Vec<Branch> = Vec::with_capacity(parts.len());
         let mut buds: Vec<Bud> = Vec::new();
-        let sprout = |buds: &mut Vec<Bud>, part: usize, parent, mirrored: bool, copies| {
-            let bud = |mirrored, copies| Bud {
-                part,
-                parent,
-                mirrored,
-                copies,
+        let mut too_deep = None;
+        let mut sprout =
+            |buds: &mut Vec<Bud>, part: usize, parent, mirrored: bool, copies, nested: usize| {
+                let doubled = model.sheet.shape(part).doubled;
+                let nested = nested + usize::from(doubled);
+                let bud = |mirrored, copies| Bud {
+                    part,
+                    parent,
+                    mirrored,
+                    copies,
+                    nested,
+                };
+                // The last one in is grown first: the copy stands behind its original.
+                if doubled && nested <= MOST_NESTED {
+                    buds.push(bud(!mirrored, copies + 1));
+                } else if doubled {
+                    too_deep.get_or_insert(part);
+                }
+                buds.push(bud(mirrored, copies));
             };
-            // The last one in is grown first: the copy stands behind its original.
-            if model.sheet.shape(part).doubled {
-                buds.push(bud(!mirrored, copies + 1));
-            }
-            buds.push(bud(mirrored, copies));
-        };
         for root in roots.iter().rev() {
-            sprout(&mut buds, *root, None, mirrored, 0);
+            sprout(&mut buds, *root, None, mirrored, 0, 0);
         }
+        // Per part how many `.back` its next copy has at least.
+        let mut backs = vec![0_usize; known.len()];
         while let Some(bud) = buds.pop() {
             if branches.len() >= MOST_NODES {
                 let element = &model.drawing.shapes[parts[bud.part].shape].element;
@@ -98,14 +111,45 @@ impl Tree {
             }
             let index = branches.len();
             let mut branch = place(model, frames, &bud);
-            // A copy of a copy may meet a name that is taken.
-            while bud.copies > 0 && !names.insert(branch.name.clone()) {
-                branch.name.push_str(".back");
+            if bud.copies > 0 {
+                // A copy of a copy may meet a name that is taken.
+                for _ in bud.copies..backs[bud.part] {
+                    branch.name.push_str(".back");
+                }
+                backs[bud.part] = backs[bud.part].max(bud.copies) + 1;
+                while !names.insert(branch.name.clone()) {
+                    branch.name.push_str(".back");
+                    backs[bud.part] += 1;
+                }
             }
             branches.push(branch);
             for child in children[bud.part].iter().rev() {
-                sprout(&mut buds, *child, Some(index), bud.mirrored, bud.copies);
+                sprout(
+                    &mut buds,
+                    *child,
+                    Some(index),
+                    bud.mirrored,
+                    bud.copies,
+                    bud.nested,
+                );
             }
+        }
+        if let Some(part) = too_deep {
+            let element = &model.drawing.shapes[parts[part].shape].element;
+            diagnostics.push(
+                Diagnostic::new(
+                    Code::LimitPassed,
+                    element.span,
+                    format!(
+                        "`{}` with `-d` hangs on more than {} other parts with `-d`",
+                        parts[part].name,
+                        MOST_NESTED - 1
+                    ),
+                )
+                .help(
+                    "each of them doubles all that hangs on it: take `-d` away from some of them",
+                ),
+            );
         }
         Self { branches }
     }

@@ -184,7 +184,8 @@ fn unusable(
     match error {
         usvg::Error::InvalidSize => Diagnostic::new(Code::OutOfRange, tag, "the page has no size")
             .help("give the drawing a page: in Inkscape, File → Document Properties → Resize to content"),
-        usvg::Error::ElementsLimitReached => Diagnostic::new(
+        usvg::Error::ElementsLimitReached
+        | usvg::Error::ParsingFailed(roxmltree::Error::NodesLimitReached) => Diagnostic::new(
             Code::LimitPassed,
             tag,
             "the drawing has more than a million elements once its clones are drawn, or is nested too deep",
