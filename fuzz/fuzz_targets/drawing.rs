@@ -1,0 +1,18 @@
+//! Every drawing compiles, what comes out can be written, and what is said points into the drawing.
+#![no_main]
+
+use std::io::Cursor;
+
+use libfuzzer_sys::fuzz_target;
+use okoshi::compile::{Options, compile};
+use okoshi::gltf::{Container, write};
+use okoshi::resolver::MemoryResolver;
+
+fuzz_target!(|drawing: &str| {
+    let compiled = compile(drawing, &Options::default(), &MemoryResolver::default());
+    for finding in &compiled.diagnostics {
+        assert!(drawing.get(finding.span.start..finding.span.end).is_some(), "{finding:?}");
+    }
+    let mut out = Cursor::new(Vec::new());
+    write(&compiled.scene, Container::Glb, &mut out).expect("a scene keeps its own rules");
+});
