@@ -2,7 +2,7 @@
 
 use glam::{DAffine2, DVec2};
 
-use super::shapes::{affine, bez_path, rings};
+use super::paths::{affine, bez_path, rings};
 use crate::geometry::{FillRule, Outline, bounds, clean, intersect, union};
 
 /// A clip path in user units.

@@ -7,15 +7,20 @@
 
 mod clip;
 mod deep;
+mod elements;
 mod image;
+mod links;
+mod paint;
+mod paths;
 mod prepare;
 mod shapes;
 mod style;
 mod text;
+mod walk;
 
 use glam::DVec2;
 
-pub use shapes::StrokeSource;
+pub use paths::StrokeSource;
 pub use text::Label;
 
 use crate::diagnostic::{Code, Diagnostic};

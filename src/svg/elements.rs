@@ -1,0 +1,82 @@
+//! Elements of the XML: where they are, what they are called, which of them are texts.
+
+use rayon::prelude::*;
+use roxmltree::{Node, NodeId};
+use rustc_hash::FxHashMap;
+
+use super::prepare::{JOINED, Prepared};
+use super::style::Styles;
+use super::{Element, text};
+use crate::source::Span;
+
+pub(super) fn ids<'a>(document: &'a roxmltree::Document<'_>) -> FxHashMap<&'a str, NodeId> {
+    let mut ids = FxHashMap::default();
+    for node in document.descendants().filter(Node::is_element) {
+        if let Some(id) = node.attribute("id") {
+            ids.entry(id).or_insert(node.id());
+        }
+    }
+    ids
+}
+
+/// The original place of an element's opening bracket and name: short enough to point at.
+pub(super) fn start_tag(node: Node<'_, '_>, prepared: &Prepared) -> Span {
+    let start = node.range().start;
+    let name = prepared.text[start..].find(|c: char| c.is_whitespace() || matches!(c, '>' | '/'));
+    prepared.span(start..name.map_or(node.range().end, |end| start + end))
+}
+
+/// The tag's name, as far as it can become a part or a group.
+fn known_tag(name: &str) -> &'static str {
+    JOINED
+        .iter()
+        .find(|known| **known == name)
+        .copied()
+        .unwrap_or("element")
+}
+
+pub(super) fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
+    let own_id = node
+        .attribute("id")
+        .filter(|id| !id.starts_with(&prepared.id_prefix));
+    let desc = node
+        .children()
+        .find(|child| child.is_element() && child.tag_name().name() == "desc");
+    Element {
+        span: start_tag(node, prepared),
+        tag: known_tag(node.tag_name().name()),
+        id: own_id.map(str::to_owned),
+        label: node
+            .attributes()
+            .find(|attribute| attribute.name() == "label" && attribute.namespace().is_some())
+            .map(|attribute| attribute.value().to_owned()),
+        desc: desc.map(|desc| Box::new(text::content(desc, prepared))),
+    }
+}
+
+/// The texts that are seen, in document order.
+pub(super) fn labels<'a, 'input>(
+    document: &'a roxmltree::Document<'input>,
+    styles: &Styles<'_>,
+    prepared: &Prepared,
+) -> Vec<(Node<'a, 'input>, text::Label)> {
+    let drawn = |node: &Node<'_, '_>| {
+        !node
+            .ancestors()
+            .any(|inner| NOT_DRAWN.contains(&inner.tag_name().name()))
+    };
+    let texts: Vec<_> = document
+        .descendants()
+        .filter(|node| node.is_element() && matches!(node.tag_name().name(), "text" | "flowRoot"))
+        .filter(drawn)
+        .collect();
+    texts
+        .into_par_iter()
+        .filter_map(|node| Some((node, text::read(node, styles, prepared)?)))
+        .collect()
+}
+
+/// Elements whose content is not drawn where it stands.
+const NOT_DRAWN: &[&str] = &[
+    "defs", "symbol", "pattern", "clipPath", "mask", "marker", "metadata",
+];

@@ -1,0 +1,113 @@
+//! usvg's paths and transforms in f64, and what can be seen from a path alone.
+
+use glam::{DAffine2, DMat2, DVec2};
+use kurbo::BezPath;
+use roxmltree::Node;
+use usvg::tiny_skia_path as skia;
+
+use super::{Line, Paint};
+use crate::geometry::{FillRule, Outline, Ring, clean, flatten};
+
+/// A stroke, from which an outline can be made when it is wanted.
+#[derive(Debug, Clone)]
+pub struct StrokeSource {
+    pub(super) path: skia::Path,
+    pub(super) stroke: skia::Stroke,
+    pub(super) transform: DAffine2,
+    pub(super) tolerance: f64,
+    /// What it is painted with.
+    pub paint: Paint,
+}
+
+impl StrokeSource {
+    /// The area that the stroke covers.
+    pub fn outline(&self) -> Outline {
+        let extent = self
+            .path
+            .bounds()
+            .width()
+            .max(self.path.bounds().height())
+            .max(self.stroke.width);
+        let resolution = (1000.0 / extent).clamp(1e-3, 1e4);
+        let dashed = self
+            .stroke
+            .dash
+            .as_ref()
+            .and_then(|dash| self.path.dash(dash, resolution));
+        match dashed
+            .as_ref()
+            .unwrap_or(&self.path)
+            .stroke(&self.stroke, resolution)
+        {
+            None => Outline::default(),
+            Some(path) => {
+                let path = bez_path(&path, self.transform);
+                clean(rings(&path, self.tolerance), FillRule::NonZero)
+            }
+        }
+    }
+}
+
+/// usvg's transform in f64.
+pub(super) fn affine(t: usvg::Transform) -> DAffine2 {
+    DAffine2::from_mat2_translation(
+        DMat2::from_cols(
+            DVec2::new(f64::from(t.sx), f64::from(t.ky)),
+            DVec2::new(f64::from(t.kx), f64::from(t.sy)),
+        ),
+        DVec2::new(f64::from(t.tx), f64::from(t.ty)),
+    )
+}
+
+/// A path with its transform applied in f64.
+pub(super) fn bez_path(path: &skia::Path, transform: DAffine2) -> BezPath {
+    let point = |p: skia::Point| {
+        let p = transform.transform_point2(DVec2::new(f64::from(p.x), f64::from(p.y)));
+        kurbo::Point::new(p.x, p.y)
+    };
+    let mut out = BezPath::with_capacity(path.verbs().len());
+    for segment in path.segments() {
+        match segment {
+            skia::PathSegment::MoveTo(p) => out.move_to(point(p)),
+            skia::PathSegment::LineTo(p) => out.line_to(point(p)),
+            skia::PathSegment::QuadTo(a, p) => out.quad_to(point(a), point(p)),
+            skia::PathSegment::CubicTo(a, b, p) => out.curve_to(point(a), point(b), point(p)),
+            skia::PathSegment::Close => out.close_path(),
+        }
+    }
+    out
+}
+
+/// Flattens a path to a share of its larger extent.
+pub(super) fn rings(path: &BezPath, tolerance: f64) -> Vec<Ring> {
+    let bounds = path.control_box();
+    flatten(path, tolerance * bounds.width().max(bounds.height()))
+}
+
+pub(super) fn open_line(path: &BezPath, node: Node<'_, '_>) -> Option<Box<Line>> {
+    let mut ends = None;
+    for element in path.elements() {
+        match element {
+            kurbo::PathEl::MoveTo(p) if ends.is_none() => ends = Some([*p, *p]),
+            // A second subpath or a closed one: no leader.
+            kurbo::PathEl::MoveTo(_) | kurbo::PathEl::ClosePath => return None,
+            other => {
+                if let (Some(ends), Some(p)) = (&mut ends, other.end_point()) {
+                    ends[1] = p;
+                }
+            }
+        }
+    }
+    let connects = ["connection-start", "connection-end"].map(|name| {
+        let attribute = node
+            .attributes()
+            .find(|attribute| attribute.name() == name)?;
+        attribute.value().strip_prefix('#').map(str::to_owned)
+    });
+    ends.map(|ends| {
+        Box::new(Line {
+            ends: ends.map(|p| DVec2::new(p.x, p.y)),
+            connects,
+        })
+    })
+}
