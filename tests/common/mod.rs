@@ -88,7 +88,7 @@ fn read_primitive(primitive: &gltf::Primitive<'_>, blob: &[u8]) -> Result<Primit
         .ok_or("no indices")?
         .into_u32()
         .collect();
-    if normals.len() != positions.len() || indices.len() % 3 != 0 {
+    if normals.len() != positions.len() || !indices.len().is_multiple_of(3) {
         return Err("lists of different lengths".to_owned());
     }
     if let Some(index) = indices.iter().find(|i| **i as usize >= positions.len()) {
