@@ -4,6 +4,8 @@
 //! them with strings: medians of interleaved rounds, the triangles that were made, and how near the parts' area
 //! comes to the true one, so that coarse curves buy nothing.
 
+#![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
+
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::time::{Duration, Instant};

@@ -118,7 +118,9 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
         Detail::Aside,
         style(common, &std::io::stderr()),
     );
-    if loaded.compiled.has_errors() && !arguments.keep_going {
+    // Of a drawing that cannot be read nothing can be made, and an old model is worth more than an empty one.
+    let empty = loaded.compiled.scene.nodes.is_empty();
+    if loaded.compiled.has_errors() && (empty || !arguments.keep_going) {
         if !common.quiet {
             let kept = if output.exists() {
                 format!("; `{}` stays as it was", output.display())

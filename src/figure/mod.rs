@@ -14,9 +14,9 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::bind::{PartKind, Sheet};
+use crate::bind::{Part, PartKind, Sheet};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::Outline;
+use crate::geometry::{area, contains, intersect};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{ShapeKind, Value};
 use crate::scene::{Mesh, Piece, Primitive, Scene};
@@ -226,8 +226,13 @@ impl<'a> Model<'a> {
     }
 }
 
-/// Whether two outlines have area in common.
-fn overlap(a: &Outline, b: &Outline) -> bool {
-    let common = crate::geometry::area(&crate::geometry::intersect(a, b));
-    common > 1e-6 * crate::geometry::area(a).min(crate::geometry::area(b))
+/// Whether two parts have area in common.
+fn overlap(a: &Part, b: &Part) -> bool {
+    // Mostly the middle of one lies in both, which is quick to see.
+    let both = |point| contains(&a.outline, point) && contains(&b.outline, point);
+    if both(a.measure.center) || both(b.measure.center) {
+        return true;
+    }
+    let common = area(&intersect(&a.outline, &b.outline));
+    common > 1e-6 * area(&a.outline).min(area(&b.outline))
 }

@@ -190,6 +190,6 @@ fn below(
         .collect();
     found.sort_unstable_by_key(|other| std::cmp::Reverse(*other));
     found.truncate(MOST_NEIGHBOURS);
-    found.retain(|other| overlap(&parts[part].outline, &parts[*other].outline));
+    found.retain(|other| overlap(&parts[part], &parts[*other]));
     found
 }

@@ -1,17 +1,15 @@
 //! The hierarchy with its copies: every node's place in its parent's frame.
 
 use glam::DVec3;
-use rustc_hash::FxHashSet;
+use rustc_hash::FxHashMap;
 
 use super::Model;
 use super::frame::Frame;
 use crate::bind::PartKind;
 use crate::diagnostic::{Code, Diagnostic};
 
-/// Most nodes that `-d` may make.
-const MOST_NODES: usize = 1 << 20;
-/// How deep `-d` may stand on `-d`: each doubles what hangs on it, so that a part becomes 256.
-const MOST_NESTED: usize = 8;
+/// Most nodes that `-d` may add: nested copies double each time.
+const MOST_COPIES: usize = 1 << 16;
 
 /// A node to be.
 #[derive(Debug, Clone)]
@@ -40,8 +38,6 @@ struct Bud {
     parent: Option<usize>,
     mirrored: bool,
     copies: usize,
-    /// How many parts with `-d` it hangs on, itself counted.
-    nested: usize,
 }
 
 impl Tree {
@@ -68,42 +64,34 @@ impl Tree {
         let copied = (0..parts.len())
             .any(|part| parts[part].kind == PartKind::Main && model.sheet.shape(part).doubled);
         let known = if copied { parts.as_slice() } else { &[] };
-        let mut names: FxHashSet<String> = known.iter().map(|part| part.name.clone()).collect();
+        let mut names: FxHashMap<String, usize> =
+            known.iter().map(|part| (part.name.clone(), 1)).collect();
         let mut branches: Vec<Branch> = Vec::with_capacity(parts.len());
         let mut buds: Vec<Bud> = Vec::new();
-        let mut too_deep = None;
-        let mut sprout =
-            |buds: &mut Vec<Bud>, part: usize, parent, mirrored: bool, copies, nested: usize| {
-                let doubled = model.sheet.shape(part).doubled;
-                let nested = nested + usize::from(doubled);
-                let bud = |mirrored, copies| Bud {
-                    part,
-                    parent,
-                    mirrored,
-                    copies,
-                    nested,
-                };
-                // The last one in is grown first: the copy stands behind its original.
-                if doubled && nested <= MOST_NESTED {
-                    buds.push(bud(!mirrored, copies + 1));
-                } else if doubled {
-                    too_deep.get_or_insert(part);
-                }
-                buds.push(bud(mirrored, copies));
+        let sprout = |buds: &mut Vec<Bud>, part: usize, parent, mirrored: bool, copies| {
+            let bud = |mirrored, copies| Bud {
+                part,
+                parent,
+                mirrored,
+                copies,
             };
+            // The last one in is grown first: the copy stands behind its original.
+            if model.sheet.shape(part).doubled {
+                buds.push(bud(!mirrored, copies + 1));
+            }
+            buds.push(bud(mirrored, copies));
+        };
         for root in roots.iter().rev() {
-            sprout(&mut buds, *root, None, mirrored, 0, 0);
+            sprout(&mut buds, *root, None, mirrored, 0);
         }
-        // Per part how many `.back` its next copy has at least.
-        let mut backs = vec![0_usize; known.len()];
         while let Some(bud) = buds.pop() {
-            if branches.len() >= MOST_NODES {
+            if branches.len() >= parts.len() + MOST_COPIES {
                 let element = &model.drawing.shapes[parts[bud.part].shape].element;
                 diagnostics.push(
                     Diagnostic::new(
                         Code::LimitPassed,
                         element.span,
-                        format!("the copies of `-d` make more than {MOST_NODES} nodes"),
+                        format!("the copies of `-d` add more than {MOST_COPIES} nodes"),
                     )
                     .help("a part with `-d` on a part with `-d` is copied four times, and so on: take some away"),
                 );
@@ -112,46 +100,32 @@ impl Tree {
             let index = branches.len();
             let mut branch = place(model, frames, &bud);
             if bud.copies > 0 {
-                // A copy of a copy may meet a name that is taken.
-                for _ in bud.copies..backs[bud.part] {
-                    branch.name.push_str(".back");
-                }
-                backs[bud.part] = backs[bud.part].max(bud.copies) + 1;
-                while !names.insert(branch.name.clone()) {
-                    branch.name.push_str(".back");
-                    backs[bud.part] += 1;
-                }
+                branch.name = free_name(branch.name, &mut names);
             }
             branches.push(branch);
             for child in children[bud.part].iter().rev() {
-                sprout(
-                    &mut buds,
-                    *child,
-                    Some(index),
-                    bud.mirrored,
-                    bud.copies,
-                    bud.nested,
-                );
+                sprout(&mut buds, *child, Some(index), bud.mirrored, bud.copies);
             }
         }
-        if let Some(part) = too_deep {
-            let element = &model.drawing.shapes[parts[part].shape].element;
-            diagnostics.push(
-                Diagnostic::new(
-                    Code::LimitPassed,
-                    element.span,
-                    format!(
-                        "`{}` with `-d` hangs on more than {} other parts with `-d`",
-                        parts[part].name,
-                        MOST_NESTED - 1
-                    ),
-                )
-                .help(
-                    "each of them doubles all that hangs on it: take `-d` away from some of them",
-                ),
-            );
-        }
         Self { branches }
+    }
+}
+
+/// The name of a copy, with a number behind it where a copy of a copy meets a name that is taken.
+fn free_name(name: String, names: &mut FxHashMap<String, usize>) -> String {
+    let mut count = names.get(&name).copied().unwrap_or(0);
+    if count == 0 {
+        names.insert(name.clone(), 1);
+        return name;
+    }
+    loop {
+        count += 1;
+        let numbered = format!("{name}-{count}");
+        if !names.contains_key(&numbered) {
+            names.insert(name, count);
+            names.insert(numbered.clone(), 1);
+            return numbered;
+        }
     }
 }
 
