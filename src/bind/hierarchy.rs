@@ -14,6 +14,8 @@ use crate::lang::keyword::Keyword;
 use crate::lang::value::{Origin, ShapeKind, Value};
 use crate::svg::Drawing;
 
+/// The name of the virtual node that parts without a parent hang on.
+const ROOT: &str = "Root";
 /// How much longer than wide a part must be for its turning about the middle to be worth a hint.
 const LONG: f64 = 2.0;
 /// How many parts that were named by themselves are spoken of one by one.
@@ -180,6 +182,10 @@ fn parents(
         };
         if let Some(parent) = names.get(&parent.text) {
             sheet.parts[index].parent = Some(*parent);
+            continue;
+        }
+        // What `inspect` and the model call `Root` may be named like any part.
+        if parent.text == ROOT {
             continue;
         }
         let text = &sheet.strings[string].text;

@@ -259,11 +259,16 @@ impl<'a> Binder<'a> {
                     Annotation::Legend(_) => "this legend".to_owned(),
                     _ => "this string".to_owned(),
                 };
+                let place = if string.scope.is_some() {
+                    "in its group"
+                } else {
+                    "of the drawing"
+                };
                 self.diagnostics.push(
                     Diagnostic::new(
                         Code::NoPartLeft,
                         string.text.whole(),
-                        format!("there is no part left for {what}: every shape has a string already"),
+                        format!("there is no part left for {what}: every shape {place} has a string already"),
                     )
                     .help("delete the string, draw its shape, or begin it with `#` to make it a comment"),
                 );

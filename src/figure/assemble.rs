@@ -12,43 +12,29 @@ use crate::lang::value::{Ground, Value};
 use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene};
 use crate::solid;
 
-/// What the drawing's right, its up and the viewer's direction become in the world (`Axes`).
-pub(super) struct Axes {
-    turn: DQuat,
-    /// The axes make a left-handed system: the model is mirrored in the drawing plane, then turned.
-    pub(super) mirrored: bool,
-}
-
-impl Axes {
-    pub(super) fn of(sheet: &Sheet) -> Self {
-        let Some(Value::Axes(axes)) = sheet.drawing_value(Keyword::Axes) else {
-            return Self {
-                turn: DQuat::IDENTITY,
-                mirrored: false,
-            };
-        };
-        let [right, up, front] = axes.map(|axis| {
-            let mut vector = [0.0; 3];
-            vector[axis.axis] = if axis.negative { -1.0 } else { 1.0 };
-            DVec3::from(vector)
-        });
-        let matrix = DMat3::from_cols(right, up, right.cross(up));
-        Self {
-            turn: DQuat::from_mat3(&matrix),
-            mirrored: right.cross(up) != front,
-        }
-    }
+/// The rotation from the drawing's right, its up and the viewer's direction to the world (`Axes`), which is
+/// right-handed: other axes are refused where they are read.
+fn axes(sheet: &Sheet) -> DQuat {
+    let Some(Value::Axes(axes)) = sheet.drawing_value(Keyword::Axes) else {
+        return DQuat::IDENTITY;
+    };
+    let [right, up, front] = axes.map(|axis| {
+        let mut vector = [0.0; 3];
+        vector[axis.axis] = if axis.negative { -1.0 } else { 1.0 };
+        DVec3::from(vector)
+    });
+    DQuat::from_mat3(&DMat3::from_cols(right, up, front))
 }
 
 /// Puts nodes and meshes together.
 pub(super) fn assemble(
     model: &Model<'_>,
     tree: &Tree,
-    axes: &Axes,
     meshes: Vec<Option<Mesh>>,
     materials: Materials,
 ) -> Scene {
     let ground = ground(model);
+    let turn = axes(model.sheet);
     let mut scene = Scene {
         materials: materials.into_list(),
         ..Scene::default()
@@ -63,10 +49,7 @@ pub(super) fn assemble(
             Some(_) => (branch.place, DQuat::from_rotation_z(branch.angle)),
             None => {
                 let place = branch.place - DVec3::new(ground.x, -ground.y, 0.0);
-                (
-                    axes.turn * place,
-                    axes.turn * DQuat::from_rotation_z(branch.angle),
-                )
+                (turn * place, turn * DQuat::from_rotation_z(branch.angle))
             }
         };
         let index = scene.nodes.len();

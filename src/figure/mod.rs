@@ -23,7 +23,6 @@ use crate::scene::{Mesh, Piece, Primitive, Scene};
 use crate::solid::{self, Placement, Sides, Solid};
 use crate::svg::Drawing;
 
-use assemble::Axes;
 use frame::Frame;
 use materials::Materials;
 use relief::Relief;
@@ -46,8 +45,7 @@ pub fn build(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>
             members[part.main].push(index);
         }
     }
-    let axes = Axes::of(sheet);
-    let tree = Tree::grow(&model, &frames, axes.mirrored, diagnostics);
+    let tree = Tree::grow(&model, &frames, diagnostics);
     let copies: Vec<Diagnostic> = (0..sheet.parts.len())
         .into_par_iter()
         .filter_map(|part| model.check_copies(part))
@@ -58,7 +56,7 @@ pub fn build(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>
         .enumerate()
         .map(|(main, parts)| model.mesh(main, parts, &frames, &relief, &materials))
         .collect();
-    assemble::assemble(&model, &tree, &axes, meshes, materials)
+    assemble::assemble(&model, &tree, meshes, materials)
 }
 
 /// What building needs to know of the whole drawing.

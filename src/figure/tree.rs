@@ -41,11 +41,10 @@ struct Bud {
 }
 
 impl Tree {
-    /// Grows the hierarchy, `-d` copies included; `mirrored` turns all of it inside out in depth.
+    /// Grows the hierarchy, `-d` copies included.
     pub(super) fn grow(
         model: &Model<'_>,
         frames: &[Frame],
-        mirrored: bool,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let parts = &model.sheet.parts;
@@ -82,7 +81,7 @@ impl Tree {
             buds.push(bud(mirrored, copies));
         };
         for root in roots.iter().rev() {
-            sprout(&mut buds, *root, None, mirrored, 0);
+            sprout(&mut buds, *root, None, false, 0);
         }
         while let Some(bud) = buds.pop() {
             if branches.len() >= parts.len() + MOST_COPIES {

@@ -88,12 +88,19 @@ pub fn layers(
     Some(layers)
 }
 
-/// Angles from `a0` to `a1`, within a half turn, in equal steps.
+/// Angles from `a0` to `a1`, within a half turn, in equal steps on either side of 0, where the outline is whole.
 fn steps([a0, a1]: [f64; 2], segments: u32) -> impl Iterator<Item = f64> {
     let [a0, a1] = [a0, a1].map(|a| finite(a).clamp(-90.0, 90.0));
     let step = 180.0 / f64::from(segments.clamp(*SEGMENTS.start(), *SEGMENTS.end()));
-    let count = ((a1 - a0).abs() / step - 1e-9).ceil().max(1.0);
-    (0..=count as usize).map(move |i| a0 + (a1 - a0) * (i as f64 / count))
+    let equal = move |from: f64, to: f64| {
+        let count = ((to - from).abs() / step - 1e-9).ceil().max(1.0);
+        (0..count as usize).map(move |i| from + (to - from) * (i as f64 / count))
+    };
+    let through = a0 * a1 < 0.0;
+    let second = through.then(|| equal(0.0, a1)).into_iter().flatten();
+    equal(a0, if through { 0.0 } else { a1 })
+        .chain(second)
+        .chain([a1])
 }
 
 fn snap(scale: f64) -> f64 {
