@@ -8,7 +8,9 @@ use std::io::{self, Seek, SeekFrom, Write};
 use super::invalid;
 
 /// How much waits in memory, bytes.
-const PATIENCE: usize = 8 << 20;
+const PATIENCE: usize = 1 << 20;
+/// How much of the JSON is gathered before it is written, bytes: it comes in small pieces.
+const GATHERED: usize = 64 << 10;
 /// The file's header and that of the first chunk.
 const HEADERS: u64 = 20;
 /// The header of the second chunk.
@@ -58,7 +60,7 @@ impl<'a, W: Write + Seek + ?Sized> Spool<'a, W> {
     /// Puts the JSON in front, as `describe` writes it.
     pub(super) fn finish(
         self,
-        describe: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+        describe: impl FnOnce(&mut Counted) -> io::Result<()>,
     ) -> io::Result<()> {
         match self.begun {
             None => self.finish_small(describe),
@@ -66,12 +68,11 @@ impl<'a, W: Write + Seek + ?Sized> Spool<'a, W> {
         }
     }
 
-    fn finish_small(
-        self,
-        describe: impl FnOnce(&mut dyn Write) -> io::Result<()>,
-    ) -> io::Result<()> {
+    fn finish_small(self, describe: impl FnOnce(&mut Counted) -> io::Result<()>) -> io::Result<()> {
         let mut json = Vec::new();
-        describe(&mut json)?;
+        let mut counted = Counted::new(&mut json);
+        describe(&mut counted)?;
+        counted.empty()?;
         json.resize(json.len().next_multiple_of(4), b' ');
         let total = total(json.len() as u64, self.length)?;
         head(self.out, total, json.len() as u64)?;
@@ -86,17 +87,17 @@ impl<'a, W: Write + Seek + ?Sized> Spool<'a, W> {
     fn finish_large(
         self,
         start: u64,
-        describe: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+        describe: impl FnOnce(&mut Counted) -> io::Result<()>,
     ) -> io::Result<()> {
         let total = total(self.room, self.length)?;
         self.out.seek(SeekFrom::Start(start))?;
         head(self.out, total, self.room)?;
-        let mut json = Counted {
-            out: &mut *self.out,
-            count: 0,
-        };
+        let mut out = &mut *self.out;
+        let mut json = Counted::new(&mut out);
         describe(&mut json)?;
-        let Some(mut rest) = self.room.checked_sub(json.count) else {
+        json.empty()?;
+        let written = json.count;
+        let Some(mut rest) = self.room.checked_sub(written) else {
             return Err(invalid(
                 "the model's description is longer than was reckoned with",
             ));
@@ -113,21 +114,49 @@ impl<'a, W: Write + Seek + ?Sized> Spool<'a, W> {
     }
 }
 
-/// Counts what is written.
-struct Counted<'a, W: ?Sized> {
-    out: &'a mut W,
+/// Gathers what is written, and counts it.
+pub(super) struct Counted<'a> {
+    out: &'a mut dyn Write,
+    gathered: Vec<u8>,
     count: u64,
 }
 
-impl<W: Write + ?Sized> Write for Counted<'_, W> {
+impl<'a> Counted<'a> {
+    fn new(out: &'a mut dyn Write) -> Self {
+        Self {
+            out,
+            gathered: Vec::with_capacity(2 * GATHERED),
+            count: 0,
+        }
+    }
+
+    fn empty(&mut self) -> io::Result<()> {
+        self.count += self.gathered.len() as u64;
+        self.out.write_all(&self.gathered)?;
+        self.gathered.clear();
+        Ok(())
+    }
+}
+
+impl Write for Counted<'_> {
+    #[inline]
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let count = self.out.write(bytes)?;
-        self.count += count as u64;
-        Ok(count)
+        self.write_all(bytes)?;
+        Ok(bytes.len())
+    }
+
+    #[inline]
+    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.gathered.extend_from_slice(bytes);
+        if self.gathered.len() >= GATHERED {
+            self.empty()
+        } else {
+            Ok(())
+        }
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.out.flush()
+        self.empty()
     }
 }
 
