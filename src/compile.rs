@@ -3,11 +3,13 @@
 use std::sync::{Arc, Mutex};
 
 use crate::bind::{self, Sheet};
-use crate::diagnostic::{self, Diagnostic, Severity};
+use crate::diagnostic::{self, Code, Diagnostic, Severity};
 use crate::figure;
 use crate::resolver::{LinkError, Resolver};
 use crate::scene::Scene;
+use crate::source::Span;
 use crate::svg::{self, Drawing};
+use crate::threads;
 
 /// How far a flattened curve may lie off, as a share of its part's larger extent (figure.md, Parts).
 pub const TOLERANCE: f64 = 0.001;
@@ -53,6 +55,18 @@ impl Compiled {
 
 /// Compiles a drawing. Never fails and never panics; takes about as long as parsing the SVG does.
 pub fn compile(source: &str, options: &Options, resolver: &dyn Resolver) -> Compiled {
+    threads::run(|| compile_here(source, options, resolver)).unwrap_or_else(|| {
+        let message = "the drawing cannot be compiled: okoshi gave up on it";
+        let help = "open it in Inkscape, save it as Plain SVG, and tell us: this should not happen";
+        let diagnostic = Diagnostic::new(Code::LimitPassed, Span::at(0), message).help(help);
+        Compiled {
+            diagnostics: vec![diagnostic],
+            ..Compiled::default()
+        }
+    })
+}
+
+fn compile_here(source: &str, options: &Options, resolver: &dyn Resolver) -> Compiled {
     let recorder = Recorder {
         inner: resolver,
         links: Mutex::default(),

@@ -22,3 +22,4 @@ pub mod scene;
 pub mod solid;
 pub mod source;
 pub mod svg;
+mod threads;

@@ -11,10 +11,14 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("geometry", &[]),
     ("diagnostic", &["source"]),
     ("lang", &["diagnostic", "source"]),
-    ("svg", &["diagnostic", "geometry", "resolver", "source"]),
+    ("threads", &[]),
+    (
+        "svg",
+        &["diagnostic", "geometry", "resolver", "source", "threads"],
+    ),
     ("solid", &["geometry", "lang", "scene"]),
     ("scene", &["solid"]),
-    ("gltf", &["scene"]),
+    ("gltf", &["scene", "threads"]),
     ("bind", &["diagnostic", "geometry", "lang", "source", "svg"]),
     (
         "figure",
@@ -30,7 +34,16 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ),
     (
         "compile",
-        &["bind", "diagnostic", "figure", "resolver", "scene", "svg"],
+        &[
+            "bind",
+            "diagnostic",
+            "figure",
+            "resolver",
+            "scene",
+            "source",
+            "svg",
+            "threads",
+        ],
     ),
     ("disk", &["resolver"]),
     (

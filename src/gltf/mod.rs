@@ -15,6 +15,7 @@ mod tests;
 use std::io::{self, Seek, Write};
 
 use crate::scene::Scene;
+use crate::threads;
 use document::Document;
 use spool::Spool;
 
@@ -54,7 +55,7 @@ pub fn write(
     out: &mut (impl Write + Seek + Send + ?Sized),
 ) -> io::Result<Written> {
     check::check(scene)?;
-    match container {
+    let written = threads::run(|| match container {
         Container::Glb => {
             let mut spool = Spool::new(out, document::room(scene));
             let packed = packing::pack(scene, |bytes| spool.push(bytes))?;
@@ -63,7 +64,12 @@ pub fn write(
             Ok(packed.total())
         }
         Container::Gltf => write_gltf(scene, out),
-    }
+    });
+    written.unwrap_or_else(|| {
+        Err(io::Error::other(
+            "a solid cannot be made: this should not happen, please tell us",
+        ))
+    })
 }
 
 fn write_gltf(scene: &Scene, out: &mut (impl Write + ?Sized)) -> io::Result<Written> {

@@ -6,7 +6,6 @@
 //! knows nothing of the annotation language.
 
 mod clip;
-mod deep;
 mod elements;
 mod image;
 mod links;
@@ -129,24 +128,15 @@ pub struct Line {
 /// Reads a drawing. `tolerance` is how far a flattened curve may lie off, as a share of its shape's
 /// larger extent.
 ///
-/// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing.
+/// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing. Recurses as deep as the
+/// drawing is nested: the thread needs a stack of some 100 MiB, as [`crate::compile::compile`] gives it.
 pub fn read(source: &str, tolerance: f64, resolver: &dyn Resolver) -> (Drawing, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
-    let read = deep::run(|| read_document(source, tolerance, resolver, &mut diagnostics));
-    let drawing = match read {
-        Some(Ok(drawing)) => drawing,
-        Some(Err(diagnostic)) => {
-            diagnostics.push(*diagnostic);
-            Drawing::default()
-        }
-        None => {
-            let message = "the drawing cannot be read: the SVG reader gave up on it";
-            let help =
-                "open it in Inkscape, save it as Plain SVG, and tell us: this should not happen";
-            diagnostics.push(Diagnostic::new(Code::LimitPassed, Span::at(0), message).help(help));
-            Drawing::default()
-        }
-    };
+    let drawing = read_document(source, tolerance, resolver, &mut diagnostics);
+    let drawing = drawing.unwrap_or_else(|diagnostic| {
+        diagnostics.push(*diagnostic);
+        Drawing::default()
+    });
     (drawing, diagnostics)
 }
 

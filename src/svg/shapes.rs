@@ -85,7 +85,7 @@ pub(super) fn read(
         .collect();
     drop(tasks);
     // Taking a large tree apart takes a tenth of the time of making it: nobody need wait for that.
-    super::deep::run_aside(move || drop(tree));
+    crate::threads::run_aside(move || drop(tree));
     let mut shapes = Vec::with_capacity(made.len());
     for (shape, finding) in made {
         shapes.extend(shape);
