@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3, Vec3};
 use proptest::prelude::*;
+use proptest::test_runner::FileFailurePersistence;
 
 use super::check::{closed, volume};
 use super::tests::{kinds, options, outline};
@@ -70,9 +71,12 @@ fn lawful(surface: &Surface) -> Result<(), String> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(
-        std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(64)
-    ))]
+    #![proptest_config(ProptestConfig {
+        cases: std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(64),
+        // Beside the tests, not at the top of the project.
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct("tests/regressions/solids.txt"))),
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn solids_are_lawful(
