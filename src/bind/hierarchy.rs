@@ -6,7 +6,7 @@ use rstar::RTree;
 use rstar::primitives::GeomWithData;
 use rustc_hash::FxHashMap;
 
-use super::sheet::{Part, PartKind, Place, Sheet};
+use super::sheet::{Part, PartKind, Sheet};
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::geometry::{Measure, measure_along};
 use crate::lang::ast::{Annotation, Name};
@@ -416,9 +416,7 @@ fn turns_about_middle(
         _ => return,
     };
     let end = text.as_str().trim_end().len();
-    let place = match string.place {
-        Place::Label(_) | Place::Shape(_) | Place::Group(_) => text.span(end..end),
-    };
+    let place = text.span(end..end);
     let [start, far] = sorted_ends(part, Some(sheet.parts[parent].measure.center));
     let way = far - start;
     let side = match (way.y.abs() >= way.x.abs(), way.x >= 0.0, way.y >= 0.0) {

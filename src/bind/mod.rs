@@ -80,8 +80,8 @@ struct Binder<'a> {
     units: &'a Units,
     sheet: &'a mut Sheet,
     diagnostics: &'a mut Vec<Diagnostic>,
-    /// Per member of the units the part it became, if it has area.
-    part_of_member: Vec<Option<usize>>,
+    /// Per group its backmost part.
+    backmost: Vec<Option<usize>>,
     /// Per shape its first part.
     part_of_shape: Vec<Option<usize>>,
 }
@@ -93,10 +93,17 @@ impl<'a> Binder<'a> {
         sheet: &'a mut Sheet,
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Self {
-        let mut part_of_member = vec![None; units.members.len()];
+        let mut backmost = vec![None; drawing.groups.len()];
         let mut part_of_shape = vec![None; drawing.shapes.len()];
         for (index, part) in sheet.parts.iter().enumerate() {
-            part_of_member[part.member] = Some(index);
+            // Where an inner group has its part, the outer ones have theirs.
+            let chain = units.chain(drawing.shapes[part.shape].group);
+            for group in chain
+                .take_while(|group| backmost[*group].is_none())
+                .collect::<Vec<_>>()
+            {
+                backmost[group] = Some(index);
+            }
             part_of_shape[part.shape].get_or_insert(index);
         }
         units::choose_mains(units, sheet);
@@ -105,7 +112,7 @@ impl<'a> Binder<'a> {
             units,
             sheet,
             diagnostics,
-            part_of_member,
+            backmost,
             part_of_shape,
         }
     }
@@ -117,7 +124,8 @@ impl<'a> Binder<'a> {
                 _ if !self.sheet.strings[string].wants_part() => continue,
                 Place::Label(_) => continue,
                 Place::Shape(shape) => self.part_of_shape[shape],
-                Place::Group(group) => self.backmost(group),
+                Place::Group(group) if self.units.is_transparent(group) => None,
+                Place::Group(group) => self.backmost[group],
             };
             if let Some(part) = part {
                 self.bind(string, part, BoundBy::Desc);
@@ -136,14 +144,14 @@ impl<'a> Binder<'a> {
             };
             let holder = self.units.chain(group).find(|group| {
                 self.units.is_container(*group)
-                    || (self.units.groups_strings(*group) && self.backmost(*group).is_some())
+                    || (self.units.groups_strings(*group) && self.backmost[*group].is_some())
             });
             match holder {
                 Some(group) if self.units.is_container(group) => {
                     self.sheet.strings[string].scope = Some(group);
                 }
                 Some(group) => {
-                    if let Some(part) = self.backmost(group) {
+                    if let Some(part) = self.backmost[group] {
                         self.bind(string, part, BoundBy::Group);
                     }
                 }
@@ -283,13 +291,6 @@ impl<'a> Binder<'a> {
             Place::Label(label) if string.wants_part() && string.binding.is_none() => Some(label),
             _ => None,
         }
-    }
-
-    /// The backmost part in a group.
-    fn backmost(&self, group: usize) -> Option<usize> {
-        self.units
-            .members_in(group)
-            .find_map(|member| self.part_of_member[member])
     }
 
     fn bind(&mut self, string: usize, part: usize, by: BoundBy) {

@@ -39,8 +39,6 @@ pub(super) struct Units {
     unit: Vec<Option<usize>>,
     /// Per member: the nearest container around it.
     container: Vec<Option<usize>>,
-    /// Per group: members in it, hindmost first.
-    inside: Vec<Vec<usize>>,
 }
 
 impl Units {
@@ -57,7 +55,6 @@ impl Units {
         let mut units = Self {
             unit: vec![None; members.len()],
             container: vec![None; members.len()],
-            inside: vec![Vec::new(); drawing.groups.len()],
             members,
             roles,
             parents,
@@ -65,11 +62,6 @@ impl Units {
         for index in 0..units.members.len() {
             let group = drawing.shapes[units.members[index].shape].group;
             let chain: Vec<usize> = units.chain(group).collect();
-            for group in &chain {
-                if units.roles[*group] != Role::Transparent {
-                    units.inside[*group].push(index);
-                }
-            }
             for group in chain {
                 match units.roles[group] {
                     Role::Transparent => {}
@@ -94,6 +86,11 @@ impl Units {
         })
     }
 
+    /// Whether the group is as if it were not there: a layer, a wrapper.
+    pub(super) fn is_transparent(&self, group: usize) -> bool {
+        self.roles[group] == Role::Transparent
+    }
+
     pub(super) fn is_container(&self, group: usize) -> bool {
         self.roles[group] == Role::Container
     }
@@ -101,11 +98,6 @@ impl Units {
     /// Whether strings in the group belong to its backmost part.
     pub(super) fn groups_strings(&self, group: usize) -> bool {
         self.roles[group] == Role::Unit
-    }
-
-    /// The members in a group, hindmost first.
-    pub(super) fn members_in(&self, group: usize) -> impl Iterator<Item = usize> + '_ {
-        self.inside[group].iter().copied()
     }
 }
 

@@ -13,7 +13,7 @@ use super::paths::{StrokeSource, affine, bez_path, open_line, rings};
 use super::prepare::Prepared;
 use super::style::Styles;
 use super::walk::{Leaf, Task, Walk};
-use super::{Drawing, Paint, PaintKey, Shape, image};
+use super::{Drawing, Element, Paint, PaintKey, Shape, image};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{FillRule, Outline, clean};
 use crate::resolver::Resolver;
@@ -159,6 +159,16 @@ impl Context<'_, '_> {
         })
     }
 
+    /// The element that a shape stands for.
+    fn element(&self, node: Node<'_, '_>) -> Element {
+        let mut element = element(node, self.prepared);
+        if element.tag == "use" {
+            // The clone is a group too, and the description is the group's.
+            element.desc = None;
+        }
+        element
+    }
+
     fn path(&self, path: &usvg::Path, node: Node<'_, '_>, task: &Task<'_>) -> Option<Shape> {
         let transform = self.page * affine(path.abs_transform());
         let fill = path.fill().filter(|fill| fill.opacity().get() > 0.0);
@@ -172,9 +182,7 @@ impl Context<'_, '_> {
                 usvg::FillRule::EvenOdd => FillRule::EvenOdd,
             };
             outline = clean(rings(&bez, self.tolerance), rule);
-            for clip in task.clips.iter().flat_map(|clips| clips.iter()) {
-                outline = clip.cut(outline);
-            }
+            outline = task.clip(outline);
         } else if stroke.is_some() {
             line = open_line(&bez, node);
         }
@@ -199,11 +207,7 @@ impl Context<'_, '_> {
             ),
             (None, None) => return None,
         };
-        let mut element = element(node, self.prepared);
-        if element.tag == "use" {
-            // The clone is a group too, and the description is the group's.
-            element.desc = None;
-        }
+        let element = self.element(node);
         let opacity = opacity * task.opacity;
         Some(Shape {
             group: task.group,
@@ -223,7 +227,7 @@ impl Context<'_, '_> {
         node: Node<'_, '_>,
         task: &Task<'_>,
     ) -> (Option<Shape>, Option<Box<Diagnostic>>) {
-        let element = element(node, self.prepared);
+        let element = self.element(node);
         let transform = self.page * affine(picture.abs_transform());
         let image::Opaque { rings, color } = match image::opaque(picture) {
             Ok(opaque) => opaque,
@@ -239,9 +243,7 @@ impl Context<'_, '_> {
                 .collect()
         });
         let mut outline = clean(rings.collect(), FillRule::EvenOdd);
-        for clip in task.clips.iter().flat_map(|clips| clips.iter()) {
-            outline = clip.cut(outline);
-        }
+        outline = task.clip(outline);
         let finding = outline.polygons.is_empty().then(|| {
             let message = format!(
                 "nothing opaque is left of the picture {}",

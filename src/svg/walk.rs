@@ -12,6 +12,7 @@ use super::paths::affine;
 use super::prepare::Prepared;
 use super::{Group, GroupKind};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::Outline;
 
 /// A usvg node that is to become a shape.
 pub(super) struct Task<'a> {
@@ -20,6 +21,14 @@ pub(super) struct Task<'a> {
     pub(super) group: usize,
     pub(super) opacity: f64,
     pub(super) clips: Option<Arc<Vec<Clip>>>,
+}
+
+impl Task<'_> {
+    /// What the clips leave of an outline.
+    pub(super) fn clip(&self, outline: Outline) -> Outline {
+        let clips = self.clips.iter().flat_map(|clips| clips.iter());
+        clips.fold(outline, |outline, clip| clip.cut(outline))
+    }
 }
 
 pub(super) enum Leaf<'a> {

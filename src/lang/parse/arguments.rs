@@ -48,17 +48,7 @@ impl Parser<'_> {
         self.skip_to_attribute(false);
         let end = start + self.folded.as_str()[start..self.at].trim_end().len();
         self.at = end;
-        let diagnostic = Diagnostic::new(
-            Code::UnclosedQuote,
-            self.span(start..start + 1),
-            "this quote is never closed",
-        )
-        .fix(
-            "Close the quote",
-            self.span(end..end),
-            self.escape(end, "\""),
-        );
-        self.report(diagnostic);
+        self.unclosed_quote(start, end);
         ArgumentKind::Unreadable
     }
 

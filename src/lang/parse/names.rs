@@ -167,14 +167,8 @@ impl Parser<'_> {
         taken
     }
 
-    fn unclosed_name(&mut self) -> Option<Name> {
-        let start = self.at;
-        let region = self.rest()[1..]
-            .split(['@', '$'])
-            .next()
-            .unwrap_or_default();
-        let written = region.trim();
-        let end = start + 1 + region.trim_end().len();
+    /// Reports the quote at `start`, which could be closed at `end`.
+    pub(super) fn unclosed_quote(&mut self, start: usize, end: usize) {
         let diagnostic = Diagnostic::new(
             Code::UnclosedQuote,
             self.span(start..start + 1),
@@ -186,6 +180,17 @@ impl Parser<'_> {
             self.escape(end, "\""),
         );
         self.report(diagnostic);
+    }
+
+    fn unclosed_name(&mut self) -> Option<Name> {
+        let start = self.at;
+        let region = self.rest()[1..]
+            .split(['@', '$'])
+            .next()
+            .unwrap_or_default();
+        let written = region.trim();
+        let end = start + 1 + region.trim_end().len();
+        self.unclosed_quote(start, end);
         self.at += 1 + region.len();
         (!written.is_empty()).then(|| Name {
             text: written.to_owned(),
