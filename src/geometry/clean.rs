@@ -14,7 +14,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
 use super::touch::{pull_apart, touches};
-use super::{FillRule, Outline, Polygon, Ring};
+use super::{FillRule, Outline, Polygon, Ring, plain};
 
 pub(crate) use super::query::shoelace;
 pub use super::query::{area, bounds, contains, distance_squared};
@@ -28,6 +28,8 @@ const GRIDS: [f64; 3] = [
 ];
 /// Points closer than this to the line between their neighbours go, relative to the extent.
 const FLAT: f64 = 5e-7;
+/// Edges that keep this distance cannot meet on the finest grid, relative to the extent.
+const APART: f64 = 1e-6;
 /// Rings narrower than this on average go, relative to the extent.
 const SLIVER: f64 = 1e-6;
 /// Extents outside of this are not geometry: their squares would overflow or vanish.
@@ -45,24 +47,17 @@ pub fn clean(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
         return Outline::default();
     };
     let flat = FLAT * grid.extent;
-    if let [ring] = &mut rings[..] {
+    for ring in &mut rings {
         tidy(ring, flat);
-        if ring.len() < 3 {
-            return Outline::default();
-        }
-        let area = shoelace(ring);
-        if area > 0.0 {
-            ring.reverse();
-        }
-        if is_convex(ring) || is_simple(ring, &grid) {
-            if is_sliver(ring, grid.extent) {
-                return Outline::default();
-            }
-            let rings = vec![std::mem::take(ring)];
-            return Outline {
-                polygons: vec![Polygon { rings }],
-            };
-        }
+    }
+    rings.retain(|ring| ring.len() > 2);
+    let simple = match &rings[..] {
+        [ring] if winds_once(ring) => true,
+        rings => plain::keep_apart(rings, APART * grid.extent) || is_simple(rings, &grid),
+    };
+    if simple && rings.len() <= plain::MOST_RINGS {
+        rings.retain(|ring| !is_sliver(ring, grid.extent));
+        return plain::nest(rings, rule);
     }
     let rule = match rule {
         FillRule::NonZero => GridRule::NonZero,
@@ -274,15 +269,17 @@ fn stands_out(a: DVec2, b: DVec2, c: DVec2, flat: f64) -> bool {
     near.min(far) > flat * flat && cross * cross > flat * flat * near.max(far)
 }
 
-/// Whether a ring turns clockwise (as numbers go) all the way round, once.
-fn is_convex(ring: &Ring) -> bool {
+/// Whether a ring turns one way all the way round, once: it is convex.
+fn winds_once(ring: &Ring) -> bool {
     let n = ring.len();
     let mut before = ring[n - 1] - ring[n - 2];
     let mut start = ring[n - 1];
+    let way = before.perp_dot(ring[0] - start);
     let mut turns = 0;
     for &p in ring {
         let edge = p - start;
-        if before.perp_dot(edge) >= 0.0 {
+        // Also where a product is no number.
+        if !(before.perp_dot(edge) * way > 0.0) {
             return false;
         }
         turns += usize::from((before.x >= 0.0) != (edge.x >= 0.0));
@@ -291,7 +288,9 @@ fn is_convex(ring: &Ring) -> bool {
     turns <= 2
 }
 
-fn is_simple(ring: &Ring, grid: &Grid) -> bool {
+/// Whether one ring alone does not cross or touch itself on the grid.
+fn is_simple(rings: &[Ring], grid: &Grid) -> bool {
+    let [ring] = rings else { return false };
     let path: Vec<_> = ring.iter().map(|p| grid.point(*p)).collect();
     OVERLAY.with_borrow_mut(|overlay| overlay.simplify_contour(&path, GridRule::NonZero).is_none())
 }

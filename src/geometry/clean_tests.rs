@@ -253,3 +253,51 @@ proptest! {
         }
     }
 }
+
+/// Rings that keep apart are as the overlay would have them, whichever way they run and nest.
+#[test]
+fn nested_rings_need_no_overlay() {
+    let ways = |rings: &[Ring], reversed: usize| -> Vec<Ring> {
+        let turn = |(i, ring): (usize, &Ring)| match reversed >> i & 1 {
+            0 => ring.clone(),
+            _ => ring.iter().rev().copied().collect(),
+        };
+        rings.iter().enumerate().map(turn).collect()
+    };
+    let rings = [
+        square(0.0, 0.0, 10.0),
+        square(1.0, 1.0, 7.0),
+        square(2.0, 2.0, 2.0),
+        square(5.0, 5.0, 2.0),
+        square(20.0, 0.0, 3.0),
+    ];
+    for reversed in 0..1 << rings.len() {
+        for rule in [FillRule::NonZero, FillRule::EvenOdd] {
+            let rings = ways(&rings, reversed);
+            let plain = cleaned(rings.clone(), rule);
+            // A ring that crosses itself sends all of them to the overlay.
+            let mut crossed = rings;
+            crossed.push(ring(&[(40., 0.), (42., 2.), (42., 0.), (40., 2.)]));
+            let overlaid = cleaned(crossed, rule);
+            let bow_tie = 2.0;
+            assert!(
+                (area(&plain) + bow_tie - area(&overlaid)).abs() < 1e-3,
+                "{reversed} {rule:?}"
+            );
+            let mut expected = shape(&overlaid);
+            expected.drain(..2);
+            assert_eq!(shape(&plain), expected, "{reversed} {rule:?}");
+        }
+    }
+}
+
+#[test]
+fn shared_points_are_touches() {
+    let bow = ring(&[(0., 0.), (2., 2.), (4., 0.), (4., 4.), (2., 2.), (0., 4.)]);
+    let squares = vec![square(0., 0., 2.), square(2., 2., 2.)];
+    for rings in [vec![bow], squares] {
+        for rule in [FillRule::NonZero, FillRule::EvenOdd] {
+            assert_eq!(shape(&cleaned(rings.clone(), rule)), [1, 1]);
+        }
+    }
+}

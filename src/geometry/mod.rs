@@ -9,6 +9,7 @@
 pub mod clean;
 pub mod flatten;
 pub mod measure;
+mod plain;
 mod query;
 mod touch;
 

@@ -18,11 +18,23 @@ pub fn area(outline: &Outline) -> f64 {
 
 /// Whether a point is filled. Points on a border may fall either way.
 pub fn contains(outline: &Outline, point: DVec2) -> bool {
-    edges(outline).fold(false, |inside, [a, b]| {
+    let rings = outline.polygons.iter().flat_map(|p| &p.rings);
+    rings.fold(false, |inside, ring| inside != is_inside(ring, point))
+}
+
+/// Whether a ring goes around a point.
+pub(super) fn is_inside(ring: &Ring, point: DVec2) -> bool {
+    let Some(mut a) = ring.last().copied() else {
+        return false;
+    };
+    let mut inside = false;
+    for &b in ring {
         let crosses = (a.y > point.y) != (b.y > point.y)
             && point.x < (b.x - a.x) * ((point.y - a.y) / (b.y - a.y)) + a.x;
-        inside != crosses
-    })
+        inside ^= crosses;
+        a = b;
+    }
+    inside
 }
 
 /// The square of the distance from a point to the filled area: 0 inside, infinite where there is none.
