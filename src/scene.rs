@@ -1,9 +1,10 @@
-//! The model: nodes, meshes, materials. No drawing, no glTF.
+//! The model: nodes, meshes, materials, textures. No drawing, no glTF.
 //!
 //! Conventions, stated once: right-handed axes, +Y up, metres, counter-clockwise front faces seen
 //! from outside, quaternions `x y z w`, colours linear RGBA.
 
 use std::borrow::Cow;
+use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
@@ -20,6 +21,10 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// The materials that primitives point at.
     pub materials: Vec<Material>,
+    /// The textures that materials point at.
+    pub textures: Vec<Texture>,
+    /// The images that textures point at.
+    pub images: Vec<Image>,
 }
 
 /// A node of the hierarchy: a joint, with or without a solid.
@@ -126,19 +131,152 @@ impl Surface {
     }
 }
 
-/// A glTF metallic-roughness material.
+/// A glTF metallic-roughness material. Factors multiply what their textures say.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Its name.
     pub name: String,
     /// Base colour, linear RGB and alpha, each 0 to 1.
     pub base_color: [f32; 4],
+    /// Base colour, sRGB and alpha.
+    pub base_color_texture: Option<TextureUse>,
     /// 0 to 1.
     pub metallic: f32,
     /// 0 to 1.
     pub roughness: f32,
+    /// Roughness in green, metalness in blue, both linear.
+    pub metallic_roughness_texture: Option<TextureUse>,
+    /// Tangent-space normals; the amount scales their x and y.
+    pub normal_texture: Option<TextureUse>,
+    /// Occlusion in red, linear; the amount is its strength.
+    pub occlusion_texture: Option<TextureUse>,
     /// Linear RGB, each 0 to 1.
     pub emissive: [f32; 3],
+    /// Emitted light, sRGB.
+    pub emissive_texture: Option<TextureUse>,
+    /// What alpha means.
+    pub alpha_mode: AlphaMode,
     /// Seen from both sides: surfaces without thickness.
     pub double_sided: bool,
+}
+
+impl Default for Material {
+    /// White and opaque, as rough as parts are (language.md, `Roughness`).
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            base_color: [1.0; 4],
+            base_color_texture: None,
+            metallic: 0.0,
+            roughness: 0.9,
+            metallic_roughness_texture: None,
+            normal_texture: None,
+            occlusion_texture: None,
+            emissive: [0.0; 3],
+            emissive_texture: None,
+            alpha_mode: AlphaMode::Opaque,
+            double_sided: false,
+        }
+    }
+}
+
+impl Material {
+    /// All textures that it uses.
+    pub fn textures(&self) -> impl Iterator<Item = &TextureUse> {
+        let all = [
+            &self.base_color_texture,
+            &self.metallic_roughness_texture,
+            &self.normal_texture,
+            &self.occlusion_texture,
+            &self.emissive_texture,
+        ];
+        all.into_iter().flatten()
+    }
+}
+
+/// What a material's alpha means.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum AlphaMode {
+    /// Nothing.
+    #[default]
+    Opaque,
+    /// What has less alpha than this is not there, the rest is opaque.
+    Mask {
+        /// 0 to 1.
+        cutoff: f32,
+    },
+    /// How much it covers.
+    Blend,
+}
+
+/// A texture as a material uses it, with the surface's texture coordinates.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TextureUse {
+    /// Index of the texture.
+    pub texture: usize,
+    /// How much it counts, 1 for all; for normals and occlusion only.
+    pub amount: f32,
+}
+
+impl TextureUse {
+    /// A texture that counts in full.
+    pub fn new(texture: usize) -> Self {
+        Self {
+            texture,
+            amount: 1.0,
+        }
+    }
+}
+
+/// An image and how it is sampled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Texture {
+    /// Index of the image.
+    pub image: usize,
+    /// What lies beyond the image's left and right, and beyond its top and bottom.
+    pub wrap: [Wrap; 2],
+    /// What lies between its pixels.
+    pub filter: Filter,
+}
+
+/// What a texture shows beyond its image.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Wrap {
+    /// The image again.
+    #[default]
+    Repeat,
+    /// The image again, every other time mirrored.
+    MirroredRepeat,
+    /// Its outermost pixels.
+    ClampToEdge,
+}
+
+/// What a texture shows between pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Filter {
+    /// A mean of the neighbours.
+    #[default]
+    Linear,
+    /// The nearest one: sharp squares.
+    Nearest,
+}
+
+/// An image file. Its first row is at the texture coordinate v = 0.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Image {
+    /// Its name.
+    pub name: String,
+    /// What the bytes are.
+    pub media_type: MediaType,
+    /// The file.
+    pub bytes: Arc<[u8]>,
+}
+
+/// The kinds of files that images may be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum MediaType {
+    /// `image/png`.
+    Png,
+    /// `image/jpeg`.
+    Jpeg,
 }

@@ -6,7 +6,7 @@ use crate::bind::{Look, Part, PartKind, SetBy, Sheet};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::ShapeKind;
-use crate::scene::Material;
+use crate::scene::{AlphaMode, Material};
 use crate::svg::{Drawing, PaintKey};
 
 /// The materials of a drawing, and which part has which.
@@ -104,7 +104,12 @@ fn material(look: &Look, double_sided: bool) -> Material {
         metallic: look.metallic as f32,
         roughness: look.roughness as f32,
         emissive: look.emissive.map(linear),
+        alpha_mode: match alpha < 1.0 {
+            true => AlphaMode::Blend,
+            false => AlphaMode::Opaque,
+        },
         double_sided,
+        ..Material::default()
     }
 }
 

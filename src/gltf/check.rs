@@ -3,11 +3,12 @@
 use std::io;
 
 use super::invalid;
-use crate::scene::Scene;
+use crate::scene::{AlphaMode, MediaType, Scene};
 
 /// Refuses nodes and materials that would make a file that no reader takes.
 pub(super) fn check(scene: &Scene) -> io::Result<()> {
     check_nodes(scene)?;
+    check_images(scene)?;
     check_materials(scene)
 }
 
@@ -34,14 +35,44 @@ fn check_nodes(scene: &Scene) -> io::Result<()> {
     Ok(())
 }
 
+fn check_images(scene: &Scene) -> io::Result<()> {
+    for image in &scene.images {
+        let begin: &[u8] = match image.media_type {
+            MediaType::Png => b"\x89PNG\r\n\x1a\n",
+            MediaType::Jpeg => b"\xff\xd8\xff",
+        };
+        if !image.bytes.starts_with(begin) {
+            let (name, media_type) = (&image.name, image.media_type);
+            return Err(invalid(format!("image `{name}` is no {media_type:?}")));
+        }
+    }
+    match scene.textures.iter().any(|t| t.image >= scene.images.len()) {
+        true => Err(invalid("a texture with an image out of range")),
+        false => Ok(()),
+    }
+}
+
 fn check_materials(scene: &Scene) -> io::Result<()> {
     for material in &scene.materials {
-        let factors = [material.metallic, material.roughness];
+        let mut textures = material.textures();
+        if textures.any(|used| used.texture >= scene.textures.len()) {
+            let name = &material.name;
+            return Err(invalid(format!(
+                "material `{name}` has a texture out of range"
+            )));
+        }
+        let cutoff = match material.alpha_mode {
+            AlphaMode::Mask { cutoff } => cutoff,
+            AlphaMode::Opaque | AlphaMode::Blend => 0.0,
+        };
+        let factors = [material.metallic, material.roughness, cutoff];
+        let amounts = material.textures().map(|used| &used.amount);
         let numbers = material
             .base_color
             .iter()
             .chain(&material.emissive)
-            .chain(&factors);
+            .chain(&factors)
+            .chain(amounts);
         if !numbers.into_iter().all(|number| number.is_finite()) {
             return Err(invalid(format!(
                 "material `{}` has a factor that is not a number",

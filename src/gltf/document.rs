@@ -2,8 +2,9 @@
 
 use serde::{Serialize, Serializer};
 
+use super::looks::{Images, Materials, Samplers, Textures};
 use super::packing::{Entry, IndexType, Kind, Packed};
-use super::{Container, ROOT};
+use super::{Container, ROOT, looks};
 use crate::scene::{self, Scene};
 
 /// All of the JSON; in a `.gltf` the buffer is written behind it.
@@ -19,6 +20,12 @@ pub(super) struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     materials: Option<Materials<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    textures: Option<Textures<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    images: Option<Images<'a>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    samplers: Option<Samplers>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     accessors: Option<Accessors<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     buffer_views: Option<BufferViews<'a>>,
@@ -29,7 +36,8 @@ pub(super) struct Document<'a> {
 impl<'a> Document<'a> {
     pub(super) fn new(scene: &'a Scene, packed: &'a Packed, container: Container) -> Self {
         // glTF has no empty arrays.
-        let solid = !packed.views.is_empty();
+        let solid = packed.entries.iter().any(Option::is_some);
+        let textured = !scene.textures.is_empty();
         Self {
             asset: Asset {
                 version: "2.0",
@@ -45,9 +53,12 @@ impl<'a> Document<'a> {
             },
             meshes: solid.then_some(Meshes(scene, packed)),
             materials: (!scene.materials.is_empty()).then_some(Materials(scene)),
+            textures: textured.then(|| Textures::new(scene, packed)),
+            images: (!packed.images.is_empty()).then_some(Images(scene, packed)),
+            samplers: textured.then(|| Samplers::new(scene)),
             accessors: solid.then_some(Accessors(packed)),
-            buffer_views: solid.then_some(BufferViews(packed)),
-            buffers: (solid && container == Container::Glb).then_some([Buffer {
+            buffer_views: (packed.length > 0).then_some(BufferViews(packed)),
+            buffers: (packed.length > 0 && container == Container::Glb).then_some([Buffer {
                 byte_length: packed.length,
             }]),
         }
@@ -73,7 +84,7 @@ struct Stage {
 
 /// A number in its shortest form that reads back as the same `f32`, without a fraction when whole.
 #[derive(Clone, Copy)]
-struct Number(f32);
+pub(super) struct Number(pub(super) f32);
 
 impl Serialize for Number {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -106,30 +117,31 @@ fn mesh_numbers(scene: &Scene, packed: &Packed) -> Vec<Option<usize>> {
         .collect()
 }
 
+/// How many bytes a text takes, escaped.
+pub(super) fn text(text: &str) -> usize {
+    text.bytes()
+        .map(|byte| {
+            if byte < 0x20 {
+                6
+            } else if matches!(byte, b'"' | b'\\') {
+                2
+            } else {
+                1
+            }
+        })
+        .sum()
+}
+
 /// More bytes than the JSON of a scene takes, reckoned before its solids are made.
 pub(super) fn room(scene: &Scene) -> u64 {
     const HEAD: usize = 4096;
     const NODE: usize = 240;
     const MESH: usize = 64;
-    const MATERIAL: usize = 512;
     /// Up to four accessors and what refers to them, every number of the greatest length.
     const PRIMITIVE: usize = 640;
     /// One view a kind for each window, of which there is at least one.
     const VIEWS: usize = 6 * 160;
 
-    let text = |text: &str| {
-        text.bytes()
-            .map(|byte| {
-                if byte < 0x20 {
-                    6
-                } else if matches!(byte, b'"' | b'\\') {
-                    2
-                } else {
-                    1
-                }
-            })
-            .sum::<usize>()
-    };
     let nodes = scene.nodes.iter().map(|node| {
         let provenance = node
             .provenance
@@ -139,15 +151,11 @@ pub(super) fn room(scene: &Scene) -> u64 {
         // The name may stand a second time, as its mesh's.
         NODE + 2 * text(&node.name) + provenance + node.children.len() * 12
     });
-    let materials = scene
-        .materials
-        .iter()
-        .map(|material| MATERIAL + text(&material.name));
     let primitives: usize = scene.meshes.iter().map(|mesh| mesh.primitives.len()).sum();
     let views = (primitives / super::packing::WINDOW + 1) * VIEWS;
     let rest =
         HEAD + scene.roots.len() * 12 + scene.meshes.len() * MESH + primitives * PRIMITIVE + views;
-    (nodes.sum::<usize>() + materials.sum::<usize>() + rest) as u64
+    (nodes.sum::<usize>() + looks::room(scene) + rest) as u64
 }
 
 struct Nodes<'a> {
@@ -307,46 +315,6 @@ impl Primitive {
     }
 }
 
-struct Materials<'a>(&'a Scene);
-
-impl Serialize for Materials<'_> {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.0.materials.iter().map(|material| Material {
-            name: &material.name,
-            pbr_metallic_roughness: MetallicRoughness {
-                base_color_factor: material.base_color.map(Number),
-                metallic_factor: Number(material.metallic),
-                roughness_factor: Number(material.roughness),
-            },
-            emissive_factor: (material.emissive != [0.0; 3]).then(|| material.emissive.map(Number)),
-            alpha_mode: (material.base_color[3] < 1.0).then_some("BLEND"),
-            double_sided: material.double_sided.then_some(true),
-        }))
-    }
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct Material<'a> {
-    #[serde(skip_serializing_if = "str::is_empty")]
-    name: &'a str,
-    pbr_metallic_roughness: MetallicRoughness,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    emissive_factor: Option<[Number; 3]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    alpha_mode: Option<&'static str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    double_sided: Option<bool>,
-}
-
-#[derive(Serialize)]
-#[serde(rename_all = "camelCase")]
-struct MetallicRoughness {
-    base_color_factor: [Number; 4],
-    metallic_factor: Number,
-    roughness_factor: Number,
-}
-
 struct Accessors<'a>(&'a Packed);
 
 impl Serialize for Accessors<'_> {
@@ -410,9 +378,10 @@ impl Serialize for BufferViews<'_> {
         serializer.collect_seq(self.0.views.iter().map(|view| {
             // Accessors that share a view need its stride stated.
             let (byte_stride, target) = match view.kind {
-                Kind::Positions | Kind::Normals => (Some(12), ARRAY_BUFFER),
-                Kind::Uvs => (Some(8), ARRAY_BUFFER),
-                Kind::Indices(_) => (None, ELEMENT_ARRAY_BUFFER),
+                Some(Kind::Positions | Kind::Normals) => (Some(12), Some(ARRAY_BUFFER)),
+                Some(Kind::Uvs) => (Some(8), Some(ARRAY_BUFFER)),
+                Some(Kind::Indices(_)) => (None, Some(ELEMENT_ARRAY_BUFFER)),
+                None => (None, None),
             };
             BufferView {
                 buffer: 0,
@@ -434,7 +403,8 @@ struct BufferView {
     byte_length: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
     byte_stride: Option<u8>,
-    target: u16,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    target: Option<u16>,
 }
 
 #[expect(

@@ -2,11 +2,12 @@
 //!
 //! The same scene gives the same bytes. What is written: one glTF scene with the virtual node `Root`,
 //! under it the scene's nodes (node `i` of the scene is node `i` of the file, `Root` comes last), one
-//! mesh a part with a primitive a material, and one buffer. Solids are made while they are written, so
+//! mesh a part with a primitive a material, and one buffer, which holds the images too. Solids are made while they are written, so
 //! that a large model is never in memory as a whole.
 
 mod check;
 mod document;
+mod looks;
 mod packing;
 mod spool;
 #[cfg(test)]

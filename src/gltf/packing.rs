@@ -7,9 +7,10 @@
 use std::io;
 
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::invalid;
-use crate::scene::{Primitive, Scene, Surface};
+use crate::scene::{Image, Material, MediaType, Primitive, Scene, Surface};
 
 /// Primitives in a window.
 pub(super) const WINDOW: usize = 512;
@@ -71,7 +72,8 @@ impl IndexType {
 /// A stretch of the buffer that holds data of one kind.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View {
-    pub(super) kind: Kind,
+    /// None for an image's bytes.
+    pub(super) kind: Option<Kind>,
     pub(super) offset: u64,
     pub(super) length: u64,
 }
@@ -96,6 +98,15 @@ pub(super) struct Entry {
     pub(super) bounds: [[f32; 3]; 2],
 }
 
+/// An image that was packed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StoredImage {
+    /// Its number in the scene: the first of those that are equal.
+    pub(super) image: usize,
+    /// Number of the view that holds its bytes.
+    pub(super) view: usize,
+}
+
 /// What was packed, and where it lies.
 #[derive(Debug, Default)]
 pub(super) struct Packed {
@@ -103,6 +114,10 @@ pub(super) struct Packed {
     pub(super) views: Vec<View>,
     /// The primitives of all meshes in order; none for one without triangles, which glTF cannot hold.
     pub(super) entries: Vec<Option<Entry>>,
+    /// The images, equal ones once.
+    pub(super) images: Vec<StoredImage>,
+    /// Per image of the scene its number in `images`.
+    pub(super) image_numbers: Vec<usize>,
     /// The length of the buffer, a multiple of four.
     pub(super) length: u64,
 }
@@ -153,7 +168,7 @@ pub(super) fn pack(
     let make = |window: &[&Primitive], batches: &mut Vec<Batch>| -> io::Result<()> {
         batches.resize_with(window.len().div_ceil(BATCH), Batch::default);
         let batches = batches.par_iter_mut().zip(window.par_chunks(BATCH));
-        batches.try_for_each(|(batch, window)| batch.fill(window, scene.materials.len()))
+        batches.try_for_each(|(batch, window)| batch.fill(window, &scene.materials))
     };
     let mut windows = primitives.chunks(WINDOW);
     // Two sets of buffers take turns, so that no memory is asked for after the second window.
@@ -169,6 +184,7 @@ pub(super) fn pack(
         made?;
         std::mem::swap(&mut ready, &mut next);
     }
+    packed.store_images(&scene.images, &mut write)?;
     Ok(packed)
 }
 
@@ -188,7 +204,7 @@ impl Packed {
             }
             numbers[slot] = self.views.len();
             self.views.push(View {
-                kind,
+                kind: Some(kind),
                 offset: self.length,
                 length: length as u64,
             });
@@ -197,9 +213,7 @@ impl Packed {
                 write(&batch.data[slot])?;
             }
         }
-        let padding = self.length.next_multiple_of(4) - self.length;
-        write(&[0; 3][..padding as usize])?;
-        self.length += padding;
+        self.pad(write)?;
 
         let mut before = [0_u64; KINDS];
         for batch in window.iter_mut() {
@@ -219,16 +233,60 @@ impl Packed {
         }
         Ok(())
     }
+
+    /// Goes on to the next multiple of four.
+    fn pad(&mut self, write: &mut impl FnMut(&[u8]) -> io::Result<()>) -> io::Result<()> {
+        let padding = self.length.next_multiple_of(4) - self.length;
+        self.length += padding;
+        write(&[0; 3][..padding as usize])
+    }
+
+    /// Writes the images behind the surfaces, equal ones once.
+    fn store_images(
+        &mut self,
+        images: &[Image],
+        write: &mut impl FnMut(&[u8]) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let mut known: FxHashMap<(MediaType, &[u8]), usize> = FxHashMap::default();
+        for (index, image) in images.iter().enumerate() {
+            let next = self.images.len();
+            let number = *known
+                .entry((image.media_type, &image.bytes))
+                .or_insert(next);
+            self.image_numbers.push(number);
+            if number < next {
+                continue;
+            }
+            self.images.push(StoredImage {
+                image: index,
+                view: self.views.len(),
+            });
+            let length = image.bytes.len() as u64;
+            self.views.push(View {
+                kind: None,
+                offset: self.length,
+                length,
+            });
+            write(&image.bytes)?;
+            self.length += length;
+            self.pad(write)?;
+        }
+        Ok(())
+    }
 }
 
 impl Batch {
-    fn fill(&mut self, primitives: &[&Primitive], materials: usize) -> io::Result<()> {
+    fn fill(&mut self, primitives: &[&Primitive], materials: &[Material]) -> io::Result<()> {
         self.data.iter_mut().for_each(Vec::clear);
         self.entries.clear();
         for primitive in primitives {
             let surface = primitive.surface();
-            if primitive.material >= materials {
+            let Some(material) = materials.get(primitive.material) else {
                 return Err(invalid("a primitive with a material out of range"));
+            };
+            let bare = surface.uvs.is_empty() && !surface.positions.is_empty();
+            if bare && material.textures().next().is_some() {
+                return Err(invalid("a textured surface without texture coordinates"));
             }
             let entry = match surface.triangles.is_empty() {
                 true => None,
