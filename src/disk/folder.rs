@@ -82,7 +82,7 @@ fn read_file(place: &Path, limit: u64) -> Result<Arc<[u8]>, LinkError> {
         return Err(LinkError::TooLarge { limit });
     }
     let file = File::open(place).map_err(failure)?;
-    let bytes = read_limited(file, limit).map_err(failure)?;
+    let bytes = read_limited(file, limit, 0).map_err(failure)?;
     bytes.map(Arc::from).ok_or(LinkError::TooLarge { limit })
 }
 

@@ -1,6 +1,6 @@
 //! Drawings as bytes.
 
-use std::fs::File;
+use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -57,7 +57,7 @@ pub enum ReadError {
 /// What is packed is seen by its first bytes, not by the file's name.
 pub fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
     let bytes = if super::is_standard_stream(path) {
-        read_limited(io::stdin().lock(), DRAWING_LIMIT)
+        read_limited(io::stdin().lock(), DRAWING_LIMIT, 0)
     } else {
         open(path)?
     };
@@ -69,10 +69,14 @@ pub fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
 
 fn open(path: &Path) -> Result<io::Result<Option<Vec<u8>>>, ReadError> {
     let file = File::open(path).map_err(|source| failure(path, source))?;
-    let is_folder = file.metadata().is_ok_and(|metadata| metadata.is_dir());
-    match is_folder {
+    let metadata = file.metadata();
+    match metadata.as_ref().is_ok_and(Metadata::is_dir) {
         true => Err(ReadError::Folder(path.to_owned())),
-        false => Ok(read_limited(file, DRAWING_LIMIT)),
+        false => {
+            // Room for all of it at once: a list that grows would touch twice the memory.
+            let size = metadata.map_or(0, |metadata| metadata.len().min(DRAWING_LIMIT));
+            Ok(read_limited(file, DRAWING_LIMIT, size))
+        }
     }
 }
 
@@ -82,7 +86,7 @@ fn unpack(path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>, ReadError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes);
     }
-    read_limited(MultiGzDecoder::new(&*bytes), UNPACKED_LIMIT)
+    read_limited(MultiGzDecoder::new(&*bytes), UNPACKED_LIMIT, 0)
         .map_err(|source| ReadError::Damaged {
             path: path.to_owned(),
             source,
@@ -90,9 +94,14 @@ fn unpack(path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>, ReadError> {
         .ok_or_else(|| ReadError::TooLargeUnpacked(path.to_owned()))
 }
 
-/// Everything that `source` gives; none if that is more than `limit`.
-pub(super) fn read_limited(source: impl Read, limit: u64) -> io::Result<Option<Vec<u8>>> {
-    let mut bytes = vec![];
+/// Everything that `source` gives, about `expected` bytes; none if that is more than `limit`.
+pub(super) fn read_limited(
+    source: impl Read,
+    limit: u64,
+    expected: u64,
+) -> io::Result<Option<Vec<u8>>> {
+    // One more, in which the end is found.
+    let mut bytes = Vec::with_capacity(expected as usize + 1);
     source.take(limit + 1).read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= limit).then_some(bytes))
 }

@@ -30,7 +30,7 @@ pub fn flatten(path: &BezPath, tolerance: f64) -> Vec<Ring> {
     let tolerance = tolerance.max(FINEST * extent) * SLACK;
     let same = SAME * extent;
     let mut rings = Vec::new();
-    let mut ring = Ring::new();
+    let mut ring = Ring::with_capacity(64);
     // Where the subpath starts, which is also where the pen is after it was closed.
     let mut start = None;
     for element in path.elements() {
@@ -99,10 +99,10 @@ fn finish(ring: &mut Ring, rings: &mut Vec<Ring>, same: f64) {
         ring.pop();
     }
     if ring.len() > 2 {
-        rings.push(std::mem::take(ring));
-    } else {
-        ring.clear();
+        // A list of its own that is as long as it needs to be: there may be a hundred thousand.
+        rings.push(Ring::from(&ring[..]));
     }
+    ring.clear();
 }
 
 fn resume(ring: &mut Ring, start: Option<DVec2>) {

@@ -7,6 +7,7 @@
 
 mod check;
 mod document;
+mod lists;
 mod looks;
 mod packing;
 mod spool;
@@ -17,7 +18,6 @@ use std::io::{self, Seek, Write};
 
 use crate::scene::Scene;
 use crate::threads;
-use document::Document;
 use spool::Spool;
 
 /// The name of the virtual node that holds the parts without a parent.
@@ -58,10 +58,15 @@ pub fn write(
     check::check(scene)?;
     let written = threads::run(|| match container {
         Container::Glb => {
-            let mut spool = Spool::new(out, document::room(scene));
+            let mut spool = Spool::new(out, document::room(scene)?);
             let packed = packing::pack(scene, |bytes| spool.push(bytes))?;
-            let document = Document::new(scene, &packed, container);
-            spool.finish(|out| Ok(serde_json::to_writer(out, &document)?))?;
+            spool.finish(|out| {
+                document::write(scene, &packed, out)?;
+                if packed.length > 0 {
+                    write!(out, r#","buffers":[{{"byteLength":{}}}]"#, packed.length)?;
+                }
+                out.write_all(b"}")
+            })?;
             Ok(packed.total())
         }
         Container::Gltf => write_gltf(scene, out),
@@ -79,10 +84,7 @@ fn write_gltf(scene: &Scene, out: &mut (impl Write + ?Sized)) -> io::Result<Writ
         data.extend_from_slice(bytes);
         Ok(())
     })?;
-    // The buffer comes last in the file because it holds all the data: the closing brace must wait.
-    let mut json = serde_json::to_vec(&Document::new(scene, &packed, Container::Gltf))?;
-    json.pop();
-    out.write_all(&json)?;
+    document::write(scene, &packed, out)?;
     if packed.length > 0 {
         let length = packed.length;
         write!(

@@ -125,7 +125,7 @@ impl<'a> Counted<'a> {
     fn new(out: &'a mut dyn Write) -> Self {
         Self {
             out,
-            gathered: Vec::with_capacity(2 * GATHERED),
+            gathered: Vec::with_capacity(GATHERED),
             count: 0,
         }
     }
@@ -147,12 +147,15 @@ impl Write for Counted<'_> {
 
     #[inline]
     fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.gathered.extend_from_slice(bytes);
-        if self.gathered.len() >= GATHERED {
-            self.empty()
-        } else {
-            Ok(())
+        if self.gathered.len() + bytes.len() > GATHERED {
+            self.empty()?;
         }
+        if bytes.len() > GATHERED {
+            self.count += bytes.len() as u64;
+            return self.out.write_all(bytes);
+        }
+        self.gathered.extend_from_slice(bytes);
+        Ok(())
     }
 
     fn flush(&mut self) -> io::Result<()> {

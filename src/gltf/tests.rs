@@ -485,6 +485,58 @@ fn a_large_model_is_written_behind_a_gap() {
     }
 }
 
+/// The gap is reckoned before the numbers that go into it are known.
+#[test]
+fn the_gap_holds_the_longest_numbers() {
+    const PARTS: usize = 3000;
+    let longest = -1.234_567_8e-5_f32;
+    assert_eq!(serde_json::to_string(&longest).unwrap().len(), 15);
+    let mut surface = strip(4);
+    surface.positions.iter_mut().for_each(|p| *p = [longest; 3]);
+    surface.uvs = vec![[0.5; 2]; 4];
+    let node = |part: usize| Node {
+        name: "\u{1}\"\\".repeat(20),
+        children: if part + 1 < PARTS {
+            vec![part + 1]
+        } else {
+            vec![]
+        },
+        translation: DVec3::splat(f64::from(longest)),
+        rotation: DQuat::from_xyzw(
+            longest.into(),
+            longest.into(),
+            longest.into(),
+            longest.into(),
+        ),
+        mesh: Some(part),
+        provenance: Some(Provenance {
+            element: Some("\n".repeat(9)),
+            string: Some("\"".repeat(9)),
+        }),
+    };
+    let scene = Scene {
+        nodes: (0..PARTS).map(node).collect(),
+        roots: vec![0],
+        meshes: (0..PARTS)
+            .map(|_| Mesh {
+                primitives: vec![primitive(surface.clone(), 0); 2],
+            })
+            .collect(),
+        materials: vec![material(1.0)],
+        ..Scene::default()
+    };
+    let bytes = bytes(&scene, Container::Glb);
+    assert!(bytes.len() > 4 << 20);
+    assert_eq!(json(&bytes)["nodes"].as_array().unwrap().len(), PARTS + 1);
+    let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+    let blanks = bytes[20..20 + length]
+        .iter()
+        .rev()
+        .take_while(|byte| **byte == b' ')
+        .count();
+    assert!(blanks < length / 4, "{blanks} of {length} bytes are blank");
+}
+
 fn any_surface() -> impl Strategy<Value = Surface> {
     (
         3..300_u32,
