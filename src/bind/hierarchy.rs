@@ -28,11 +28,23 @@ pub(super) fn build(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<
     parents(drawing, sheet, &names, diagnostics);
     break_cycles(drawing, sheet, diagnostics);
     axes(drawing, sheet, diagnostics);
-    for part in 0..sheet.parts.len() {
-        if sheet.parts[part].kind == PartKind::Main {
-            sheet.parts[part].origin = origin(sheet, part);
-            turns_about_middle(drawing, sheet, part, diagnostics);
-        }
+    let parts = 0..sheet.parts.len();
+    let is_main = |part: &usize| sheet.parts[*part].kind == PartKind::Main;
+    let joints: Vec<(usize, DVec2, Option<Diagnostic>)> = parts
+        .into_par_iter()
+        .filter(is_main)
+        .map(|part| {
+            let origin = origin(sheet, part);
+            (
+                part,
+                origin,
+                turns_about_middle(drawing, sheet, part, origin),
+            )
+        })
+        .collect();
+    for (part, origin, finding) in joints {
+        sheet.parts[part].origin = origin;
+        diagnostics.extend(finding);
     }
 }
 
@@ -50,6 +62,7 @@ fn names(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> FxHashMap<String, usize> {
     let mut names: FxHashMap<String, usize> = FxHashMap::default();
+    names.reserve(sheet.parts.len());
     let span = |part: usize| match (part_name(sheet, part), sheet.parts[part].string) {
         (Some(name), Some(string)) => sheet.strings[string].text.span(name.range.clone()),
         (None, Some(string)) => sheet.strings[string].text.whole(),
@@ -302,48 +315,64 @@ fn break_cycles(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diag
 
 /// Turns the axis of parts whose strings say so.
 fn axes(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
-    for index in 0..sheet.parts.len() {
-        if !matches!(sheet.parts[index].kind, PartKind::Main | PartKind::Sub) {
-            continue;
+    let found: Vec<(usize, Axis)> = (0..sheet.parts.len())
+        .into_par_iter()
+        .filter_map(|part| Some((part, axis(drawing, sheet, part)?)))
+        .collect();
+    for (part, axis) in found {
+        match axis {
+            Axis::Turned(measure) => sheet.parts[part].measure = measure,
+            Axis::Guessed(finding) => diagnostics.push(finding),
         }
-        if let Some(degrees) = sheet.number(index, Keyword::Axis) {
-            let (sin, cos) = degrees.to_radians().sin_cos();
-            let turned = measure_along(&sheet.parts[index].outline, DVec2::new(cos, -sin));
-            if let Some(measure) = turned {
-                sheet.parts[index].measure = Measure {
-                    certain: true,
-                    ..measure
-                };
-            }
-            continue;
-        }
-        let kind = sheet.shape(index).kind;
-        let turns = matches!(
-            kind,
+    }
+}
+
+/// What there is to say of a part's axis.
+enum Axis {
+    /// The string turns it.
+    Turned(Measure),
+    /// It matters, and was guessed.
+    Guessed(Diagnostic),
+}
+
+fn axis(drawing: &Drawing, sheet: &Sheet, index: usize) -> Option<Axis> {
+    let part = &sheet.parts[index];
+    if !matches!(part.kind, PartKind::Main | PartKind::Sub) {
+        return None;
+    }
+    if let Some(degrees) = sheet.number(index, Keyword::Axis) {
+        let (sin, cos) = degrees.to_radians().sin_cos();
+        let measure = measure_along(&part.outline, DVec2::new(cos, -sin))?;
+        return Some(Axis::Turned(Measure {
+            certain: true,
+            ..measure
+        }));
+    }
+    let turns = !part.measure.certain
+        && matches!(
+            sheet.shape(index).kind,
             ShapeKind::RoundV(_)
                 | ShapeKind::RoundH(_)
                 | ShapeKind::ConeV(_)
                 | ShapeKind::ConeH(_)
                 | ShapeKind::Lathe(_)
         );
-        let part = &sheet.parts[index];
-        if turns && !part.measure.certain {
-            let name = sheet.describe(drawing, index);
-            let place = part
-                .string
-                .map_or(drawing.shapes[part.shape].element.span, |s| {
-                    sheet.strings[s].text.whole()
-                });
-            diagnostics.push(
-                Diagnostic::new(
-                    Code::AxisGuess,
-                    place,
-                    format!("{name} is as wide as long, so its axis is taken to be upright"),
-                )
-                .help("`Axis 90` says so, `Axis 0` lays it level"),
-            );
-        }
-    }
+    turns.then(|| {
+        let name = sheet.describe(drawing, index);
+        let place = part
+            .string
+            .map_or(drawing.shapes[part.shape].element.span, |string| {
+                sheet.strings[string].text.whole()
+            });
+        Axis::Guessed(
+            Diagnostic::new(
+                Code::AxisGuess,
+                place,
+                format!("{name} is as wide as long, so its axis is taken to be upright"),
+            )
+            .help("`Axis 90` says so, `Axis 0` lays it level"),
+        )
+    })
 }
 
 /// The joint of a main part (paper, section 3.5).
@@ -388,24 +417,23 @@ fn sorted_ends(part: &Part, parent: Option<DVec2>) -> [DVec2; 2] {
     if swapped { [b, a] } else { [a, b] }
 }
 
+/// Says that a long part beside its parent turns about its middle, which is seldom meant.
 fn turns_about_middle(
     drawing: &Drawing,
     sheet: &Sheet,
     index: usize,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
+    origin: DVec2,
+) -> Option<Diagnostic> {
     let part = &sheet.parts[index];
     let long = part.measure.half_along > LONG * part.measure.half_across;
-    let chosen = sheet.setting(index, Keyword::Origin).is_some() || sheet.shape(index).centered;
-    let (Some(parent), Some(string)) = (part.parent, part.string) else {
-        return;
-    };
+    let (parent, string) = (part.parent?, part.string?);
+    let chosen = || sheet.setting(index, Keyword::Origin).is_some() || sheet.shape(index).centered;
     let beside = &sheet.parts[parent].measure;
     // A hat or a foot lies across the end of what it hangs on, and is meant to turn about its middle.
     let alike = !beside.certain
         || beside.axis.dot(part.measure.axis).abs() > std::f64::consts::FRAC_1_SQRT_2;
-    if !long || !alike || chosen || part.origin != part.measure.center {
-        return;
+    if !long || !alike || origin != part.measure.center || chosen() {
+        return None;
     }
     let string = &sheet.strings[string];
     let text = &string.text;
@@ -413,7 +441,7 @@ fn turns_about_middle(
         Annotation::Part(annotation) => {
             !annotation.attributes.is_empty() || text.as_str().trim_end().ends_with(['$', '＄'])
         }
-        _ => return,
+        _ => return None,
     };
     let end = text.as_str().trim_end().len();
     let place = text.span(end..end);
@@ -446,5 +474,5 @@ fn turns_about_middle(
             format!("{lead}Origin {word}"),
         );
     }
-    diagnostics.push(diagnostic);
+    Some(diagnostic)
 }

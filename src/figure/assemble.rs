@@ -1,6 +1,7 @@
 //! Nodes and meshes put together, in the world's axes.
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::Model;
 use super::materials::Materials;
@@ -29,7 +30,7 @@ fn axes(sheet: &Sheet) -> DQuat {
 /// Puts nodes and meshes together.
 pub(super) fn assemble(
     model: &Model<'_>,
-    tree: &Tree,
+    tree: Tree,
     meshes: Vec<Option<Mesh>>,
     materials: Materials,
 ) -> Scene {
@@ -39,12 +40,12 @@ pub(super) fn assemble(
         materials: materials.into_list(),
         ..Scene::default()
     };
-    scene.nodes.reserve(tree.branches.len());
-    let mut meshes = Meshes {
-        placed: vec![[None; 2]; meshes.len()],
-        made: meshes,
-    };
-    for branch in &tree.branches {
+    let links: Vec<(usize, Option<usize>, bool)> = tree
+        .branches
+        .iter()
+        .map(|branch| (branch.part, branch.parent, branch.mirrored))
+        .collect();
+    let node = |branch: Branch| {
         let (translation, rotation) = match branch.parent {
             Some(_) => (branch.place, DQuat::from_rotation_z(branch.angle)),
             None => {
@@ -52,26 +53,31 @@ pub(super) fn assemble(
                 (turn * place, turn * DQuat::from_rotation_z(branch.angle))
             }
         };
-        let index = scene.nodes.len();
-        match branch.parent {
-            Some(parent) => scene.nodes[parent].children.push(index),
-            None => scene.roots.push(index),
-        }
-        let mesh = meshes.of(branch, &mut scene);
         let part = &model.sheet.parts[branch.part];
-        scene.nodes.push(Node {
-            name: branch.name.clone(),
+        let string = part.string.map(|string| &model.sheet.strings[string].text);
+        Node {
+            name: branch.name,
             children: vec![],
             translation: translation * model.scale,
             rotation,
-            mesh,
+            mesh: None,
             provenance: Some(Provenance {
                 element: model.drawing.shapes[part.shape].element.id.clone(),
-                string: part
-                    .string
-                    .map(|string| model.sheet.strings[string].text.as_str().to_owned()),
+                string: string.map(|text| text.as_str().to_owned()),
             }),
-        });
+        }
+    };
+    scene.nodes = tree.branches.into_par_iter().map(node).collect();
+    let mut meshes = Meshes {
+        placed: vec![[None; 2]; meshes.len()],
+        made: meshes,
+    };
+    for (index, (part, parent, mirrored)) in links.into_iter().enumerate() {
+        match parent {
+            Some(parent) => scene.nodes[parent].children.push(index),
+            None => scene.roots.push(index),
+        }
+        scene.nodes[index].mesh = meshes.of(part, mirrored, &mut scene.meshes);
     }
     scene
 }
@@ -84,21 +90,21 @@ struct Meshes {
 }
 
 impl Meshes {
-    /// The mesh that a branch shows, made from its twin where that is in the scene already.
-    fn of(&mut self, branch: &Branch, scene: &mut Scene) -> Option<usize> {
-        let side = usize::from(branch.mirrored);
-        let placed = self.placed[branch.part];
+    /// The mesh that shows a part on one side, made from its twin where that is in the scene already.
+    fn of(&mut self, part: usize, turned: bool, scene: &mut Vec<Mesh>) -> Option<usize> {
+        let side = usize::from(turned);
+        let placed = self.placed[part];
         if placed[side].is_none() {
-            let mesh = match (self.made[branch.part].take(), placed[1 - side]) {
-                (Some(mesh), _) if branch.mirrored => mirrored(&mesh),
+            let mesh = match (self.made[part].take(), placed[1 - side]) {
+                (Some(mesh), _) if turned => mirrored(&mesh),
                 (Some(mesh), _) => mesh,
-                (None, Some(twin)) => mirrored(&scene.meshes[twin]),
+                (None, Some(twin)) => mirrored(&scene[twin]),
                 (None, None) => return None,
             };
-            scene.meshes.push(mesh);
-            self.placed[branch.part][side] = Some(scene.meshes.len() - 1);
+            scene.push(mesh);
+            self.placed[part][side] = Some(scene.len() - 1);
         }
-        self.placed[branch.part][side]
+        self.placed[part][side]
     }
 }
 

@@ -36,27 +36,36 @@ const DEFAULT_DEPTH: f64 = 0.025;
 /// Builds the figures of a drawing.
 pub fn build(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) -> Scene {
     let model = Model::new(drawing, sheet);
-    let materials = Materials::collect(drawing, sheet, diagnostics);
-    let relief = Relief::measure(&model);
-    let frames: Vec<Frame> = sheet.parts.par_iter().map(Frame::of).collect();
+    let (relief, (materials, frames, members, tree, found)) = rayon::join(
+        || Relief::measure(&model),
+        || {
+            let mut found = Vec::new();
+            let materials = Materials::collect(drawing, sheet, &mut found);
+            let frames: Vec<Frame> = sheet.parts.par_iter().map(Frame::of).collect();
+            let tree = Tree::grow(&model, &frames, &mut found);
+            (materials, frames, members(sheet), tree, found)
+        },
+    );
+    diagnostics.extend(found);
+    let copies = (0..sheet.parts.len()).into_par_iter();
+    diagnostics.par_extend(copies.filter_map(|part| model.check_copies(part)));
+    let meshes: Vec<Option<Mesh>> = members
+        .par_iter()
+        .enumerate()
+        .map(|(main, parts)| model.mesh(main, parts, &frames, &relief, &materials))
+        .collect();
+    assemble::assemble(&model, tree, meshes, materials)
+}
+
+/// Per main part the parts whose solids are in its node.
+fn members(sheet: &Sheet) -> Vec<Vec<usize>> {
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); sheet.parts.len()];
     for (index, part) in sheet.parts.iter().enumerate() {
         if matches!(part.kind, PartKind::Main | PartKind::Sub) {
             members[part.main].push(index);
         }
     }
-    let tree = Tree::grow(&model, &frames, diagnostics);
-    let copies: Vec<Diagnostic> = (0..sheet.parts.len())
-        .into_par_iter()
-        .filter_map(|part| model.check_copies(part))
-        .collect();
-    diagnostics.extend(copies);
-    let meshes: Vec<Option<Mesh>> = members
-        .par_iter()
-        .enumerate()
-        .map(|(main, parts)| model.mesh(main, parts, &frames, &relief, &materials))
-        .collect();
-    assemble::assemble(&model, &tree, meshes, materials)
+    members
 }
 
 /// What building needs to know of the whole drawing.

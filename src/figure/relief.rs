@@ -39,7 +39,7 @@ impl Relief {
             .into_par_iter()
             .map(|part| faces(model, part, &depths))
             .collect();
-        let boxes = faces.iter().enumerate().filter_map(|(index, faces)| {
+        let boxes = faces.par_iter().enumerate().filter_map(|(index, faces)| {
             faces.as_ref()?;
             let (low, high) = bounds(&sheet.parts[index].outline)?;
             Some(GeomWithData::new(

@@ -29,9 +29,9 @@ pub(super) fn read(
     let broken_links = Mutex::new(Vec::new());
     let styles = Styles::read(document);
     // usvg works on one core; the texts, which it does not read, need only the XML.
-    let (tree, labels) = rayon::join(
+    let (tree, (labels, by_id)) = rayon::join(
         || usvg::Tree::from_xmltree(document, &options(resolver, &broken_links)),
-        || labels(document, &styles, prepared),
+        || (labels(document, &styles, prepared), ids(document)),
     );
     let tree = tree.map_err(|error| Box::new(unusable(&error, document, prepared)))?;
     report_links(
@@ -44,7 +44,7 @@ pub(super) fn read(
     let mut walk = Walk {
         prepared,
         root: document.root_element(),
-        by_id: ids(document),
+        by_id,
         group_of: vec![usize::MAX; document.descendants().count() + 1],
         groups: Vec::new(),
         tasks: Vec::new(),
