@@ -3,12 +3,16 @@
 //! Conventions, stated once: right-handed axes, +Y up, metres, counter-clockwise front faces seen
 //! from outside, quaternions `x y z w`, colours linear RGBA.
 
+mod skin;
+
 use std::borrow::Cow;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
 use crate::solid::Solid;
+
+pub use skin::{MOST_JOINTS, Pose, Posed, Skin, TooManyJoints};
 
 /// A model.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -25,6 +29,8 @@ pub struct Scene {
     pub textures: Vec<Texture>,
     /// The images that textures point at.
     pub images: Vec<Image>,
+    /// The mesh that all nodes move together, if the nodes have no meshes of their own.
+    pub skin: Option<Skin>,
 }
 
 /// A node of the hierarchy: a joint, with or without a solid.
@@ -77,6 +83,8 @@ pub enum Piece {
     /// A solid, whose triangles are made when they are asked for: most who look at a scene never do, and a
     /// large one would fill the memory.
     Solid(Solid),
+    /// Another piece, which follows a joint of a skin.
+    Posed(Box<Posed>),
 }
 
 impl Piece {
@@ -85,6 +93,7 @@ impl Piece {
         match self {
             Self::Surface(surface) => Cow::Borrowed(surface),
             Self::Solid(solid) => Cow::Owned(solid.surface()),
+            Self::Posed(posed) => Cow::Owned(posed.surface()),
         }
     }
 }
@@ -102,7 +111,7 @@ impl Primitive {
     }
 }
 
-/// Triangles with shared corners. All lists of corners have one length; `uvs` may be empty.
+/// Triangles with shared corners. All lists of corners have one length; `uvs` and `joints` may be empty.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Surface {
     /// Positions, in the node's frame, metres.
@@ -111,6 +120,8 @@ pub struct Surface {
     pub normals: Vec<[f32; 3]>,
     /// Texture coordinates, origin at the image's top left.
     pub uvs: Vec<[f32; 2]>,
+    /// The joint that a corner follows with all its weight, in a skin.
+    pub joints: Vec<u16>,
     /// Three corners a triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -121,7 +132,15 @@ impl Surface {
         let base = self.positions.len() as u32;
         self.positions.extend_from_slice(&other.positions);
         self.normals.extend_from_slice(&other.normals);
+        if self.uvs.is_empty() != other.uvs.is_empty() {
+            // Where only one of them has any, nothing looks at them, but the lists must stay of one length.
+            self.uvs.resize(base as usize, [0.0; 2]);
+        }
         self.uvs.extend_from_slice(&other.uvs);
+        if !self.uvs.is_empty() {
+            self.uvs.resize(self.positions.len(), [0.0; 2]);
+        }
+        self.joints.extend_from_slice(&other.joints);
         self.triangles.extend(
             other
                 .triangles

@@ -73,10 +73,13 @@ examples() {
     "$okoshi" build "$drawing" -o "$models/$name.again.glb"
     cmp "$models/$name.glb" "$models/$name.again.glb"
     rm "$models/$name.again.glb"
+    "$okoshi" build "$drawing" --skin -q -o "$models/$name.skin.glb"
     "$okoshi" inspect "$drawing" --json > "$models/$name.json"
     echo "built $drawing: $(stat -c %s "$models/$name.glb") bytes"
   done
 }
+
+plain() { printf '%s\n' "$models"/*.glb | grep -v '\.skin\.glb$'; }
 
 built() { compgen -G "$models/*.glb" > /dev/null || skip "there are no built examples"; }
 
@@ -105,8 +108,13 @@ blender_import() {
   built
   install_blender
   blender -b --factory-startup --python-exit-code 1 --python $tools/blender_tree.py -- \
-    -o "$target/trees.json" "$models"/*.glb
+    -o "$target/trees.json" $(plain)
   node $tools/same_tree.mjs "$target/trees.json"
+  local model
+  for model in $(plain); do
+    echo "skin of $model"
+    blender -b --factory-startup --python-exit-code 1 --python $tools/blender_skin.py -- "$model" "${model%.glb}.skin.glb"
+  done
 }
 
 readme() {

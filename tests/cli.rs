@@ -170,6 +170,23 @@ fn a_gltf_holds_its_buffers() {
 }
 
 #[test]
+fn a_skin_has_a_joint_a_part() {
+    let room = Room::with("a.svg", GOOD);
+    room.run(&["build", "a.svg", "--skin", "-q"])
+        .ends(0, "", "");
+    let model = gltf::Gltf::from_slice(&room.read("a.glb")).expect("a model");
+    assert_eq!(model.meshes().count(), 1);
+    let skin = model.skins().next().expect("a skin");
+    let joints: Vec<&str> = skin.joints().filter_map(|joint| joint.name()).collect();
+    assert_eq!(joints, ["Body", "Arm"]);
+    let shown = model
+        .nodes()
+        .find(|node| node.skin().is_some())
+        .expect("a node");
+    assert_eq!(shown.name(), Some("Figure"));
+}
+
+#[test]
 fn stdin_and_stdout() {
     let room = Room::with("a.svg", GOOD);
     room.run(&["build", "a.svg"]).ends(0, "", "wrote");

@@ -98,6 +98,9 @@ pub(super) struct Build {
     /// Where to write: a .glb or .gltf file, `-` for stdout, or a folder [default: beside the drawing]
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
+    /// Write one skinned mesh with a joint a part, for engines that want that
+    #[arg(long)]
+    pub(super) skin: bool,
     /// Write what can be made in spite of errors
     #[arg(long)]
     pub(super) keep_going: bool,

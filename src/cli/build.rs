@@ -107,7 +107,7 @@ fn container(output: &Path) -> Result<Container, String> {
 
 fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (Outcome, String) {
     let start = Instant::now();
-    let loaded = match load(drawing, &arguments.reading) {
+    let mut loaded = match load(drawing, &arguments.reading) {
         Ok(loaded) => loaded,
         Err(outcome) => return (outcome, String::new()),
     };
@@ -130,6 +130,15 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
             let _ = writeln!(text, "nothing was written{kept}");
         }
         return (Outcome::Errors, text);
+    }
+    if arguments.skin {
+        match std::mem::take(&mut loaded.compiled.scene).skinned() {
+            Ok(scene) => loaded.compiled.scene = scene,
+            Err(error) => {
+                let _ = writeln!(text, "error: {error}");
+                return (Outcome::Failed, text);
+            }
+        }
     }
     let written = container(output).and_then(|container| {
         write_atomic(output, |out| {

@@ -112,7 +112,7 @@ impl Meshes {
 fn mirrored(mesh: &Mesh) -> Mesh {
     let piece = |piece: &Piece| match piece {
         Piece::Solid(solid) => Piece::Solid(solid.mirrored()),
-        Piece::Surface(surface) => Piece::Surface(solid::mirror(surface)),
+        made => Piece::Surface(solid::mirror(&made.surface())),
     };
     let primitive = |primitive: &Primitive| Primitive {
         pieces: primitive.pieces.iter().map(piece).collect(),

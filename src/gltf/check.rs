@@ -3,11 +3,12 @@
 use std::io;
 
 use super::invalid;
-use crate::scene::{AlphaMode, MediaType, Scene};
+use crate::scene::{AlphaMode, MOST_JOINTS, MediaType, Scene};
 
 /// Refuses nodes and materials that would make a file that no reader takes.
 pub(super) fn check(scene: &Scene) -> io::Result<()> {
     check_nodes(scene)?;
+    check_skin(scene)?;
     check_images(scene)?;
     check_materials(scene)
 }
@@ -33,6 +34,20 @@ fn check_nodes(scene: &Scene) -> io::Result<()> {
         return Err(invalid("a root out of range"));
     }
     Ok(())
+}
+
+fn check_skin(scene: &Scene) -> io::Result<()> {
+    let Some(skin) = &scene.skin else {
+        return Ok(());
+    };
+    let own = scene.nodes.iter().any(|node| node.mesh == Some(skin.mesh));
+    if own || skin.mesh >= scene.meshes.len() || skin.rest.len() != scene.nodes.len() {
+        return Err(invalid("a skin that does not fit the nodes"));
+    }
+    match scene.nodes.len() > MOST_JOINTS {
+        true => Err(invalid("a skin with too many joints")),
+        false => Ok(()),
+    }
 }
 
 fn check_images(scene: &Scene) -> io::Result<()> {

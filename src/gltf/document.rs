@@ -6,8 +6,8 @@ use serde::{Serialize, Serializer};
 
 use super::lists::list;
 use super::looks::{Images, Materials, Samplers, Textures};
-use super::packing::{Entry, IndexType, Kind, Packed, Run, View, WINDOW};
-use super::{ROOT, looks};
+use super::packing::{Entry, IndexType, JointType, Kind, Packed, Run, View};
+use super::{ROOT, SKINNED};
 use crate::scene::{self, Scene};
 
 /// What stands before the lists.
@@ -29,6 +29,16 @@ struct Looks<'a> {
     images: Option<Images<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     samplers: Option<Samplers>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    skins: Option<[Skin; 1]>,
+}
+
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct Skin {
+    inverse_bind_matrices: usize,
+    skeleton: usize,
+    joints: Vec<usize>,
 }
 
 /// Writes the JSON up to the list of buffers, which comes last: whoever knows where the data is goes on.
@@ -44,7 +54,11 @@ pub(super) fn write(
         },
         scene: 0,
         scenes: [Stage {
-            nodes: [scene.nodes.len()],
+            // A skinned mesh follows its joints alone, so it hangs on nothing.
+            nodes: match packed.bind_matrices {
+                None => vec![scene.nodes.len()],
+                Some(_) => vec![scene.nodes.len(), scene.nodes.len() + 1],
+            },
         }],
     };
     let mut head = serde_json::to_vec(&head)?;
@@ -64,6 +78,13 @@ pub(super) fn write(
         textures: textured.then(|| Textures::new(scene, packed)),
         images: (!packed.images.is_empty()).then_some(Images(scene, packed)),
         samplers: textured.then(|| Samplers::new(scene)),
+        skins: packed.bind_matrices.map(|_| {
+            [Skin {
+                inverse_bind_matrices: runs(packed),
+                skeleton: scene.nodes.len(),
+                joints: (0..scene.nodes.len()).collect(),
+            }]
+        }),
     })?;
     if let [b'{', looks @ .., b'}'] = &looks[..]
         && !looks.is_empty()
@@ -72,12 +93,18 @@ pub(super) fn write(
         out.write_all(looks)?;
     }
     if solid {
-        accessors(packed, out)?;
+        accessors(scene, packed, out)?;
     }
     if packed.length > 0 {
         views(packed, out)?;
     }
     Ok(())
+}
+
+/// How many accessors primitives have.
+fn runs(packed: &Packed) -> usize {
+    let entries = packed.entries.iter().flatten();
+    entries.flat_map(|entry| &entry.runs).flatten().count()
 }
 
 /// The number of each primitive's first accessor.
@@ -100,7 +127,7 @@ struct Asset {
 
 #[derive(Serialize)]
 struct Stage {
-    nodes: [usize; 1],
+    nodes: Vec<usize>,
 }
 
 /// A number in its shortest form that reads back as the same `f32`, without a fraction when whole.
@@ -138,151 +165,57 @@ fn mesh_numbers(scene: &Scene, packed: &Packed) -> Vec<Option<usize>> {
         .collect()
 }
 
-/// How many bytes a text takes, escaped.
-pub(super) fn text(text: &str) -> usize {
-    text.bytes()
-        .map(|byte| {
-            if byte < 0x20 {
-                6
-            } else if matches!(byte, b'"' | b'\\') {
-                2
-            } else {
-                1
-            }
-        })
-        .sum()
-}
-
-/// More bytes than the JSON of a scene takes, reckoned before its solids are made: texts are counted, and numbers
-/// taken at their longest.
-pub(super) fn room(scene: &Scene) -> io::Result<u64> {
-    const HEAD: usize = 4096;
-    /// No `f32` that is written takes more characters.
-    const LONGEST: Number = Number(-1.234_567_8e-5);
-
-    let length = |element: serde_json::Result<Vec<u8>>| Ok::<_, io::Error>(element?.len() + 1);
-    let primitives: usize = scene.meshes.iter().map(|mesh| mesh.primitives.len()).sum();
-    let views = 6 * (primitives / WINDOW + 1) + scene.images.len();
-    let children = digits(scene.nodes.len()) + 1;
-
-    let node = length(serde_json::to_vec(&Node {
-        name: "",
-        children: &[],
-        mesh: Some(scene.meshes.len()),
-        translation: Some([LONGEST; 3]),
-        rotation: Some([LONGEST; 4]),
-        extras: Some(Extras {
-            okoshi: Provenance {
-                element: Some(""),
-                string: Some(""),
-            },
-        }),
-    }))? + r#""name":"","children":[],"#.len();
-    let nodes: usize = scene
-        .nodes
-        .iter()
-        .map(|scene_node| {
-            let words = scene_node
-                .provenance
-                .iter()
-                .flat_map(|provenance| [&provenance.element, &provenance.string]);
-            let words: usize = words.flatten().map(|word| text(word)).sum();
-            // The name may stand a second time, as its mesh's.
-            node + 2 * text(&scene_node.name) + words + scene_node.children.len() * children
-        })
-        .sum();
-
-    let mesh = r#"{"name":"","primitives":[]},"#.len();
-    let primitive = length(serde_json::to_vec(&Primitive {
-        attributes: Attributes {
-            position: 4 * primitives,
-            normal: Some(4 * primitives),
-            uv: Some(4 * primitives),
-        },
-        indices: 4 * primitives,
-        material: scene.materials.len(),
-    }))?;
-    let accessor = |element, bounds: Option<[Number; 3]>| {
-        length(serde_json::to_vec(&Accessor {
-            buffer_view: views,
-            byte_offset: u64::from(u32::MAX),
-            component_type: u16::MAX,
-            count: u32::MAX as usize,
-            element,
-            min: bounds,
-            max: bounds,
-        }))
-    };
-    let accessors =
-        accessor("VEC3", Some([LONGEST; 3]))? + accessor("VEC3", None)? + accessor("SCALAR", None)?;
-    let mut pieces = scene
-        .meshes
-        .iter()
-        .flat_map(|mesh| &mesh.primitives)
-        .flat_map(|p| &p.pieces);
-    let mapped = |piece: &scene::Piece| matches!(piece, scene::Piece::Surface(surface) if !surface.uvs.is_empty());
-    let uvs = match !scene.textures.is_empty() || pieces.any(mapped) {
-        true => accessor("VEC2", None)?,
-        false => 0,
-    };
-    let view = length(serde_json::to_vec(&BufferView {
-        buffer: 0,
-        byte_offset: u64::from(u32::MAX),
-        byte_length: u64::from(u32::MAX),
-        byte_stride: Some(u8::MAX),
-        target: Some(u16::MAX),
-    }))?;
-
-    let total = HEAD
-        + nodes
-        + scene.roots.len() * children
-        + scene.meshes.len() * mesh
-        + primitives * (primitive + accessors + uvs)
-        + views * view
-        + looks::room(scene);
-    Ok(total as u64)
-}
-
-/// How many digits the numbers up to `greatest` have.
-fn digits(greatest: usize) -> usize {
-    greatest.max(1).ilog10() as usize + 1
-}
-
 fn nodes(scene: &Scene, packed: &Packed, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
     let mesh_numbers = mesh_numbers(scene, packed);
-    let root = Node {
+    let root: Node<'_> = Node {
         name: ROOT,
         children: &scene.roots,
         mesh: None,
+        skin: None,
         translation: None,
         rotation: None,
         extras: None,
     };
-    list(out, "nodes", scene.nodes.len() + 1, |range, elements| {
+    let skin = scene
+        .skin
+        .as_ref()
+        .filter(|_| packed.bind_matrices.is_some());
+    let skinned = skin.map(|skin| Node {
+        name: SKINNED,
+        children: &[],
+        mesh: mesh_numbers[skin.mesh],
+        skin: Some(0),
+        ..root
+    });
+    let count = scene.nodes.len() + 1 + usize::from(skinned.is_some());
+    list(out, "nodes", count, |range, elements| {
         for index in range {
-            match scene.nodes.get(index) {
-                Some(node) => elements.push(&Node::new(node, &mesh_numbers))?,
-                None => elements.push(&root)?,
+            match (scene.nodes.get(index), &skinned) {
+                (Some(node), _) => elements.push(&Node::new(node, &mesh_numbers))?,
+                (None, Some(skinned)) if index > scene.nodes.len() => elements.push(skinned)?,
+                (None, _) => elements.push(&root)?,
             }
         }
         Ok(())
     })
 }
 
-#[derive(Serialize)]
-struct Node<'a> {
+#[derive(Serialize, Clone, Copy)]
+pub(super) struct Node<'a> {
     #[serde(skip_serializing_if = "str::is_empty")]
-    name: &'a str,
+    pub(super) name: &'a str,
     #[serde(skip_serializing_if = "<[usize]>::is_empty")]
-    children: &'a [usize],
+    pub(super) children: &'a [usize],
     #[serde(skip_serializing_if = "Option::is_none")]
-    mesh: Option<usize>,
+    pub(super) mesh: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    translation: Option<[Number; 3]>,
+    pub(super) skin: Option<usize>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    rotation: Option<[Number; 4]>,
+    pub(super) translation: Option<[Number; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    extras: Option<Extras<'a>>,
+    pub(super) rotation: Option<[Number; 4]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extras: Option<Extras<'a>>,
 }
 
 impl<'a> Node<'a> {
@@ -297,6 +230,7 @@ impl<'a> Node<'a> {
             name: &node.name,
             children: &node.children,
             mesh: node.mesh.and_then(|mesh| mesh_numbers[mesh]),
+            skin: None,
             translation: moved.then(|| translation.map(Number)),
             rotation: turned.then(|| rotation.map(Number)),
             extras: provenance.and_then(Extras::new),
@@ -304,17 +238,17 @@ impl<'a> Node<'a> {
     }
 }
 
-#[derive(Serialize)]
-struct Extras<'a> {
-    okoshi: Provenance<'a>,
+#[derive(Serialize, Clone, Copy)]
+pub(super) struct Extras<'a> {
+    pub(super) okoshi: Provenance<'a>,
 }
 
-#[derive(Serialize)]
-struct Provenance<'a> {
+#[derive(Serialize, Clone, Copy)]
+pub(super) struct Provenance<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
-    element: Option<&'a str>,
+    pub(super) element: Option<&'a str>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    string: Option<&'a str>,
+    pub(super) string: Option<&'a str>,
 }
 
 impl<'a> Extras<'a> {
@@ -374,20 +308,24 @@ struct Mesh<'a> {
 }
 
 #[derive(Serialize)]
-struct Primitive {
-    attributes: Attributes,
-    indices: usize,
-    material: usize,
+pub(super) struct Primitive {
+    pub(super) attributes: Attributes,
+    pub(super) indices: usize,
+    pub(super) material: usize,
 }
 
 #[derive(Serialize, Default)]
 #[serde(rename_all = "SCREAMING_SNAKE_CASE")]
-struct Attributes {
-    position: usize,
+pub(super) struct Attributes {
+    pub(super) position: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
-    normal: Option<usize>,
+    pub(super) normal: Option<usize>,
     #[serde(rename = "TEXCOORD_0", skip_serializing_if = "Option::is_none")]
-    uv: Option<usize>,
+    pub(super) uv: Option<usize>,
+    #[serde(rename = "JOINTS_0", skip_serializing_if = "Option::is_none")]
+    pub(super) joints: Option<usize>,
+    #[serde(rename = "WEIGHTS_0", skip_serializing_if = "Option::is_none")]
+    pub(super) weights: Option<usize>,
 }
 
 impl Primitive {
@@ -400,6 +338,8 @@ impl Primitive {
                 Kind::Positions => attributes.position = accessor,
                 Kind::Normals => attributes.normal = Some(accessor),
                 Kind::Uvs => attributes.uv = Some(accessor),
+                Kind::Joints(_) => attributes.joints = Some(accessor),
+                Kind::Weights => attributes.weights = Some(accessor),
                 Kind::Indices(_) => indices = accessor,
             }
             accessor += 1;
@@ -412,43 +352,63 @@ impl Primitive {
     }
 }
 
-fn accessors(packed: &Packed, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
-    list(out, "accessors", packed.entries.len(), |range, elements| {
-        for entry in packed.entries[range].iter().flatten() {
-            for run in entry.runs.iter().flatten() {
-                elements.push(&Accessor::new(entry, run))?;
+fn accessors(scene: &Scene, packed: &Packed, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+    // Behind those of the primitives stands the one of the inverse bind matrices.
+    let matrices = packed.bind_matrices.map(|view| Accessor {
+        buffer_view: view,
+        component_type: FLOAT,
+        count: scene.nodes.len(),
+        element: "MAT4",
+        ..Accessor::default()
+    });
+    let count = packed.entries.len() + 1;
+    list(out, "accessors", count, |range, elements| {
+        for index in range {
+            match packed.entries.get(index) {
+                Some(entry) => {
+                    for (entry, run) in entry.iter().flat_map(Entry::with_runs) {
+                        elements.push(&Accessor::new(entry, run))?;
+                    }
+                }
+                None => matrices
+                    .iter()
+                    .try_for_each(|matrices| elements.push(matrices))?,
             }
         }
         Ok(())
     })
 }
 
-#[derive(Serialize)]
+const UNSIGNED_BYTE: u16 = 5121;
+const UNSIGNED_SHORT: u16 = 5123;
+const UNSIGNED_INT: u16 = 5125;
+const FLOAT: u16 = 5126;
+
+#[derive(Serialize, Default)]
 #[serde(rename_all = "camelCase")]
-struct Accessor {
-    buffer_view: usize,
+pub(super) struct Accessor {
+    pub(super) buffer_view: usize,
     #[serde(skip_serializing_if = "is_zero")]
-    byte_offset: u64,
-    component_type: u16,
-    count: usize,
+    pub(super) byte_offset: u64,
+    pub(super) component_type: u16,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub(super) normalized: bool,
+    pub(super) count: usize,
     #[serde(rename = "type")]
-    element: &'static str,
+    pub(super) element: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    min: Option<[Number; 3]>,
+    pub(super) min: Option<[Number; 3]>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    max: Option<[Number; 3]>,
+    pub(super) max: Option<[Number; 3]>,
 }
 
 impl Accessor {
     fn new(entry: &Entry, run: &Run) -> Self {
-        const UNSIGNED_BYTE: u16 = 5121;
-        const UNSIGNED_SHORT: u16 = 5123;
-        const UNSIGNED_INT: u16 = 5125;
-        const FLOAT: u16 = 5126;
-
         let (component_type, element) = match run.kind {
             Kind::Positions | Kind::Normals => (FLOAT, "VEC3"),
             Kind::Uvs => (FLOAT, "VEC2"),
+            Kind::Joints(JointType::U8) | Kind::Weights => (UNSIGNED_BYTE, "VEC4"),
+            Kind::Joints(JointType::U16) => (UNSIGNED_SHORT, "VEC4"),
             Kind::Indices(IndexType::U8) => (UNSIGNED_BYTE, "SCALAR"),
             Kind::Indices(IndexType::U16) => (UNSIGNED_SHORT, "SCALAR"),
             Kind::Indices(IndexType::U32) => (UNSIGNED_INT, "SCALAR"),
@@ -458,6 +418,7 @@ impl Accessor {
             buffer_view: run.view,
             byte_offset: run.offset,
             component_type,
+            normalized: run.kind == Kind::Weights,
             count: run.count,
             element,
             min: bounds.map(|[min, _]| min.map(Number)),
@@ -475,15 +436,15 @@ fn views(packed: &Packed, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct BufferView {
-    buffer: usize,
+pub(super) struct BufferView {
+    pub(super) buffer: usize,
     #[serde(skip_serializing_if = "is_zero")]
-    byte_offset: u64,
-    byte_length: u64,
+    pub(super) byte_offset: u64,
+    pub(super) byte_length: u64,
     #[serde(skip_serializing_if = "Option::is_none")]
-    byte_stride: Option<u8>,
+    pub(super) byte_stride: Option<u8>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    target: Option<u16>,
+    pub(super) target: Option<u16>,
 }
 
 impl BufferView {
@@ -494,7 +455,8 @@ impl BufferView {
         // Accessors that share a view need its stride stated.
         let (byte_stride, target) = match view.kind {
             Some(Kind::Positions | Kind::Normals) => (Some(12), Some(ARRAY_BUFFER)),
-            Some(Kind::Uvs) => (Some(8), Some(ARRAY_BUFFER)),
+            Some(Kind::Uvs | Kind::Joints(JointType::U16)) => (Some(8), Some(ARRAY_BUFFER)),
+            Some(Kind::Joints(JointType::U8) | Kind::Weights) => (Some(4), Some(ARRAY_BUFFER)),
             Some(Kind::Indices(_)) => (None, Some(ELEMENT_ARRAY_BUFFER)),
             None => (None, None),
         };

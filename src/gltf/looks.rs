@@ -2,8 +2,9 @@
 
 use serde::{Serialize, Serializer};
 
-use super::document::{Number, text};
+use super::document::Number;
 use super::packing::Packed;
+use super::room::text;
 use crate::scene::{self, AlphaMode, Filter, MediaType, Scene, TextureUse, Wrap};
 
 /// More bytes than what is written here takes, reckoned before anything is packed.

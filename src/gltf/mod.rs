@@ -10,6 +10,7 @@ mod document;
 mod lists;
 mod looks;
 mod packing;
+mod room;
 mod spool;
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,9 @@ use spool::Spool;
 
 /// The name of the virtual node that holds the parts without a parent.
 pub const ROOT: &str = "Root";
+
+/// The name of the node that shows a skinned mesh.
+pub const SKINNED: &str = "Figure";
 
 /// How the JSON and the binary data are put into one file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,7 +62,7 @@ pub fn write(
     check::check(scene)?;
     let written = threads::run(|| match container {
         Container::Glb => {
-            let mut spool = Spool::new(out, document::room(scene)?);
+            let mut spool = Spool::new(out, room::room(scene)?);
             let packed = packing::pack(scene, |bytes| spool.push(bytes))?;
             spool.finish(|out| {
                 document::write(scene, &packed, out)?;

@@ -6,18 +6,19 @@
 
 use std::io;
 
+use glam::DMat4;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::invalid;
-use crate::scene::{Image, Material, MediaType, Primitive, Scene, Surface};
+use crate::scene::{Image, MediaType, Pose, Primitive, Scene, Surface};
 
 /// Primitives in a window.
 pub(super) const WINDOW: usize = 512;
 /// Primitives that are packed by one thread at a time.
 const BATCH: usize = 32;
 /// Kinds of data.
-const KINDS: usize = 6;
+pub(super) const KINDS: usize = 9;
 
 /// A kind of data. The order, widest components first, keeps every accessor aligned without padding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,6 +26,8 @@ pub(super) enum Kind {
     Positions,
     Normals,
     Uvs,
+    Joints(JointType),
+    Weights,
     Indices(IndexType),
 }
 
@@ -33,6 +36,9 @@ impl Kind {
         Self::Positions,
         Self::Normals,
         Self::Uvs,
+        Self::Joints(JointType::U16),
+        Self::Joints(JointType::U8),
+        Self::Weights,
         Self::Indices(IndexType::U32),
         Self::Indices(IndexType::U16),
         Self::Indices(IndexType::U8),
@@ -43,9 +49,29 @@ impl Kind {
             Self::Positions => 0,
             Self::Normals => 1,
             Self::Uvs => 2,
-            Self::Indices(IndexType::U32) => 3,
-            Self::Indices(IndexType::U16) => 4,
-            Self::Indices(IndexType::U8) => 5,
+            Self::Joints(JointType::U16) => 3,
+            Self::Joints(JointType::U8) => 4,
+            Self::Weights => 5,
+            Self::Indices(IndexType::U32) => 6,
+            Self::Indices(IndexType::U16) => 7,
+            Self::Indices(IndexType::U8) => 8,
+        }
+    }
+}
+
+/// The component type of a joint's number; four of them go to a corner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum JointType {
+    U8,
+    U16,
+}
+
+impl JointType {
+    /// The smaller type that holds the numbers of so many joints.
+    fn of(joints: usize) -> Self {
+        match joints {
+            0..=0x100 => Self::U8,
+            _ => Self::U16,
         }
     }
 }
@@ -89,11 +115,14 @@ pub(super) struct Run {
     pub(super) count: usize,
 }
 
+/// Accessors of a primitive.
+pub(super) const RUNS: usize = 6;
+
 /// A primitive that was packed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry {
     /// Its accessors, in the order of the file.
-    pub(super) runs: [Option<Run>; 4],
+    pub(super) runs: [Option<Run>; RUNS],
     /// Its box: least and greatest corner.
     pub(super) bounds: [[f32; 3]; 2],
 }
@@ -107,6 +136,13 @@ pub(super) struct StoredImage {
     pub(super) view: usize,
 }
 
+impl Entry {
+    /// Its accessors, each with the entry itself.
+    pub(super) fn with_runs(&self) -> impl Iterator<Item = (&Self, &Run)> {
+        self.runs.iter().flatten().map(move |run| (self, run))
+    }
+}
+
 /// What was packed, and where it lies.
 #[derive(Debug, Default)]
 pub(super) struct Packed {
@@ -114,6 +150,8 @@ pub(super) struct Packed {
     pub(super) views: Vec<View>,
     /// The primitives of all meshes in order; none for one without triangles, which glTF cannot hold.
     pub(super) entries: Vec<Option<Entry>>,
+    /// Number of the view of the skin's inverse bind matrices.
+    pub(super) bind_matrices: Option<usize>,
     /// The images, equal ones once.
     pub(super) images: Vec<StoredImage>,
     /// Per image of the scene its number in `images`.
@@ -168,7 +206,7 @@ pub(super) fn pack(
     let make = |window: &[&Primitive], batches: &mut Vec<Batch>| -> io::Result<()> {
         batches.resize_with(window.len().div_ceil(BATCH), Batch::default);
         let batches = batches.par_iter_mut().zip(window.par_chunks(BATCH));
-        batches.try_for_each(|(batch, window)| batch.fill(window, &scene.materials))
+        batches.try_for_each(|(batch, window)| batch.fill(window, scene))
     };
     let mut windows = primitives.chunks(WINDOW);
     // Two sets of buffers take turns, so that no memory is asked for after the second window.
@@ -184,6 +222,7 @@ pub(super) fn pack(
         made?;
         std::mem::swap(&mut ready, &mut next);
     }
+    packed.store_skin(scene, &mut write)?;
     packed.store_images(&scene.images, &mut write)?;
     Ok(packed)
 }
@@ -241,6 +280,34 @@ impl Packed {
         write(&[0; 3][..padding as usize])
     }
 
+    /// Writes the skin's inverse bind matrices, one a joint, column by column.
+    fn store_skin(
+        &mut self,
+        scene: &Scene,
+        write: &mut impl FnMut(&[u8]) -> io::Result<()>,
+    ) -> io::Result<()> {
+        let solid = self.entries.iter().any(Option::is_some);
+        let Some(skin) = scene.skin.as_ref().filter(|_| solid) else {
+            return Ok(());
+        };
+        let matrix = |pose: &Pose| {
+            let back = pose.inverse();
+            let matrix = DMat4::from_rotation_translation(back.rotation, back.translation);
+            matrix.as_mat4().to_cols_array()
+        };
+        let matrices: Vec<[f32; 16]> = skin.rest.iter().map(matrix).collect();
+        let mut bytes = Vec::new();
+        floats(&mut bytes, &matrices);
+        self.bind_matrices = Some(self.views.len());
+        self.views.push(View {
+            kind: None,
+            offset: self.length,
+            length: bytes.len() as u64,
+        });
+        self.length += bytes.len() as u64;
+        write(&bytes)
+    }
+
     /// Writes the images behind the surfaces, equal ones once.
     fn store_images(
         &mut self,
@@ -276,12 +343,12 @@ impl Packed {
 }
 
 impl Batch {
-    fn fill(&mut self, primitives: &[&Primitive], materials: &[Material]) -> io::Result<()> {
+    fn fill(&mut self, primitives: &[&Primitive], scene: &Scene) -> io::Result<()> {
         self.data.iter_mut().for_each(Vec::clear);
         self.entries.clear();
         for primitive in primitives {
             let surface = primitive.surface();
-            let Some(material) = materials.get(primitive.material) else {
+            let Some(material) = scene.materials.get(primitive.material) else {
                 return Err(invalid("a primitive with a material out of range"));
             };
             let bare = surface.uvs.is_empty() && !surface.positions.is_empty();
@@ -290,15 +357,15 @@ impl Batch {
             }
             let entry = match surface.triangles.is_empty() {
                 true => None,
-                false => Some(self.put(&surface)?),
+                false => Some(self.put(&surface, scene.nodes.len())?),
             };
             self.entries.push(entry);
         }
         Ok(())
     }
 
-    fn put(&mut self, surface: &Surface) -> io::Result<Entry> {
-        let bounds = checked_bounds(surface)?;
+    fn put(&mut self, surface: &Surface, joints: usize) -> io::Result<Entry> {
+        let bounds = checked_bounds(surface, joints)?;
         let corners = surface.positions.len();
         let index = IndexType::of(corners);
         let run = |batch: &Self, kind: Kind, count: usize| {
@@ -309,7 +376,7 @@ impl Batch {
                 count,
             })
         };
-        let mut runs = [None; 4];
+        let mut runs = [None; RUNS];
         runs[0] = run(self, Kind::Positions, corners);
         floats(&mut self.data[Kind::Positions.slot()], &surface.positions);
         if !surface.normals.is_empty() {
@@ -333,7 +400,35 @@ impl Batch {
             ),
             IndexType::U32 => out.extend(indices.iter().flat_map(|corner| corner.to_le_bytes())),
         }
+        if !surface.joints.is_empty() {
+            self.put_joints(surface, joints, &mut runs);
+        }
         Ok(Entry { runs, bounds })
+    }
+
+    /// Every corner follows one joint with all its weight.
+    fn put_joints(&mut self, surface: &Surface, joints: usize, runs: &mut [Option<Run>; RUNS]) {
+        let kind = JointType::of(joints);
+        let count = surface.joints.len();
+        for (slot, kind) in [(4, Kind::Joints(kind)), (5, Kind::Weights)] {
+            runs[slot] = Some(Run {
+                kind,
+                view: 0,
+                offset: self.data[kind.slot()].len() as u64,
+                count,
+            });
+        }
+        let out = &mut self.data[Kind::Joints(kind).slot()];
+        let numbers = surface.joints.iter();
+        match kind {
+            JointType::U8 => out.extend(numbers.flat_map(|joint| [*joint as u8, 0, 0, 0])),
+            JointType::U16 => out.extend(numbers.flat_map(|joint| {
+                let [low, high] = joint.to_le_bytes();
+                [low, high, 0, 0, 0, 0, 0, 0]
+            })),
+        }
+        let weights = &mut self.data[Kind::Weights.slot()];
+        weights.extend(std::iter::repeat_n([u8::MAX, 0, 0, 0], count).flatten());
     }
 }
 
@@ -351,15 +446,26 @@ fn floats<const N: usize>(out: &mut Vec<u8>, rows: &[[f32; N]]) {
 }
 
 /// The box of a surface, which must be sound.
-fn checked_bounds(surface: &Surface) -> io::Result<[[f32; 3]; 2]> {
+fn checked_bounds(surface: &Surface, joints: usize) -> io::Result<[[f32; 3]; 2]> {
     let corners = surface.positions.len();
-    let lengths = [surface.normals.len(), surface.uvs.len()];
+    let lengths = [
+        surface.normals.len(),
+        surface.uvs.len(),
+        surface.joints.len(),
+    ];
     if !lengths.iter().all(|length| [0, corners].contains(length)) {
         return Err(invalid("a surface whose lists of corners differ in length"));
     }
     let greatest = surface.triangles.as_flattened().iter().max();
     if greatest.is_none_or(|corner| *corner as usize >= corners) || corners > u32::MAX as usize {
         return Err(invalid("a surface with a corner out of range"));
+    }
+    if surface
+        .joints
+        .iter()
+        .any(|joint| usize::from(*joint) >= joints)
+    {
+        return Err(invalid("a surface with a joint out of range"));
     }
     // A sum is finite only if all its terms are, and adds up without branches.
     let sum = |rows: &[f32]| rows.iter().map(|number| number * 0.0).sum::<f32>();

@@ -10,6 +10,8 @@ use crate::scene::{
     Surface, Texture, TextureUse, Wrap,
 };
 
+mod skinned;
+
 fn bytes(scene: &Scene, container: Container) -> Vec<u8> {
     let mut out = io::Cursor::new(vec![]);
     write(scene, container, &mut out).unwrap();
@@ -27,7 +29,7 @@ fn primitive(surface: Surface, material: usize) -> Primitive {
 fn first_surface(scene: &mut Scene) -> &mut Surface {
     match &mut scene.meshes[0].primitives[0].pieces[0] {
         Piece::Surface(surface) => surface,
-        Piece::Solid(_) => panic!("these scenes have surfaces only"),
+        _ => panic!("these scenes have surfaces only"),
     }
 }
 
@@ -86,6 +88,7 @@ fn strip(corners: u32) -> Surface {
             .collect(),
         normals: vec![[0.0, 0.0, 1.0]; corners as usize],
         uvs: vec![],
+        joints: vec![],
         triangles: (2..corners).map(|i| [i - 2, i - 1, i]).collect(),
     }
 }

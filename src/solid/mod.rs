@@ -93,6 +93,7 @@ pub fn mirror(surface: &Surface) -> Surface {
         positions: across(&surface.positions),
         normals: across(&surface.normals),
         uvs: surface.uvs.clone(),
+        joints: surface.joints.clone(),
         triangles: surface
             .triangles
             .iter()

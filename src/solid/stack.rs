@@ -40,6 +40,7 @@ pub(super) fn flat(outline: &Outline, z: f64, options: &Options) -> Surface {
         positions: rings.points.iter().map(put).collect(),
         normals: vec![[0.0, 0.0, 1.0]; rings.len()],
         uvs: Vec::new(),
+        joints: Vec::new(),
         triangles: cap::triangles(&rings),
     }
 }

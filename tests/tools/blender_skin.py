@@ -1,0 +1,91 @@
+"""Checks in Blender that a skinned model stands and moves as the one without a skin.
+
+    blender -b --factory-startup --python-exit-code 1 --python blender_skin.py -- PLAIN.glb SKINNED.glb [NODE]
+
+Imports both, compares all corners at rest and after NODE (the first one with a parent and a mesh) was turned by 40
+degrees about its joint. Ends with 1 if a corner is off by more than a thousandth of the model's size.
+"""
+
+import math
+import sys
+
+import bpy
+import numpy
+from mathutils import Matrix, Vector
+from mathutils.kdtree import KDTree
+
+# Blender 3.4 reads glTF by a name that NumPy has given up since.
+if "bool" not in vars(numpy):
+    numpy.bool = bool
+
+
+def corners():
+    """Every corner in the world, modifiers and poses applied."""
+    graph = bpy.context.evaluated_depsgraph_get()
+    solids = [thing.evaluated_get(graph) for thing in bpy.data.objects if thing.type == "MESH"]
+    # The importer keeps a small ball as the picture of a bone; it is in no scene.
+    shown = {thing.name for thing in bpy.context.scene.objects}
+    solids = [thing for thing in solids if thing.name in shown]
+    return [thing.matrix_world @ corner.co for thing in solids for corner in thing.data.vertices]
+
+
+def turned(name):
+    """Turns a node, object or bone, about its own origin and a slanting axis of the world."""
+    spin = Matrix.Rotation(math.radians(40), 4, Vector((1, 2, 3)).normalized())
+
+    def about(matrix):
+        origin = matrix.to_translation()
+        return Matrix.Translation(origin) @ spin @ Matrix.Translation(-origin) @ matrix
+
+    for rig in (thing for thing in bpy.data.objects if thing.type == "ARMATURE"):
+        if name in rig.pose.bones:
+            bone = rig.pose.bones[name]
+            bone.matrix = rig.matrix_world.inverted() @ about(rig.matrix_world @ bone.matrix)
+            break
+    else:
+        thing = bpy.data.objects[name]
+        thing.matrix_world = about(thing.matrix_world)
+    bpy.context.view_layer.update()
+
+
+def load(file):
+    """Imports a file into an empty scene."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=file)
+    bpy.context.view_layer.update()
+
+
+def distance(some, others):
+    """How far the farthest of `some` is from the nearest of `others`."""
+    tree = KDTree(len(others))
+    for index, corner in enumerate(others):
+        tree.insert(corner, index)
+    tree.balance()
+    return max(tree.find(corner)[2] for corner in some)
+
+
+def main():
+    """Compares the two files."""
+    plain, skinned, *names = sys.argv[sys.argv.index("--") + 1 :]
+    load(plain)
+    jointed = [thing.name for thing in bpy.data.objects if thing.type == "MESH" and thing.parent]
+    name = names[0] if names else min(jointed)
+    states = {}
+    for file in (plain, skinned):
+        load(file)
+        rest = corners()
+        turned(name)
+        states[file] = (rest, corners())
+    size = max((corner.length for corner in states[plain][0]), default=0)
+    bad = False
+    for state, one, other in zip(("at rest", f"with {name} turned"), states[plain], states[skinned]):
+        off = max(distance(one, other), distance(other, one)) / size
+        bad |= off > 1e-3
+        print(f"{state}: {len(one)} and {len(other)} corners, off by {off:.1e} of the size")
+    moved = distance(*states[plain]) / size
+    print(f"the turn moves corners by up to {moved:.2f} of the size")
+    if bad or moved < 0.01:
+        sys.exit(1)
+
+
+main()
