@@ -84,7 +84,12 @@ pub(super) struct Framing {
 
 impl Framing {
     /// Has all points in the picture from each of the views, with a margin, as large as they can be.
-    pub(super) fn new(views: &[View], projection: Projection, size: [u32; 2], points: &[Vec3]) -> Self {
+    pub(super) fn new(
+        views: &[View],
+        projection: Projection,
+        size: [u32; 2],
+        points: &[Vec3],
+    ) -> Self {
         let size_of = Vec2::new(size[0] as f32, size[1] as f32);
         let aspect = size_of / size_of.max_element();
         let inner = aspect * (Vec2::ONE - 2.0 * MARGIN * size_of.min_element() / size_of);
@@ -112,11 +117,15 @@ impl Framing {
                 let depth = (-reach / tangents).min_element();
                 (depth.min(nearest - LEAST), LENS)
             }
-            Projection::Orthographic => {
-                (nearest - 1.0, (reach / inner).max_element().max(LEAST))
-            }
+            Projection::Orthographic => (nearest - 1.0, (reach / inner).max_element().max(LEAST)),
         };
-        Self { projection, size, middle, depth, half }
+        Self {
+            projection,
+            size,
+            middle,
+            depth,
+            half,
+        }
     }
 
     /// The camera that sees one of the views so.
@@ -124,7 +133,14 @@ impl Framing {
         let axes = Axes::new(view);
         let eye = axes.right * self.middle.x + axes.up * self.middle.y + axes.forward * self.depth;
         let size = Vec2::new(self.size[0] as f32, self.size[1] as f32);
-        Camera { axes, projection: self.projection, yaw: view.yaw, eye, half: self.half, size }
+        Camera {
+            axes,
+            projection: self.projection,
+            yaw: view.yaw,
+            eye,
+            half: self.half,
+            size,
+        }
     }
 }
 

@@ -1,5 +1,7 @@
 //! Why there is no picture.
 
+use std::io;
+
 use crate::resolver::LinkError;
 
 /// Why there is no picture. Messages go behind the name of the file.
@@ -34,4 +36,10 @@ pub enum RenderError {
     /// The work broke off.
     #[error("cannot be drawn: this should not happen, please tell us")]
     Broken,
+}
+
+impl From<RenderError> for io::Error {
+    fn from(error: RenderError) -> Self {
+        Self::other(error)
+    }
 }

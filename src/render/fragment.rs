@@ -124,11 +124,22 @@ impl Eye<'_> {
         }
     }
 
-    fn fragment(&self, hit: &Hit, origin: Vec3, direction: Vec3, width: f32, colour: Vec3) -> Fragment {
+    fn fragment(
+        &self,
+        hit: &Hit,
+        origin: Vec3,
+        direction: Vec3,
+        width: f32,
+        colour: Vec3,
+    ) -> Fragment {
         let tracer = self.tracer;
         let facet = tracer.facet(hit.triangle);
         // The side that is seen, of a surface with two.
-        let side = if facet.dot(direction) > 0.0 { -1.0 } else { 1.0 };
+        let side = if facet.dot(direction) > 0.0 {
+            -1.0
+        } else {
+            1.0
+        };
         let place = origin + direction * hit.distance;
         let smooth = match self.shading {
             Shading::Smooth => tracer.normal(hit),
@@ -174,7 +185,7 @@ impl Eye<'_> {
 /// How much of a shadow is left on the ground at a place, the model's box having these half sides.
 pub(super) fn ground_fade(place: Vec3, half: Vec3) -> f32 {
     let beside = (place.abs() - half).max(Vec3::ZERO);
-    let share = 1.0 - (Vec2::new(beside.x, beside.z).length() / 0.9).min(1.0);
+    let share = 1.0 - (Vec2::new(beside.x, beside.z).length() / 0.65).min(1.0);
     share * share * (3.0 - 2.0 * share)
 }
 

@@ -2,6 +2,7 @@
 
 use glam::{Quat, Vec2, Vec3};
 
+use super::fragment::{Fragment, Matter};
 use super::trace::Tracer;
 
 /// Pixels in a block share their rays: `BLOCK` × `BLOCK` of them.
@@ -9,8 +10,8 @@ pub(super) const BLOCK: u32 = 4;
 const SHARES: usize = (BLOCK * BLOCK) as usize;
 /// Rays of a pixel to each light.
 const RAYS: [usize; 3] = [3, 1, 1];
-/// Rays of a pixel to the sky.
-const SKY_RAYS: usize = 6;
+/// Rays of a pixel to the sky: from the model, and from the ground, where faint shadows are seen on white.
+const SKY_RAYS: [usize; 2] = [6, 16];
 /// Light from below, that the ground gives back, where the sky's is 1.
 const GROUND: f32 = 0.5;
 
@@ -27,9 +28,24 @@ struct Lamp {
 
 /// Key from the upper left, fill from the right, rim from behind.
 const LAMPS: [Lamp; 3] = [
-    Lamp { direction: Vec3::new(-0.55, 1.15, 0.95), strength: 0.75, spread: 0.16, wrap: 0.0 },
-    Lamp { direction: Vec3::new(1.0, 0.25, 0.75), strength: 0.14, spread: 0.5, wrap: 0.3 },
-    Lamp { direction: Vec3::new(0.45, 0.55, -1.0), strength: 0.3, spread: 0.3, wrap: 0.1 },
+    Lamp {
+        direction: Vec3::new(-0.55, 1.3, 0.95),
+        strength: 0.75,
+        spread: 0.16,
+        wrap: 0.0,
+    },
+    Lamp {
+        direction: Vec3::new(1.0, 0.25, 0.75),
+        strength: 0.14,
+        spread: 0.5,
+        wrap: 0.3,
+    },
+    Lamp {
+        direction: Vec3::new(0.45, 0.55, -1.0),
+        strength: 0.3,
+        spread: 0.3,
+        wrap: 0.1,
+    },
 ];
 /// The strength of the sky.
 const SKY: f32 = 0.5;
@@ -51,7 +67,10 @@ impl Arriving {
     }
 
     pub(super) fn scaled(&self, factor: f32) -> Self {
-        Self { lamps: self.lamps.map(|lamp| lamp * factor), sky: self.sky * factor }
+        Self {
+            lamps: self.lamps.map(|lamp| lamp * factor),
+            sky: self.sky * factor,
+        }
     }
 }
 
@@ -60,8 +79,8 @@ pub(super) struct Rig {
     pub(super) directions: [Vec3; 3],
     /// Directions to each lamp, the rays of one pixel of a block after the other.
     lamps: [Vec<Vec3>; 3],
-    /// Directions about +Z, the denser the nearer.
-    sky: Vec<Vec3>,
+    /// Directions about +Z, the denser the nearer, of each of [`SKY_RAYS`].
+    sky: [Vec<Vec3>; 2],
 }
 
 impl Rig {
@@ -72,17 +91,25 @@ impl Rig {
         let lamps = [0, 1, 2].map(|index| {
             let towards = directions[index];
             let turn = Quat::from_rotation_arc(Vec3::Z, towards);
-            spread(RAYS[index], |share| (turn * disk(share, LAMPS[index].spread).extend(1.0)).normalize())
+            spread(RAYS[index], |share| {
+                (turn * disk(share, LAMPS[index].spread).extend(1.0)).normalize()
+            })
         });
-        let sky = spread(SKY_RAYS, |share| {
+        let dome = |share| {
             let flat = disk(share, 1.0);
             flat.extend((1.0 - flat.length_squared()).max(0.0).sqrt())
-        });
-        Self { directions, lamps, sky }
+        };
+        let sky = SKY_RAYS.map(|count| spread(count, dome));
+        Self {
+            directions,
+            lamps,
+            sky,
+        }
     }
 
-    /// The light that arrives at a place, by the rays of the pixel `share` of its block.
-    pub(super) fn arriving(&self, tracer: &Tracer<'_>, place: Vec3, normal: Vec3, share: usize) -> Arriving {
+    /// The light that arrives at a piece, by the rays of the pixel `share` of its block.
+    pub(super) fn arriving(&self, tracer: &Tracer<'_>, piece: &Fragment, share: usize) -> Arriving {
+        let Fragment { place, normal, .. } = *piece;
         let mut arriving = Arriving::default();
         for (index, rays) in self.lamps.iter().enumerate() {
             let count = RAYS[index];
@@ -90,18 +117,23 @@ impl Rig {
             arriving.lamps[index] = match self.facing(index, normal) > 0.0 {
                 true => {
                     let rays = &rays[share * count..][..count];
-                    rays.iter().map(|ray| tracer.light_through(place, *ray)).sum::<f32>() / count as f32
+                    rays.iter()
+                        .map(|ray| tracer.light_through(place, *ray))
+                        .sum::<f32>()
+                        / count as f32
                 }
                 false => 1.0,
             };
         }
         let turn = Quat::from_rotation_arc(Vec3::Z, normal);
-        let rays = &self.sky[share * SKY_RAYS..][..SKY_RAYS];
+        let kind = usize::from(piece.matter == Matter::Ground);
+        let count = SKY_RAYS[kind];
+        let rays = &self.sky[kind][share * count..][..count];
         let light = rays.iter().map(|ray| {
             let ray = turn * *ray;
             sky(ray) * tracer.light_through(place, ray)
         });
-        arriving.sky = light.sum::<f32>() / SKY_RAYS as f32;
+        arriving.sky = light.sum::<f32>() / count as f32;
         arriving
     }
 
@@ -150,7 +182,10 @@ fn spread(count: usize, ray: impl Fn(Vec2) -> Vec3) -> Vec<Vec3> {
 /// The place `index` of a sequence that fills the unit square evenly, however long it gets (Roberts's R2).
 pub(super) fn even(index: usize) -> Vec2 {
     let place = |step: f64| (0.5 + step * index as f64).fract() as f32;
-    Vec2::new(place(0.754_877_666_246_692_8), place(0.569_840_290_998_053_2))
+    Vec2::new(
+        place(0.754_877_666_246_692_8),
+        place(0.569_840_290_998_053_2),
+    )
 }
 
 /// A place in a disk, evenly.

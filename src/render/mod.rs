@@ -35,7 +35,7 @@ mod tile;
 mod trace;
 
 pub use camera::{PITCH_LIMIT, Projection, View};
-pub use encode::{Animation, write_png};
+pub use encode::{Animation, Palette, write_png};
 pub use error::RenderError;
 pub use pose::{Model, Pose};
 pub use read::read;

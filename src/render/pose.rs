@@ -85,11 +85,18 @@ impl Model {
     pub(super) fn surface(&self, pose: &Pose) -> Result<Surface, RenderError> {
         let globals = self.globals(pose);
         let seen = || {
-            let nodes = self.nodes.iter().enumerate().filter(|(index, _)| self.drawn[*index]);
+            let nodes = self
+                .nodes
+                .iter()
+                .enumerate()
+                .filter(|(index, _)| self.drawn[*index]);
             nodes.filter_map(|(index, node)| Some((index, node, &self.meshes[node.mesh?])))
         };
-        let triangles = |mesh: &Vec<Primitive>| mesh.iter().map(|one| one.triangles.len()).sum::<usize>();
-        let count = seen().fold(0_usize, |sum, (_, _, mesh)| sum.saturating_add(triangles(mesh)));
+        let triangles =
+            |mesh: &Vec<Primitive>| mesh.iter().map(|one| one.triangles.len()).sum::<usize>();
+        let count = seen().fold(0_usize, |sum, (_, _, mesh)| {
+            sum.saturating_add(triangles(mesh))
+        });
         if count > TRIANGLE_LIMIT {
             return Err(RenderError::TooManyTriangles(count));
         }
@@ -97,7 +104,9 @@ impl Model {
         let mut out = Surface::default();
         for (index, node, mesh) in seen() {
             // The node of a skinned mesh does not move it: its joints do.
-            let skin = node.skin.map(|skin| self.joints(&self.skins[skin], &globals));
+            let skin = node
+                .skin
+                .map(|skin| self.joints(&self.skins[skin], &globals));
             for primitive in mesh {
                 let skin = skin.as_deref().filter(|_| !primitive.influences.is_empty());
                 self.append(primitive, globals[index], skin, &mut world, &mut out);
@@ -113,7 +122,9 @@ impl Model {
     /// From the mesh's frame as bound into the world, for each joint.
     fn joints(&self, skin: &Skin, globals: &[DMat4]) -> Vec<DMat4> {
         let pairs = skin.joints.iter().zip(&skin.inverse);
-        pairs.map(|(joint, inverse)| globals[*joint] * *inverse).collect()
+        pairs
+            .map(|(joint, inverse)| globals[*joint] * *inverse)
+            .collect()
     }
 
     fn append(
@@ -127,7 +138,9 @@ impl Model {
         let first = world.len() as u32;
         let material = primitive.material.unwrap_or(self.materials.len() - 1);
         let blended = skin.map(|joints| {
-            (0..primitive.positions.len()).map(|corner| blend(&primitive.influences, corner, joints)).collect::<Vec<_>>()
+            (0..primitive.positions.len())
+                .map(|corner| blend(&primitive.influences, corner, joints))
+                .collect::<Vec<_>>()
         });
         let matrix = |corner: usize| blended.as_ref().map_or(global, |matrices| matrices[corner]);
         let normals = normal_matrix(global);
@@ -135,14 +148,18 @@ impl Model {
             let vector = |v: [f32; 3]| Vec3::from(v).as_dvec3();
             world.push(matrix(corner).transform_point3(vector(*position)));
             let normal = primitive.normals.get(corner).map_or(DVec3::ZERO, |normal| {
-                let turn = blended.as_ref().map_or(normals, |matrices| normal_matrix(matrices[corner]));
+                let turn = blended
+                    .as_ref()
+                    .map_or(normals, |matrices| normal_matrix(matrices[corner]));
                 (turn * vector(*normal)).normalize_or_zero()
             });
             out.normals.push(normal.as_vec3());
         }
         let fill = |length: usize| world.len() - length;
         match primitive.uvs.is_empty() {
-            true => out.uvs.extend(std::iter::repeat_n(Vec2::ZERO, fill(out.uvs.len()))),
+            true => out
+                .uvs
+                .extend(std::iter::repeat_n(Vec2::ZERO, fill(out.uvs.len()))),
             false => out.uvs.extend(&primitive.uvs),
         }
         if !primitive.colours.is_empty() || !out.colours.is_empty() {
@@ -169,7 +186,11 @@ fn normal_matrix(matrix: DMat4) -> DMat3 {
         m.z_axis.cross(m.x_axis),
         m.x_axis.cross(m.y_axis),
     );
-    if m.determinant() < 0.0 { -cofactors } else { cofactors }
+    if m.determinant() < 0.0 {
+        -cofactors
+    } else {
+        cofactors
+    }
 }
 
 /// The weighted mean of a corner's joints; weights that do not add up to one are made to.
@@ -186,5 +207,9 @@ fn blend(influences: &[Vec<([u16; 4], [f32; 4])>], corner: usize, joints: &[DMat
             total += f64::from(weight);
         }
     }
-    if total > 0.0 { sum * (1.0 / total) } else { DMat4::IDENTITY }
+    if total > 0.0 {
+        sum * (1.0 / total)
+    } else {
+        DMat4::IDENTITY
+    }
 }

@@ -15,7 +15,12 @@ const SHOULDER: f32 = 0.8;
 const SHADOW: f32 = 0.62;
 
 /// Colour times alpha, and alpha, of a piece; its weight is not in it yet.
-pub(super) fn shade(fragment: &Fragment, arriving: &Arriving, tracer: &Tracer<'_>, rig: &Rig) -> Vec4 {
+pub(super) fn shade(
+    fragment: &Fragment,
+    arriving: &Arriving,
+    tracer: &Tracer<'_>,
+    rig: &Rig,
+) -> Vec4 {
     match fragment.matter {
         Matter::Ground => {
             let fade = ground_fade(fragment.place, tracer.surface.half);
@@ -38,7 +43,7 @@ fn shadow(arriving: &Arriving, rig: &Rig) -> f32 {
     let sky = rig.sky_strength();
     let light = (key * arriving.lamps[0] + sky * arriving.sky / open_sky(Vec3::Y)) / (key + sky);
     // The last trace is left out, so that clear pixels stay quite clear.
-    ((1.0 - light) * 1.04 - 0.04).clamp(0.0, 1.0) * SHADOW
+    ((1.0 - light) * 1.05 - 0.05).clamp(0.0, 1.0) * SHADOW
 }
 
 fn lit(fragment: &Fragment, material: &Material, arriving: &Arriving, rig: &Rig) -> Vec3 {
@@ -60,9 +65,14 @@ fn lit(fragment: &Fragment, material: &Material, arriving: &Arriving, rig: &Rig)
             light += fresnel(squarely, towards, rig.directions[lamp]) * gloss * strength;
         }
     }
-    let mirrored = (2.0 * normal * normal.dot(towards) - towards).lerp(normal, roughness * roughness);
+    let mirrored =
+        (2.0 * normal * normal.dot(towards) - towards).lerp(normal, roughness * roughness);
     let (scale, bias) = surroundings(roughness, facing);
-    light += (squarely * scale + bias) * sky(mirrored.normalize_or(normal)) * rig.sky_strength() * open * 1.6;
+    light += (squarely * scale + bias)
+        * sky(mirrored.normalize_or(normal))
+        * rig.sky_strength()
+        * open
+        * 1.6;
     light + material.emissive
 }
 

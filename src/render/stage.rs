@@ -32,7 +32,10 @@ impl<'a> Stage<'a> {
         let build = || {
             let surface = model.surface(pose)?;
             let points = surface.used();
-            Ok(Self { tracer: Tracer::new(surface, &model.materials, &model.textures), points })
+            Ok(Self {
+                tracer: Tracer::new(surface, &model.materials, &model.textures),
+                points,
+            })
         };
         threads::run(build).unwrap_or(Err(RenderError::Broken))
     }
@@ -62,7 +65,9 @@ impl<'a> Stage<'a> {
         frames: u32,
         mut each: impl FnMut(Image) -> Result<(), E>,
     ) -> Result<(), E> {
-        let views: Vec<View> = (0..frames).map(|frame| turned(options.view, frame, frames)).collect();
+        let views: Vec<View> = (0..frames)
+            .map(|frame| turned(options.view, frame, frames))
+            .collect();
         // One framing for all, so that the model keeps its size and place while it turns.
         let framing = self.framing(options, &views)?;
         for view in views {
@@ -77,21 +82,33 @@ impl<'a> Stage<'a> {
         if !fits(width) || !fits(height) {
             return Err(RenderError::Size(width, height));
         }
-        Ok(Framing::new(views, options.projection, options.size, &self.points))
+        Ok(Framing::new(
+            views,
+            options.projection,
+            options.size,
+            &self.points,
+        ))
     }
 
     fn draw(&self, options: &Options, framing: &Framing, view: View) -> Result<Image, RenderError> {
         let [width, height] = options.size;
         let camera = framing.camera(view);
         let rig = Rig::new(camera.yaw);
-        let eye = Eye { tracer: &self.tracer, camera: &camera, shading: options.shading };
+        let eye = Eye {
+            tracer: &self.tracer,
+            camera: &camera,
+            shading: options.shading,
+        };
         let row = |top: u32| {
             let high = TILE.min(height - top);
             let mut pixels = vec![[0_u8; 4]; (width * high) as usize];
             for left in (0..width).step_by(TILE as usize) {
                 let wide = TILE.min(width - left);
                 let tile = draw(&eye, &rig, options.background, [left, top], [wide, high]);
-                for (line, tile) in pixels.chunks_exact_mut(width as usize).zip(tile.chunks_exact(wide as usize)) {
+                for (line, tile) in pixels
+                    .chunks_exact_mut(width as usize)
+                    .zip(tile.chunks_exact(wide as usize))
+                {
                     line[left as usize..][..wide as usize].copy_from_slice(tile);
                 }
             }
@@ -102,12 +119,17 @@ impl<'a> Stage<'a> {
             let bands: Vec<Vec<[u8; 4]>> = rows.par_iter().map(|top| row(*top)).collect();
             bands.concat().into_flattened()
         });
-        drawn.and_then(|pixels| Image::from_raw(width, height, pixels)).ok_or(RenderError::Broken)
+        drawn
+            .and_then(|pixels| Image::from_raw(width, height, pixels))
+            .ok_or(RenderError::Broken)
     }
 }
 
 /// The view of a turntable's frame: as if the model turned to its right.
 fn turned(view: View, frame: u32, frames: u32) -> View {
     let turn = 360.0 * f64::from(frame % frames) / f64::from(frames);
-    View { yaw: view.yaw + turn, ..view }
+    View {
+        yaw: view.yaw + turn,
+        ..view
+    }
 }

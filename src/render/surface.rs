@@ -50,32 +50,48 @@ impl Surface {
     pub(super) fn finish(&mut self, world: &[DVec3]) {
         let mut low = DVec3::INFINITY;
         let mut high = DVec3::NEG_INFINITY;
-        let mut kept = self.triangles.iter().map(|triangle| {
-            let corners = triangle.map(|corner| world[corner as usize]);
-            let [a, b, c] = corners;
-            let sound = corners.iter().all(|corner| corner.is_finite() && corner.abs().max_element() < 1e30)
-                && (b - a).cross(c - a) != DVec3::ZERO;
-            if sound {
-                low = corners.iter().fold(low, |low, corner| low.min(*corner));
-                high = corners.iter().fold(high, |high, corner| high.max(*corner));
-            }
-            sound
-        }).collect::<Vec<bool>>().into_iter();
+        let mut kept = self
+            .triangles
+            .iter()
+            .map(|triangle| {
+                let corners = triangle.map(|corner| world[corner as usize]);
+                let [a, b, c] = corners;
+                let sound = corners
+                    .iter()
+                    .all(|corner| corner.is_finite() && corner.abs().max_element() < 1e30)
+                    && (b - a).cross(c - a) != DVec3::ZERO;
+                if sound {
+                    low = corners.iter().fold(low, |low, corner| low.min(*corner));
+                    high = corners.iter().fold(high, |high, corner| high.max(*corner));
+                }
+                sound
+            })
+            .collect::<Vec<bool>>()
+            .into_iter();
         let mut also = kept.clone();
         self.triangles.retain(|_| kept.next().unwrap_or(false));
         self.materials.retain(|_| also.next().unwrap_or(false));
         let middle = (low + high) / 2.0;
         let size = (high - low).max_element();
         let scale = if size > 0.0 { 1.0 / size } else { 1.0 };
-        self.positions = world.iter().map(|point| ((point - middle) * scale).as_vec3()).collect();
+        self.positions = world
+            .iter()
+            .map(|point| ((point - middle) * scale).as_vec3())
+            .collect();
         self.half = ((high - low) / 2.0 * scale).as_vec3();
     }
 
     /// The corners that triangles have.
     pub(super) fn used(&self) -> Vec<Vec3> {
         let mut used = vec![false; self.positions.len()];
-        self.triangles.iter().flatten().for_each(|corner| used[*corner as usize] = true);
+        self.triangles
+            .iter()
+            .flatten()
+            .for_each(|corner| used[*corner as usize] = true);
         let pairs = self.positions.iter().zip(used);
-        pairs.filter(|(_, used)| *used).map(|(position, _)| *position).collect()
+        pairs
+            .filter(|(_, used)| *used)
+            .map(|(position, _)| *position)
+            .collect()
     }
 }

@@ -91,12 +91,24 @@ impl Texture {
         let size = Vec2::new(image.width() as f32, image.height() as f32);
         let place = uv * size;
         if sampler.nearest && level == 0 {
-            return texel(image, place.x.floor() as i64, place.y.floor() as i64, sampler.wrap);
+            return texel(
+                image,
+                place.x.floor() as i64,
+                place.y.floor() as i64,
+                sampler.wrap,
+            );
         }
         let corner = (place - 0.5).floor();
         let share = place - 0.5 - corner;
         let (x, y) = (corner.x as i64, corner.y as i64);
-        let at = |dx: i64, dy: i64| texel(image, x.saturating_add(dx), y.saturating_add(dy), sampler.wrap);
+        let at = |dx: i64, dy: i64| {
+            texel(
+                image,
+                x.saturating_add(dx),
+                y.saturating_add(dy),
+                sampler.wrap,
+            )
+        };
         let top = at(0, 0).lerp(at(1, 0), share.x);
         let bottom = at(0, 1).lerp(at(1, 1), share.x);
         top.lerp(bottom, share.y)
@@ -105,7 +117,10 @@ impl Texture {
 
 fn texel(image: &RgbaImage, x: i64, y: i64, wrap: [Wrap; 2]) -> Vec4 {
     let [r, g, b, a] = image
-        .get_pixel(wrap[0].apply(x, image.width()), wrap[1].apply(y, image.height()))
+        .get_pixel(
+            wrap[0].apply(x, image.width()),
+            wrap[1].apply(y, image.height()),
+        )
         .0;
     Vec4::new(linear(r), linear(g), linear(b), f32::from(a) / 255.0)
 }
@@ -116,19 +131,23 @@ fn half(image: &RgbaImage) -> Option<RgbaImage> {
     if width.max(height) <= 1 {
         return None;
     }
-    Some(RgbaImage::from_fn(width.div_ceil(2), height.div_ceil(2), |x, y| {
-        let mut colour = Vec4::ZERO;
-        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
-            let (x, y) = ((2 * x + dx).min(width - 1), (2 * y + dy).min(height - 1));
-            let texel = texel(image, i64::from(x), i64::from(y), [Wrap::Clamp; 2]);
-            // Weighted by alpha: what is clear has no colour to give.
-            colour += (texel.truncate() * texel.w).extend(texel.w);
-        }
-        let alpha = colour.w / 4.0;
-        let colour = colour.truncate() / colour.w.max(1e-6);
-        let [r, g, b] = colour.to_array().map(encode);
-        image::Rgba([r, g, b, (alpha * 255.0 + 0.5) as u8])
-    }))
+    Some(RgbaImage::from_fn(
+        width.div_ceil(2),
+        height.div_ceil(2),
+        |x, y| {
+            let mut colour = Vec4::ZERO;
+            for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+                let (x, y) = ((2 * x + dx).min(width - 1), (2 * y + dy).min(height - 1));
+                let texel = texel(image, i64::from(x), i64::from(y), [Wrap::Clamp; 2]);
+                // Weighted by alpha: what is clear has no colour to give.
+                colour += (texel.truncate() * texel.w).extend(texel.w);
+            }
+            let alpha = colour.w / 4.0;
+            let colour = colour.truncate() / colour.w.max(1e-6);
+            let [r, g, b] = colour.to_array().map(encode);
+            image::Rgba([r, g, b, (alpha * 255.0 + 0.5) as u8])
+        },
+    ))
 }
 
 #[cfg(test)]
@@ -158,7 +177,11 @@ mod tests {
             _ => image::Rgba([0, 0, 0, 255]),
         });
         let texture = Texture::new(image);
-        let sampler = Sampler { image: 0, wrap: [Wrap::Repeat; 2], nearest: true };
+        let sampler = Sampler {
+            image: 0,
+            wrap: [Wrap::Repeat; 2],
+            nearest: true,
+        };
         let near = texture.at(Vec2::new(0.5 / 64.0, 0.5 / 64.0), 0.5, &sampler);
         assert_eq!(near, Vec4::ONE);
         let far = texture.at(Vec2::splat(0.3), 64.0, &sampler);

@@ -47,7 +47,9 @@ fn pixel(colour: Vec4, background: Option<[u8; 3]>) -> [u8; 4] {
     match background {
         Some(background) => {
             let behind = Vec3::from(background.map(linear));
-            let [r, g, b] = (colour.truncate() + behind * (1.0 - alpha)).to_array().map(encode);
+            let [r, g, b] = (colour.truncate() + behind * (1.0 - alpha))
+                .to_array()
+                .map(encode);
             [r, g, b, 255]
         }
         None => {
@@ -88,12 +90,18 @@ impl Tile {
                 eye.see(x, y, &mut fragments);
                 let share = share(x, y);
                 for fragment in &mut fragments[start..] {
-                    fragment.arriving = rig.arriving(eye.tracer, fragment.place, fragment.normal, share);
+                    fragment.arriving = rig.arriving(eye.tracer, fragment, share);
                 }
             }
         }
         starts.push(fragments.len());
-        Self { left: first_x, top: first_y, width: wide as usize, fragments, starts }
+        Self {
+            left: first_x,
+            top: first_y,
+            width: wide as usize,
+            fragments,
+            starts,
+        }
     }
 
     /// The pieces of a pixel, which lies in the tile or its halo.
@@ -118,7 +126,11 @@ impl Tile {
                 }
             }
         }
-        if count > 0.0 { sum.scaled(1.0 / count) } else { fragment.arriving }
+        if count > 0.0 {
+            sum.scaled(1.0 / count)
+        } else {
+            fragment.arriving
+        }
     }
 }
 

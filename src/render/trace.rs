@@ -34,19 +34,40 @@ pub(super) struct Hit {
 }
 
 impl<'a> Tracer<'a> {
-    pub(super) fn new(mut surface: Surface, materials: &'a [Material], textures: &'a [Option<Texture>]) -> Self {
+    pub(super) fn new(
+        mut surface: Surface,
+        materials: &'a [Material],
+        textures: &'a [Option<Texture>],
+    ) -> Self {
         let of = |[a, b, c]: [u32; 3]| {
             let at = |corner: u32| Vec3A::from(surface.positions[corner as usize]);
             RtTriangle::new(at(a), at(b), at(c))
         };
-        let triangles: Vec<RtTriangle> = surface.triangles.iter().map(|corners| of(*corners)).collect();
-        let tree = build_bvh2(&triangles, BvhBuildParams::medium_build(), &mut Duration::default());
+        let triangles: Vec<RtTriangle> = surface
+            .triangles
+            .iter()
+            .map(|corners| of(*corners))
+            .collect();
+        let tree = build_bvh2(
+            &triangles,
+            BvhBuildParams::medium_build(),
+            &mut Duration::default(),
+        );
         let order = || tree.primitive_indices.iter().map(|index| *index as usize);
         let triangles = order().map(|index| triangles[index]).collect();
         surface.triangles = order().map(|index| surface.triangles[index]).collect();
         surface.materials = order().map(|index| surface.materials[index]).collect();
-        let clear = materials.iter().any(|material| material.alpha != Alpha::Opaque);
-        Self { surface, materials, textures, tree, triangles, clear }
+        let clear = materials
+            .iter()
+            .any(|material| material.alpha != Alpha::Opaque);
+        Self {
+            surface,
+            materials,
+            textures,
+            tree,
+            triangles,
+            clear,
+        }
     }
 
     pub(super) fn material(&self, triangle: usize) -> usize {
@@ -62,7 +83,10 @@ impl<'a> Tracer<'a> {
             let distance = triangle.intersect(ray);
             // `ng` points inward.
             let behind = || triangle.ng.dot(ray.direction) < 0.0;
-            if distance.is_finite() && behind() && !self.materials[self.material(index)].double_sided {
+            if distance.is_finite()
+                && behind()
+                && !self.materials[self.material(index)].double_sided
+            {
                 return f32::INFINITY;
             }
             distance
@@ -72,7 +96,11 @@ impl<'a> Tracer<'a> {
 
     fn hit(&self, ray: &Ray, triangle: usize, distance: f32) -> Hit {
         let Vec2 { x, y } = self.triangles[triangle].compute_barycentric(ray);
-        Hit { triangle, distance, shares: Vec3::new(1.0 - x - y, x, y) }
+        Hit {
+            triangle,
+            distance,
+            shares: Vec3::new(1.0 - x - y, x, y),
+        }
     }
 
     /// The share of light that comes through from a direction, 0 to 1.
@@ -84,8 +112,16 @@ impl<'a> Tracer<'a> {
             if !self.clear || !distance.is_finite() {
                 return distance;
             }
-            light *= 1.0 - self.cover(&self.hit(ray, index, distance), self.base(&self.hit(ray, index, distance), 0.0).w);
-            if light > 0.01 { f32::INFINITY } else { distance }
+            light *= 1.0
+                - self.cover(
+                    &self.hit(ray, index, distance),
+                    self.base(&self.hit(ray, index, distance), 0.0).w,
+                );
+            if light > 0.01 {
+                f32::INFINITY
+            } else {
+                distance
+            }
         });
         if missed { light } else { 0.0 }
     }
@@ -123,7 +159,11 @@ impl<'a> Tracer<'a> {
         let [a, b, c] = corners.map(|corner| uvs[corner as usize] * texture.size());
         let texels = (b - a).perp_dot(c - a).abs();
         let area = self.triangles[hit.triangle].ng.length();
-        base * texture.at(uv, width * (texels / area.max(f32::MIN_POSITIVE)).sqrt(), sampler)
+        base * texture.at(
+            uv,
+            width * (texels / area.max(f32::MIN_POSITIVE)).sqrt(),
+            sampler,
+        )
     }
 
     /// The unit normal of a triangle.
@@ -143,11 +183,12 @@ impl<'a> Tracer<'a> {
     pub(super) fn lifted(&self, hit: &Hit, place: Vec3, side: f32) -> Vec3 {
         let (positions, normals) = (&self.surface.positions, &self.surface.normals);
         let corners = self.surface.triangles[hit.triangle];
-        place + blend(corners, hit.shares, |corner| {
-            let normal = normals[corner] * side;
-            let below = (place - positions[corner]).dot(normal).min(0.0);
-            normal * -below
-        })
+        place
+            + blend(corners, hit.shares, |corner| {
+                let normal = normals[corner] * side;
+                let below = (place - positions[corner]).dot(normal).min(0.0);
+                normal * -below
+            })
     }
 }
 

@@ -32,10 +32,16 @@ impl Buffers {
         resolver: &dyn Resolver,
     ) -> Result<Self, RenderError> {
         let read = |buffer: Buffer<'_>| match buffer.source() {
-            buffer::Source::Bin => blob.take().ok_or_else(|| malformed("the binary chunk is missing")),
+            buffer::Source::Bin => blob
+                .take()
+                .ok_or_else(|| malformed("the binary chunk is missing")),
             buffer::Source::Uri(uri) => Ok(fetch(uri, resolver)?.to_vec()),
         };
-        document.buffers().map(read).collect::<Result<_, _>>().map(Self)
+        document
+            .buffers()
+            .map(read)
+            .collect::<Result<_, _>>()
+            .map(Self)
     }
 
     /// The bytes of a buffer.
@@ -47,7 +53,12 @@ impl Buffers {
     pub(super) fn view(&self, view: &buffer::View<'_>) -> Result<&[u8], RenderError> {
         let end = view.offset().checked_add(view.length());
         let bytes = end.and_then(|end| self.of(&view.buffer())?.get(view.offset()..end));
-        bytes.ok_or_else(|| malformed(format!("buffer view {} is longer than its buffer", view.index())))
+        bytes.ok_or_else(|| {
+            malformed(format!(
+                "buffer view {} is longer than its buffer",
+                view.index()
+            ))
+        })
     }
 
     /// Refuses a list that is not of one of these types or does not lie in its buffer.
@@ -59,7 +70,9 @@ impl Buffers {
         let name = accessor.index();
         let of_type = (accessor.data_type(), accessor.dimensions());
         if !types.contains(&of_type) {
-            return Err(malformed(format!("accessor {name} has a type that is not allowed where it is used")));
+            return Err(malformed(format!(
+                "accessor {name} has a type that is not allowed where it is used"
+            )));
         }
         let short = || malformed(format!("accessor {name} is longer than its buffer view"));
         let fits = |view: buffer::View<'_>, offset: usize, count: usize, size: usize| {
@@ -79,9 +92,19 @@ impl Buffers {
         }
         if let Some(sparse) = accessor.sparse() {
             let indices = sparse.indices();
-            fits(indices.view(), indices.offset(), sparse.count(), indices.index_type().size())?;
+            fits(
+                indices.view(),
+                indices.offset(),
+                sparse.count(),
+                indices.index_type().size(),
+            )?;
             let values = sparse.values();
-            fits(values.view(), values.offset(), sparse.count(), accessor.size())?;
+            fits(
+                values.view(),
+                values.offset(),
+                sparse.count(),
+                accessor.size(),
+            )?;
         }
         Ok(())
     }
@@ -101,9 +124,15 @@ impl Buffers {
 /// The bytes behind an address: in itself, or beside the file.
 pub(super) fn fetch(uri: &str, resolver: &dyn Resolver) -> Result<Arc<[u8]>, RenderError> {
     let Some(data) = uri.strip_prefix("data:") else {
-        return resolver.read(uri).map_err(|error| RenderError::Link { link: uri.to_owned(), error });
+        return resolver.read(uri).map_err(|error| RenderError::Link {
+            link: uri.to_owned(),
+            error,
+        });
     };
     let encoded = data.split_once(";base64,").map(|(_, encoded)| encoded);
-    let bytes = encoded.and_then(|text| base64::engine::general_purpose::STANDARD.decode(text).ok());
-    bytes.map(Arc::from).ok_or_else(|| malformed("data within an address is not base64"))
+    let bytes =
+        encoded.and_then(|text| base64::engine::general_purpose::STANDARD.decode(text).ok());
+    bytes
+        .map(Arc::from)
+        .ok_or_else(|| malformed("data within an address is not base64"))
 }

@@ -20,7 +20,10 @@ const IMAGE_LIMIT: u64 = 512 << 20;
 
 /// The file's materials, and behind them the one of what has none.
 pub(super) fn read(document: &Document) -> Vec<Material> {
-    let mut materials: Vec<Material> = document.materials().map(|source| self::material(&source)).collect();
+    let mut materials: Vec<Material> = document
+        .materials()
+        .map(|source| self::material(&source))
+        .collect();
     materials.push(Material {
         base: Vec4::ONE,
         sampler: None,
@@ -88,8 +91,13 @@ pub(super) fn textures(
                 return Ok(None);
             }
             let source = &sources[image.index()];
-            if source.buffer_view.is_some() && source.mime_type.is_none() || source.buffer_view.is_none() && source.uri.is_none() {
-                return Err(malformed(format!("image {} does not say where or what it is", image.index())));
+            if source.buffer_view.is_some() && source.mime_type.is_none()
+                || source.buffer_view.is_none() && source.uri.is_none()
+            {
+                return Err(malformed(format!(
+                    "image {} does not say where or what it is",
+                    image.index()
+                )));
             }
             let pixels = match image.source() {
                 image::Source::View { view, .. } => decode(buffers.view(&view)?)?,

@@ -23,10 +23,12 @@ use data::Buffers;
 /// cannot be decoded.
 pub fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<Model, RenderError> {
     let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(|error| {
-        let unknown = Gltf::from_slice_without_validation(bytes).ok().and_then(|file| {
-            let mut needed = file.extensions_required();
-            needed.find(|name| !KNOWN.contains(name)).map(str::to_owned)
-        });
+        let unknown = Gltf::from_slice_without_validation(bytes)
+            .ok()
+            .and_then(|file| {
+                let mut needed = file.extensions_required();
+                needed.find(|name| !KNOWN.contains(name)).map(str::to_owned)
+            });
         unknown.map_or_else(|| malformed(error.to_string()), RenderError::Extension)
     })?;
     let buffers = Buffers::read(&document, blob, resolver)?;
@@ -34,8 +36,14 @@ pub fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<Model, RenderError>
     Ok(Model {
         order: order(&document, &nodes)?,
         drawn: drawn(&document, &nodes),
-        meshes: document.meshes().map(|mesh| meshes::read(&mesh, &buffers)).collect::<Result<_, _>>()?,
-        skins: document.skins().map(|skin| self::skin(&skin, &buffers)).collect::<Result<_, _>>()?,
+        meshes: document
+            .meshes()
+            .map(|mesh| meshes::read(&mesh, &buffers))
+            .collect::<Result<_, _>>()?,
+        skins: document
+            .skins()
+            .map(|skin| self::skin(&skin, &buffers))
+            .collect::<Result<_, _>>()?,
         materials: materials::read(&document),
         textures: materials::textures(&document, &buffers, resolver)?,
         nodes,
@@ -55,7 +63,12 @@ fn malformed(message: impl Into<String>) -> RenderError {
 
 fn nodes(document: &::gltf::Document) -> Result<Vec<Node>, RenderError> {
     let matrix = |node: &::gltf::Node<'_>| {
-        DMat4::from_cols_array_2d(&node.transform().matrix().map(|column| column.map(f64::from)))
+        DMat4::from_cols_array_2d(
+            &node
+                .transform()
+                .matrix()
+                .map(|column| column.map(f64::from)),
+        )
     };
     let mut nodes: Vec<Node> = document
         .nodes()
@@ -78,9 +91,13 @@ fn nodes(document: &::gltf::Document) -> Result<Vec<Node>, RenderError> {
 
 /// All nodes, parents before children.
 fn order(document: &::gltf::Document, nodes: &[Node]) -> Result<Vec<usize>, RenderError> {
-    let mut order: Vec<usize> = (0..nodes.len()).filter(|node| nodes[*node].parent.is_none()).collect();
-    let children: Vec<Vec<usize>> =
-        document.nodes().map(|node| node.children().map(|child| child.index()).collect()).collect();
+    let mut order: Vec<usize> = (0..nodes.len())
+        .filter(|node| nodes[*node].parent.is_none())
+        .collect();
+    let children: Vec<Vec<usize>> = document
+        .nodes()
+        .map(|node| node.children().map(|child| child.index()).collect())
+        .collect();
     let mut next = 0;
     while let Some(node) = order.get(next).copied() {
         order.extend(&children[node]);
@@ -94,7 +111,10 @@ fn order(document: &::gltf::Document, nodes: &[Node]) -> Result<Vec<usize>, Rend
 
 /// Which nodes the file's scene shows; all of them where there is no scene.
 fn drawn(document: &::gltf::Document, nodes: &[Node]) -> Vec<bool> {
-    let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
+    let Some(scene) = document
+        .default_scene()
+        .or_else(|| document.scenes().next())
+    else {
         return vec![true; nodes.len()];
     };
     let mut drawn = vec![false; nodes.len()];
