@@ -91,6 +91,24 @@ impl<'a> Stage<'a> {
     }
 
     fn draw(&self, options: &Options, framing: &Framing, view: View) -> Result<Image, RenderError> {
+        let drawn = threads::run(|| self.pixels(options, framing, view));
+        let [width, height] = options.size;
+        drawn
+            .and_then(|pixels| Image::from_raw(width, height, pixels))
+            .ok_or(RenderError::Broken)
+    }
+
+    /// The same on the threads that the caller is on.
+    #[cfg(test)]
+    pub(super) fn drawn_here(&self, options: &Options) -> Result<Image, RenderError> {
+        let framing = self.framing(options, &[options.view])?;
+        let [width, height] = options.size;
+        let pixels = self.pixels(options, &framing, options.view);
+        Image::from_raw(width, height, pixels).ok_or(RenderError::Broken)
+    }
+
+    /// The pixels of a picture, four bytes each, rows from the top.
+    fn pixels(&self, options: &Options, framing: &Framing, view: View) -> Vec<u8> {
         let [width, height] = options.size;
         let camera = framing.camera(view);
         let rig = Rig::new(camera.yaw);
@@ -99,29 +117,33 @@ impl<'a> Stage<'a> {
             camera: &camera,
             shading: options.shading,
         };
-        let row = |top: u32| {
+        let mut pixels = vec![[0_u8; 4]; width as usize * height as usize];
+        let bands = pixels
+            .par_chunks_mut(width as usize * TILE as usize)
+            .enumerate();
+        bands.for_each(|(band, pixels)| {
+            let top = band as u32 * TILE;
             let high = TILE.min(height - top);
-            let mut pixels = vec![[0_u8; 4]; (width * high) as usize];
-            for left in (0..width).step_by(TILE as usize) {
-                let wide = TILE.min(width - left);
-                let tile = draw(&eye, &rig, options.background, [left, top], [wide, high]);
+            // Bands are shared among threads, and tiles within a band, where there are fewer bands than threads.
+            let lefts: Vec<u32> = (0..width).step_by(TILE as usize).collect();
+            let tiles: Vec<Vec<[u8; 4]>> = lefts
+                .par_iter()
+                .map(|left| {
+                    let wide = TILE.min(width - left);
+                    draw(&eye, &rig, options.background, [*left, top], [wide, high])
+                })
+                .collect();
+            for (left, tile) in lefts.iter().zip(&tiles) {
+                let wide = TILE.min(width - left) as usize;
                 for (line, tile) in pixels
                     .chunks_exact_mut(width as usize)
-                    .zip(tile.chunks_exact(wide as usize))
+                    .zip(tile.chunks_exact(wide))
                 {
-                    line[left as usize..][..wide as usize].copy_from_slice(tile);
+                    line[*left as usize..][..wide].copy_from_slice(tile);
                 }
             }
-            pixels
-        };
-        let rows: Vec<u32> = (0..height).step_by(TILE as usize).collect();
-        let drawn = threads::run(|| {
-            let bands: Vec<Vec<[u8; 4]>> = rows.par_iter().map(|top| row(*top)).collect();
-            bands.concat().into_flattened()
         });
-        drawn
-            .and_then(|pixels| Image::from_raw(width, height, pixels))
-            .ok_or(RenderError::Broken)
+        pixels.into_flattened()
     }
 }
 
