@@ -38,7 +38,10 @@ fn picture(glb: &[u8]) -> RgbaImage {
 fn example(name: &str) -> Vec<u8> {
     let path = folder("examples").join(format!("{name}.svg"));
     let text = fs::read_to_string(path).expect("an example");
-    common::glb(&common::compiled(&text, &FolderResolver::new(folder("examples"))))
+    common::glb(&common::compiled(
+        &text,
+        &FolderResolver::new(folder("examples")),
+    ))
 }
 
 /// The mean difference of all values, and that of the block that differs most.
@@ -46,7 +49,8 @@ fn difference(one: &RgbaImage, other: &RgbaImage) -> (f64, f64) {
     if one.dimensions() != other.dimensions() {
         return (255.0, 255.0);
     }
-    let blocks = (0..SIDE / BLOCK).flat_map(|y| (0..SIDE / BLOCK).map(move |x| (x * BLOCK, y * BLOCK)));
+    let blocks =
+        (0..SIDE / BLOCK).flat_map(|y| (0..SIDE / BLOCK).map(move |x| (x * BLOCK, y * BLOCK)));
     let (mut sum, mut worst, mut count) = (0.0, 0.0_f64, 0.0);
     for (left, top) in blocks {
         // Signed, so that an edge that is a touch softer counts for nothing.
@@ -80,7 +84,12 @@ fn examples_look_as_they_did() {
     let mut names: Vec<String> = entries
         .map(|entry| entry.expect("an entry").path())
         .filter(|path| path.extension().is_some_and(|ending| ending == "svg"))
-        .map(|path| path.file_stem().expect("a name").to_string_lossy().into_owned())
+        .map(|path| {
+            path.file_stem()
+                .expect("a name")
+                .to_string_lossy()
+                .into_owned()
+        })
         .collect();
     names.sort();
     assert!(!names.is_empty());
@@ -102,7 +111,9 @@ fn examples_look_as_they_did() {
         let (mean, worst) = difference(&image, &reference);
         if mean > MEAN || worst > WORST {
             save(&image, &actual);
-            wrong.push(format!("{name} looks different: {mean:.2} all over, {worst:.1} in a block"));
+            wrong.push(format!(
+                "{name} looks different: {mean:.2} all over, {worst:.1} in a block"
+            ));
         }
     }
     assert!(
@@ -120,7 +131,10 @@ fn a_moved_limb_is_seen() {
     let path = folder("examples/human.svg");
     let text = fs::read_to_string(path).expect("an example");
     for (from, to) in [
-        ("Rarm@Ubody$Shape roundv -90 90", "Rarm@Ubody$Shape roundv -90 90 Offset 12"),
+        (
+            "Rarm@Ubody$Shape roundv -90 90",
+            "Rarm@Ubody$Shape roundv -90 90 Offset 12",
+        ),
         ("$Color 0.85 0.3 0.25", "$Color 0.85 0.45 0.25"),
         ("Head@Ubody", "Head@Ubody$Shape default -40 40"),
     ] {
@@ -129,6 +143,9 @@ fn a_moved_limb_is_seen() {
         let compiled = common::compiled(&changed, &MemoryResolver::default());
         assert!(!compiled.has_errors(), "{to}");
         let (mean, worst) = difference(&picture(&common::glb(&compiled)), &whole);
-        assert!(mean > MEAN || worst > WORST, "{to}: only {mean:.2}, {worst:.1}");
+        assert!(
+            mean > MEAN || worst > WORST,
+            "{to}: only {mean:.2}, {worst:.1}"
+        );
     }
 }
