@@ -12,6 +12,9 @@ pub(super) const MARGIN: f32 = 0.06;
 /// The smallest half extent that is framed, so that a flat thing seen edge-on has a scale.
 const LEAST: f32 = 1e-4;
 
+/// How often the picture is centred; each time leaves a small part of what the last one left.
+const CENTRINGS: usize = 3;
+
 /// The direction that the camera looks from, degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
@@ -119,13 +122,33 @@ impl Framing {
             }
             Projection::Orthographic => (nearest - 1.0, (reach / inner).max_element().max(LEAST)),
         };
-        Self {
+        let mut framing = Self {
             projection,
             size,
             middle,
             depth,
             half,
+        };
+        if projection == Projection::Perspective {
+            (0..CENTRINGS).for_each(|_| framing.centre(views, points));
         }
+        framing
+    }
+
+    /// Moves the eye sideways, so that the border is as wide on the left as on the right, and above as below.
+    fn centre(&mut self, views: &[View], points: &[Vec3]) {
+        let mut high = Vec2::NEG_INFINITY;
+        let mut low = Vec2::NEG_INFINITY;
+        for axes in views.iter().map(|view| Axes::new(*view)) {
+            for point in points {
+                let seen = axes.of(*point);
+                let place = (seen.truncate() - self.middle) / (seen.z - self.depth);
+                high = high.max(place);
+                low = low.max(-place);
+            }
+        }
+        // The model's middle lies at depth 0.
+        self.middle += (high - low) / 2.0 * -self.depth;
     }
 
     /// The camera that sees one of the views so.

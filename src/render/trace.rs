@@ -12,6 +12,9 @@ use obvhs::rt_triangle::RtTriangle;
 use super::surface::{Alpha, Material, Surface};
 use super::texture::Texture;
 
+/// How far triangles reach over their edges, as a share of their extent, so that no ray slips through between two.
+const EDGE: f32 = 1e-5;
+
 /// A surface that rays can be sent at.
 pub(super) struct Tracer<'a> {
     pub(super) surface: Surface,
@@ -80,7 +83,7 @@ impl<'a> Tracer<'a> {
         let mut found = RayHit::none();
         let hit = self.tree.ray_traverse(ray, &mut found, |ray, index| {
             let triangle = &self.triangles[index];
-            let distance = triangle.intersect(ray);
+            let distance = meet(triangle, ray);
             // `ng` points inward.
             let behind = || triangle.ng.dot(ray.direction) < 0.0;
             if distance.is_finite()
@@ -108,7 +111,7 @@ impl<'a> Tracer<'a> {
         let ray = Ray::new(origin.into(), direction.into(), 0.0, f32::INFINITY);
         let mut light = 1.0;
         let missed = self.tree.ray_traverse_miss(ray, |ray, index| {
-            let distance = self.triangles[index].intersect(ray);
+            let distance = meet(&self.triangles[index], ray);
             if !self.clear || !distance.is_finite() {
                 return distance;
             }
@@ -190,6 +193,25 @@ impl<'a> Tracer<'a> {
                 normal * -below
             })
     }
+}
+
+/// The distance at which a ray meets a triangle, infinite if it does not (Möller and Trumbore).
+///
+/// The tree's library has this too, but lets rays slip through between two triangles.
+#[inline]
+fn meet(triangle: &RtTriangle, ray: &Ray) -> f32 {
+    let to = triangle.v0 - ray.origin;
+    let across = ray.direction.cross(to);
+    let inverse = 1.0 / triangle.ng.dot(ray.direction);
+    let u = across.dot(triangle.e2) * inverse;
+    let v = across.dot(triangle.e1) * inverse;
+    if u >= -EDGE && v >= -EDGE && u + v <= 1.0 + EDGE {
+        let distance = triangle.ng.dot(to) * inverse;
+        if distance >= ray.tmin && distance <= ray.tmax {
+            return distance;
+        }
+    }
+    f32::INFINITY
 }
 
 fn blend<T>(corners: [u32; 3], shares: Vec3, at: impl Fn(usize) -> T) -> T
