@@ -10,7 +10,7 @@ use super::trace::Tracer;
 /// What a surface that is no metal mirrors when it is looked at squarely.
 const MIRRORED: f32 = 0.04;
 /// Light up to here is shown as it is; what is brighter is bent to stay below 1.
-const SHOULDER: f32 = 0.8;
+const SHOULDER: f32 = 0.6;
 /// The darkest shadow on the ground.
 const SHADOW: f32 = 0.62;
 
