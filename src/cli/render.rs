@@ -12,9 +12,10 @@ use crate::disk::{FolderResolver, read_drawing, write_atomic};
 use crate::gltf::{self, Container};
 use crate::render::{self, Animation, Options, Palette, Stage, write_png};
 
-/// The side of the pictures that a GIF's colours are chosen from, pixels, and how many there are.
+/// The side of the pictures that a GIF's colours are chosen from, pixels, and the most that there are: flat sides change
+/// their shade with every frame.
 const SKETCH: u32 = 160;
-const SKETCHES: u32 = 8;
+const SKETCHES: u32 = 36;
 
 /// What is to be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
