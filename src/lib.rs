@@ -17,6 +17,7 @@ pub mod figure;
 pub mod geometry;
 pub mod gltf;
 pub mod lang;
+pub mod render;
 pub mod resolver;
 pub mod scene;
 pub mod solid;

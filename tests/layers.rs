@@ -45,6 +45,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
+    ("render", &["resolver", "threads"]),
     ("disk", &["resolver"]),
     (
         "cli",
@@ -55,6 +56,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "disk",
             "gltf",
             "lang",
+            "render",
             "source",
         ],
     ),

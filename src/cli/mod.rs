@@ -18,6 +18,7 @@ mod loading;
 mod parallel;
 mod places;
 mod progress;
+mod render;
 pub mod report;
 #[cfg(test)]
 mod samples;
@@ -72,6 +73,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     };
     let outcome = match &cli.command {
         Command::Build(arguments) => build::run(arguments, cli.common),
+        Command::Render(arguments) => render::run(arguments, cli.common),
         Command::Check(arguments) => check::run(arguments, cli.common),
         Command::Inspect(arguments) => inspect::run(arguments, cli.common),
         Command::Explain { topic } => explain::run(topic.as_deref(), cli.common),

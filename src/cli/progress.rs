@@ -4,30 +4,43 @@ use std::io::IsTerminal;
 use std::sync::mpsc;
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// How long work may take before it says so.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// Runs `work`; after a second a spinner with `message` appears, if stderr is a terminal.
 pub(super) fn spinning<T>(message: &str, work: impl FnOnce() -> T) -> T {
+    counting(message, 0, |_| work())
+}
+
+/// Runs `work`, which says how many of `total` pieces it has done; after a second that appears behind `message`, if
+/// stderr is a terminal. A `total` of 0 is not shown.
+pub(super) fn counting<T>(message: &str, total: u32, work: impl FnOnce(&dyn Fn(u32)) -> T) -> T {
     if !std::io::stderr().is_terminal() {
-        return work();
+        return work(&|_| ());
     }
+    let bar = ProgressBar::with_draw_target(Some(u64::from(total)), ProgressDrawTarget::hidden());
+    let template = match total {
+        0 => "{spinner} {msg} ({elapsed})",
+        _ => "{spinner} {msg} {pos} of {len} ({elapsed})",
+    };
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar.set_message(message.to_owned());
     std::thread::scope(|scope| {
         let (done, wait) = mpsc::channel::<()>();
+        let shown = bar.clone();
         scope.spawn(move || {
             if wait.recv_timeout(PATIENCE) == Err(mpsc::RecvTimeoutError::Timeout) {
-                let bar = ProgressBar::new_spinner().with_message(message.to_owned());
-                if let Ok(style) = ProgressStyle::with_template("{spinner} {msg} ({elapsed})") {
-                    bar.set_style(style);
-                }
-                bar.enable_steady_tick(Duration::from_millis(100));
+                shown.set_draw_target(ProgressDrawTarget::stderr());
+                shown.enable_steady_tick(Duration::from_millis(100));
                 let _ = wait.recv();
-                bar.finish_and_clear();
+                shown.finish_and_clear();
             }
         });
-        let result = work();
+        let result = work(&|done| bar.set_position(u64::from(done)));
         drop(done);
         result
     })

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes the gallery's pictures, docs/NAME.png, drawing and model side by side: bash tests/tools/gallery.sh [NAME…]
 #
-# Takes Inkscape for the drawing, Blender for the model, and Python's Pillow to put them together.
+# Takes Inkscape for the drawing, okoshi for the model, and Python's Pillow to put them together.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 room=$(mktemp -d)
@@ -10,11 +10,9 @@ cargo build --release --quiet
 for drawing in examples/*.svg; do
   name=$(basename "$drawing" .svg)
   [ $# = 0 ] || [[ " $* " == *" $name "* ]] || continue
-  target/release/okoshi build --quiet "$drawing" -o "$room/$name.glb"
   inkscape "$drawing" --export-type=png --export-width=800 --export-background=white \
     --export-filename="$room/$name-drawing.png" 2> /dev/null
-  blender -b --factory-startup --python-exit-code 1 --python tests/tools/picture.py -- \
-    "$room/$name.glb" "$room/$name-model.png" --size 1000x1000 > "$room/log" || { cat "$room/log"; exit 1; }
+  target/release/okoshi render --quiet "$drawing" -o "$room/$name-model.png" --size 1000x1000 --background "#ffffff"
   python3 tests/tools/side_by_side.py "$room/$name-drawing.png" "$room/$name-model.png" "docs/$name.png"
   echo "docs/$name.png"
 done

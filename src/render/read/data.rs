@@ -1,0 +1,138 @@
+//! Buffers, and lists in them. The `gltf` crate reads lists but trusts that they fit; here that is seen to first.
+
+use std::sync::Arc;
+
+use ::gltf::accessor::{DataType, Dimensions, Item, Iter};
+use ::gltf::{Accessor, Buffer, Document, buffer};
+use base64::Engine as _;
+
+use super::{RenderError, malformed};
+use crate::resolver::Resolver;
+
+pub(super) const F32: DataType = DataType::F32;
+pub(super) const U8: DataType = DataType::U8;
+pub(super) const U16: DataType = DataType::U16;
+pub(super) const U32: DataType = DataType::U32;
+pub(super) const SCALAR: Dimensions = Dimensions::Scalar;
+pub(super) const VEC2: Dimensions = Dimensions::Vec2;
+pub(super) const VEC3: Dimensions = Dimensions::Vec3;
+pub(super) const VEC4: Dimensions = Dimensions::Vec4;
+pub(super) const MAT4: Dimensions = Dimensions::Mat4;
+
+/// No length or place in a file is larger than this, so that sums of a few of them do not overflow.
+const LARGEST: usize = 1 << 40;
+
+/// The data of a file.
+pub(super) struct Buffers(Vec<Vec<u8>>);
+
+impl Buffers {
+    pub(super) fn read(
+        document: &Document,
+        mut blob: Option<Vec<u8>>,
+        resolver: &dyn Resolver,
+    ) -> Result<Self, RenderError> {
+        let read = |buffer: Buffer<'_>| match buffer.source() {
+            buffer::Source::Bin => blob
+                .take()
+                .ok_or_else(|| malformed("the binary chunk is missing")),
+            buffer::Source::Uri(uri) => Ok(fetch(uri, resolver)?.to_vec()),
+        };
+        document
+            .buffers()
+            .map(read)
+            .collect::<Result<_, _>>()
+            .map(Self)
+    }
+
+    /// The bytes of a buffer.
+    pub(super) fn of(&self, buffer: &Buffer<'_>) -> Option<&[u8]> {
+        self.0.get(buffer.index()).map(Vec::as_slice)
+    }
+
+    /// The bytes of a view.
+    pub(super) fn view(&self, view: &buffer::View<'_>) -> Result<&[u8], RenderError> {
+        let end = view.offset().checked_add(view.length());
+        let bytes = end.and_then(|end| self.of(&view.buffer())?.get(view.offset()..end));
+        bytes.ok_or_else(|| {
+            malformed(format!(
+                "buffer view {} is longer than its buffer",
+                view.index()
+            ))
+        })
+    }
+
+    /// Refuses a list that is not of one of these types or does not lie in its buffer.
+    pub(super) fn check(
+        &self,
+        accessor: &Accessor<'_>,
+        types: &[(DataType, Dimensions)],
+    ) -> Result<(), RenderError> {
+        let name = accessor.index();
+        let of_type = (accessor.data_type(), accessor.dimensions());
+        if !types.contains(&of_type) {
+            return Err(malformed(format!(
+                "accessor {name} has a type that is not allowed where it is used"
+            )));
+        }
+        let short = || malformed(format!("accessor {name} is longer than its buffer view"));
+        let fits = |view: buffer::View<'_>, offset: usize, count: usize, size: usize| {
+            let stride = view.stride().unwrap_or(size);
+            let length = self.view(&view)?.len();
+            let sound = count > 0 && stride >= size && offset.max(count).max(stride) < LARGEST;
+            match sound && stride.saturating_mul(count - 1) + size + offset <= length {
+                true => Ok(()),
+                false => Err(short()),
+            }
+        };
+        match accessor.view() {
+            Some(view) => fits(view, accessor.offset(), accessor.count(), accessor.size())?,
+            // Without a view it is zeros, as many as it likes to claim.
+            None if accessor.count() > super::super::TRIANGLE_LIMIT * 3 => return Err(short()),
+            None => {}
+        }
+        if let Some(sparse) = accessor.sparse() {
+            let indices = sparse.indices();
+            fits(
+                indices.view(),
+                indices.offset(),
+                sparse.count(),
+                indices.index_type().size(),
+            )?;
+            let values = sparse.values();
+            fits(
+                values.view(),
+                values.offset(),
+                sparse.count(),
+                accessor.size(),
+            )?;
+        }
+        Ok(())
+    }
+
+    /// A list of one of these types.
+    pub(super) fn list<'a, T: Item>(
+        &'a self,
+        accessor: &Accessor<'a>,
+        types: &[(DataType, Dimensions)],
+    ) -> Result<Iter<'a, T>, RenderError> {
+        self.check(accessor, types)?;
+        Iter::new(accessor.clone(), |buffer| self.of(&buffer))
+            .ok_or_else(|| malformed(format!("accessor {} has no data", accessor.index())))
+    }
+}
+
+/// The bytes behind an address: in itself, or beside the file.
+pub(super) fn fetch(uri: &str, resolver: &dyn Resolver) -> Result<Arc<[u8]>, RenderError> {
+    let Some(data) = uri.strip_prefix("data:") else {
+        return resolver.read(uri).map_err(|error| RenderError::Link {
+            link: uri.to_owned(),
+            error,
+        });
+    };
+    let encoded = data.split_once(";base64,").map(|(_, encoded)| encoded);
+    let bytes =
+        encoded.and_then(|text| base64::engine::general_purpose::STANDARD.decode(text).ok());
+    bytes
+        .map(Arc::from)
+        .ok_or_else(|| malformed("data within an address is not base64"))
+}

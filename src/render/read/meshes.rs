@@ -1,0 +1,187 @@
+//! Meshes: triangles and what their corners carry.
+
+use ::gltf::mesh::Mode;
+use ::gltf::{Accessor, Primitive as Source, Semantic};
+use glam::{DMat3, DVec3, Vec2, Vec4};
+
+use super::super::pose::Primitive;
+use super::data::{Buffers, F32, SCALAR, U8, U16, U32, VEC2, VEC3, VEC4};
+use super::{RenderError, malformed};
+
+/// The primitives of a mesh that are made of triangles.
+pub(super) fn read(
+    mesh: &::gltf::Mesh<'_>,
+    buffers: &Buffers,
+) -> Result<Vec<Primitive>, RenderError> {
+    mesh.primitives()
+        .filter_map(|source| primitive(&source, buffers).transpose())
+        .collect()
+}
+
+fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>, RenderError> {
+    let mode = source.mode();
+    if !matches!(
+        mode,
+        Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan
+    ) {
+        return Ok(None);
+    }
+    let Some(positions) = source.get(&Semantic::Positions) else {
+        return Ok(None);
+    };
+    let positions: Vec<[f32; 3]> = buffers.list(&positions, &[(F32, VEC3)])?.collect();
+    let count = positions.len();
+    let same = |length: usize, what: &str| match length == count {
+        true => Ok(()),
+        false => Err(malformed(format!(
+            "a mesh has {count} corners but {length} {what}"
+        ))),
+    };
+    let normals: Vec<[f32; 3]> = match source.get(&Semantic::Normals) {
+        Some(accessor) => buffers.list(&accessor, &[(F32, VEC3)])?.collect(),
+        None => Vec::new(),
+    };
+    if !normals.is_empty() {
+        same(normals.len(), "normals")?;
+    }
+    let reader = source.reader(|buffer| buffers.of(&buffer));
+    let check = |accessor: Option<Accessor<'_>>, types: &[_]| {
+        accessor.map(|a| buffers.check(&a, types)).transpose()
+    };
+
+    let material = source.material();
+    let base = material.pbr_metallic_roughness();
+    let mut uvs = Vec::new();
+    if let Some(info) = base.base_color_texture() {
+        let moved = info.texture_transform();
+        let set = moved
+            .as_ref()
+            .and_then(|moved| moved.tex_coord())
+            .unwrap_or_else(|| info.tex_coord());
+        let types = [(F32, VEC2), (U8, VEC2), (U16, VEC2)];
+        if check(source.get(&Semantic::TexCoords(set)), &types)?.is_some() {
+            let matrix = moved.map_or(DMat3::IDENTITY, |moved| transform(&moved));
+            let apply = |[u, v]: [f32; 2]| {
+                let moved = matrix * DVec3::new(f64::from(u), f64::from(v), 1.0);
+                Vec2::new(moved.x as f32, moved.y as f32)
+            };
+            uvs = reader
+                .read_tex_coords(set)
+                .map_or_else(Vec::new, |list| list.into_f32().map(apply).collect());
+            same(uvs.len(), "texture coordinates")?;
+        }
+    }
+    let types = [
+        (F32, VEC3),
+        (U8, VEC3),
+        (U16, VEC3),
+        (F32, VEC4),
+        (U8, VEC4),
+        (U16, VEC4),
+    ];
+    let mut colours = Vec::new();
+    if check(source.get(&Semantic::Colors(0)), &types)?.is_some() {
+        let list = reader.read_colors(0);
+        colours = list.map_or_else(Vec::new, |list| {
+            list.into_rgba_f32().map(Vec4::from).collect()
+        });
+        same(colours.len(), "colours")?;
+    }
+    let mut influences = Vec::new();
+    for set in 0.. {
+        let joints = check(
+            source.get(&Semantic::Joints(set)),
+            &[(U8, VEC4), (U16, VEC4)],
+        )?;
+        let weights = check(
+            source.get(&Semantic::Weights(set)),
+            &[(F32, VEC4), (U8, VEC4), (U16, VEC4)],
+        )?;
+        if joints.is_none() || weights.is_none() {
+            break;
+        }
+        let lists = reader.read_joints(set).zip(reader.read_weights(set));
+        let pairs = lists.map_or_else(Vec::new, |(joints, weights)| {
+            joints.into_u16().zip(weights.into_f32()).collect()
+        });
+        same(pairs.len(), "weights")?;
+        influences.push(pairs);
+    }
+    let indices: Vec<u32> = match source.indices() {
+        Some(accessor) => {
+            buffers.check(&accessor, &[(U8, SCALAR), (U16, SCALAR), (U32, SCALAR)])?;
+            reader
+                .read_indices()
+                .map_or_else(Vec::new, |list| list.into_u32().collect())
+        }
+        None => (0..count as u32).collect(),
+    };
+    if let Some(wrong) = indices.iter().find(|index| **index as usize >= count) {
+        return Err(malformed(format!(
+            "a mesh of {count} corners names corner {wrong}"
+        )));
+    }
+    Ok(Some(Primitive {
+        positions,
+        normals,
+        uvs,
+        colours,
+        influences,
+        triangles: triangles(mode, &indices),
+        material: material.index(),
+    }))
+}
+
+/// Three corners a triangle, in the order that glTF gives each mode.
+fn triangles(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {
+    match mode {
+        Mode::TriangleStrip => {
+            let turn = |(place, t): (usize, &[u32])| [t[0], t[1 + place % 2], t[2 - place % 2]];
+            indices.windows(3).enumerate().map(turn).collect()
+        }
+        Mode::TriangleFan => {
+            let (first, rest) = indices
+                .split_first()
+                .map_or((0, indices), |(first, rest)| (*first, rest));
+            rest.windows(2)
+                .map(|edge| [edge[0], edge[1], first])
+                .collect()
+        }
+        _ => indices
+            .chunks_exact(3)
+            .map(|t| [t[0], t[1], t[2]])
+            .collect(),
+    }
+}
+
+/// Moves texture coordinates: `KHR_texture_transform`, translation × rotation × scale.
+fn transform(moved: &::gltf::texture::TextureTransform<'_>) -> DMat3 {
+    let [x, y] = moved.offset().map(f64::from);
+    let [width, height] = moved.scale().map(f64::from);
+    let (sin, cos) = f64::from(moved.rotation()).sin_cos();
+    DMat3::from_cols(
+        DVec3::new(cos * width, -sin * width, 0.0),
+        DVec3::new(sin * height, cos * height, 0.0),
+        DVec3::new(x, y, 1.0),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn strips_and_fans_keep_their_side() {
+        let indices = [0, 1, 2, 3, 4];
+        assert_eq!(
+            triangles(Mode::TriangleStrip, &indices),
+            [[0, 1, 2], [1, 3, 2], [2, 3, 4]]
+        );
+        assert_eq!(
+            triangles(Mode::TriangleFan, &indices),
+            [[1, 2, 0], [2, 3, 0], [3, 4, 0]]
+        );
+        assert_eq!(triangles(Mode::Triangles, &indices), [[0, 1, 2]]);
+        assert!(triangles(Mode::TriangleFan, &[]).is_empty());
+    }
+}

@@ -1,0 +1,650 @@
+//! Pictures of models made by hand: what is where in them.
+
+use std::io::Cursor;
+
+use base64::Engine as _;
+use glam::{Vec2, Vec3};
+use image::{ImageFormat, RgbaImage};
+use serde_json::{Value, json};
+
+use super::*;
+use crate::resolver::MemoryResolver;
+
+/// A mesh on a node of its own.
+struct Shape {
+    positions: Vec<Vec3>,
+    uvs: Vec<Vec2>,
+    triangles: Vec<[u32; 3]>,
+    material: Value,
+    /// Joined with the node.
+    node: Value,
+    /// Joined with the attributes, each with its accessor's type and component type.
+    more: Vec<(&'static str, &'static str, u32, Vec<u8>)>,
+}
+
+fn shape(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>, material: Value) -> Shape {
+    Shape {
+        positions,
+        uvs: vec![],
+        triangles,
+        material,
+        node: json!({}),
+        more: vec![],
+    }
+}
+
+/// A square that faces +Z, `2 * half` wide.
+fn square(middle: Vec3, half: f32, material: Value) -> Shape {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let positions = corners
+        .map(|(x, y)| middle + Vec3::new(x, y, 0.0) * half)
+        .to_vec();
+    let uvs = corners
+        .map(|(x, y): (f32, f32)| Vec2::new(x + 1.0, 1.0 - y) / 2.0)
+        .to_vec();
+    Shape {
+        uvs,
+        ..shape(positions, vec![[0, 1, 2], [0, 2, 3]], material)
+    }
+}
+
+fn sphere(material: Value) -> Shape {
+    const RINGS: u32 = 32;
+    const SECTORS: u32 = 64;
+    let mut positions = vec![];
+    for ring in 0..=RINGS {
+        for sector in 0..SECTORS {
+            let (lat, lon) = (ring as f32 / RINGS as f32, sector as f32 / SECTORS as f32);
+            let (down, round) = (lat * std::f32::consts::PI, lon * std::f32::consts::TAU);
+            positions.push(Vec3::new(
+                down.sin() * round.sin(),
+                down.cos(),
+                down.sin() * round.cos(),
+            ));
+        }
+    }
+    let mut triangles = vec![];
+    for ring in 0..RINGS {
+        for sector in 0..SECTORS {
+            let next = (sector + 1) % SECTORS;
+            let at = |ring: u32, sector: u32| ring * SECTORS + sector;
+            let (a, b, c, d) = (
+                at(ring, sector),
+                at(ring + 1, sector),
+                at(ring + 1, next),
+                at(ring, next),
+            );
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+    }
+    shape(positions, triangles, material)
+}
+
+fn plain(r: f32, g: f32, b: f32, alpha: f32) -> Value {
+    let mode = if alpha < 1.0 { "BLEND" } else { "OPAQUE" };
+    json!({
+        "pbrMetallicRoughness": { "baseColorFactor": [r, g, b, alpha], "metallicFactor": 0 },
+        "alphaMode": mode,
+    })
+}
+
+/// Shown as it is.
+fn unlit(r: f32, g: f32, b: f32, alpha: f32) -> Value {
+    let mut material = plain(r, g, b, alpha);
+    material["extensions"] = json!({ "KHR_materials_unlit": {} });
+    material
+}
+
+fn bytes(floats: impl IntoIterator<Item = f32>) -> Vec<u8> {
+    floats.into_iter().flat_map(f32::to_le_bytes).collect()
+}
+
+/// A `.gltf` of the shapes; `extra` is joined with its top level.
+fn file(shapes: &[Shape], extra: &Value) -> Vec<u8> {
+    let (mut data, mut views, mut accessors) = (vec![], vec![], vec![]);
+    let mut list = |kind: &str, component: u32, count: usize, list: &[u8]| {
+        views.push(json!({ "buffer": 0, "byteOffset": data.len(), "byteLength": list.len() }));
+        data.extend_from_slice(list);
+        data.resize(data.len().next_multiple_of(4), 0);
+        let view = views.len() - 1;
+        accessors.push(json!({
+            "bufferView": view, "componentType": component, "count": count, "type": kind,
+            "min": [-9, -9, -9], "max": [9, 9, 9],
+        }));
+        if kind != "VEC3" {
+            let last = accessors.len() - 1;
+            let fields = accessors[last].as_object_mut().unwrap();
+            fields.remove("min");
+            fields.remove("max");
+        }
+        accessors.len() - 1
+    };
+    let (mut meshes, mut nodes, mut materials) = (vec![], vec![], vec![]);
+    for (index, shape) in shapes.iter().enumerate() {
+        let count = shape.positions.len();
+        let positions = bytes(shape.positions.iter().flat_map(|p| p.to_array()));
+        let mut attributes = json!({ "POSITION": list("VEC3", 5126, count, &positions) });
+        if !shape.uvs.is_empty() {
+            let uvs = bytes(shape.uvs.iter().flat_map(|p| p.to_array()));
+            attributes["TEXCOORD_0"] = list("VEC2", 5126, count, &uvs).into();
+        }
+        for (name, kind, component, values) in &shape.more {
+            attributes[*name] = list(kind, *component, count, values).into();
+        }
+        let corners: Vec<u8> = shape
+            .triangles
+            .iter()
+            .flatten()
+            .flat_map(|c| c.to_le_bytes())
+            .collect();
+        let indices = list("SCALAR", 5125, shape.triangles.len() * 3, &corners);
+        meshes.push(json!({ "primitives": [{ "attributes": attributes, "indices": indices, "material": index }] }));
+        let mut node = shape.node.clone();
+        node["mesh"] = index.into();
+        nodes.push(node);
+        materials.push(shape.material.clone());
+    }
+    let roots: Vec<usize> = (0..nodes.len()).collect();
+    let data = base64::engine::general_purpose::STANDARD.encode(&data);
+    let length = base64::engine::general_purpose::STANDARD
+        .decode(&data)
+        .unwrap()
+        .len();
+    let mut root = json!({
+        "asset": { "version": "2.0" }, "scene": 0, "scenes": [{ "nodes": roots }], "nodes": nodes, "meshes": meshes,
+        "materials": materials, "accessors": accessors, "bufferViews": views, "extensionsUsed": ["KHR_materials_unlit"],
+        "buffers": [{ "byteLength": length, "uri": format!("data:application/octet-stream;base64,{data}") }],
+    });
+    for (key, value) in extra.as_object().unwrap() {
+        match root.get_mut(key).and_then(Value::as_array_mut) {
+            Some(list) => list.extend(value.as_array().unwrap().iter().cloned()),
+            None => root[key] = value.clone(),
+        }
+    }
+    serde_json::to_vec(&root).unwrap()
+}
+
+const FRONT: View = View {
+    yaw: 0.0,
+    pitch: 0.0,
+};
+
+fn front(side: u32) -> Options {
+    let projection = Projection::Orthographic;
+    Options {
+        size: [side, side],
+        view: FRONT,
+        projection,
+        ..Options::default()
+    }
+}
+
+#[track_caller]
+fn picture(file: &[u8], options: &Options) -> Image {
+    let model = read(file, &MemoryResolver::default()).unwrap();
+    let stage = Stage::new(&model, &model.rest()).unwrap();
+    stage.picture(options).unwrap()
+}
+
+#[track_caller]
+fn of(shapes: &[Shape], options: &Options) -> Image {
+    picture(&file(shapes, &json!({})), options)
+}
+
+/// The smallest box that has all pixels that are mostly there: left, top, right, bottom, the latter two outside.
+fn extent(image: &Image) -> [u32; 4] {
+    let there = image
+        .enumerate_pixels()
+        .filter(|(_, _, pixel)| pixel.0[3] > 200);
+    there.fold([u32::MAX, u32::MAX, 0, 0], |[l, t, r, b], (x, y, _)| {
+        [l.min(x), t.min(y), r.max(x + 1), b.max(y + 1)]
+    })
+}
+
+#[track_caller]
+fn near(pixel: &image::Rgba<u8>, wanted: [u8; 4]) {
+    let far = pixel.0.iter().zip(wanted).any(|(a, b)| a.abs_diff(b) > 2);
+    assert!(!far, "{:?} is not {wanted:?}", pixel.0);
+}
+
+#[test]
+fn a_sphere_is_round_and_lit_from_the_upper_left() {
+    let image = of(&[sphere(plain(0.5, 0.5, 0.5, 1.0))], &front(200));
+    let [l, t, r, b] = extent(&image);
+    for (low, high) in [(l, r), (t, b)] {
+        assert!(
+            (10..=14).contains(&low) && (186..=190).contains(&high),
+            "{low} to {high}"
+        );
+    }
+    let there = image.pixels().filter(|pixel| pixel.0[3] > 200).count() as f32;
+    let disk = std::f32::consts::PI * 88.0 * 88.0;
+    assert!(
+        (there / disk - 1.0).abs() < 0.02,
+        "{there} pixels of {disk}"
+    );
+    let at = |x: u32, y: u32| image.get_pixel(x, y).0[0];
+    assert!(
+        at(70, 60) > at(100, 130) + 10,
+        "{} over {}",
+        at(70, 60),
+        at(100, 130)
+    );
+    assert!(at(100, 130) > at(130, 170) + 10);
+    let flat = of(
+        &[sphere(plain(0.5, 0.5, 0.5, 1.0))],
+        &Options {
+            shading: Shading::Flat,
+            ..front(200)
+        },
+    );
+    assert_eq!(extent(&flat), extent(&image));
+}
+
+#[test]
+fn what_is_in_front_hides_what_is_behind() {
+    let far = square(Vec3::ZERO, 1.0, unlit(1.0, 0.0, 0.0, 1.0));
+    let close = square(Vec3::Z, 0.5, unlit(0.0, 1.0, 0.0, 1.0));
+    let forth = of(&[far, close], &front(100));
+    let far = square(Vec3::ZERO, 1.0, unlit(1.0, 0.0, 0.0, 1.0));
+    let close = square(Vec3::Z, 0.5, unlit(0.0, 1.0, 0.0, 1.0));
+    let back = of(&[close, far], &front(100));
+    for image in [forth, back] {
+        near(image.get_pixel(50, 50), [0, 255, 0, 255]);
+        near(image.get_pixel(15, 50), [255, 0, 0, 255]);
+        near(image.get_pixel(1, 50), [0; 4]);
+    }
+}
+
+#[test]
+fn clear_surfaces_are_laid_over_each_other_in_order() {
+    // In whatever order the file has them.
+    let shapes = [
+        square(Vec3::Z, 1.0, unlit(0.0, 0.0, 1.0, 0.5)),
+        square(Vec3::ZERO, 1.0, unlit(1.0, 0.0, 0.0, 1.0)),
+        square(Vec3::Z * 0.5, 1.0, unlit(0.0, 1.0, 0.0, 0.5)),
+    ];
+    let image = of(&shapes, &front(60));
+    let [half, quarter] = [0.5, 0.25].map(texture::encode);
+    near(image.get_pixel(30, 30), [quarter, quarter, half, 255]);
+    let glass = of(
+        &[square(Vec3::ZERO, 1.0, unlit(0.0, 0.0, 1.0, 0.25))],
+        &front(60),
+    );
+    near(glass.get_pixel(30, 30), [0, 0, 255, 64]);
+    let white = Options {
+        background: Some([255; 3]),
+        ..front(60)
+    };
+    let glass = of(
+        &[square(Vec3::ZERO, 1.0, unlit(0.0, 0.0, 1.0, 0.25))],
+        &white,
+    );
+    let rest = texture::encode(0.75);
+    near(glass.get_pixel(30, 30), [rest, rest, 255, 255]);
+}
+
+#[test]
+fn parallel_rays_keep_the_scale() {
+    let pair = || {
+        [
+            square(Vec3::new(-2.0, 0.0, 0.0), 1.0, unlit(1.0, 0.0, 0.0, 1.0)),
+            square(Vec3::new(2.0, 0.0, -6.0), 1.0, unlit(0.0, 0.0, 1.0, 1.0)),
+        ]
+    };
+    let wide = |image: &Image, channel: usize| {
+        let y = image.height() / 2;
+        (0..image.width())
+            .filter(|x| {
+                image.get_pixel(*x, y).0[channel] > 128 && image.get_pixel(*x, y).0[3] > 128
+            })
+            .count()
+    };
+    let image = of(&pair(), &front(300));
+    assert!(
+        wide(&image, 0).abs_diff(wide(&image, 2)) <= 1,
+        "{} and {}",
+        wide(&image, 0),
+        wide(&image, 2)
+    );
+    // Six units wide in what the margin leaves of 300 pixels.
+    assert!(wide(&image, 0).abs_diff(88) <= 1, "{}", wide(&image, 0));
+    let lens = Options {
+        projection: Projection::Perspective,
+        ..front(300)
+    };
+    let image = of(&pair(), &lens);
+    assert!(
+        wide(&image, 0) > wide(&image, 2) + 8,
+        "{} and {}",
+        wide(&image, 0),
+        wide(&image, 2)
+    );
+}
+
+/// Four texels: red, green above blue, white.
+fn textured(mode: &str) -> Vec<u8> {
+    let texels = [
+        [255, 0, 0, 255],
+        [0, 255, 0, 255],
+        [0, 0, 255, 255],
+        [255, 255, 255, 0],
+    ];
+    let image = RgbaImage::from_fn(2, 2, |x, y| image::Rgba(texels[(y * 2 + x) as usize]));
+    let mut png = Cursor::new(vec![]);
+    image.write_to(&mut png, ImageFormat::Png).unwrap();
+    let uri = base64::engine::general_purpose::STANDARD.encode(png.into_inner());
+    let mut material = unlit(1.0, 1.0, 1.0, 1.0);
+    material["pbrMetallicRoughness"]["baseColorTexture"] = json!({ "index": 0 });
+    material["alphaMode"] = mode.into();
+    let extra = json!({
+        "images": [{ "uri": format!("data:image/png;base64,{uri}") }],
+        "samplers": [{ "magFilter": 9728, "minFilter": 9728 }],
+        "textures": [{ "source": 0, "sampler": 0 }],
+    });
+    file(&[square(Vec3::ZERO, 1.0, material)], &extra)
+}
+
+#[test]
+fn texels_are_where_they_belong() {
+    let image = picture(&textured("MASK"), &front(100));
+    near(image.get_pixel(30, 30), [255, 0, 0, 255]);
+    near(image.get_pixel(70, 30), [0, 255, 0, 255]);
+    near(image.get_pixel(30, 70), [0, 0, 255, 255]);
+    // Cut out: there the picture is clear.
+    near(image.get_pixel(70, 70), [0; 4]);
+    let image = picture(&textured("OPAQUE"), &front(100));
+    near(image.get_pixel(70, 70), [255, 255, 255, 255]);
+}
+
+#[test]
+fn corners_colours_and_sides() {
+    let mut shape = square(Vec3::ZERO, 1.0, unlit(1.0, 1.0, 1.0, 1.0));
+    shape.more.push((
+        "COLOR_0",
+        "VEC4",
+        5126,
+        bytes([0.0, 1.0, 0.0, 1.0].repeat(4)),
+    ));
+    near(of(&[shape], &front(50)).get_pixel(25, 25), [0, 255, 0, 255]);
+    let back = Options {
+        view: View {
+            yaw: 180.0,
+            pitch: 0.0,
+        },
+        ..front(50)
+    };
+    let image = of(&[square(Vec3::ZERO, 1.0, unlit(1.0, 1.0, 1.0, 1.0))], &back);
+    assert_eq!(
+        image.get_pixel(25, 25).0[3],
+        0,
+        "a single side is not seen from behind"
+    );
+    let mut material = unlit(1.0, 1.0, 1.0, 1.0);
+    material["doubleSided"] = true.into();
+    assert_eq!(
+        of(&[square(Vec3::ZERO, 1.0, material)], &back)
+            .get_pixel(25, 25)
+            .0[3],
+        255
+    );
+    // A mirrored node keeps its outside out.
+    let mut mirrored = square(Vec3::ZERO, 1.0, unlit(1.0, 1.0, 1.0, 1.0));
+    mirrored.node = json!({ "scale": [-1, 1, 1] });
+    assert_eq!(of(&[mirrored], &front(50)).get_pixel(25, 25).0[3], 255);
+}
+
+#[test]
+fn skins_follow_their_joints_and_not_their_node() {
+    let fixed = square(Vec3::ZERO, 1.0, unlit(1.0, 0.0, 0.0, 1.0));
+    let mut bound = square(Vec3::ZERO, 1.0, unlit(0.0, 0.0, 1.0, 1.0));
+    bound.node = json!({ "skin": 0, "translation": [0, 50, 0] });
+    bound
+        .more
+        .push(("JOINTS_0", "VEC4", 5121, [0, 1, 0, 0].repeat(4)));
+    bound.more.push((
+        "WEIGHTS_0",
+        "VEC4",
+        5126,
+        bytes([0.5, 0.5, 0.0, 0.0].repeat(4)),
+    ));
+    // Two joints, 6 to the right and 2: half each is 4.
+    let extra = json!({
+        "nodes": [{ "translation": [6, 0, 0] }, { "translation": [2, 0, 0] }],
+        "skins": [{ "joints": [2, 3] }],
+    });
+    let image = picture(&file(&[fixed, bound], &extra), &front(300));
+    near(image.get_pixel(150 - 88, 150), [255, 0, 0, 255]);
+    near(image.get_pixel(150, 150), [0; 4]);
+    near(image.get_pixel(150 + 88, 150), [0, 0, 255, 255]);
+}
+
+#[test]
+fn nothing_is_cut_off_and_the_picture_is_filled() {
+    let long = || {
+        let mut ball = sphere(unlit(1.0, 1.0, 1.0, 1.0));
+        ball.node = json!({ "scale": [1, 3, 0.5], "translation": [500, 20, -3], "rotation": [0, 0, 0.3826834, 0.9238795] });
+        [ball]
+    };
+    for projection in [Projection::Perspective, Projection::Orthographic] {
+        for (yaw, pitch) in [(0.0, 0.0), (30.0, 15.0), (200.0, -40.0), (75.0, 90.0)] {
+            for size in [[160, 160], [240, 90], [70, 200]] {
+                let view = View { yaw, pitch };
+                let image = of(
+                    &long(),
+                    &Options {
+                        size,
+                        view,
+                        projection,
+                        ..Options::default()
+                    },
+                );
+                let [l, t, r, b] = extent(&image);
+                let [w, h] = size;
+                assert!(
+                    l > 0 && t > 0 && r < w && b < h,
+                    "{view:?} {size:?} {l} {t} {r} {b}"
+                );
+                let filled = ((r - l) as f32 / w as f32).max((b - t) as f32 / h as f32);
+                assert!(filled > 0.7, "{view:?} {size:?} {filled}");
+                // Centred in the other direction too.
+                assert!(
+                    (l + r).abs_diff(w) <= 4 && (t + b).abs_diff(h) <= 4,
+                    "{view:?} {size:?} {l} {t} {r} {b}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_turntable_goes_once_round() {
+    let shapes = [
+        square(Vec3::Z, 1.0, unlit(1.0, 0.0, 0.0, 1.0)),
+        sphere(plain(0.2, 0.5, 0.8, 1.0)),
+    ];
+    let model = read(&file(&shapes, &json!({})), &MemoryResolver::default()).unwrap();
+    let stage = Stage::new(&model, &model.rest()).unwrap();
+    let turn = |frames: u32, view: View| {
+        let mut images: Vec<Image> = vec![];
+        let options = Options {
+            view,
+            size: [64, 64],
+            ..Options::default()
+        };
+        let done = stage.turntable(&options, frames, |image| -> Result<(), RenderError> {
+            images.push(image);
+            Ok(())
+        });
+        done.unwrap();
+        images
+    };
+    let images = turn(5, View::default());
+    assert_eq!(images.len(), 5);
+    for (index, image) in images.iter().enumerate() {
+        assert!(
+            images[..index].iter().all(|other| other != image),
+            "frame {index} came before"
+        );
+    }
+    // The frame behind the last is the first: a turn that begins one frame later has it last.
+    let later = turn(
+        5,
+        View {
+            yaw: 30.0 + 72.0,
+            pitch: 15.0,
+        },
+    );
+    let far = later[4]
+        .as_raw()
+        .iter()
+        .zip(images[0].as_raw())
+        .filter(|(a, b)| a.abs_diff(**b) > 2)
+        .count();
+    assert!(far < 20, "{far} bytes differ");
+}
+
+#[test]
+fn threads_make_no_difference() {
+    let file = file(
+        &[
+            sphere(plain(0.5, 0.6, 0.7, 1.0)),
+            square(Vec3::Z, 0.7, plain(1.0, 0.2, 0.1, 0.5)),
+        ],
+        &json!({}),
+    );
+    let model = read(&file, &MemoryResolver::default()).unwrap();
+    let stage = Stage::new(&model, &model.rest()).unwrap();
+    let options = Options {
+        size: [150, 150],
+        ..Options::default()
+    };
+    let image = stage.picture(&options).unwrap();
+    let alone = rayon::ThreadPoolBuilder::new()
+        .num_threads(1)
+        .build()
+        .unwrap();
+    assert!(alone.install(|| stage.drawn_here(&options).unwrap()) == image);
+}
+
+#[test]
+fn shadows_lie_on_the_ground_and_end_before_the_border() {
+    let image = of(
+        &[sphere(plain(0.8, 0.8, 0.8, 1.0))],
+        &Options {
+            size: [200, 200],
+            ..Options::default()
+        },
+    );
+    let shadow = |pixel: &image::Rgba<u8>| pixel.0[3] > 20 && pixel.0[..3] == [0; 3];
+    assert!(image.pixels().filter(|pixel| shadow(pixel)).count() > 200);
+    for (x, y, pixel) in image.enumerate_pixels() {
+        let border = x == 0 || y == 0 || x == 199 || y == 199;
+        assert!(!border || pixel.0[3] < 4, "{x} {y} {pixel:?}");
+    }
+    // From below there is no ground.
+    let below = Options {
+        view: View {
+            yaw: 0.0,
+            pitch: -30.0,
+        },
+        size: [100, 100],
+        ..Options::default()
+    };
+    assert!(
+        !of(&[sphere(plain(0.8, 0.8, 0.8, 1.0))], &below)
+            .pixels()
+            .any(shadow)
+    );
+}
+
+#[track_caller]
+fn refused(file: &[u8], message: &str) {
+    let model = read(file, &MemoryResolver::default());
+    let error = model
+        .and_then(|model| Stage::new(&model, &model.rest()).map(|_| ()))
+        .unwrap_err()
+        .to_string();
+    assert!(error.contains(message), "{error}");
+}
+
+#[test]
+fn broken_files_are_refused() {
+    refused(b"", "is no glTF that can be read");
+    refused(
+        b"glTF\x02\0\0\0\xff\xff\xff\xff",
+        "is no glTF that can be read",
+    );
+    refused(&file(&[], &json!({})), "");
+    let quad = || square(Vec3::ZERO, 1.0, unlit(1.0, 1.0, 1.0, 1.0));
+    let with = |change: &dyn Fn(&mut Value)| {
+        let mut root: Value = serde_json::from_slice(&file(&[quad()], &json!({}))).unwrap();
+        change(&mut root);
+        serde_json::to_vec(&root).unwrap()
+    };
+    refused(
+        &with(&|root| root["extensionsRequired"] = json!(["KHR_draco_mesh_compression"])),
+        "`KHR_draco_mesh_compression`",
+    );
+    refused(
+        &with(&|root| root["buffers"][0]["uri"] = "gone.bin".into()),
+        "links to `gone.bin`, which is not there",
+    );
+    refused(
+        &with(&|root| root["buffers"][0]["uri"] = "data:;base64,AAAA".into()),
+        "buffer view 0 is longer than its buffer",
+    );
+    refused(
+        &with(&|root| root["accessors"][0]["count"] = 4_000_000_000_u64.into()),
+        "longer than its buffer view",
+    );
+    refused(
+        &with(&|root| root["accessors"][0]["type"] = "VEC2".into()),
+        "accessor 0",
+    );
+    refused(
+        &with(&|root| root["accessors"][2]["componentType"] = 5126.into()),
+        "accessor 2",
+    );
+    refused(
+        &with(&|root| root["nodes"][0]["children"] = json!([0])),
+        "a node is its own ancestor",
+    );
+    refused(
+        &with(&|root| root["meshes"][0]["primitives"][0]["mode"] = 1.into()),
+        "has no triangles",
+    );
+    let mut wrong = quad();
+    wrong.triangles[0][0] = 77;
+    refused(&file(&[wrong], &json!({})), "names corner 77");
+    let mut nowhere = quad();
+    nowhere.positions.fill(Vec3::NAN);
+    refused(&file(&[nowhere], &json!({})), "has no triangles");
+    let size = |size| {
+        let model = read(&file(&[quad()], &json!({})), &MemoryResolver::default()).unwrap();
+        let stage = Stage::new(&model, &model.rest()).unwrap();
+        stage
+            .picture(&Options {
+                size,
+                ..Options::default()
+            })
+            .map(|_| ())
+    };
+    assert!(matches!(size([0, 5]), Err(RenderError::Size(0, 5))));
+    assert!(matches!(size([5, 8193]), Err(RenderError::Size(5, 8193))));
+}
+
+#[test]
+fn many_nodes_of_one_mesh_are_counted_before_they_are_made() {
+    let mut ball = sphere(plain(1.0, 1.0, 1.0, 1.0));
+    ball.node = json!({});
+    let nodes: Vec<Value> = (0..9000).map(|_| json!({ "mesh": 0 })).collect();
+    let all: Vec<usize> = (0..9001).collect();
+    let mut root: Value =
+        serde_json::from_slice(&file(&[ball], &json!({ "nodes": nodes }))).unwrap();
+    root["scenes"][0]["nodes"] = json!(all);
+    refused(
+        &serde_json::to_vec(&root).unwrap(),
+        "has 36868096 triangles, more than the limit of 33554432",
+    );
+}

@@ -1,0 +1,223 @@
+//! Rays: what they meet, and how much light passes.
+
+use std::time::Duration;
+
+use glam::{Vec2, Vec3, Vec3A, Vec4};
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
+use obvhs::ray::{Ray, RayHit};
+use obvhs::rt_triangle::RtTriangle;
+
+use super::surface::{Alpha, Material, Surface};
+use super::texture::Texture;
+
+/// How far triangles reach over their edges, as a share of their extent, so that no ray slips through between two.
+const EDGE: f32 = 1e-5;
+
+/// A surface that rays can be sent at.
+pub(super) struct Tracer<'a> {
+    pub(super) surface: Surface,
+    pub(super) materials: &'a [Material],
+    textures: &'a [Option<Texture>],
+    tree: Bvh2,
+    /// In the order of the tree, as are the surface's.
+    triangles: Vec<RtTriangle>,
+    /// Whether light passes through any material.
+    clear: bool,
+}
+
+/// Where a ray meets a triangle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Hit {
+    pub(super) triangle: usize,
+    pub(super) distance: f32,
+    /// Shares of the three corners.
+    pub(super) shares: Vec3,
+}
+
+impl<'a> Tracer<'a> {
+    pub(super) fn new(
+        mut surface: Surface,
+        materials: &'a [Material],
+        textures: &'a [Option<Texture>],
+    ) -> Self {
+        let of = |[a, b, c]: [u32; 3]| {
+            let at = |corner: u32| Vec3A::from(surface.positions[corner as usize]);
+            RtTriangle::new(at(a), at(b), at(c))
+        };
+        let triangles: Vec<RtTriangle> = surface
+            .triangles
+            .iter()
+            .map(|corners| of(*corners))
+            .collect();
+        let tree = build_bvh2(
+            &triangles,
+            BvhBuildParams::medium_build(),
+            &mut Duration::default(),
+        );
+        let order = || tree.primitive_indices.iter().map(|index| *index as usize);
+        let triangles = order().map(|index| triangles[index]).collect();
+        surface.triangles = order().map(|index| surface.triangles[index]).collect();
+        surface.materials = order().map(|index| surface.materials[index]).collect();
+        let clear = materials
+            .iter()
+            .any(|material| material.alpha != Alpha::Opaque);
+        Self {
+            surface,
+            materials,
+            textures,
+            tree,
+            triangles,
+            clear,
+        }
+    }
+
+    pub(super) fn material(&self, triangle: usize) -> usize {
+        self.surface.materials[triangle] as usize
+    }
+
+    /// The first triangle beyond `nearest` that shows itself to the ray. Single-sided ones do not from behind.
+    pub(super) fn closest(&self, origin: Vec3, direction: Vec3, nearest: f32) -> Option<Hit> {
+        let ray = Ray::new(origin.into(), direction.into(), nearest, f32::INFINITY);
+        let mut found = RayHit::none();
+        let hit = self.tree.ray_traverse(ray, &mut found, |ray, index| {
+            let triangle = &self.triangles[index];
+            let distance = meet(triangle, ray);
+            // `ng` points inward.
+            let behind = || triangle.ng.dot(ray.direction) < 0.0;
+            if distance.is_finite()
+                && behind()
+                && !self.materials[self.material(index)].double_sided
+            {
+                return f32::INFINITY;
+            }
+            distance
+        });
+        hit.then(|| self.hit(&ray, found.primitive_id as usize, found.t))
+    }
+
+    fn hit(&self, ray: &Ray, triangle: usize, distance: f32) -> Hit {
+        let Vec2 { x, y } = self.triangles[triangle].compute_barycentric(ray);
+        Hit {
+            triangle,
+            distance,
+            shares: Vec3::new(1.0 - x - y, x, y),
+        }
+    }
+
+    /// The share of light that comes through from a direction, 0 to 1.
+    pub(super) fn light_through(&self, origin: Vec3, direction: Vec3) -> f32 {
+        let ray = Ray::new(origin.into(), direction.into(), 0.0, f32::INFINITY);
+        let mut light = 1.0;
+        let missed = self.tree.ray_traverse_miss(ray, |ray, index| {
+            let distance = meet(&self.triangles[index], ray);
+            if !self.clear || !distance.is_finite() {
+                return distance;
+            }
+            light *= 1.0
+                - self.cover(
+                    &self.hit(ray, index, distance),
+                    self.base(&self.hit(ray, index, distance), 0.0).w,
+                );
+            if light > 0.01 {
+                f32::INFINITY
+            } else {
+                distance
+            }
+        });
+        if missed { light } else { 0.0 }
+    }
+
+    /// How much of a surface is there, of which the material's alpha is known.
+    pub(super) fn cover(&self, hit: &Hit, alpha: f32) -> f32 {
+        match self.materials[self.material(hit.triangle)].alpha {
+            Alpha::Opaque => 1.0,
+            Alpha::Mask(cutoff) => f32::from(u8::from(alpha >= cutoff)),
+            Alpha::Blend => alpha.clamp(0.0, 1.0),
+        }
+    }
+
+    /// Colour and alpha of a material at a place; `width` is that of a sample there.
+    pub(super) fn base(&self, hit: &Hit, width: f32) -> Vec4 {
+        let material = &self.materials[self.material(hit.triangle)];
+        let corners = self.surface.triangles[hit.triangle];
+        let mut base = material.base;
+        let colours = &self.surface.colours;
+        if !colours.is_empty() {
+            base *= blend(corners, hit.shares, |corner| colours[corner]);
+        }
+        let Some(sampler) = &material.sampler else {
+            return base;
+        };
+        let Some(texture) = &self.textures[sampler.image] else {
+            return base;
+        };
+        let uvs = &self.surface.uvs;
+        let uv = blend(corners, hit.shares, |corner| uvs[corner]);
+        if !uv.is_finite() || uv.abs().max_element() > 1e6 {
+            return base;
+        }
+        // How densely texels lie on this triangle.
+        let [a, b, c] = corners.map(|corner| uvs[corner as usize] * texture.size());
+        let texels = (b - a).perp_dot(c - a).abs();
+        let area = self.triangles[hit.triangle].ng.length();
+        base * texture.at(
+            uv,
+            width * (texels / area.max(f32::MIN_POSITIVE)).sqrt(),
+            sampler,
+        )
+    }
+
+    /// The unit normal of a triangle.
+    pub(super) fn facet(&self, triangle: usize) -> Vec3 {
+        self.triangles[triangle].compute_normal().into()
+    }
+
+    /// The file's normal at a place; none where it has none.
+    pub(super) fn normal(&self, hit: &Hit) -> Option<Vec3> {
+        let normals = &self.surface.normals;
+        let corners = self.surface.triangles[hit.triangle];
+        blend(corners, hit.shares, |corner| normals[corner]).try_normalize()
+    }
+
+    /// A place for shadow rays to start from: lifted off the triangle as far as the rounding that it stands for bulges
+    /// out of it, so that smooth things cast no jagged shadows on themselves (Hanika 2021).
+    pub(super) fn lifted(&self, hit: &Hit, place: Vec3, side: f32) -> Vec3 {
+        let (positions, normals) = (&self.surface.positions, &self.surface.normals);
+        let corners = self.surface.triangles[hit.triangle];
+        place
+            + blend(corners, hit.shares, |corner| {
+                let normal = normals[corner] * side;
+                let below = (place - positions[corner]).dot(normal).min(0.0);
+                normal * -below
+            })
+    }
+}
+
+/// The distance at which a ray meets a triangle, infinite if it does not (Möller and Trumbore).
+///
+/// The tree's library has this too, but lets rays slip through between two triangles.
+#[inline]
+fn meet(triangle: &RtTriangle, ray: &Ray) -> f32 {
+    let to = triangle.v0 - ray.origin;
+    let across = ray.direction.cross(to);
+    let inverse = 1.0 / triangle.ng.dot(ray.direction);
+    let u = across.dot(triangle.e2) * inverse;
+    let v = across.dot(triangle.e1) * inverse;
+    if u >= -EDGE && v >= -EDGE && u + v <= 1.0 + EDGE {
+        let distance = triangle.ng.dot(to) * inverse;
+        if distance >= ray.tmin && distance <= ray.tmax {
+            return distance;
+        }
+    }
+    f32::INFINITY
+}
+
+fn blend<T>(corners: [u32; 3], shares: Vec3, at: impl Fn(usize) -> T) -> T
+where
+    T: std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T>,
+{
+    let [a, b, c] = corners.map(|corner| at(corner as usize));
+    a * shares.x + b * shares.y + c * shares.z
+}
