@@ -278,8 +278,8 @@ fn winds_once(ring: &Ring) -> bool {
     let mut turns = 0;
     for &p in ring {
         let edge = p - start;
-        // Also where a product is no number.
-        if !(before.perp_dot(edge) * way > 0.0) {
+        let turn = before.perp_dot(edge) * way;
+        if turn <= 0.0 || turn.is_nan() {
             return false;
         }
         turns += usize::from((before.x >= 0.0) != (edge.x >= 0.0));
