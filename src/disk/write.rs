@@ -113,7 +113,8 @@ pub fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
         path: path.to_owned(),
         source,
     };
-    let mut temporary = temporary_beside(path).map_err(|error| folder_failure(path, path, error))?;
+    let mut temporary =
+        temporary_beside(path).map_err(|error| folder_failure(path, path, error))?;
     temporary.write_all(content).map_err(failed)?;
     match temporary.persist_noclobber(path) {
         Ok(_) => Ok(()),
