@@ -139,9 +139,15 @@ fn names_that_are_no_place() {
         2,
         &["error: the folder `file` is not there"],
     );
-    for name in ["", "..", "folder/"] {
+    for name in ["..", "folder/"] {
         ends(&room, &["new", name], 2, &["is no name for a file"]);
     }
+    ends(
+        &room,
+        &["new", ""],
+        2,
+        &["a value is required for '<NAME>'"],
+    );
     ends(&room, &["new", "me.svgz"], 2, &["write `me.svg`"]);
     assert_eq!(files(room.path()), ["file"]);
 }
