@@ -8,7 +8,7 @@ cd "$(dirname "$0")"
 target=${1:?string or drawing}
 corpus=corpus/$target
 mkdir -p "$corpus"
-for drawing in ../tests/cases/*/drawing.svg ../examples/*.svg; do
+for drawing in ../tests/cases/*/drawing.svg $(find ../examples -name "*.svg"); do
   name=$(basename "$(dirname "$drawing")")-$(basename "$drawing")
   case $target in
     drawing) cp "$drawing" "$corpus/$name" ;;

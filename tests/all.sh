@@ -62,13 +62,14 @@ licences() {
 }
 
 examples() {
-  compgen -G 'examples/*.svg' > /dev/null || skip "there are no examples"
   cargo build --locked
   rm -rf "$models"
   mkdir -p "$models"
   local drawing name
-  for drawing in examples/*.svg; do
-    name=$(basename "$drawing" .svg)
+  while IFS= read -r drawing; do
+    name=${drawing#examples/}
+    name=${name%.svg}
+    mkdir -p "$models/$(dirname "$name")"
     "$okoshi" build "$drawing" -o "$models/$name.glb"
     "$okoshi" build "$drawing" -o "$models/$name.again.glb"
     cmp "$models/$name.glb" "$models/$name.again.glb"
@@ -76,18 +77,21 @@ examples() {
     "$okoshi" build "$drawing" --skin -q -o "$models/$name.skin.glb"
     "$okoshi" inspect "$drawing" --json > "$models/$name.json"
     echo "built $drawing: $(stat -c %s "$models/$name.glb") bytes"
-  done
+  done < <(find examples -name '*.svg' | sort)
+  built
 }
 
-plain() { printf '%s\n' "$models"/*.glb | grep -v '\.skin\.glb$'; }
+# The models of the examples, skinned ones too, in the order of their names; and those without a skin.
+built_models() { find "$models" -name '*.glb' 2> /dev/null | sort; }
+plain() { built_models | grep -v '\.skin\.glb$'; }
 
-built() { compgen -G "$models/*.glb" > /dev/null || skip "there are no built examples"; }
+built() { [ -n "$(built_models)" ] || skip "there are no built examples"; }
 
 validator() {
   need npm
   built
   (cd $tools && npm ci --no-audit --no-fund)
-  node $tools/validate.mjs "$models"/*.glb
+  built_models | xargs node $tools/validate.mjs
 }
 
 install_blender() {
@@ -107,14 +111,23 @@ blender_import() {
   need node
   built
   install_blender
-  blender -b --factory-startup --python-exit-code 1 --python $tools/blender_tree.py -- \
-    -o "$target/trees.json" $(plain)
+  plain | xargs blender -b --factory-startup --python-exit-code 1 --python $tools/blender_tree.py -- \
+    -o "$target/trees.json"
   node $tools/same_tree.mjs "$target/trees.json"
   local model
   for model in $(plain); do
     echo "skin of $model"
     blender -b --factory-startup --python-exit-code 1 --python $tools/blender_skin.py -- "$model" "${model%.glb}.skin.glb"
   done
+}
+
+gallery() {
+  [ $quick = no ] || skip "--quick"
+  need inkscape
+  need python3
+  python3 -c 'import PIL' 2> /dev/null || skip "Python has no Pillow, which puts the pictures together"
+  cargo build --locked --release
+  OKOSHI=target/release/okoshi OUT="$target/gallery" bash $tools/gallery.sh
 }
 
 readme() {
@@ -131,6 +144,7 @@ step licences licences
 step examples examples
 step validator validator
 step blender blender_import
+step gallery gallery
 step readme readme
 
 printf '\n==== summary, %d s\n' $SECONDS

@@ -670,7 +670,7 @@ fn help_teaches() {
     ] {
         room.run(&["--help"]).ends(0, topic, "");
     }
-    for command in ["build", "check", "inspect", "explain", "completions"] {
+    for command in ["new", "build", "check", "inspect", "explain", "completions"] {
         room.run(&["--help"]).ends(0, command, "");
         room.run(&[command, "--help"]).ends(0, "Usage: okoshi ", "");
     }

@@ -8,6 +8,7 @@ use crate::render::{FRAME_LIMIT, PITCH_LIMIT, SIZE_LIMIT, View};
 
 const EXAMPLES: &str = "\
 Examples:
+  okoshi new robot                       writes robot.svg, a drawing to begin with
   okoshi build human.svg                 writes human.glb beside the drawing
   okoshi build human.svg -o out/man.glb  writes it elsewhere
   okoshi check *.svg                     says what is wrong, writes nothing
@@ -57,6 +58,8 @@ pub(super) enum Color {
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
+    /// Write a starter drawing, ready to build
+    New(New),
     /// Build a model from a drawing
     Build(Build),
     /// Draw a picture of a model
@@ -93,6 +96,25 @@ fn tolerance(text: &str) -> Result<f64, String> {
         Ok(share) if (1e-6..=0.1).contains(&share) => Ok(share),
         _ => Err("a number from 0.000001 to 0.1 is due, 0.001 for example".to_owned()),
     }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct New {
+    /// The drawing's name; `.svg` is added if it is missing, `-` is stdout
+    #[arg(value_name = "NAME")]
+    pub(super) name: PathBuf,
+    /// What to begin with
+    #[arg(short, long, value_name = "TEMPLATE", default_value = "human")]
+    pub(super) template: Template,
+}
+
+/// The starter drawings.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Template {
+    /// A person with arms and legs that turn
+    Human,
+    /// A toy car, drawn from its side, with wheels on both
+    Car,
 }
 
 #[derive(Debug, Args)]

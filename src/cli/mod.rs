@@ -15,6 +15,7 @@ mod explain;
 mod inspect;
 pub mod json;
 mod loading;
+mod new;
 mod parallel;
 mod places;
 mod progress;
@@ -72,6 +73,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         }
     };
     let outcome = match &cli.command {
+        Command::New(arguments) => new::run(arguments, cli.common),
         Command::Build(arguments) => build::run(arguments, cli.common),
         Command::Render(arguments) => render::run(arguments, cli.common),
         Command::Check(arguments) => check::run(arguments, cli.common),

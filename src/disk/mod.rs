@@ -8,7 +8,7 @@ mod write;
 pub use folder::{FolderResolver, LINK_LIMIT};
 pub use read::{DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, read_drawing};
 pub use text::{Decode, decode};
-pub use write::{Output, WriteError, write_atomic};
+pub use write::{Output, WriteError, write_atomic, write_new};
 
 use std::path::Path;
 

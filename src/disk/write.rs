@@ -27,6 +27,9 @@ pub enum WriteError {
     /// The file exists and is protected.
     #[error("`{}` is write-protected; change that or choose another file with -o", .0.display())]
     Protected(PathBuf),
+    /// The file exists, and was not to be replaced.
+    #[error("`{}` exists; choose another name", .0.display())]
+    Exists(PathBuf),
     /// The system fails to write it, or its content cannot be made.
     #[error("`{}` cannot be written: {source}", .path.display())]
     Failed {
@@ -92,6 +95,35 @@ pub fn write_atomic<T>(
         .persist(&target)
         .map_err(|error| failed(error.error))?;
     Ok(answer)
+}
+
+/// Writes a file that does not exist yet; what has the name already, a dangling link too, is left as it is.
+///
+/// The file is there with all its content or not at all.
+pub fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
+    if ends_with_separator(path) {
+        return Err(WriteError::Folder(path.to_owned()));
+    }
+    match fs::symlink_metadata(path) {
+        Ok(_) => return Err(WriteError::Exists(path.to_owned())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => {}
+        Err(error) => return Err(folder_failure(path, path, error)),
+    }
+    let failed = |source| WriteError::Failed {
+        path: path.to_owned(),
+        source,
+    };
+    let mut temporary =
+        temporary_beside(path).map_err(|error| folder_failure(path, path, error))?;
+    temporary.write_all(content).map_err(failed)?;
+    match temporary.persist_noclobber(path) {
+        Ok(_) => Ok(()),
+        // Somebody was faster.
+        Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => {
+            Err(WriteError::Exists(path.to_owned()))
+        }
+        Err(error) => Err(failed(error.error)),
+    }
 }
 
 /// Fills something that can only be written forwards, a pipe for example.
@@ -233,6 +265,35 @@ mod tests {
         fs::set_permissions(path("file"), permissions).unwrap();
         assert!(matches!(write(&path("file")), WriteError::Protected(_)));
         assert_eq!(names(folder.path()), ["file"]);
+    }
+
+    #[test]
+    fn a_new_file_takes_nothings_place() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        write_new(&path("a"), b"first").unwrap();
+        fs::create_dir(path("folder")).unwrap();
+        for name in ["a", "folder"] {
+            let error = write_new(&path(name), b"second").unwrap_err();
+            assert!(matches!(error, WriteError::Exists(_)), "{error}");
+        }
+        assert_eq!(fs::read(path("a")).unwrap(), b"first");
+        for name in ["none/b", "a/b"] {
+            let error = write_new(&path(name), b"x").unwrap_err();
+            assert!(matches!(error, WriteError::NoFolder(_)), "{error}");
+        }
+        assert_eq!(names(folder.path()), ["a", "folder"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_dangling_link_is_in_the_way_of_a_new_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let link = folder.path().join("link");
+        std::os::unix::fs::symlink("nowhere", &link).unwrap();
+        let error = write_new(&link, b"x").unwrap_err();
+        assert!(matches!(error, WriteError::Exists(_)), "{error}");
+        assert_eq!(names(folder.path()), ["link"]);
     }
 
     #[cfg(unix)]

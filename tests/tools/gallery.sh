@@ -1,18 +1,38 @@
 #!/usr/bin/env bash
-# Makes the gallery's pictures, docs/NAME.png, drawing and model side by side: bash tests/tools/gallery.sh [NAME…]
+# Makes the gallery's pictures from all drawings in examples/: bash tests/tools/gallery.sh [NAME…]
 #
-# Takes Inkscape for the drawing, okoshi for the model, and Python's Pillow to put them together.
+# NAME is that of a drawing from examples/ on, without its ending: human, shapes/cone. Each drawing gets
+# gallery/NAME-drawing.png and gallery/NAME-model.png in docs/; human and clockwork-dragon get NAME.png there too, both side
+# by side, for the README. Takes Inkscape for the drawings, okoshi for the models, and Python's Pillow. OKOSHI names a binary
+# to use instead of building one, OUT another folder than docs/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 room=$(mktemp -d)
 trap 'rm -rf "$room"' EXIT
-cargo build --release --quiet
-for drawing in examples/*.svg; do
-  name=$(basename "$drawing" .svg)
+okoshi=${OKOSHI:-target/release/okoshi}
+[ -n "${OKOSHI:-}" ] || cargo build --release --quiet
+
+out=${OUT:-docs}
+mkdir -p "$out/gallery"
+while IFS= read -r drawing; do
+  name=${drawing#examples/}
+  name=${name%.svg}
   [ $# = 0 ] || [[ " $* " == *" $name "* ]] || continue
-  inkscape "$drawing" --export-type=png --export-width=800 --export-background=white \
-    --export-filename="$room/$name-drawing.png" 2> /dev/null
-  target/release/okoshi render --quiet "$drawing" -o "$room/$name-model.png" --size 1000x1000 --background "#ffffff"
-  python3 tests/tools/side_by_side.py "$room/$name-drawing.png" "$room/$name-model.png" "docs/$name.png"
-  echo "docs/$name.png"
-done
+  flat=${name//\//-}
+  case $name in
+    # They lie on the ground.
+    shapes/conev | shapes/coneh) view=25,38 ;;
+    *) view=30,15 ;;
+  esac
+  inkscape "$drawing" --export-type=png --export-width=1000 --export-background=white \
+    --export-filename="$room/$flat-drawing.png" 2> /dev/null
+  "$okoshi" render --quiet "$drawing" -o "$room/$flat-model.png" --size 1000x1000 --view $view --background "#ffffff"
+  for side in drawing model; do
+    python3 tests/tools/thumbnail.py "$room/$flat-$side.png" "$out/gallery/$flat-$side.png"
+  done
+  case $name in
+    human | clockwork-dragon)
+      python3 tests/tools/side_by_side.py "$room/$flat-drawing.png" "$room/$flat-model.png" "$out/$flat.png" ;;
+  esac
+  echo "$name"
+done < <(find examples -name '*.svg' | sort)

@@ -1,0 +1,144 @@
+//! `okoshi new`
+
+use std::path::{Path, PathBuf};
+
+use super::args::{Common, New, Template};
+use super::{Outcome, fail, print_out};
+use crate::disk::{WriteError, write_new};
+
+impl Template {
+    /// The drawing, as Inkscape saved it.
+    fn drawing(self) -> &'static str {
+        match self {
+            Self::Human => include_str!("templates/human.svg"),
+            Self::Car => include_str!("templates/car.svg"),
+        }
+    }
+}
+
+/// Writes a starter drawing, and says how to go on.
+pub(super) fn run(arguments: &New, common: Common) -> Outcome {
+    let drawing = arguments.template.drawing();
+    if arguments.name.as_os_str() == "-" {
+        return print_out(drawing);
+    }
+    let path = match named(&arguments.name) {
+        Ok(path) => path,
+        Err(message) => return fail(&message),
+    };
+    if let Err(error) = write_new(&path, drawing.as_bytes()) {
+        return fail(&way_out(&error));
+    }
+    if !common.quiet {
+        eprint!("{}", next_steps(&path));
+    }
+    Outcome::Done
+}
+
+/// Where the drawing goes: the name with `.svg` behind it, unless it has that already.
+fn named(name: &Path) -> Result<PathBuf, String> {
+    let bare = name.as_os_str().as_encoded_bytes();
+    let closed = bare
+        .last()
+        .is_none_or(|byte| std::path::is_separator(char::from(*byte)));
+    let Some(file) = name.file_name().filter(|_| !closed) else {
+        return Err(format!(
+            "`{}` is no name for a file; name the drawing, `okoshi new robot` for example",
+            name.display()
+        ));
+    };
+    let ending = name.extension().unwrap_or_default().to_string_lossy();
+    if ending.eq_ignore_ascii_case("svg") {
+        return Ok(name.to_owned());
+    }
+    if ending.eq_ignore_ascii_case("svgz") {
+        return Err(format!(
+            "`{}` would be packed, and new drawings are not; write `{}`",
+            name.display(),
+            name.with_extension("svg").display()
+        ));
+    }
+    let mut file = file.to_owned();
+    file.push(".svg");
+    Ok(name.with_file_name(file))
+}
+
+/// What is wrong, and what can be done with this command.
+fn way_out(error: &WriteError) -> String {
+    match error {
+        WriteError::Exists(path) => format!(
+            "`{0}` exists, and drawings are never written over; choose another name, or go on with it: okoshi build {1}",
+            path.display(),
+            quoted(path)
+        ),
+        WriteError::NoFolder(folder) => format!(
+            "the folder `{}` is not there; create it, or name a drawing in one that is",
+            folder.display()
+        ),
+        WriteError::FolderDenied(folder) => format!(
+            "you may not write in the folder `{}`; name a drawing in another",
+            folder.display()
+        ),
+        other => other.to_string(),
+    }
+}
+
+fn next_steps(path: &Path) -> String {
+    let drawing = quoted(path);
+    format!(
+        "wrote {}; draw on in Inkscape, and try next:\n  okoshi build {drawing}\n  okoshi inspect {drawing}\n",
+        path.display()
+    )
+}
+
+/// A path as one word of a command line.
+fn quoted(path: &Path) -> String {
+    let text = path.display().to_string();
+    // A name that begins with `-` would be taken for an option.
+    let text = match text.strip_prefix('-') {
+        Some(_) => format!("./{text}"),
+        None => text,
+    };
+    let plain = |c: char| c.is_alphanumeric() || "/._-+:\\".contains(c);
+    if text.chars().all(plain) {
+        text
+    } else {
+        format!("'{}'", text.replace('\'', r"'\''"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_get_their_ending_once() {
+        for (given, path) in [
+            ("robot", "robot.svg"),
+            ("robot.svg", "robot.svg"),
+            ("robot.SVG", "robot.SVG"),
+            ("my.robot", "my.robot.svg"),
+            ("in/a/folder", "in/a/folder.svg"),
+            (".svg", ".svg.svg"),
+            ("ロボット", "ロボット.svg"),
+        ] {
+            assert_eq!(named(Path::new(given)), Ok(PathBuf::from(path)), "{given}");
+        }
+        for given in ["", ".", "..", "/", "folder/", "a.svg/", "a.svgz"] {
+            assert!(named(Path::new(given)).is_err(), "{given}");
+        }
+    }
+
+    #[test]
+    fn commands_can_be_pasted() {
+        for (path, word) in [
+            ("robot.svg", "robot.svg"),
+            ("a/ロボット.svg", "a/ロボット.svg"),
+            ("my robot.svg", "'my robot.svg'"),
+            ("it's.svg", r"'it'\''s.svg'"),
+            ("-v.svg", "./-v.svg"),
+        ] {
+            assert_eq!(quoted(Path::new(path)), word);
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! The drawings in `examples/`: nothing is wrong with them, they are in the gallery, and they show what they are to show.
+
+mod common;
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use common::Node;
+use okoshi::diagnostic::{Code, Severity};
+use okoshi::disk::FolderResolver;
+use okoshi::lang::keyword::Status;
+use okoshi::lang::keyword::kinds::KINDS;
+
+/// The largest picture in the gallery, bytes.
+const PICTURE: u64 = 60 << 10;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// All examples, folders within folders included: their names without ending, from `examples` on.
+fn examples() -> BTreeSet<String> {
+    let top = root().join("examples");
+    let mut folders = vec![top.clone()];
+    let mut found = BTreeSet::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "svg") {
+                let inside = path.strip_prefix(&top).expect("inside").with_extension("");
+                let name = inside.to_str().expect("a plain name");
+                found.insert(name.replace('\\', "/"));
+            }
+        }
+    }
+    assert!(found.len() > 10, "only {} examples were found", found.len());
+    found
+}
+
+fn drawing(name: &str) -> PathBuf {
+    root().join("examples").join(format!("{name}.svg"))
+}
+
+fn nodes(name: &str) -> Vec<Node> {
+    let path = drawing(name);
+    let text = fs::read_to_string(&path).expect("a drawing");
+    let folder = path.parent().expect("a folder");
+    let compiled = common::compiled(&text, &FolderResolver::new(folder));
+    for diagnostic in &compiled.diagnostics {
+        // What a later version builds is told of until then.
+        assert!(
+            diagnostic.severity() == Severity::Hint || diagnostic.code == Code::NotBuiltYet,
+            "{name}: {}",
+            diagnostic.message
+        );
+    }
+    common::nodes(&common::glb(&compiled)).expect("a valid model")
+}
+
+#[test]
+fn nothing_is_wrong_with_the_examples() {
+    for name in examples() {
+        let nodes = nodes(&name);
+        common::check_laws(&nodes).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert_eq!(common::repeated_name(&nodes), None, "{name}");
+        assert!(nodes.len() > 1, "{name} has no parts");
+    }
+}
+
+#[test]
+fn inkscape_saved_them() {
+    for name in examples() {
+        let text = fs::read_to_string(drawing(&name)).expect("a drawing");
+        let file = name.rsplit('/').next().unwrap_or(&name);
+        for piece in [
+            &format!("sodipodi:docname=\"{file}.svg\""),
+            "inkscape:groupmode=\"layer\"",
+            "sodipodi:role=\"line\"",
+        ] {
+            assert!(text.contains(piece), "{name} lacks {piece}");
+        }
+    }
+}
+
+#[test]
+fn every_kind_of_shape_has_a_drawing() {
+    let examples = examples();
+    for kind in KINDS.iter().filter(|kind| kind.status == Status::Built) {
+        let name = format!("shapes/{}", kind.name);
+        assert!(examples.contains(&name), "there is no examples/{name}.svg");
+        let text = fs::read_to_string(drawing(&name)).expect("a drawing");
+        assert!(text.contains(kind.name), "{name} does not use its kind");
+    }
+}
+
+#[test]
+fn the_gallery_shows_every_example() {
+    let gallery = fs::read_to_string(root().join("docs/gallery.md")).expect("the gallery");
+    let mut pictures = BTreeSet::new();
+    for name in examples() {
+        assert!(
+            gallery.contains(&format!("](../examples/{name}.svg)")),
+            "docs/gallery.md lacks examples/{name}.svg"
+        );
+        for side in ["drawing", "model"] {
+            let file = format!("{}-{side}.png", name.replace('/', "-"));
+            assert!(
+                gallery.contains(&format!("](gallery/{file})")),
+                "docs/gallery.md lacks {file}"
+            );
+            let path = root().join("docs/gallery").join(&file);
+            let size = fs::metadata(&path).map_or(0, |data| data.len());
+            assert!(
+                (1..=PICTURE).contains(&size),
+                "{file} has {size} bytes; `bash tests/tools/gallery.sh` makes it"
+            );
+            pictures.insert(file);
+        }
+    }
+    for entry in fs::read_dir(root().join("docs/gallery")).expect("the pictures") {
+        let file = entry.expect("an entry").file_name();
+        let file = file.to_string_lossy();
+        assert!(pictures.contains(&*file), "{file} is of no example");
+    }
+}
+
+/// The smallest and largest coordinates of a node's solids, in its own frame.
+fn bounds(node: &Node) -> [[f32; 3]; 2] {
+    let mut bounds = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+    let corners = node.primitives.iter().flat_map(|solid| &solid.positions);
+    for corner in corners {
+        for axis in 0..3 {
+            bounds[0][axis] = bounds[0][axis].min(corner[axis]);
+            bounds[1][axis] = bounds[1][axis].max(corner[axis]);
+        }
+    }
+    bounds
+}
+
+fn near(a: f32, b: f32) -> bool {
+    (a - b).abs() < 1e-4
+}
+
+#[test]
+fn the_cars_doors_and_tyres_stand_on_both_sides() {
+    let nodes = nodes("car");
+    let named = |name: &str| {
+        let found = nodes.iter().find(|node| node.name == name);
+        found.unwrap_or_else(|| panic!("there is no `{name}`"))
+    };
+    // `Scale 2.5`: a unit of the drawing is 2.5 cm.
+    let metres = |units: f32| units * 0.025;
+    for door in ["RearDoor", "FrontDoor"] {
+        let [low, high] = bounds(named(door));
+        assert!(near(high[2], -low[2]), "{door}: {low:?} {high:?}");
+        assert!(high[2] >= metres(50.0), "{door}: {high:?}");
+    }
+    for (name, side) in [
+        ("RearTyre", 1.0),
+        ("FrontTyre", 1.0),
+        ("RearTyre.back", -1.0),
+        ("FrontTyre.back", -1.0),
+    ] {
+        let tyre = named(name);
+        assert_eq!(tyre.parent.as_deref(), Some("Body"), "{name}");
+        assert!(near(tyre.translation[2], side * metres(45.0)), "{name}");
+        let [low, high] = bounds(tyre);
+        for axis in 0..3 {
+            assert!(near(high[axis], -low[axis]), "{name}: {low:?} {high:?}");
+        }
+        assert!(near(high[2], metres(5.0)), "{name}: {high:?}");
+        assert!(near(high[0], metres(22.0)), "{name}: {high:?}");
+    }
+}
+
+#[test]
+fn the_dragon_is_rich() {
+    let nodes = nodes("clockwork-dragon");
+    assert!(nodes.len() >= 50, "{} nodes", nodes.len());
+    let mut place = "Flame";
+    let mut depth = 0;
+    while let Some(parent) = nodes
+        .iter()
+        .find(|node| node.name == place)
+        .and_then(|node| node.parent.as_deref())
+    {
+        place = parent;
+        depth += 1;
+    }
+    // Chest, five pieces of neck, head, jaw, under the root.
+    assert!(depth >= 9, "{depth}");
+    assert!(nodes.iter().any(|node| node.name == "Finger4.back"));
+}
