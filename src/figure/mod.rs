@@ -7,6 +7,7 @@ mod assemble;
 mod frame;
 mod materials;
 mod relief;
+mod textures;
 mod tree;
 
 use std::sync::Arc;
@@ -19,6 +20,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{area, contains, intersect};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{ShapeKind, Value};
+use crate::resolver::Resolver;
 use crate::scene::{Mesh, Piece, Primitive, Scene};
 use crate::solid::{self, Placement, Sides, Solid};
 use crate::svg::Drawing;
@@ -34,13 +36,18 @@ const CENTIMETRE: f64 = 0.01;
 const DEFAULT_DEPTH: f64 = 0.025;
 
 /// Builds the figures of a drawing.
-pub fn build(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) -> Scene {
+pub fn build(
+    drawing: &Drawing,
+    sheet: &Sheet,
+    resolver: &dyn Resolver,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Scene {
     let model = Model::new(drawing, sheet);
     let (relief, (materials, frames, members, tree, found)) = rayon::join(
         || Relief::measure(&model),
         || {
             let mut found = Vec::new();
-            let materials = Materials::collect(drawing, sheet, &mut found);
+            let materials = Materials::collect(&model, resolver, &mut found);
             let frames: Vec<Frame> = sheet.parts.par_iter().map(Frame::of).collect();
             let tree = Tree::grow(&model, &frames, &mut found);
             (materials, frames, members(sheet), tree, found)
@@ -187,12 +194,13 @@ impl<'a> Model<'a> {
     ) -> Option<Mesh> {
         let mut primitives: Vec<Primitive> = Vec::new();
         for &part in parts {
-            let Some(material) = materials.of(part) else {
+            let Some((material, texture)) = materials.of(part) else {
                 continue;
             };
-            let Some(solid) = self.solid(main, part, frames, relief) else {
+            let Some(mut solid) = self.solid(main, part, frames, relief) else {
                 continue;
             };
+            solid.texture = texture;
             let piece = Piece::Solid(solid);
             match primitives
                 .iter_mut()
@@ -229,6 +237,7 @@ impl<'a> Model<'a> {
             kind,
             options,
             sides: if both { Sides::Both } else { Sides::Front },
+            texture: None,
         })
     }
 }
