@@ -288,8 +288,8 @@ fn pictures_lie_where_they_are_drawn() {
             r##"<g transform="rotate(-12 50 50)"><image x="20" y="20" width="80" height="40" xlink:href="{uri}"/></g>"##
         );
         let text = drawing("", &image);
-        let found = difference(&text, &MemoryResolver::default(), &text, 1);
-        assert!(found <= 4.0, "off by {found}");
+        let found = difference(&text, &MemoryResolver::default(), &text, 5);
+        assert!(found <= 4.0, "hole {hole}: off by {found}");
     }
 }
 

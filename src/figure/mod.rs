@@ -4,6 +4,7 @@
 //! +Z towards the viewer; turning the node turns the limb about its joint.
 
 mod assemble;
+mod copies;
 mod frame;
 mod materials;
 mod relief;
@@ -16,7 +17,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::bind::{Part, PartKind, Sheet};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Diagnostic;
 use crate::geometry::{area, contains, intersect};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{ShapeKind, Value};
@@ -54,8 +55,7 @@ pub fn build(
         },
     );
     diagnostics.extend(found);
-    let copies = (0..sheet.parts.len()).into_par_iter();
-    diagnostics.par_extend(copies.filter_map(|part| model.check_copies(part)));
+    copies::check(&model, diagnostics);
     let meshes: Vec<Option<Mesh>> = members
         .par_iter()
         .enumerate()
@@ -118,56 +118,6 @@ impl<'a> Model<'a> {
             ShapeKind::Default(None) => ShapeKind::Default(Some(self.depth)),
             kind => kind,
         }
-    }
-
-    /// Warns of copies that lie where their original lies.
-    fn check_copies(&self, part: usize) -> Option<Diagnostic> {
-        let shape = self.sheet.shape(part);
-        let built = matches!(self.sheet.parts[part].kind, PartKind::Main | PartKind::Sub);
-        if !built || !(shape.mirrored || shape.doubled) || shape.kind == ShapeKind::None {
-            return None;
-        }
-        let measure = &self.sheet.parts[part].measure;
-        let kind = self.kind(part);
-        let layers = solid::layers(
-            &kind,
-            measure.half_across,
-            measure.half_along,
-            &self.options(part),
-        )?;
-        let offset = self.offset(part);
-        let low = layers
-            .iter()
-            .map(|layer| layer.z + offset)
-            .fold(f64::INFINITY, f64::min);
-        let high = layers
-            .iter()
-            .map(|layer| layer.z + offset)
-            .fold(f64::NEG_INFINITY, f64::max);
-        if (low + high).abs() > 1e-9 * (high - low).abs().max(1e-12) {
-            return None;
-        }
-        let source = self.sheet.setting(part, Keyword::Shape);
-        let span = source.map_or(
-            self.drawing.shapes[self.sheet.parts[part].shape]
-                .element
-                .span,
-            |source| {
-                self.sheet.strings[source.string]
-                    .text
-                    .span(source.setting.range.clone())
-            },
-        );
-        let flag = if shape.doubled { "-d" } else { "-s" };
-        let name = self.sheet.describe(self.drawing, part);
-        Some(
-            Diagnostic::new(
-                Code::CopiesCoincide,
-                span,
-                format!("the copy that `{flag}` makes of {name} lies exactly where {name} lies"),
-            )
-            .help("give both sides a distance with `Offset`, or depths on one side only, as in `default 45 50`"),
-        )
     }
 
     fn options(&self, part: usize) -> solid::Options {
