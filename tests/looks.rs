@@ -127,7 +127,7 @@ fn seen(scene: &Scene) -> Vec<(DVec2, [f64; 4])> {
         .collect();
     for (index, node) in scene.nodes.iter().enumerate() {
         let own = DAffine3::from_rotation_translation(node.rotation, node.translation);
-        places[index] = places[index] * own;
+        places[index] *= own;
         node.children
             .iter()
             .for_each(|child| places[*child] = places[index]);
