@@ -289,7 +289,7 @@ fn pictures_lie_where_they_are_drawn() {
         );
         let text = drawing("", &image);
         let found = difference(&text, &MemoryResolver::default(), &text, 5);
-        assert!(found <= 4.0, "hole {hole}: off by {found}");
+        assert!(found <= 4.5, "hole {hole}: off by {found}");
     }
 }
 
