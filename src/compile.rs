@@ -73,7 +73,7 @@ fn compile_here(source: &str, options: &Options, resolver: &dyn Resolver) -> Com
     };
     let (mut drawing, mut diagnostics) = svg::read(source, options.tolerance, &recorder);
     let sheet = bind::bind(&mut drawing, &mut diagnostics);
-    let scene = figure::build(&drawing, &sheet, &mut diagnostics);
+    let scene = figure::build(&drawing, &sheet, &recorder, &mut diagnostics);
     diagnostic::sort(&mut diagnostics);
     let mut dependencies = recorder.links.into_inner().unwrap_or_default();
     dependencies.sort();

@@ -23,4 +23,5 @@ pub mod scene;
 pub mod solid;
 pub mod source;
 pub mod svg;
+pub mod texture;
 mod threads;

@@ -340,6 +340,17 @@ codes! {
     ///
     /// Leave it for a later version, or use something else meanwhile.
     NotBuiltYet = "W310", "not built yet";
+    /// A gradient, a pattern or a picture cannot be laid on the part, because drawing it would take too much
+    /// time or memory or it uses something that okoshi does not draw, a filter within a pattern for example.
+    /// The part has the mean of its colours.
+    ///
+    /// ```text
+    /// a pattern whose tile holds 5,000 shapes
+    /// ```
+    ///
+    /// Make the pattern simpler, export it as a picture and use that as `Texture`, or set the part's colour with
+    /// `Color`.
+    PlainPaint = "W311", "paint shown as its mean colour";
 
     // Hints
     /// Another part lies almost as near to the string as the one it was given to.

@@ -36,10 +36,7 @@ pub(super) fn assemble(
 ) -> Scene {
     let ground = ground(model);
     let turn = axes(model.sheet);
-    let mut scene = Scene {
-        materials: materials.into_list(),
-        ..Scene::default()
-    };
+    let mut scene = materials.into_scene();
     let links: Vec<(usize, Option<usize>, bool)> = tree
         .branches
         .iter()

@@ -1,29 +1,48 @@
 //! Materials, shared by everything that looks alike.
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use glam::DAffine2;
+use rustc_hash::FxHashMap;
 
-use crate::bind::{Look, Part, PartKind, SetBy, Sheet};
-use crate::diagnostic::{Code, Diagnostic};
+use super::Model;
+use super::textures::Textures;
+use crate::bind::{Look, PartKind};
+use crate::diagnostic::Diagnostic;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::ShapeKind;
-use crate::scene::{AlphaMode, Material};
-use crate::svg::{Drawing, PaintKey};
+use crate::resolver::Resolver;
+use crate::scene::{AlphaMode, Image, Material, Scene, Texture, TextureUse};
+use crate::texture::Alpha;
+
+/// Where holes begin in textures whose alpha is all or nothing.
+const CUTOFF: f32 = 0.5;
 
 /// The materials of a drawing, and which part has which.
 pub(super) struct Materials {
     list: Vec<Material>,
-    of_part: Vec<Option<usize>>,
+    textures: Vec<Texture>,
+    images: Vec<Image>,
+    /// Per part its material, and the way from the drawing to texture coordinates.
+    of_part: Vec<Option<(usize, Option<DAffine2>)>>,
+}
+
+/// What two parts have in common that share a material.
+#[derive(PartialEq, Eq, Hash)]
+struct Key {
+    factors: [u64; 9],
+    double_sided: bool,
+    texture: Option<usize>,
 }
 
 impl Materials {
     pub(super) fn collect(
-        drawing: &Drawing,
-        sheet: &Sheet,
+        model: &Model<'_>,
+        resolver: &dyn Resolver,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
+        let (drawing, sheet) = (model.drawing, model.sheet);
+        let textures = Textures::collect(model, resolver, diagnostics);
         let mut list = Vec::new();
-        let mut known: FxHashMap<Vec<u64>, usize> = FxHashMap::default();
-        let mut warned = FxHashSet::default();
+        let mut known: FxHashMap<Key, usize> = FxHashMap::default();
         let mut of_part = Vec::with_capacity(sheet.parts.len());
         for (index, part) in sheet.parts.iter().enumerate() {
             let kind = sheet.shape(index).kind;
@@ -31,63 +50,70 @@ impl Materials {
                 of_part.push(None);
                 continue;
             }
-            let paint = &part.paint(drawing).key;
-            let own_paint = sheet
-                .setting(index, Keyword::Color)
-                .map_or(SetBy::Builtin, |source| source.from)
-                == SetBy::Builtin;
-            if (own_paint || matches!(paint, PaintKey::Picture(_))) && warned.insert(paint.clone())
-            {
-                diagnostics.extend(mean_color(drawing, part));
+            let mut look = sheet.look(drawing, index);
+            let textured = textures.of(index);
+            if let Some(textured) = textured {
+                // What a file shows is tinted by `Color`, but by nothing else.
+                let tinted = textured.is_file && sheet.setting(index, Keyword::Color).is_some();
+                if !tinted {
+                    look.color[..3].fill(1.0);
+                }
             }
-            let look = sheet.look(drawing, index);
             let double_sided = matches!(kind, ShapeKind::Flat(_));
-            let slot = known.entry(key(&look, double_sided)).or_insert_with(|| {
-                list.push(material(&look, double_sided));
-                list.len() - 1
-            });
-            of_part.push(Some(*slot));
+            let texture = textured.map(|textured| textured.texture);
+            let slot = *known
+                .entry(key(&look, double_sided, texture))
+                .or_insert_with(|| {
+                    let mut material = material(&look, double_sided);
+                    if let Some(texture) = texture {
+                        let (name, alpha) = textures.about(texture);
+                        name.clone_into(&mut material.name);
+                        material.base_color_texture = Some(TextureUse::new(texture));
+                        material.alpha_mode = match (material.alpha_mode, alpha) {
+                            (AlphaMode::Opaque, Alpha::Opaque) => AlphaMode::Opaque,
+                            (AlphaMode::Opaque, Alpha::Holes) => AlphaMode::Mask { cutoff: CUTOFF },
+                            _ => AlphaMode::Blend,
+                        };
+                    }
+                    list.push(material);
+                    list.len() - 1
+                });
+            of_part.push(Some((slot, textured.map(|textured| textured.map))));
         }
-        Self { list, of_part }
+        let (textures, images) = textures.into_lists();
+        Self {
+            list,
+            textures,
+            images,
+            of_part,
+        }
     }
 
-    /// The material of a part, if it has a solid.
-    pub(super) fn of(&self, part: usize) -> Option<usize> {
+    /// The material of a part, if it has a solid, and the way from the drawing to its texture.
+    pub(super) fn of(&self, part: usize) -> Option<(usize, Option<DAffine2>)> {
         self.of_part[part]
     }
 
-    pub(super) fn into_list(self) -> Vec<Material> {
-        self.list
+    /// A scene that has them, and nothing else yet.
+    pub(super) fn into_scene(self) -> Scene {
+        Scene {
+            materials: self.list,
+            textures: self.textures,
+            images: self.images,
+            ..Scene::default()
+        }
     }
 }
 
-/// Says that gradients, patterns and pictures appear in one colour.
-fn mean_color(drawing: &Drawing, part: &Part) -> Option<Diagnostic> {
-    let what = match &part.paint(drawing).key {
-        PaintKey::Solid(_) => return None,
-        PaintKey::Server(id) => format!("the gradient or pattern `#{id}`"),
-        PaintKey::Picture(_) => "the picture".to_owned(),
-    };
-    Some(
-        Diagnostic::new(
-            Code::NotBuiltYet,
-            drawing.shapes[part.shape].element.span,
-            format!("{what} appears in the model as its mean colour"),
-        )
-        .help("`Color` sets another one"),
-    )
-}
-
-fn key(look: &Look, double_sided: bool) -> Vec<u64> {
-    let numbers = look
-        .color
-        .iter()
-        .chain([&look.metallic, &look.roughness])
-        .chain(&look.emissive);
-    numbers
-        .map(|number| number.to_bits())
-        .chain([u64::from(double_sided)])
-        .collect()
+fn key(look: &Look, double_sided: bool, texture: Option<usize>) -> Key {
+    let [r, g, b, alpha] = look.color;
+    let [er, eg, eb] = look.emissive;
+    let factors = [r, g, b, alpha, look.metallic, look.roughness, er, eg, eb];
+    Key {
+        factors: factors.map(f64::to_bits),
+        double_sided,
+        texture,
+    }
 }
 
 fn material(look: &Look, double_sided: bool) -> Material {

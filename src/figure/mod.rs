@@ -4,9 +4,11 @@
 //! +Z towards the viewer; turning the node turns the limb about its joint.
 
 mod assemble;
+mod copies;
 mod frame;
 mod materials;
 mod relief;
+mod textures;
 mod tree;
 
 use std::sync::Arc;
@@ -15,10 +17,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::bind::{Part, PartKind, Sheet};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::Diagnostic;
 use crate::geometry::{area, contains, intersect};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{ShapeKind, Value};
+use crate::resolver::Resolver;
 use crate::scene::{Mesh, Piece, Primitive, Scene};
 use crate::solid::{self, Placement, Sides, Solid};
 use crate::svg::Drawing;
@@ -34,21 +37,25 @@ const CENTIMETRE: f64 = 0.01;
 const DEFAULT_DEPTH: f64 = 0.025;
 
 /// Builds the figures of a drawing.
-pub fn build(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) -> Scene {
+pub fn build(
+    drawing: &Drawing,
+    sheet: &Sheet,
+    resolver: &dyn Resolver,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Scene {
     let model = Model::new(drawing, sheet);
     let (relief, (materials, frames, members, tree, found)) = rayon::join(
         || Relief::measure(&model),
         || {
             let mut found = Vec::new();
-            let materials = Materials::collect(drawing, sheet, &mut found);
+            let materials = Materials::collect(&model, resolver, &mut found);
             let frames: Vec<Frame> = sheet.parts.par_iter().map(Frame::of).collect();
             let tree = Tree::grow(&model, &frames, &mut found);
             (materials, frames, members(sheet), tree, found)
         },
     );
     diagnostics.extend(found);
-    let copies = (0..sheet.parts.len()).into_par_iter();
-    diagnostics.par_extend(copies.filter_map(|part| model.check_copies(part)));
+    copies::check(&model, diagnostics);
     let meshes: Vec<Option<Mesh>> = members
         .par_iter()
         .enumerate()
@@ -113,56 +120,6 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Warns of copies that lie where their original lies.
-    fn check_copies(&self, part: usize) -> Option<Diagnostic> {
-        let shape = self.sheet.shape(part);
-        let built = matches!(self.sheet.parts[part].kind, PartKind::Main | PartKind::Sub);
-        if !built || !(shape.mirrored || shape.doubled) || shape.kind == ShapeKind::None {
-            return None;
-        }
-        let measure = &self.sheet.parts[part].measure;
-        let kind = self.kind(part);
-        let layers = solid::layers(
-            &kind,
-            measure.half_across,
-            measure.half_along,
-            &self.options(part),
-        )?;
-        let offset = self.offset(part);
-        let low = layers
-            .iter()
-            .map(|layer| layer.z + offset)
-            .fold(f64::INFINITY, f64::min);
-        let high = layers
-            .iter()
-            .map(|layer| layer.z + offset)
-            .fold(f64::NEG_INFINITY, f64::max);
-        if (low + high).abs() > 1e-9 * (high - low).abs().max(1e-12) {
-            return None;
-        }
-        let source = self.sheet.setting(part, Keyword::Shape);
-        let span = source.map_or(
-            self.drawing.shapes[self.sheet.parts[part].shape]
-                .element
-                .span,
-            |source| {
-                self.sheet.strings[source.string]
-                    .text
-                    .span(source.setting.range.clone())
-            },
-        );
-        let flag = if shape.doubled { "-d" } else { "-s" };
-        let name = self.sheet.describe(self.drawing, part);
-        Some(
-            Diagnostic::new(
-                Code::CopiesCoincide,
-                span,
-                format!("the copy that `{flag}` makes of {name} lies exactly where {name} lies"),
-            )
-            .help("give both sides a distance with `Offset`, or depths on one side only, as in `default 45 50`"),
-        )
-    }
-
     fn options(&self, part: usize) -> solid::Options {
         solid::Options {
             segments: self.sheet.number(part, Keyword::Segments).unwrap_or(16.0) as u32,
@@ -187,12 +144,13 @@ impl<'a> Model<'a> {
     ) -> Option<Mesh> {
         let mut primitives: Vec<Primitive> = Vec::new();
         for &part in parts {
-            let Some(material) = materials.of(part) else {
+            let Some((material, texture)) = materials.of(part) else {
                 continue;
             };
-            let Some(solid) = self.solid(main, part, frames, relief) else {
+            let Some(mut solid) = self.solid(main, part, frames, relief) else {
                 continue;
             };
+            solid.texture = texture;
             let piece = Piece::Solid(solid);
             match primitives
                 .iter_mut()
@@ -229,6 +187,7 @@ impl<'a> Model<'a> {
             kind,
             options,
             sides: if both { Sides::Both } else { Sides::Front },
+            texture: None,
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::DAffine2;
+use glam::{DAffine2, DVec2};
 
 use super::{Options, build, mirror};
 use crate::geometry::{Outline, Polygon};
@@ -22,6 +22,9 @@ pub struct Solid {
     pub options: Options,
     /// On which sides of the drawing plane it stands.
     pub sides: Sides,
+    /// From the drawing to texture coordinates, if it is textured: the texture is seen through the whole solid
+    /// along the viewer's direction, and walls take the colours of the border.
+    pub texture: Option<DAffine2>,
 }
 
 /// On which sides of the drawing plane a solid stands.
@@ -50,6 +53,14 @@ impl Solid {
             polygons: self.outline.polygons.iter().map(polygon).collect(),
         };
         let mut surface = build(&local, &self.kind, &self.options);
+        if let Some(texture) = self.texture {
+            let map = texture * self.to_drawing();
+            let uv = |[x, y, _]: &[f32; 3]| {
+                let point = map.transform_point2(DVec2::new(f64::from(*x), f64::from(*y)));
+                point.as_vec2().to_array()
+            };
+            surface.uvs = surface.positions.iter().map(uv).collect();
+        }
         match self.sides {
             Sides::Front => surface,
             Sides::Back => mirror(&surface),
@@ -59,6 +70,15 @@ impl Solid {
                 surface
             }
         }
+    }
+
+    /// From the solid's final places, seen from the front, back to the drawing.
+    fn to_drawing(&self) -> DAffine2 {
+        let placement = &self.options.placement;
+        let placed = DAffine2::from_scale(DVec2::splat(placement.scale))
+            * DAffine2::from_translation(placement.translation.truncate())
+            * DAffine2::from_angle(placement.rotation);
+        (placed * self.to_frame).inverse()
     }
 
     /// The solid mirrored in the drawing plane.

@@ -1,24 +1,32 @@
 //! Pictures as parts: the border of what is opaque in an `<image>` (figure.md, Parts).
 
-use std::io::Cursor;
+use std::sync::Arc;
 
 use glam::DVec2;
 use rustc_hash::FxHashMap;
 
 use crate::diagnostic::Code;
 use crate::geometry::Ring;
+use crate::scene::Filter;
+use crate::texture::{self, Decoded, Picture, PictureError};
 
-/// Most pixels along one side of a picture.
-const MAX_SIDE: u32 = 16_384;
+/// Pixels along the longer side of a picture that is SVG itself.
+const SVG_SIDE: u32 = 1024;
 /// How far the border may lie off the pixels' edges, pixels: enough to smooth the steps of slanted borders.
 const BORDER_TOLERANCE: f64 = 0.75;
 
 /// The opaque area of a picture.
 pub(super) struct Opaque {
-    /// Its border in pixels, y down; areas by the even-odd rule.
+    /// Its border in the picture's units, y down; areas by the even-odd rule.
     pub(super) rings: Vec<Ring>,
     /// Its mean colour, sRGB.
     pub(super) color: [u8; 3],
+    /// What is seen on it, if that can be told.
+    pub(super) picture: Option<Picture>,
+    /// How large the picture is.
+    pub(super) size: DVec2,
+    /// What lies between its pixels.
+    pub(super) filter: Filter,
 }
 
 /// The opaque area of a picture: alpha over one half, the whole rectangle where it has no alpha.
@@ -26,36 +34,30 @@ pub(super) struct Opaque {
 /// # Errors
 /// What is wrong with it: it passes a limit, or cannot be read.
 pub(super) fn opaque(picture: &usvg::Image) -> Result<Opaque, (Code, String)> {
-    let bytes = match picture.kind() {
+    let (decoded, bytes) = match picture.kind() {
         usvg::ImageKind::JPEG(bytes)
         | usvg::ImageKind::PNG(bytes)
         | usvg::ImageKind::GIF(bytes)
-        | usvg::ImageKind::WEBP(bytes) => bytes,
+        | usvg::ImageKind::WEBP(bytes) => {
+            let decoded = texture::decode(bytes).map_err(|error| {
+                let code = match error {
+                    PictureError::TooLarge => Code::LimitPassed,
+                    PictureError::Unreadable(_) => Code::MissingFile,
+                };
+                (code, format!("the picture {error}"))
+            })?;
+            (decoded, Arc::from(bytes.as_slice()))
+        }
         usvg::ImageKind::SVG(tree) => {
-            return Ok(Opaque {
-                rings: vec![rectangle(
-                    tree.size().width().into(),
-                    tree.size().height().into(),
-                )],
-                color: [128; 3],
-            });
+            let pixels = texture::render_tree(tree, SVG_SIDE).map_err(|why| {
+                let message = format!("the picture cannot be drawn: {why}");
+                (Code::LimitPassed, message)
+            })?;
+            let media_type = None;
+            (Decoded { pixels, media_type }, Arc::from([]))
         }
     };
-    let mut reader = image::ImageReader::new(Cursor::new(bytes.as_slice()))
-        .with_guessed_format()
-        .map_err(|error| unreadable(&error))?;
-    let mut limits = image::Limits::default();
-    limits.max_image_width = Some(MAX_SIDE);
-    limits.max_image_height = Some(MAX_SIDE);
-    reader.limits(limits);
-    let decoded = reader.decode().map_err(|error| match error {
-        image::ImageError::Limits(_) => (
-            Code::LimitPassed,
-            format!("the picture has more than {MAX_SIDE} pixels along one side, or needs more than 512 MiB"),
-        ),
-        other => unreadable(&other),
-    })?;
-    let rgba = decoded.to_rgba8();
+    let rgba = &decoded.pixels;
     let (width, height) = rgba.dimensions();
     let solid = |x: i64, y: i64| {
         x >= 0
@@ -71,17 +73,25 @@ pub(super) fn opaque(picture: &usvg::Image) -> Result<Opaque, (Code, String)> {
         count += 1;
     }
     let color = sum.map(|channel| (channel / count.max(1)) as u8);
-    let rings = if count == u64::from(width) * u64::from(height) {
+    let mut rings = if count == u64::from(width) * u64::from(height) {
         vec![rectangle(width.into(), height.into())]
     } else {
         border(width.into(), height.into(), solid)
     };
-    Ok(Opaque { rings, color })
-}
-
-fn unreadable(error: &dyn std::fmt::Display) -> (Code, String) {
-    let message = format!("the picture cannot be read: {error}");
-    (Code::MissingFile, message)
+    let size = picture.size();
+    let size = DVec2::new(size.width().into(), size.height().into());
+    let scale = size / DVec2::new(width.into(), height.into());
+    rings.iter_mut().flatten().for_each(|point| *point *= scale);
+    Ok(Opaque {
+        rings,
+        color,
+        picture: texture::picture(decoded, &bytes, true),
+        size,
+        filter: match picture.rendering_mode() {
+            usvg::ImageRendering::CrispEdges | usvg::ImageRendering::Pixelated => Filter::Nearest,
+            _ => Filter::Linear,
+        },
+    })
 }
 
 fn rectangle(width: f64, height: f64) -> Ring {

@@ -17,8 +17,11 @@ mod style;
 mod text;
 mod walk;
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
+pub(crate) use links::broken_link;
 pub use paths::StrokeSource;
 pub use text::Label;
 
@@ -26,6 +29,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Outline;
 use crate::resolver::Resolver;
 use crate::source::{Span, Text};
+use crate::texture::Server;
 
 /// A drawing.
 #[derive(Debug, Default)]
@@ -78,12 +82,14 @@ pub struct Element {
 }
 
 /// What a shape is painted with.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Paint {
     /// What makes it the same as another paint (language.md, Paint identity).
     pub key: PaintKey,
     /// Its colour, or the mean of its colours, sRGB, each 0 to 255.
     pub color: [u8; 3],
+    /// What it looks like, if it is more than a colour.
+    pub server: Option<Arc<Server>>,
 }
 
 /// Paint identity.

@@ -1,12 +1,24 @@
 //! What shapes are painted with (language.md, Paint identity).
 
+use std::sync::Arc;
+
+use glam::{DAffine2, DVec2};
 use roxmltree::Node;
 
+use super::paths::affine;
 use super::shapes::Context;
 use super::{Paint, PaintKey};
+use crate::texture::{Focus, Gradient, Server, Source, Spread, Stop};
 
 impl Context<'_, '_> {
-    pub(super) fn paint(&self, paint: &usvg::Paint, node: Node<'_, '_>, property: &str) -> Paint {
+    /// What a paint of a path is; `transform` leads from the path to the drawing.
+    pub(super) fn paint(
+        &self,
+        paint: &usvg::Paint,
+        node: Node<'_, '_>,
+        property: &str,
+        transform: DAffine2,
+    ) -> Paint {
         let stops = |stops: &[usvg::Stop]| {
             mean(
                 stops
@@ -20,6 +32,7 @@ impl Context<'_, '_> {
                 return Paint {
                     key: PaintKey::Solid(color),
                     color,
+                    server: None,
                 };
             }
             usvg::Paint::LinearGradient(gradient) => stops(gradient.stops()),
@@ -39,6 +52,7 @@ impl Context<'_, '_> {
         Paint {
             key: PaintKey::Server(id),
             color,
+            server: server(paint, transform).map(Arc::new),
         }
     }
 
@@ -84,6 +98,68 @@ impl Context<'_, '_> {
 
     fn by_attribute_id(&self, id: &str) -> Option<Node<'_, '_>> {
         self.document.get_node(*self.by_id.get(id)?)
+    }
+}
+
+/// A paint in its own plane, and where that lies in the drawing.
+fn server(paint: &usvg::Paint, transform: DAffine2) -> Option<Server> {
+    let point = |x: f32, y: f32| DVec2::new(x.into(), y.into());
+    let (source, own) = match paint {
+        usvg::Paint::Color(_) => return None,
+        usvg::Paint::LinearGradient(linear) => {
+            let start = point(linear.x1(), linear.y1());
+            let along = point(linear.x2(), linear.y2()) - start;
+            let own = DAffine2::from_cols(along, along.perp(), start);
+            let own = affine(linear.transform()) * own;
+            (Source::Linear(gradient(linear)), own)
+        }
+        usvg::Paint::RadialGradient(radial) => {
+            let (center, radius) = (point(radial.cx(), radial.cy()), f64::from(radial.r().get()));
+            let focus = (point(radial.fx(), radial.fy()) - center) / radius;
+            let focus = Focus {
+                x: focus.x,
+                y: focus.y,
+                radius: f64::from(radial.fr().get()) / radius,
+            };
+            let own =
+                DAffine2::from_translation(center) * DAffine2::from_scale(DVec2::splat(radius));
+            let own = affine(radial.transform()) * own;
+            (Source::Radial(gradient(radial), focus), own)
+        }
+        usvg::Paint::Pattern(pattern) => {
+            let rect = pattern.rect();
+            let own = DAffine2::from_translation(point(rect.x(), rect.y()))
+                * DAffine2::from_scale(point(rect.width(), rect.height()));
+            let own = affine(pattern.transform()) * own;
+            (Source::Pattern(Arc::clone(pattern)), own)
+        }
+    };
+    Some(Server {
+        source,
+        place: transform * own,
+    })
+}
+
+fn gradient(gradient: &usvg::BaseGradient) -> Gradient {
+    let stop = |stop: &usvg::Stop| {
+        let color = stop.color();
+        Stop {
+            offset: f64::from(stop.offset().get()),
+            color: [
+                color.red.into(),
+                color.green.into(),
+                color.blue.into(),
+                f64::from(stop.opacity().get()) * 255.0,
+            ],
+        }
+    };
+    Gradient {
+        stops: gradient.stops().iter().map(stop).collect(),
+        spread: match gradient.spread_method() {
+            usvg::SpreadMethod::Pad => Spread::Pad,
+            usvg::SpreadMethod::Reflect => Spread::Reflect,
+            usvg::SpreadMethod::Repeat => Spread::Repeat,
+        },
     }
 }
 

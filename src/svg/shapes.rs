@@ -1,6 +1,6 @@
 //! The shapes of a drawing: usvg's tree joined to the XML by id.
 
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
@@ -17,6 +17,7 @@ use super::{Drawing, Element, Paint, PaintKey, Shape, image};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{FillRule, Outline, clean};
 use crate::resolver::Resolver;
+use crate::texture::{Server, Source};
 
 /// Joins what usvg and the XML know.
 pub(super) fn read(
@@ -199,12 +200,12 @@ impl Context<'_, '_> {
                 stroke: stroke.to_tiny_skia(),
                 transform,
                 tolerance: self.tolerance,
-                paint: self.paint(stroke.paint(), node, "stroke"),
+                paint: self.paint(stroke.paint(), node, "stroke", transform),
             })
         });
         let (paint, opacity) = match (fill, &stroke) {
             (Some(fill), _) => (
-                self.paint(fill.paint(), node, "fill"),
+                self.paint(fill.paint(), node, "fill", transform),
                 f64::from(fill.opacity().get()),
             ),
             (None, Some(stroke)) => (
@@ -236,7 +237,13 @@ impl Context<'_, '_> {
     ) -> (Option<Shape>, Option<Box<Diagnostic>>) {
         let element = self.element(node);
         let transform = self.page * affine(picture.abs_transform());
-        let image::Opaque { rings, color } = match image::opaque(picture) {
+        let image::Opaque {
+            rings,
+            color,
+            picture,
+            size,
+            filter,
+        } = match image::opaque(picture) {
             Ok(opaque) => opaque,
             Err((code, message)) => {
                 let help = "link a smaller picture, or save it again as PNG";
@@ -262,6 +269,12 @@ impl Context<'_, '_> {
         let paint = Paint {
             key: PaintKey::Picture(index),
             color,
+            server: picture.map(|picture| {
+                Arc::new(Server {
+                    source: Source::Picture(picture, filter),
+                    place: transform * DAffine2::from_scale(size),
+                })
+            }),
         };
         let opacity = task.opacity;
         (

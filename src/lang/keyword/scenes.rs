@@ -48,10 +48,11 @@ pub(super) static ROWS: [Row; 12] = [
         allowed: Allowed::Part,
         default: "none",
         summary: "an image on the part",
-        long: "The image is laid over the part's box as it is seen from the front; on terrain, over \
-               each tile. The file must lie in the drawing's folder or below it.",
+        long: "The image (PNG, JPEG, GIF or WebP) is laid over the part's box as it is seen from the \
+               front; on terrain, over each tile. It takes the place of the part's fill; `Color` tints it. \
+               The file must lie in the drawing's folder or below it.",
         example: "Sail@Ship$Texture \"canvas.png\"",
-        status: Status::Planned,
+        status: Status::Built,
     },
     Row {
         keyword: Keyword::Depth,

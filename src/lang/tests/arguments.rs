@@ -228,7 +228,6 @@ fn e104_argument_type() {
         "Arm$Texture my-pic.png",
         r#"
             Arm$Texture my-pic.png
-                ^^^^^^^ W310: `Texture` has no effect in this version (understood, but not built yet)
                         ^^^^^^^^^^ E104: the file name `my-pic.png` needs quotes
               help: a name with signs or spaces in it stands in quotes
               fix: Write `"my-pic.png"` -> Arm$Texture "my-pic.png"
@@ -238,7 +237,6 @@ fn e104_argument_type() {
         "Arm$Texture “pic.png”",
         r#"
             Arm$Texture “pic.png”
-                ^^^^^^^ W310: `Texture` has no effect in this version (understood, but not built yet)
                         ^^^^^^^^^ E104: `“pic.png”` has typographic quotes
               help: use the plain quotation mark `"`
               fix: Write `"pic.png"` -> Arm$Texture "pic.png"

@@ -8,7 +8,6 @@ fn e106_unclosed_quote() {
         r##"Arm$Texture "kick.png Offset 2"##,
         r#"
             Arm$Texture "kick.png Offset 2
-                ^^^^^^^ W310: `Texture` has no effect in this version (understood, but not built yet)
                         ^ E106: this quote is never closed
               fix: Close the quote -> Arm$Texture "kick.png" Offset 2
         "#,

@@ -1,0 +1,121 @@
+//! Copies (`-s`, `-d`) that lie where their original, or another copy of it, lies.
+
+use rayon::prelude::*;
+
+use super::Model;
+use crate::bind::PartKind;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lang::keyword::Keyword;
+use crate::lang::value::ShapeKind;
+use crate::solid;
+
+/// How many ancestors are looked at: each that is doubled doubles the parts below it.
+const MOST_ANCESTORS: usize = 64;
+
+/// Warns of copies that coincide.
+pub(super) fn check(model: &Model<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    let parts = 0..model.sheet.parts.len();
+    let doubled: Vec<bool> = parts
+        .clone()
+        .into_par_iter()
+        .map(|part| model.sheet.shape(part).doubled)
+        .collect();
+    let copied = doubled.contains(&true);
+    let found: Vec<Diagnostic> = parts
+        .into_par_iter()
+        .filter_map(|part| {
+            let own = coincident(model, part);
+            own.or_else(|| copied.then(|| inherited(model, part, &doubled))?)
+        })
+        .collect();
+    diagnostics.extend(found);
+}
+
+/// The least and the greatest depth of a part's solid in its parent's frame, and that it has one.
+fn depths(model: &Model<'_>, part: usize) -> Option<[f64; 2]> {
+    let built = matches!(model.sheet.parts[part].kind, PartKind::Main | PartKind::Sub);
+    let kind = model.kind(part);
+    if !built || kind == ShapeKind::None {
+        return None;
+    }
+    let measure = &model.sheet.parts[part].measure;
+    let layers = solid::layers(
+        &kind,
+        measure.half_across,
+        measure.half_along,
+        &model.options(part),
+    )?;
+    let offset = model.offset(part);
+    let depths = layers.iter().map(|layer| layer.z + offset);
+    let [low, high] = [f64::INFINITY, f64::NEG_INFINITY];
+    Some(depths.fold([low, high], |[low, high], z| [low.min(z), high.max(z)]))
+}
+
+/// Whether a solid reaches evenly to both sides of a plane.
+fn is_even([low, high]: [f64; 2], plane: f64) -> bool {
+    (low + high - 2.0 * plane).abs() <= 1e-9 * (high - low).abs().max(1e-12)
+}
+
+/// A copy that the part's own flag makes.
+fn coincident(model: &Model<'_>, part: usize) -> Option<Diagnostic> {
+    let shape = model.sheet.shape(part);
+    if !(shape.mirrored || shape.doubled) || !is_even(depths(model, part)?, 0.0) {
+        return None;
+    }
+    let flag = if shape.doubled { "-d" } else { "-s" };
+    let name = model.sheet.describe(model.drawing, part);
+    let message = format!("the copy that `{flag}` makes of {name} lies exactly where {name} lies");
+    Some(told(model, part, message))
+}
+
+/// A copy that an ancestor's `-d` makes.
+fn inherited(model: &Model<'_>, part: usize, doubled: &[bool]) -> Option<Diagnostic> {
+    let parts = &model.sheet.parts;
+    let main = parts[part].main;
+    let shape = model.sheet.shape(part);
+    let depths = depths(model, part)?;
+    // From the node that the part hangs on to the plane that an ancestor is mirrored in.
+    let mut plane = 0.0;
+    // A sub-part hangs on its main part's node.
+    let mut next = if main == part {
+        parts[part].parent
+    } else {
+        Some(main)
+    };
+    for _ in 0..MOST_ANCESTORS {
+        let ancestor = next?;
+        if !model.sheet.shape(ancestor).mirrored {
+            plane -= model.offset(ancestor);
+        }
+        let both = shape.mirrored || shape.doubled;
+        let even = match both {
+            true => plane.abs() <= 1e-9 * (depths[1] - depths[0]).abs().max(1e-12),
+            false => is_even(depths, plane),
+        };
+        if doubled[ancestor] && even {
+            let name = model.sheet.describe(model.drawing, part);
+            let other = model.sheet.describe(model.drawing, ancestor);
+            let message = format!(
+                "copies of {name} that `-d` of {other} makes lie exactly where {name} lies"
+            );
+            return Some(told(model, part, message));
+        }
+        next = parts[ancestor].parent;
+    }
+    None
+}
+
+fn told(model: &Model<'_>, part: usize, message: String) -> Diagnostic {
+    let sheet = model.sheet;
+    let source = sheet.setting(part, Keyword::Shape);
+    let span = source.map_or(
+        model.drawing.shapes[sheet.parts[part].shape].element.span,
+        |source| {
+            let text = &sheet.strings[source.string].text;
+            text.span(source.setting.range.clone())
+        },
+    );
+    Diagnostic::new(Code::CopiesCoincide, span, message).help(
+        "give both sides a distance with `Offset`, or depths on one side only, as in `default 45 50`",
+    )
+}

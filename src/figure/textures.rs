@@ -1,0 +1,286 @@
+//! Which parts are textured, and with what: `Texture`, gradients, patterns, pictures.
+
+use std::sync::Arc;
+
+use glam::DAffine2;
+use rayon::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::Model;
+use crate::bind::{PartKind, Source as SettingSource};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::bounds;
+use crate::lang::keyword::Keyword;
+use crate::lang::value::{ShapeKind, Value};
+use crate::resolver::Resolver;
+use crate::scene::{self, Image, Texture};
+use crate::svg::{PaintKey, broken_link};
+use crate::texture::{self, Alpha, Baked, Picture, PictureError, Plan, PlanKey, Server, Source};
+
+/// Pixels of a tile along as much of the drawing as the page's diagonal is long.
+const DETAIL: f64 = 2048.0;
+
+/// The textures of a drawing, and which part has which.
+pub(super) struct Textures {
+    textures: Vec<Texture>,
+    images: Vec<Image>,
+    alphas: Vec<Alpha>,
+    of_part: FxHashMap<usize, Textured>,
+}
+
+/// How a part is textured.
+#[derive(Clone, Copy)]
+pub(super) struct Textured {
+    /// Index of the texture.
+    pub(super) texture: usize,
+    /// From the drawing to texture coordinates.
+    pub(super) map: DAffine2,
+    /// It is a file that `Texture` names.
+    pub(super) is_file: bool,
+}
+
+/// A part that is to be textured.
+struct Wish {
+    part: usize,
+    server: Arc<Server>,
+    plan: usize,
+    is_file: bool,
+}
+
+impl Textures {
+    pub(super) fn collect(
+        model: &Model<'_>,
+        resolver: &dyn Resolver,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Self {
+        let mut collector = Collector {
+            model,
+            files: Files {
+                resolver,
+                read: FxHashMap::default(),
+                told: FxHashSet::default(),
+            },
+            plans: Vec::new(),
+            names: Vec::new(),
+            known: FxHashMap::default(),
+            wishes: Vec::new(),
+            told: FxHashSet::default(),
+        };
+        for part in 0..model.sheet.parts.len() {
+            collector.part(part, diagnostics);
+        }
+        texture::fit(&mut collector.plans);
+        let baked: Vec<Result<Baked, &'static str>> =
+            collector.plans.par_iter().map(Plan::bake).collect();
+        collector.finish(baked, diagnostics)
+    }
+
+    /// How a part is textured.
+    pub(super) fn of(&self, part: usize) -> Option<Textured> {
+        self.of_part.get(&part).copied()
+    }
+
+    /// A texture's name, and where it can be seen through.
+    pub(super) fn about(&self, texture: usize) -> (&str, Alpha) {
+        (&self.images[texture].name, self.alphas[texture])
+    }
+
+    pub(super) fn into_lists(self) -> (Vec<Texture>, Vec<Image>) {
+        (self.textures, self.images)
+    }
+}
+
+struct Collector<'a> {
+    model: &'a Model<'a>,
+    files: Files<'a>,
+    plans: Vec<Plan>,
+    /// The names of the plans.
+    names: Vec<String>,
+    known: FxHashMap<PlanKey, usize>,
+    wishes: Vec<Wish>,
+    /// Paints that were found not to be drawn.
+    told: FxHashSet<&'a PaintKey>,
+}
+
+impl<'a> Collector<'a> {
+    fn part(&mut self, index: usize, diagnostics: &mut Vec<Diagnostic>) {
+        let Model { drawing, sheet, .. } = *self.model;
+        let part = &sheet.parts[index];
+        let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
+        if !built || sheet.shape(index).kind == ShapeKind::None {
+            return;
+        }
+        let Some(extent) = bounds(&part.outline) else {
+            return;
+        };
+        let file = sheet.setting(index, Keyword::Texture);
+        let file = file.and_then(|source| self.files.picture(self.model, &source, diagnostics));
+        let paint = part.paint(drawing);
+        let (server, name) = match (file, &paint.server) {
+            (Some((link, picture)), _) => {
+                let (low, high) = extent;
+                let place = DAffine2::from_translation(low) * DAffine2::from_scale(high - low);
+                let source = Source::Picture(picture, scene::Filter::Linear);
+                let name = link.rsplit(['/', '\\']).next().unwrap_or(link);
+                (Arc::new(Server { source, place }), Some(name.to_owned()))
+            }
+            (None, Some(server)) => {
+                let picture = matches!(paint.key, PaintKey::Picture(_));
+                if !picture && sheet.setting(index, Keyword::Color).is_some() {
+                    return;
+                }
+                (Arc::clone(server), None)
+            }
+            (None, None) => return,
+        };
+        let is_file = name.is_some();
+        let density = DETAIL / self.model.drawing.page.1.length().max(f64::MIN_POSITIVE);
+        let plan = match server.plan([extent.0, extent.1], density) {
+            Ok(plan) => plan,
+            Err(why) => return diagnostics.extend(self.plain(index, why)),
+        };
+        let next = self.plans.len();
+        let number = *self.known.entry(plan.key()).or_insert(next);
+        if number == next {
+            self.plans.push(plan);
+            self.names.push(name.unwrap_or_else(|| match &paint.key {
+                PaintKey::Server(id) => format!("#{id}"),
+                _ => drawing.shapes[part.shape].element.own_name().to_owned(),
+            }));
+        }
+        self.wishes.push(Wish {
+            part: index,
+            server,
+            plan: number,
+            is_file,
+        });
+    }
+
+    /// Says, once a paint, that it appears in one colour.
+    fn plain(&mut self, part: usize, why: &str) -> Option<Diagnostic> {
+        let Model { drawing, sheet, .. } = *self.model;
+        let part = &sheet.parts[part];
+        let key = &part.paint(drawing).key;
+        let what = match key {
+            PaintKey::Server(id) => format!("the gradient or pattern `#{id}`"),
+            PaintKey::Picture(_) | PaintKey::Solid(_) => "the picture".to_owned(),
+        };
+        self.told.insert(key).then(|| {
+            let span = drawing.shapes[part.shape].element.span;
+            let message = format!("{what} appears in the model as its mean colour: {why}");
+            Diagnostic::new(Code::PlainPaint, span, message)
+                .help("make it simpler, or set the part's colour with `Color`")
+        })
+    }
+
+    fn finish(
+        mut self,
+        baked: Vec<Result<Baked, &'static str>>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Textures {
+        let mut textures = Textures {
+            textures: Vec::new(),
+            images: Vec::new(),
+            alphas: Vec::new(),
+            of_part: FxHashMap::default(),
+        };
+        let mut numbers = Vec::with_capacity(baked.len());
+        for (baked, name) in baked.into_iter().zip(std::mem::take(&mut self.names)) {
+            numbers.push(baked.map(|baked| {
+                let number = textures.textures.len();
+                textures.textures.push(Texture {
+                    image: number,
+                    wrap: baked.wrap,
+                    filter: baked.filter,
+                });
+                textures.alphas.push(baked.picture.alpha);
+                textures.images.push(Image {
+                    name,
+                    media_type: baked.picture.media_type,
+                    bytes: baked.picture.bytes,
+                });
+                number
+            }));
+        }
+        for wish in std::mem::take(&mut self.wishes) {
+            match numbers[wish.plan] {
+                Ok(texture) => {
+                    let map = self.plans[wish.plan].map(&wish.server);
+                    let is_file = wish.is_file;
+                    let textured = Textured {
+                        texture,
+                        map,
+                        is_file,
+                    };
+                    textures.of_part.insert(wish.part, textured);
+                }
+                Err(why) => diagnostics.extend(self.plain(wish.part, why)),
+            }
+        }
+        textures
+    }
+}
+
+/// The files that `Texture` names.
+struct Files<'a> {
+    resolver: &'a dyn Resolver,
+    /// Each with its picture, or with what is wrong with it.
+    read: FxHashMap<&'a str, Result<Picture, Trouble>>,
+    /// Strings that were told what is wrong.
+    told: FxHashSet<usize>,
+}
+
+enum Trouble {
+    Link(crate::resolver::LinkError),
+    Picture(Code, String),
+}
+
+impl<'a> Files<'a> {
+    /// A file's name and picture; where there is none, the string that names it is told, once.
+    fn picture(
+        &mut self,
+        model: &Model<'a>,
+        source: &SettingSource<'a>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<(&'a str, Picture)> {
+        let Value::Word(link) = &source.setting.value else {
+            return None;
+        };
+        let resolver = self.resolver;
+        let read = self
+            .read
+            .entry(link)
+            .or_insert_with(|| read(resolver, link));
+        let trouble = match read {
+            Ok(picture) => return Some((link, picture.clone())),
+            Err(trouble) => trouble,
+        };
+        if self.told.insert(source.string) {
+            let text = &model.sheet.strings[source.string].text;
+            let span = text.span(source.setting.range.clone());
+            diagnostics.push(match trouble {
+                Trouble::Link(error) => broken_link(link, error, span),
+                Trouble::Picture(code, message) => {
+                    Diagnostic::new(*code, span, format!("the picture `{link}` {message}"))
+                        .help("use a smaller picture, or save it again as PNG or JPEG")
+                }
+            });
+        }
+        None
+    }
+}
+
+fn read(resolver: &dyn Resolver, link: &str) -> Result<Picture, Trouble> {
+    let bytes = resolver.read(link).map_err(Trouble::Link)?;
+    let decoded = texture::decode(&bytes).map_err(|error| {
+        let code = match error {
+            PictureError::TooLarge => Code::LimitPassed,
+            PictureError::Unreadable(_) => Code::MissingFile,
+        };
+        Trouble::Picture(code, error.to_string())
+    })?;
+    texture::picture(decoded, &bytes, false).ok_or_else(|| {
+        let message = "cannot be written as PNG".to_owned();
+        Trouble::Picture(Code::LimitPassed, message)
+    })
+}

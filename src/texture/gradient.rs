@@ -1,0 +1,198 @@
+//! Gradients drawn in their own plane (SVG 2, section 14.2).
+//!
+//! The colours are reckoned here rather than by a rasteriser: straight alpha keeps its colours, and the few
+//! operations used give the same bits on every machine.
+
+use glam::{DAffine2, DVec2};
+use image::{Rgba, RgbaImage};
+
+/// Rows of a linear gradient's image: block compression takes four.
+pub(super) const ROWS: u32 = 4;
+/// Pixels along a linear gradient, and how many where stops lie close.
+const ROW: [u32; 2] = [256, 1024];
+/// Pixels across the end circle of a radial gradient, and how many where stops lie close.
+const SIDE: [u32; 2] = [128, 512];
+/// Most pixels along a side.
+const MOST_SIDE: u32 = 1024;
+/// How far, in radii of its end circle, a radial gradient that goes on beyond it is drawn.
+const MOST_REACH: f64 = 32.0;
+/// Stops nearer than this are taken for a sharp edge.
+const SHARP: f64 = 1.0 / 64.0;
+
+/// What lies beyond a gradient's ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Spread {
+    /// The colour of the end.
+    Pad,
+    /// The gradient again, every other time backwards.
+    Reflect,
+    /// The gradient again.
+    Repeat,
+}
+
+/// A colour at a place between 0 and 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stop {
+    /// Where.
+    pub offset: f64,
+    /// sRGB and straight alpha, each 0 to 255.
+    pub color: [f64; 4],
+}
+
+/// The colours of a gradient.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Gradient {
+    /// In rising order, at least one.
+    pub stops: Vec<Stop>,
+    /// What lies beyond its ends.
+    pub spread: Spread,
+}
+
+/// The circle that a radial gradient starts from; the one it ends at is the unit circle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Focus {
+    /// Its centre.
+    pub x: f64,
+    /// Its centre.
+    pub y: f64,
+    /// Its radius.
+    pub radius: f64,
+}
+
+/// How far a gradient is drawn that reaches `far`: powers of two, so that parts of many sizes share images.
+pub(super) fn reach(far: f64) -> f64 {
+    let mut reach = 1.0;
+    while reach < far && reach < MOST_REACH {
+        reach *= 2.0;
+    }
+    reach
+}
+
+impl Gradient {
+    pub(super) fn key(&self, key: &mut Vec<u64>) {
+        key.push(self.spread as u64);
+        for stop in &self.stops {
+            key.push(stop.offset.to_bits());
+            key.extend(stop.color.map(f64::to_bits));
+        }
+    }
+
+    fn is_sharp(&self) -> bool {
+        let near = |pair: &[Stop]| {
+            pair[1].offset - pair[0].offset < SHARP && pair[0].color != pair[1].color
+        };
+        self.stops.windows(2).any(near)
+    }
+
+    /// Pixels of the row of a linear gradient.
+    pub(super) fn row(&self) -> u32 {
+        ROW[usize::from(self.is_sharp())]
+    }
+
+    /// Pixels along a side of a radial gradient's square.
+    pub(super) fn side(&self, reach: f64) -> u32 {
+        let side = SIDE[usize::from(self.is_sharp())];
+        (side * reach.min(16.0) as u32).min(MOST_SIDE)
+    }
+
+    /// Whether nothing of a radial gradient changes outside its end circle.
+    pub(super) fn is_bounded(&self, focus: Focus) -> bool {
+        let inside = focus.x.hypot(focus.y) + focus.radius < 1.0;
+        self.spread == Spread::Pad && inside
+    }
+
+    /// From a linear gradient's own plane to its row.
+    pub(super) fn row_map(&self, width: f64) -> DAffine2 {
+        let (scale, start) = match self.spread {
+            // The middles of the outermost pixels are the ends: beyond them the sampler goes on with them.
+            Spread::Pad => ((width - 1.0) / width, 0.5 / width),
+            Spread::Reflect | Spread::Repeat => (1.0, 0.0),
+        };
+        DAffine2::from_cols(DVec2::new(scale, 0.0), DVec2::ZERO, DVec2::new(start, 0.5))
+    }
+
+    /// The row of a linear gradient's colours.
+    pub(super) fn bake_row(&self, width: u32, height: u32) -> RgbaImage {
+        let to_row = self.row_map(f64::from(width));
+        let (scale, start) = (to_row.matrix2.x_axis.x, to_row.translation.x);
+        let row: Vec<Rgba<u8>> = (0..width)
+            .map(|x| {
+                let u = (f64::from(x) + 0.5) / f64::from(width);
+                self.color((u - start) / scale)
+            })
+            .collect();
+        RgbaImage::from_fn(width, height, |x, _| row[x as usize])
+    }
+
+    /// The square around a radial gradient's end circle.
+    pub(super) fn bake_square(&self, focus: Focus, reach: f64, side: u32) -> RgbaImage {
+        let own = |pixel: u32| ((f64::from(pixel) + 0.5) / f64::from(side) * 2.0 - 1.0) * reach;
+        let last = self.color(1.0);
+        RgbaImage::from_fn(side, side, |x, y| {
+            // The outermost pixels are what lies beyond, for good.
+            let border = [x, y].iter().any(|at| *at == 0 || *at == side - 1);
+            if border && self.is_bounded(focus) {
+                return last;
+            }
+            match focus.along(DVec2::new(own(x), own(y))) {
+                Some(t) => self.color(self.spread(t)),
+                // Beside the cone of two circles none of which holds the other.
+                None => last,
+            }
+        })
+    }
+
+    /// A place brought back to between 0 and 1.
+    fn spread(&self, t: f64) -> f64 {
+        match self.spread {
+            Spread::Pad => t.clamp(0.0, 1.0),
+            Spread::Repeat => t - t.floor(),
+            Spread::Reflect => {
+                let twice = t - 2.0 * (t / 2.0).floor();
+                if twice > 1.0 { 2.0 - twice } else { twice }
+            }
+        }
+    }
+
+    /// The colour at a place between 0 and 1.
+    fn color(&self, t: f64) -> Rgba<u8> {
+        let next = self.stops.partition_point(|stop| stop.offset <= t);
+        let color = match (next.checked_sub(1), self.stops.get(next)) {
+            (Some(before), Some(after)) => {
+                let before = &self.stops[before];
+                let share = (t - before.offset) / (after.offset - before.offset);
+                let between =
+                    |i: usize| before.color[i] + (after.color[i] - before.color[i]) * share;
+                [0, 1, 2, 3].map(between)
+            }
+            (None, Some(stop)) => stop.color,
+            (Some(last), None) => self.stops[last].color,
+            (None, None) => [0.0; 4],
+        };
+        Rgba(color.map(|channel| channel.round() as u8))
+    }
+}
+
+impl Focus {
+    /// How far along the gradient a point lies: the largest `t` whose circle, between this one and the unit
+    /// circle, passes through it.
+    fn along(self, point: DVec2) -> Option<f64> {
+        let focus = DVec2::new(self.x, self.y);
+        let from = point - focus;
+        let (grows, moves) = (1.0 - self.radius, -focus);
+        let a = moves.dot(moves) - grows * grows;
+        let b = from.dot(moves) + self.radius * grows;
+        let c = from.dot(from) - self.radius * self.radius;
+        let fits = |t: &f64| t.is_finite() && self.radius + t * grows >= 0.0;
+        if a.abs() < 1e-9 {
+            return Some(c / (2.0 * b)).filter(fits);
+        }
+        let root = b * b - a * c;
+        if root < 0.0 {
+            return None;
+        }
+        let root = root.sqrt();
+        let roots = [(b + root) / a, (b - root) / a];
+        roots.into_iter().filter(fits).reduce(f64::max)
+    }
+}

@@ -1,0 +1,208 @@
+//! Pictures: read, judged by their alpha, and written so that filtering shows no fringe.
+
+use std::io::Cursor;
+use std::sync::Arc;
+
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder as _, RgbaImage};
+
+use super::{Alpha, Picture};
+use crate::scene::MediaType;
+
+/// Most pixels along one side of a picture.
+const MAX_SIDE: u32 = 16_384;
+/// How far colours reach into what cannot be seen, pixels. Behind it lies the mean colour.
+const BLEED: usize = 16;
+/// How wide the seam of half-tones along a sharp border may be, pixels to either side.
+const SEAM: i64 = 2;
+/// One pixel in so many may break the rule.
+const STRAY: usize = 1000;
+
+/// A picture that was read.
+#[derive(Debug, Clone)]
+pub struct Decoded {
+    /// Its pixels, sRGB with straight alpha.
+    pub pixels: RgbaImage,
+    /// What the file is, if glTF can hold it as it stands.
+    pub media_type: Option<MediaType>,
+}
+
+/// Why a picture cannot be read. Messages go behind `the picture`.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// It is too large.
+    #[error("has more than {MAX_SIDE} pixels along one side, or needs more than 512 MiB")]
+    TooLarge,
+    /// It is none, or broken.
+    #[error("cannot be read: {0}")]
+    Unreadable(image::ImageError),
+}
+
+impl From<image::ImageError> for PictureError {
+    fn from(error: image::ImageError) -> Self {
+        match error {
+            image::ImageError::Limits(_) => Self::TooLarge,
+            other => Self::Unreadable(other),
+        }
+    }
+}
+
+/// Reads a PNG, JPEG, GIF (its first frame) or WebP.
+///
+/// # Errors
+/// See [`PictureError`].
+pub fn decode(bytes: &[u8]) -> Result<Decoded, PictureError> {
+    let mut reader = image::ImageReader::new(Cursor::new(bytes))
+        .with_guessed_format()
+        .map_err(image::ImageError::IoError)?;
+    let mut limits = image::Limits::default();
+    limits.max_image_width = Some(MAX_SIDE);
+    limits.max_image_height = Some(MAX_SIDE);
+    reader.limits(limits);
+    let media_type = match reader.format() {
+        Some(image::ImageFormat::Png) => Some(MediaType::Png),
+        Some(image::ImageFormat::Jpeg) => Some(MediaType::Jpeg),
+        _ => None,
+    };
+    Ok(Decoded {
+        pixels: reader.decode()?.to_rgba8(),
+        media_type,
+    })
+}
+
+/// The file that a picture becomes in the model: its own where nothing of it can be seen through.
+///
+/// `cut` says that the part ends where the picture does: sharp borders are left to its outline, so that its walls
+/// are whole. None where memory does not suffice.
+pub fn picture(decoded: Decoded, bytes: &Arc<[u8]>, cut: bool) -> Option<Picture> {
+    let Decoded {
+        mut pixels,
+        media_type,
+    } = decoded;
+    let alpha = alpha(&pixels);
+    if let (Alpha::Opaque, Some(media_type)) = (alpha, media_type) {
+        return Some(Picture {
+            media_type,
+            bytes: Arc::clone(bytes),
+            alpha,
+        });
+    }
+    if cut && alpha == Alpha::Holes {
+        for pixel in pixels.pixels_mut() {
+            pixel.0[3] = if pixel.0[3] > 127 { 255 } else { 0 };
+        }
+        bleed(&mut pixels);
+        pixels.pixels_mut().for_each(|pixel| pixel.0[3] = 255);
+    }
+    encode(pixels)
+}
+
+/// Pixels as a PNG; what cannot be seen takes the colours beside it.
+pub(super) fn encode(mut pixels: RgbaImage) -> Option<Picture> {
+    let alpha = alpha(&pixels);
+    let (width, height) = pixels.dimensions();
+    let mut bytes = Vec::new();
+    let encoder =
+        PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive);
+    let written = if alpha == Alpha::Opaque {
+        let colors: Vec<u8> = pixels
+            .pixels()
+            .flat_map(|pixel| [pixel.0[0], pixel.0[1], pixel.0[2]])
+            .collect();
+        encoder.write_image(&colors, width, height, ExtendedColorType::Rgb8)
+    } else {
+        bleed(&mut pixels);
+        encoder.write_image(&pixels, width, height, ExtendedColorType::Rgba8)
+    };
+    written.ok()?;
+    Some(Picture {
+        media_type: MediaType::Png,
+        bytes: bytes.into(),
+        alpha,
+    })
+}
+
+/// Where a picture can be seen through.
+fn alpha(pixels: &RgbaImage) -> Alpha {
+    let (width, height) = pixels.dimensions();
+    let at = |x: i64, y: i64| {
+        let inside = (0..i64::from(width)).contains(&x) && (0..i64::from(height)).contains(&y);
+        inside.then(|| pixels.get_pixel(x as u32, y as u32).0[3])
+    };
+    if pixels.pixels().all(|pixel| pixel.0[3] == 255) {
+        return Alpha::Opaque;
+    }
+    let most = pixels.pixels().len() / STRAY;
+    let mut strays = 0;
+    for (x, y, pixel) in pixels.enumerate_pixels() {
+        if matches!(pixel.0[3], 0 | 255) {
+            continue;
+        }
+        let (x, y) = (i64::from(x), i64::from(y));
+        let (mut hole, mut whole) = (false, false);
+        for v in y - SEAM..=y + SEAM {
+            for u in x - SEAM..=x + SEAM {
+                let alpha = at(u, v);
+                hole |= alpha == Some(0);
+                whole |= alpha == Some(255);
+            }
+        }
+        strays += usize::from(!(hole && whole));
+        if strays > most {
+            return Alpha::Blended;
+        }
+    }
+    Alpha::Holes
+}
+
+/// Gives pixels that cannot be seen the colours of those beside them, and the mean colour further off.
+fn bleed(pixels: &mut RgbaImage) {
+    let (width, height) = pixels.dimensions();
+    let (mut sum, mut count) = ([0_u64; 3], 0_u64);
+    for pixel in pixels.pixels().filter(|pixel| pixel.0[3] > 0) {
+        (0..3).for_each(|i| sum[i] += u64::from(pixel.0[i]));
+        count += 1;
+    }
+    let mean = sum.map(|sum| (sum / count.max(1)) as u8);
+    let beside = |at: usize| {
+        let (x, y) = (at as u32 % width, at as u32 / width);
+        let left = (x > 0).then(|| at - 1);
+        let right = (x + 1 < width).then_some(at + 1);
+        let above = (y > 0).then(|| at - width as usize);
+        let below = (y + 1 < height).then_some(at + width as usize);
+        [left, right, above, below].into_iter().flatten()
+    };
+    let raw: &mut [[u8; 4]] = bytemuck::cast_slice_mut(pixels);
+    let mut known: Vec<bool> = raw.iter().map(|pixel| pixel[3] > 0).collect();
+    let mut front: Vec<usize> = (0..raw.len())
+        .filter(|at| !known[*at] && beside(*at).any(|other| known[other]))
+        .collect();
+    for _ in 0..BLEED {
+        let colors: Vec<[u8; 3]> = front
+            .iter()
+            .map(|at| {
+                let (mut sum, mut count) = ([0_u32; 3], 0);
+                for other in beside(*at).filter(|other| known[*other]) {
+                    (0..3).for_each(|i| sum[i] += u32::from(raw[other][i]));
+                    count += 1;
+                }
+                sum.map(|sum| (sum / count.max(1)) as u8)
+            })
+            .collect();
+        for (at, color) in front.iter().zip(colors) {
+            raw[*at][..3].copy_from_slice(&color);
+            known[*at] = true;
+        }
+        let mut next: Vec<usize> = front
+            .iter()
+            .flat_map(|at| beside(*at))
+            .filter(|other| !known[*other])
+            .collect();
+        next.sort_unstable();
+        next.dedup();
+        front = next;
+    }
+    for (pixel, _) in raw.iter_mut().zip(known).filter(|(_, known)| !known) {
+        pixel[..3].copy_from_slice(&mean);
+    }
+}
