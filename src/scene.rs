@@ -211,6 +211,18 @@ impl Material {
         ];
         all.into_iter().flatten()
     }
+
+    /// All textures that it uses, to be changed.
+    pub fn textures_mut(&mut self) -> impl Iterator<Item = &mut TextureUse> {
+        let all = [
+            &mut self.base_color_texture,
+            &mut self.metallic_roughness_texture,
+            &mut self.normal_texture,
+            &mut self.occlusion_texture,
+            &mut self.emissive_texture,
+        ];
+        all.into_iter().flatten()
+    }
 }
 
 /// What a material's alpha means.
@@ -298,4 +310,15 @@ pub enum MediaType {
     Png,
     /// `image/jpeg`.
     Jpeg,
+}
+
+impl MediaType {
+    /// What a file's first bytes say it is.
+    pub fn of(bytes: &[u8]) -> Option<Self> {
+        match bytes {
+            [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1A, b'\n', ..] => Some(Self::Png),
+            [0xFF, 0xD8, 0xFF, ..] => Some(Self::Jpeg),
+            _ => None,
+        }
+    }
 }

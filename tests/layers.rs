@@ -35,6 +35,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "bind",
             "diagnostic",
             "geometry",
+            "import",
             "lang",
             "resolver",
             "scene",
@@ -56,7 +57,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
-    ("render", &["resolver", "threads"]),
+    ("import", &["resolver", "scene"]),
+    ("render", &["import", "resolver", "threads"]),
     ("disk", &["resolver"]),
     (
         "cli",

@@ -4,7 +4,6 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::Model;
-use super::materials::Materials;
 use super::tree::{Branch, Tree};
 use crate::bind::{PartKind, Sheet};
 use crate::geometry::bounds;
@@ -32,11 +31,10 @@ pub(super) fn assemble(
     model: &Model<'_>,
     tree: Tree,
     meshes: Vec<Option<Mesh>>,
-    materials: Materials,
+    mut scene: Scene,
 ) -> Scene {
     let ground = ground(model);
     let turn = axes(model.sheet);
-    let mut scene = materials.into_scene();
     let links: Vec<(usize, Option<usize>, bool)> = tree
         .branches
         .iter()

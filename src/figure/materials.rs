@@ -4,6 +4,7 @@ use glam::DAffine2;
 use rustc_hash::FxHashMap;
 
 use super::Model;
+use super::models::Models;
 use super::textures::Textures;
 use crate::bind::{Look, PartKind};
 use crate::diagnostic::Diagnostic;
@@ -36,17 +37,20 @@ struct Key {
 impl Materials {
     pub(super) fn collect(
         model: &Model<'_>,
+        models: &Models,
         resolver: &dyn Resolver,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let (drawing, sheet) = (model.drawing, model.sheet);
-        let textures = Textures::collect(model, resolver, diagnostics);
+        let textures = Textures::collect(model, models, resolver, diagnostics);
         let mut list = Vec::new();
         let mut known: FxHashMap<Key, usize> = FxHashMap::default();
         let mut of_part = Vec::with_capacity(sheet.parts.len());
         for (index, part) in sheet.parts.iter().enumerate() {
             let kind = sheet.shape(index).kind;
-            if !matches!(part.kind, PartKind::Main | PartKind::Sub) || kind == ShapeKind::None {
+            let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
+            // Models bring their own materials.
+            if !built || kind == ShapeKind::None || models.has(index) {
                 of_part.push(None);
                 continue;
             }
@@ -89,19 +93,25 @@ impl Materials {
         }
     }
 
-    /// The material of a part, if it has a solid, and the way from the drawing to its texture.
-    pub(super) fn of(&self, part: usize) -> Option<(usize, Option<DAffine2>)> {
-        self.of_part[part]
-    }
-
-    /// A scene that has them, and nothing else yet.
-    pub(super) fn into_scene(self) -> Scene {
-        Scene {
+    /// A scene that has them, and nothing else yet, and who is painted with what.
+    pub(super) fn into_scene(self) -> (Scene, Painted) {
+        let scene = Scene {
             materials: self.list,
             textures: self.textures,
             images: self.images,
             ..Scene::default()
-        }
+        };
+        (scene, Painted(self.of_part))
+    }
+}
+
+/// Per part its material, and the way from the drawing to texture coordinates.
+pub(super) struct Painted(Vec<Option<(usize, Option<DAffine2>)>>);
+
+impl Painted {
+    /// The material of a part, if it has a solid, and the way from the drawing to its texture.
+    pub(super) fn of(&self, part: usize) -> Option<(usize, Option<DAffine2>)> {
+        self.0[part]
     }
 }
 

@@ -7,6 +7,7 @@ mod assemble;
 mod copies;
 mod frame;
 mod materials;
+mod models;
 mod relief;
 mod textures;
 mod tree;
@@ -27,7 +28,8 @@ use crate::solid::{self, Placement, Sides, Solid};
 use crate::svg::Drawing;
 
 use frame::Frame;
-use materials::Materials;
+use materials::{Materials, Painted};
+use models::Models;
 use relief::Relief;
 use tree::Tree;
 
@@ -44,24 +46,33 @@ pub fn build(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Scene {
     let model = Model::new(drawing, sheet);
-    let (relief, (materials, frames, members, tree, found)) = rayon::join(
+    let (relief, (mut models, materials, frames, members, tree, found)) = rayon::join(
         || Relief::measure(&model),
         || {
             let mut found = Vec::new();
-            let materials = Materials::collect(&model, resolver, &mut found);
+            let models = Models::collect(&model, resolver, &mut found);
+            let materials = Materials::collect(&model, &models, resolver, &mut found);
             let frames: Vec<Frame> = sheet.parts.par_iter().map(Frame::of).collect();
             let tree = Tree::grow(&model, &frames, &mut found);
-            (materials, frames, members(sheet), tree, found)
+            (models, materials, frames, members(sheet), tree, found)
         },
     );
     diagnostics.extend(found);
     copies::check(&model, diagnostics);
+    let (mut scene, painted) = materials.into_scene();
+    models.add_looks(&mut scene);
+    let stock = Stock {
+        frames,
+        relief,
+        painted,
+        models,
+    };
     let meshes: Vec<Option<Mesh>> = members
         .par_iter()
         .enumerate()
-        .map(|(main, parts)| model.mesh(main, parts, &frames, &relief, &materials))
+        .map(|(main, parts)| model.mesh(main, parts, &stock))
         .collect();
-    assemble::assemble(&model, tree, meshes, materials)
+    assemble::assemble(&model, tree, meshes, scene)
 }
 
 /// Per main part the parts whose solids are in its node.
@@ -73,6 +84,14 @@ fn members(sheet: &Sheet) -> Vec<Vec<usize>> {
         }
     }
     members
+}
+
+/// What meshes are made with.
+struct Stock {
+    frames: Vec<Frame>,
+    relief: Relief,
+    painted: Painted,
+    models: Models,
 }
 
 /// What building needs to know of the whole drawing.
@@ -134,36 +153,43 @@ impl<'a> Model<'a> {
     }
 
     /// The solids of a main part and its sub-parts, in the main part's frame.
-    fn mesh(
-        &self,
-        main: usize,
-        parts: &[usize],
-        frames: &[Frame],
-        relief: &Relief,
-        materials: &Materials,
-    ) -> Option<Mesh> {
+    fn mesh(&self, main: usize, parts: &[usize], stock: &Stock) -> Option<Mesh> {
         let mut primitives: Vec<Primitive> = Vec::new();
-        for &part in parts {
-            let Some((material, texture)) = materials.of(part) else {
-                continue;
-            };
-            let Some(mut solid) = self.solid(main, part, frames, relief) else {
-                continue;
-            };
-            solid.texture = texture;
-            let piece = Piece::Solid(solid);
-            match primitives
-                .iter_mut()
-                .find(|primitive| primitive.material == material)
-            {
+        let mut add = |material: usize, piece: Piece| {
+            let mut same = primitives.iter_mut().filter(|p| p.material == material);
+            match same.next() {
                 Some(primitive) => primitive.pieces.push(piece),
                 None => primitives.push(Primitive {
                     pieces: vec![piece],
                     material,
                 }),
             }
+        };
+        for &part in parts {
+            if stock.models.has(part) {
+                let frames = [&stock.frames[part], &stock.frames[main]];
+                let (depth, both) = self.stand(main, part);
+                for (material, surface) in stock.models.surfaces(self, part, frames, depth, both) {
+                    add(material, Piece::Surface(surface));
+                }
+            } else if let Some((material, texture)) = stock.painted.of(part)
+                && let Some(mut solid) = self.solid(main, part, &stock.frames, &stock.relief)
+            {
+                solid.texture = texture;
+                add(material, Piece::Solid(solid));
+            }
         }
         (!primitives.is_empty()).then_some(Mesh { primitives })
+    }
+
+    /// How far a part's solid stands from the plane of its node, drawing units, and whether it stands on both sides.
+    fn stand(&self, main: usize, part: usize) -> (f64, bool) {
+        let shape = self.sheet.shape(part);
+        // The node of a main part is moved already, but with `-s` its two solids are.
+        let moved = part != main || shape.mirrored;
+        let depth = if moved { self.offset(part) } else { 0.0 };
+        // A sub-part has no node of its own that could be doubled.
+        (depth, shape.mirrored || (shape.doubled && part != main))
     }
 
     fn solid(&self, main: usize, part: usize, frames: &[Frame], relief: &Relief) -> Option<Solid> {
@@ -171,16 +197,11 @@ impl<'a> Model<'a> {
         if kind == ShapeKind::None {
             return None;
         }
-        let shape = self.sheet.shape(part);
-        // The node of a main part is moved already, but with `-s` its two solids are.
-        let moved = part != main || shape.mirrored;
-        let depth = if moved { self.offset(part) } else { 0.0 };
+        let (depth, both) = self.stand(main, part);
         let (own, node) = (&frames[part], &frames[main]);
         let mut options = self.options(part);
         options.placement.rotation = own.angle - node.angle;
         options.placement.translation = node.to_local(own.center).extend(depth);
-        // A sub-part has no node of its own that could be doubled.
-        let both = shape.mirrored || (shape.doubled && part != main);
         Some(Solid {
             outline: Arc::clone(&self.sheet.parts[part].outline),
             to_frame: own.placing(),

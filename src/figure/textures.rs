@@ -7,6 +7,7 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Model;
+use super::models::Models;
 use crate::bind::{PartKind, Source as SettingSource};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::bounds;
@@ -50,6 +51,7 @@ struct Wish {
 impl Textures {
     pub(super) fn collect(
         model: &Model<'_>,
+        models: &Models,
         resolver: &dyn Resolver,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
@@ -67,7 +69,9 @@ impl Textures {
             told: FxHashSet::default(),
         };
         for part in 0..model.sheet.parts.len() {
-            collector.part(part, diagnostics);
+            if !models.has(part) {
+                collector.part(part, diagnostics);
+            }
         }
         texture::fit(&mut collector.plans);
         let baked: Vec<Result<Baked, &'static str>> =

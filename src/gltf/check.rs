@@ -52,11 +52,7 @@ fn check_skin(scene: &Scene) -> io::Result<()> {
 
 fn check_images(scene: &Scene) -> io::Result<()> {
     for image in &scene.images {
-        let begin: &[u8] = match image.media_type {
-            MediaType::Png => b"\x89PNG\r\n\x1a\n",
-            MediaType::Jpeg => b"\xff\xd8\xff",
-        };
-        if !image.bytes.starts_with(begin) {
+        if MediaType::of(&image.bytes) != Some(image.media_type) {
             let (name, media_type) = (&image.name, image.media_type);
             return Err(invalid(format!("image `{name}` is no {media_type:?}")));
         }

@@ -23,8 +23,8 @@ mod encode;
 mod error;
 mod fragment;
 mod light;
-mod pose;
-mod read;
+mod materials;
+mod model;
 mod shade;
 mod stage;
 mod surface;
@@ -34,19 +34,17 @@ mod texture;
 mod tile;
 mod trace;
 
+pub use crate::import::{Pose, TRIANGLE_LIMIT};
 pub use camera::{PITCH_LIMIT, Projection, View};
 pub use encode::{Animation, Palette, write_png};
 pub use error::RenderError;
-pub use pose::{Model, Pose};
-pub use read::read;
+pub use model::{Model, read};
 pub use stage::{Image, Stage};
 
 /// The longest side of a picture, pixels.
 pub const SIZE_LIMIT: u32 = 8192;
 /// The most frames of a turntable.
 pub const FRAME_LIMIT: u32 = 1000;
-/// The most triangles that are drawn, those of a mesh once for each node that has it.
-pub const TRIANGLE_LIMIT: usize = 32 << 20;
 
 /// How surfaces are shaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

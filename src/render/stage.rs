@@ -7,10 +7,11 @@ use rayon::prelude::*;
 use super::camera::{Framing, View};
 use super::fragment::Eye;
 use super::light::Rig;
-use super::pose::{Model, Pose};
+use super::model::Model;
 use super::tile::{TILE, draw};
 use super::trace::Tracer;
 use super::{Options, RenderError, SIZE_LIMIT};
+use crate::import::{ImportError, Pose};
 use crate::threads;
 
 /// A picture, sRGB with straight alpha.
@@ -31,6 +32,9 @@ impl<'a> Stage<'a> {
     pub fn new(model: &'a Model, pose: &Pose) -> Result<Self, RenderError> {
         let build = || {
             let surface = model.surface(pose)?;
+            if surface.triangles.is_empty() {
+                return Err(ImportError::Empty.into());
+            }
             let points = surface.used();
             Ok(Self {
                 tracer: Tracer::new(surface, &model.materials, &model.textures),

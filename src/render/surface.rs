@@ -3,6 +3,7 @@
 use glam::{DVec3, Vec2, Vec3, Vec4};
 
 use super::texture::Sampler;
+use crate::import::Soup;
 
 /// How a material's alpha is meant.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -46,8 +47,26 @@ pub(super) struct Surface {
 }
 
 impl Surface {
+    /// The triangles that stand somewhere and have an area. What has no material has the one behind the `materials`.
+    pub(super) fn new(soup: Soup, materials: usize) -> Self {
+        let mut surface = Self {
+            normals: soup.normals,
+            uvs: soup.uvs,
+            colours: soup.colours,
+            triangles: soup.triangles,
+            materials: soup
+                .materials
+                .iter()
+                .map(|material| material.unwrap_or(materials as u32))
+                .collect(),
+            ..Self::default()
+        };
+        surface.place(&soup.positions);
+        surface
+    }
+
     /// Takes over the positions; drops triangles that stand nowhere or have no area.
-    pub(super) fn finish(&mut self, world: &[DVec3]) {
+    fn place(&mut self, world: &[DVec3]) {
         let mut low = DVec3::INFINITY;
         let mut high = DVec3::NEG_INFINITY;
         let mut kept = self

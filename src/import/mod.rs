@@ -1,27 +1,67 @@
-//! glTF 2.0, from bytes to a [`Model`].
+//! glTF 2.0 that others made, taken apart: for pictures of it, and for models that drawings link to.
 //!
-//! Read are the hierarchy, triangles (lists, strips, fans), normals, the texture coordinates of the base colour, vertex
-//! colours, skins, and of materials base colour, metalness, roughness, light, alpha mode, sides, `unlit`. Normal and
-//! occlusion maps, morph targets and animations are not.
+//! Read are the hierarchy, triangles (lists, strips, fans), normals, one set of texture coordinates, vertex colours
+//! and skins; materials and images are left to whoever wants them. Morph targets and animations are not read.
 
+mod asset;
 mod data;
-mod materials;
 mod meshes;
+mod pose;
 
-use ::gltf::Gltf;
+use ::gltf::{Document, Gltf};
 use glam::DMat4;
 
-use super::RenderError;
-use super::pose::{Model, Node, Skin};
-use crate::resolver::Resolver;
-use data::Buffers;
+use crate::resolver::{LinkError, Resolver};
+
+pub use asset::{Asset, read_asset};
+pub(crate) use data::{Buffers, fetch};
+pub use pose::Pose;
+pub(crate) use pose::{Geometry, Soup};
+use pose::{Node, Skin};
+
+/// The most triangles of a file, those of a mesh once for each node that has it.
+pub const TRIANGLE_LIMIT: usize = 32 << 20;
+
+/// Why a file cannot be read. Messages go behind the name of the file.
+#[derive(Debug, thiserror::Error)]
+pub enum ImportError {
+    /// The bytes are no glTF, or break its rules.
+    #[error("is no glTF that can be read: {0}; export it again, or ask the Khronos glTF validator")]
+    Malformed(String),
+    /// It needs an extension of glTF that is not known here.
+    #[error("needs the glTF extension `{0}`, which okoshi does not know; export it without")]
+    Extension(String),
+    /// A file that it links to cannot be had.
+    #[error("links to `{link}`, which {error}")]
+    Link {
+        /// As the file names it.
+        link: String,
+        /// What is wrong with it.
+        error: LinkError,
+    },
+    /// An image cannot be decoded.
+    #[error("has an image that cannot be read ({0}); PNG and JPEG can")]
+    Image(String),
+    /// No triangle to be seen.
+    #[error("has no triangles: there is nothing to see")]
+    Empty,
+    /// More than [`TRIANGLE_LIMIT`] triangles.
+    #[error("has {0} triangles, more than the limit of {TRIANGLE_LIMIT}")]
+    TooManyTriangles(usize),
+}
+
+/// A file, taken apart.
+pub(crate) struct File {
+    pub(crate) document: Document,
+    pub(crate) buffers: Buffers,
+    pub(crate) geometry: Geometry,
+}
 
 /// Reads a `.glb` or `.gltf`; what it links to comes from `resolver`.
 ///
 /// # Errors
-/// Bytes that are no glTF, that break its rules, or need what is not known; links that lead nowhere; images that
-/// cannot be decoded.
-pub fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<Model, RenderError> {
+/// Bytes that are no glTF, that break its rules, or need what is not known; links that lead nowhere.
+pub(crate) fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<File, ImportError> {
     let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(|error| {
         let unknown = Gltf::from_slice_without_validation(bytes)
             .ok()
@@ -29,11 +69,11 @@ pub fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<Model, RenderError>
                 let mut needed = file.extensions_required();
                 needed.find(|name| !KNOWN.contains(name)).map(str::to_owned)
             });
-        unknown.map_or_else(|| malformed(error.to_string()), RenderError::Extension)
+        unknown.map_or_else(|| malformed(error.to_string()), ImportError::Extension)
     })?;
     let buffers = Buffers::read(&document, blob, resolver)?;
     let nodes = nodes(&document)?;
-    Ok(Model {
+    let geometry = Geometry {
         order: order(&document, &nodes)?,
         drawn: drawn(&document, &nodes),
         meshes: document
@@ -44,9 +84,12 @@ pub fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<Model, RenderError>
             .skins()
             .map(|skin| self::skin(&skin, &buffers))
             .collect::<Result<_, _>>()?,
-        materials: materials::read(&document),
-        textures: materials::textures(&document, &buffers, resolver)?,
         nodes,
+    };
+    Ok(File {
+        document,
+        buffers,
+        geometry,
     })
 }
 
@@ -57,11 +100,11 @@ const KNOWN: &[&str] = &[
     "KHR_materials_emissive_strength",
 ];
 
-fn malformed(message: impl Into<String>) -> RenderError {
-    RenderError::Malformed(message.into())
+pub(crate) fn malformed(message: impl Into<String>) -> ImportError {
+    ImportError::Malformed(message.into())
 }
 
-fn nodes(document: &::gltf::Document) -> Result<Vec<Node>, RenderError> {
+fn nodes(document: &Document) -> Result<Vec<Node>, ImportError> {
     let matrix = |node: &::gltf::Node<'_>| {
         DMat4::from_cols_array_2d(
             &node
@@ -90,7 +133,7 @@ fn nodes(document: &::gltf::Document) -> Result<Vec<Node>, RenderError> {
 }
 
 /// All nodes, parents before children.
-fn order(document: &::gltf::Document, nodes: &[Node]) -> Result<Vec<usize>, RenderError> {
+fn order(document: &Document, nodes: &[Node]) -> Result<Vec<usize>, ImportError> {
     let mut order: Vec<usize> = (0..nodes.len())
         .filter(|node| nodes[*node].parent.is_none())
         .collect();
@@ -110,7 +153,7 @@ fn order(document: &::gltf::Document, nodes: &[Node]) -> Result<Vec<usize>, Rend
 }
 
 /// Which nodes the file's scene shows; all of them where there is no scene.
-fn drawn(document: &::gltf::Document, nodes: &[Node]) -> Vec<bool> {
+fn drawn(document: &Document, nodes: &[Node]) -> Vec<bool> {
     let Some(scene) = document
         .default_scene()
         .or_else(|| document.scenes().next())
@@ -128,7 +171,7 @@ fn drawn(document: &::gltf::Document, nodes: &[Node]) -> Vec<bool> {
     drawn
 }
 
-fn skin(skin: &::gltf::Skin<'_>, buffers: &Buffers) -> Result<Skin, RenderError> {
+fn skin(skin: &::gltf::Skin<'_>, buffers: &Buffers) -> Result<Skin, ImportError> {
     let joints: Vec<usize> = skin.joints().map(|joint| joint.index()).collect();
     let inverse = match skin.inverse_bind_matrices() {
         None => vec![DMat4::IDENTITY; joints.len()],

@@ -7,10 +7,9 @@ use ::gltf::{Document, image, material};
 use ::image::{ImageReader, Limits, RgbaImage};
 use glam::{Vec3, Vec4};
 
-use super::super::surface::{Alpha, Material};
-use super::super::texture::{Sampler, Texture, Wrap};
-use super::data::{Buffers, fetch};
-use super::{RenderError, malformed};
+use super::surface::{Alpha, Material};
+use super::texture::{Sampler, Texture, Wrap};
+use crate::import::{Buffers, ImportError, fetch, malformed};
 use crate::resolver::Resolver;
 
 /// The longest side of an image, texels.
@@ -75,7 +74,7 @@ pub(super) fn textures(
     document: &Document,
     buffers: &Buffers,
     resolver: &dyn Resolver,
-) -> Result<Vec<Option<Texture>>, RenderError> {
+) -> Result<Vec<Option<Texture>>, ImportError> {
     let mut used = vec![false; document.images().len()];
     for material in document.materials() {
         if let Some(info) = material.pbr_metallic_roughness().base_color_texture() {
@@ -108,8 +107,8 @@ pub(super) fn textures(
         .collect()
 }
 
-fn decode(bytes: &[u8]) -> Result<RgbaImage, RenderError> {
-    let failed = |error: String| RenderError::Image(error);
+fn decode(bytes: &[u8]) -> Result<RgbaImage, ImportError> {
+    let failed = |error: String| ImportError::Image(error);
     let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(|error| failed(error.to_string()))?;

@@ -6,7 +6,7 @@ use ::gltf::accessor::{DataType, Dimensions, Item, Iter};
 use ::gltf::{Accessor, Buffer, Document, buffer};
 use base64::Engine as _;
 
-use super::{RenderError, malformed};
+use super::{ImportError, malformed};
 use crate::resolver::Resolver;
 
 pub(super) const F32: DataType = DataType::F32;
@@ -23,14 +23,14 @@ pub(super) const MAT4: Dimensions = Dimensions::Mat4;
 const LARGEST: usize = 1 << 40;
 
 /// The data of a file.
-pub(super) struct Buffers(Vec<Vec<u8>>);
+pub(crate) struct Buffers(Vec<Vec<u8>>);
 
 impl Buffers {
     pub(super) fn read(
         document: &Document,
         mut blob: Option<Vec<u8>>,
         resolver: &dyn Resolver,
-    ) -> Result<Self, RenderError> {
+    ) -> Result<Self, ImportError> {
         let read = |buffer: Buffer<'_>| match buffer.source() {
             buffer::Source::Bin => blob
                 .take()
@@ -50,7 +50,7 @@ impl Buffers {
     }
 
     /// The bytes of a view.
-    pub(super) fn view(&self, view: &buffer::View<'_>) -> Result<&[u8], RenderError> {
+    pub(crate) fn view(&self, view: &buffer::View<'_>) -> Result<&[u8], ImportError> {
         let end = view.offset().checked_add(view.length());
         let bytes = end.and_then(|end| self.of(&view.buffer())?.get(view.offset()..end));
         bytes.ok_or_else(|| {
@@ -66,7 +66,7 @@ impl Buffers {
         &self,
         accessor: &Accessor<'_>,
         types: &[(DataType, Dimensions)],
-    ) -> Result<(), RenderError> {
+    ) -> Result<(), ImportError> {
         let name = accessor.index();
         let of_type = (accessor.data_type(), accessor.dimensions());
         if !types.contains(&of_type) {
@@ -87,7 +87,7 @@ impl Buffers {
         match accessor.view() {
             Some(view) => fits(view, accessor.offset(), accessor.count(), accessor.size())?,
             // Without a view it is zeros, as many as it likes to claim.
-            None if accessor.count() > super::super::TRIANGLE_LIMIT * 3 => return Err(short()),
+            None if accessor.count() > super::TRIANGLE_LIMIT * 3 => return Err(short()),
             None => {}
         }
         if let Some(sparse) = accessor.sparse() {
@@ -114,7 +114,7 @@ impl Buffers {
         &'a self,
         accessor: &Accessor<'a>,
         types: &[(DataType, Dimensions)],
-    ) -> Result<Iter<'a, T>, RenderError> {
+    ) -> Result<Iter<'a, T>, ImportError> {
         self.check(accessor, types)?;
         Iter::new(accessor.clone(), |buffer| self.of(&buffer))
             .ok_or_else(|| malformed(format!("accessor {} has no data", accessor.index())))
@@ -122,9 +122,9 @@ impl Buffers {
 }
 
 /// The bytes behind an address: in itself, or beside the file.
-pub(super) fn fetch(uri: &str, resolver: &dyn Resolver) -> Result<Arc<[u8]>, RenderError> {
+pub(crate) fn fetch(uri: &str, resolver: &dyn Resolver) -> Result<Arc<[u8]>, ImportError> {
     let Some(data) = uri.strip_prefix("data:") else {
-        return resolver.read(uri).map_err(|error| RenderError::Link {
+        return resolver.read(uri).map_err(|error| ImportError::Link {
             link: uri.to_owned(),
             error,
         });

@@ -1,24 +1,25 @@
 //! Meshes: triangles and what their corners carry.
 
 use ::gltf::mesh::Mode;
-use ::gltf::{Accessor, Primitive as Source, Semantic};
+use ::gltf::texture::TextureTransform;
+use ::gltf::{Accessor, Material, Primitive as Source, Semantic};
 use glam::{DMat3, DVec3, Vec2, Vec4};
 
-use super::super::pose::Primitive;
 use super::data::{Buffers, F32, SCALAR, U8, U16, U32, VEC2, VEC3, VEC4};
-use super::{RenderError, malformed};
+use super::pose::Primitive;
+use super::{ImportError, malformed};
 
 /// The primitives of a mesh that are made of triangles.
 pub(super) fn read(
     mesh: &::gltf::Mesh<'_>,
     buffers: &Buffers,
-) -> Result<Vec<Primitive>, RenderError> {
+) -> Result<Vec<Primitive>, ImportError> {
     mesh.primitives()
         .filter_map(|source| primitive(&source, buffers).transpose())
         .collect()
 }
 
-fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>, RenderError> {
+fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>, ImportError> {
     let mode = source.mode();
     if !matches!(
         mode,
@@ -50,14 +51,8 @@ fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>
     };
 
     let material = source.material();
-    let base = material.pbr_metallic_roughness();
     let mut uvs = Vec::new();
-    if let Some(info) = base.base_color_texture() {
-        let moved = info.texture_transform();
-        let set = moved
-            .as_ref()
-            .and_then(|moved| moved.tex_coord())
-            .unwrap_or_else(|| info.tex_coord());
+    if let Some((set, moved)) = coordinates(&material) {
         let types = [(F32, VEC2), (U8, VEC2), (U16, VEC2)];
         if check(source.get(&Semantic::TexCoords(set)), &types)?.is_some() {
             let matrix = moved.map_or(DMat3::IDENTITY, |moved| transform(&moved));
@@ -132,6 +127,24 @@ fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>
     }))
 }
 
+/// The set of texture coordinates that a material's first texture uses, the base colour's before others, and how it
+/// moves them.
+fn coordinates<'a>(material: &Material<'a>) -> Option<(u32, Option<TextureTransform<'a>>)> {
+    let base = material.pbr_metallic_roughness();
+    let info = base
+        .base_color_texture()
+        .or_else(|| base.metallic_roughness_texture())
+        .or_else(|| material.emissive_texture());
+    let Some(info) = info else {
+        let normal = material.normal_texture().map(|normal| normal.tex_coord());
+        let occlusion = || material.occlusion_texture().map(|map| map.tex_coord());
+        return normal.or_else(occlusion).map(|set| (set, None));
+    };
+    let moved = info.texture_transform();
+    let other = moved.as_ref().and_then(TextureTransform::tex_coord);
+    Some((other.unwrap_or_else(|| info.tex_coord()), moved))
+}
+
 /// Three corners a triangle, in the order that glTF gives each mode.
 fn triangles(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {
     match mode {
@@ -155,7 +168,7 @@ fn triangles(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {
 }
 
 /// Moves texture coordinates: `KHR_texture_transform`, translation × rotation × scale.
-fn transform(moved: &::gltf::texture::TextureTransform<'_>) -> DMat3 {
+fn transform(moved: &TextureTransform<'_>) -> DMat3 {
     let [x, y] = moved.offset().map(f64::from);
     let [width, height] = moved.scale().map(f64::from);
     let (sin, cos) = f64::from(moved.rotation()).sin_cos();

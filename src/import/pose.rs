@@ -1,14 +1,12 @@
-//! A model and its poses.
+//! Nodes, meshes and skins, and where they are in a pose.
 
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
 
-use super::surface::{Material, Surface};
-use super::texture::Texture;
-use super::{RenderError, TRIANGLE_LIMIT};
+use super::{ImportError, TRIANGLE_LIMIT};
 
-/// A model as a file has it, not yet posed.
+/// What a file shows, not yet posed.
 #[derive(Debug)]
-pub struct Model {
+pub(crate) struct Geometry {
     pub(super) nodes: Vec<Node>,
     /// All nodes, parents before children.
     pub(super) order: Vec<usize>,
@@ -16,9 +14,19 @@ pub struct Model {
     pub(super) drawn: Vec<bool>,
     pub(super) meshes: Vec<Vec<Primitive>>,
     pub(super) skins: Vec<Skin>,
-    /// The last is the one of primitives without any.
-    pub(super) materials: Vec<Material>,
-    pub(super) textures: Vec<Option<Texture>>,
+}
+
+/// Posed triangles in one frame, the world's. Lists of corners are as long as `positions`, or empty.
+#[derive(Debug, Default)]
+pub(crate) struct Soup {
+    pub(crate) positions: Vec<DVec3>,
+    /// Unit vectors; zero where the file has none.
+    pub(crate) normals: Vec<Vec3>,
+    pub(crate) uvs: Vec<Vec2>,
+    pub(crate) colours: Vec<Vec4>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    /// The material of each triangle; none for those that have none.
+    pub(crate) materials: Vec<Option<u32>>,
 }
 
 #[derive(Debug)]
@@ -57,9 +65,9 @@ pub struct Pose {
     locals: Vec<DMat4>,
 }
 
-impl Model {
+impl Geometry {
     /// The pose that the file is in.
-    pub fn rest(&self) -> Pose {
+    pub(crate) fn rest(&self) -> Pose {
         Pose {
             locals: self.nodes.iter().map(|node| node.local).collect(),
         }
@@ -78,11 +86,11 @@ impl Model {
         globals
     }
 
-    /// All triangles in a pose, in one frame; see [`Surface`] for which.
+    /// All triangles in a pose.
     ///
     /// # Errors
     /// No triangle, or too many.
-    pub(super) fn surface(&self, pose: &Pose) -> Result<Surface, RenderError> {
+    pub(crate) fn triangles(&self, pose: &Pose) -> Result<Soup, ImportError> {
         let globals = self.globals(pose);
         let seen = || {
             let nodes = self
@@ -98,10 +106,9 @@ impl Model {
             sum.saturating_add(triangles(mesh))
         });
         if count > TRIANGLE_LIMIT {
-            return Err(RenderError::TooManyTriangles(count));
+            return Err(ImportError::TooManyTriangles(count));
         }
-        let mut world: Vec<DVec3> = Vec::new();
-        let mut out = Surface::default();
+        let mut out = Soup::default();
         for (index, node, mesh) in seen() {
             // The node of a skinned mesh does not move it: its joints do.
             let skin = node
@@ -109,12 +116,11 @@ impl Model {
                 .map(|skin| self.joints(&self.skins[skin], &globals));
             for primitive in mesh {
                 let skin = skin.as_deref().filter(|_| !primitive.influences.is_empty());
-                self.append(primitive, globals[index], skin, &mut world, &mut out);
+                append(primitive, globals[index], skin, &mut out);
             }
         }
-        out.finish(&world);
         match out.triangles.is_empty() {
-            true => Err(RenderError::Empty),
+            true => Err(ImportError::Empty),
             false => Ok(out),
         }
     }
@@ -126,56 +132,49 @@ impl Model {
             .map(|(joint, inverse)| globals[*joint] * *inverse)
             .collect()
     }
+}
 
-    fn append(
-        &self,
-        primitive: &Primitive,
-        global: DMat4,
-        skin: Option<&[DMat4]>,
-        world: &mut Vec<DVec3>,
-        out: &mut Surface,
-    ) {
-        let first = world.len() as u32;
-        let material = primitive.material.unwrap_or(self.materials.len() - 1);
-        let blended = skin.map(|joints| {
-            (0..primitive.positions.len())
-                .map(|corner| blend(&primitive.influences, corner, joints))
-                .collect::<Vec<_>>()
+/// Appends a primitive where its node or its joints take it.
+fn append(primitive: &Primitive, global: DMat4, skin: Option<&[DMat4]>, out: &mut Soup) {
+    let first = out.positions.len() as u32;
+    let material = primitive.material.map(|material| material as u32);
+    let blended = skin.map(|joints| {
+        (0..primitive.positions.len())
+            .map(|corner| blend(&primitive.influences, corner, joints))
+            .collect::<Vec<_>>()
+    });
+    let matrix = |corner: usize| blended.as_ref().map_or(global, |matrices| matrices[corner]);
+    let normals = normal_matrix(global);
+    for (corner, position) in primitive.positions.iter().enumerate() {
+        let vector = |v: [f32; 3]| Vec3::from(v).as_dvec3();
+        out.positions
+            .push(matrix(corner).transform_point3(vector(*position)));
+        let normal = primitive.normals.get(corner).map_or(DVec3::ZERO, |normal| {
+            let turn = blended
+                .as_ref()
+                .map_or(normals, |matrices| normal_matrix(matrices[corner]));
+            (turn * vector(*normal)).normalize_or_zero()
         });
-        let matrix = |corner: usize| blended.as_ref().map_or(global, |matrices| matrices[corner]);
-        let normals = normal_matrix(global);
-        for (corner, position) in primitive.positions.iter().enumerate() {
-            let vector = |v: [f32; 3]| Vec3::from(v).as_dvec3();
-            world.push(matrix(corner).transform_point3(vector(*position)));
-            let normal = primitive.normals.get(corner).map_or(DVec3::ZERO, |normal| {
-                let turn = blended
-                    .as_ref()
-                    .map_or(normals, |matrices| normal_matrix(matrices[corner]));
-                (turn * vector(*normal)).normalize_or_zero()
-            });
-            out.normals.push(normal.as_vec3());
-        }
-        let fill = |length: usize| world.len() - length;
-        match primitive.uvs.is_empty() {
-            true => out
-                .uvs
-                .extend(std::iter::repeat_n(Vec2::ZERO, fill(out.uvs.len()))),
-            false => out.uvs.extend(&primitive.uvs),
-        }
-        if !primitive.colours.is_empty() || !out.colours.is_empty() {
-            // Most models have no colours at corners: the list begins with the first primitive that has.
-            out.colours.resize(first as usize, Vec4::ONE);
-            out.colours.extend(&primitive.colours);
-            out.colours.resize(world.len(), Vec4::ONE);
-        }
-        // A mirrored node turns its triangles inside out, and glTF turns them back.
-        let mirrored = skin.is_none() && global.determinant() < 0.0;
-        out.triangles.extend(primitive.triangles.iter().map(|t| {
-            let [a, b, c] = t.map(|corner| corner + first);
-            if mirrored { [a, c, b] } else { [a, b, c] }
-        }));
-        out.materials.resize(out.triangles.len(), material as u32);
+        out.normals.push(normal.as_vec3());
     }
+    let corners = out.positions.len();
+    match primitive.uvs.is_empty() {
+        true => out.uvs.resize(corners, Vec2::ZERO),
+        false => out.uvs.extend(&primitive.uvs),
+    }
+    if !primitive.colours.is_empty() || !out.colours.is_empty() {
+        // Most models have no colours at corners: the list begins with the first primitive that has.
+        out.colours.resize(first as usize, Vec4::ONE);
+        out.colours.extend(&primitive.colours);
+        out.colours.resize(corners, Vec4::ONE);
+    }
+    // A mirrored node turns its triangles inside out, and glTF turns them back.
+    let mirrored = skin.is_none() && global.determinant() < 0.0;
+    out.triangles.extend(primitive.triangles.iter().map(|t| {
+        let [a, b, c] = t.map(|corner| corner + first);
+        if mirrored { [a, c, b] } else { [a, b, c] }
+    }));
+    out.materials.resize(out.triangles.len(), material);
 }
 
 /// The matrix that turns normals: the inverse transpose, up to a factor that is never zero.

@@ -1,0 +1,211 @@
+//! Parts that are ready models: files that `Shape model` names, fitted to their parts.
+
+use glam::{DMat3, DVec2, DVec3};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::Model;
+use super::frame::Frame;
+use crate::bind::PartKind;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::import::{Asset, ImportError, read_asset};
+use crate::lang::keyword::Keyword;
+use crate::lang::value::{Shape, ShapeKind, Value};
+use crate::resolver::{LinkError, Resolver};
+use crate::scene::{Scene, Surface};
+use crate::solid;
+use crate::svg::broken_link;
+
+/// Most triangles that all parts made of models have together.
+const MOST_TRIANGLES: usize = 16 << 20;
+
+/// The models of a drawing, and which part is made of which.
+pub(super) struct Models {
+    assets: Vec<Loaded>,
+    of_part: FxHashMap<usize, usize>,
+}
+
+struct Loaded {
+    asset: Asset,
+    /// The number of its first material in the scene.
+    first_material: usize,
+}
+
+/// Why a model is not used.
+enum Trouble {
+    Link(LinkError),
+    Import(ImportError),
+}
+
+impl Models {
+    pub(super) fn collect(
+        model: &Model<'_>,
+        resolver: &dyn Resolver,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Self {
+        let mut models = Self {
+            assets: Vec::new(),
+            of_part: FxHashMap::default(),
+        };
+        let mut known: FxHashMap<&str, Result<usize, Trouble>> = FxHashMap::default();
+        let mut told = FxHashSet::default();
+        let mut triangles = 0_usize;
+        for (index, part) in model.sheet.parts.iter().enumerate() {
+            let Some(source) = model.sheet.setting(index, Keyword::Shape) else {
+                continue;
+            };
+            let Value::Shape(Shape {
+                kind: ShapeKind::Model(link),
+                ..
+            }) = &source.setting.value
+            else {
+                continue;
+            };
+            if !matches!(part.kind, PartKind::Main | PartKind::Sub) {
+                continue;
+            }
+            let found = known.entry(link).or_insert_with(|| {
+                let asset = load(link, resolver)?;
+                models.assets.push(Loaded {
+                    asset,
+                    first_material: 0,
+                });
+                Ok(models.assets.len() - 1)
+            });
+            let text = &model.sheet.strings[source.string].text;
+            let span = text.span(source.setting.range.clone());
+            match found {
+                Ok(asset) => {
+                    triangles = triangles.saturating_add(models.assets[*asset].asset.triangles());
+                    if triangles <= MOST_TRIANGLES {
+                        models.of_part.insert(index, *asset);
+                    } else if told.insert(None) {
+                        let message = format!(
+                            "the models have more than {MOST_TRIANGLES} triangles together"
+                        );
+                        let help = "use simpler models, or fewer parts that are models";
+                        diagnostics
+                            .push(Diagnostic::new(Code::LimitPassed, span, message).help(help));
+                    }
+                }
+                // A legend speaks for many parts, but needs to be told once.
+                Err(trouble) if told.insert(Some(source.string)) => {
+                    diagnostics.push(match trouble {
+                        Trouble::Link(error) => broken_link(link, error, span),
+                        Trouble::Import(error) => {
+                            let message = format!("the model `{link}` {error}");
+                            Diagnostic::new(Code::MissingFile, span, message)
+                                .help("the part stays a plate until then")
+                        }
+                    })
+                }
+                Err(_) => {}
+            }
+        }
+        models
+    }
+
+    /// Whether a part is a model.
+    pub(super) fn has(&self, part: usize) -> bool {
+        self.of_part.contains_key(&part)
+    }
+
+    /// Gives the models' looks to a scene.
+    pub(super) fn add_looks(&mut self, scene: &mut Scene) {
+        for Loaded {
+            asset,
+            first_material,
+        } in &mut self.assets
+        {
+            *first_material = scene.materials.len();
+            let (first_texture, first_image) = (scene.textures.len(), scene.images.len());
+            scene.materials.append(&mut asset.materials);
+            for used in scene.materials[*first_material..]
+                .iter_mut()
+                .flat_map(|material| material.textures_mut())
+            {
+                used.texture += first_texture;
+            }
+            scene.textures.append(&mut asset.textures);
+            for texture in &mut scene.textures[first_texture..] {
+                texture.image += first_image;
+            }
+            scene.images.append(&mut asset.images);
+        }
+    }
+
+    /// The surfaces of a part that is a model, each with its material, in the frame of the node.
+    ///
+    /// The model is as large as its box fits into the part's, seen from the front, and both boxes have one middle;
+    /// its up leads along the part's axis, and its front to the viewer.
+    pub(super) fn surfaces(
+        &self,
+        model: &Model<'_>,
+        part: usize,
+        [own, node]: [&Frame; 2],
+        depth: f64,
+        both: bool,
+    ) -> Vec<(usize, Surface)> {
+        let Some(Loaded {
+            asset,
+            first_material,
+        }) = self.of_part.get(&part).map(|asset| &self.assets[*asset])
+        else {
+            return Vec::new();
+        };
+        let to_frame = own.placing();
+        let outline = &model.sheet.parts[part].outline;
+        let points = outline
+            .polygons
+            .iter()
+            .flat_map(|polygon| polygon.rings.first())
+            .flatten();
+        let none = [DVec2::INFINITY, DVec2::NEG_INFINITY];
+        let [low, high] = points.fold(none, |[low, high], point| {
+            let point = to_frame.transform_point2(*point);
+            [low.min(point), high.max(point)]
+        });
+        let [least, greatest] = asset.bounds;
+        let room = (high - low) / (greatest - least).truncate();
+        // What has no extent on one side fits there anyway.
+        let size = [room.x, room.y].into_iter().filter(|room| room.is_finite());
+        let size = size.fold(f64::INFINITY, f64::min);
+        let size = if size.is_finite() { size } else { 1.0 };
+        let spin = DMat3::from_rotation_z(own.angle - node.angle);
+        let turn = spin * (size * model.scale);
+        let middle =
+            spin * low.midpoint(high).extend(0.0) + node.to_local(own.center).extend(depth);
+        let translation: DVec3 = middle * model.scale - turn * least.midpoint(greatest);
+        asset
+            .placed(turn, translation)
+            .map(|(material, mut surface)| {
+                if both {
+                    let back = solid::mirror(&surface);
+                    surface.append(&back);
+                }
+                (first_material + material, surface)
+            })
+            .collect()
+    }
+}
+
+fn load(link: &str, resolver: &dyn Resolver) -> Result<Asset, Trouble> {
+    let bytes = resolver.read(link).map_err(Trouble::Link)?;
+    let folder = link.rfind(['/', '\\']).map_or("", |end| &link[..=end]);
+    read_asset(&bytes, &Beside { resolver, folder }).map_err(Trouble::Import)
+}
+
+/// Links of a linked file start from its own folder.
+struct Beside<'a> {
+    resolver: &'a dyn Resolver,
+    folder: &'a str,
+}
+
+impl Resolver for Beside<'_> {
+    fn read(&self, link: &str) -> Result<std::sync::Arc<[u8]>, LinkError> {
+        let absolute = link.starts_with(['/', '\\']) || link.contains(':');
+        match absolute {
+            true => self.resolver.read(link),
+            false => self.resolver.read(&format!("{}{link}", self.folder)),
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! A ready model that a part is made of: its triangles at rest, and all its looks.
+
+use std::sync::Arc;
+
+use ::gltf::texture::{MagFilter, WrappingMode};
+use ::gltf::{Document, image, material};
+use glam::{DMat3, DVec3};
+
+use super::{Buffers, File, ImportError, Soup, fetch, malformed, read};
+use crate::resolver::Resolver;
+use crate::scene::{
+    AlphaMode, Filter, Image, Material, MediaType, Surface, Texture, TextureUse, Wrap,
+};
+
+/// A model with everything that it shows. Vertex colours are not kept.
+#[derive(Debug)]
+pub struct Asset {
+    /// Its materials.
+    pub materials: Vec<Material>,
+    /// The textures that they use.
+    pub textures: Vec<Texture>,
+    /// The images that these show.
+    pub images: Vec<Image>,
+    /// The least and the greatest corner of its box, in the file's axes: +Y up, its front towards +Z.
+    pub bounds: [DVec3; 2],
+    pieces: Vec<Piece>,
+}
+
+/// Triangles of one material.
+#[derive(Debug, Default)]
+struct Piece {
+    material: usize,
+    positions: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    uvs: Vec<[f32; 2]>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// Reads a model as it rests; what it links to comes from `resolver`.
+///
+/// # Errors
+/// What cannot be read, has no triangles or too many, or shows images that are neither PNG nor JPEG.
+pub fn read_asset(bytes: &[u8], resolver: &dyn Resolver) -> Result<Asset, ImportError> {
+    let File {
+        document,
+        buffers,
+        geometry,
+    } = read(bytes, resolver)?;
+    let soup = geometry.triangles(&geometry.rest())?;
+    let mut materials: Vec<Material> = document.materials().map(|m| self::material(&m)).collect();
+    // What glTF gives to triangles without a material.
+    materials.push(Material {
+        name: "default".to_owned(),
+        metallic: 1.0,
+        roughness: 1.0,
+        ..Material::default()
+    });
+    let pieces = pieces(&soup, &materials);
+    let points = || pieces.iter().flat_map(|piece| &piece.positions).copied();
+    let first = points().next().ok_or(ImportError::Empty)?;
+    let bounds = points().fold([first; 2], |[low, high], p| [low.min(p), high.max(p)]);
+    let mut asset = Asset {
+        textures: textures(&document),
+        images: images(&document, &buffers, resolver)?,
+        materials,
+        bounds,
+        pieces,
+    };
+    asset.forget_unused();
+    Ok(asset)
+}
+
+impl Asset {
+    /// How many triangles it has.
+    pub fn triangles(&self) -> usize {
+        self.pieces.iter().map(|piece| piece.triangles.len()).sum()
+    }
+
+    /// Its surfaces, one a material and each with that material's number, with every point at
+    /// `turn · point + translation`; `turn` may scale, but evenly.
+    pub fn placed(
+        &self,
+        turn: DMat3,
+        translation: DVec3,
+    ) -> impl Iterator<Item = (usize, Surface)> {
+        self.pieces.iter().map(move |piece| {
+            let place = |point: &DVec3| (turn * *point + translation).as_vec3().to_array();
+            let lean = |normal: &DVec3| (turn * *normal).normalize_or_zero().as_vec3().to_array();
+            let surface = Surface {
+                positions: piece.positions.iter().map(place).collect(),
+                normals: piece.normals.iter().map(lean).collect(),
+                uvs: piece.uvs.clone(),
+                joints: Vec::new(),
+                triangles: piece.triangles.clone(),
+            };
+            (piece.material, surface)
+        })
+    }
+
+    /// Leaves out materials, textures and images that nothing shows.
+    fn forget_unused(&mut self) {
+        let of_pieces = self.pieces.iter_mut().map(|piece| &mut piece.material);
+        keep_used(&mut self.materials, of_pieces.collect());
+        let of_materials = self.materials.iter_mut().flat_map(Material::textures_mut);
+        keep_used(
+            &mut self.textures,
+            of_materials.map(|used| &mut used.texture).collect(),
+        );
+        let of_textures = self.textures.iter_mut().map(|texture| &mut texture.image);
+        keep_used(&mut self.images, of_textures.collect());
+    }
+}
+
+/// Keeps what is referred to, and has the references follow.
+fn keep_used<T>(list: &mut Vec<T>, references: Vec<&mut usize>) {
+    let mut used = vec![false; list.len()];
+    references.iter().for_each(|index| used[**index] = true);
+    let mut next = 0;
+    let numbers: Vec<usize> = used
+        .iter()
+        .map(|used| {
+            next += usize::from(*used);
+            next.saturating_sub(1)
+        })
+        .collect();
+    references
+        .into_iter()
+        .for_each(|index| *index = numbers[*index]);
+    let mut used = used.into_iter();
+    list.retain(|_| used.next().unwrap_or(false));
+}
+
+/// The triangles that have an area, a piece a material.
+fn pieces(soup: &Soup, materials: &[Material]) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut piece_of: Vec<Option<usize>> = vec![None; materials.len()];
+    // Per corner of the soup the piece that has it, and its number there.
+    let mut moved: Vec<Option<(usize, u32)>> = vec![None; soup.positions.len()];
+    for (triangle, material) in soup.triangles.iter().zip(&soup.materials) {
+        let corners = triangle.map(|corner| soup.positions[corner as usize]);
+        let facet = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        let sound = |p: &DVec3| p.is_finite() && p.abs().max_element() < 1e30;
+        if !corners.iter().all(sound) || facet.try_normalize().is_none() {
+            continue;
+        }
+        let material = material.map_or(materials.len() - 1, |material| material as usize);
+        let slot = *piece_of[material].get_or_insert_with(|| {
+            pieces.push(Piece {
+                material,
+                ..Piece::default()
+            });
+            pieces.len() - 1
+        });
+        let textured = materials[material].textures().next().is_some();
+        let piece = &mut pieces[slot];
+        let mut push = |corner: usize, normal: DVec3| {
+            piece.positions.push(soup.positions[corner]);
+            piece.normals.push(normal);
+            if textured {
+                let uv = soup.uvs[corner].to_array();
+                piece.uvs.push(if uv.iter().all(|n| n.is_finite()) {
+                    uv
+                } else {
+                    [0.0; 2]
+                });
+            }
+            piece.positions.len() as u32 - 1
+        };
+        // Without normals triangles are flat (glTF 2.0, 3.7.2.1), so their corners are their own.
+        let flat = triangle
+            .iter()
+            .any(|corner| soup.normals[*corner as usize].length_squared() < 0.5);
+        let numbers = triangle.map(|corner| {
+            let corner = corner as usize;
+            if flat {
+                return push(corner, facet.normalize());
+            }
+            match moved[corner] {
+                Some((owner, number)) if owner == slot => number,
+                _ => {
+                    let number = push(corner, soup.normals[corner].as_dvec3());
+                    moved[corner] = Some((slot, number));
+                    number
+                }
+            }
+        });
+        piece.triangles.push(numbers);
+    }
+    pieces
+}
+
+fn material(source: &::gltf::Material<'_>) -> Material {
+    let base = source.pbr_metallic_roughness();
+    let plain = |info: ::gltf::texture::Info<'_>| TextureUse::new(info.texture().index());
+    let strength = source.emissive_strength().unwrap_or(1.0);
+    Material {
+        name: source.name().unwrap_or_default().to_owned(),
+        base_color: base.base_color_factor(),
+        base_color_texture: base.base_color_texture().map(plain),
+        metallic: base.metallic_factor(),
+        roughness: base.roughness_factor(),
+        metallic_roughness_texture: base.metallic_roughness_texture().map(plain),
+        normal_texture: source.normal_texture().map(|normal| TextureUse {
+            amount: normal.scale(),
+            ..TextureUse::new(normal.texture().index())
+        }),
+        occlusion_texture: source.occlusion_texture().map(|occlusion| TextureUse {
+            amount: occlusion.strength(),
+            ..TextureUse::new(occlusion.texture().index())
+        }),
+        emissive: source
+            .emissive_factor()
+            .map(|channel| (channel * strength).clamp(0.0, 1.0)),
+        emissive_texture: source.emissive_texture().map(plain),
+        alpha_mode: match source.alpha_mode() {
+            material::AlphaMode::Opaque => AlphaMode::Opaque,
+            material::AlphaMode::Mask => AlphaMode::Mask {
+                cutoff: source.alpha_cutoff().unwrap_or(0.5),
+            },
+            material::AlphaMode::Blend => AlphaMode::Blend,
+        },
+        double_sided: source.double_sided(),
+    }
+}
+
+fn textures(document: &Document) -> Vec<Texture> {
+    let wrap = |mode| match mode {
+        WrappingMode::ClampToEdge => Wrap::ClampToEdge,
+        WrappingMode::MirroredRepeat => Wrap::MirroredRepeat,
+        WrappingMode::Repeat => Wrap::Repeat,
+    };
+    let texture = |texture: ::gltf::Texture<'_>| {
+        let sampler = texture.sampler();
+        Texture {
+            image: texture.source().index(),
+            wrap: [wrap(sampler.wrap_s()), wrap(sampler.wrap_t())],
+            filter: match sampler.mag_filter() {
+                Some(MagFilter::Nearest) => Filter::Nearest,
+                _ => Filter::Linear,
+            },
+        }
+    };
+    document.textures().map(texture).collect()
+}
+
+fn images(
+    document: &Document,
+    buffers: &Buffers,
+    resolver: &dyn Resolver,
+) -> Result<Vec<Image>, ImportError> {
+    let sources = &document.as_json().images;
+    let read = |image: image::Image<'_>| {
+        let index = image.index();
+        let source = &sources[index];
+        // The `gltf` crate takes for granted that one of them is there.
+        let in_view = source.buffer_view.is_some() && source.mime_type.is_some();
+        if !in_view && (source.buffer_view.is_some() || source.uri.is_none()) {
+            let message = format!("image {index} does not say where or what it is");
+            return Err(malformed(message));
+        }
+        let bytes: Arc<[u8]> = match image.source() {
+            image::Source::View { view, .. } => Arc::from(buffers.view(&view)?),
+            image::Source::Uri { uri, .. } => fetch(uri, resolver)?,
+        };
+        let media_type = MediaType::of(&bytes)
+            .ok_or_else(|| ImportError::Image(format!("image {index} is something else")))?;
+        Ok(Image {
+            name: image.name().unwrap_or_default().to_owned(),
+            media_type,
+            bytes,
+        })
+    };
+    document.images().map(read).collect()
+}

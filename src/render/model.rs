@@ -1,0 +1,44 @@
+//! A model as a file has it, with what it takes to draw it.
+
+use super::RenderError;
+use super::materials;
+use super::surface::{Material, Surface};
+use super::texture::Texture;
+use crate::import::{self, Geometry, Pose};
+use crate::resolver::Resolver;
+
+/// A model as a file has it, not yet posed.
+#[derive(Debug)]
+pub struct Model {
+    geometry: Geometry,
+    /// The last is the one of what has none.
+    pub(super) materials: Vec<Material>,
+    pub(super) textures: Vec<Option<Texture>>,
+}
+
+/// Reads a `.glb` or `.gltf`; what it links to comes from `resolver`.
+///
+/// # Errors
+/// Bytes that are no glTF, that break its rules, or need what is not known; links that lead nowhere; images that
+/// cannot be decoded.
+pub fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<Model, RenderError> {
+    let file = import::read(bytes, resolver)?;
+    Ok(Model {
+        materials: materials::read(&file.document),
+        textures: materials::textures(&file.document, &file.buffers, resolver)?,
+        geometry: file.geometry,
+    })
+}
+
+impl Model {
+    /// The pose that the file is in.
+    pub fn rest(&self) -> Pose {
+        self.geometry.rest()
+    }
+
+    /// All triangles in a pose.
+    pub(super) fn surface(&self, pose: &Pose) -> Result<Surface, RenderError> {
+        let soup = self.geometry.triangles(pose)?;
+        Ok(Surface::new(soup, self.materials.len() - 1))
+    }
+}
