@@ -122,22 +122,14 @@ impl<'a> Model<'a> {
         }
         let measure = &self.sheet.parts[part].measure;
         let kind = self.kind(part);
-        let layers = solid::layers(
+        let [low, high] = solid::depths(
             &kind,
             measure.half_across,
             measure.half_along,
             &self.options(part),
         )?;
         let offset = self.offset(part);
-        let low = layers
-            .iter()
-            .map(|layer| layer.z + offset)
-            .fold(f64::INFINITY, f64::min);
-        let high = layers
-            .iter()
-            .map(|layer| layer.z + offset)
-            .fold(f64::NEG_INFINITY, f64::max);
-        if (low + high).abs() > 1e-9 * (high - low).abs().max(1e-12) {
+        if (low + high + 2.0 * offset).abs() > 1e-9 * (high - low).abs().max(1e-12) {
             return None;
         }
         let source = self.sheet.setting(part, Keyword::Shape);

@@ -30,7 +30,7 @@ fn lattice() -> impl Strategy<Value = Ring> {
     })
 }
 
-fn rings() -> impl Strategy<Value = Vec<Ring>> {
+pub(super) fn rings() -> impl Strategy<Value = Vec<Ring>> {
     let holed = (star(), star(), 0.05..0.6f64, point()).prop_map(|(a, b, size, at)| {
         let hole = b.iter().map(|p| *p * size + at * 0.3).collect();
         vec![a, hole]
@@ -45,7 +45,7 @@ fn rings() -> impl Strategy<Value = Vec<Ring>> {
 }
 
 /// Every law for one surface.
-fn lawful(surface: &Surface) -> Result<(), String> {
+pub(super) fn lawful(surface: &Surface) -> Result<(), String> {
     closed(surface)?;
     if volume(surface) <= 0.0 {
         return Err(format!("volume {}", volume(surface)));
@@ -70,13 +70,22 @@ fn lawful(surface: &Surface) -> Result<(), String> {
     Ok(())
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(64),
+pub(super) fn config() -> ProptestConfig {
+    ProptestConfig {
+        cases: std::env::var("PROPTEST_CASES")
+            .ok()
+            .and_then(|n| n.parse().ok())
+            .unwrap_or(64),
         // Beside the tests, not at the top of the project.
-        failure_persistence: Some(Box::new(FileFailurePersistence::Direct("tests/regressions/solids.txt"))),
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(
+            "tests/regressions/solids.txt",
+        ))),
         ..ProptestConfig::default()
-    })]
+    }
+}
+
+proptest! {
+    #![proptest_config(config())]
 
     #[test]
     fn solids_are_lawful(

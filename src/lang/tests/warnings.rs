@@ -83,10 +83,10 @@ fn w305_zero_thickness() {
 #[test]
 fn w310_not_built_yet() {
     check(
-        "Arm$Shape inflate 3",
+        "Arm$Shape model \"arm.glb\"",
         r#"
-            Arm$Shape inflate 3
-                      ^^^^^^^ W310: `inflate` has no effect in this version (understood, but not built yet)
+            Arm$Shape model "arm.glb"
+                      ^^^^^ W310: `model` has no effect in this version (understood, but not built yet)
         "#,
     );
     check(
