@@ -5,6 +5,9 @@ use glam::{DVec3, Vec3};
 use super::groups::{Crease, share, share_tip};
 use crate::scene::Surface;
 
+/// Faces whose normal has a smaller cosine with the one they share at a corner keep their own there.
+const BACKWARD: f64 = 1e-3;
+
 /// The surface of triangles over shared points, counter-clockwise seen from outside. `is_tip` names the points
 /// at which a cone may end.
 pub(super) fn shade(
@@ -58,11 +61,13 @@ pub(super) fn shade(
         let (triangle, i) = split(corner);
         triangles[triangle][(i + step) % 3]
     };
+    let mut done = Vec::new();
     let (mut fan, mut normals, mut weights, mut ids) = (vec![], vec![], vec![], vec![]);
     for (point, position) in points.iter().enumerate() {
         let around = &mut corners[starts[point] as usize..starts[point + 1] as usize];
         around.sort_unstable_by_key(|corner| other(*corner, 1));
-        let mut done = vec![false; around.len()];
+        done.clear();
+        done.resize(around.len(), false);
         // More than one round where parts of the surface meet in a point.
         for first in 0..around.len() {
             fan.clear();
@@ -95,9 +100,17 @@ pub(super) fn shade(
             } else {
                 share(&normals, &weights, crease, corner, &mut ids);
             }
-            for (corner, id) in fan.iter().zip(&ids) {
+            for ((corner, id), face) in fan.iter().zip(&ids).zip(&normals) {
                 let (triangle, i) = split(*corner);
-                surface.triangles[triangle][i] = *id;
+                let mut id = *id;
+                // Where faces fold sharply, one may turn its back to what they have in common.
+                let shared = Vec3::from(surface.normals[id as usize]).as_dvec3();
+                if shared.dot(*face) < BACKWARD {
+                    id = surface.positions.len() as u32;
+                    surface.positions.push(*position);
+                    surface.normals.push(face.as_vec3().to_array());
+                }
+                surface.triangles[triangle][i] = id;
             }
         }
     }

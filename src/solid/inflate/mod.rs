@@ -81,7 +81,14 @@ pub(super) fn inflate(outline: &Outline, height: f64, options: &Options) -> Surf
         })
         .collect();
     triangles.extend(behind);
-    shade(&written, &triangles, Crease::new(options.crease), |_| false)
+    // There are no edges but those of the steps: they are all smooth, or all are seen.
+    let step = 180.0 / f64::from(steps_per_half_turn(options));
+    let crease = if options.crease > step {
+        180.0
+    } else {
+        options.crease
+    };
+    shade(&written, &triangles, Crease::new(crease), |_| false)
 }
 
 /// How high an outline is blown up whose box has these half extents, drawing units.

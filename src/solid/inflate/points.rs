@@ -29,13 +29,13 @@ const FAN: f64 = 0.4;
 /// Discs smaller than this, relative to the largest, have fewer points to the middle.
 const SMALL: f64 = 0.1;
 /// Discs smaller than this, relative to the largest, have no columns.
-const NOTHING: f64 = 0.003;
+const NOTHING: f64 = 0.01;
 /// How near points may come to each other, relative to the steps of their columns.
 const NEAR: f64 = 0.62;
 /// How far apart points on the border stand at most, relative to the radius of the disc there.
-const ALONG: f64 = 0.5;
+const ALONG: f64 = 0.8;
 /// The least of it, relative to the usual distance.
-const LEAST_ALONG: f64 = 0.15;
+const LEAST_ALONG: f64 = 0.25;
 
 /// Points in the part's frame: those of the border, then those inside.
 pub(super) struct Points {
@@ -118,7 +118,6 @@ pub(super) fn points(outline: &Outline, segments: u32) -> Points {
     let edges =
         rings().flat_map(|ring| (0..ring.len()).map(move |i| ring[(i + 1) % ring.len()] - ring[i]));
     let around: f64 = edges.map(DVec2::length).sum();
-    let drawn: usize = rings().map(Vec::len).sum();
     let usual = std::f64::consts::PI * size.min_element() / 2.0 / f64::from(segments);
     let apart = usual.max(4.0 * around / MOST_COLUMNS as f64);
 
@@ -141,7 +140,6 @@ pub(super) fn points(outline: &Outline, segments: u32) -> Points {
     }
     let layers =
         (segments.div_ceil(2) as usize).clamp(1, (MOST_INSIDE / columns.len().max(1)).max(1));
-    debug_assert!(all.points.len() >= drawn);
     inside(&columns, layers, most, &mut all.points);
     all
 }
@@ -258,9 +256,10 @@ fn inside(columns: &[Column], layers: usize, most: f64, points: &mut Vec<DVec2>)
             let at = column.foot + depth * column.inward;
             let place = at.extend(column.radius * angle.sin());
             let near = (NEAR * column.radius * quarter / own as f64).min(cell);
-            let [x, y, z] = (place / cell).floor().as_ivec3().to_array();
-            let mut around = (-1..=1).flat_map(|i| {
-                (-1..=1).flat_map(move |j| (-1..=1).map(move |k| [x + i, y + j, z + k]))
+            let cells = |place: DVec3| (place / cell).floor().as_ivec3().to_array();
+            let (low, high) = (cells(place - near), cells(place + near));
+            let mut around = (low[0]..=high[0]).flat_map(|x| {
+                (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z]))
             });
             let crowded = around.any(|cell| {
                 taken.get(&cell).is_some_and(|others| {
@@ -273,7 +272,7 @@ fn inside(columns: &[Column], layers: usize, most: f64, points: &mut Vec<DVec2>)
                 })
             });
             if !crowded {
-                taken.entry([x, y, z]).or_default().push(place);
+                taken.entry(cells(place)).or_default().push(place);
                 points.push(at);
             }
         }
