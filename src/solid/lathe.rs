@@ -20,7 +20,7 @@ use crate::geometry::{Outline, Polygon, bounds, intersect, union};
 use crate::scene::Surface;
 
 /// Points nearer to the axis than this, relative to the extent, lie on it.
-const ON_AXIS: f64 = 1e-5;
+const ON_AXIS: f64 = 1e-6;
 /// Points nearer to each other than this, relative to the largest coordinate, are one: `f32` may not tell
 /// them apart.
 const SAME: f64 = 1e-6;
@@ -46,7 +46,7 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
     // Whole turns begin in the drawing plane, so that they are as wide as the drawing.
     let first = if whole { 0.0 } else { FRAC_PI_2 - sweep / 2.0 };
     let put = Put::new(options);
-    let rings = profile(outline, options, sweep / steps as f64);
+    let rings = profile(outline, options, sweep / steps as f64, whole);
     if rings.len() < 3 {
         return Surface::default();
     }
@@ -104,8 +104,9 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
     shade(&written, &triangles, Crease::new(options.crease), is_tip)
 }
 
-/// What is turned: x from the axis, y along it.
-fn profile(outline: &Outline, options: &Options, step: f64) -> Rings {
+/// What is turned: x from the axis, y along it. In whole turns points on the axis have an x of 0; in others the
+/// least that keeps the two flat faces apart, or both would share the edges there.
+fn profile(outline: &Outline, options: &Options, step: f64, whole: bool) -> Rings {
     let Some((low, high)) = bounds(outline) else {
         return Rings::default();
     };
@@ -116,9 +117,19 @@ fn profile(outline: &Outline, options: &Options, step: f64) -> Rings {
     let both = union(&[right, left]);
     let away = options.placement.translation.abs().max_element() + extent;
     let axis = (ON_AXIS * extent).max(SAME * away / step.min(1.0));
-    let snap = |p: &DVec2| DVec2::new(if p.x < axis { 0.0 } else { p.x }, -p.y);
+    let least = if whole { 0.0 } else { axis };
+    let snap = |p: &DVec2| DVec2::new(if p.x < axis { least } else { p.x }, -p.y);
     let ring = |ring: &Vec<DVec2>| {
         let mut ring: Vec<DVec2> = ring.iter().map(snap).collect();
+        // Of a run on the axis only the ends count; slivers beside it may have folded onto it.
+        let n = ring.len();
+        let on_axis: Vec<bool> = ring.iter().map(|p| p.x == least).collect();
+        let mut place = 0;
+        ring.retain(|_| {
+            place += 1;
+            let i = place - 1;
+            !(on_axis[(i + n - 1) % n] && on_axis[i] && on_axis[(i + 1) % n])
+        });
         ring.dedup_by(|a, b| a.distance(*b) < SAME * away);
         while ring.len() > 1 && ring[0].distance(ring[ring.len() - 1]) < SAME * away {
             ring.pop();
@@ -132,9 +143,21 @@ fn profile(outline: &Outline, options: &Options, step: f64) -> Rings {
         }
         Polygon { rings }
     };
-    Rings::of(&Outline {
+    let mut rings = Rings::of(&Outline {
         polygons: both.polygons.iter().map(polygon).collect(),
-    })
+    });
+    keep_apart(&mut rings.points, least, SAME * away);
+    rings
+}
+
+/// Moves points on the axis along it until they keep a distance: parts of the outline that met on the axis in
+/// a point would share edges there.
+fn keep_apart(points: &mut [DVec2], axis: f64, distance: f64) {
+    let mut on_axis: Vec<usize> = (0..points.len()).filter(|i| points[*i].x == axis).collect();
+    on_axis.sort_by(|a, b| points[*a].y.total_cmp(&points[*b].y));
+    for pair in on_axis.windows(2) {
+        points[pair[1]].y = points[pair[1]].y.max(points[pair[0]].y + distance);
+    }
 }
 
 /// The half of an outline with positive x, after its coordinates were multiplied by ±1.

@@ -5,9 +5,6 @@ use glam::{DVec3, Vec3};
 use super::groups::{Crease, share, share_tip};
 use crate::scene::Surface;
 
-/// Faces whose normal has a smaller cosine with the one they share at a corner keep their own there.
-const BACKWARD: f64 = 1e-3;
-
 /// The surface of triangles over shared points, counter-clockwise seen from outside. `is_tip` names the points
 /// at which a cone may end.
 pub(super) fn shade(
@@ -103,9 +100,9 @@ pub(super) fn shade(
             for ((corner, id), face) in fan.iter().zip(&ids).zip(&normals) {
                 let (triangle, i) = split(*corner);
                 let mut id = *id;
-                // Where faces fold sharply, one may turn its back to what they have in common.
+                // Where faces fold sharply, one may turn its back to their mean, which at least one faces.
                 let shared = Vec3::from(surface.normals[id as usize]).as_dvec3();
-                if shared.dot(*face) < BACKWARD {
+                if shared.dot(*face) <= 0.0 {
                     id = surface.positions.len() as u32;
                     surface.positions.push(*position);
                     surface.normals.push(face.as_vec3().to_array());

@@ -45,7 +45,7 @@ fn lawful(surface: &Surface, outline: &Outline, h: f64) -> Result<(), String> {
         }
         for i in triangle {
             let normal = Vec3::from(surface.normals[*i as usize]).as_dvec3();
-            if normal.dot(face.normalize()) < 0.0 {
+            if normal.dot(face.normalize()) < -1e-6 {
                 return Err(format!("normal {normal} against {a} {b} {c}"));
             }
         }
