@@ -86,6 +86,7 @@ fn word() -> impl Strategy<Value = String> {
         "flat",
         "none",
         "inflate",
+        "lathe",
         "-s",
         "-d",
         "-c",
@@ -175,6 +176,11 @@ fn string() -> impl Strategy<Value = String> {
         "-cd round",
         "-s cone",
         "inflate",
+        "inflate 4",
+        "-s inflate 3",
+        "-d lathe 180",
+        "lathe",
+        "lathe 90",
     ]);
     let more = prop::sample::select(vec![
         "",

@@ -39,16 +39,14 @@ fn depths(model: &Model<'_>, part: usize) -> Option<[f64; 2]> {
         return None;
     }
     let measure = &model.sheet.parts[part].measure;
-    let layers = solid::layers(
+    let [low, high] = solid::depths(
         &kind,
         measure.half_across,
         measure.half_along,
         &model.options(part),
     )?;
     let offset = model.offset(part);
-    let depths = layers.iter().map(|layer| layer.z + offset);
-    let [low, high] = [f64::INFINITY, f64::NEG_INFINITY];
-    Some(depths.fold([low, high], |[low, high], z| [low.min(z), high.max(z)]))
+    Some([low + offset, high + offset])
 }
 
 /// Whether a solid reaches evenly to both sides of a plane.

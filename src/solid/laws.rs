@@ -30,7 +30,7 @@ fn lattice() -> impl Strategy<Value = Ring> {
     })
 }
 
-fn rings() -> impl Strategy<Value = Vec<Ring>> {
+pub(super) fn rings() -> impl Strategy<Value = Vec<Ring>> {
     let holed = (star(), star(), 0.05..0.6f64, point()).prop_map(|(a, b, size, at)| {
         let hole = b.iter().map(|p| *p * size + at * 0.3).collect();
         vec![a, hole]
@@ -45,7 +45,7 @@ fn rings() -> impl Strategy<Value = Vec<Ring>> {
 }
 
 /// Every law for one surface.
-fn lawful(surface: &Surface) -> Result<(), String> {
+pub(super) fn lawful(surface: &Surface) -> Result<(), String> {
     closed(surface)?;
     if volume(surface) <= 0.0 {
         return Err(format!("volume {}", volume(surface)));
@@ -70,13 +70,22 @@ fn lawful(surface: &Surface) -> Result<(), String> {
     Ok(())
 }
 
-proptest! {
-    #![proptest_config(ProptestConfig {
-        cases: std::env::var("PROPTEST_CASES").ok().and_then(|n| n.parse().ok()).unwrap_or(64),
+pub(super) fn config() -> ProptestConfig {
+    ProptestConfig {
+        cases: std::env::var("PROPTEST_CASES")
+            .ok()
+            .and_then(|n| n.parse().ok())
+            .unwrap_or(64),
         // Beside the tests, not at the top of the project.
-        failure_persistence: Some(Box::new(FileFailurePersistence::Direct("tests/regressions/solids.txt"))),
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(
+            "tests/regressions/solids.txt",
+        ))),
         ..ProptestConfig::default()
-    })]
+    }
+}
+
+proptest! {
+    #![proptest_config(config())]
 
     #[test]
     fn solids_are_lawful(
@@ -109,4 +118,37 @@ proptest! {
             }
         }
     }
+}
+
+/// How many triangles of the front turn their back to the viewer.
+fn turned_over(surface: &Surface) -> usize {
+    let at = |i: u32| Vec3::from(surface.positions[i as usize]).as_dvec3();
+    let is_turned = |triangle: &&[u32; 3]| {
+        let [a, b, c] = triangle.map(at);
+        let face = (b - a).cross(c - a).normalize_or_zero();
+        let middle = (a.z + b.z + c.z) / 3.0;
+        face.z * middle.signum() < -1e-3
+    };
+    surface.triangles.iter().filter(is_turned).count()
+}
+
+#[test]
+fn where_round_turns_over() {
+    let disc = |radius: f64, at: DVec2| -> Ring {
+        let angle = |i: usize| f64::from(i as u32) / 48.0 * std::f64::consts::TAU;
+        (0..48)
+            .map(|i| at + radius * DVec2::from_angle(angle(i)))
+            .collect()
+    };
+    let round = ShapeKind::Round([-90., 90.], None);
+    let turned = |rings: Vec<Ring>| turned_over(&build(&outline(rings), &round, &options(16)));
+    // Copies of an outline that sees its centre from everywhere lie in each other, those of others do not.
+    assert_eq!(turned(vec![disc(1.0, DVec2::ZERO)]), 0);
+    assert!(turned(vec![disc(1.0, DVec2::ZERO), disc(0.4, DVec2::ZERO)]) > 0);
+    assert!(
+        turned(vec![
+            disc(1.0, DVec2::ZERO),
+            disc(0.2, DVec2::new(0.5, 0.0))
+        ]) > 0
+    );
 }

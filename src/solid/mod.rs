@@ -11,11 +11,14 @@ pub mod check;
 mod cap;
 mod ears;
 mod groups;
+mod inflate;
+mod lathe;
 mod layers;
 mod prism;
 mod recipe;
 mod ridge;
 mod rings;
+mod shade;
 mod skin;
 mod stack;
 
@@ -24,8 +27,9 @@ use glam::{DMat2, DVec3};
 use crate::geometry::{Outline, clean};
 use crate::lang::value::ShapeKind;
 use crate::scene::Surface;
+use layers::layers;
 
-pub use layers::{Layer, layers};
+pub use layers::depths;
 pub use recipe::{Sides, Solid};
 
 /// How a solid is made, besides its kind.
@@ -68,13 +72,20 @@ impl Placement {
     }
 }
 
-/// The solid of an outline in its part's frame. `Inflate`, `Lathe` and `Model` are built as
-/// `Default` without parameters; `None`, and an outline without area, as nothing.
+/// The solid of an outline in its part's frame. `Model` is built as `Default` without parameters; `None`, and
+/// an outline without area, as nothing.
 pub fn build(outline: &Outline, kind: &ShapeKind, options: &Options) -> Surface {
     let Some((low, high)) = clean::bounds(outline) else {
         return Surface::default();
     };
     let half = low.abs().max(high.abs());
+    match kind {
+        ShapeKind::Inflate(given) => {
+            return inflate::inflate(outline, inflate::height(*given, half), options);
+        }
+        ShapeKind::Lathe(degrees) => return lathe::lathe(outline, *degrees, options),
+        _ => {}
+    }
     let Some(layers) = layers(kind, half.x, half.y, options) else {
         return Surface::default();
     };

@@ -298,7 +298,7 @@ pub(super) struct Put {
 }
 
 impl Put {
-    fn new(options: &Options) -> Put {
+    pub(super) fn new(options: &Options) -> Put {
         Put {
             turn: options.placement.turn(),
             translation: options.placement.translation,

@@ -37,11 +37,11 @@ fn ring(points: &[(f64, f64)]) -> Ring {
     points.iter().map(|&(x, y)| DVec2::new(x, y)).collect()
 }
 
-fn rectangle(w: f64, h: f64) -> Outline {
+pub(super) fn rectangle(w: f64, h: f64) -> Outline {
     outline(vec![ring(&[(0., 0.), (w, 0.), (w, h), (0., h)])])
 }
 
-fn circle(r: f64, n: usize) -> Outline {
+pub(super) fn circle(r: f64, n: usize) -> Outline {
     let angle = |i: usize| (i as f64 + 0.5) / n as f64 * std::f64::consts::TAU;
     outline(vec![
         (0..n).map(|i| r * DVec2::from_angle(angle(i))).collect(),
@@ -247,7 +247,7 @@ fn every_kind_on_awkward_outlines() {
 }
 
 pub(super) fn kinds() -> Vec<ShapeKind> {
-    let mut kinds = vec![Default(None), Inflate(None), Lathe(360.0)];
+    let mut kinds = vec![Default(None), Inflate(None), Lathe(360.0), Lathe(100.0)];
     for angles in [
         [-90., 90.],
         [0., 90.],

@@ -128,30 +128,39 @@ pub static KINDS: [Kind; 12] = [
         default: "half the part's smaller extent",
         summary: "blown up like a balloon: any outline, round inside",
         long: "The outline is blown up to both sides, as if two pieces of cloth were sewn together \
-               along it and filled. `h` is the height of the highest point. Good for hands, leaves, \
-               clouds, animals: outlines for which the round kinds are too regular.",
+               along it and filled. `h` is the height of the highest point, in drawing units; all \
+               else follows it, so that thin limbs come out thinner than the trunk, and walls \
+               round holes like tubes. A disc becomes a ball. For rings and letters, which are thin \
+               everywhere, give an `h` of about half the stroke. Good for hands, leaves, clouds, \
+               animals: outlines for which the round kinds are too regular.",
         example: "Cloud$Shape inflate 12",
-        status: Status::Planned,
+        status: Status::Built,
     },
     Kind {
         name: "lathe",
         form: form(&TURN, &[0, 1]),
         default: "360",
         summary: "turned like a vase: half the outline, turned about the part's axis",
-        long: "The half of the outline on one side of the part's axis is turned about the axis, as \
-               on a potter's wheel. `degrees` is how far: 360 makes it whole, 180 half.",
+        long: "Half the outline is turned about the part's axis, which runs through the part's middle, \
+               as on a potter's wheel. Both halves count: what stands out on one side only goes all \
+               the way round, so that the front looks like the drawing. What does not reach the axis \
+               becomes a ring, a hole in both halves a hollow. `degrees` is how far it is turned, \
+               evenly to both sides of the viewer: 360 makes it whole, 180 is the front half, closed \
+               by a flat back.",
         example: "Vase$Shape lathe 360",
-        status: Status::Planned,
+        status: Status::Built,
     },
     Kind {
         name: "model",
         form: form(&FILE, &[1]),
         default: "",
         summary: "a ready model from a file, fitted to the part's box",
-        long: "Instead of a solid made from the outline, a ready glTF model is put there, fitted to \
-               the part's box. The file must lie in the drawing's folder or below it.",
+        long: "Instead of a solid made from the outline, a ready glTF model is put there, `.glb` or \
+               `.gltf`, with its own materials and textures. It is made as large as it fits into the part's \
+               box; its up leads along the part's axis (`Axis 90` keeps it upright), its front to the viewer. \
+               The file must lie in the drawing's folder or below it.",
         example: "Sword@Rarm$Shape model \"sword.glb\"",
-        status: Status::Planned,
+        status: Status::Built,
     },
     Kind {
         name: "flat",

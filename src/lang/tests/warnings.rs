@@ -83,13 +83,6 @@ fn w305_zero_thickness() {
 #[test]
 fn w310_not_built_yet() {
     check(
-        "Arm$Shape inflate 3",
-        r#"
-            Arm$Shape inflate 3
-                      ^^^^^^^ W310: `inflate` has no effect in this version (understood, but not built yet)
-        "#,
-    );
-    check(
         "Boy$View 0 0",
         r#"
             Boy$View 0 0

@@ -1,0 +1,194 @@
+use std::f64::consts::{PI, TAU};
+
+use glam::{DVec2, Vec3};
+use proptest::prelude::*;
+
+use super::super::check::{closed, volume};
+use super::super::laws;
+use super::super::tests::{circle, options, outline, rectangle};
+use super::super::{Options, Placement, build};
+use crate::geometry::{Outline, bounds, contains};
+use crate::lang::value::ShapeKind::{Inflate, Round};
+use crate::scene::Surface;
+
+fn at(surface: &Surface, corner: u32) -> Vec3 {
+    Vec3::from(surface.positions[corner as usize])
+}
+
+/// What holds of every inflated outline; heights up to `h`, in the frame the outline is in.
+fn lawful(surface: &Surface, outline: &Outline, h: f64) -> Result<(), String> {
+    closed(surface)?;
+    if volume(surface) <= 0.0 {
+        return Err("wound inward".to_owned());
+    }
+    let (low, high) = bounds(outline).ok_or("no outline")?;
+    let slack = 1e-5 * (high - low).max_element();
+    let mut highest = 0.0f64;
+    for (p, n) in surface.positions.iter().zip(&surface.normals) {
+        let [x, y, z] = p.map(f64::from);
+        let inside = DVec2::new(x, y).clamp(low - slack, high + slack) == DVec2::new(x, y);
+        let length = Vec3::from(*n).length();
+        if !inside || z.abs() > h * 1.000_01 || (length - 1.0).abs() > 1e-4 {
+            return Err(format!("point {p:?} with normal {n:?}"));
+        }
+        highest = highest.max(z.abs());
+    }
+    if (highest / h - 1.0).abs() > 1e-3 {
+        return Err(format!("highest at {highest}, not {h}"));
+    }
+    for triangle in &surface.triangles {
+        let [a, b, c] = triangle.map(|i| at(surface, i).as_dvec3());
+        let face = (b - a).cross(c - a);
+        let front = a.z + b.z + c.z > 0.0;
+        if face.z == 0.0 || (face.z > 0.0) != front {
+            return Err(format!("triangle {a} {b} {c} turns over"));
+        }
+        for i in triangle {
+            let normal = Vec3::from(surface.normals[*i as usize]).as_dvec3();
+            if normal.dot(face.normalize()) < -1e-6 {
+                return Err(format!("normal {normal} against {a} {b} {c}"));
+            }
+        }
+        // On the drawing plane is the border and nothing else.
+        let middle = ((a + b + c) / 3.0).truncate();
+        let flat = [a, b, c].iter().filter(|p| p.z == 0.0).count();
+        let area = face.z.abs() / (high - low).max_element().powi(2);
+        if flat == 3 || (area > 1e-6 && !contains(outline, middle)) {
+            return Err(format!("triangle {a} {b} {c} is not in the outline"));
+        }
+    }
+    Ok(())
+}
+
+fn inflated(outline: &Outline, given: Option<f64>, segments: u32) -> Surface {
+    build(outline, &Inflate(given), &options(segments))
+}
+
+/// The greatest distance of a surface from the sphere about the origin, relative to its radius.
+fn off_sphere(surface: &Surface, radius: f64) -> f64 {
+    let off = |p: &[f32; 3]| (Vec3::from(*p).as_dvec3().length() / radius - 1.0).abs();
+    surface.positions.iter().map(off).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_disc_becomes_a_ball() {
+    for (points, segments) in [(40, 16), (64, 16), (96, 16), (96, 8), (300, 32)] {
+        let disc = circle(10.0, points);
+        let ball = inflated(&disc, None, segments);
+        let (low, high) = bounds(&disc).unwrap();
+        lawful(&ball, &disc, (high - low).min_element() / 2.0).unwrap();
+        let off = off_sphere(&ball, 10.0);
+        // Few layers are too coarse for more.
+        let most = if segments < 16 { 0.02 } else { 0.01 };
+        assert!(off < most, "{points} {segments}: {off}");
+        let rounded = build(&disc, &Round([-90., 90.], None), &options(segments));
+        assert!(off_sphere(&rounded, 10.0) < 0.01);
+        assert!(ball.triangles.len() < 2 * rounded.triangles.len());
+        // Smooth all over: one corner a point, its normal that of the ball.
+        for (p, n) in ball.positions.iter().zip(&ball.normals) {
+            let cosine = Vec3::from(*p).normalize().dot(Vec3::from(*n));
+            assert!(cosine > 0.98, "{p:?} {n:?} {cosine}");
+        }
+    }
+    let lens = inflated(&circle(10.0, 96), Some(4.0), 16);
+    let whole = 4.0 / 3.0 * PI * 400.0;
+    assert!((volume(&lens) / whole - 1.0).abs() < 0.02);
+}
+
+#[test]
+fn a_bar_is_round_inside() {
+    let bar = rectangle(20.0, 100.0);
+    let surface = inflated(&bar, None, 16);
+    lawful(&surface, &bar, 10.0).unwrap();
+    let middle = surface.positions.iter().filter(|p| p[1].abs() < 15.0);
+    let mut count = 0;
+    for [x, _, z] in middle {
+        assert!((x.hypot(*z) / 10.0 - 1.0).abs() < 0.02, "{x} {z}");
+        count += 1;
+    }
+    assert!(count > 60, "{count}");
+}
+
+#[test]
+fn thin_limbs_are_thinner() {
+    let points = [
+        (-20, -20),
+        (20, -20),
+        (20, -3),
+        (80, -3),
+        (80, 3),
+        (20, 3),
+        (20, 20),
+        (-20, 20),
+    ];
+    let ring = points.map(|(x, y)| DVec2::new(x.into(), y.into()));
+    let body = outline(vec![ring.to_vec()]);
+    let surface = inflated(&body, None, 16);
+    lawful(&surface, &body, 20.0).unwrap();
+    let limb = surface
+        .positions
+        .iter()
+        .filter(|p| (20.0..40.0).contains(&p[0]));
+    let highest = limb.map(|p| p[2]).fold(0.0, f32::max);
+    assert!((2.0..5.0).contains(&highest), "{highest}");
+}
+
+#[test]
+fn many_points_and_many_segments_stay_small() {
+    let angle = |i: usize| i as f64 / 5000.0 * TAU;
+    let ring: Vec<DVec2> = (0..5000)
+        .map(|i| (10.0 + (40.0 * angle(i)).sin()) * DVec2::from_angle(angle(i)))
+        .collect();
+    let wavy = outline(vec![ring]);
+    for segments in [2, 16, 512] {
+        let surface = inflated(&wavy, Some(3.0), segments);
+        lawful(&surface, &wavy, 3.0).unwrap();
+        assert!(
+            surface.triangles.len() < 400_000,
+            "{}",
+            surface.triangles.len()
+        );
+    }
+}
+
+#[test]
+fn without_height_there_is_a_little() {
+    for given in [0.0, f64::NAN, 1e-300] {
+        let surface = inflated(&rectangle(20.0, 30.0), Some(given), 16);
+        closed(&surface).unwrap();
+        assert!(volume(&surface) > 0.0);
+    }
+}
+
+#[test]
+fn far_from_the_joint() {
+    let placement = Placement {
+        translation: glam::DVec3::new(900.0, -300.0, 700.0),
+        ..Placement::default()
+    };
+    let o = Options {
+        placement,
+        ..options(16)
+    };
+    let surface = build(&circle(0.5, 40), &Inflate(None), &o);
+    closed(&surface).unwrap();
+    assert!((volume(&surface) / (PI / 6.0) - 1.0).abs() < 0.05);
+}
+
+proptest! {
+    #![proptest_config(laws::config())]
+
+    #[test]
+    fn inflated_outlines_are_lawful(
+        rings in laws::rings(), segments in 2u32..24, given in prop::option::of(0.05..1.0f64),
+    ) {
+        let outline = outline(rings);
+        prop_assume!(!outline.polygons.is_empty());
+        let (low, high) = bounds(&outline).unwrap();
+        let h = given.unwrap_or((high - low).min_element() / 2.0);
+        let surface = inflated(&outline, given, segments);
+        if let Err(error) = lawful(&surface, &outline, h) {
+            return Err(TestCaseError::fail(error));
+        }
+    }
+}

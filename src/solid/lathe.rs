@@ -1,0 +1,192 @@
+//! Outlines turned about their axis (language.md, Shapes).
+//!
+//! What is turned is the half of the outline on the right of the axis together with the mirror image of the
+//! half on its left: seen from the front the solid covers all that was drawn, and a small change of the drawing
+//! makes a small change of the solid. A turn of less than 360° is centred on the viewer and closed by two
+//! flat faces.
+
+use std::f64::consts::FRAC_PI_2;
+
+use glam::{DVec2, DVec3};
+
+use super::Options;
+use super::cap;
+use super::groups::Crease;
+use super::layers::steps_per_half_turn;
+use super::rings::Rings;
+use super::shade::shade;
+use super::stack::Put;
+use crate::geometry::{Outline, Polygon, bounds, intersect, union};
+use crate::scene::Surface;
+
+/// Points nearer to the axis than this, relative to the extent, lie on it.
+const ON_AXIS: f64 = 1e-6;
+/// Points nearer to each other than this, relative to the largest coordinate, are one: `f32` may not tell
+/// them apart.
+const SAME: f64 = 1e-6;
+/// The least and the greatest turn, degrees.
+const TURNS: std::ops::RangeInclusive<f64> = 0.01..=360.0;
+
+/// The turn in degrees.
+pub(super) fn turn(degrees: f64) -> f64 {
+    if degrees.is_finite() {
+        degrees.clamp(*TURNS.start(), *TURNS.end())
+    } else {
+        *TURNS.end()
+    }
+}
+
+/// The surface of an outline's half turned by so many degrees.
+pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surface {
+    let degrees = turn(degrees);
+    let whole = degrees >= 360.0;
+    let half = steps_per_half_turn(options);
+    let steps = ((degrees / 180.0 * f64::from(half)) - 1e-9).ceil().max(1.0) as usize;
+    let sweep = degrees.to_radians();
+    // Whole turns begin in the drawing plane, so that they are as wide as the drawing.
+    let first = if whole { 0.0 } else { FRAC_PI_2 - sweep / 2.0 };
+    let put = Put::new(options);
+    let rings = profile(outline, options, sweep / steps as f64, whole);
+    if rings.len() < 3 {
+        return Surface::default();
+    }
+
+    let rows = if whole { steps } else { steps + 1 };
+    let turns: Vec<DVec2> = (0..rows)
+        .map(|row| match 4 * row {
+            // Exactly in the plane.
+            quarter if whole && quarter == 2 * steps => DVec2::NEG_X,
+            _ => DVec2::from_angle(first + sweep * row as f64 / steps as f64),
+        })
+        .collect();
+    let mut written = Vec::with_capacity(rings.len() * rows);
+    // Where each profile point's places start; those on the axis have one place.
+    let mut starts = Vec::with_capacity(rings.len());
+    for point in &rings.points {
+        starts.push(written.len() as u32);
+        let count = if point.x == 0.0 { 1 } else { rows };
+        for turn in &turns[..count] {
+            let place = DVec3::new(point.x * turn.x, point.y, point.x * turn.y);
+            written.push(put.position(place));
+        }
+    }
+    let on_axis = |i: usize| rings.points[i].x == 0.0;
+    let place = |i: usize, row: usize| starts[i] + if on_axis(i) { 0 } else { (row % rows) as u32 };
+
+    let mut triangles = Vec::with_capacity(2 * rings.len() * rows);
+    for i in 0..rings.len() {
+        let j = rings.next[i] as usize;
+        for row in 0..steps {
+            let [a, b] = [place(i, row), place(j, row)];
+            let [c, d] = [place(j, row + 1), place(i, row + 1)];
+            match [on_axis(i), on_axis(j)] {
+                [true, true] => {}
+                [true, false] => triangles.push([a, b, c]),
+                [false, true] => triangles.push([a, b, d]),
+                [false, false] => triangles.extend([[a, b, c], [a, c, d]]),
+            }
+        }
+    }
+    if !whole {
+        let mut caps = cap::triangles(&rings);
+        cap::turn_empty(&rings.points, &mut caps);
+        for [a, b, c] in caps {
+            // The first face is seen with the axis on its left, the last one from behind.
+            triangles.push([a, c, b].map(|i| place(i as usize, 0)));
+            triangles.push([a, b, c].map(|i| place(i as usize, steps)));
+        }
+    }
+    let tips: Vec<u32> = (0..rings.len())
+        .filter(|i| on_axis(*i))
+        .map(|i| starts[i])
+        .collect();
+    let is_tip = |i: u32| whole && tips.binary_search(&i).is_ok();
+    shade(&written, &triangles, Crease::new(options.crease), is_tip)
+}
+
+/// What is turned: x from the axis, y along it. In whole turns points on the axis have an x of 0; in others the
+/// least that keeps the two flat faces apart, or both would share the edges there.
+fn profile(outline: &Outline, options: &Options, step: f64, whole: bool) -> Rings {
+    let Some((low, high)) = bounds(outline) else {
+        return Rings::default();
+    };
+    let extent = low.abs().max(high.abs()).max_element();
+    // The tools of the drawing plane want y down.
+    let right = half(outline, DVec2::new(1.0, -1.0), extent);
+    let left = half(outline, DVec2::new(-1.0, -1.0), extent);
+    let both = union(&[right, left]);
+    let away = options.placement.translation.abs().max_element() + extent;
+    let axis = (ON_AXIS * extent).max(SAME * away / step.min(1.0));
+    let least = if whole { 0.0 } else { axis };
+    let snap = |p: &DVec2| DVec2::new(if p.x < axis { least } else { p.x }, -p.y);
+    let ring = |ring: &Vec<DVec2>| {
+        let mut ring: Vec<DVec2> = ring.iter().map(snap).collect();
+        // Of a run on the axis only the ends count; slivers beside it may have folded onto it.
+        let n = ring.len();
+        let on_axis: Vec<bool> = ring.iter().map(|p| p.x == least).collect();
+        let mut place = 0;
+        ring.retain(|_| {
+            place += 1;
+            let i = place - 1;
+            !(on_axis[(i + n - 1) % n] && on_axis[i] && on_axis[(i + 1) % n])
+        });
+        ring.dedup_by(|a, b| a.distance(*b) < SAME * away);
+        while ring.len() > 1 && ring[0].distance(ring[ring.len() - 1]) < SAME * away {
+            ring.pop();
+        }
+        ring
+    };
+    let polygon = |polygon: &Polygon| {
+        let mut rings: Vec<Vec<DVec2>> = polygon.rings.iter().map(ring).collect();
+        if rings.first().is_some_and(|border| border.len() < 3) {
+            rings.clear();
+        }
+        Polygon { rings }
+    };
+    let mut rings = Rings::of(&Outline {
+        polygons: both.polygons.iter().map(polygon).collect(),
+    });
+    keep_apart(&mut rings.points, least, SAME * away);
+    rings
+}
+
+/// Moves points on the axis along it until they keep a distance: parts of the outline that met on the axis in
+/// a point would share edges there.
+fn keep_apart(points: &mut [DVec2], axis: f64, distance: f64) {
+    let mut on_axis: Vec<usize> = (0..points.len()).filter(|i| points[*i].x == axis).collect();
+    on_axis.sort_by(|a, b| points[*a].y.total_cmp(&points[*b].y));
+    for pair in on_axis.windows(2) {
+        points[pair[1]].y = points[pair[1]].y.max(points[pair[0]].y + distance);
+    }
+}
+
+/// The half of an outline with positive x, after its coordinates were multiplied by ±1.
+fn half(outline: &Outline, signs: DVec2, extent: f64) -> Outline {
+    let turned = signs.x * signs.y > 0.0;
+    let ring = |ring: &Vec<DVec2>| {
+        let mut ring: Vec<DVec2> = ring.iter().map(|p| *p * signs).collect();
+        if turned {
+            ring.reverse();
+        }
+        ring
+    };
+    let polygon = |polygon: &Polygon| Polygon {
+        rings: polygon.rings.iter().map(ring).collect(),
+    };
+    let outline = Outline {
+        polygons: outline.polygons.iter().map(polygon).collect(),
+    };
+    let reach = 2.0 * extent;
+    let corners = [(0.0, -reach), (0.0, reach), (reach, reach), (reach, -reach)];
+    let side = Polygon {
+        rings: vec![corners.iter().map(|&(x, y)| DVec2::new(x, y)).collect()],
+    };
+    let side = Outline {
+        polygons: vec![side],
+    };
+    intersect(&outline, &side)
+}
+
+#[cfg(test)]
+#[path = "lathe_tests.rs"]
+mod tests;

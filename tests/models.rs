@@ -1,0 +1,263 @@
+//! `Shape model`: ready models in the place of solids.
+
+use std::io::Cursor;
+use std::sync::Arc;
+
+use okoshi::compile::{Compiled, Options, compile};
+use okoshi::gltf::{Container, write};
+use okoshi::resolver::MemoryResolver;
+use okoshi::scene::{
+    Filter, Image, Material, MediaType, Mesh, Node, Piece, Primitive, Scene, Surface, Texture,
+    TextureUse, Wrap,
+};
+
+/// A box of 2 × 4 × 1 about (10, 0, 0): a textured front, and a bare body.
+fn pillar() -> Vec<u8> {
+    let mut png = Cursor::new(Vec::new());
+    let pixels = image::RgbaImage::from_pixel(2, 2, image::Rgba([200, 30, 30, 255]));
+    pixels.write_to(&mut png, image::ImageFormat::Png).unwrap();
+    let quad = |z: f32, uvs: bool| Surface {
+        positions: vec![
+            [9.0, -2.0, z],
+            [11.0, -2.0, z],
+            [11.0, 2.0, z],
+            [9.0, 2.0, z],
+        ],
+        normals: vec![[0.0, 0.0, z.signum()]; 4],
+        uvs: if uvs {
+            vec![[0.0, 1.0], [1.0, 1.0], [1.0, 0.0], [0.0, 0.0]]
+        } else {
+            vec![]
+        },
+        joints: vec![],
+        triangles: match z > 0.0 {
+            true => vec![[0, 1, 2], [0, 2, 3]],
+            false => vec![[0, 2, 1], [0, 3, 2]],
+        },
+    };
+    let primitive = |surface: Surface, material: usize| Primitive {
+        pieces: vec![Piece::Surface(surface)],
+        material,
+    };
+    let scene = Scene {
+        nodes: vec![Node {
+            name: "Pillar".to_owned(),
+            mesh: Some(0),
+            ..Node::default()
+        }],
+        roots: vec![0],
+        meshes: vec![Mesh {
+            primitives: vec![
+                primitive(quad(0.5, true), 0),
+                primitive(quad(-0.5, false), 1),
+            ],
+        }],
+        materials: vec![
+            Material {
+                name: "front".to_owned(),
+                base_color_texture: Some(TextureUse::new(0)),
+                metallic: 0.25,
+                ..Material::default()
+            },
+            Material {
+                name: "back".to_owned(),
+                double_sided: true,
+                ..Material::default()
+            },
+        ],
+        textures: vec![Texture {
+            image: 0,
+            wrap: [Wrap::ClampToEdge, Wrap::MirroredRepeat],
+            filter: Filter::Nearest,
+        }],
+        images: vec![Image {
+            name: "red".to_owned(),
+            media_type: MediaType::Png,
+            bytes: Arc::from(png.into_inner()),
+        }],
+        ..Scene::default()
+    };
+    let mut out = Cursor::new(Vec::new());
+    write(&scene, Container::Glb, &mut out).unwrap();
+    out.into_inner()
+}
+
+/// A drawing of a rectangle of 40 × 100 about (50, 80), and a body beside it.
+fn drawing(shape: &str) -> String {
+    format!(
+        r##"<svg xmlns="http://www.w3.org/2000/svg" width="300" height="200">
+  <rect x="30" y="30" width="40" height="100" fill="#00ff00" id="post"/>
+  <rect x="200" y="60" width="60" height="60" fill="#0000ff" id="body"/>
+  <text x="50" y="80" font-size="5">Post$Shape {shape}</text>
+  <text x="230" y="90" font-size="5">Body$Shape default -5 5</text>
+</svg>"##
+    )
+}
+
+fn compiled(shape: &str, files: &[(&str, &[u8])]) -> Compiled {
+    let mut resolver = MemoryResolver::default();
+    for (name, bytes) in files {
+        resolver = resolver.with(name, *bytes);
+    }
+    compile(&drawing(shape), &Options::default(), &resolver)
+}
+
+fn codes(compiled: &Compiled) -> Vec<&str> {
+    compiled
+        .diagnostics
+        .iter()
+        .map(|found| found.code.id())
+        .collect()
+}
+
+/// The box of a node's mesh, in its frame.
+fn bounds(scene: &Scene, name: &str) -> [[f32; 3]; 2] {
+    let node = scene.nodes.iter().find(|node| node.name == name).unwrap();
+    let mesh = &scene.meshes[node.mesh.unwrap()];
+    let none = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
+    mesh.primitives.iter().fold(none, |all, primitive| {
+        primitive
+            .surface()
+            .positions
+            .iter()
+            .fold(all, |[low, high], p| {
+                [0, 1].map(|side| {
+                    [0, 1, 2].map(|axis| match side {
+                        0 => low[axis].min(p[axis]),
+                        _ => high[axis].max(p[axis]),
+                    })
+                })
+            })
+    })
+}
+
+fn assert_near(found: [[f32; 3]; 2], expected: [[f32; 3]; 2]) {
+    let far = found.as_flattened().iter().zip(expected.as_flattened());
+    let far = far.map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+    assert!(far < 1e-5, "{found:?} is not {expected:?}");
+}
+
+/// The part's box is 0.4 × 1 m, the model's 2 × 4: it becomes a fifth as large in width, and its depth too.
+#[test]
+fn a_model_is_fitted_to_its_part() {
+    let compiled = compiled("model \"pillar.glb\"", &[("pillar.glb", &pillar())]);
+    assert!(codes(&compiled).is_empty(), "{:?}", compiled.diagnostics);
+    assert_near(
+        bounds(&compiled.scene, "Post"),
+        [[-0.2, -0.4, -0.1], [0.2, 0.4, 0.1]],
+    );
+    assert_eq!(compiled.dependencies, ["pillar.glb"]);
+}
+
+#[test]
+fn both_sides_and_offsets_are_as_with_solids() {
+    let files: &[(&str, &[u8])] = &[("pillar.glb", &pillar())];
+    let both = compiled("-s model \"pillar.glb\" Offset 50", files);
+    assert_near(
+        bounds(&both.scene, "Post"),
+        [[-0.2, -0.4, -0.6], [0.2, 0.4, 0.6]],
+    );
+    let twice = compiled("-d model \"pillar.glb\" Offset 50", files);
+    assert_near(
+        bounds(&twice.scene, "Post"),
+        [[-0.2, -0.4, -0.1], [0.2, 0.4, 0.1]],
+    );
+    assert_near(
+        bounds(&twice.scene, "Post.back"),
+        [[-0.2, -0.4, -0.1], [0.2, 0.4, 0.1]],
+    );
+}
+
+#[test]
+fn a_models_looks_are_kept() {
+    let compiled = compiled("model \"pillar.glb\"", &[("pillar.glb", &pillar())]);
+    let mut out = Cursor::new(Vec::new());
+    write(&compiled.scene, Container::Glb, &mut out).unwrap();
+    let document = gltf::Gltf::from_slice(out.get_ref()).unwrap().document;
+    let materials: Vec<_> = document
+        .materials()
+        .filter_map(|m| m.name().map(str::to_owned))
+        .collect();
+    assert_eq!(materials, ["#0000ff", "front", "back"]);
+    let front = document.materials().nth(1).unwrap();
+    assert_eq!(front.pbr_metallic_roughness().metallic_factor(), 0.25);
+    let texture = front
+        .pbr_metallic_roughness()
+        .base_color_texture()
+        .unwrap()
+        .texture();
+    assert_eq!(
+        texture.sampler().wrap_s(),
+        gltf::texture::WrappingMode::ClampToEdge
+    );
+    assert_eq!(
+        texture.sampler().wrap_t(),
+        gltf::texture::WrappingMode::MirroredRepeat
+    );
+    assert_eq!(texture.source().name(), Some("red"));
+    assert!(document.materials().nth(2).unwrap().double_sided());
+    let post = document
+        .meshes()
+        .find(|mesh| mesh.name() == Some("Post"))
+        .unwrap();
+    assert_eq!(post.primitives().count(), 2);
+}
+
+#[test]
+fn a_gltf_links_from_its_own_folder() {
+    let glb = pillar();
+    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
+    let mut json: serde_json::Value = serde_json::from_slice(&glb[20..20 + length]).unwrap();
+    json["buffers"][0]["uri"] = "pillar.bin".into();
+    let (json, data) = (json.to_string(), &glb[28 + length..]);
+    let compiled = compiled(
+        "model \"things/pillar.gltf\"",
+        &[
+            ("things/pillar.gltf", json.as_bytes()),
+            ("things/pillar.bin", data),
+        ],
+    );
+    assert!(codes(&compiled).is_empty(), "{:?}", compiled.diagnostics);
+    assert_eq!(
+        compiled.dependencies,
+        ["things/pillar.bin", "things/pillar.gltf"]
+    );
+}
+
+/// Whatever is wrong with a file, it is said, and the part is there as a plate.
+#[test]
+fn what_is_no_model_is_said() {
+    let whole = pillar();
+    let empty = br#"{"asset":{"version":"2.0"}}"#;
+    let cut = &whole[..whole.len() / 2];
+    for (bytes, says) in [
+        (&b"no model"[..], "is no glTF that can be read"),
+        (cut, "is no glTF that can be read"),
+        (empty, "has no triangles"),
+        (&[], "is no glTF that can be read"),
+    ] {
+        let compiled = compiled("model \"a.glb\"", &[("a.glb", bytes)]);
+        assert_eq!(codes(&compiled).len(), 1, "{:?}", compiled.diagnostics);
+        let found = &compiled.diagnostics[0];
+        assert!(found.message.contains(says), "{}", found.message);
+        let [low, high] = bounds(&compiled.scene, "Post");
+        assert!(high[1] - low[1] > 0.99, "the plate");
+    }
+    for link in ["../a.glb", "/a.glb", "http://example.org/a.glb"] {
+        let compiled = compiled(&format!("model \"{link}\""), &[]);
+        assert_eq!(codes(&compiled).len(), 1, "{:?}", compiled.diagnostics);
+    }
+}
+
+/// No byte of a file can make it more than a diagnostic.
+#[test]
+fn broken_models_do_no_harm() {
+    let whole = pillar();
+    for at in (0..whole.len()).step_by(7) {
+        let mut bytes = whole.clone();
+        bytes[at] ^= 0x55;
+        let compiled = compiled("model \"a.glb\"", &[("a.glb", &bytes)]);
+        let mut out = Cursor::new(Vec::new());
+        write(&compiled.scene, Container::Glb, &mut out).unwrap();
+    }
+}
