@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use common::Node;
+use common::{Node, examples};
 use okoshi::diagnostic::{Code, Severity};
 use okoshi::disk::FolderResolver;
 use okoshi::lang::keyword::Status;
@@ -17,27 +17,6 @@ const PICTURE: u64 = 60 << 10;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
-/// All examples, folders within folders included: their names without ending, from `examples` on.
-fn examples() -> BTreeSet<String> {
-    let top = root().join("examples");
-    let mut folders = vec![top.clone()];
-    let mut found = BTreeSet::new();
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-            } else if path.extension().is_some_and(|ending| ending == "svg") {
-                let inside = path.strip_prefix(&top).expect("inside").with_extension("");
-                let name = inside.to_str().expect("a plain name");
-                found.insert(name.replace('\\', "/"));
-            }
-        }
-    }
-    assert!(found.len() > 10, "only {} examples were found", found.len());
-    found
 }
 
 fn drawing(name: &str) -> PathBuf {

@@ -37,11 +37,9 @@ fn picture(glb: &[u8]) -> RgbaImage {
 
 fn example(name: &str) -> Vec<u8> {
     let path = folder("examples").join(format!("{name}.svg"));
-    let text = fs::read_to_string(path).expect("an example");
-    common::glb(&common::compiled(
-        &text,
-        &FolderResolver::new(folder("examples")),
-    ))
+    let text = fs::read_to_string(&path).expect("an example");
+    let beside = FolderResolver::new(path.parent().expect("a folder"));
+    common::glb(&common::compiled(&text, &beside))
 }
 
 /// The mean difference of all values, and that of the block that differs most.
@@ -80,21 +78,8 @@ fn save(image: &RgbaImage, path: &Path) {
 #[test]
 fn examples_look_as_they_did() {
     let rewrite = std::env::var_os("OKOSHI_REWRITE").is_some();
-    let entries = fs::read_dir(folder("examples")).expect("examples");
-    let mut names: Vec<String> = entries
-        .map(|entry| entry.expect("an entry").path())
-        .filter(|path| path.extension().is_some_and(|ending| ending == "svg"))
-        .map(|path| {
-            path.file_stem()
-                .expect("a name")
-                .to_string_lossy()
-                .into_owned()
-        })
-        .collect();
-    names.sort();
-    assert!(!names.is_empty());
     let mut wrong = Vec::new();
-    for name in &names {
+    for name in &common::examples() {
         let kept = folder("tests/pictures").join(format!("{name}.png"));
         let image = picture(&example(name));
         if rewrite {
@@ -129,7 +114,7 @@ fn a_moved_limb_is_seen() {
     let whole = picture(&example("human"));
     assert_eq!(difference(&whole, &whole), (0.0, 0.0));
     let path = folder("examples/human.svg");
-    let text = fs::read_to_string(path).expect("an example");
+    let text = fs::read_to_string(&path).expect("an example");
     for (from, to) in [
         (
             "Rarm@Ubody$Shape roundv -90 90",

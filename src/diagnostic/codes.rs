@@ -335,7 +335,7 @@ codes! {
     /// The attribute, or the kind of shape, is read and checked, but this version does not act upon it.
     ///
     /// ```text
-    /// Sword@Rarm$Shape model "sword.glb"
+    /// Boy$View 0 0
     /// ```
     ///
     /// Leave it for a later version, or use something else meanwhile.

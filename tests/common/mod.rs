@@ -4,9 +4,11 @@
     reason = "each test file is a crate of its own and uses its share"
 )]
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt::Write as _;
+use std::fs;
 use std::io::Cursor;
+use std::path::Path;
 
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::gltf::{Container, write};
@@ -28,6 +30,27 @@ pub(crate) struct Node {
     pub(crate) translation: [f32; 3],
     pub(crate) rotation: [f32; 4],
     pub(crate) primitives: Vec<Primitive>,
+}
+
+/// All examples, folders within folders included: their names without ending, from `examples` on.
+pub(crate) fn examples() -> BTreeSet<String> {
+    let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let mut folders = vec![top.clone()];
+    let mut found = BTreeSet::new();
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(folder).expect("a folder") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|ending| ending == "svg") {
+                let inside = path.strip_prefix(&top).expect("inside").with_extension("");
+                let name = inside.to_str().expect("a plain name");
+                found.insert(name.replace('\\', "/"));
+            }
+        }
+    }
+    assert!(found.len() > 10, "only {} examples were found", found.len());
+    found
 }
 
 pub(crate) fn compiled(text: &str, resolver: &dyn Resolver) -> Compiled {
