@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::Model;
 use super::tree::{Branch, Tree};
-use crate::bind::{PartKind, Sheet};
+use crate::bind::{Part, PartKind, Sheet};
 use crate::geometry::bounds;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Ground, Value};
@@ -124,20 +124,13 @@ fn ground(model: &Model<'_>) -> DVec2 {
         Some(Value::Ground(Ground::Page)) => model.drawing.page.0,
         Some(Value::Ground(Ground::Point([x, y]))) => DVec2::new(*x, *y),
         _ => {
-            let built = model
-                .sheet
-                .parts
-                .iter()
-                .filter(|part| matches!(part.kind, PartKind::Main | PartKind::Sub));
-            let boxes: Vec<(DVec2, DVec2)> =
-                built.filter_map(|part| bounds(&part.outline)).collect();
-            let Some(first) = boxes.first() else {
-                return DVec2::ZERO;
-            };
-            let (low, high) = boxes.iter().fold(*first, |(low, high), other| {
-                (low.min(other.0), high.max(other.1))
-            });
-            DVec2::new((low.x + high.x) / 2.0, high.y)
+            let is_built = |part: &&Part| matches!(part.kind, PartKind::Main | PartKind::Sub);
+            let built = model.sheet.parts.par_iter().filter(is_built);
+            let boxes = built.filter_map(|part| bounds(&part.outline));
+            let all = boxes.reduce_with(|one, other| (one.0.min(other.0), one.1.max(other.1)));
+            all.map_or(DVec2::ZERO, |(low, high)| {
+                DVec2::new((low.x + high.x) / 2.0, high.y)
+            })
         }
     }
 }

@@ -114,12 +114,15 @@ impl<'a> Collector<'a> {
         if !built || sheet.shape(index).kind == ShapeKind::None {
             return;
         }
-        let Some(extent) = bounds(&part.outline) else {
-            return;
-        };
         let file = sheet.setting(index, Keyword::Texture);
         let file = file.and_then(|source| self.files.picture(self.model, &source, diagnostics));
         let paint = part.paint(drawing);
+        if file.is_none() && paint.server.is_none() {
+            return;
+        }
+        let Some(extent) = bounds(&part.outline) else {
+            return;
+        };
         let (server, name) = match (file, &paint.server) {
             (Some((link, picture)), _) => {
                 let (low, high) = extent;

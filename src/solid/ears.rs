@@ -185,7 +185,10 @@ impl Clip<'_> {
 
     fn cut(&mut self, triangles: &mut Vec<[u32; 3]>) {
         let mut left = self.corners.len();
-        let mut reflex: Vec<u32> = (0..left as u32).filter(|c| self.is_reflex(*c)).collect();
+        let mut reflex = Reflex::new(left);
+        for corner in (0..left as u32).filter(|corner| self.is_reflex(*corner)) {
+            reflex.add(corner, self.corners[corner as usize].point, self.at(corner));
+        }
         let mut care = Care::Clean;
         let mut corner = 0;
         let mut tried = 0;
@@ -196,9 +199,12 @@ impl Clip<'_> {
                 self.corners[before as usize].next = next;
                 self.corners[next as usize].before = before;
                 left -= 1;
-                reflex.retain(|r| {
-                    *r != corner && (!(*r == before || *r == next) || self.is_reflex(*r))
-                });
+                reflex.remove(corner);
+                for neighbour in [before, next] {
+                    if !self.is_reflex(neighbour) {
+                        reflex.remove(neighbour);
+                    }
+                }
                 // Skipping one makes fewer slivers than a fan does.
                 corner = self.next(next);
                 (care, tried) = (Care::Clean, 0);
@@ -228,7 +234,7 @@ impl Clip<'_> {
         (b - a).perp_dot(c - b) <= self.nothing
     }
 
-    fn is_ear(&self, corner: u32, reflex: &[u32], care: Care) -> bool {
+    fn is_ear(&self, corner: u32, reflex: &Reflex, care: Care) -> bool {
         let ends = [self.before(corner), corner, self.next(corner)];
         let ear = ends.map(|c| self.at(c));
         let area = (ear[1] - ear[0]).perp_dot(ear[2] - ear[1]);
@@ -247,9 +253,53 @@ impl Clip<'_> {
             self.nothing
         };
         let points = ends.map(|c| self.corners[c as usize].point);
-        !reflex.iter().any(|r| {
-            !points.contains(&self.corners[*r as usize].point) && within(ear, self.at(*r), margin)
-        })
+        let mut others = reflex.list.iter();
+        !others.any(|other| within(ear, other.place, margin) && !points.contains(&other.point))
+    }
+}
+
+/// The corners that are not convex: they alone can lie in an ear. Their places lie side by side, since most of the
+/// time goes into looking at them.
+struct Reflex {
+    list: Vec<Other>,
+    /// Per corner its number in the list.
+    numbers: Vec<u32>,
+}
+
+struct Other {
+    place: DVec2,
+    point: u32,
+    corner: u32,
+}
+
+impl Reflex {
+    const NONE: u32 = u32::MAX;
+
+    fn new(corners: usize) -> Self {
+        Self {
+            list: Vec::with_capacity(corners),
+            numbers: vec![Self::NONE; corners],
+        }
+    }
+
+    fn add(&mut self, corner: u32, point: u32, place: DVec2) {
+        self.numbers[corner as usize] = self.list.len() as u32;
+        self.list.push(Other {
+            place,
+            point,
+            corner,
+        });
+    }
+
+    /// Takes a corner out, if it is there.
+    fn remove(&mut self, corner: u32) {
+        let number = std::mem::replace(&mut self.numbers[corner as usize], Self::NONE);
+        if number != Self::NONE {
+            self.list.swap_remove(number as usize);
+            if let Some(moved) = self.list.get(number as usize) {
+                self.numbers[moved.corner as usize] = number;
+            }
+        }
     }
 }
 

@@ -9,14 +9,49 @@ use super::style::Styles;
 use super::{Element, text};
 use crate::source::Span;
 
-pub(super) fn ids<'a>(document: &'a roxmltree::Document<'_>) -> FxHashMap<&'a str, NodeId> {
-    let mut ids = FxHashMap::default();
-    for node in document.descendants().filter(Node::is_element) {
-        if let Some(id) = node.attribute("id") {
-            ids.entry(id).or_insert(node.id());
+/// The elements by id; of several with one id the first.
+pub(super) struct Ids<'a> {
+    /// What injected ids begin with; a number follows.
+    prefix: &'a str,
+    injected: Vec<Option<NodeId>>,
+    own: FxHashMap<&'a str, NodeId>,
+}
+
+impl<'a> Ids<'a> {
+    pub(super) fn read(document: &'a roxmltree::Document<'_>, prepared: &'a Prepared) -> Self {
+        let mut ids = Self {
+            prefix: &prepared.id_prefix,
+            injected: vec![None; prepared.id_count + 1],
+            own: FxHashMap::default(),
+        };
+        for node in document.descendants().filter(Node::is_element) {
+            let Some(id) = node.attribute("id") else {
+                continue;
+            };
+            match ids.number(id) {
+                Some(number) => {
+                    ids.injected[number].get_or_insert(node.id());
+                }
+                None => {
+                    ids.own.entry(id).or_insert(node.id());
+                }
+            }
+        }
+        ids
+    }
+
+    pub(super) fn get(&self, id: &str) -> Option<NodeId> {
+        match self.number(id) {
+            Some(number) => self.injected[number],
+            None => self.own.get(id).copied(),
         }
     }
-    ids
+
+    /// The number of an injected id.
+    fn number(&self, id: &str) -> Option<usize> {
+        let number = id.strip_prefix(self.prefix)?.parse().ok();
+        number.filter(|number| *number < self.injected.len())
+    }
 }
 
 /// The original place of an element's opening bracket and name: short enough to point at.

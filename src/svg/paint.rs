@@ -97,7 +97,7 @@ impl Context<'_, '_> {
     }
 
     fn by_attribute_id(&self, id: &str) -> Option<Node<'_, '_>> {
-        self.document.get_node(*self.by_id.get(id)?)
+        self.document.get_node(self.by_id.get(id)?)
     }
 }
 

@@ -30,6 +30,8 @@ pub(super) struct Prepared {
     pub text: String,
     /// What every id begins with that is not the drawing's own.
     pub id_prefix: String,
+    /// The greatest number that follows it.
+    pub id_count: usize,
     /// What the drawing's own entities become, by name, as text.
     pub entities: FxHashMap<String, String>,
     /// Replacements in order: start in the copy, length there, start in the original, length there.
@@ -67,7 +69,10 @@ struct Replacement {
 /// what is wrong.
 pub(super) fn prepare(text: &str) -> Result<Prepared, Box<Diagnostic>> {
     let mut prefix = "okoshi-".to_owned();
-    while text.contains(&format!("\"{prefix}")) {
+    while ['"', '\'']
+        .iter()
+        .any(|quote| text.contains(&format!("{quote}{prefix}")))
+    {
         prefix.push('-');
     }
     let mut scan = Scan::new(text, &prefix);
@@ -286,6 +291,7 @@ impl<'a> Scan<'a> {
         Ok(Prepared {
             text,
             id_prefix: self.prefix.to_owned(),
+            id_count: self.counter,
             entities: self.entities,
             replacements,
         })

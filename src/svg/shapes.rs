@@ -4,10 +4,9 @@ use std::sync::{Arc, Mutex};
 
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
-use roxmltree::{Node, NodeId};
-use rustc_hash::FxHashMap;
+use roxmltree::Node;
 
-use super::elements::{element, ids, labels};
+use super::elements::{Ids, element, labels};
 use super::links::{options, report_links, unusable};
 use super::paths::{StrokeSource, affine, bez_path, open_line, rings};
 use super::prepare::Prepared;
@@ -32,7 +31,12 @@ pub(super) fn read(
     // usvg works on one core; the texts, which it does not read, need only the XML.
     let (tree, (labels, by_id)) = rayon::join(
         || usvg::Tree::from_xmltree(document, &options(resolver, &broken_links)),
-        || (labels(document, &styles, prepared), ids(document)),
+        || {
+            (
+                labels(document, &styles, prepared),
+                Ids::read(document, prepared),
+            )
+        },
     );
     let tree = tree.map_err(|error| Box::new(unusable(&error, document, prepared)))?;
     report_links(
@@ -122,7 +126,7 @@ pub(super) struct Context<'a, 'input> {
     pub(super) document: &'a roxmltree::Document<'input>,
     pub(super) styles: &'a Styles<'a>,
     pub(super) prepared: &'a Prepared,
-    pub(super) by_id: FxHashMap<&'a str, NodeId>,
+    pub(super) by_id: Ids<'a>,
     pub(super) page: DAffine2,
     pub(super) tolerance: f64,
 }

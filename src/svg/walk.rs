@@ -4,10 +4,9 @@ use std::sync::Arc;
 
 use glam::DAffine2;
 use roxmltree::{Node, NodeId};
-use rustc_hash::FxHashMap;
 
 use super::clip::Clip;
-use super::elements::{element, start_tag};
+use super::elements::{Ids, element, start_tag};
 use super::paths::affine;
 use super::prepare::Prepared;
 use super::{Group, GroupKind};
@@ -40,7 +39,7 @@ pub(super) enum Leaf<'a> {
 pub(super) struct Walk<'a, 'input, 'd> {
     pub(super) prepared: &'a Prepared,
     pub(super) root: Node<'a, 'input>,
-    pub(super) by_id: FxHashMap<&'a str, NodeId>,
+    pub(super) by_id: Ids<'a>,
     /// Per XML node the group it is, or that it is in; `usize::MAX` where not yet known.
     pub(super) group_of: Vec<usize>,
     pub(super) groups: Vec<Group>,
@@ -113,7 +112,7 @@ impl<'a> Walk<'a, '_, '_> {
         opacity: f64,
         clips: Option<&Arc<Vec<Clip>>>,
     ) {
-        let xml = self.by_id.get(group.id()).copied().unwrap_or(xml);
+        let xml = self.by_id.get(group.id()).unwrap_or(xml);
         if group.mask().is_some() {
             self.no_solid_meaning(
                 xml,
@@ -161,7 +160,7 @@ impl<'a> Walk<'a, '_, '_> {
         opacity: f64,
         clips: Option<&Arc<Vec<Clip>>>,
     ) {
-        let xml = self.by_id.get(id).copied().unwrap_or(xml);
+        let xml = self.by_id.get(id).unwrap_or(xml);
         let Some(node) = self
             .root
             .document()
