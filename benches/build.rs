@@ -1,31 +1,43 @@
-//! How long building takes, as a ratio to what usvg alone needs to parse the same drawing.
+//! How long building takes, as a ratio to what usvg alone needs to read the same drawing.
 //!
 //! `cargo bench --bench build [-- PARTS…]` prints, for drawings of 1,000, 10,000 and 100,000 parts, a third of
-//! them with strings: medians of interleaved rounds, the triangles that were made, and how near the parts' area
-//! comes to the true one, so that coarse curves buy nothing.
+//! them with strings: medians and least times of interleaved rounds, the triangles that were made, and how near the
+//! parts' area comes to the true one, so that coarse curves buy nothing. Both sides are whole processes, as a person
+//! starts them: `okoshi build` into a new file, and this program, on the system's allocator, calling usvg on the drawing.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
+use std::path::Path;
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use kurbo::{BezPath, Circle, Ellipse, Point, Rect, Shape};
 use okoshi::compile::{Options, compile};
-use okoshi::disk::write_atomic;
 use okoshi::geometry::area;
-use okoshi::gltf::{self, Container};
 use okoshi::resolver::MemoryResolver;
-
-#[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 /// Side of the cell that each part has to itself, drawing units.
 const CELL: f64 = 40.0;
+/// With this, the program is the baseline: it reads the drawing that is named next.
+const BASELINE: &str = "--usvg";
 
 fn main() {
     // cargo passes `--bench`.
-    let asked: Vec<usize> = std::env::args()
+    let mut arguments = std::env::args()
+        .skip(1)
+        .filter(|argument| argument != "--bench")
+        .peekable();
+    if arguments.next_if(|argument| argument == BASELINE).is_some() {
+        let path = arguments.next().expect("a drawing");
+        let text = std::fs::read_to_string(path).expect("a drawing");
+        let tree = usvg::Tree::from_str(&text, &usvg::Options::default()).expect("a sound drawing");
+        // Taking it apart is no part of reading it.
+        std::mem::forget(std::hint::black_box(tree));
+        return;
+    }
+    let asked: Vec<usize> = arguments
         .filter_map(|argument| argument.parse().ok())
         .collect();
     let sizes = if asked.is_empty() {
@@ -33,7 +45,7 @@ fn main() {
     } else {
         asked
     };
-    println!("parts    usvg ms  compile ms  write ms  ratio  triangles   MB  area");
+    println!("parts   usvg ms (least)  okoshi ms (least)  ratio (least)  triangles   MB  area");
     for size in sizes {
         measure(size);
     }
@@ -42,59 +54,69 @@ fn main() {
 fn measure(parts: usize) {
     let (drawing, true_area) = drawing(parts);
     let folder = tempfile::tempdir().expect("a temporary folder");
-    let output = folder.path().join("model.glb");
-    let rounds = (200_000 / parts).clamp(3, 15);
-    let mut times: [Vec<Duration>; 3] = Default::default();
-    let mut written = gltf::Written::default();
-    let mut found_area = 0.0;
+    let [input, output] = ["drawing.svg", "model.glb"].map(|name| folder.path().join(name));
+    std::fs::write(&input, &drawing).expect("room for it");
+    let this = std::env::current_exe().expect("this program");
+    let rounds = (200_000 / parts).clamp(5, 21);
+    let (mut usvg, mut okoshi) = (Vec::new(), Vec::new());
+    let mut bytes = 0;
     // The first round warms up.
-    for round in 0..=rounds {
-        let start = Instant::now();
-        let tree =
-            usvg::Tree::from_str(&drawing, &usvg::Options::default()).expect("a sound drawing");
-        let usvg = start.elapsed();
-        drop(tree);
-
-        let start = Instant::now();
-        let compiled = compile(&drawing, &Options::default(), &MemoryResolver::default());
-        let compiling = start.elapsed();
-        let start = Instant::now();
-        written = write_atomic(&output, |out| {
-            gltf::write(&compiled.scene, Container::Glb, out)
-        })
-        .expect("room for it");
-        let writing = start.elapsed();
-
-        assert!(!compiled.has_errors());
-        found_area = compiled
-            .sheet
-            .parts
-            .iter()
-            .map(|part| area(&part.outline))
-            .sum();
-        if round > 0 {
-            times
-                .iter_mut()
-                .zip([usvg, compiling, writing])
-                .for_each(|(list, time)| list.push(time));
-        }
+    for _ in 0..=rounds {
+        usvg.push(timed(Command::new(&this).arg(BASELINE).arg(&input)));
+        let _ = std::fs::remove_file(&output);
+        let mut build = Command::new(env!("CARGO_BIN_EXE_okoshi"));
+        okoshi.push(timed(
+            build
+                .args(["build", "-q"])
+                .arg(&input)
+                .arg("-o")
+                .arg(&output),
+        ));
+        bytes = std::fs::metadata(&output).expect("a model").len();
     }
-    let [usvg, compiling, writing] = times.map(median);
+    let [(usvg, least_usvg), (okoshi, least_okoshi)] = [usvg, okoshi].map(|mut times| {
+        times.remove(0);
+        times.sort();
+        (times[times.len() / 2].as_secs_f64(), times[0].as_secs_f64())
+    });
+    let compiled = compile(&drawing, &Options::default(), &MemoryResolver::default());
+    let found_area: f64 = compiled
+        .sheet
+        .parts
+        .iter()
+        .map(|part| area(&part.outline))
+        .sum();
     println!(
-        "{parts:>6}  {:>8.1}  {:>10.1}  {:>8.1}  {:>5.2}  {:>9}  {:>3.0}  {:.4}",
+        "{parts:>6}  {:>7.1} ({:>6.1})  {:>8.1} ({:>6.1})  {:>5.2} ({:>5.2})  {:>9}  {:>4.0}  {:.4}",
         usvg * 1e3,
-        compiling * 1e3,
-        writing * 1e3,
-        (compiling + writing) / usvg,
-        written.triangles,
-        written.bytes as f64 / 1e6,
+        least_usvg * 1e3,
+        okoshi * 1e3,
+        least_okoshi * 1e3,
+        okoshi / usvg,
+        least_okoshi / least_usvg,
+        triangles(&output),
+        bytes as f64 / 1e6,
         found_area / true_area,
     );
 }
 
-fn median(mut times: Vec<Duration>) -> f64 {
-    times.sort();
-    times[times.len() / 2].as_secs_f64()
+fn timed(command: &mut Command) -> Duration {
+    let start = Instant::now();
+    let status = command.stdout(Stdio::null()).status().expect("it starts");
+    assert!(status.success(), "{command:?} failed");
+    start.elapsed()
+}
+
+/// The triangles of a model.
+fn triangles(model: &Path) -> usize {
+    let model = gltf::Gltf::open(model).expect("a model");
+    let indices = model
+        .meshes()
+        .flat_map(|mesh| mesh.primitives().collect::<Vec<_>>());
+    indices
+        .filter_map(|primitive| primitive.indices())
+        .map(|list| list.count() / 3)
+        .sum()
 }
 
 /// A drawing of so many parts in groups, each part in a cell of its own, and the area of all of them.

@@ -2,8 +2,8 @@
 
 use glam::DVec2;
 use rayon::prelude::*;
-use rstar::RTree;
 use rstar::primitives::GeomWithData;
+use rstar::{PointDistance, RTree};
 use rustc_hash::FxHashMap;
 
 use super::sheet::{Part, PartKind, Sheet};
@@ -116,10 +116,10 @@ fn automatic(
         .par_iter()
         .map(|part| {
             let center = sheet.parts[*part].measure.center.to_array();
-            tree.nearest_neighbors(&center)
-                .into_iter()
-                .map(|found| found.data)
-                .min()
+            let nearest = tree.nearest_neighbor(center)?.distance_2(&center);
+            // Of several as near, the hindmost.
+            let as_near = tree.locate_within_distance(center, nearest);
+            as_near.map(|found| found.data).min()
         })
         .collect();
     let mut counter = 0;

@@ -81,7 +81,7 @@ pub fn build(outline: &Outline, kind: &ShapeKind, options: &Options) -> Surface 
     let half = low.abs().max(high.abs());
     match kind {
         ShapeKind::Inflate(given) => {
-            return inflate::inflate(outline, inflate::height(*given, half), options);
+            return inflate::inflate(outline, *given, half, options);
         }
         ShapeKind::Lathe(degrees) => return lathe::lathe(outline, *degrees, options),
         _ => {}

@@ -125,13 +125,13 @@ pub static KINDS: [Kind; 12] = [
     Kind {
         name: "inflate",
         form: form(&HEIGHT, &[0, 1]),
-        default: "half the part's smaller extent",
+        default: "as high as it is round, at most half the part's smaller extent",
         summary: "blown up like a balloon: any outline, round inside",
         long: "The outline is blown up to both sides, as if two pieces of cloth were sewn together \
                along it and filled. `h` is the height of the highest point, in drawing units; all \
                else follows it, so that thin limbs come out thinner than the trunk, and walls \
-               round holes like tubes. A disc becomes a ball. For rings and letters, which are thin \
-               everywhere, give an `h` of about half the stroke. Good for hands, leaves, clouds, \
+               round holes like tubes. A disc becomes a ball; what is thin everywhere, a ring or a letter, \
+               stays about as thick as its stroke is wide. Good for hands, leaves, clouds, \
                animals: outlines for which the round kinds are too regular.",
         example: "Cloud$Shape inflate 12",
         status: Status::Built,

@@ -1,6 +1,6 @@
 //! Outlines blown up like a balloon (language.md, Shapes).
 //!
-//! The height over a point is √u, scaled so that the highest has the height that is asked for, where
+//! The height over a point is 2√u, scaled so that the highest has the height that is asked for, where
 //! Δu = −1 inside the outline and u = 0 on its border. Over a disc this is a sphere, or a spheroid; over a bar
 //! an elliptic cylinder; thin limbs come out thinner than the trunk, and near the border the surface is upright,
 //! so that both sides meet without an edge. Nothing in it hangs on where the outline's points are.
@@ -22,8 +22,18 @@ use crate::scene::Surface;
 /// The least height over a point inside, relative to depths, that `f32` can tell from 0.
 const FINE: f64 = 1e-6;
 
-/// The surface over both sides of an outline whose highest points have a height, drawing units.
-pub(super) fn inflate(outline: &Outline, height: f64, options: &Options) -> Surface {
+/// The surface over both sides of an outline whose box has these half extents. Its highest points have the height
+/// that is given, drawing units.
+///
+/// Without one they are as high as the field itself is, a ball over a disc and about 0.7 of its width over a narrow
+/// bar, but no higher than half the box's smaller side: what is thin everywhere, a ring or a letter, stays thin.
+pub(super) fn inflate(
+    outline: &Outline,
+    given: Option<f64>,
+    half: DVec2,
+    options: &Options,
+) -> Surface {
+    let most = height(given, half);
     let put = Put::new(options);
     let points = points::points(outline, steps_per_half_turn(options));
     let mesh = mesh::mesh(&points, &put);
@@ -46,6 +56,8 @@ pub(super) fn inflate(outline: &Outline, height: f64, options: &Options) -> Surf
         .collect();
     let field = poisson::solve(&plane, &mesh.triangles, &mesh.on_border);
     let highest = field.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+    let own = 2.0 * highest.sqrt() * extent / options.placement.scale;
+    let height = if given.is_none() { most.min(own) } else { most };
 
     let least = (FINE * options.placement.translation.z.abs()).max(FINE * height);
     let middle = put.depth(0.0);
@@ -91,7 +103,7 @@ pub(super) fn inflate(outline: &Outline, height: f64, options: &Options) -> Surf
     shade(&written, &triangles, Crease::new(crease), |_| false)
 }
 
-/// How high an outline is blown up whose box has these half extents, drawing units.
+/// How high an outline is blown up at most whose box has these half extents, drawing units.
 pub(super) fn height(given: Option<f64>, half: DVec2) -> f64 {
     let given = given.map(|h| if h.is_finite() { h.abs() } else { 0.0 });
     given
