@@ -417,6 +417,55 @@ fn bombs_of_clones_are_refused() {
     );
 }
 
+/// What is drawn again wherever it is referred to can grow without end too.
+#[test]
+fn bombs_of_definitions_are_refused() {
+    for (element, property) in [
+        ("pattern width=\"9\" height=\"9\"", "fill"),
+        ("clipPath", "clip-path"),
+        ("mask", "mask"),
+        ("marker markerWidth=\"3\" markerHeight=\"3\"", "marker-mid"),
+    ] {
+        let name = element.split(' ').next().unwrap_or(element);
+        let mut bomb = format!("<defs><{element} id=\"d0\"><path d=\"M0 0 9 9 9 0\"/></{name}>");
+        for level in 1..=13 {
+            let inner = format!(
+                "<path d=\"M0 0 9 9 9 0 0 5\" {property}=\"url(#d{})\"/>",
+                level - 1
+            );
+            let inner = inner.repeat(6);
+            bomb.push_str(&format!(
+                "<{element} id=\"d{level}\"><g>{inner}</g></{name}>"
+            ));
+        }
+        let drawn = format!("<path d=\"M0 0 9 9 9 0 0 5\" style=\"{property}:url('#d13')\"/>");
+        refused(&svg(&format!("{bomb}</defs>{drawn}")), Code::LimitPassed);
+        let inherited = format!("<g {property}=\"url(#d13)\"><path d=\"M0 0 9 9 9 0 0 5\"/></g>");
+        refused(
+            &svg(&format!("{bomb}</defs>{inherited}")),
+            Code::LimitPassed,
+        );
+        // What is nested but small, or refers to itself, is none.
+        for small in [format!("{property}=\"url(#d1)\""), String::new()] {
+            let itself = format!(
+                "<{element} id=\"e\"><path {property}=\"url(#e)\" d=\"M0 0 9 9 9 0\"/></{name}>"
+            );
+            let drawn = format!(
+                "<path d=\"M0 0 9 9 9 0 0 5\" {small}/><path d=\"M0 0 9 9 9 0 0 5\" {property}=\"url(#e)\"/>"
+            );
+            let compiled = common::compiled(
+                &svg(&format!("{bomb}{itself}</defs>{drawn}")),
+                &MemoryResolver::default(),
+            );
+            let codes = compiled.diagnostics.iter().map(|found| found.code);
+            assert!(
+                codes.clone().all(|code| code != Code::LimitPassed),
+                "{property} {small}"
+            );
+        }
+    }
+}
+
 #[test]
 fn coordinates_that_are_no_numbers() {
     for number in [

@@ -7,6 +7,7 @@
 
 mod clip;
 mod elements;
+mod growth;
 mod image;
 mod links;
 mod paint;

@@ -8,6 +8,7 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 use xmlparser::{ElementEnd, EntityDefinition, Token, Tokenizer};
 
+use super::growth::DRAWN_AGAIN;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
@@ -32,6 +33,8 @@ pub(super) struct Prepared {
     pub id_prefix: String,
     /// The greatest number that follows it.
     pub id_count: usize,
+    /// Whether there are definitions that are drawn again wherever they are referred to.
+    pub draws_again: bool,
     /// What the drawing's own entities become, by name, as text.
     pub entities: FxHashMap<String, String>,
     /// Replacements in order: start in the copy, length there, start in the original, length there.
@@ -101,6 +104,7 @@ struct Scan<'a> {
     depth: usize,
     tag: Tag,
     seen_root: bool,
+    draws_again: bool,
     ids: FxHashSet<&'a str>,
     counter: usize,
     replacements: Vec<Replacement>,
@@ -116,6 +120,7 @@ impl<'a> Scan<'a> {
             depth: 0,
             tag: Tag::default(),
             seen_root: false,
+            draws_again: false,
             ids: FxHashSet::default(),
             counter: 0,
             replacements: Vec::new(),
@@ -145,6 +150,7 @@ impl<'a> Scan<'a> {
                     ..Tag::default()
                 };
                 self.seen_root = true;
+                self.draws_again |= DRAWN_AGAIN.contains(&local.as_str());
             }
             Token::Attribute {
                 prefix,
@@ -292,6 +298,7 @@ impl<'a> Scan<'a> {
             text,
             id_prefix: self.prefix.to_owned(),
             id_count: self.counter,
+            draws_again: self.draws_again,
             entities: self.entities,
             replacements,
         })

@@ -12,7 +12,7 @@ use super::paths::{StrokeSource, affine, bez_path, open_line, rings};
 use super::prepare::Prepared;
 use super::style::Styles;
 use super::walk::{Leaf, Task, Walk};
-use super::{Drawing, Element, Paint, PaintKey, Shape, image};
+use super::{Drawing, Element, Paint, PaintKey, Shape, growth, image};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{FillRule, Outline, clean};
 use crate::resolver::Resolver;
@@ -28,13 +28,21 @@ pub(super) fn read(
 ) -> Result<Drawing, Box<Diagnostic>> {
     let broken_links = Mutex::new(Vec::new());
     let styles = Styles::read(document);
+    let early_ids = match prepared.draws_again {
+        true => {
+            let ids = Ids::read(document, prepared);
+            growth::check(document, prepared, &styles, &ids)?;
+            Some(ids)
+        }
+        false => None,
+    };
     // usvg works on one core; the texts, which it does not read, need only the XML.
     let (tree, (labels, by_id)) = rayon::join(
         || usvg::Tree::from_xmltree(document, &options(resolver, &broken_links)),
         || {
             (
                 labels(document, &styles, prepared),
-                Ids::read(document, prepared),
+                early_ids.unwrap_or_else(|| Ids::read(document, prepared)),
             )
         },
     );

@@ -1,0 +1,132 @@
+//! How much a drawing grows when its references are followed, seen before usvg follows them.
+//!
+//! A pattern whose shapes are filled with patterns, and so on, or clips, masks and markers within each other, can
+//! stand for more shapes than any memory holds. Clones are not counted here: usvg itself refuses to grow by them.
+
+use roxmltree::{Document, Node, NodeId};
+use rustc_hash::FxHashMap;
+
+use super::elements::{Ids, start_tag};
+use super::prepare::Prepared;
+use super::style::Styles;
+use crate::diagnostic::{Code, Diagnostic};
+
+/// The most elements that a drawing may become.
+const MOST: u64 = 1 << 22;
+
+/// Definitions that are drawn again wherever they are referred to.
+pub(super) const DRAWN_AGAIN: &[&str] = &["pattern", "clipPath", "mask", "marker"];
+/// Elements that are drawn only where they are referred to.
+const DEFINITIONS: &[&str] = &[
+    "defs", "symbol", "pattern", "clipPath", "mask", "marker", "filter",
+];
+/// Properties that count for every shape below the element that has them.
+const INHERITED: &[&str] = &["fill", "stroke"];
+/// Inherited properties whose target is drawn at a path's corners.
+const MARKERS: &[&str] = &["marker", "marker-start", "marker-mid", "marker-end"];
+/// Properties that count once.
+const OWN: &[&str] = &["clip-path", "mask"];
+
+/// Refuses a drawing that grows beyond measure.
+pub(super) fn check(
+    document: &Document<'_>,
+    prepared: &Prepared,
+    styles: &Styles<'_>,
+    ids: &Ids<'_>,
+) -> Result<(), Box<Diagnostic>> {
+    let mut growth = Growth {
+        document,
+        styles,
+        ids,
+        known: FxHashMap::default(),
+        blamed: None,
+    };
+    let Size { elements, .. } = growth.size(document.root_element());
+    if elements <= MOST {
+        return Ok(());
+    }
+    let blamed = growth.blamed.and_then(|node| document.get_node(node));
+    let span = start_tag(blamed.unwrap_or(document.root_element()), prepared);
+    let message = format!(
+        "patterns, clips, masks or markers within each other become more than {MOST} elements"
+    );
+    let help = "take out what is nested: a pattern of plain shapes, a clip of one path";
+    Err(Box::new(
+        Diagnostic::new(Code::LimitPassed, span, message).help(help),
+    ))
+}
+
+/// What an element becomes.
+#[derive(Clone, Copy, Default)]
+struct Size {
+    elements: u64,
+    /// Shapes among them that stand there as they are, and the corners that these have.
+    shapes: u64,
+    corners: u64,
+}
+
+struct Growth<'a, 'input> {
+    document: &'a Document<'input>,
+    styles: &'a Styles<'a>,
+    ids: &'a Ids<'a>,
+    /// What definitions become; nothing while that is being found out, for a definition that refers to itself.
+    known: FxHashMap<NodeId, u64>,
+    /// The innermost element found to grow beyond measure.
+    blamed: Option<NodeId>,
+}
+
+impl<'a, 'input> Growth<'a, 'input> {
+    fn size(&mut self, node: Node<'a, 'input>) -> Size {
+        let mut size = Size {
+            elements: 1,
+            ..Size::default()
+        };
+        for child in node.children().filter(Node::is_element) {
+            if !DEFINITIONS.contains(&child.tag_name().name()) {
+                let inner = self.size(child);
+                size.elements = size.elements.saturating_add(inner.elements);
+                size.shapes += inner.shapes;
+                size.corners += inner.corners;
+            }
+        }
+        if size.shapes == 0 {
+            let corners = node.attribute("d").or_else(|| node.attribute("points"));
+            // Two numbers a corner, each with something before it.
+            let parts = |text: &str| text.split([' ', ',', '\n', '-']).count() as u64;
+            size.shapes = 1;
+            size.corners = 2 + corners.map_or(0, parts) / 2;
+        }
+        let of = [(INHERITED, size.shapes), (MARKERS, size.corners), (OWN, 1)];
+        for (properties, times) in of {
+            for property in properties {
+                let grown = self.target(node, property).saturating_mul(times);
+                size.elements = size.elements.saturating_add(grown);
+            }
+        }
+        if size.elements > MOST && self.blamed.is_none() {
+            self.blamed = Some(node.id());
+        }
+        size
+    }
+
+    /// What the definition becomes that a property refers to.
+    fn target(&mut self, node: Node<'a, 'input>, property: &str) -> u64 {
+        let id = self.styles.own(node, property).and_then(|value| {
+            let (_, rest) = value.split_once("url(")?;
+            let (link, _) = rest.split_once(')')?;
+            link.trim_matches(['"', '\'', ' ']).strip_prefix('#')
+        });
+        let target = id.and_then(|id| self.document.get_node(self.ids.get(id)?));
+        let Some(target) = target.filter(|target| DRAWN_AGAIN.contains(&target.tag_name().name()))
+        else {
+            return 0;
+        };
+        if let Some(known) = self.known.get(&target.id()) {
+            return *known;
+        }
+        self.known.insert(target.id(), 0);
+        let Size { elements, .. } = self.size(target);
+        self.known.insert(target.id(), elements);
+        elements
+    }
+}
