@@ -467,6 +467,25 @@ fn bombs_of_definitions_are_refused() {
 }
 
 #[test]
+fn long_chains_of_definitions_are_refused() {
+    for property in ["clip-path", "mask"] {
+        let name = if property == "mask" {
+            "mask"
+        } else {
+            "clipPath"
+        };
+        let chain: String = (0..100_000)
+            .map(|level| format!("<{name} id=\"d{level}\"><path d=\"M0 0 9 9 9 0\" {property}=\"url(#d{})\"/></{name}>", level + 1))
+            .collect();
+        let drawn = format!("<path d=\"M0 0 9 9 9 0\" {property}=\"url(#d0)\"/>");
+        refused(
+            &svg(&format!("<defs>{chain}</defs>{drawn}")),
+            Code::LimitPassed,
+        );
+    }
+}
+
+#[test]
 fn coordinates_that_are_no_numbers() {
     for number in [
         "1e30", "-1e30", "NaN", "inf", "1e-30", "1e400", "1e38", "3.4e38", "-0",

@@ -15,7 +15,9 @@ use okoshi::scene::{
 fn pillar() -> Vec<u8> {
     let mut png = Cursor::new(Vec::new());
     let pixels = image::RgbaImage::from_pixel(2, 2, image::Rgba([200, 30, 30, 255]));
-    pixels.write_to(&mut png, image::ImageFormat::Png).unwrap();
+    pixels
+        .write_to(&mut png, image::ImageFormat::Png)
+        .expect("sound");
     let quad = |z: f32, uvs: bool| Surface {
         positions: vec![
             [9.0, -2.0, z],
@@ -78,7 +80,7 @@ fn pillar() -> Vec<u8> {
         ..Scene::default()
     };
     let mut out = Cursor::new(Vec::new());
-    write(&scene, Container::Glb, &mut out).unwrap();
+    write(&scene, Container::Glb, &mut out).expect("sound");
     out.into_inner()
 }
 
@@ -112,8 +114,12 @@ fn codes(compiled: &Compiled) -> Vec<&str> {
 
 /// The box of a node's mesh, in its frame.
 fn bounds(scene: &Scene, name: &str) -> [[f32; 3]; 2] {
-    let node = scene.nodes.iter().find(|node| node.name == name).unwrap();
-    let mesh = &scene.meshes[node.mesh.unwrap()];
+    let node = scene
+        .nodes
+        .iter()
+        .find(|node| node.name == name)
+        .expect("sound");
+    let mesh = &scene.meshes[node.mesh.expect("sound")];
     let none = [[f32::INFINITY; 3], [f32::NEG_INFINITY; 3]];
     mesh.primitives.iter().fold(none, |all, primitive| {
         primitive
@@ -172,19 +178,21 @@ fn both_sides_and_offsets_are_as_with_solids() {
 fn a_models_looks_are_kept() {
     let compiled = compiled("model \"pillar.glb\"", &[("pillar.glb", &pillar())]);
     let mut out = Cursor::new(Vec::new());
-    write(&compiled.scene, Container::Glb, &mut out).unwrap();
-    let document = gltf::Gltf::from_slice(out.get_ref()).unwrap().document;
+    write(&compiled.scene, Container::Glb, &mut out).expect("sound");
+    let document = gltf::Gltf::from_slice(out.get_ref())
+        .expect("sound")
+        .document;
     let materials: Vec<_> = document
         .materials()
         .filter_map(|m| m.name().map(str::to_owned))
         .collect();
     assert_eq!(materials, ["#0000ff", "front", "back"]);
-    let front = document.materials().nth(1).unwrap();
+    let front = document.materials().nth(1).expect("sound");
     assert_eq!(front.pbr_metallic_roughness().metallic_factor(), 0.25);
     let texture = front
         .pbr_metallic_roughness()
         .base_color_texture()
-        .unwrap()
+        .expect("sound")
         .texture();
     assert_eq!(
         texture.sampler().wrap_s(),
@@ -195,19 +203,19 @@ fn a_models_looks_are_kept() {
         gltf::texture::WrappingMode::MirroredRepeat
     );
     assert_eq!(texture.source().name(), Some("red"));
-    assert!(document.materials().nth(2).unwrap().double_sided());
+    assert!(document.materials().nth(2).expect("sound").double_sided());
     let post = document
         .meshes()
         .find(|mesh| mesh.name() == Some("Post"))
-        .unwrap();
+        .expect("sound");
     assert_eq!(post.primitives().count(), 2);
 }
 
 #[test]
 fn a_gltf_links_from_its_own_folder() {
     let glb = pillar();
-    let length = u32::from_le_bytes(glb[12..16].try_into().unwrap()) as usize;
-    let mut json: serde_json::Value = serde_json::from_slice(&glb[20..20 + length]).unwrap();
+    let length = u32::from_le_bytes(glb[12..16].try_into().expect("sound")) as usize;
+    let mut json: serde_json::Value = serde_json::from_slice(&glb[20..20 + length]).expect("sound");
     json["buffers"][0]["uri"] = "pillar.bin".into();
     let (json, data) = (json.to_string(), &glb[28 + length..]);
     let compiled = compiled(
@@ -258,6 +266,6 @@ fn broken_models_do_no_harm() {
         bytes[at] ^= 0x55;
         let compiled = compiled("model \"a.glb\"", &[("a.glb", &bytes)]);
         let mut out = Cursor::new(Vec::new());
-        write(&compiled.scene, Container::Glb, &mut out).unwrap();
+        write(&compiled.scene, Container::Glb, &mut out).expect("sound");
     }
 }

@@ -7,7 +7,7 @@ use roxmltree::{Document, Node, NodeId};
 use rustc_hash::FxHashMap;
 
 use super::elements::{Ids, start_tag};
-use super::prepare::Prepared;
+use super::prepare::{MAX_DEPTH, Prepared};
 use super::style::Styles;
 use crate::diagnostic::{Code, Diagnostic};
 
@@ -39,6 +39,8 @@ pub(super) fn check(
         styles,
         ids,
         known: FxHashMap::default(),
+        depth: 0,
+        too_deep: false,
         blamed: None,
     };
     let Size { elements, .. } = growth.size(document.root_element());
@@ -47,9 +49,11 @@ pub(super) fn check(
     }
     let blamed = growth.blamed.and_then(|node| document.get_node(node));
     let span = start_tag(blamed.unwrap_or(document.root_element()), prepared);
-    let message = format!(
-        "patterns, clips, masks or markers within each other become more than {MOST} elements"
-    );
+    let what = "patterns, clips, masks or markers within each other";
+    let message = match growth.too_deep {
+        true => format!("{what} lie more than {MAX_DEPTH} deep"),
+        false => format!("{what} become more than {MOST} elements"),
+    };
     let help = "take out what is nested: a pattern of plain shapes, a clip of one path";
     Err(Box::new(
         Diagnostic::new(Code::LimitPassed, span, message).help(help),
@@ -71,6 +75,9 @@ struct Growth<'a, 'input> {
     ids: &'a Ids<'a>,
     /// What definitions become; nothing while that is being found out, for a definition that refers to itself.
     known: FxHashMap<NodeId, u64>,
+    /// How many definitions are being looked at, each within the one before.
+    depth: usize,
+    too_deep: bool,
     /// The innermost element found to grow beyond measure.
     blamed: Option<NodeId>,
 }
@@ -124,8 +131,15 @@ impl<'a, 'input> Growth<'a, 'input> {
         if let Some(known) = self.known.get(&target.id()) {
             return *known;
         }
+        if self.depth >= MAX_DEPTH {
+            // usvg follows references on the stack.
+            self.too_deep = true;
+            return MOST + 1;
+        }
         self.known.insert(target.id(), 0);
+        self.depth += 1;
         let Size { elements, .. } = self.size(target);
+        self.depth -= 1;
         self.known.insert(target.id(), elements);
         elements
     }
