@@ -4,13 +4,13 @@ mod common;
 
 use std::fs;
 use std::io::{Read, Write};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::path::Path;
+use std::process::{Command, Stdio};
 
+use common::program::{Room, Run};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use serde_json::Value;
-use tempfile::TempDir;
 
 const GOOD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
   <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
@@ -32,105 +32,6 @@ const HINT: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" heigh
   <text x="50" y="44" font-size="5">Body$Color red Color blue</text>
 </svg>
 "##;
-
-/// A folder of its own for a test.
-struct Room(TempDir);
-
-/// What a run gave.
-struct Run {
-    status: i32,
-    out: String,
-    err: String,
-}
-
-impl Room {
-    fn new() -> Self {
-        Self(tempfile::tempdir().expect("a folder"))
-    }
-
-    fn with(name: &str, bytes: impl AsRef<[u8]>) -> Self {
-        let room = Self::new();
-        room.write(name, bytes);
-        room
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn write(&self, name: &str, bytes: impl AsRef<[u8]>) {
-        let path = self.path(name);
-        let parent = path.parent().expect("a parent");
-        fs::create_dir_all(parent).expect("folders");
-        fs::write(path, bytes).expect("written");
-    }
-
-    fn read(&self, name: &str) -> Vec<u8> {
-        fs::read(self.path(name)).unwrap_or_else(|error| panic!("{name}: {error}"))
-    }
-
-    fn files(&self) -> Vec<String> {
-        let entries = fs::read_dir(self.0.path()).expect("the folder");
-        let mut names: Vec<String> = entries
-            .map(|entry| entry.expect("an entry").file_name())
-            .map(|name| name.to_string_lossy().into_owned())
-            .collect();
-        names.sort();
-        names
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_okoshi"));
-        command.args(arguments).current_dir(self.0.path());
-        command.env_remove("NO_COLOR");
-        command
-    }
-
-    fn run(&self, arguments: &[&str]) -> Run {
-        Run::of(self.command(arguments).output().expect("it starts"))
-    }
-
-    fn pipe(&self, arguments: &[&str], input: &[u8]) -> Output {
-        let mut child = self
-            .command(arguments)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("it starts");
-        let mut stdin = child.stdin.take().expect("stdin");
-        // Who refuses to work does not read.
-        let _ = stdin.write_all(input);
-        drop(stdin);
-        child.wait_with_output().expect("it ends")
-    }
-}
-
-impl Run {
-    fn of(output: Output) -> Self {
-        let text = |bytes| String::from_utf8(bytes).expect("text");
-        Self {
-            status: output.status.code().expect("it was not killed"),
-            out: text(output.stdout),
-            err: text(output.stderr),
-        }
-    }
-
-    #[track_caller]
-    fn ends(self, status: i32, out: &str, err: &str) {
-        let told = format!("stdout:\n{}\nstderr:\n{}", self.out, self.err);
-        assert_eq!(self.status, status, "{told}");
-        if out.is_empty() {
-            assert_eq!(self.out, "", "{told}");
-        }
-        assert!(self.out.contains(out), "stdout lacks {out:?}\n{told}");
-        if err.is_empty() {
-            assert_eq!(self.err, "", "{told}");
-        }
-        assert!(self.err.contains(err), "stderr lacks {err:?}\n{told}");
-        assert!(!told.contains("panicked"), "{told}");
-    }
-}
 
 fn names(glb: &[u8]) -> Vec<String> {
     let nodes = common::nodes(glb).expect("a model");
@@ -647,7 +548,7 @@ fn completions() {
     room.write("okoshi.bash", script);
     let bash = Command::new("bash")
         .args(["-n", "okoshi.bash"])
-        .current_dir(room.0.path())
+        .current_dir(room.path(""))
         .output();
     if let Ok(bash) = bash {
         assert!(

@@ -3,28 +3,19 @@
 mod common;
 
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Output;
 
-use tempfile::TempDir;
+use common::program::Room;
 
 const TEMPLATES: [&str; 2] = ["human", "car"];
 
-fn room() -> TempDir {
-    tempfile::tempdir().expect("a folder")
-}
-
-fn run(room: &TempDir, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_okoshi"))
-        .args(arguments)
-        .current_dir(room.path())
-        .output()
-        .expect("it starts")
+fn run(room: &Room, arguments: &[&str]) -> Output {
+    room.command(arguments).output().expect("it starts")
 }
 
 /// Runs, and wants an exit status, nothing on stdout, and words on stderr.
 #[track_caller]
-fn ends(room: &TempDir, arguments: &[&str], status: i32, words: &[&str]) {
+fn ends(room: &Room, arguments: &[&str], status: i32, words: &[&str]) {
     let output = run(room, arguments);
     let told = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(status), "{told}");
@@ -34,20 +25,10 @@ fn ends(room: &TempDir, arguments: &[&str], status: i32, words: &[&str]) {
     }
 }
 
-fn files(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).expect("the folder");
-    let mut names: Vec<String> = entries
-        .map(|entry| entry.expect("an entry").file_name())
-        .map(|name| name.to_string_lossy().into_owned())
-        .collect();
-    names.sort();
-    names
-}
-
 #[test]
 fn every_template_builds_and_there_is_nothing_to_say() {
     for template in TEMPLATES {
-        let room = room();
+        let room = Room::new();
         ends(
             &room,
             &["new", "me", "--template", template],
@@ -65,34 +46,34 @@ fn every_template_builds_and_there_is_nothing_to_say() {
             "{template}"
         );
         ends(&room, &["build", "-q", "me.svg"], 0, &[]);
-        let nodes = common::nodes(&fs::read(room.path().join("me.glb")).expect("a model"));
+        let nodes = common::nodes(&fs::read(room.path("me.glb")).expect("a model"));
         let nodes = nodes.expect("a valid model");
         assert!(nodes.len() > 7, "{template} has {} nodes", nodes.len());
         common::check_laws(&nodes).expect(template);
-        assert_eq!(files(room.path()), ["me.glb", "me.svg"]);
+        assert_eq!(room.files(), ["me.glb", "me.svg"]);
     }
 }
 
 #[test]
 fn help_lists_the_templates_there_are() {
-    let output = run(&room(), &["new", "--help"]);
+    let output = run(&Room::new(), &["new", "--help"]);
     let help = String::from_utf8_lossy(&output.stdout).into_owned();
     for template in TEMPLATES {
         assert!(help.contains(template), "{help}");
     }
     ends(
-        &room(),
+        &Room::new(),
         &["new", "me", "--template", "boat"],
         2,
         &["invalid value 'boat'", "[possible values: human, car]"],
     );
-    ends(&room(), &["new"], 2, &["<NAME>"]);
+    ends(&Room::new(), &["new"], 2, &["<NAME>"]);
 }
 
 #[test]
 fn drawings_are_not_written_over() {
-    let room = room();
-    fs::write(room.path().join("my me.svg"), "hours of work").expect("written");
+    let room = Room::new();
+    fs::write(room.path("my me.svg"), "hours of work").expect("written");
     for name in ["my me", "my me.svg"] {
         ends(
             &room,
@@ -105,34 +86,34 @@ fn drawings_are_not_written_over() {
             ],
         );
     }
-    let kept = fs::read(room.path().join("my me.svg")).expect("kept");
+    let kept = fs::read(room.path("my me.svg")).expect("kept");
     assert_eq!(kept, b"hours of work");
-    fs::create_dir(room.path().join("folder.svg")).expect("made");
+    fs::create_dir(room.path("folder.svg")).expect("made");
     ends(&room, &["new", "folder"], 2, &["`folder.svg` exists"]);
-    assert_eq!(files(room.path()), ["folder.svg", "my me.svg"]);
+    assert_eq!(room.files(), ["folder.svg", "my me.svg"]);
 }
 
 #[test]
 fn a_drawing_has_its_ending_once() {
-    let room = room();
-    fs::create_dir(room.path().join("in")).expect("made");
+    let room = Room::new();
+    fs::create_dir(room.path("in")).expect("made");
     for name in ["a", "b.svg", "c.d", "in/e"] {
         ends(&room, &["new", "-q", name], 0, &[]);
     }
-    assert_eq!(files(room.path()), ["a.svg", "b.svg", "c.d.svg", "in"]);
-    assert_eq!(files(&room.path().join("in")), ["e.svg"]);
+    assert_eq!(room.files(), ["a.svg", "b.svg", "c.d.svg", "in"]);
+    assert_eq!(common::program::files(&room.path("in")), ["e.svg"]);
 }
 
 #[test]
 fn names_that_are_no_place() {
-    let room = room();
+    let room = Room::new();
     ends(
         &room,
         &["new", "none/me"],
         2,
         &["error: the folder `none` is not there; create it"],
     );
-    fs::write(room.path().join("file"), "").expect("written");
+    fs::write(room.path("file"), "").expect("written");
     ends(
         &room,
         &["new", "file/me"],
@@ -149,7 +130,7 @@ fn names_that_are_no_place() {
         &["a value is required for '<NAME>'"],
     );
     ends(&room, &["new", "me.svgz"], 2, &["write `me.svg`"]);
-    assert_eq!(files(room.path()), ["file"]);
+    assert_eq!(room.files(), ["file"]);
 }
 
 #[cfg(unix)]
@@ -157,8 +138,8 @@ fn names_that_are_no_place() {
 fn a_folder_that_may_not_be_written() {
     use std::os::unix::fs::PermissionsExt as _;
 
-    let room = room();
-    let folder = room.path().join("locked");
+    let room = Room::new();
+    let folder = room.path("locked");
     fs::create_dir(&folder).expect("made");
     fs::set_permissions(&folder, fs::Permissions::from_mode(0o555)).expect("locked");
     // Who may do everything, root for example, cannot be refused.
@@ -171,7 +152,7 @@ fn a_folder_that_may_not_be_written() {
         2,
         &["error: you may not write in the folder `locked`; name a drawing in another"],
     );
-    assert!(files(&folder).is_empty());
+    assert!(common::program::files(&folder).is_empty());
 }
 
 #[cfg(target_os = "linux")]
@@ -179,16 +160,16 @@ fn a_folder_that_may_not_be_written() {
 fn a_system_that_refuses_files() {
     // Not even root makes files there.
     let name = "/proc/okoshi-me";
-    ends(&room(), &["new", name], 2, &["error: ", "/proc"]);
+    ends(&Room::new(), &["new", name], 2, &["error: ", "/proc"]);
 }
 
 #[test]
 fn a_template_on_stdout() {
-    let room = room();
+    let room = Room::new();
     let output = run(&room, &["new", "-", "--template", "car"]);
     assert_eq!(output.status.code(), Some(0));
     assert_eq!(output.stderr, b"");
     ends(&room, &["new", "-q", "me", "--template", "car"], 0, &[]);
-    let written = fs::read(room.path().join("me.svg")).expect("written");
+    let written = fs::read(room.path("me.svg")).expect("written");
     assert_eq!(output.stdout, written);
 }

@@ -1,11 +1,11 @@
 //! `okoshi render` end to end: what it writes, and what it says of wrong use.
 
-use std::fs;
-use std::path::PathBuf;
-use std::process::Command;
+mod common;
 
+use std::fs;
+
+use common::program::Room;
 use image::{AnimationDecoder, ImageDecoder};
-use tempfile::TempDir;
 
 const GOOD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
   <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
@@ -19,74 +19,52 @@ const BAD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height
 </svg>
 "##;
 
-/// A folder of its own for a test, with a good drawing and a bad one.
-struct Room(TempDir);
+/// A folder with a good drawing and a bad one.
+fn room() -> Room {
+    let room = Room::with("a.svg", GOOD);
+    room.write("bad.svg", BAD);
+    room
+}
 
-impl Room {
-    fn new() -> Self {
-        let room = Self(tempfile::tempdir().expect("a folder"));
-        fs::write(room.path("a.svg"), GOOD).expect("written");
-        fs::write(room.path("bad.svg"), BAD).expect("written");
-        room
-    }
+/// Exit status, stdout, stderr.
+fn run(room: &Room, arguments: &str) -> (i32, Vec<u8>, String) {
+    let arguments: Vec<&str> = arguments.split_whitespace().collect();
+    let output = room.command(&arguments).output().expect("it starts");
+    let told = String::from_utf8(output.stderr).expect("text");
+    assert!(!told.contains("panicked"), "{told}");
+    let status = output.status.code().expect("it was not killed");
+    (status, output.stdout, told)
+}
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
+#[track_caller]
+fn ends(room: &Room, arguments: &str, status: i32, told: &str) {
+    let (found, out, err) = run(room, arguments);
+    assert_eq!(found, status, "{arguments}: {err}");
+    assert!(err.contains(told), "{arguments}: {err:?} lacks {told:?}");
+    assert!(out.is_empty(), "{arguments}");
+}
 
-    /// Exit status, stdout, stderr.
-    fn run(&self, arguments: &str) -> (i32, Vec<u8>, String) {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_okoshi"));
-        command
-            .args(arguments.split_whitespace())
-            .current_dir(self.0.path());
-        let output = command.output().expect("it starts");
-        let told = String::from_utf8(output.stderr).expect("text");
-        assert!(!told.contains("panicked"), "{told}");
-        (
-            output.status.code().expect("it was not killed"),
-            output.stdout,
-            told,
-        )
-    }
+/// The files beside the two drawings.
+fn files(room: &Room) -> Vec<String> {
+    let mut names = room.files();
+    names.retain(|name| !name.ends_with(".svg"));
+    names
+}
 
-    #[track_caller]
-    fn ends(&self, arguments: &str, status: i32, told: &str) {
-        let (found, out, err) = self.run(arguments);
-        assert_eq!(found, status, "{arguments}: {err}");
-        assert!(err.contains(told), "{arguments}: {err:?} lacks {told:?}");
-        assert!(out.is_empty(), "{arguments}");
-    }
-
-    /// The files beside the two drawings.
-    fn files(&self) -> Vec<String> {
-        let entries = fs::read_dir(self.0.path()).expect("the folder");
-        let names = entries.map(|entry| {
-            entry
-                .expect("an entry")
-                .file_name()
-                .to_string_lossy()
-                .into_owned()
-        });
-        let mut names: Vec<String> = names.filter(|name| !name.ends_with(".svg")).collect();
-        names.sort();
-        names
-    }
-
-    fn image(&self, name: &str) -> image::RgbaImage {
-        image::open(self.path(name)).expect("an image").into_rgba8()
-    }
+fn picture(room: &Room, name: &str) -> image::RgbaImage {
+    image::open(room.path(name)).expect("an image").into_rgba8()
 }
 
 #[test]
 fn a_drawing_becomes_a_picture_beside_it() {
-    let room = Room::new();
-    room.ends(
+    let room = room();
+    ends(
+        &room,
         "render a.svg --size 80x60",
         0,
         "wrote a.png: 80 × 60 pixels, 12 triangles",
     );
-    let image = room.image("a.png");
+    let image = picture(&room, "a.png");
     assert_eq!(image.dimensions(), (80, 60));
     let [r, g, b, alpha] = image.get_pixel(40, 30).0;
     assert!(
@@ -95,53 +73,62 @@ fn a_drawing_becomes_a_picture_beside_it() {
     );
     assert_eq!(image.get_pixel(0, 0).0, [0; 4]);
     // A model gives the very same picture.
-    room.ends("build a.svg", 0, "wrote");
-    room.ends("render a.glb -o b.png --size 80x60", 0, "wrote b.png");
+    ends(&room, "build a.svg", 0, "wrote");
+    ends(
+        &room,
+        "render a.glb -o b.png --size 80x60",
+        0,
+        "wrote b.png",
+    );
     assert_eq!(
         fs::read(room.path("a.png")).ok(),
         fs::read(room.path("b.png")).ok()
     );
-    room.ends("build a.svg -o c.gltf", 0, "wrote");
-    room.ends("-q render c.gltf --size 80x60", 0, "");
+    ends(&room, "build a.svg -o c.gltf", 0, "wrote");
+    ends(&room, "-q render c.gltf --size 80x60", 0, "");
     assert_eq!(
         fs::read(room.path("a.png")).ok(),
         fs::read(room.path("c.png")).ok()
     );
-    room.ends(
+    ends(
+        &room,
         "render a.svg -o d.png --size 80x60 --background #00ff00",
         0,
         "wrote d.png",
     );
-    assert_eq!(room.image("d.png").get_pixel(0, 0).0, [0, 255, 0, 255]);
-    let (status, out, _) = room.run("render a.svg -o - --size 80x60");
+    assert_eq!(picture(&room, "d.png").get_pixel(0, 0).0, [0, 255, 0, 255]);
+    let (status, out, _) = run(&room, "render a.svg -o - --size 80x60");
     assert_eq!((status, Some(out)), (0, fs::read(room.path("a.png")).ok()));
 }
 
 #[test]
 fn options_change_the_picture() {
-    let room = Room::new();
-    room.ends("render a.svg --size 60x60", 0, "wrote");
-    let plain = room.image("a.png");
+    let room = room();
+    ends(&room, "render a.svg --size 60x60", 0, "wrote");
+    let plain = picture(&room, "a.png");
     for more in ["--view=-40,30", "--projection orthographic", "--view 0,0"] {
-        room.ends(
+        ends(
+            &room,
             &format!("render a.svg -o other.png --size 60x60 {more}"),
             0,
             "wrote",
         );
-        assert!(room.image("other.png") != plain, "{more}");
+        assert!(picture(&room, "other.png") != plain, "{more}");
     }
-    room.ends(
+    ends(
+        &room,
         "render a.svg -o other.png --size 60x60 --view 390,15 --shading smooth",
         0,
         "wrote",
     );
-    assert!(room.image("other.png") == plain);
+    assert!(picture(&room, "other.png") == plain);
 }
 
 #[test]
 fn turntables() {
-    let room = Room::new();
-    room.ends(
+    let room = room();
+    ends(
+        &room,
         "render a.svg -o t.png --size 40x40 --turntable 10",
         0,
         "wrote t-01.png to t-10.png: 40 × 40",
@@ -149,8 +136,9 @@ fn turntables() {
     let numbers: Vec<String> = (1..=10)
         .map(|number| format!("t-{number:02}.png"))
         .collect();
-    assert_eq!(room.files(), numbers);
-    room.ends(
+    assert_eq!(files(&room), numbers);
+    ends(
+        &room,
         "render a.svg -o t.gif --size 40x40 --turntable 10",
         0,
         "wrote t.gif: 10 frames",
@@ -161,7 +149,8 @@ fn turntables() {
     let frames = gif.into_frames().collect_frames().expect("frames");
     assert_eq!(frames.len(), 10);
     assert_eq!(frames[3].delay().numer_denom_ms(), (400, 1));
-    room.ends(
+    ends(
+        &room,
         "render a.svg -o t.apng --size 40x40 --turntable 10",
         0,
         "wrote t.apng: 10 frames",
@@ -175,7 +164,7 @@ fn turntables() {
     assert_eq!(drawn.len(), 10);
     for (index, frame) in drawn.iter().enumerate() {
         assert!(
-            *frame.buffer() == room.image(&numbers[index]),
+            *frame.buffer() == picture(&room, &numbers[index]),
             "frame {index}"
         );
         // The GIF's colours are near, and what is clear in it is mostly clear here.
@@ -186,13 +175,13 @@ fn turntables() {
         });
         assert!(far.count() < 8, "frame {index}");
     }
-    let (_, out, _) = room.run("render a.svg -o - --size 40x40 --turntable 10");
+    let (_, out, _) = run(&room, "render a.svg -o - --size 40x40 --turntable 10");
     assert_eq!(Some(out), fs::read(room.path("t.apng")).ok());
 }
 
 #[test]
 fn wrong_use_is_told() {
-    let room = Room::new();
+    let room = room();
     let told = [
         (
             "render gone.svg",
@@ -257,43 +246,51 @@ fn wrong_use_is_told() {
         ("render -", "a drawing from stdin has no place of its own"),
     ];
     for (arguments, message) in told {
-        room.ends(arguments, 2, message);
+        ends(&room, arguments, 2, message);
     }
-    assert!(room.files().is_empty(), "{:?}", room.files());
+    assert!(files(&room).is_empty(), "{:?}", files(&room));
     fs::write(room.path("no.glb"), "hello").expect("written");
-    room.ends(
+    ends(
+        &room,
         "render no.glb",
         2,
         "error: `no.glb` is no glTF that can be read",
     );
     let link = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"../x.bin"}]}"#;
     fs::write(room.path("out.gltf"), link).expect("written");
-    room.ends(
+    ends(
+        &room,
         "render out.gltf",
         2,
         "links to `../x.bin`, which leads out of",
     );
-    assert_eq!(room.files(), ["no.glb", "out.gltf"]);
+    assert_eq!(files(&room), ["no.glb", "out.gltf"]);
 }
 
 #[test]
 fn errors_in_the_drawing() {
-    let room = Room::new();
-    room.ends("render bad.svg", 1, "error[E101]: `Shap` is no keyword");
-    room.ends("render bad.svg", 1, "nothing was written");
-    assert!(room.files().is_empty());
-    room.ends(
+    let room = room();
+    ends(
+        &room,
+        "render bad.svg",
+        1,
+        "error[E101]: `Shap` is no keyword",
+    );
+    ends(&room, "render bad.svg", 1, "nothing was written");
+    assert!(files(&room).is_empty());
+    ends(
+        &room,
         "render bad.svg --keep-going --size 40x40",
         1,
         "wrote bad.png",
     );
-    assert_eq!(room.files(), ["bad.png"]);
+    assert_eq!(files(&room), ["bad.png"]);
     fs::remove_file(room.path("bad.png")).expect("removed");
     fs::write(
         room.path("none.svg"),
         r#"<svg xmlns="http://www.w3.org/2000/svg"/>"#,
     )
     .expect("written");
-    room.ends("render none.svg", 1, "error");
-    assert!(room.files().is_empty());
+    ends(&room, "render none.svg", 1, "error");
+    assert!(files(&room).is_empty());
 }

@@ -4,6 +4,8 @@
     reason = "each test file is a crate of its own and uses its share"
 )]
 
+pub(crate) mod program;
+
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt::Write as _;
 use std::fs;
