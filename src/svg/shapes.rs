@@ -109,8 +109,8 @@ pub(super) fn read(
     let mut found = found.into_inner().unwrap_or_default();
     found.sort_by_key(|(index, _)| *index);
     diagnostics.extend(found.into_iter().map(|(_, finding)| finding));
-    // In the place of the other list: there may be a hundred thousand of them.
-    let shapes = made.into_iter().flatten().collect();
+    let mut shapes = Vec::with_capacity(made.len());
+    made.into_iter().for_each(|shape| shapes.extend(shape));
     Ok(Drawing {
         page: (offset, size),
         groups,
