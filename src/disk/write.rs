@@ -9,8 +9,8 @@ pub trait Output: Write + Seek + Send {}
 
 impl<T: Write + Seek + Send> Output for T {}
 
-/// How much is gathered before it is written, bytes.
-const BUFFER: usize = 64 << 10;
+/// How much is gathered before it is written, bytes; larger pieces, as of models, go past it.
+const BUFFER: usize = 16 << 10;
 
 /// Why an output cannot be written. Each message names the file and says what to do.
 #[derive(Debug, thiserror::Error)]
