@@ -237,7 +237,7 @@ fn finish(shapes: GridShapes, grid: &Grid) -> (Outline, bool) {
 
 /// Drops points that lie, within `flat`, on the line through their neighbours: repeated points,
 /// points on straight edges and the tips of spikes.
-fn tidy(ring: &mut Ring, flat: f64) {
+pub(crate) fn tidy(ring: &mut Ring, flat: f64) {
     loop {
         let n = ring.len();
         if n < 3 {

@@ -142,10 +142,18 @@ pub(super) fn area(points: &[DVec2], [a, b, c]: &[u32; 3]) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Turns edges so that no triangle is empty at the points' final places; returns those that are.
-pub(super) fn turn_empty(points: &[DVec2], triangles: &mut [[u32; 3]]) -> Vec<[u32; 3]> {
+/// Turns edges so that no triangle is empty, or lower than `least` over its longest edge; returns those that are.
+/// The points stand at their final places, or `least` makes up for it.
+pub(super) fn turn_empty(
+    points: &[DVec2],
+    triangles: &mut [[u32; 3]],
+    least: f64,
+) -> Vec<[u32; 3]> {
     let empty = |triangles: &[[u32; 3]]| -> Vec<usize> {
-        let is_empty = |i: &usize| area(points, &triangles[*i]) <= 0.0;
+        let is_empty = |i: &usize| {
+            let triangle = &triangles[*i];
+            area(points, triangle) <= least * longest(points, triangle)
+        };
         (0..triangles.len()).filter(is_empty).collect()
     };
     let mut left = empty(triangles);
@@ -165,6 +173,17 @@ pub(super) fn turn_empty(points: &[DVec2], triangles: &mut [[u32; 3]]) -> Vec<[u
         left = empty(triangles);
     }
     left.into_iter().map(|i| triangles[i]).collect()
+}
+
+/// The length of a triangle's longest edge.
+fn longest(points: &[DVec2], [a, b, c]: &[u32; 3]) -> f64 {
+    let [a, b, c] = [a, b, c].map(|i| points[*i as usize]);
+    let squares = [
+        a.distance_squared(b),
+        b.distance_squared(c),
+        c.distance_squared(a),
+    ];
+    squares.into_iter().fold(0.0, f64::max).sqrt()
 }
 
 /// Replaces the longest edge of a triangle by the other diagonal with its neighbour.

@@ -16,6 +16,7 @@ use super::layers::steps_per_half_turn;
 use super::rings::Rings;
 use super::shade::shade;
 use super::stack::Put;
+use crate::geometry::clean::tidy;
 use crate::geometry::{Outline, Polygon, bounds, intersect, union};
 use crate::scene::Surface;
 
@@ -89,7 +90,13 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
     }
     if !whole {
         let mut caps = cap::triangles(&rings);
-        cap::turn_empty(&rings.points, &mut caps);
+        let away = options.placement.translation.abs().max_element()
+            + rings
+                .points
+                .iter()
+                .map(|p| p.abs().max_element())
+                .fold(0.0, f64::max);
+        cap::turn_empty(&rings.points, &mut caps, SAME * away);
         for [a, b, c] in caps {
             // The first face is seen with the axis on its left, the last one from behind.
             triangles.push([a, c, b].map(|i| place(i as usize, 0)));
@@ -130,10 +137,7 @@ fn profile(outline: &Outline, options: &Options, step: f64, whole: bool) -> Ring
             let i = place - 1;
             !(on_axis[(i + n - 1) % n] && on_axis[i] && on_axis[(i + 1) % n])
         });
-        ring.dedup_by(|a, b| a.distance(*b) < SAME * away);
-        while ring.len() > 1 && ring[0].distance(ring[ring.len() - 1]) < SAME * away {
-            ring.pop();
-        }
+        tidy(&mut ring, SAME * away);
         ring
     };
     let polygon = |polygon: &Polygon| {

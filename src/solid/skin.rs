@@ -22,8 +22,8 @@ struct Corners {
 struct Skin<'a> {
     rings: &'a Rings,
     stations: Option<&'a [u32]>,
-    /// The last station.
-    last: u32,
+    /// The stations in which both sides meet in one point, if the first and the last are such.
+    tips: [Option<u32>; 2],
     /// Walls are cut about their middles.
     warped: bool,
     levels: &'a [Level],
@@ -49,7 +49,7 @@ pub(super) fn skin(
         rings,
         stations,
         warped: base.is_warped(),
-        last: stations.and_then(|s| s.iter().copied().max()).unwrap_or(0),
+        tips: stations.map_or([None; 2], tips),
         levels,
         walls: Vec::with_capacity(n * end),
         crease,
@@ -253,8 +253,8 @@ impl Skin<'_> {
         let (low, high) = (stations[i].min(stations[j]), stations[i].max(stations[j]));
         // Where both sides meet in a point they would be cut by the same edge.
         let meets = match (self.levels[k].form, self.levels[k + 1].form) {
-            (Form::Ridge, _) => high == self.last,
-            (_, Form::Ridge) => low == 0,
+            (Form::Ridge, _) => Some(high) == self.tips[1],
+            (_, Form::Ridge) => Some(low) == self.tips[0],
             _ => false,
         };
         (stations[i] <= stations[j]) != meets
@@ -284,6 +284,16 @@ impl Skin<'_> {
             }
         }
     }
+}
+
+/// The first and the last station, where but one point stands there.
+fn tips(stations: &[u32]) -> [Option<u32>; 2] {
+    let ends = [stations.iter().min(), stations.iter().max()];
+    ends.map(|end| {
+        let end = *end?;
+        let points = stations.iter().filter(|station| **station == end);
+        (points.count() == 1).then_some(end)
+    })
 }
 
 fn add(surface: &mut Surface, position: [f32; 3], normal: [f32; 3]) -> u32 {

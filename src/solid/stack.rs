@@ -277,7 +277,7 @@ fn fault(
             }
         }
         if capped {
-            let empty = cap::turn_empty(&points, &mut caps[usize::from(k > 0)]);
+            let empty = cap::turn_empty(&points, &mut caps[usize::from(k > 0)], 0.0);
             if !empty.is_empty() {
                 return Some(if scale < NARROW {
                     Fault::Small
