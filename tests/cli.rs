@@ -7,7 +7,7 @@ use std::io::{Read, Write};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use common::program::{Room, Run};
+use common::program::{BAD, Room, Run};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use serde_json::Value;
@@ -17,12 +17,6 @@ const GOOD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" heigh
   <rect x="90" y="30" width="60" height="10" fill="#0000cc" id="arm"/>
   <text x="50" y="44" font-size="5">Body</text>
   <text x="120" y="39" font-size="5">Arm@Body$Shape roundv</text>
-</svg>
-"##;
-
-const BAD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
-  <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
-  <text x="50" y="44" font-size="5">Body$Shap roundv</text>
 </svg>
 "##;
 

@@ -4,18 +4,12 @@ mod common;
 
 use std::fs;
 
-use common::program::Room;
+use common::program::{BAD, Room};
 use image::{AnimationDecoder, ImageDecoder};
 
 const GOOD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
   <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
   <text x="50" y="44" font-size="5">Body</text>
-</svg>
-"##;
-
-const BAD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
-  <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
-  <text x="50" y="44" font-size="5">Body$Shap roundv</text>
 </svg>
 "##;
 

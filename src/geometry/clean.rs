@@ -270,7 +270,7 @@ fn stands_out(a: DVec2, b: DVec2, c: DVec2, flat: f64) -> bool {
 }
 
 /// Whether a ring turns one way all the way round, once: it is convex.
-fn winds_once(ring: &Ring) -> bool {
+pub(crate) fn winds_once(ring: &[DVec2]) -> bool {
     let n = ring.len();
     let mut before = ring[n - 1] - ring[n - 2];
     let mut start = ring[n - 1];

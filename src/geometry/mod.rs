@@ -16,6 +16,7 @@ mod touch;
 pub use clean::{clean, intersect, union};
 pub use flatten::flatten;
 pub use measure::{Measure, measure, measure_along};
+pub(crate) use query::crosses;
 pub use query::{area, bounds, contains, distance_squared};
 
 use glam::DVec2;

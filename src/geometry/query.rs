@@ -29,12 +29,16 @@ pub(super) fn is_inside(ring: &Ring, point: DVec2) -> bool {
     };
     let mut inside = false;
     for &b in ring {
-        let crosses = (a.y > point.y) != (b.y > point.y)
-            && point.x < (b.x - a.x) * ((point.y - a.y) / (b.y - a.y)) + a.x;
-        inside ^= crosses;
+        inside ^= crosses([a, b], point);
         a = b;
     }
     inside
+}
+
+/// Whether an edge crosses the ray from a point to the right.
+pub(crate) fn crosses([a, b]: [DVec2; 2], point: DVec2) -> bool {
+    (a.y > point.y) != (b.y > point.y)
+        && point.x < (b.x - a.x) * ((point.y - a.y) / (b.y - a.y)) + a.x
 }
 
 /// The square of the distance from a point to the filled area: 0 inside, infinite where there is none.

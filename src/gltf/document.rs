@@ -80,7 +80,7 @@ pub(super) fn write(
         samplers: textured.then(|| Samplers::new(scene)),
         skins: packed.bind_matrices.map(|_| {
             [Skin {
-                inverse_bind_matrices: runs(packed),
+                inverse_bind_matrices: numbers[packed.entries.len()] as usize,
                 skeleton: scene.nodes.len(),
                 joints: (0..scene.nodes.len()).collect(),
             }]
@@ -101,22 +101,17 @@ pub(super) fn write(
     Ok(())
 }
 
-/// How many accessors primitives have.
-fn runs(packed: &Packed) -> usize {
-    let entries = packed.entries.iter().flatten();
-    entries.flat_map(|entry| &entry.runs).flatten().count()
-}
-
-/// The number of each primitive's first accessor.
+/// The number of each primitive's first accessor, and behind them that of the next one.
 fn numbers(packed: &Packed) -> Vec<u32> {
     let mut next = 0;
-    let number = |entry: &Option<Entry>| {
-        let number = next;
+    let mut numbers = Vec::with_capacity(packed.entries.len() + 1);
+    for entry in &packed.entries {
+        numbers.push(next);
         let runs = entry.iter().flat_map(|entry| &entry.runs);
         next += runs.flatten().count() as u32;
-        number
-    };
-    packed.entries.iter().map(number).collect()
+    }
+    numbers.push(next);
+    numbers
 }
 
 #[derive(Serialize)]

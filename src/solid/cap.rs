@@ -14,6 +14,7 @@ use i_triangle::int::validation::Validation;
 
 use super::ears;
 use super::rings::Rings;
+use crate::geometry::clean::winds_once;
 
 /// Polygons with more points than this are cut by a sweep.
 const SWEEP: usize = 200;
@@ -27,7 +28,7 @@ pub(super) fn triangles(rings: &Rings) -> Vec<[u32; 3]> {
         let polygon = &rings.rings[polygon.clone()];
         let count: usize = polygon.iter().map(Range::len).sum();
         match polygon {
-            [ring] if is_convex(&rings.points[ring.clone()]) => strip(ring, &mut triangles),
+            [ring] if winds_once(&rings.points[ring.clone()]) => strip(ring, &mut triangles),
             _ if count > SWEEP && sweep(&rings.points, polygon, &mut triangles) => {}
             _ => ears::clip(&rings.points, polygon, &mut triangles),
         }
@@ -38,28 +39,12 @@ pub(super) fn triangles(rings: &Rings) -> Vec<[u32; 3]> {
 /// A distance that all points are known to keep from each other; 0 where that is not plain to see.
 pub(super) fn least_gap(rings: &Rings) -> f64 {
     let points = &rings.points;
-    if rings.rings.len() != 1 || !is_convex(points) {
+    if rings.rings.len() != 1 || !winds_once(points) {
         return 0.0;
     }
     let edges = rings.next.iter().zip(points);
     let least = edges.map(|(next, p)| p.distance_squared(points[*next as usize]));
     least.fold(f64::INFINITY, f64::min).sqrt()
-}
-
-fn is_convex(ring: &[DVec2]) -> bool {
-    let n = ring.len();
-    let mut before = ring[n - 1] - ring[n - 2];
-    let mut start = ring[n - 1];
-    let mut turns = 0;
-    for &p in ring {
-        let edge = p - start;
-        if before.perp_dot(edge) <= 0.0 {
-            return false;
-        }
-        turns += usize::from((before.x >= 0.0) != (edge.x >= 0.0));
-        (before, start) = (edge, p);
-    }
-    turns <= 2
 }
 
 fn strip(ring: &Range<usize>, triangles: &mut Vec<[u32; 3]>) {

@@ -47,7 +47,12 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
     // Whole turns begin in the drawing plane, so that they are as wide as the drawing.
     let first = if whole { 0.0 } else { FRAC_PI_2 - sweep / 2.0 };
     let put = Put::new(options);
-    let rings = profile(outline, options, sweep / steps as f64, whole);
+    let Some((low, high)) = bounds(outline) else {
+        return Surface::default();
+    };
+    let extent = low.abs().max(high.abs()).max_element();
+    let same = SAME * (options.placement.translation.abs().max_element() + extent);
+    let rings = profile(outline, [extent, same], sweep / steps as f64, whole);
     if rings.len() < 3 {
         return Surface::default();
     }
@@ -90,13 +95,7 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
     }
     if !whole {
         let mut caps = cap::triangles(&rings);
-        let away = options.placement.translation.abs().max_element()
-            + rings
-                .points
-                .iter()
-                .map(|p| p.abs().max_element())
-                .fold(0.0, f64::max);
-        cap::turn_empty(&rings.points, &mut caps, SAME * away);
+        cap::turn_empty(&rings.points, &mut caps, same);
         for [a, b, c] in caps {
             // The first face is seen with the axis on its left, the last one from behind.
             triangles.push([a, c, b].map(|i| place(i as usize, 0)));
@@ -112,18 +111,14 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
 }
 
 /// What is turned: x from the axis, y along it. In whole turns points on the axis have an x of 0; in others the
-/// least that keeps the two flat faces apart, or both would share the edges there.
-fn profile(outline: &Outline, options: &Options, step: f64, whole: bool) -> Rings {
-    let Some((low, high)) = bounds(outline) else {
-        return Rings::default();
-    };
-    let extent = low.abs().max(high.abs()).max_element();
+/// least that keeps the two flat faces apart, or both would share the edges there. Given are the outline's reach from
+/// its centre, and the distance below which points are one.
+fn profile(outline: &Outline, [extent, same]: [f64; 2], step: f64, whole: bool) -> Rings {
     // The tools of the drawing plane want y down.
     let right = half(outline, DVec2::new(1.0, -1.0), extent);
     let left = half(outline, DVec2::new(-1.0, -1.0), extent);
     let both = union(&[right, left]);
-    let away = options.placement.translation.abs().max_element() + extent;
-    let axis = (ON_AXIS * extent).max(SAME * away / step.min(1.0));
+    let axis = (ON_AXIS * extent).max(same / step.min(1.0));
     let least = if whole { 0.0 } else { axis };
     let snap = |p: &DVec2| DVec2::new(if p.x < axis { least } else { p.x }, -p.y);
     let ring = |ring: &Vec<DVec2>| {
@@ -137,7 +132,7 @@ fn profile(outline: &Outline, options: &Options, step: f64, whole: bool) -> Ring
             let i = place - 1;
             !(on_axis[(i + n - 1) % n] && on_axis[i] && on_axis[(i + 1) % n])
         });
-        tidy(&mut ring, SAME * away);
+        tidy(&mut ring, same);
         ring
     };
     let polygon = |polygon: &Polygon| {
@@ -150,7 +145,7 @@ fn profile(outline: &Outline, options: &Options, step: f64, whole: bool) -> Ring
     let mut rings = Rings::of(&Outline {
         polygons: both.polygons.iter().map(polygon).collect(),
     });
-    keep_apart(&mut rings.points, least, SAME * away);
+    keep_apart(&mut rings.points, least, same);
     rings
 }
 

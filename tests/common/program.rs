@@ -7,6 +7,13 @@ use std::process::{Command, Output, Stdio};
 
 use tempfile::TempDir;
 
+/// A drawing with a keyword that is mistyped.
+pub(crate) const BAD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
+  <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
+  <text x="50" y="44" font-size="5">Body$Shap roundv</text>
+</svg>
+"##;
+
 /// A folder of its own for a test.
 pub(crate) struct Room(TempDir);
 

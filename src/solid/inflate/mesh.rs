@@ -7,6 +7,7 @@ use rustc_hash::FxHashMap;
 use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation};
 
 use super::points::Points;
+use crate::geometry::crosses;
 use crate::solid::stack::Put;
 
 /// How often triangles without a point inside are given one.
@@ -277,9 +278,7 @@ impl Faces {
 
 /// Whether walls stand about a point.
 fn encloses(walls: &[[DVec2; 2]], point: DVec2) -> bool {
-    walls.iter().fold(false, |inside, [a, b]| {
-        let crosses = (a.y > point.y) != (b.y > point.y)
-            && point.x < (b.x - a.x) * ((point.y - a.y) / (b.y - a.y)) + a.x;
-        inside != crosses
-    })
+    walls
+        .iter()
+        .fold(false, |inside, wall| inside != crosses(*wall, point))
 }
