@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::geometry::{Measure, Outline};
 use crate::lang::ast::Annotation;
+use crate::lang::Variables;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Setting, Value};
 use crate::source::Text;
@@ -25,6 +26,8 @@ pub struct Sheet {
     pub defaults: Vec<(usize, Setting)>,
     /// The legends, merged by paint.
     pub legends: Vec<Legend>,
+    /// The variables that the `%` strings define.
+    pub variables: Variables,
 }
 
 /// Where a string stands.

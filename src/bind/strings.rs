@@ -79,6 +79,7 @@ pub(super) fn read(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> 
         })
         .collect();
     diagnostics.extend(findings.into_iter().flatten());
+    sheet.variables = variables;
     add_up_defaults(&mut sheet, diagnostics);
     sheet
 }

@@ -36,6 +36,8 @@ pub struct Part {
     pub parent: Option<Name>,
     /// What stands behind `$`.
     pub attributes: Vec<Attribute>,
+    /// Where the `@` and the `$` stand that were read as such.
+    pub signs: Vec<Range<usize>>,
 }
 
 /// A name with its place.

@@ -150,7 +150,8 @@ pub(super) fn parameters(forms: &[Form]) -> String {
             }
             Takes::Kind => {}
             takes => {
-                let _ = writeln!(out, "- `{}`: {}", parameter.print(), takes.describe());
+                let (name, summary) = (parameter.print(), parameter.summary);
+                let _ = writeln!(out, "- `{name}`: {summary} ({})", takes.describe());
             }
         }
     }

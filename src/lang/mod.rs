@@ -13,6 +13,7 @@ pub mod explain;
 pub mod keyword;
 pub mod parse;
 pub mod reference;
+pub mod slot;
 pub mod value;
 pub mod variables;
 
@@ -23,6 +24,7 @@ mod tests;
 
 pub use check::settings;
 pub use parse::{Place, looks_like_string, parse};
+pub use slot::{Slot, slot};
 pub use variables::Variables;
 
 use crate::diagnostic::Diagnostic;

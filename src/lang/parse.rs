@@ -93,12 +93,14 @@ impl<'a> Parser<'a> {
                 Annotation::Defaults(self.attributes())
             }
             '$' => {
+                let sign = self.range(self.at..self.at + 1);
                 self.at += 1;
                 let attributes = self.attributes();
                 match place {
                     Place::Text => Annotation::Legend(attributes),
                     Place::Desc => Annotation::Part(Part {
                         attributes,
+                        signs: vec![sign],
                         ..Part::default()
                     }),
                 }

@@ -6,7 +6,8 @@ use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::lang::ast::{Argument, ArgumentKind, Attribute};
 use crate::lang::evaluate::Known;
 use crate::lang::keyword::signature::{Form, Takes};
-use crate::lang::keyword::{Keyword, Status, colours, kinds};
+use crate::lang::keyword::{Keyword, Status, kinds};
+use crate::lang::slot::spoken_for;
 use crate::lang::value::{Ground, Origin, Shape, ShapeKind, SignedAxis, Value};
 
 impl Checker<'_> {
@@ -50,33 +51,9 @@ impl Checker<'_> {
         if others.is_empty() {
             return Some(only);
         }
-        let fits = |form: &&Form| {
-            let takes = form.parameters.first().map(|parameter| &parameter.takes);
-            match (takes, &first.kind) {
-                (Some(Takes::Number(_)), ArgumentKind::Number(_) | ArgumentKind::Expression(_))
-                | (Some(Takes::Hex), ArgumentKind::Hex(_)) => true,
-                (Some(Takes::Number(_)), ArgumentKind::Word(word)) => {
-                    self.variables.known(word) != Known::Unknown
-                }
-                (Some(Takes::Choice(words)), ArgumentKind::Word(word)) => words
-                    .iter()
-                    .any(|choice| choice.name.eq_ignore_ascii_case(word)),
-                (Some(Takes::ColourName), ArgumentKind::Word(word)) => colours::is_colour(word),
-                _ => false,
-            }
-        };
-        // Words of the language come before variables of the same name.
-        let wordy = |form: &&Form| {
-            !matches!(
-                form.parameters.first().map(|parameter| &parameter.takes),
-                Some(Takes::Number(_))
-            )
-        };
-        let found = forms
-            .iter()
-            .filter(wordy)
-            .find(fits)
-            .or_else(|| forms.iter().find(fits));
+        let found = spoken_for(attribute, &|name| {
+            self.variables.known(name) != Known::Unknown
+        });
         if found.is_some() {
             return found;
         }

@@ -4,57 +4,81 @@ use super::signature::{Bounds, Form, Parameter, Takes, number};
 use super::words::{BIND, GROUND, STROKES};
 use super::{Allowed, Keyword, Row, Status};
 
-static SCALE: [Parameter; 1] = [number("s", Bounds::POSITIVE)];
+static SCALE: [Parameter; 1] = [number("s", Bounds::POSITIVE, "centimetres a drawing unit")];
 static AXES: [Parameter; 3] = [
     Parameter {
         name: "right",
+        summary: "what the drawing's right becomes",
         takes: Takes::SignedAxis,
     },
     Parameter {
         name: "up",
+        summary: "what the drawing's up becomes",
         takes: Takes::SignedAxis,
     },
     Parameter {
         name: "front",
+        summary: "what the viewer's direction becomes",
         takes: Takes::SignedAxis,
     },
 ];
 static GROUND_WORD: [Parameter; 1] = [Parameter {
     name: "where",
+    summary: "what lies at the world's origin",
     takes: Takes::Choice(&GROUND),
 }];
-static POINT: [Parameter; 2] = [number("x", Bounds::ANY), number("y", Bounds::ANY)];
+static POINT: [Parameter; 2] = [
+    number("x", Bounds::ANY, "to the right, drawing units"),
+    number("y", Bounds::ANY, "down the page, drawing units"),
+];
 static LET: [Parameter; 2] = [
     Parameter {
         name: "name",
+        summary: "the new variable",
         takes: Takes::Variable,
     },
-    number("value", Bounds::ANY),
+    number("value", Bounds::ANY, "what the name stands for"),
 ];
 static BIND_WORD: [Parameter; 1] = [Parameter {
     name: "distance",
+    summary: "what the distance is measured to",
     takes: Takes::Choice(&BIND),
 }];
 static STROKES_WORD: [Parameter; 1] = [Parameter {
     name: "which",
+    summary: "what becomes a part",
     takes: Takes::Choice(&STROKES),
 }];
 static MOTION: [Parameter; 2] = [
     Parameter {
         name: "file",
+        summary: "a file in the drawing's folder",
         takes: Takes::File,
     },
     Parameter {
         name: "clip",
+        summary: "how the clip is called",
         takes: Takes::Text,
     },
 ];
-static FRAMES: [Parameter; 2] = [number("omit", Bounds::COUNT), number("hold", Bounds::COUNT)];
-static FACTOR: [Parameter; 1] = [number("factor", Bounds::POSITIVE)];
-static SPEED: [Parameter; 1] = [number("speed", Bounds::POSITIVE)];
-static SECONDS: [Parameter; 1] = [number("seconds", Bounds::NOT_NEGATIVE)];
+static FRAMES: [Parameter; 2] = [
+    number("omit", Bounds::COUNT, "drawings to leave out"),
+    number("hold", Bounds::COUNT, "drawings to hold"),
+];
+static FACTOR: [Parameter; 1] = [number("factor", Bounds::POSITIVE, "1 is the size as drawn")];
+static SPEED: [Parameter; 1] = [number(
+    "speed",
+    Bounds::POSITIVE,
+    "how fast the path is walked",
+)];
+static SECONDS: [Parameter; 1] = [number(
+    "seconds",
+    Bounds::NOT_NEGATIVE,
+    "when the pose is reached",
+)];
 static FILE: [Parameter; 1] = [Parameter {
     name: "file",
+    summary: "a file in the drawing's folder",
     takes: Takes::File,
 }];
 

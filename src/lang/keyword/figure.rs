@@ -5,37 +5,60 @@ use super::words::ORIGIN;
 use super::{Allowed, Flag, Keyword, Row, Status};
 
 static RGBA: [Parameter; 4] = [
-    number("r", Bounds::SHARE),
-    number("g", Bounds::SHARE),
-    number("b", Bounds::SHARE),
-    number("a", Bounds::SHARE),
+    number("r", Bounds::SHARE, "red"),
+    number("g", Bounds::SHARE, "green"),
+    number("b", Bounds::SHARE, "blue"),
+    number("a", Bounds::SHARE, "opacity: 0 is clear, 1 is solid"),
 ];
 static HEX: [Parameter; 1] = [Parameter {
     name: "hex",
+    summary: "the colour, with opacity as seventh and eighth digit",
     takes: Takes::Hex,
 }];
 static COLOUR: [Parameter; 1] = [Parameter {
     name: "colour",
+    summary: "the colour, as in CSS",
     takes: Takes::ColourName,
 }];
 static KIND: [Parameter; 1] = [Parameter {
     name: "kind",
+    summary: "how thickness is given",
     takes: Takes::Kind,
 }];
 static ORIGIN_WORD: [Parameter; 1] = [Parameter {
     name: "where",
+    summary: "the point",
     takes: Takes::Choice(&ORIGIN),
 }];
-static POINT: [Parameter; 2] = [number("x", Bounds::ANY), number("y", Bounds::ANY)];
-static DISTANCE: [Parameter; 1] = [number("d", Bounds::ANY)];
-static DEGREES: [Parameter; 1] = [number("degrees", Bounds::ANY)];
-static SEGMENTS: [Parameter; 1] = [number("n", Bounds::new(1., 256., Grain::Whole))];
-static CREASE: [Parameter; 1] = [number("degrees", Bounds::new(0., 180., Grain::Any))];
-static SHARE: [Parameter; 1] = [number("factor", Bounds::SHARE)];
+static POINT: [Parameter; 2] = [
+    number("x", Bounds::ANY, "to the right, drawing units"),
+    number("y", Bounds::ANY, "down the page, drawing units"),
+];
+static DISTANCE: [Parameter; 1] = [number(
+    "d",
+    Bounds::ANY,
+    "towards the viewer, drawing units",
+)];
+static DEGREES: [Parameter; 1] = [number(
+    "degrees",
+    Bounds::ANY,
+    "counter-clockwise from the drawing's right",
+)];
+static SEGMENTS: [Parameter; 1] = [number(
+    "n",
+    Bounds::new(1., 256., Grain::Whole),
+    "layers per half turn",
+)];
+static CREASE: [Parameter; 1] = [number(
+    "degrees",
+    Bounds::new(0., 180., Grain::Any),
+    "the angle between two faces",
+)];
+static SHARE: [Parameter; 1] = [number("factor", Bounds::SHARE, "0 is none, 1 is full")];
 static RGB: [Parameter; 3] = [
-    number("r", Bounds::SHARE),
-    number("g", Bounds::SHARE),
-    number("b", Bounds::SHARE),
+    number("r", Bounds::SHARE, "red"),
+    number("g", Bounds::SHARE, "green"),
+    number("b", Bounds::SHARE, "blue"),
 ];
 
 pub(super) static ROWS: [Row; 11] = [

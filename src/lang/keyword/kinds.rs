@@ -22,25 +22,84 @@ pub struct Kind {
     pub status: Status,
 }
 
-static ANGLES: [Parameter; 2] = [number("a0", Bounds::QUARTER), number("a1", Bounds::QUARTER)];
+static ANGLES: [Parameter; 2] = [
+    number(
+        "a0",
+        Bounds::QUARTER,
+        "where the rounding begins: -90 is the back, 0 the drawing plane, degrees",
+    ),
+    number(
+        "a1",
+        Bounds::QUARTER,
+        "where the rounding ends: 0 is the drawing plane, 90 the front, degrees",
+    ),
+];
 static ROUND: [Parameter; 3] = [
-    number("a0", Bounds::QUARTER),
-    number("a1", Bounds::QUARTER),
-    number("r", Bounds::NOT_NEGATIVE),
+    number(
+        "a0",
+        Bounds::QUARTER,
+        "where the rounding begins: -90 is the back, 0 the drawing plane, degrees",
+    ),
+    number(
+        "a1",
+        Bounds::QUARTER,
+        "where the rounding ends: 0 is the drawing plane, 90 the front, degrees",
+    ),
+    number(
+        "r",
+        Bounds::NOT_NEGATIVE,
+        "how far it comes out of the drawing, drawing units",
+    ),
 ];
-static DEPTHS: [Parameter; 2] = [number("z0", Bounds::ANY), number("z1", Bounds::ANY)];
+static DEPTHS: [Parameter; 2] = [
+    number(
+        "z0",
+        Bounds::ANY,
+        "depth of one end, towards the viewer, drawing units",
+    ),
+    number(
+        "z1",
+        Bounds::ANY,
+        "depth of the other end, towards the viewer, drawing units",
+    ),
+];
 static CONE: [Parameter; 3] = [
-    number("z0", Bounds::ANY),
-    number("z1", Bounds::ANY),
-    number("top", Bounds::NOT_NEGATIVE),
+    number(
+        "z0",
+        Bounds::ANY,
+        "depth of one end, towards the viewer, drawing units",
+    ),
+    number(
+        "z1",
+        Bounds::ANY,
+        "depth of the other end, towards the viewer, drawing units",
+    ),
+    number(
+        "top",
+        Bounds::NOT_NEGATIVE,
+        "size at `z1` over the size at `z0`",
+    ),
 ];
-static HEIGHT: [Parameter; 1] = [number("h", Bounds::NOT_NEGATIVE)];
-static TURN: [Parameter; 1] = [number("degrees", Bounds::new(0., 360., Grain::Above))];
+static HEIGHT: [Parameter; 1] = [number(
+    "h",
+    Bounds::NOT_NEGATIVE,
+    "height of the highest point, drawing units",
+)];
+static TURN: [Parameter; 1] = [number(
+    "degrees",
+    Bounds::new(0., 360., Grain::Above),
+    "how far it is turned",
+)];
 static FILE: [Parameter; 1] = [Parameter {
     name: "file.glb",
+    summary: "a model in the drawing's folder",
     takes: Takes::File,
 }];
-static DEPTH: [Parameter; 1] = [number("z", Bounds::ANY)];
+static DEPTH: [Parameter; 1] = [number(
+    "z",
+    Bounds::ANY,
+    "depth towards the viewer, drawing units",
+)];
 
 const fn form(parameters: &'static [Parameter], counts: &'static [usize]) -> Form {
     Form { parameters, counts }

@@ -6,31 +6,60 @@ use super::{Allowed, Keyword, Row, Status};
 
 static FILE: [Parameter; 1] = [Parameter {
     name: "file",
+    summary: "a file in the drawing's folder",
     takes: Takes::File,
 }];
-static DEPTH: [Parameter; 1] = [number("d", Bounds::ANY)];
+static DEPTH: [Parameter; 1] = [number(
+    "d",
+    Bounds::ANY,
+    "towards the viewer, drawing units",
+)];
 static NAMES: [Parameter; 1] = [Parameter {
     name: "name",
+    summary: "one name or several",
     takes: Takes::Names,
 }];
 static HEX: [Parameter; 1] = [Parameter {
     name: "hex",
+    summary: "the colour, with opacity as seventh and eighth digit",
     takes: Takes::Hex,
 }];
 static COLOUR: [Parameter; 1] = [Parameter {
     name: "colour",
+    summary: "the colour, as in CSS",
     takes: Takes::ColourName,
 }];
-static SIZE: [Parameter; 1] = [number("size", Bounds::POSITIVE)];
+static SIZE: [Parameter; 1] = [number(
+    "size",
+    Bounds::POSITIVE,
+    "side of a tile, drawing units",
+)];
 static TILE_WORD: [Parameter; 1] = [Parameter {
     name: "tile",
+    summary: "what the tiles are",
     takes: Takes::Choice(&TILE),
 }];
-static RADIUS: [Parameter; 1] = [number("r", Bounds::NOT_NEGATIVE)];
-static FACTOR: [Parameter; 1] = [number("factor", Bounds::NOT_NEGATIVE)];
+static RADIUS: [Parameter; 1] = [number(
+    "r",
+    Bounds::NOT_NEGATIVE,
+    "radius of the bevel, in tiles",
+)];
+static FACTOR: [Parameter; 1] = [number(
+    "factor",
+    Bounds::NOT_NEGATIVE,
+    "ridge height over roof depth",
+)];
 static ANGLES: [Parameter; 2] = [
-    number("theta", Bounds::ANY),
-    number("phi", Bounds::new(-90., 90., Grain::Any)),
+    number(
+        "theta",
+        Bounds::ANY,
+        "by how much the character is turned, degrees",
+    ),
+    number(
+        "phi",
+        Bounds::new(-90., 90., Grain::Any),
+        "by how much it is seen from above, degrees",
+    ),
 ];
 
 const fn one(parameters: &'static [Parameter]) -> Form {

@@ -16,6 +16,8 @@ pub struct Form {
 pub struct Parameter {
     /// Its name in the reference.
     pub name: &'static str,
+    /// What it means, in a few words.
+    pub summary: &'static str,
     /// What it takes.
     pub takes: Takes,
 }
@@ -200,9 +202,10 @@ pub(super) const NOTHING: &[Form] = &[Form {
 }];
 
 /// A number of the name `name`.
-pub(super) const fn number(name: &'static str, bounds: Bounds) -> Parameter {
+pub(super) const fn number(name: &'static str, bounds: Bounds, summary: &'static str) -> Parameter {
     Parameter {
         name,
+        summary,
         takes: Takes::Number(bounds),
     }
 }

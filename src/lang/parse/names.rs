@@ -49,6 +49,7 @@ impl Parser<'_> {
         if self.peek() == Some('@') {
             let sign = self.at;
             self.at += 1;
+            part.signs.push(self.range(sign..self.at));
             part.parent = self.name(Role::Parent);
             if part.parent.is_none() {
                 self.no_name(sign, "no parent is named behind `@`");
@@ -60,6 +61,7 @@ impl Parser<'_> {
             self.skip_blank();
         }
         if self.peek() == Some('$') {
+            part.signs.push(self.range(self.at..self.at + 1));
             self.at += 1;
         }
         part.attributes = self.attributes();

@@ -1,0 +1,130 @@
+//! Which parameter an argument is for.
+
+use super::ast::{ArgumentKind, Attribute};
+use super::keyword::signature::{Form, Parameter, Takes};
+use super::keyword::{Keyword, colours, kinds};
+
+/// The parameter that an argument is for.
+#[derive(Debug, Clone, Copy)]
+pub struct Slot {
+    /// Who takes it, as it is written: `Offset`, or for a kind's own parameters `Shape roundv`.
+    pub taker: &'static str,
+    /// The kind of `Shape` whose parameter it is.
+    pub kind: Option<&'static kinds::Kind>,
+    /// The way of giving arguments that it belongs to.
+    pub form: &'static Form,
+    /// Which of the form's parameters it is.
+    pub index: usize,
+}
+
+impl Slot {
+    /// The parameter.
+    pub fn parameter(&self) -> &'static Parameter {
+        &self.form.parameters[self.index]
+    }
+}
+
+/// The parameter that argument `index` of an attribute is for, or would be for if it stood there; `None` behind
+/// the last one.
+pub fn slot(
+    attribute: &Attribute,
+    index: usize,
+    is_variable: &dyn Fn(&str) -> bool,
+) -> Option<Slot> {
+    let first = attribute.arguments.first().map(|argument| &argument.kind);
+    if attribute.keyword == Keyword::Shape && index > 0 {
+        let Some(ArgumentKind::Word(word)) = first else {
+            return None;
+        };
+        let kind = kinds::from_name(word)?;
+        return Some(Slot {
+            taker: kind.name,
+            kind: Some(kind),
+            form: &kind.form,
+            index: place(&kind.form, index - 1)?,
+        });
+    }
+    let forms = attribute.keyword.row().forms;
+    let form = match index {
+        0 => None,
+        _ => spoken_for(attribute, is_variable),
+    };
+    let form = form
+        .or_else(|| forms.iter().find(|form| form.most() > index))
+        .or(forms.first())?;
+    Some(Slot {
+        taker: attribute.keyword.name(),
+        kind: None,
+        form,
+        index: place(form, index)?,
+    })
+}
+
+/// The form that an attribute's first argument speaks for; `None` if it fits none of them.
+pub(super) fn spoken_for(
+    attribute: &Attribute,
+    is_variable: &dyn Fn(&str) -> bool,
+) -> Option<&'static Form> {
+    let forms = attribute.keyword.row().forms;
+    let first = attribute.arguments.first()?;
+    let takes = |form: &&'static Form| form.parameters.first().map(|parameter| &parameter.takes);
+    let fits = |form: &&'static Form| match (takes(form), &first.kind) {
+        (Some(Takes::Number(_)), ArgumentKind::Number(_) | ArgumentKind::Expression(_))
+        | (Some(Takes::Hex), ArgumentKind::Hex(_)) => true,
+        (Some(Takes::Number(_)), ArgumentKind::Word(word)) => is_variable(word),
+        (Some(Takes::Choice(words)), ArgumentKind::Word(word)) => words
+            .iter()
+            .any(|choice| choice.name.eq_ignore_ascii_case(word)),
+        (Some(Takes::ColourName), ArgumentKind::Word(word)) => colours::is_colour(word),
+        _ => false,
+    };
+    // Words of the language come before variables of the same name.
+    let wordy = |form: &&'static Form| !matches!(takes(form), Some(Takes::Number(_)));
+    let found = forms.iter().filter(wordy).find(fits);
+    found.or_else(|| forms.iter().find(fits))
+}
+
+/// Which of a form's parameters argument `index` is for: a list's last parameter takes all that follow.
+fn place(form: &Form, index: usize) -> Option<usize> {
+    let last = form.parameters.len().checked_sub(1)?;
+    (index < form.most()).then(|| index.min(last))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lang::ast::Annotation;
+    use crate::lang::{Place, parse};
+    use crate::source::Text;
+
+    fn name(string: &str, index: usize) -> Option<(&'static str, &'static str)> {
+        let (annotation, _) = parse(&Text::plain(string, 0), Place::Text);
+        let (Annotation::Legend(attributes) | Annotation::Defaults(attributes)) = annotation else {
+            panic!("{string} has no attributes");
+        };
+        let slot = slot(&attributes[0], index, &|name| name == "w")?;
+        Some((slot.taker, slot.parameter().name))
+    }
+
+    #[test]
+    fn arguments_find_their_parameters() {
+        for (string, index, expected) in [
+            ("$Color 1 0 0", 1, Some(("Color", "g"))),
+            ("$Color w 0 0", 2, Some(("Color", "b"))),
+            ("$Color w 0 0", 4, None),
+            ("$Color", 0, Some(("Color", "r"))),
+            ("$Color red", 1, None),
+            ("$Shape", 0, Some(("Shape", "kind"))),
+            ("$Shape cone 0 1", 2, Some(("cone", "z1"))),
+            ("$Shape cone 0 1", 3, Some(("cone", "top"))),
+            ("$Shape cone 0 1", 4, None),
+            ("$Shape nonsense 0", 1, None),
+            ("$Origin 1", 1, Some(("Origin", "y"))),
+            ("$Origin center", 1, None),
+            ("$Follow a b c", 7, Some(("Follow", "name"))),
+            ("$Hidden", 0, None),
+        ] {
+            assert_eq!(name(string, index), expected, "{string} {index}");
+        }
+    }
+}
