@@ -16,6 +16,7 @@ pub mod disk;
 pub mod figure;
 pub mod geometry;
 pub mod gltf;
+pub mod ide;
 pub mod import;
 pub mod lang;
 pub mod render;

@@ -169,6 +169,25 @@ impl Text {
         at >= span.end
     }
 
+    /// The stretches of the drawing that the decoded characters `range` were read from: one, unless tags or comments
+    /// stand between them.
+    pub fn pieces(&self, range: Range<usize>) -> Vec<Span> {
+        let mut pieces: Vec<Span> = vec![];
+        let mut at = range.start;
+        while at < range.end {
+            let next = self.runs.partition_point(|run| run.at <= at);
+            let end = self.runs.get(next).map_or(self.text.len(), |run| run.at);
+            let end = end.min(range.end);
+            let piece = self.span(at..end);
+            match pieces.last_mut() {
+                Some(last) if last.end == piece.start => last.end = piece.end,
+                _ => pieces.push(piece),
+            }
+            at = end;
+        }
+        pieces
+    }
+
     /// The decoded offset of the character at the drawing's byte `raw`, if one of the text's characters is there
     /// (the end of the text included).
     pub fn offset_of(&self, raw: usize) -> Option<usize> {
@@ -298,6 +317,14 @@ mod tests {
         assert!(text.is_whole(Span::new(40, 42)));
         assert!(text.is_whole(Span::at(30)));
         assert!(!text.is_whole(Span::new(17, 41)));
+    }
+
+    #[test]
+    fn pieces_leave_out_what_stands_between() {
+        let text = mixed();
+        assert_eq!(text.pieces(1..4), [Span::new(11, 18)]);
+        assert_eq!(text.pieces(1..6), [Span::new(11, 18), Span::new(40, 41)]);
+        assert_eq!(text.pieces(2..2), []);
     }
 
     #[test]

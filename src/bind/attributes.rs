@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 
 use super::sheet::{PartKind, Sheet};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lang::keyword::Keyword;
+use crate::lang::keyword::{Holder, Keyword};
 use crate::lang::value::{Setting, Shape, ShapeKind, Value};
 use crate::svg::{Drawing, PaintKey};
 
@@ -54,6 +54,19 @@ pub struct Source<'a> {
     pub string: usize,
 }
 
+/// What an attribute of a part is, for people.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Resolved {
+    /// The attribute.
+    pub keyword: Keyword,
+    /// Its value as words.
+    pub value: String,
+    /// Who says so.
+    pub from: SetBy,
+    /// Index of the string that says so.
+    pub string: Option<usize>,
+}
+
 /// How a part's surface looks, all sources added up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Look {
@@ -69,8 +82,8 @@ pub struct Look {
 
 impl Sheet {
     /// What a part's attribute is set to, and by whom; `None` leaves the built-in default.
-    pub fn setting(&self, part: usize, keyword: Keyword) -> Option<Source<'_>> {
-        let part = &self.parts[part];
+    pub fn setting(&self, index: usize, keyword: Keyword) -> Option<Source<'_>> {
+        let part = &self.parts[index];
         let own = part.string.and_then(|string| {
             let setting = self.strings[string]
                 .settings
@@ -82,12 +95,18 @@ impl Sheet {
                 string,
             })
         });
+        own.or_else(|| self.inherited(index, keyword))
+    }
+
+    /// What a part's attribute would be set to without its own string.
+    pub fn inherited(&self, part: usize, keyword: Keyword) -> Option<Source<'_>> {
+        let part = &self.parts[part];
         let found = |settings: &'_ [(usize, Setting)]| {
             settings
                 .iter()
                 .position(|(_, setting)| setting.keyword == keyword)
         };
-        own.or_else(|| {
+        let by_legend = || {
             let legend = &self.legends[part.legend?].settings;
             let (string, setting) = &legend[found(legend)?];
             Some(Source {
@@ -95,8 +114,8 @@ impl Sheet {
                 from: SetBy::Legend,
                 string: *string,
             })
-        })
-        .or_else(|| {
+        };
+        by_legend().or_else(|| {
             let (string, setting) = &self.defaults[found(&self.defaults)?];
             Some(Source {
                 setting,
@@ -104,6 +123,39 @@ impl Sheet {
                 string: *string,
             })
         })
+    }
+
+    /// Every attribute of a part that is set, and the ones that every solid has, in the order of the reference.
+    pub fn resolved(&self, drawing: &Drawing, part: usize) -> Vec<Resolved> {
+        let builtin = |keyword| match keyword {
+            Keyword::Color => {
+                let [r, g, b, _] = self
+                    .look(drawing, part)
+                    .color
+                    .map(|channel| (channel * 1000.0).round() / 1000.0);
+                Some(format!("{r} {g} {b}"))
+            }
+            Keyword::Shape => Some("default".to_owned()),
+            _ => None,
+        };
+        let keywords = Keyword::ALL.iter().copied();
+        let of_parts = keywords.filter(|keyword| keyword.row().allowed.permits(Holder::Part));
+        of_parts
+            .filter_map(|keyword| match self.setting(part, keyword) {
+                Some(source) => Some(Resolved {
+                    keyword,
+                    value: source.setting.words.clone(),
+                    from: source.from,
+                    string: Some(source.string),
+                }),
+                None => Some(Resolved {
+                    keyword,
+                    value: builtin(keyword)?,
+                    from: SetBy::Builtin,
+                    string: None,
+                }),
+            })
+            .collect()
     }
 
     /// The number that an attribute of a part is set to.

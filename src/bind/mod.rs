@@ -11,7 +11,7 @@ mod sheet;
 mod strings;
 mod units;
 
-pub use attributes::{Look, SetBy, Source};
+pub use attributes::{Look, Resolved, SetBy, Source};
 pub use sheet::{Binding, BoundBy, Part, PartKind, Place, Sheet, SheetString};
 
 use rayon::prelude::*;

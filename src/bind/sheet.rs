@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::geometry::{Measure, Outline};
-use crate::lang::ast::Annotation;
 use crate::lang::Variables;
+use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Setting, Value};
 use crate::source::Text;

@@ -9,7 +9,8 @@ use super::loading::{Detail, Loaded, describe, load};
 use super::progress::spinning;
 use super::{Outcome, pretty, print_out, style};
 use crate::bind::{Part, PartKind, SetBy};
-use crate::lang::keyword::{Holder, Keyword};
+use crate::compile::Compiled;
+use crate::lang::keyword::Keyword;
 use crate::source::Lines;
 
 /// Prints the hierarchy; findings go to stderr.
@@ -133,38 +134,17 @@ fn name<'a>(loaded: &'a Loaded, part: &'a Part) -> &'a str {
 
 /// Every attribute that is set, and the ones that every solid has.
 fn attributes(loaded: &Loaded, part: usize) -> BTreeMap<&'static str, AttributeReport> {
-    let sheet = &loaded.compiled.sheet;
-    let mut out = BTreeMap::new();
-    for keyword in Keyword::ALL
-        .iter()
-        .filter(|keyword| keyword.row().allowed.permits(Holder::Part))
-    {
-        if let Some(source) = sheet.setting(part, *keyword) {
-            let value = source.setting.words.clone();
-            out.insert(
-                keyword.name(),
-                AttributeReport {
-                    value,
-                    from: source.from.name(),
-                },
-            );
-        }
-    }
-    let look = sheet.look(&loaded.compiled.drawing, part);
-    let [r, g, b, _] = look
-        .color
-        .map(|channel| (channel * 1000.0).round() / 1000.0);
-    let builtin = [
-        ("Color", format!("{r} {g} {b}")),
-        ("Shape", "default".to_owned()),
-    ];
-    for (keyword, value) in builtin {
-        out.entry(keyword).or_insert(AttributeReport {
-            value,
-            from: SetBy::Builtin.name(),
-        });
-    }
-    out
+    let Compiled { sheet, drawing, .. } = &loaded.compiled;
+    let resolved = sheet.resolved(drawing, part).into_iter();
+    resolved
+        .map(|attribute| {
+            let report = AttributeReport {
+                value: attribute.value,
+                from: attribute.from.name(),
+            };
+            (attribute.keyword.name(), report)
+        })
+        .collect()
 }
 
 fn tree(loaded: &Loaded) -> String {

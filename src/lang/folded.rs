@@ -107,6 +107,11 @@ impl<'a> Folded<'a> {
     }
 }
 
+/// `text` as the language reads it: full-width signs, letters and digits as ASCII, except in comments and quotes.
+pub fn folded(text: &str) -> Cow<'_, str> {
+    Folded::new(text).text
+}
+
 /// Appends `c`, or the ASCII that it stands for.
 fn fold(c: char, out: &mut String) {
     if c.is_ascii() {

@@ -23,7 +23,8 @@ mod folded;
 mod tests;
 
 pub use check::settings;
-pub use parse::{Place, looks_like_string, parse};
+pub use folded::folded;
+pub use parse::{Place, in_name, in_word, looks_like_string, parse};
 pub use slot::{Slot, slot};
 pub use variables::Variables;
 

@@ -11,6 +11,8 @@ mod lexical;
 mod names;
 pub(in crate::lang) mod slips;
 
+pub use lexical::in_word;
+
 use std::ops::Range;
 
 use super::ast::{Annotation, Part};
@@ -65,7 +67,7 @@ pub fn looks_like_string(text: &str) -> bool {
 }
 
 /// Whether a name without quotes may have `c`.
-pub(in crate::lang) fn in_name(c: char) -> bool {
+pub fn in_name(c: char) -> bool {
     !c.is_whitespace() && !matches!(c, '@' | '$' | '"' | '(' | ')')
 }
 

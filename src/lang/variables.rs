@@ -79,6 +79,11 @@ impl Variables {
         self.variables.get(name)?.value
     }
 
+    /// The number that an argument stands for, if it stands for one.
+    pub fn value(&self, argument: &Argument) -> Option<f64> {
+        evaluate(&expression(argument)?, &|name| self.known(name)).ok()
+    }
+
     /// All variables in the order of their names.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &Variable)> {
         self.variables

@@ -24,6 +24,7 @@ use glam::DVec2;
 
 pub(crate) use links::broken_link;
 pub use paths::StrokeSource;
+pub(crate) use prepare::character;
 pub use text::Label;
 
 use crate::diagnostic::{Code, Diagnostic};

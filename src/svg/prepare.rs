@@ -339,7 +339,7 @@ fn expand(text: &str, entities: &FxHashMap<String, String>) -> String {
 }
 
 /// The character that a predefined or numeric reference stands for.
-pub(super) fn character(name: &str) -> Option<char> {
+pub(crate) fn character(name: &str) -> Option<char> {
     match name {
         "amp" => Some('&'),
         "lt" => Some('<'),

@@ -36,8 +36,8 @@ pub(super) fn word(input: &str) -> Parsed<'_, &str> {
     recognize((satisfy(char::is_alphabetic), take_while(in_word))).parse(input)
 }
 
-/// A character behind the first one of a word.
-pub(super) fn in_word(c: char) -> bool {
+/// Whether a word may have `c` behind its first character, which is a letter.
+pub fn in_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_' || c == '.'
 }
 

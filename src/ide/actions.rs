@@ -1,0 +1,397 @@
+//! What can be done at a click: fixes of what is wrong, and changes of how something is said.
+
+use std::fmt::Write as _;
+
+use super::Analysis;
+use super::at::{At, attributes};
+use super::quoting::{Role, written};
+use super::rename::replace;
+use crate::bind::{Part, PartKind};
+use crate::diagnostic::Edit;
+use crate::lang::ast::{Annotation, Attribute};
+use crate::lang::keyword::Keyword;
+use crate::source::{Span, Text, escape_xml};
+use crate::svg::PaintKey;
+
+/// Something that can be done.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Action {
+    /// What it does, as an imperative.
+    pub title: String,
+    /// What changes.
+    pub edits: Vec<Edit>,
+    /// Index of the diagnostic that it mends; `None` if nothing is wrong.
+    pub mends: Option<usize>,
+    /// Whether it is the obvious one.
+    pub is_preferred: bool,
+}
+
+impl Analysis {
+    /// What can be done within `window`.
+    pub fn actions(&self, window: Span) -> Vec<Action> {
+        if !self.is_annotated() {
+            return vec![];
+        }
+        let mut actions = vec![];
+        for (index, diagnostic) in self.diagnostics().iter().enumerate() {
+            let span = diagnostic.span;
+            if span.start > window.end || window.start > span.end {
+                continue;
+            }
+            let only = diagnostic.fixes.len() == 1;
+            actions.extend(diagnostic.fixes.iter().map(|fix| Action {
+                title: fix.title.clone(),
+                edits: fix.edits.clone(),
+                mends: Some(index),
+                is_preferred: only,
+            }));
+        }
+        match self.at(window.start) {
+            Some(At::Tag {
+                part: Some(part), ..
+            }) => actions.extend(self.give_a_string(part)),
+            Some(At::String { string, .. }) => actions.extend(self.move_to_legend(string)),
+            _ => {}
+        }
+        actions
+    }
+
+    /// For a part without a string: one in its description, and one beside it.
+    fn give_a_string(&self, index: usize) -> Vec<Action> {
+        let part = &self.sheet().parts[index];
+        if part.string.is_some() || part.kind != PartKind::Main {
+            return vec![];
+        }
+        let string = self.string_for(part);
+        let action = |title: String, edits| Action {
+            title,
+            edits,
+            mends: None,
+            is_preferred: false,
+        };
+        let mut actions = vec![];
+        if let Some(edit) = self.beside(part, &string) {
+            actions.push(action(
+                format!("Write `{string}` beside this shape"),
+                vec![edit],
+            ));
+        }
+        if let Some(edits) = self.described(part, &string) {
+            actions.push(action(
+                format!("Give this shape the description `{string}`"),
+                edits,
+            ));
+        }
+        actions
+    }
+
+    /// `name@parent` for a part that has none; its element's name, if nobody else has it.
+    fn string_for(&self, part: &Part) -> String {
+        let element = &self.drawing().shapes[part.shape].element;
+        let own = element.own_name();
+        let is_free = !own.is_empty()
+            && !own.contains('"')
+            && self.part_named(own).is_none()
+            && self.named_in(own).is_none();
+        let name = if is_free { own } else { &part.name };
+        let mut string = written(name, Role::Head);
+        if let Some(parent) = part.parent {
+            let parent = &self.sheet().parts[parent].name;
+            let _ = write!(string, "@{}", written(parent, Role::Head));
+        }
+        string
+    }
+
+    /// A text whose corner is the part's centre, which no other string is nearer to.
+    fn beside(&self, part: &Part, string: &str) -> Option<Edit> {
+        let by_outline = self.sheet().word(Keyword::Bind);
+        if by_outline.is_some_and(|word| word.eq_ignore_ascii_case("outline")) {
+            return None;
+        }
+        let size = self.font_size();
+        let center = part.measure.center;
+        let prefix = self.prefix();
+        self.at_the_end(&format!(
+            "<{prefix}text x=\"{}\" y=\"{}\" font-size=\"{}\">{}</{prefix}text>",
+            round(center.x),
+            round(center.y + 0.8 * size),
+            round(size),
+            escape_xml(string),
+        ))
+    }
+
+    /// A description within the part's element.
+    fn described(&self, part: &Part, string: &str) -> Option<Vec<Edit>> {
+        let element = &self.drawing().shapes[part.shape].element;
+        if element.desc.is_some() {
+            return None;
+        }
+        let end = end_of_tag(&self.source, element.span.end)?;
+        let name = self.source.get(element.span.start + 1..element.span.end)?;
+        let prefix = name
+            .rsplit_once(':')
+            .map_or(String::new(), |(prefix, _)| format!("{prefix}:"));
+        let desc = format!("<{prefix}desc>{}</{prefix}desc>", escape_xml(string));
+        let edit = match self.source[..end].ends_with("/>") {
+            true => Edit {
+                span: Span::new(end - 2, end),
+                text: format!(">{desc}</{name}>"),
+            },
+            false => Edit {
+                span: Span::at(end),
+                text: desc,
+            },
+        };
+        Some(vec![edit])
+    }
+
+    /// For a part's string with attributes: the same in the legend of its paint.
+    fn move_to_legend(&self, string: usize) -> Option<Action> {
+        let part = &self.sheet().parts[self.part_of_string(string)?];
+        let found = &self.sheet().strings[string];
+        let Annotation::Part(annotation) = &found.annotation else {
+            return None;
+        };
+        let sign = annotation.signs.last()?;
+        let (first, last) = (
+            annotation.attributes.first()?,
+            annotation.attributes.last()?,
+        );
+        let is_main = part.kind == PartKind::Main && annotation.name.is_some();
+        if !is_main || sign.end > first.range.start {
+            return None;
+        }
+        let paint = part.paint(self.drawing());
+        let alike = self.sheet().parts.iter().filter(|other| {
+            matches!(other.kind, PartKind::Main | PartKind::Sub)
+                && other.paint(self.drawing()).key == paint.key
+        });
+        let alike = alike.count();
+        let words = words_of(&found.text, first.range.start..last.range.end);
+        let mut edits = replace(&found.text, sign.start..last.range.end, "");
+        match part.legend {
+            Some(legend) => {
+                let (legend, _) = *self.sheet().legends[legend].settings.first()?;
+                let legend = &self.sheet().strings[legend];
+                if shares_a_keyword(&annotation.attributes, attributes(&legend.annotation)) {
+                    return None;
+                }
+                let text = &legend.text;
+                let end = text.as_str().trim_end().len();
+                let before = text.as_str()[..end]
+                    .chars()
+                    .next_back()
+                    .map_or(0, char::len_utf8);
+                edits.push(Edit {
+                    span: Span::at(text.span(0..end).end),
+                    text: format!(" {}", text.escape_at(end - before, &words)),
+                });
+            }
+            None => edits.push(self.new_legend(&paint.key, &words)?),
+        }
+        edits.sort_by_key(|edit| edit.span);
+        let whom = match alike {
+            1 => "of its paint".to_owned(),
+            _ => format!("of all {alike} parts that are painted like it"),
+        };
+        Some(Action {
+            title: format!("Move these attributes to the legend {whom}"),
+            edits,
+            mends: None,
+            is_preferred: false,
+        })
+    }
+
+    /// A swatch of a paint with a legend, in a corner of the page.
+    fn new_legend(&self, paint: &PaintKey, words: &str) -> Option<Edit> {
+        let fill = match paint {
+            PaintKey::Solid([r, g, b]) => format!("#{r:02x}{g:02x}{b:02x}"),
+            PaintKey::Server(id) => format!("url(#{id})"),
+            PaintKey::Picture(_) => return None,
+        };
+        let (low, size) = self.drawing().page;
+        let side = 0.03 * size.min_element();
+        let row = self.sheet().legends.len() as f64;
+        let (x, y) = (low.x + side, low.y + side * (1.0 + 1.5 * row));
+        let font = self.font_size();
+        let prefix = self.prefix();
+        self.at_the_end(&format!(
+            "<{prefix}g><{prefix}rect x=\"{}\" y=\"{}\" width=\"{side}\" height=\"{side}\" fill=\"{}\"/>\
+             <{prefix}text x=\"{}\" y=\"{}\" font-size=\"{}\">${}</{prefix}text></{prefix}g>",
+            round(x),
+            round(y),
+            escape_xml(&fill).replace('"', "&quot;"),
+            round(x + 1.5 * side),
+            round(y + side),
+            round(font),
+            escape_xml(words),
+            side = round(side),
+        ))
+    }
+
+    /// An element as the last one of the drawing, on a line of its own.
+    fn at_the_end(&self, element: &str) -> Option<Edit> {
+        let end = self.source.rfind("</")?;
+        let line = if self.source.contains("\r\n") {
+            "\r\n"
+        } else {
+            "\n"
+        };
+        let on_own_line = self.source[..end].ends_with(['\n', '\r']);
+        Some(Edit {
+            span: Span::at(end),
+            text: match on_own_line {
+                true => format!("  {element}{line}"),
+                false => format!("{line}  {element}{line}"),
+            },
+        })
+    }
+
+    /// The prefix of the drawing's elements: `svg:` in `<svg:svg>`, most often none.
+    fn prefix(&self) -> &str {
+        let root = self
+            .drawing()
+            .groups
+            .first()
+            .map(|group| group.element.span);
+        let name = root.and_then(|span| self.source.get(span.start + 1..span.end));
+        match name.and_then(|name| name.find(':').map(|colon| &name[..=colon])) {
+            Some(prefix) => prefix,
+            None => "",
+        }
+    }
+
+    /// The font size that most strings have: their median.
+    fn font_size(&self) -> f64 {
+        let mut sizes: Vec<f64> = self
+            .drawing()
+            .labels
+            .iter()
+            .map(|(label, _)| label.font_size)
+            .filter(|size| size.is_finite() && *size > 0.0)
+            .collect();
+        sizes.sort_by(f64::total_cmp);
+        match sizes.get(sizes.len() / 2) {
+            Some(size) => *size,
+            None => 0.03 * self.drawing().page.1.max_element(),
+        }
+    }
+}
+
+/// The characters of a string on one line.
+fn words_of(text: &Text, range: std::ops::Range<usize>) -> String {
+    let words = text.as_str()[range].split_whitespace();
+    words.collect::<Vec<_>>().join(" ")
+}
+
+fn shares_a_keyword(one: &[Attribute], two: &[Attribute]) -> bool {
+    one.iter()
+        .any(|one| two.iter().any(|two| one.keyword == two.keyword))
+}
+
+/// Where the start tag ends whose name ends at `from`: behind its `>`.
+fn end_of_tag(source: &str, from: usize) -> Option<usize> {
+    let mut quote = None;
+    for (at, c) in source.get(from..)?.char_indices() {
+        match (quote, c) {
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), c) if c == open => quote = None,
+            (None, '>') => return Some(from + at + 1),
+            _ => {}
+        }
+    }
+    None
+}
+
+/// A length with as many decimals as a drawing needs.
+fn round(value: f64) -> f64 {
+    (value * 1000.0).round() / 1000.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::format::applied;
+    use super::super::samples::{analysis, figure};
+    use super::*;
+    use crate::bind::BoundBy;
+
+    fn after(source: &str, title: &str) -> Analysis {
+        let (before, at) = analysis(source);
+        let actions = before.actions(Span::at(at));
+        let action = actions
+            .iter()
+            .find(|action| action.title.contains(title))
+            .unwrap_or_else(|| panic!("{title} is not among {actions:?}"));
+        let (after, _) = analysis(&applied(before.source(), &action.edits));
+        assert!(after.is_sound(), "{}", after.source());
+        after
+    }
+
+    fn value(analysis: &Analysis, name: &str, keyword: Keyword) -> Option<(String, &'static str)> {
+        let part = analysis.part_named(name).unwrap();
+        let source = analysis.sheet().setting(part, keyword)?;
+        Some((source.setting.words.clone(), source.from.name()))
+    }
+
+    #[test]
+    fn a_fix_mends_its_diagnostic() {
+        let source = figure(["Body", "Rarm@¦Bdoy", "", "", ""]);
+        let after = after(&source, "Write `Body`");
+        assert!(after.source().contains("Rarm@Body"));
+        assert!(!after.compiled().has_errors());
+    }
+
+    #[test]
+    fn a_shape_is_given_a_string() {
+        let source = figure(["Body", "Rarm@Body", "", "", ""])
+            .replace("<rect id=\"left\"", "<¦rect id=\"left\"");
+        for (title, by) in [("beside", BoundBy::Nearest), ("description", BoundBy::Desc)] {
+            let after = after(&source, title);
+            let part = &after.sheet().parts[after.part_named("left").unwrap()];
+            let binding = after.sheet().strings[part.string.unwrap()].binding.unwrap();
+            assert_eq!(binding.by, by);
+            assert_eq!(part.parent, after.part_named("Body"));
+        }
+    }
+
+    #[test]
+    fn attributes_move_to_a_new_legend() {
+        let source = figure([
+            "Body",
+            "Rarm@Body$¦Shape roundv Offset 3",
+            "Larm@Body",
+            "",
+            "",
+        ])
+        .replace(
+            "<rect id=\"swatch\"",
+            "<rect id=\"swatch\" display=\"none\"",
+        );
+        let after = after(&source, "all 2 parts");
+        for name in ["Rarm", "Larm"] {
+            let found = value(&after, name, Keyword::Offset);
+            assert_eq!(
+                found,
+                Some(("3".to_owned(), "legend")),
+                "{name} in {}",
+                after.source()
+            );
+        }
+        assert!(after.source().contains(">Rarm@Body<"));
+        assert!(!after.compiled().has_errors());
+    }
+
+    #[test]
+    fn attributes_move_to_the_legend_that_is_there() {
+        let source = figure(["Body", "Rarm@Body$¦Offset 3", "", "$Smooth 4", ""]);
+        let after = after(&source, "Move these");
+        assert!(after.source().contains(">$Smooth 4 Offset 3<"));
+        assert_eq!(
+            value(&after, "Rarm", Keyword::Offset),
+            Some(("3".to_owned(), "legend"))
+        );
+        let source = figure(["Body", "Rarm@Body$¦Offset 3", "", "$Offset 4", ""]);
+        let (before, at) = analysis(&source);
+        assert_eq!(before.actions(Span::at(at)), []);
+    }
+}

@@ -1,0 +1,173 @@
+//! Colours in strings, and how another colour is written in their place.
+
+use super::Analysis;
+use super::at::attributes;
+use super::rename::replace;
+use crate::diagnostic::Edit;
+use crate::lang::ast::ArgumentKind;
+use crate::lang::keyword::Keyword;
+use crate::lang::keyword::colours::{COLOURS, colour};
+use crate::lang::value::Value;
+use crate::source::Span;
+
+/// A colour in a string.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Swatch {
+    /// Where its arguments stand.
+    pub span: Span,
+    /// Red, green, blue and opacity, straight sRGB, each 0 to 1.
+    pub rgba: [f64; 4],
+}
+
+impl Analysis {
+    /// The colours of all `Color` attributes, in the order of the file.
+    pub fn swatches(&self) -> Vec<Swatch> {
+        let mut out = vec![];
+        for string in &self.sheet().strings {
+            let all = attributes(&string.annotation).iter();
+            for attribute in all.filter(|attribute| attribute.keyword == Keyword::Color) {
+                let setting = string
+                    .settings
+                    .iter()
+                    .find(|setting| setting.range == attribute.range);
+                let value = setting.map(|setting| &setting.value);
+                if let (Some(Value::Color { rgb, alpha }), Some(first), Some(last)) = (
+                    value,
+                    attribute.arguments.first(),
+                    attribute.arguments.last(),
+                ) {
+                    let [r, g, b] = *rgb;
+                    out.push(Swatch {
+                        span: string.text.span(first.range.start..last.range.end),
+                        rgba: [r, g, b, alpha.unwrap_or(1.0)],
+                    });
+                }
+            }
+        }
+        out.sort_by_key(|swatch| swatch.span);
+        out.dedup();
+        out
+    }
+
+    /// The ways to write `rgba` in place of the colour at `span`: first as it is written now.
+    pub fn colour_edits(&self, span: Span, rgba: [f64; 4]) -> Vec<(String, Vec<Edit>)> {
+        let Some((index, _)) = self.string_at(span.start) else {
+            return vec![];
+        };
+        let string = &self.sheet().strings[index];
+        let mut all = attributes(&string.annotation).iter();
+        let Some(attribute) = all.find(|attribute| {
+            attribute.keyword == Keyword::Color
+                && string
+                    .text
+                    .span(attribute.range.clone())
+                    .touches(span.start)
+        }) else {
+            return vec![];
+        };
+        let (Some(first), Some(last)) = (attribute.arguments.first(), attribute.arguments.last())
+        else {
+            return vec![];
+        };
+        let had_alpha = match &first.kind {
+            ArgumentKind::Hex(digits) => matches!(digits.len(), 4 | 8),
+            _ => attribute.arguments.len() == 4,
+        };
+        let mut forms = vec![hex(rgba, had_alpha), numbers(rgba, had_alpha)];
+        match first.kind {
+            ArgumentKind::Hex(_) => {}
+            _ => forms.reverse(),
+        }
+        if let Some(name) = css_name(rgba) {
+            match first.kind {
+                ArgumentKind::Word(_) => forms.insert(0, name.to_owned()),
+                _ => forms.push(name.to_owned()),
+            }
+        }
+        let range = first.range.start..last.range.end;
+        let edits = forms.into_iter().map(|form| {
+            let edits = replace(&string.text, range.clone(), &form);
+            (form, edits)
+        });
+        edits.collect()
+    }
+}
+
+/// `0.5 0.25 1`, with three decimals, which tell all colours of a screen apart.
+fn numbers([r, g, b, a]: [f64; 4], had_alpha: bool) -> String {
+    let number = |value: f64| ((value.clamp(0.0, 1.0) * 1000.0).round() / 1000.0).to_string();
+    let mut words = vec![number(r), number(g), number(b)];
+    if had_alpha || a < 1.0 {
+        words.push(number(a));
+    }
+    words.join(" ")
+}
+
+fn hex(rgba: [f64; 4], had_alpha: bool) -> String {
+    let count = if had_alpha || rgba[3] < 1.0 { 4 } else { 3 };
+    let bytes = bytes(rgba);
+    let digits: Vec<_> = bytes[..count]
+        .iter()
+        .map(|byte| format!("{byte:02x}"))
+        .collect();
+    format!("#{}", digits.concat())
+}
+
+fn bytes(rgba: [f64; 4]) -> [u8; 4] {
+    rgba.map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8)
+}
+
+/// The name that CSS has for just this colour.
+fn css_name(rgba: [f64; 4]) -> Option<&'static str> {
+    let wanted = bytes(rgba);
+    COLOURS
+        .iter()
+        .copied()
+        .find(|name| colour(name) == Some(wanted))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{analysis, figure};
+    use super::*;
+
+    #[test]
+    fn colours_are_found_and_written_as_they_were() {
+        for (string, rgba, first) in [
+            ("Body$Color 1 0.5 0", [1.0, 0.5, 0.0, 1.0], "0 0.502 1"),
+            (
+                "Body$Color 1 0.5 0 0.25",
+                [1.0, 0.5, 0.0, 0.25],
+                "0 0.502 1 1",
+            ),
+            (
+                "Body$Color #ff8000",
+                [1.0, 128.0 / 255.0, 0.0, 1.0],
+                "#0080ff",
+            ),
+            (
+                "Body$Color #f80f",
+                [1.0, 136.0 / 255.0, 0.0, 1.0],
+                "#0080ffff",
+            ),
+            ("Body$Color red", [1.0, 0.0, 0.0, 1.0], "0 0.502 1"),
+            ("Body$Color w 0 0", [0.5, 0.0, 0.0, 1.0], "0 0.502 1"),
+        ] {
+            let (analysis, _) = analysis(&figure([string, "", "", "", "%Let w 0.5"]));
+            let swatches = analysis.swatches();
+            assert_eq!(swatches.len(), 1, "{string}");
+            assert_eq!(swatches[0].rgba, rgba, "{string}");
+            let edits = analysis.colour_edits(swatches[0].span, [0.0, 0.502, 1.0, 1.0]);
+            assert_eq!(edits[0].0, first, "{string}");
+            assert_eq!(edits[0].1[0].span, swatches[0].span);
+        }
+    }
+
+    #[test]
+    fn a_name_is_offered_where_css_has_one() {
+        let (analysis, _) = analysis(&figure(["Body$Color red", "", "", "", ""]));
+        let edits = analysis.colour_edits(analysis.swatches()[0].span, [0.0, 0.0, 1.0, 1.0]);
+        let forms: Vec<_> = edits.iter().map(|(form, _)| form.as_str()).collect();
+        assert_eq!(forms, ["blue", "0 0 1", "#0000ff"]);
+    }
+}

@@ -1,0 +1,234 @@
+//! Where things come from: definitions, references, other places of the same name.
+
+use std::ops::Range;
+
+use super::at::{At, Item, attributes};
+use super::{Analysis, Symbol};
+use crate::bind::SetBy;
+use crate::lang::ast::{ArgumentKind, Attribute};
+use crate::lang::keyword::Keyword;
+use crate::lang::keyword::signature::Takes;
+use crate::lang::slot;
+use crate::source::Span;
+
+/// Where something leads.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Target {
+    /// A place in this drawing.
+    Here(Span),
+    /// A linked file, as the drawing names it.
+    File(String),
+}
+
+impl Analysis {
+    /// What led from byte `offset`, and where to: a parent to its string, a part's name to its shape, a shape's tag to
+    /// its string, a variable to its `Let`, a keyword to the legend or default that it overrules, a file's
+    /// name to the file.
+    pub fn definition(&self, offset: usize) -> Option<(Span, Vec<Target>)> {
+        match self.at(offset)? {
+            At::Tag { shape, part } => {
+                let part = &self.sheet().parts[part?];
+                let string = part.string.or(self.sheet().parts[part.main].string)?;
+                let from = self.drawing().shapes[shape].element.span;
+                Some((from, vec![Target::Here(self.place_of_string(string))]))
+            }
+            At::String { string, token, .. } => {
+                let text = &self.sheet().strings[string].text;
+                let Some(token) = token else {
+                    return Some((text.whole(), self.shape_of(string)?));
+                };
+                let from = text.span(token.range.clone());
+                let to = match token.item {
+                    Item::Name | Item::Sign | Item::Remark => self.shape_of(string)?,
+                    Item::Keyword(index) => self.overruled(string, index)?,
+                    Item::Flag(..) => return None,
+                    Item::Parent | Item::Feature | Item::Argument(..) => {
+                        return self
+                            .defined_at(offset)
+                            .or_else(|| Some((from, vec![self.file(string, token.item)?])));
+                    }
+                };
+                Some((from, to))
+            }
+        }
+    }
+
+    /// Where the symbol at byte `offset` is defined.
+    fn defined_at(&self, offset: usize) -> Option<(Span, Vec<Target>)> {
+        let (symbol, found) = self.symbol_at(offset)?;
+        let from = self.span_of(&found);
+        let mut to: Vec<_> = self
+            .uses(&symbol)
+            .iter()
+            .filter(|other| other.defines)
+            .map(|other| Target::Here(self.span_of(other)))
+            .collect();
+        if let (Symbol::Part(name), true) = (&symbol, to.is_empty()) {
+            to.push(Target::Here(self.place_of_part(self.part_named(name)?)));
+        }
+        (!to.is_empty()).then_some((from, to))
+    }
+
+    /// The shape that a string is about.
+    fn shape_of(&self, string: usize) -> Option<Vec<Target>> {
+        let part = &self.sheet().parts[self.part_of_string(string)?];
+        let element = &self.drawing().shapes[part.shape].element;
+        Some(vec![Target::Here(element.span)])
+    }
+
+    /// What an attribute of a part's own string overrules: the legend's or the default's setting.
+    fn overruled(&self, string: usize, index: usize) -> Option<Vec<Target>> {
+        let part = self.part_of_string(string)?;
+        let keyword = attributes(&self.sheet().strings[string].annotation)[index].keyword;
+        let others = self.sheet().inherited(part, keyword)?;
+        Some(vec![Target::Here(
+            self.setting_span(others.string, &others.setting.range),
+        )])
+    }
+
+    /// The place of a setting.
+    pub(super) fn setting_span(&self, string: usize, range: &Range<usize>) -> Span {
+        self.sheet().strings[string].text.span(range.clone())
+    }
+
+    /// The file that an argument names.
+    fn file(&self, string: usize, item: Item) -> Option<Target> {
+        let Item::Argument(attribute, argument) = item else {
+            return None;
+        };
+        let attribute = &attributes(&self.sheet().strings[string].annotation)[attribute];
+        file_named(attribute, argument).map(|name| Target::File(name.to_owned()))
+    }
+
+    /// All places that have to do with what stands at byte `offset`: where a part or a variable is named; for a legend
+    /// and for a default the strings and shapes of the parts that go by it.
+    pub fn references(&self, offset: usize, with_definition: bool) -> Vec<Span> {
+        if let Some((symbol, _)) = self.symbol_at(offset) {
+            let uses = self.uses(&symbol);
+            let wanted = uses
+                .iter()
+                .filter(|found| with_definition || !found.defines);
+            return wanted.map(|found| self.span_of(found)).collect();
+        }
+        let part_name = match self.at(offset) {
+            Some(At::Tag {
+                part: Some(part), ..
+            }) => self.sheet().parts[part].name.clone(),
+            Some(At::String {
+                string,
+                token: Some(token),
+                ..
+            }) => return self.parts_that_go_by(string, token.item),
+            _ => return vec![],
+        };
+        let uses = self.uses(&Symbol::Part(part_name));
+        uses.iter().map(|found| self.span_of(found)).collect()
+    }
+
+    /// The parts that inherit what a legend or default says: all of it, or one attribute.
+    fn parts_that_go_by(&self, string: usize, item: Item) -> Vec<Span> {
+        let keyword = match item {
+            Item::Keyword(index) => {
+                Some(attributes(&self.sheet().strings[string].annotation)[index].keyword)
+            }
+            Item::Sign => None,
+            _ => return vec![],
+        };
+        let keywords: &[Keyword] = match &keyword {
+            Some(keyword) => std::slice::from_ref(keyword),
+            None => Keyword::ALL,
+        };
+        let goes_by = |part: &usize| {
+            keywords.iter().any(|keyword| {
+                let source = self.sheet().setting(*part, *keyword);
+                source.is_some_and(|source| source.string == string && source.from != SetBy::Own)
+            })
+        };
+        let parts = 0..self.sheet().parts.len();
+        parts
+            .filter(goes_by)
+            .map(|part| self.place_of_part(part))
+            .collect()
+    }
+
+    /// The places of the symbol at byte `offset`, each with whether it is defined there.
+    pub fn highlights(&self, offset: usize) -> Vec<(Span, bool)> {
+        let Some((symbol, _)) = self.symbol_at(offset) else {
+            return vec![];
+        };
+        let uses = self.uses(&symbol);
+        uses.iter()
+            .map(|found| (self.span_of(found), found.defines))
+            .collect()
+    }
+}
+
+/// The file that an argument names, if it names one.
+pub(super) fn file_named(attribute: &Attribute, argument: usize) -> Option<&str> {
+    let takes = &slot(attribute, argument, &|_| false)?.parameter().takes;
+    match (takes, &attribute.arguments.get(argument)?.kind) {
+        (Takes::File, ArgumentKind::Quoted(name) | ArgumentKind::Word(name)) => Some(name),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{analysis, figure};
+    use super::*;
+
+    fn leads(source: &str) -> Vec<String> {
+        let (analysis, at) = analysis(source);
+        let Some((_, targets)) = analysis.definition(at) else {
+            return vec![];
+        };
+        let text = |target: &Target| match target {
+            Target::Here(span) => analysis.source()[span.start..].chars().take(16).collect(),
+            Target::File(name) => name.clone(),
+        };
+        targets.iter().map(text).collect()
+    }
+
+    #[test]
+    fn every_kind_of_word_leads_somewhere() {
+        let strings = |string| figure(["Body", string, "", "$Offset 1", "%Let w 1 Smooth 10"]);
+        for (string, expected) in [
+            ("Arm@¦Body", "Body</text>\n<tex"),
+            ("A¦rm@Body", "<rect id=\"right\""),
+            ("Arm@Body$Offset ¦w", "w 1 Smooth 10</t"),
+            ("Arm@Body$Off¦set 2", "Offset 1</text>\n"),
+            ("Arm@Body$Smoo¦th 2", "Smooth 10</text>"),
+            ("Arm@Body$Texture \"¦a b.png\"", "a b.png"),
+            ("Arm@Body$Shape model \"a.¦glb\"", "a.glb"),
+            ("Arm@¦U-1", "<rect id=\"left\" "),
+        ] {
+            assert_eq!(leads(&strings(string)), [expected], "{string}");
+        }
+        assert!(leads(&strings("Arm@Body$Shape ¦round")).is_empty());
+        assert!(leads(&strings("Arm@¦Nobody")).is_empty());
+    }
+
+    #[test]
+    fn a_tag_leads_to_its_string() {
+        let source = figure(["Body", "Arm@Body", "", "", ""])
+            .replace("<rect id=\"right\"", "<re¦ct id=\"right\"");
+        assert_eq!(leads(&source), ["Arm@Body</text>\n"]);
+    }
+
+    #[test]
+    fn a_legend_knows_its_parts() {
+        let (analysis, at) = analysis(&figure([
+            "Body",
+            "Rarm@Body",
+            "Larm@Body$Offset 3",
+            "$Off¦set 1",
+            "",
+        ]));
+        let places = analysis.references(at, true);
+        let texts: Vec<_> = places
+            .iter()
+            .map(|span| &analysis.source()[span.start..span.end])
+            .collect();
+        assert_eq!(texts, ["Rarm"]);
+    }
+}

@@ -1,0 +1,393 @@
+//! What is told about the thing under the pointer.
+
+use std::fmt::Write as _;
+
+use super::at::{At, Item, attributes};
+use super::{Analysis, Symbol};
+use crate::bind::{BoundBy, PartKind, SetBy};
+use crate::lang::ast::{Annotation, ArgumentKind};
+use crate::lang::keyword::kinds;
+use crate::lang::keyword::signature::Takes;
+use crate::lang::{Slot, explain, slot};
+use crate::source::Span;
+
+/// How many parts are named before the rest is only counted.
+const MOST_NAMED: usize = 8;
+/// How many generations of ancestors are named.
+const MOST_ANCESTORS: usize = 12;
+
+/// What is told about a place.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Hover {
+    /// What it is told about.
+    pub span: Span,
+    /// What is told, in Markdown.
+    pub markdown: String,
+}
+
+impl Analysis {
+    /// What is told about byte `offset`: of a string its part, of a keyword its manual, of a number what it does, of a
+    /// shape's tag the part that it became.
+    pub fn hover(&self, offset: usize) -> Option<Hover> {
+        let (span, markdown) = match self.at(offset)? {
+            At::Tag { shape, part } => (
+                self.drawing().shapes[shape].element.span,
+                self.part_card(part?),
+            ),
+            At::String {
+                string,
+                offset,
+                token,
+            } => {
+                let text = &self.sheet().strings[string].text;
+                match token {
+                    None => (text.whole(), self.string_card(string)?),
+                    Some(token) => (
+                        text.span(token.range.clone()),
+                        self.token_card(string, token.item, offset)?,
+                    ),
+                }
+            }
+        };
+        Some(Hover { span, markdown })
+    }
+
+    fn token_card(&self, string: usize, item: Item, offset: usize) -> Option<String> {
+        let annotation = &self.sheet().strings[string].annotation;
+        let attribute = |index: usize| &attributes(annotation)[index];
+        match item {
+            Item::Sign | Item::Name | Item::Remark => self.string_card(string),
+            Item::Parent => {
+                let Annotation::Part(part) = annotation else {
+                    return None;
+                };
+                let name = &part.parent.as_ref()?.text;
+                match self.part_named(name) {
+                    Some(part) => Some(self.part_card(part)),
+                    None => Some(format!("There is no part named `{name}`.")),
+                }
+            }
+            Item::Feature => Some("A point on the outline of a billboard's region.".to_owned()),
+            Item::Keyword(index) => Some(explain::keyword(attribute(index).keyword)),
+            Item::Flag(index, flag) => {
+                let (letter, _) = attribute(index).flags[flag];
+                let flags = attribute(index).keyword.row().flags.iter();
+                let known = flags
+                    .into_iter()
+                    .find(|known| known.letter.eq_ignore_ascii_case(&letter))?;
+                Some(format!("`-{}`: {}", known.letter, known.summary))
+            }
+            Item::Argument(index, argument) => {
+                let slot = slot(attribute(index), argument, &|name| self.is_variable(name))?;
+                self.argument_card(string, (index, argument), slot, offset)
+            }
+        }
+    }
+
+    fn argument_card(
+        &self,
+        string: usize,
+        (index, argument): (usize, usize),
+        slot: Slot,
+        offset: usize,
+    ) -> Option<String> {
+        let sheet = self.sheet();
+        let given = &attributes(&sheet.strings[string].annotation)[index].arguments[argument];
+        let parameter = slot.parameter();
+        let usage = match slot.kind {
+            Some(kind) => format!("Shape {}", kind.usage()),
+            None => format!("{} {}", slot.taker, slot.form.print()),
+        };
+        let mut out = match (&parameter.takes, &given.kind) {
+            (Takes::Kind, ArgumentKind::Word(word)) => {
+                return Some(explain::kind(kinds::from_name(word)?));
+            }
+            (Takes::Choice(words), ArgumentKind::Word(word)) => {
+                let word = words
+                    .iter()
+                    .find(|known| known.name.eq_ignore_ascii_case(word))?;
+                format!("`{}`: {}", word.name, word.summary)
+            }
+            (Takes::Names, ArgumentKind::Word(name) | ArgumentKind::Quoted(name)) => {
+                let part = self.part_named(name);
+                return part.map(|part| self.part_card(part));
+            }
+            (takes, _) => format!(
+                "`{}` of `{}`: {}\n\n*{}*",
+                parameter.name,
+                slot.taker,
+                parameter.summary,
+                takes.describe()
+            ),
+        };
+        if let Some(value) = sheet.variables.value(given)
+            && !matches!(given.kind, ArgumentKind::Number(_))
+        {
+            let _ = write!(out, "\n\nIts value here is {value}.");
+        }
+        if let Some(variable) = self.variable_card(string, offset) {
+            let _ = write!(out, "\n\n{variable}");
+        }
+        let _ = write!(out, "\n\n```\n{usage}\n```\n");
+        Some(out)
+    }
+
+    /// Of the variable at a place of a string: its value and where it comes from.
+    fn variable_card(&self, string: usize, offset: usize) -> Option<String> {
+        let at = self.sheet().strings[string].text.span(offset..offset).start;
+        let (Symbol::Variable(name), _) = self.symbol_at(at)? else {
+            return None;
+        };
+        let variables = &self.sheet().variables;
+        let (_, variable) = variables.iter().find(|(known, _)| *known == name)?;
+        let definition = &self.source[variable.place.start..];
+        let definition = definition.split(['<', '\n']).next().unwrap_or_default();
+        let short: String = definition.chars().take(40).collect();
+        Some(match variable.value {
+            Some(value) => format!("`{name}` is {value}, by `%Let {}`", short.trim_end()),
+            None => format!("`{name}` has no value: its `Let` has a fault"),
+        })
+    }
+
+    fn string_card(&self, string: usize) -> Option<String> {
+        let sheet = self.sheet();
+        match &sheet.strings[string].annotation {
+            Annotation::Defaults(_) => Some(self.defaults_card(string)),
+            Annotation::Legend(_) => self.legend_card(string),
+            Annotation::Unused => {
+                let part = sheet.strings[string].binding?.part;
+                Some(format!(
+                    "{} is left out of the model.",
+                    self.element_of(part)
+                ))
+            }
+            Annotation::Part(_) => match self.part_of_string(string) {
+                Some(part) => Some(self.part_card(part)),
+                None => Some("This string is bound to no part.".to_owned()),
+            },
+            Annotation::Empty
+            | Annotation::Comment
+            | Annotation::Caption
+            | Annotation::Feature(_) => None,
+        }
+    }
+
+    /// A part: where it hangs, what it is bound to and why, and where each attribute comes from.
+    pub(super) fn part_card(&self, index: usize) -> String {
+        let sheet = self.sheet();
+        let part = &sheet.parts[index];
+        let mut out = match part.kind {
+            PartKind::Main => format!("**{}**", escaped(&part.name)),
+            PartKind::Sub => {
+                let main = sheet.describe(self.drawing(), part.main);
+                format!("A solid in the node of {main}")
+            }
+            PartKind::Legend => "**A legend's swatch**, left out of the model".to_owned(),
+            PartKind::Unused => "**Left out of the model**".to_owned(),
+        };
+        if part.kind == PartKind::Main {
+            let _ = write!(out, "\n\n{}", self.lineage(index));
+        }
+        let bound = sheet.parts[index]
+            .string
+            .and_then(|string| sheet.strings[string].binding)
+            .map(|binding| binding.by);
+        let why = match bound {
+            None if part.automatic => {
+                "it has no string: its name and parent were given by themselves"
+            }
+            None => "it has no string",
+            Some(BoundBy::Desc) => "by its description",
+            Some(BoundBy::Group) => "by the string that is grouped with it",
+            Some(BoundBy::Leader) => "by the string that a line leads to",
+            Some(BoundBy::Nearest) => "by the string that is nearest to it",
+        };
+        let _ = write!(out, "\n\n{}, {why}", self.element_of(index));
+        if matches!(part.kind, PartKind::Main | PartKind::Sub) {
+            out.push_str("\n\n| attribute | value | from |\n|---|---|---|\n");
+            for attribute in sheet.resolved(self.drawing(), index) {
+                let from = match attribute.from {
+                    SetBy::Own => "its own string".to_owned(),
+                    SetBy::Legend => "the legend of its paint".to_owned(),
+                    SetBy::Default => "a `%` string".to_owned(),
+                    SetBy::Builtin => "okoshi".to_owned(),
+                };
+                let value = attribute.value.replace('|', "\\|").replace('`', "'");
+                let _ = writeln!(out, "| {} | `{value}` | {from} |", attribute.keyword.name());
+            }
+        }
+        if part.kind == PartKind::Main {
+            let children = (0..sheet.parts.len()).filter(|child| {
+                sheet.parts[*child].kind == PartKind::Main
+                    && sheet.parts[*child].parent == Some(index)
+            });
+            if let Some(names) = self.names(children.collect()) {
+                let _ = write!(out, "\nCarries {names}.");
+            }
+        }
+        out
+    }
+
+    /// `Root › Ubody › **Rarm**`
+    fn lineage(&self, part: usize) -> String {
+        let parts = &self.sheet().parts;
+        let mut names = vec![format!("**{}**", escaped(&parts[part].name))];
+        let mut at = part;
+        while let Some(parent) = parts[at].parent {
+            if names.len() > MOST_ANCESTORS {
+                names.push("…".to_owned());
+                break;
+            }
+            names.push(escaped(&parts[parent].name));
+            at = parent;
+        }
+        names.push("Root".to_owned());
+        names.reverse();
+        names.join(" › ")
+    }
+
+    fn element_of(&self, part: usize) -> String {
+        let element = &self.drawing().shapes[self.sheet().parts[part].shape].element;
+        let called = element.describe();
+        match element.label.is_some() || element.id.is_some() {
+            true => format!("`<{}>` {called}", element.tag),
+            false => called,
+        }
+    }
+
+    fn defaults_card(&self, string: usize) -> String {
+        let parts = self.parts_by(string);
+        let mut out = "Defaults and settings of the whole drawing.".to_owned();
+        if let Some(names) = self.names(parts) {
+            let _ = write!(out, "\n\nParts that go by them: {names}.");
+        }
+        out
+    }
+
+    fn legend_card(&self, string: usize) -> Option<String> {
+        let part = self.sheet().strings[string].binding?.part;
+        let mut out = format!(
+            "A legend for all parts that are painted like {}.",
+            self.element_of(part)
+        );
+        match self.names(self.parts_by(string)) {
+            Some(names) => {
+                let _ = write!(out, "\n\nParts that go by it: {names}.");
+            }
+            None => out.push_str("\n\nNo part goes by it."),
+        }
+        Some(out)
+    }
+
+    /// The parts that take an attribute from a legend or from a `%` string.
+    fn parts_by(&self, string: usize) -> Vec<usize> {
+        let sheet = self.sheet();
+        let keywords = attributes(&sheet.strings[string].annotation);
+        let goes_by = |part: &usize| {
+            let is_built = matches!(sheet.parts[*part].kind, PartKind::Main | PartKind::Sub);
+            is_built
+                && keywords.iter().any(|attribute| {
+                    let source = sheet.setting(*part, attribute.keyword);
+                    source.is_some_and(|source| source.string == string)
+                })
+        };
+        (0..sheet.parts.len()).filter(goes_by).collect()
+    }
+
+    fn names(&self, parts: Vec<usize>) -> Option<String> {
+        let shown: Vec<_> = parts
+            .iter()
+            .take(MOST_NAMED)
+            .map(|part| self.sheet().describe(self.drawing(), *part))
+            .collect();
+        let more = parts.len().saturating_sub(MOST_NAMED);
+        match (shown.is_empty(), more) {
+            (true, _) => None,
+            (_, 0) => Some(shown.join(", ")),
+            _ => Some(format!("{} and {more} more", shown.join(", "))),
+        }
+    }
+}
+
+/// A name as Markdown shows it as it is.
+fn escaped(name: &str) -> String {
+    let mut out = String::with_capacity(name.len());
+    for c in name.chars() {
+        if c.is_ascii_punctuation() {
+            out.push('\\');
+        }
+        out.push(c);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{analysis, figure};
+
+    fn hover(strings: [&str; 5]) -> String {
+        let (analysis, at) = analysis(&figure(strings));
+        analysis
+            .hover(at)
+            .map_or(String::new(), |hover| hover.markdown)
+    }
+
+    #[test]
+    fn a_string_tells_its_part() {
+        let card = hover([
+            "Body",
+            "¦Rarm@Body$Shape roundv",
+            "Larm@Rarm",
+            "$Offset 4",
+            "%Smooth 20",
+        ]);
+        for part in [
+            "Root › Body › **Rarm**",
+            "`<rect>` `#right`, by the string that is nearest to it",
+            "| Shape | `roundv` | its own string |",
+            "| Offset | `4` | the legend of its paint |",
+            "| Smooth | `20` | a `%` string |",
+            "| Color | `1 0.8 0.6` | okoshi |",
+            "Carries `Larm`.",
+        ] {
+            assert!(card.contains(part), "{part} is not in:\n{card}");
+        }
+    }
+
+    #[test]
+    fn words_tell_what_they_do() {
+        for (string, expected) in [
+            ("Rarm@Body$Sha¦pe roundv", "# Shape\n"),
+            ("Rarm@Body$Shape ro¦undv", "# Shape roundv\n"),
+            (
+                "Rarm@Body$Shape roundv -9¦0 90",
+                "`a0` of `roundv`: where the rounding begins",
+            ),
+            ("Rarm@Body$Shape -¦d round", "`-d`: a second, mirrored copy"),
+            ("Rarm@Body$Origin st¦art", "`start`: the end point nearer"),
+            ("Rarm@Body$Offset ¦w", "`w` is 12, by `%Let w 12`"),
+            ("Rarm@Body$Offset (w * ¦2)", "Its value here is 24."),
+            ("Rarm@Bo¦dy", "**Body**"),
+            ("Rarm@No¦body", "There is no part named `Nobody`."),
+            ("*¦ Rarm", "is left out"),
+        ] {
+            let card = hover(["Body", string, "", "", "%Let w 12"]);
+            assert!(
+                card.contains(expected),
+                "{string}: {expected} is not in:\n{card}"
+            );
+        }
+    }
+
+    #[test]
+    fn legends_and_defaults_tell_who_goes_by_them() {
+        let legend = hover(["Body", "Rarm@Body", "Larm@Body", "¦$Offset 4", ""]);
+        assert!(
+            legend.contains("Parts that go by it: `Rarm`, `Larm`."),
+            "{legend}"
+        );
+        let defaults = hover(["Body", "Rarm@Body", "", "", "¦%Offset 4"]);
+        assert!(defaults.contains("`Body`"), "{defaults}");
+        assert_eq!(hover(["Body", "¦# note", "", "", ""]), "");
+    }
+}

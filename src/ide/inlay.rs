@@ -1,0 +1,190 @@
+//! What is not written and holds all the same: automatic names and parents, inherited attributes.
+
+use super::Analysis;
+use super::uses::own_name;
+use crate::bind::{PartKind, Place, SetBy};
+use crate::lang::looks_like_string;
+use crate::source::Span;
+
+/// How many inherited attributes are shown behind a string.
+const MOST: usize = 4;
+
+/// Words that an editor shows between the characters.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Inlay {
+    /// Before which byte.
+    pub at: usize,
+    /// The words.
+    pub pieces: Vec<InlayPiece>,
+}
+
+/// A few words of an inlay, with where they come from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct InlayPiece {
+    /// The words.
+    pub text: String,
+    /// Where they are said.
+    pub from: Option<Span>,
+    /// What they are, in a sentence.
+    pub about: String,
+}
+
+impl Analysis {
+    /// The inlays within `window`, in the order of the file.
+    pub fn inlays(&self, window: Span) -> Vec<Inlay> {
+        let sheet = self.sheet();
+        if !sheet.annotated {
+            return vec![];
+        }
+        let mut out = vec![];
+        for index in 0..sheet.parts.len() {
+            let part = &sheet.parts[index];
+            if part.kind != PartKind::Main {
+                continue;
+            }
+            match part.string {
+                Some(string)
+                    if sheet.strings[string].text.whole().touches(window.start)
+                        || (window.start..=window.end)
+                            .contains(&sheet.strings[string].text.whole().start) =>
+                {
+                    out.extend(self.name_of_element(index, string));
+                    out.extend(self.inherited_by(index, string));
+                }
+                None if part.automatic => out.extend(self.automatic(index)),
+                _ => {}
+            }
+        }
+        out.retain(|inlay| (window.start..=window.end).contains(&inlay.at));
+        out.sort_by_key(|inlay| inlay.at);
+        out
+    }
+
+    /// Behind a shape's tag: the name and parent that it was given by itself.
+    fn automatic(&self, index: usize) -> Option<Inlay> {
+        let sheet = self.sheet();
+        let part = &sheet.parts[index];
+        let at = self.drawing().shapes[part.shape].element.span.end;
+        let mut pieces = vec![InlayPiece {
+            text: part.name.clone(),
+            from: None,
+            about: "This shape has no string: its name was given by itself".to_owned(),
+        }];
+        if let Some(parent) = part.parent {
+            pieces.push(InlayPiece {
+                text: format!("@{}", sheet.parts[parent].name),
+                from: Some(self.place_of_part(parent)),
+                about: "It hangs on the nearest named part".to_owned(),
+            });
+        }
+        Some(Inlay { at, pieces })
+    }
+
+    /// Before a description without a name: the name that its element gives.
+    fn name_of_element(&self, index: usize, string: usize) -> Option<Inlay> {
+        let sheet = self.sheet();
+        let found = &sheet.strings[string];
+        let text = found.text.as_str();
+        let nameless = own_name(found).is_none() && looks_like_string(text);
+        if matches!(found.place, Place::Label(_)) || !nameless || sheet.parts[index].name.is_empty()
+        {
+            return None;
+        }
+        let start = text.len() - text.trim_start().len();
+        Some(Inlay {
+            at: found.text.span(start..start).start,
+            pieces: vec![InlayPiece {
+                text: sheet.parts[index].name.clone(),
+                from: Some(self.drawing().shapes[sheet.parts[index].shape].element.span),
+                about: "The name is the label or the id of the element".to_owned(),
+            }],
+        })
+    }
+
+    /// Behind a string: what its part has from a legend or from `%`.
+    fn inherited_by(&self, index: usize, string: usize) -> Option<Inlay> {
+        let sheet = self.sheet();
+        let text = &sheet.strings[string].text;
+        let resolved = sheet.resolved(self.drawing(), index).into_iter();
+        let inherited: Vec<_> = resolved
+            .filter(|attribute| matches!(attribute.from, SetBy::Legend | SetBy::Default))
+            .collect();
+        if inherited.is_empty() {
+            return None;
+        }
+        let mut pieces = vec![];
+        for attribute in inherited.iter().take(MOST) {
+            let space = if pieces.is_empty() { "" } else { " " };
+            let source = sheet.setting(index, attribute.keyword)?;
+            pieces.push(InlayPiece {
+                text: format!("{space}{} {}", attribute.keyword.name(), attribute.value),
+                from: Some(self.setting_span(source.string, &source.setting.range)),
+                about: match attribute.from {
+                    SetBy::Legend => "From the legend of its paint".to_owned(),
+                    _ => "From a `%` string".to_owned(),
+                },
+            });
+        }
+        if inherited.len() > MOST {
+            pieces.push(InlayPiece {
+                text: " …".to_owned(),
+                from: None,
+                about: format!("And {} more", inherited.len() - MOST),
+            });
+        }
+        let end = text.as_str().trim_end().len();
+        Some(Inlay {
+            at: text.span(end..end).start.max(text.span(0..end).end),
+            pieces,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{analysis, figure};
+    use super::*;
+
+    #[test]
+    fn what_is_not_written_is_shown() {
+        let strings = [
+            "Body",
+            "Rarm@Body$Smooth 20",
+            "",
+            "$Offset 4",
+            "%Smooth 10 Segments 8",
+        ];
+        let (analysis, _) = analysis(&figure(strings));
+        let shown: Vec<_> = analysis
+            .inlays(Span::new(0, analysis.source().len()))
+            .into_iter()
+            .map(|inlay| {
+                let words: String = inlay
+                    .pieces
+                    .iter()
+                    .map(|piece| piece.text.as_str())
+                    .collect();
+                let mut source = analysis.source().to_string();
+                source.truncate(inlay.at);
+                let before: String = source.chars().rev().take(5).collect();
+                (before.chars().rev().collect::<String>(), words)
+            })
+            .collect();
+        let expected = [
+            ("<rect", "U-1@Body"),
+            (">Body", "Segments 8 Smooth 10"),
+            ("th 20", "Offset 4 Segments 8"),
+        ];
+        let expected = expected.map(|(before, words)| (before.to_owned(), words.to_owned()));
+        assert_eq!(shown, expected);
+    }
+
+    #[test]
+    fn descriptions_show_the_name_of_their_element() {
+        let source = "<svg xmlns=\"http://www.w3.org/2000/svg\"><rect id=\"a\" width=\"9\" height=\"9\"><desc>$Offset 1</desc></rect></svg>";
+        let (analysis, _) = analysis(source);
+        let inlays = analysis.inlays(Span::new(0, source.len()));
+        assert_eq!(inlays[0].pieces[0].text, "a");
+        assert_eq!(&source[inlays[0].at..inlays[0].at + 1], "$");
+    }
+}

@@ -1,0 +1,82 @@
+//! How names are written: bare where they can be, in quotes where they must.
+
+use crate::lang::keyword::Keyword;
+use crate::lang::{folded, in_name, in_word};
+
+/// Where a name stands, which decides what can do without quotes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    /// Before or behind `@`.
+    Head,
+    /// Among the arguments of an attribute.
+    Argument,
+}
+
+/// Whether `name` is read as itself without quotes.
+pub(super) fn can_be_bare(name: &str, role: Role) -> bool {
+    if name.is_empty() || folded(name) != name {
+        return false;
+    }
+    match role {
+        Role::Head => name.chars().all(in_name) && !name.starts_with(['#', '%', '*', '^']),
+        Role::Argument => {
+            name.starts_with(char::is_alphabetic)
+                && name.chars().all(in_word)
+                && Keyword::from_name(name).is_none()
+        }
+    }
+}
+
+/// `name` as it is written in a string.
+pub(super) fn written(name: &str, role: Role) -> String {
+    match can_be_bare(name, role) {
+        true => name.to_owned(),
+        false => format!("\"{name}\""),
+    }
+}
+
+/// The name that a person means who types `input`: quotes taken off, white space made single, and without quotes
+/// full-width signs as ASCII. `None` if there is no such name.
+pub(super) fn meant(input: &str) -> Option<String> {
+    let input = input.trim();
+    let inner = input
+        .strip_prefix('"')
+        .and_then(|rest| rest.strip_suffix('"'));
+    let name = match inner {
+        Some(inner) => inner.to_owned(),
+        None => folded(input).into_owned(),
+    };
+    let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
+    (!name.is_empty() && !name.contains(['"', '＂']) && !name.contains(char::is_control))
+        .then_some(name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quotes_stand_where_they_must() {
+        for (name, head, argument) in [
+            ("Arm", "Arm", "Arm"),
+            ("右腕", "右腕", "右腕"),
+            ("Left arm", "\"Left arm\"", "\"Left arm\""),
+            ("a$b", "\"a$b\"", "\"a$b\""),
+            ("U-1", "U-1", "\"U-1\""),
+            ("Shape", "Shape", "\"Shape\""),
+            ("#1", "\"#1\"", "\"#1\""),
+            ("Ａ", "\"Ａ\"", "\"Ａ\""),
+        ] {
+            assert_eq!(written(name, Role::Head), head);
+            assert_eq!(written(name, Role::Argument), argument);
+        }
+    }
+
+    #[test]
+    fn what_is_typed_is_read_as_it_would_be_in_a_string() {
+        assert_eq!(meant("  Ａrm ").as_deref(), Some("Arm"));
+        assert_eq!(meant("\"Ａrm  x\"").as_deref(), Some("Ａrm x"));
+        assert_eq!(meant("a\"b"), None);
+        assert_eq!(meant(" \"\" "), None);
+    }
+}

@@ -1,0 +1,298 @@
+//! Renaming parts, variables and feature points in all strings.
+
+use super::quoting::{Role, can_be_bare, meant, written};
+use super::uses::own_name;
+use super::{Analysis, Item, Symbol, Use};
+use crate::bind::SheetString;
+use crate::diagnostic::Edit;
+use crate::lang::keyword::{Keyword, colours, words};
+use crate::lang::{in_word, looks_like_string};
+use crate::source::{Span, Text};
+
+/// Why something cannot be renamed so.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum RenameError {
+    /// There is no name at this place.
+    #[error("there is no name of a part and no variable here")]
+    NoName,
+    /// The new name cannot be written.
+    #[error("a name needs a letter or sign, and has no quotes in it")]
+    NotAName,
+    /// Another part has it.
+    #[error("there is a part named `{0}` already")]
+    Taken(String),
+    /// Another variable has it.
+    #[error("there is a variable `{0}` already")]
+    VariableTaken(String),
+    /// No variable can be called so.
+    #[error("`{0}` cannot be a variable: letters, digits, `_` and `.`, beginning with a letter")]
+    NotAVariable(String),
+    /// The language has this word.
+    #[error("`{0}` is a word of the language, and would be read as such")]
+    WordOfTheLanguage(String),
+    /// The part has no string.
+    #[error("`{0}` has no string that names it: give it one first")]
+    NoString(String),
+    /// The drawing's text cannot be read.
+    #[error("the drawing is not well-formed XML: mend that first, so that no name is missed")]
+    NotSound,
+}
+
+impl Analysis {
+    /// The place and the present name of what can be renamed at byte `offset`.
+    ///
+    /// # Errors
+    /// If nothing there has a name, or nothing can be renamed.
+    pub fn prepare_rename(&self, offset: usize) -> Result<(Span, String), RenameError> {
+        let (symbol, found) = self.to_rename(offset)?;
+        Ok((self.span_of(&found), symbol.name().to_owned()))
+    }
+
+    /// The edits that give what stands at byte `offset` another name wherever it is named.
+    ///
+    /// Quotes are set where the new name needs them, and only there; it is escaped for XML as its place wants it.
+    ///
+    /// # Errors
+    /// If nothing there has a name, or the new name cannot be used.
+    pub fn rename(&self, offset: usize, new_name: &str) -> Result<Vec<Edit>, RenameError> {
+        let (symbol, _) = self.to_rename(offset)?;
+        let name = meant(new_name).ok_or(RenameError::NotAName)?;
+        if name == symbol.name() {
+            return Ok(vec![]);
+        }
+        match &symbol {
+            Symbol::Part(_)
+                if self.part_named(&name).is_some() || self.named_in(&name).is_some() =>
+            {
+                return Err(RenameError::Taken(name));
+            }
+            Symbol::Variable(_) => self.check_variable(&name)?,
+            Symbol::Part(_) | Symbol::Feature(_) => {}
+        }
+        let mut edits = vec![];
+        for found in self.uses(&symbol) {
+            let string = &self.sheet().strings[found.string];
+            let new = rewritten(string, &found, &symbol, &name);
+            edits.extend(replace(&string.text, found.range.clone(), &new));
+        }
+        if let Symbol::Part(old) = &symbol {
+            edits.extend(self.named_by_element(old, &name));
+        }
+        edits.sort_by_key(|edit| edit.span);
+        Ok(edits)
+    }
+
+    fn to_rename(&self, offset: usize) -> Result<(Symbol, Use), RenameError> {
+        if !self.is_sound() {
+            return Err(RenameError::NotSound);
+        }
+        let (symbol, found) = self.symbol_at(offset).ok_or(RenameError::NoName)?;
+        if let Symbol::Part(name) = &symbol
+            && let Some(part) = self.part_named(name)
+            && self.sheet().parts[part].string.is_none()
+        {
+            return Err(RenameError::NoString(name.clone()));
+        }
+        Ok((symbol, found))
+    }
+
+    fn check_variable(&self, name: &str) -> Result<(), RenameError> {
+        if !name.starts_with(char::is_alphabetic) || !name.chars().all(in_word) {
+            return Err(RenameError::NotAVariable(name.to_owned()));
+        }
+        let is_taken =
+            Keyword::from_name(name).is_some() || words::is_known(name) || colours::is_colour(name);
+        if is_taken {
+            return Err(RenameError::WordOfTheLanguage(name.to_owned()));
+        }
+        if self.is_variable(name) || !self.uses(&Symbol::Variable(name.to_owned())).is_empty() {
+            return Err(RenameError::VariableTaken(name.to_owned()));
+        }
+        Ok(())
+    }
+
+    /// A description without a name takes it from its element: there the new name is put before the rest.
+    fn named_by_element(&self, old: &str, name: &str) -> Option<Edit> {
+        let part = &self.sheet().parts[self.part_named(old)?];
+        let string = &self.sheet().strings[part.string?];
+        let head = string.text.as_str();
+        let start = head.len() - head.trim_start().len();
+        (own_name(string).is_none() && looks_like_string(head)).then(|| Edit {
+            span: string.text.span(start..start),
+            text: string.text.escape_at(start, &written(name, Role::Head)),
+        })
+    }
+}
+
+/// The new name as it is written in place of the old one. Quotes that the old name did not need are kept.
+fn rewritten(string: &SheetString, found: &Use, symbol: &Symbol, name: &str) -> String {
+    if matches!(symbol, Symbol::Variable(_)) {
+        return name.to_owned();
+    }
+    let item = super::at::token_at(string, found.range.start).map(|token| token.item);
+    let role = match item {
+        Some(Item::Argument(..)) => Role::Argument,
+        _ => Role::Head,
+    };
+    let quoted = string.text.as_str()[found.range.clone()].starts_with(['"', '＂']);
+    match quoted && can_be_bare(symbol.name(), role) {
+        true => format!("\"{name}\""),
+        false => written(name, role),
+    }
+}
+
+/// The edits that put `new` in the place of the decoded characters `range`, and nothing else: tags that stand between
+/// them stay.
+pub(super) fn replace(text: &Text, range: std::ops::Range<usize>, new: &str) -> Vec<Edit> {
+    let escaped = text.escape_at(range.start, new);
+    let pieces = text.pieces(range).into_iter().enumerate();
+    pieces
+        .map(|(index, span)| Edit {
+            span,
+            text: if index == 0 {
+                escaped.clone()
+            } else {
+                String::new()
+            },
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{analysis, figure};
+    use super::*;
+
+    /// The drawing after the edits.
+    pub(crate) fn applied(source: &str, edits: &[Edit]) -> String {
+        let mut out = source.to_owned();
+        for edit in edits.iter().rev() {
+            out.replace_range(edit.span.start..edit.span.end, &edit.text);
+        }
+        out
+    }
+
+    fn renamed(source: &str, name: &str) -> Result<String, RenameError> {
+        let (analysis, at) = analysis(source);
+        let edits = analysis.rename(at, name)?;
+        Ok(applied(analysis.source(), &edits))
+    }
+
+    #[test]
+    fn parts_are_renamed_in_all_strings() {
+        let before = ["Body", "Rarm@¦Body$Follow Body", "Larm@Body", "", ""];
+        let after = ["Trunk", "Rarm@Trunk$Follow Trunk", "Larm@Trunk", "", ""];
+        assert_eq!(renamed(&figure(before), "Trunk").unwrap(), figure(after));
+        let quoted = [
+            "\"the trunk\"",
+            "Rarm@\"the trunk\"$Follow \"the trunk\"",
+            "Larm@\"the trunk\"",
+            "",
+            "",
+        ];
+        assert_eq!(
+            renamed(&figure(before), "the trunk").unwrap(),
+            figure(quoted)
+        );
+    }
+
+    #[test]
+    fn quotes_come_and_go_with_the_name() {
+        let needed = ["\"a b\"", "Rarm@¦\"a b\"", "", "", ""];
+        assert_eq!(
+            renamed(&figure(needed), "c").unwrap(),
+            figure(["c", "Rarm@c", "", "", ""])
+        );
+        let habit = ["\"a\"", "Rarm@¦a", "", "", ""];
+        assert_eq!(
+            renamed(&figure(habit), "c").unwrap(),
+            figure(["\"c\"", "Rarm@c", "", "", ""])
+        );
+    }
+
+    #[test]
+    fn names_are_escaped_as_their_place_wants_it() {
+        let before = ["<![CDATA[Body]]>", "Rarm@¦Body", "", "", ""];
+        let after = ["<![CDATA[a&b<c]]>", "Rarm@a&amp;b&lt;c", "", "", ""];
+        assert_eq!(renamed(&figure(before), "a&b<c").unwrap(), figure(after));
+    }
+
+    #[test]
+    fn tags_within_a_name_stay() {
+        let before = [
+            "<tspan>Bo</tspan><tspan>dy</tspan>",
+            "Rarm@¦Body",
+            "",
+            "",
+            "",
+        ];
+        let after = [
+            "<tspan>Trunk</tspan><tspan></tspan>",
+            "Rarm@Trunk",
+            "",
+            "",
+            "",
+        ];
+        assert_eq!(renamed(&figure(before), "Trunk").unwrap(), figure(after));
+    }
+
+    #[test]
+    fn variables_are_renamed() {
+        let before = [
+            "Body$Offset ¦w",
+            "Rarm@Body$Shape cone 0 (w * 2)",
+            "",
+            "",
+            "%Let w 1",
+        ];
+        let after = [
+            "Body$Offset depth",
+            "Rarm@Body$Shape cone 0 (depth * 2)",
+            "",
+            "",
+            "%Let depth 1",
+        ];
+        assert_eq!(renamed(&figure(before), "depth").unwrap(), figure(after));
+    }
+
+    #[test]
+    fn what_would_break_is_refused() {
+        let parts = figure(["Body", "Rarm@¦Body", "Larm@Body", "", ""]);
+        for (name, error) in [
+            ("Larm", RenameError::Taken("Larm".to_owned())),
+            ("a\"b", RenameError::NotAName),
+            ("  ", RenameError::NotAName),
+        ] {
+            assert_eq!(renamed(&parts, name), Err(error));
+        }
+        let variables = figure(["Body$Offset ¦w", "", "", "", "%Let w 1 Let v 2"]);
+        for (name, error) in [
+            ("v", RenameError::VariableTaken("v".to_owned())),
+            ("1v", RenameError::NotAVariable("1v".to_owned())),
+            (
+                "center",
+                RenameError::WordOfTheLanguage("center".to_owned()),
+            ),
+            ("Shape", RenameError::WordOfTheLanguage("Shape".to_owned())),
+        ] {
+            assert_eq!(renamed(&variables, name), Err(error));
+        }
+        assert_eq!(
+            renamed(&figure(["Body$¦Offset 1", "", "", "", ""]), "x"),
+            Err(RenameError::NoName)
+        );
+        let automatic = figure(["Body", "Rarm@U-¦1", "", "", ""]);
+        assert_eq!(
+            renamed(&automatic, "x"),
+            Err(RenameError::NoString("U-1".to_owned()))
+        );
+    }
+
+    #[test]
+    fn a_description_without_a_name_is_given_one() {
+        let before = "<svg xmlns=\"http://www.w3.org/2000/svg\"><rect id=\"a\" width=\"9\" height=\"9\"><desc>$Offset 1</desc>\
+                      </rect><rect id=\"b\" x=\"20\" width=\"9\" height=\"9\"><desc>@¦a$Offset 2</desc></rect></svg>";
+        let after = before.replace("<desc>$", "<desc>z$").replace("@¦a$", "@z$");
+        assert_eq!(renamed(before, "z").unwrap(), after);
+    }
+}

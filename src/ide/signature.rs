@@ -1,0 +1,195 @@
+//! What an attribute takes, while it is being written.
+
+use std::ops::Range;
+
+use super::Analysis;
+use super::at::attributes;
+use super::typed::typed_at;
+use crate::bind::Place;
+use crate::lang::ast::{ArgumentKind, Attribute};
+use crate::lang::keyword::signature::Form;
+use crate::lang::keyword::{Keyword, kinds};
+use crate::lang::{self, slot};
+use crate::source::Text;
+
+/// The ways to write an attribute, and where in them the place is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SignatureHelp {
+    /// The ways.
+    pub signatures: Vec<Signature>,
+    /// Which of them is being written.
+    pub active: usize,
+    /// Which of its parameters comes next; `None` behind the last.
+    pub parameter: Option<usize>,
+}
+
+/// One way to write an attribute.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Signature {
+    /// How it is written: `Shape roundv [a0 a1]`.
+    pub label: String,
+    /// One line about it.
+    pub summary: &'static str,
+    /// The parameters: where each stands in the label, in bytes, and what it means.
+    pub parameters: Vec<(Range<usize>, String)>,
+}
+
+/// The signature of the attribute at byte `offset` of the text as it is now.
+pub fn signature(source: &str, analysis: &Analysis, offset: usize) -> Option<SignatureHelp> {
+    let is_current = analysis.is_sound() && **analysis.source() == *source;
+    let (head, place) = match is_current.then(|| analysis.string_at(offset)).flatten() {
+        Some((string, at)) => {
+            let string = &analysis.sheet().strings[string];
+            let place = match string.place {
+                Place::Label(_) => lang::Place::Text,
+                Place::Shape(_) | Place::Group(_) => lang::Place::Desc,
+            };
+            (string.text.as_str().get(..at)?.to_owned(), place)
+        }
+        None => {
+            let typed = typed_at(source, offset)?;
+            let place = match typed.in_desc {
+                true => lang::Place::Desc,
+                false => lang::Place::Text,
+            };
+            (typed.text.as_str().get(..typed.offset)?.to_owned(), place)
+        }
+    };
+    let (annotation, _) = lang::parse(&Text::plain(&head, 0), place);
+    let attribute = attributes(&annotation).last()?;
+    let is_variable = |name: &str| analysis.is_variable(name);
+    help(attribute, &head, &is_variable)
+}
+
+fn help(
+    attribute: &Attribute,
+    head: &str,
+    is_variable: &dyn Fn(&str) -> bool,
+) -> Option<SignatureHelp> {
+    let row = attribute.keyword.row();
+    let nothing_typed = attribute.arguments.is_empty() && attribute.flags.is_empty();
+    if nothing_typed && attribute.keyword_range.end == head.len() {
+        return None;
+    }
+    // The word that the place touches is still being written.
+    let last = attribute.arguments.last();
+    let touches = last.is_some_and(|argument| argument.range.end == head.len());
+    let index = attribute.arguments.len() - usize::from(touches);
+    let kind = match attribute.arguments.first().map(|first| &first.kind) {
+        Some(ArgumentKind::Word(word)) if attribute.keyword == Keyword::Shape && index > 0 => {
+            kinds::from_name(word)
+        }
+        _ => None,
+    };
+    if let Some(kind) = kind {
+        let name = format!("Shape {}", kind.name);
+        return Some(SignatureHelp {
+            signatures: vec![written(&name, &kind.form, kind.summary)],
+            active: 0,
+            parameter: slot(attribute, index, is_variable).map(|slot| slot.index),
+        });
+    }
+    let flags: String = row.flags.iter().map(|flag| flag.letter).collect();
+    let name = match flags.is_empty() {
+        true => attribute.keyword.name().to_owned(),
+        false => format!("{} [-{flags}]", attribute.keyword.name()),
+    };
+    let forms = row.forms.iter();
+    let signatures: Vec<_> = forms
+        .map(|form| written(&name, form, row.summary))
+        .collect();
+    let slot = slot(attribute, index, is_variable);
+    let active = slot.and_then(|slot| {
+        row.forms
+            .iter()
+            .position(|form| std::ptr::eq(form, slot.form))
+    });
+    Some(SignatureHelp {
+        signatures,
+        active: active.unwrap_or(0),
+        parameter: slot.map(|slot| slot.index),
+    })
+}
+
+/// A form as it is written behind `name`.
+fn written(name: &str, form: &Form, summary: &'static str) -> Signature {
+    let printed = form.print();
+    let label = match printed.is_empty() {
+        true => name.to_owned(),
+        false => format!("{name} {printed}"),
+    };
+    let mut from = name.len();
+    let parameters = form.parameters.iter().map(|parameter| {
+        let text = parameter.print();
+        let start = label[from..].find(&text).map_or(from, |at| from + at);
+        from = start + text.len();
+        let told = format!("{} ({})", parameter.summary, parameter.takes.describe());
+        (start..from, told)
+    });
+    let parameters = parameters.collect();
+    Signature {
+        label,
+        summary,
+        parameters,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{analysis, figure};
+    use super::*;
+
+    fn told(string: &str) -> Option<(String, Option<String>)> {
+        let (analysis, at) = analysis(&figure(["Body", string, "", "", ""]));
+        let help = signature(&analysis.source().clone(), &analysis, at)?;
+        let signature = &help.signatures[help.active];
+        let parameter = help
+            .parameter
+            .map(|index| signature.label[signature.parameters[index].0.clone()].to_owned());
+        Some((signature.label.clone(), parameter))
+    }
+
+    #[test]
+    fn the_parameter_that_comes_next_is_told() {
+        for (string, label, parameter) in [
+            (
+                "Rarm@Body$Shape ¦",
+                "Shape [-scd] kind parameters…",
+                Some("kind parameters…"),
+            ),
+            (
+                "Rarm@Body$Shape cone ¦0 20",
+                "Shape cone [z0 z1 [top]]",
+                Some("z0"),
+            ),
+            (
+                "Rarm@Body$Shape cone 0 2¦0",
+                "Shape cone [z0 z1 [top]]",
+                Some("z1"),
+            ),
+            (
+                "Rarm@Body$Shape cone 0 20 ¦",
+                "Shape cone [z0 z1 [top]]",
+                Some("top"),
+            ),
+            (
+                "Rarm@Body$Shape cone 0 20 1 ¦",
+                "Shape cone [z0 z1 [top]]",
+                None,
+            ),
+            ("Rarm@Body$Color ¦", "Color r g b [a]", Some("r")),
+            ("Rarm@Body$Color 1 ¦", "Color r g b [a]", Some("g")),
+            ("Rarm@Body$Color #f0f¦", "Color r g b [a]", Some("r")),
+            (
+                "Rarm@Body$Origin ce¦",
+                "Origin center|start|end",
+                Some("center|start|end"),
+            ),
+        ] {
+            let expected = (label.to_owned(), parameter.map(str::to_owned));
+            assert_eq!(told(string), Some(expected), "{string}");
+        }
+        assert_eq!(told("Rarm@Body$Shape¦"), None);
+        assert_eq!(told("Rarm@¦Body"), None);
+    }
+}

@@ -1,0 +1,117 @@
+//! The figure's hierarchy, as an outline of the drawing.
+
+use super::Analysis;
+use crate::bind::PartKind;
+use crate::source::Span;
+
+/// How deep the outline goes; what hangs deeper stands beside its ancestor at this depth.
+const DEEPEST: usize = 100;
+
+/// A part in the outline.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Outline {
+    /// The part's name.
+    pub name: String,
+    /// A few words: how it becomes a solid.
+    pub detail: String,
+    /// Whether the part has children in the model.
+    pub is_joint: bool,
+    /// All of its string, or its shape's tag.
+    pub span: Span,
+    /// Its name in the string, or its shape's tag.
+    pub selection: Span,
+    /// The parts that hang on it.
+    pub children: Vec<Outline>,
+}
+
+impl Analysis {
+    /// The main parts as a tree, in the order of the file.
+    pub fn outline(&self) -> Vec<Outline> {
+        let sheet = self.sheet();
+        if !sheet.annotated {
+            return vec![];
+        }
+        let mut children: Vec<Vec<usize>> = vec![vec![]; sheet.parts.len()];
+        let mut roots = vec![];
+        let mut order: Vec<usize> = (0..sheet.parts.len())
+            .filter(|part| sheet.parts[*part].kind == PartKind::Main)
+            .collect();
+        order.sort_by_key(|part| self.place_of_part(*part));
+        for part in order {
+            match sheet.parts[part].parent {
+                Some(parent) => children[parent].push(part),
+                None => roots.push(part),
+            }
+        }
+        self.outline_of(&roots, &children, 0)
+    }
+
+    fn outline_of(&self, parts: &[usize], children: &[Vec<usize>], depth: usize) -> Vec<Outline> {
+        let mut out = vec![];
+        let mut waiting: Vec<usize> = parts.iter().rev().copied().collect();
+        while let Some(part) = waiting.pop() {
+            let mut outline = self.outline_entry(part);
+            outline.is_joint = !children[part].is_empty();
+            if depth < DEEPEST {
+                outline.children = self.outline_of(&children[part], children, depth + 1);
+            } else {
+                waiting.extend(children[part].iter().rev());
+            }
+            out.push(outline);
+        }
+        out
+    }
+
+    fn outline_entry(&self, part: usize) -> Outline {
+        let sheet = self.sheet();
+        let selection = self.place_of_part(part);
+        let shape = sheet.setting(part, crate::lang::keyword::Keyword::Shape);
+        let span = match sheet.parts[part].string {
+            Some(string) => sheet.strings[string].text.whole(),
+            None => selection,
+        };
+        Outline {
+            name: sheet.parts[part].name.clone(),
+            detail: shape.map_or("default".to_owned(), |source| source.setting.words.clone()),
+            is_joint: false,
+            span: span.join(selection),
+            selection,
+            children: vec![],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{analysis, figure};
+    use super::*;
+
+    fn lines(outline: &[Outline], indent: &str, out: &mut Vec<String>) {
+        for part in outline {
+            out.push(format!("{indent}{} {}", part.name, part.detail));
+            lines(&part.children, &format!("{indent}  "), out);
+        }
+    }
+
+    #[test]
+    fn the_outline_is_the_hierarchy() {
+        let (analysis, _) = analysis(&figure([
+            "Body",
+            "Rarm@Body$Shape roundv",
+            "Larm@Rarm",
+            "",
+            "",
+        ]));
+        let mut out = vec![];
+        lines(&analysis.outline(), "", &mut out);
+        assert_eq!(
+            out,
+            [
+                "Body default",
+                "  U-1 default",
+                "  Rarm roundv",
+                "    Larm default"
+            ]
+        );
+    }
+}

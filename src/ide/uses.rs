@@ -1,0 +1,260 @@
+//! Names and variables: what stands at a place, and where else it stands.
+
+use std::ops::Range;
+
+use super::Analysis;
+use super::at::{At, Item, attributes};
+use crate::bind::SheetString;
+use crate::lang::ast::{Annotation, ArgumentKind, Attribute, Expression};
+use crate::lang::keyword::Keyword;
+use crate::lang::keyword::signature::Takes;
+use crate::lang::slot;
+use crate::source::Span;
+
+/// Something that has a name.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Symbol {
+    /// A part, or a parent that no string names.
+    Part(String),
+    /// A variable, or a word where a number is due.
+    Variable(String),
+    /// A feature point of a billboard's region.
+    Feature(String),
+}
+
+/// A place where a symbol stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Use {
+    /// Index of the string.
+    pub string: usize,
+    /// Where in its decoded characters; quotes belong to a name.
+    pub range: Range<usize>,
+    /// Whether it is defined here, rather than meant.
+    pub defines: bool,
+}
+
+impl Symbol {
+    /// Its name.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Part(name) | Self::Variable(name) | Self::Feature(name) => name,
+        }
+    }
+}
+
+impl Analysis {
+    /// The symbol at byte `offset`, and where exactly it stands.
+    pub fn symbol_at(&self, offset: usize) -> Option<(Symbol, Use)> {
+        let At::String {
+            string,
+            offset,
+            token,
+        } = self.at(offset)?
+        else {
+            return None;
+        };
+        let holds =
+            |found: &(Symbol, Use)| (found.1.range.start..=found.1.range.end).contains(&offset);
+        // Only names and arguments can be symbols; the rest need not be searched.
+        match token?.item {
+            Item::Name | Item::Parent | Item::Feature | Item::Argument(..) => {
+                let all = self.symbols_of(string).into_iter();
+                all.filter(holds)
+                    .min_by_key(|(_, found)| found.range.end == offset)
+            }
+            _ => None,
+        }
+    }
+
+    /// Where a symbol stands, in the order of the text.
+    pub fn uses(&self, symbol: &Symbol) -> Vec<Use> {
+        let strings = 0..self.sheet().strings.len();
+        let all = strings.flat_map(|string| self.symbols_of(string));
+        all.filter(|(other, _)| other == symbol)
+            .map(|(_, found)| found)
+            .collect()
+    }
+
+    /// The place of a use in the drawing.
+    pub fn span_of(&self, found: &Use) -> Span {
+        self.sheet().strings[found.string]
+            .text
+            .span(found.range.clone())
+    }
+
+    /// The symbols of a string, in order.
+    fn symbols_of(&self, index: usize) -> Vec<(Symbol, Use)> {
+        let string = &self.sheet().strings[index];
+        let mut found = vec![];
+        let mut push = |symbol, range: &Range<usize>, defines| {
+            let range = range.clone();
+            found.push((
+                symbol,
+                Use {
+                    string: index,
+                    range,
+                    defines,
+                },
+            ));
+        };
+        match &string.annotation {
+            Annotation::Part(part) => {
+                if let Some(name) = &part.name {
+                    push(Symbol::Part(name.text.clone()), &name.range, true);
+                }
+                if let Some(parent) = &part.parent {
+                    push(Symbol::Part(parent.text.clone()), &parent.range, false);
+                }
+            }
+            Annotation::Feature(name) => {
+                push(Symbol::Feature(name.text.clone()), &name.range, false);
+            }
+            _ => {}
+        }
+        for attribute in attributes(&string.annotation) {
+            self.symbols_of_attribute(attribute, &mut push);
+        }
+        found
+    }
+
+    fn symbols_of_attribute(
+        &self,
+        attribute: &Attribute,
+        push: &mut impl FnMut(Symbol, &Range<usize>, bool),
+    ) {
+        for (index, argument) in attribute.arguments.iter().enumerate() {
+            match &argument.kind {
+                ArgumentKind::Expression(expression) => {
+                    variables(expression, &mut |name, range| {
+                        push(Symbol::Variable(name.to_owned()), range, false);
+                    });
+                }
+                ArgumentKind::Word(word) | ArgumentKind::Quoted(word) => {
+                    let is_word = matches!(argument.kind, ArgumentKind::Word(_));
+                    let slot = slot(attribute, index, &|name| self.is_variable(name));
+                    match slot.map(|slot| &slot.parameter().takes) {
+                        Some(Takes::Variable) if is_word => {
+                            push(Symbol::Variable(word.clone()), &argument.range, true);
+                        }
+                        Some(Takes::Number(_)) if is_word => {
+                            push(Symbol::Variable(word.clone()), &argument.range, false);
+                        }
+                        Some(Takes::Names) if attribute.keyword == Keyword::Follow => {
+                            push(Symbol::Part(word.clone()), &argument.range, false);
+                        }
+                        _ => {}
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    /// Which strings name a part of this name.
+    pub(super) fn named_in(&self, name: &str) -> Option<usize> {
+        let symbol = Symbol::Part(name.to_owned());
+        let strings = 0..self.sheet().strings.len();
+        strings.into_iter().find(|string| {
+            self.symbols_of(*string)
+                .iter()
+                .any(|(other, found)| found.defines && *other == symbol)
+        })
+    }
+}
+
+/// The variables of an expression with their places.
+fn variables(expression: &Expression, found: &mut dyn FnMut(&str, &Range<usize>)) {
+    match expression {
+        Expression::Number(_) => {}
+        Expression::Variable(name) => found(&name.text, &name.range),
+        Expression::Negate(inner) => variables(inner, found),
+        Expression::Binary(_, left, right) => {
+            variables(left, found);
+            variables(right, found);
+        }
+        Expression::Call(_, arguments) => {
+            for argument in arguments {
+                variables(argument, found);
+            }
+        }
+    }
+}
+
+/// The name that a string gives its part, if it gives one.
+pub(super) fn own_name(string: &SheetString) -> Option<&str> {
+    match &string.annotation {
+        Annotation::Part(part) => part.name.as_ref().map(|name| name.text.as_str()),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{analysis, figure};
+    use super::*;
+
+    fn found(strings: [&str; 5]) -> (Option<Symbol>, Vec<(String, bool)>) {
+        let (analysis, at) = analysis(&figure(strings));
+        let Some((symbol, _)) = analysis.symbol_at(at) else {
+            return (None, vec![]);
+        };
+        let uses = analysis.uses(&symbol);
+        let text = |found: &Use| {
+            let span = analysis.span_of(found);
+            (
+                analysis.source()[span.start..span.end].to_owned(),
+                found.defines,
+            )
+        };
+        let uses = uses.iter().map(text).collect();
+        (Some(symbol), uses)
+    }
+
+    #[test]
+    fn parts_are_found_wherever_they_are_named() {
+        let (symbol, uses) = found([
+            "Body",
+            "Rarm@Bo¦dy$Follow Body Body",
+            "Larm@\"Body\"",
+            "",
+            "",
+        ]);
+        assert_eq!(symbol, Some(Symbol::Part("Body".to_owned())));
+        let expected = [
+            ("Body", false),
+            ("Body", false),
+            ("Body", false),
+            ("\"Body\"", false),
+            ("Body", true),
+        ];
+        let mut uses: Vec<_> = uses
+            .iter()
+            .map(|(text, defines)| (text.as_str(), *defines))
+            .collect();
+        let mut expected = expected.to_vec();
+        uses.sort_unstable();
+        expected.sort_unstable();
+        assert_eq!(uses, expected);
+    }
+
+    #[test]
+    fn variables_are_found_in_calculations() {
+        let (symbol, uses) = found([
+            "Body$Offset w",
+            "Rarm@Body$Shape cone 0 (max(w, ¦w * 2))",
+            "",
+            "$Color w 0 0",
+            "%Let w 1",
+        ]);
+        assert_eq!(symbol, Some(Symbol::Variable("w".to_owned())));
+        assert_eq!(uses.len(), 5);
+        assert_eq!(uses.iter().filter(|(_, defines)| *defines).count(), 1);
+    }
+
+    #[test]
+    fn words_of_the_language_are_no_symbols() {
+        assert_eq!(found(["Body$Origin cen¦ter", "", "", "", ""]).0, None);
+        assert_eq!(found(["Body$Color r¦ed", "", "", "", ""]).0, None);
+        assert_eq!(found(["Body$Sha¦pe round", "", "", "", ""]).0, None);
+    }
+}
