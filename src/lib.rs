@@ -19,6 +19,7 @@ pub mod gltf;
 pub mod ide;
 pub mod import;
 pub mod lang;
+pub mod lsp;
 pub mod render;
 pub mod resolver;
 pub mod scene;

@@ -227,7 +227,7 @@ fn parents(
                 known.iter().copied().filter(|name| *name != part.name),
             ) {
                 diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
-                    format!("write `{near}`"),
+                    format!("Write `{near}`"),
                     span,
                     text.escape_at(parent.range.start, &quoted(near)),
                 );
@@ -469,7 +469,7 @@ fn turns_about_middle(
     ));
     for word in ["start", "end"] {
         diagnostic = diagnostic.fix(
-            format!("turn about its {word}"),
+            format!("Turn about its {word}"),
             place,
             format!("{lead}Origin {word}"),
         );

@@ -113,7 +113,7 @@ fn caption(text: &Text) -> Diagnostic {
         "this text is no string, and is taken for a caption",
     )
     .help("begin it with `#` to make it a comment; a part's name with blanks in it needs quotes")
-    .fix("make it a comment", start, "#")
+    .fix("Make it a comment", start, "#")
 }
 
 /// Later `%` strings win over earlier ones.

@@ -73,6 +73,11 @@ pub(super) enum Command {
         /// E204, Shape, roundv …
         topic: Option<String>,
     },
+    /// Language server on stdin and stdout, for editors
+    ///
+    /// Editors start it by themselves; docs/editors says how each is set up. Positions are counted in
+    /// UTF-8 or UTF-16, as the editor likes.
+    Lsp,
     /// Write a completion script for a shell
     Completions {
         /// The shell

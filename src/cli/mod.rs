@@ -79,6 +79,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Check(arguments) => check::run(arguments, cli.common),
         Command::Inspect(arguments) => inspect::run(arguments, cli.common),
         Command::Explain { topic } => explain::run(topic.as_deref(), cli.common),
+        Command::Lsp => lsp(),
         Command::Completions { shell } => {
             let mut script = Vec::new();
             clap_complete::generate(*shell, &mut Cli::command(), "okoshi", &mut script);
@@ -90,6 +91,15 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Outcome::Errors => 1,
         Outcome::Failed => 2,
     })
+}
+
+/// Serves an editor; that it goes without taking its leave is a failure, as the protocol wants it.
+fn lsp() -> Outcome {
+    match crate::lsp::serve() {
+        Ok(true) => Outcome::Done,
+        Ok(false) => Outcome::Errors,
+        Err(error) => fail(&format!("the language server cannot start: {error}")),
+    }
 }
 
 /// Prints what was asked for. A reader that goes away early, `head` for example, is no failure.

@@ -1,13 +1,19 @@
 //! Files. No other module opens, reads, writes or renames one.
 
+mod cache;
 mod folder;
 mod read;
+mod search;
 mod text;
+mod watch;
 mod write;
 
+pub use cache::write_cached;
 pub use folder::{FolderResolver, LINK_LIMIT};
 pub use read::{DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, read_drawing};
+pub use search::{files_below, stamp};
 pub use text::{Decode, decode};
+pub use watch::{FolderWatch, real_path};
 pub use write::{Output, WriteError, write_atomic, write_new};
 
 use std::path::Path;

@@ -136,7 +136,9 @@ pub(super) fn tokens(string: &SheetString) -> Vec<Token> {
         Annotation::Empty | Annotation::Caption => return vec![],
         Annotation::Comment | Annotation::Unused => {
             push(Item::Sign, &sign);
-            push(Item::Remark, &(sign.end..text.trim_end().len()));
+            let remark = &text[sign.end..];
+            let blank = remark.len() - remark.trim_start().len();
+            push(Item::Remark, &(sign.end + blank..text.trim_end().len()));
         }
         Annotation::Defaults(_) | Annotation::Legend(_) => push(Item::Sign, &sign),
         Annotation::Feature(name) => {
@@ -214,7 +216,7 @@ mod tests {
             ("# n¦ote", Item::Remark),
         ] {
             assert_eq!(
-                item(["Body", string, "", "", ""]),
+                item(["Body", string, "", "", "%Scale 1"]),
                 Some(expected),
                 "{string}"
             );

@@ -129,7 +129,6 @@ fn css_name(rgba: [f64; 4]) -> Option<&'static str> {
 #[cfg(test)]
 mod tests {
     use super::super::samples::{analysis, figure};
-    use super::*;
 
     #[test]
     fn colours_are_found_and_written_as_they_were() {

@@ -237,8 +237,11 @@ mod tests {
                 "Rarm@Body$Offset &#x33; Smooth 1",
             ),
         ] {
-            let after = figure(["Body", after, "", "", ""]);
-            assert_eq!(formatted(&figure(["Body", before, "", "", ""])), after);
+            let after = figure(["Body", after, "", "", "%Scale 1"]);
+            assert_eq!(
+                formatted(&figure(["Body", before, "", "", "%Scale 1"])),
+                after
+            );
             assert_eq!(formatted(&after), after);
         }
     }

@@ -160,17 +160,9 @@ pub(super) fn replace(text: &Text, range: std::ops::Range<usize>, new: &str) -> 
 
 #[cfg(test)]
 mod tests {
+    use super::super::format::applied;
     use super::super::samples::{analysis, figure};
     use super::*;
-
-    /// The drawing after the edits.
-    pub(crate) fn applied(source: &str, edits: &[Edit]) -> String {
-        let mut out = source.to_owned();
-        for edit in edits.iter().rev() {
-            out.replace_range(edit.span.start..edit.span.end, &edit.text);
-        }
-        out
-    }
 
     fn renamed(source: &str, name: &str) -> Result<String, RenameError> {
         let (analysis, at) = analysis(source);
@@ -246,13 +238,13 @@ mod tests {
             "%Let w 1",
         ];
         let after = [
-            "Body$Offset depth",
-            "Rarm@Body$Shape cone 0 (depth * 2)",
+            "Body$Offset thick",
+            "Rarm@Body$Shape cone 0 (thick * 2)",
             "",
             "",
-            "%Let depth 1",
+            "%Let thick 1",
         ];
-        assert_eq!(renamed(&figure(before), "depth").unwrap(), figure(after));
+        assert_eq!(renamed(&figure(before), "thick").unwrap(), figure(after));
     }
 
     #[test]

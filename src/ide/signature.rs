@@ -19,8 +19,8 @@ pub struct SignatureHelp {
     pub signatures: Vec<Signature>,
     /// Which of them is being written.
     pub active: usize,
-    /// Which of its parameters comes next; `None` behind the last.
-    pub parameter: Option<usize>,
+    /// Which of its parameters comes next.
+    pub parameter: usize,
 }
 
 /// One way to write an attribute.
@@ -34,7 +34,7 @@ pub struct Signature {
     pub parameters: Vec<(Range<usize>, String)>,
 }
 
-/// The signature of the attribute at byte `offset` of the text as it is now.
+/// The signature of the attribute at byte `offset` of the text as it is now; `None` behind its last parameter.
 pub fn signature(source: &str, analysis: &Analysis, offset: usize) -> Option<SignatureHelp> {
     let is_current = analysis.is_sound() && **analysis.source() == *source;
     let (head, place) = match is_current.then(|| analysis.string_at(offset)).flatten() {
@@ -86,7 +86,7 @@ fn help(
         return Some(SignatureHelp {
             signatures: vec![written(&name, &kind.form, kind.summary)],
             active: 0,
-            parameter: slot(attribute, index, is_variable).map(|slot| slot.index),
+            parameter: slot(attribute, index, is_variable)?.index,
         });
     }
     let flags: String = row.flags.iter().map(|flag| flag.letter).collect();
@@ -98,16 +98,15 @@ fn help(
     let signatures: Vec<_> = forms
         .map(|form| written(&name, form, row.summary))
         .collect();
-    let slot = slot(attribute, index, is_variable);
-    let active = slot.and_then(|slot| {
-        row.forms
-            .iter()
-            .position(|form| std::ptr::eq(form, slot.form))
-    });
+    let slot = slot(attribute, index, is_variable)?;
+    let active = row.forms.iter();
+    let active = active
+        .into_iter()
+        .position(|form| std::ptr::eq(form, slot.form));
     Some(SignatureHelp {
         signatures,
         active: active.unwrap_or(0),
-        parameter: slot.map(|slot| slot.index),
+        parameter: slot.index,
     })
 }
 
@@ -139,13 +138,11 @@ mod tests {
     use super::super::samples::{analysis, figure};
     use super::*;
 
-    fn told(string: &str) -> Option<(String, Option<String>)> {
+    fn told(string: &str) -> Option<(String, String)> {
         let (analysis, at) = analysis(&figure(["Body", string, "", "", ""]));
         let help = signature(&analysis.source().clone(), &analysis, at)?;
         let signature = &help.signatures[help.active];
-        let parameter = help
-            .parameter
-            .map(|index| signature.label[signature.parameters[index].0.clone()].to_owned());
+        let parameter = signature.label[signature.parameters[help.parameter].0.clone()].to_owned();
         Some((signature.label.clone(), parameter))
     }
 
@@ -155,40 +152,36 @@ mod tests {
             (
                 "Rarm@Body$Shape ¦",
                 "Shape [-scd] kind parameters…",
-                Some("kind parameters…"),
+                "kind parameters…",
             ),
             (
                 "Rarm@Body$Shape cone ¦0 20",
                 "Shape cone [z0 z1 [top]]",
-                Some("z0"),
+                "z0",
             ),
             (
                 "Rarm@Body$Shape cone 0 2¦0",
                 "Shape cone [z0 z1 [top]]",
-                Some("z1"),
+                "z1",
             ),
             (
                 "Rarm@Body$Shape cone 0 20 ¦",
                 "Shape cone [z0 z1 [top]]",
-                Some("top"),
+                "top",
             ),
-            (
-                "Rarm@Body$Shape cone 0 20 1 ¦",
-                "Shape cone [z0 z1 [top]]",
-                None,
-            ),
-            ("Rarm@Body$Color ¦", "Color r g b [a]", Some("r")),
-            ("Rarm@Body$Color 1 ¦", "Color r g b [a]", Some("g")),
-            ("Rarm@Body$Color #f0f¦", "Color r g b [a]", Some("r")),
+            ("Rarm@Body$Color ¦", "Color r g b [a]", "r"),
+            ("Rarm@Body$Color 1 ¦", "Color r g b [a]", "g"),
+            ("Rarm@Body$Color #f0f¦", "Color #rrggbb[aa]", "#rrggbb[aa]"),
             (
                 "Rarm@Body$Origin ce¦",
                 "Origin center|start|end",
-                Some("center|start|end"),
+                "center|start|end",
             ),
         ] {
-            let expected = (label.to_owned(), parameter.map(str::to_owned));
+            let expected = (label.to_owned(), parameter.to_owned());
             assert_eq!(told(string), Some(expected), "{string}");
         }
+        assert_eq!(told("Rarm@Body$Shape cone 0 20 1 ¦"), None);
         assert_eq!(told("Rarm@Body$Shape¦"), None);
         assert_eq!(told("Rarm@¦Body"), None);
     }

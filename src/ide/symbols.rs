@@ -104,14 +104,12 @@ mod tests {
         ]));
         let mut out = vec![];
         lines(&analysis.outline(), "", &mut out);
-        assert_eq!(
-            out,
-            [
-                "Body default",
-                "  U-1 default",
-                "  Rarm roundv",
-                "    Larm default"
-            ]
-        );
+        let expected = [
+            "Body default",
+            "  Rarm roundv",
+            "    U-1 default",
+            "    Larm default",
+        ];
+        assert_eq!(out, expected);
     }
 }

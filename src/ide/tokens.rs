@@ -219,6 +219,6 @@ mod tests {
     fn a_word_over_several_elements_is_coloured_piece_by_piece() {
         let found = words("# one<tspan x=\"0\" y=\"50\">two\nthree</tspan>");
         let found: Vec<_> = found.iter().map(|(word, _)| word.as_str()).collect();
-        assert_eq!(found, ["#", " one", "two", "three"]);
+        assert_eq!(found, ["#", "one", "two", "three"]);
     }
 }

@@ -45,11 +45,7 @@ pub fn slot(
         });
     }
     let forms = attribute.keyword.row().forms;
-    let form = match index {
-        0 => None,
-        _ => spoken_for(attribute, is_variable),
-    };
-    let form = form
+    let form = spoken_for(attribute, is_variable)
         .or_else(|| forms.iter().find(|form| form.most() > index))
         .or(forms.first())?;
     Some(Slot {
@@ -113,6 +109,7 @@ mod tests {
             ("$Color w 0 0", 2, Some(("Color", "b"))),
             ("$Color w 0 0", 4, None),
             ("$Color", 0, Some(("Color", "r"))),
+            ("$Color red", 0, Some(("Color", "colour"))),
             ("$Color red", 1, None),
             ("$Shape", 0, Some(("Shape", "kind"))),
             ("$Shape cone 0 1", 2, Some(("cone", "z1"))),

@@ -1,0 +1,25 @@
+//! Files for other programs to look at, in the user's cache folder: they may be deleted at any time.
+
+use std::fs;
+use std::io;
+use std::path::PathBuf;
+
+use etcetera::BaseStrategy as _;
+
+use super::write::{Output, write_atomic};
+
+/// Writes a file of this name into okoshi's folder among the user's caches, whole or not at all, and says where it is;
+/// `None` if there is no such place.
+pub fn write_cached(
+    name: &str,
+    fill: impl FnOnce(&mut dyn Output) -> io::Result<()>,
+) -> Option<PathBuf> {
+    let folder = etcetera::choose_base_strategy()
+        .ok()?
+        .cache_dir()
+        .join("okoshi");
+    fs::create_dir_all(&folder).ok()?;
+    let path = folder.join(name);
+    write_atomic(&path, fill).ok()?;
+    Some(path)
+}

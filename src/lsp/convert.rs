@@ -1,0 +1,427 @@
+//! From an editor's plain terms to those of the protocol.
+
+use tower_lsp::ls_types::{
+    CodeDescription, Color, ColorInformation, CompletionItem, CompletionItemKind,
+    CompletionTextEdit, Diagnostic, DiagnosticRelatedInformation, DiagnosticSeverity,
+    DiagnosticTag, DocumentSymbol, Documentation, FoldingRange, InlayHint, InlayHintKind,
+    InlayHintLabel, InlayHintLabelPart, InlayHintLabelPartTooltip, InsertTextFormat, Location,
+    MarkupContent, MarkupKind, NumberOrString, ParameterInformation, ParameterLabel, Position,
+    Range, SelectionRange, SemanticToken, SemanticTokenModifier, SemanticTokenType,
+    SemanticTokensLegend, SignatureHelp, SignatureInformation, SymbolKind, TextEdit, Uri,
+};
+
+use super::documents::Analysed;
+use super::manual::Pages;
+use super::positions::Positions;
+use crate::diagnostic::{Code, Edit, Severity};
+use crate::ide::{self, Colouring, Paint, ProposalKind};
+use crate::source::Span;
+
+/// The name that diagnostics carry.
+pub(super) const SOURCE: &str = "okoshi";
+
+/// The places of one text in terms of another that was made from it by typing: what stands before and behind what
+/// was typed is the same.
+#[derive(Debug)]
+pub(super) struct Places<'a> {
+    /// The text that the client has.
+    pub(super) positions: &'a Positions,
+    /// Where the two texts begin to differ, where in the analysed text they are alike again, and how much longer the
+    /// client's is; `None` if they are the same.
+    shift: Option<(usize, usize, isize)>,
+}
+
+impl<'a> Places<'a> {
+    /// Of a text that is the analysed one.
+    pub(super) fn same(positions: &'a Positions) -> Self {
+        Self {
+            positions,
+            shift: None,
+        }
+    }
+
+    /// Of a text that was made from the analysed one.
+    pub(super) fn shifted(positions: &'a Positions, analysed: &str) -> Self {
+        let now = positions.text().as_bytes();
+        let then = analysed.as_bytes();
+        let alike = |(a, b): &(&u8, &u8)| a == b;
+        let head = now.iter().zip(then).take_while(alike).count();
+        let most = now.len().min(then.len()) - head;
+        let tail = now
+            .iter()
+            .rev()
+            .zip(then.iter().rev())
+            .take(most)
+            .take_while(alike)
+            .count();
+        let longer = now.len() as isize - then.len() as isize;
+        let shift = (head < now.len().max(then.len())).then_some((head, then.len() - tail, longer));
+        Self { positions, shift }
+    }
+
+    /// A place of the client's text in the analysed one; `None` within what was typed.
+    pub(super) fn offset(&self, position: Position) -> Option<usize> {
+        let at = self.positions.offset(position);
+        match self.shift {
+            None => Some(at),
+            Some((head, _, _)) if at <= head => Some(at),
+            Some((_, tail, longer)) => at.checked_add_signed(-longer).filter(|at| *at >= tail),
+        }
+    }
+
+    /// A range of the client's text in the analysed one, as far as it is there.
+    pub(super) fn span(&self, range: Range) -> Span {
+        let start = self
+            .offset(range.start)
+            .unwrap_or_else(|| self.shift.map_or(0, |shift| shift.0));
+        let end = self
+            .offset(range.end)
+            .unwrap_or_else(|| self.shift.map_or(0, |shift| shift.1));
+        Span::new(start, end.max(start))
+    }
+
+    /// A place of the analysed text as a range of the client's; `None` where it was typed over.
+    pub(super) fn range(&self, span: Span) -> Option<Range> {
+        Some(self.positions.range(self.now(span)?))
+    }
+
+    /// A place of the analysed text as a span of the client's.
+    pub(super) fn now(&self, span: Span) -> Option<Span> {
+        match self.shift {
+            None => Some(span),
+            Some((head, _, _)) if span.end <= head => Some(span),
+            Some((_, tail, longer)) if span.start >= tail => Some(Span::new(
+                span.start.checked_add_signed(longer)?,
+                span.end.checked_add_signed(longer)?,
+            )),
+            Some(_) => None,
+        }
+    }
+
+    pub(super) fn position(&self, offset: usize) -> Option<Position> {
+        Some(self.range(Span::at(offset))?.start)
+    }
+
+    pub(super) fn edit(&self, edit: &Edit) -> Option<TextEdit> {
+        Some(TextEdit::new(self.range(edit.span)?, edit.text.clone()))
+    }
+
+    /// Edits, if all of their places are still there.
+    pub(super) fn edits(&self, edits: &[Edit]) -> Option<Vec<TextEdit>> {
+        edits.iter().map(|edit| self.edit(edit)).collect()
+    }
+}
+
+/// The diagnostics of an analysis; of a drawing without strings none.
+pub(super) fn diagnostics(analysed: &Analysed, pages: Option<&Pages>) -> Vec<Diagnostic> {
+    if !analysed.analysis.is_annotated() {
+        return vec![];
+    }
+    let found = analysed.analysis.diagnostics().iter();
+    found
+        .map(|diagnostic| self::diagnostic(analysed, diagnostic, pages))
+        .collect()
+}
+
+/// One diagnostic.
+pub(super) fn diagnostic(
+    analysed: &Analysed,
+    diagnostic: &crate::diagnostic::Diagnostic,
+    pages: Option<&Pages>,
+) -> Diagnostic {
+    let positions = &analysed.document.positions;
+    let code = diagnostic.code;
+    let mut message = diagnostic.message.clone();
+    if let Some(label) = &diagnostic.label {
+        message.push_str(": ");
+        message.push_str(label);
+    }
+    if let Some(help) = &diagnostic.help {
+        message.push('\n');
+        message.push_str(help);
+    }
+    let related: Vec<_> = diagnostic
+        .related
+        .iter()
+        .map(|related| DiagnosticRelatedInformation {
+            location: Location::new(analysed.document.uri.clone(), positions.range(related.span)),
+            message: related.message.clone(),
+        })
+        .collect();
+    Diagnostic {
+        range: positions.range(diagnostic.span),
+        severity: Some(match diagnostic.severity() {
+            Severity::Error => DiagnosticSeverity::ERROR,
+            Severity::Warning => DiagnosticSeverity::WARNING,
+            Severity::Hint => DiagnosticSeverity::HINT,
+        }),
+        code: Some(NumberOrString::String(code.id().to_owned())),
+        code_description: pages
+            .and_then(|pages| pages.get(&code))
+            .map(|href| CodeDescription { href: href.clone() }),
+        source: Some(SOURCE.to_owned()),
+        message,
+        related_information: (!related.is_empty()).then_some(related),
+        tags: has_no_effect(code).then(|| vec![DiagnosticTag::UNNECESSARY]),
+        data: None,
+    }
+}
+
+/// Whether a code tells of something that could as well be left out.
+fn has_no_effect(code: Code) -> bool {
+    matches!(code, Code::UnusedLegend | Code::NotBuiltYet)
+}
+
+/// Markdown as it is shown.
+pub(super) fn markdown(value: String) -> MarkupContent {
+    MarkupContent {
+        kind: MarkupKind::Markdown,
+        value,
+    }
+}
+
+/// A proposal; `index` keeps the order.
+pub(super) fn proposal(
+    proposal: &ide::Proposal,
+    index: usize,
+    range: Range,
+    snippets: bool,
+) -> CompletionItem {
+    let kind = match proposal.kind {
+        ProposalKind::String => CompletionItemKind::SNIPPET,
+        ProposalKind::Keyword => CompletionItemKind::PROPERTY,
+        ProposalKind::Word => CompletionItemKind::ENUM_MEMBER,
+        ProposalKind::Flag => CompletionItemKind::OPERATOR,
+        ProposalKind::Part => CompletionItemKind::CLASS,
+        ProposalKind::Variable => CompletionItemKind::VARIABLE,
+        ProposalKind::Function => CompletionItemKind::FUNCTION,
+        ProposalKind::Colour => CompletionItemKind::COLOR,
+        ProposalKind::File => CompletionItemKind::FILE,
+    };
+    let snippet = proposal.snippet.as_ref().filter(|_| snippets);
+    CompletionItem {
+        label: proposal.label.clone(),
+        kind: Some(kind),
+        detail: Some(proposal.detail.clone()),
+        sort_text: Some(format!("{index:04}")),
+        // What stands there may begin with a quote or a sign: the word is found by what will be written.
+        filter_text: (proposal.text != proposal.label).then(|| proposal.text.clone()),
+        insert_text_format: Some(match snippet {
+            Some(_) => InsertTextFormat::SNIPPET,
+            None => InsertTextFormat::PLAIN_TEXT,
+        }),
+        text_edit: Some(CompletionTextEdit::Edit(TextEdit::new(
+            range,
+            snippet.unwrap_or(&proposal.text).clone(),
+        ))),
+        data: proposal
+            .page
+            .map(|page| serde_json::Value::String(page.to_owned())),
+        ..CompletionItem::default()
+    }
+}
+
+/// The manual page of a proposal that the client asks more about.
+pub(super) fn page(item: &CompletionItem) -> Option<Documentation> {
+    let page = item.data.as_ref()?.as_str()?;
+    Some(Documentation::MarkupContent(markdown(
+        crate::lang::explain::page(page)?,
+    )))
+}
+
+/// The signatures.
+pub(super) fn signatures(help: ide::SignatureHelp) -> SignatureHelp {
+    let signatures = help.signatures.into_iter().map(|signature| {
+        let parameters = signature
+            .parameters
+            .iter()
+            .map(|(range, about)| ParameterInformation {
+                label: ParameterLabel::Simple(signature.label[range.clone()].to_owned()),
+                documentation: Some(Documentation::String(about.clone())),
+            });
+        SignatureInformation {
+            parameters: Some(parameters.collect()),
+            documentation: Some(Documentation::String(signature.summary.to_owned())),
+            label: signature.label,
+            active_parameter: None,
+        }
+    });
+    SignatureHelp {
+        signatures: signatures.collect(),
+        active_signature: u32::try_from(help.active).ok(),
+        active_parameter: u32::try_from(help.parameter).ok(),
+    }
+}
+
+/// The outline as symbols.
+pub(super) fn symbols(outline: Vec<ide::Outline>, places: &Places<'_>) -> Vec<DocumentSymbol> {
+    let symbols = outline.into_iter().flat_map(|part| {
+        let children = symbols(part.children, places);
+        let (Some(range), Some(selection)) =
+            (places.range(part.span), places.range(part.selection))
+        else {
+            // A part that is being typed over: what hangs on it is shown in its place.
+            return children;
+        };
+        #[allow(deprecated, reason = "the field must be given, and stays empty")]
+        let symbol = DocumentSymbol {
+            name: part.name,
+            detail: Some(part.detail),
+            kind: symbol_kind(part.is_joint),
+            tags: None,
+            deprecated: None,
+            range,
+            selection_range: selection,
+            children: (!children.is_empty()).then_some(children),
+        };
+        vec![symbol]
+    });
+    symbols.collect()
+}
+
+/// How a part is shown among symbols: as something that holds others, or not.
+pub(super) fn symbol_kind(is_joint: bool) -> SymbolKind {
+    if is_joint {
+        SymbolKind::CLASS
+    } else {
+        SymbolKind::FIELD
+    }
+}
+
+/// The lines of a fold; `None` if it is within one line.
+pub(super) fn fold(span: Span, positions: &Positions) -> Option<FoldingRange> {
+    let [start, end] = [span.start, span.end].map(|offset| positions.position(offset).line);
+    (start < end).then(|| FoldingRange {
+        start_line: start,
+        end_line: end,
+        ..FoldingRange::default()
+    })
+}
+
+/// Nested selections, the innermost at the head.
+pub(super) fn selection(spans: &[Span], places: &Places<'_>) -> Option<SelectionRange> {
+    let mut outer = None;
+    for span in spans.iter().rev() {
+        let range = places.range(*span)?;
+        outer = Some(SelectionRange {
+            range,
+            parent: outer.map(Box::new),
+        });
+    }
+    outer
+}
+
+/// The kinds of words, in the order of [`Paint`].
+const PAINTS: [(Paint, SemanticTokenType); 11] = [
+    (Paint::Sign, SemanticTokenType::OPERATOR),
+    (Paint::Part, SemanticTokenType::CLASS),
+    (Paint::Feature, SemanticTokenType::EVENT),
+    (Paint::Keyword, SemanticTokenType::KEYWORD),
+    (Paint::Flag, SemanticTokenType::MODIFIER),
+    (Paint::Word, SemanticTokenType::ENUM_MEMBER),
+    (Paint::Number, SemanticTokenType::NUMBER),
+    (Paint::Variable, SemanticTokenType::VARIABLE),
+    (Paint::Function, SemanticTokenType::FUNCTION),
+    (Paint::Quoted, SemanticTokenType::STRING),
+    (Paint::Comment, SemanticTokenType::COMMENT),
+];
+
+/// What the numbers of tokens mean.
+pub(super) fn legend() -> SemanticTokensLegend {
+    SemanticTokensLegend {
+        token_types: PAINTS.iter().map(|(_, kind)| kind.clone()).collect(),
+        token_modifiers: vec![SemanticTokenModifier::DECLARATION],
+    }
+}
+
+/// Words as tokens, each told by how far it is from the one before.
+pub(super) fn tokens(colouring: &[Colouring], places: &Places<'_>) -> Vec<SemanticToken> {
+    let mut before = Position::new(0, 0);
+    let words = colouring.iter().filter_map(|word| {
+        let span = places.now(word.span)?;
+        let at = places.positions.position(span.start);
+        let kind = PAINTS.iter().position(|(paint, _)| *paint == word.paint)?;
+        let delta_line = at.line.checked_sub(before.line)?;
+        let delta_start = match delta_line {
+            0 => at.character.checked_sub(before.character)?,
+            _ => at.character,
+        };
+        before = at;
+        Some(SemanticToken {
+            delta_line,
+            delta_start,
+            length: places.positions.length(span),
+            token_type: u32::try_from(kind).ok()?,
+            token_modifiers_bitset: u32::from(word.defines),
+        })
+    });
+    words.collect()
+}
+
+/// An inlay.
+pub(super) fn inlay(inlay: ide::Inlay, places: &Places<'_>, uri: &Uri) -> Option<InlayHint> {
+    let parts = inlay.pieces.into_iter().map(|piece| InlayHintLabelPart {
+        value: piece.text,
+        tooltip: Some(InlayHintLabelPartTooltip::String(piece.about)),
+        location: piece
+            .from
+            .and_then(|span| places.range(span))
+            .map(|range| Location::new(uri.clone(), range)),
+        command: None,
+    });
+    Some(InlayHint {
+        position: places.position(inlay.at)?,
+        label: InlayHintLabel::LabelParts(parts.collect()),
+        kind: Some(InlayHintKind::TYPE),
+        text_edits: None,
+        tooltip: None,
+        padding_left: Some(true),
+        padding_right: Some(false),
+        data: None,
+    })
+}
+
+/// A swatch.
+pub(super) fn swatch(swatch: ide::Swatch, places: &Places<'_>) -> Option<ColorInformation> {
+    let [red, green, blue, alpha] = swatch.rgba.map(|channel| channel as f32);
+    Some(ColorInformation {
+        range: places.range(swatch.span)?,
+        color: Color {
+            red,
+            green,
+            blue,
+            alpha,
+        },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::lsp::positions::Encoding;
+
+    #[test]
+    fn places_move_with_what_is_typed() {
+        let now = Positions::new(Arc::from("abcXYZdef"), Encoding::Utf8);
+        let places = Places::shifted(&now, "abcdef");
+        assert_eq!(places.now(Span::new(0, 3)), Some(Span::new(0, 3)));
+        assert_eq!(places.now(Span::new(3, 6)), Some(Span::new(6, 9)));
+        assert_eq!(places.now(Span::new(2, 4)), None);
+        assert_eq!(places.offset(Position::new(0, 2)), Some(2));
+        assert_eq!(places.offset(Position::new(0, 4)), None);
+        assert_eq!(places.offset(Position::new(0, 7)), Some(4));
+        let same = Places::shifted(&now, "abcXYZdef");
+        assert_eq!(same.now(Span::new(2, 4)), Some(Span::new(2, 4)));
+        let shorter = Places::shifted(&now, "abcXYZ1def");
+        assert_eq!(shorter.now(Span::new(7, 10)), Some(Span::new(6, 9)));
+    }
+
+    #[test]
+    fn every_paint_has_a_token_type() {
+        for (index, (paint, _)) in PAINTS.iter().enumerate() {
+            assert_eq!(*paint as usize, index);
+        }
+    }
+}

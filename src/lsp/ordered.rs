@@ -1,0 +1,128 @@
+//! The service between the wire and the handlers: order, snapshots, panics.
+//!
+//! The framework runs up to four handlers at once, and a handler begins only when it is first polled. A handler of
+//! `didChange` that waits for anything before it stores the text was seen to store versions out of order. So texts are
+//! not changed by handlers at all: this service sees the messages one by one, in the order of the wire, and changes the texts
+//! before it looks at the next. With every request it takes down the state that holds at that moment; the
+//! request is answered from it, however late it is polled. A handler that panics is answered as an error,
+//! and the server goes on.
+
+use std::collections::BTreeMap;
+use std::panic::AssertUnwindSafe;
+use std::sync::Arc;
+use std::task::{Context, Poll};
+
+use futures::FutureExt;
+use futures::future::BoxFuture;
+use serde::Deserialize;
+use serde_json::Value;
+use tower::Service;
+use tower_lsp::jsonrpc::{Error, Request, Response};
+use tower_lsp::ls_types::{
+    DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
+};
+
+use super::analyst::Analyst;
+use super::documents::{Documents, Snapshot};
+
+tokio::task_local! {
+    /// The open texts as they were when the request came that is being answered.
+    pub(super) static SNAPSHOTS: Arc<BTreeMap<String, Snapshot>>;
+}
+
+/// See the module.
+#[derive(Debug)]
+pub(super) struct Ordered<S> {
+    inner: S,
+    documents: Arc<Documents>,
+    analyst: Arc<Analyst>,
+}
+
+impl<S> Ordered<S> {
+    pub(super) fn new(inner: S, documents: Arc<Documents>, analyst: Arc<Analyst>) -> Self {
+        Self {
+            inner,
+            documents,
+            analyst,
+        }
+    }
+
+    /// Changes the texts as a message says; `false` if it is about something else.
+    fn changes_texts(&self, request: &Request) -> bool {
+        let Some(params) = request.params() else {
+            return false;
+        };
+        match request.method() {
+            "textDocument/didOpen" => {
+                if let Some(params) = read::<DidOpenTextDocumentParams>(params) {
+                    let uri = params.text_document.uri.to_string();
+                    self.documents.open(params.text_document);
+                    self.analyst.opened(&uri);
+                }
+            }
+            "textDocument/didChange" => {
+                if let Some(params) = read::<DidChangeTextDocumentParams>(params) {
+                    self.documents
+                        .change(&params.text_document, params.content_changes);
+                    self.analyst.changed(params.text_document.uri.as_str());
+                }
+            }
+            "textDocument/didClose" => {
+                if let Some(params) = read::<DidCloseTextDocumentParams>(params) {
+                    self.documents.close(params.text_document.uri.as_str());
+                    self.analyst.closed(&params.text_document.uri);
+                }
+            }
+            _ => return false,
+        }
+        true
+    }
+}
+
+fn read<'a, T: Deserialize<'a>>(params: &'a Value) -> Option<T> {
+    T::deserialize(params).ok()
+}
+
+impl<S> Service<Request> for Ordered<S>
+where
+    S: Service<Request, Response = Option<Response>>,
+    S::Future: Send + 'static,
+    S::Error: Send + 'static,
+{
+    type Response = Option<Response>;
+    type Error = S::Error;
+    type Future = BoxFuture<'static, Result<Self::Response, Self::Error>>;
+
+    fn poll_ready(&mut self, context: &mut Context<'_>) -> Poll<Result<(), Self::Error>> {
+        self.inner.poll_ready(context)
+    }
+
+    fn call(&mut self, request: Request) -> Self::Future {
+        let id = request.id().cloned();
+        let begun = std::panic::catch_unwind(AssertUnwindSafe(|| {
+            if self.changes_texts(&request) {
+                return None;
+            }
+            let snapshots = Arc::new(self.documents.snapshots());
+            Some(SNAPSHOTS.scope(snapshots, self.inner.call(request)))
+        }));
+        let running = match begun {
+            Ok(Some(running)) => running,
+            Ok(None) => return Box::pin(std::future::ready(Ok(None))),
+            Err(_) => return Box::pin(std::future::ready(Ok(id.map(gave_up)))),
+        };
+        Box::pin(async move {
+            match AssertUnwindSafe(running).catch_unwind().await {
+                Ok(answer) => answer,
+                Err(_) => Ok(id.map(gave_up)),
+            }
+        })
+    }
+}
+
+/// The answer to a request whose handler panicked.
+fn gave_up(id: tower_lsp::jsonrpc::Id) -> Response {
+    let mut error = Error::internal_error();
+    error.message = "okoshi gave up on this request; the server goes on. Please tell us: this should not happen".into();
+    Response::from_error(id, error)
+}
