@@ -37,7 +37,8 @@ pub fn textmate() -> String {
                 "match": r"(?:^|(?<=>))\s*[*＊][^<]*",
             },
             "head": {
-                "match": r#"(?:^|(?<=>))\s*("[^"<]*"|[^\s@$＠＄%％^"()<>]+)?\s*(?:([@＠])\s*("[^"<]*"|[^\s@$＠＄"()<>]+))?(?=\s*(?:[$＄<]|$))"#,
+                // Something must stand there: a match of nothing makes engines give the line up.
+                "match": r#"(?:^|(?<=>))\s*(?=[^\s$＄%％^()<>])("[^"<]*"|[^\s@$＠＄%％^"()<>]+)?\s*(?:([@＠])\s*("[^"<]*"|[^\s@$＠＄"()<>]+))?(?=\s*(?:[$＄<]|$))"#,
                 "captures": {
                     "1": { "name": "entity.name.type.part.okoshi" },
                     "2": { "name": "keyword.operator.parent.okoshi" },
@@ -94,11 +95,11 @@ pub fn textmate() -> String {
                 ],
             },
             "word": {
-                "name": "support.constant.okoshi",
+                "name": "constant.language.kind.okoshi",
                 "match": format!(r"(?i)(?<![\w.+-])({})(?![\w.])", words()),
             },
             "colour": {
-                "name": "constant.other.color.okoshi",
+                "name": "constant.other.color.rgb-value.okoshi",
                 "match": r"#[0-9A-Fa-f]{3,8}\b",
             },
             "number": {
@@ -117,18 +118,22 @@ pub fn textmate() -> String {
 pub fn injection() -> String {
     // Text of a drawing that is no string is left alone: what is coloured begins like one.
     let like_a_string = r#"(?=\s*(?:[%$*@#^％＄＊＠＃＾]|(?:"[^"<]*"|[^\s@$＠＄"()<>]+)[@$＠＄]))"#;
+    // Left out are tags, comments, CDATA (style sheets), and what is coloured already: an engine that finds the rule
+    // again at the place where it has just begun gives the line up.
+    let outside = "-meta.tag -comment -string -meta.embedded.okoshi";
     pretty(&json!({
         "$schema": "https://raw.githubusercontent.com/martinring/tmlanguage/master/tmlanguage.json",
         "information_for_contributors": [NOTE],
         "scopeName": "okoshi.injection",
-        "injectionSelector": "L:text.xml -meta.tag -comment, L:text.xml.svg -meta.tag -comment",
+        "injectionSelector": format!("L:text.xml {outside}, L:text.xml.svg {outside}"),
         "patterns": [{ "include": "#content" }],
         "repository": {
             "content": {
                 "name": "meta.embedded.okoshi",
                 "contentName": "source.okoshi",
                 "begin": format!(r"(?<=>){like_a_string}"),
-                "end": "(?=</)",
+                // At any tag: an inner element and a comment have XML's own colours.
+                "end": "(?=<)",
                 "patterns": [
                     { "include": "text.xml#entity" },
                     { "include": "source.okoshi#string" },
