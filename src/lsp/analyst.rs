@@ -61,9 +61,14 @@ impl Analyst {
             .unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    /// Says when to analyse.
-    pub(super) fn set_when(&self, when: When) {
-        self.queue().when = when;
+    /// Takes the client's settings, `{"analyse": "onType"}` or the same below `okoshi`; others are not its own.
+    pub(super) fn configure(&self, settings: &serde_json::Value) {
+        let own = settings.get("okoshi").unwrap_or(settings);
+        match own.get("analyse").and_then(serde_json::Value::as_str) {
+            Some("onSave") => self.queue().when = When::OnSave,
+            Some("onType") => self.queue().when = When::OnType,
+            _ => {}
+        }
     }
 
     /// A text was opened: it is analysed.

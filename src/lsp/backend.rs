@@ -10,7 +10,7 @@ use tower_lsp::jsonrpc::{Error, ErrorCode, Result};
 use tower_lsp::ls_types::*;
 use tower_lsp::{Client, LanguageServer};
 
-use super::analyst::{Abilities, Analyst, When};
+use super::analyst::{Abilities, Analyst};
 use super::convert::{self, Places};
 use super::documents::{Analysed, Document, Documents, Snapshot, file_path};
 use super::links::Links;
@@ -196,16 +196,6 @@ impl Backend {
         }
     }
 
-    /// What the client's settings say.
-    fn configure(&self, settings: &Value) {
-        let own = settings.get("okoshi").unwrap_or(settings);
-        match own.get("analyse").and_then(Value::as_str) {
-            Some("onSave") => self.analyst.set_when(When::OnSave),
-            Some("onType") => self.analyst.set_when(When::OnType),
-            _ => {}
-        }
-    }
-
     async fn formatted(&self, uri: &Uri, range: Option<Range>) -> Result<Option<Vec<TextEdit>>> {
         let Some(view) = self.view(uri).await?.filter(View::is_current) else {
             return Ok(None);
@@ -284,7 +274,7 @@ impl LanguageServer for Backend {
         self.documents.count(encoding);
         self.abilities.take(&can);
         if let Some(options) = &params.initialization_options {
-            self.configure(options);
+            self.analyst.configure(options);
         }
         #[allow(deprecated, reason = "older clients name one folder so")]
         let root = params
@@ -312,14 +302,6 @@ impl LanguageServer for Backend {
     async fn shutdown(&self) -> Result<()> {
         self.ended.store(true, Ordering::Relaxed);
         Ok(())
-    }
-
-    async fn did_save(&self, params: DidSaveTextDocumentParams) {
-        self.analyst.saved(params.text_document.uri.as_str());
-    }
-
-    async fn did_change_configuration(&self, params: DidChangeConfigurationParams) {
-        self.configure(&params.settings);
     }
 
     async fn did_change_workspace_folders(&self, params: DidChangeWorkspaceFoldersParams) {

@@ -19,7 +19,8 @@ use serde_json::Value;
 use tower::Service;
 use tower_lsp::jsonrpc::{Error, Request, Response};
 use tower_lsp::ls_types::{
-    DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
+    DidChangeConfigurationParams, DidChangeTextDocumentParams, DidCloseTextDocumentParams,
+    DidOpenTextDocumentParams, DidSaveTextDocumentParams,
 };
 
 use super::analyst::Analyst;
@@ -47,7 +48,7 @@ impl<S> Ordered<S> {
         }
     }
 
-    /// Changes the texts as a message says; `false` if it is about something else.
+    /// Changes the texts, or when they are analysed, as a message says; `false` if it is about something else.
     fn changes_texts(&self, request: &Request) -> bool {
         let Some(params) = request.params() else {
             return false;
@@ -71,6 +72,16 @@ impl<S> Ordered<S> {
                 if let Some(params) = read::<DidCloseTextDocumentParams>(params) {
                     self.documents.close(params.text_document.uri.as_str());
                     self.analyst.closed(&params.text_document.uri);
+                }
+            }
+            "textDocument/didSave" => {
+                if let Some(params) = read::<DidSaveTextDocumentParams>(params) {
+                    self.analyst.saved(params.text_document.uri.as_str());
+                }
+            }
+            "workspace/didChangeConfiguration" => {
+                if let Some(params) = read::<DidChangeConfigurationParams>(params) {
+                    self.analyst.configure(&params.settings);
                 }
             }
             _ => return false,

@@ -4,6 +4,7 @@
     reason = "each test file is a crate of its own and uses its share"
 )]
 
+pub(crate) mod editor;
 pub(crate) mod program;
 
 use std::collections::{BTreeSet, HashMap, HashSet};

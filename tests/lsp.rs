@@ -1,0 +1,581 @@
+//! The language server over real stdio: what an editor sees.
+
+mod common;
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use common::editor::{Editor, address, edited, position, range, slice};
+use serde_json::{Value, json};
+
+const URI: &str = "untitled:a.svg";
+
+/// A body and an arm, with strings of all kinds beside them; `¦` marks a place.
+const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100">
+  <rect id="body" x="80" y="20" width="40" height="60" fill="#336699"/>
+  <rect id="right" x="20" y="40" width="60" height="10" fill="#ffcc99"/>
+  <rect id="left" x="120" y="40" width="60" height="10" fill="#ffcc99"/>
+  <rect id="swatch" x="2" y="2" width="5" height="5" fill="#ffcc99"/>
+  <text x="100" y="54" font-size="5">Ubody</text>
+  <text x="50" y="49" font-size="5">Rarm@Ubody$Shape roundv -90 90 Color #ff8000</text>
+  <text x="5" y="8" font-size="5">$Offset thick</text>
+  <text x="150" y="95" font-size="5">%Let thick 4 Smooth 20</text>
+</svg>
+"##;
+
+fn place(text: &str, word: &str) -> Value {
+    let offset = text.find(word).expect("the word is there");
+    json!({"textDocument": {"uri": URI}, "position": position(text, offset)})
+}
+
+fn document() -> Value {
+    json!({"textDocument": {"uri": URI}})
+}
+
+/// The drawing with many small parts more, each with its string.
+fn many(parts: usize) -> String {
+    let more: String = (0..parts)
+        .map(|index| {
+            let (x, y) = (10 * (index % 200), 200 + 10 * (index / 200));
+            format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"3\"/><text x=\"{x}\" y=\"{y}\" font-size=\"1\">c{index}</text>\n")
+        })
+        .collect();
+    DRAWING.replace("</svg>", &format!("{more}</svg>"))
+}
+
+fn codes(diagnostics: &[Value]) -> Vec<&str> {
+    diagnostics
+        .iter()
+        .map(|diagnostic| diagnostic["code"].as_str().expect("a code"))
+        .collect()
+}
+
+#[test]
+fn diagnostics_have_all_that_editors_show() {
+    let mut editor = Editor::new();
+    let text = DRAWING.replace("Rarm@Ubody", "Rarm@Ubdoy");
+    let found = editor.opened(URI, &text);
+    let parent = found
+        .iter()
+        .find(|diagnostic| diagnostic["code"] == "E204")
+        .expect("the mistyped parent is found");
+    assert_eq!(slice(&text, &parent["range"]), "Ubdoy");
+    assert_eq!(parent["severity"], 1);
+    assert_eq!(parent["source"], "okoshi");
+    let message = parent["message"].as_str().expect("text");
+    assert!(message.contains("did you mean `Ubody`?"), "{message}");
+    let page = parent["codeDescription"]["href"].as_str().expect("a link");
+    let (file, line) = page.rsplit_once("#L").expect("a line");
+    let manual =
+        fs::read_to_string(file.strip_prefix("file://").expect("a file")).expect("the manual");
+    let heading = manual
+        .lines()
+        .nth(line.parse::<usize>().expect("a number") - 1);
+    assert!(heading.expect("a heading").contains("E204"));
+    // A legend that nobody goes by could as well be left out.
+    let text = DRAWING.replace(
+        "width=\"5\" height=\"5\" fill=\"#ffcc99\"",
+        "width=\"5\" height=\"5\" fill=\"#000001\"",
+    );
+    editor.change(URI, 2, &[json!({"text": text})]);
+    let found = editor.diagnostics(URI, 2);
+    let legend = found.iter().find(|diagnostic| diagnostic["code"] == "W303");
+    let legend = legend.expect("the legend without parts is found");
+    assert_eq!(legend["tags"], json!([1]));
+    let related = &legend["relatedInformation"][0];
+    assert_eq!(slice(&text, &related["location"]["range"]), "<rect");
+    assert!(editor.leave().success());
+}
+
+#[test]
+fn drawings_without_strings_are_left_alone() {
+    let mut editor = Editor::new();
+    let text = DRAWING
+        .lines()
+        .filter(|line| !line.contains("<text"))
+        .collect::<Vec<_>>()
+        .join("\n");
+    assert_eq!(editor.opened(URI, &text), Vec::<Value>::new());
+    // Not even that it is no XML is said: others do.
+    let broken = text.replace("</svg>", "<");
+    editor.change(URI, 2, &[json!({"text": broken})]);
+    assert_eq!(editor.diagnostics(URI, 2), Vec::<Value>::new());
+    for method in ["documentSymbol", "codeLens", "foldingRange"] {
+        let answer = editor.ask(&format!("textDocument/{method}"), document());
+        assert!(answer.is_null(), "{method}: {answer}");
+    }
+    let hover = editor.ask("textDocument/hover", place(&text, "rect id=\"body\""));
+    assert!(hover.is_null());
+}
+
+#[test]
+fn every_request_is_answered() {
+    let mut editor = Editor::new();
+    let text = DRAWING;
+    assert_eq!(codes(&editor.opened(URI, text)), ["H402"]);
+    let hover = editor.ask("textDocument/hover", place(text, "Rarm@"));
+    assert!(
+        hover["contents"]["value"]
+            .as_str()
+            .expect("text")
+            .contains("Root › Ubody › **Rarm**")
+    );
+    assert_eq!(slice(text, &hover["range"]), "Rarm");
+    let mut completion = place(text, "undv");
+    completion["context"] = json!({"triggerKind": 1});
+    let items = editor.ask("textDocument/completion", completion);
+    let items = items.as_array().expect("items");
+    let cone = items
+        .iter()
+        .find(|item| item["label"] == "cone")
+        .expect("a kind");
+    assert_eq!(slice(text, &cone["textEdit"]["range"]), "roundv");
+    assert_eq!(cone["textEdit"]["newText"], "cone ${1:0} ${2:12} ${3:0.2}");
+    let resolved = editor.ask("completionItem/resolve", cone.clone());
+    assert!(
+        resolved["documentation"]["value"]
+            .as_str()
+            .expect("text")
+            .starts_with("# Shape cone")
+    );
+    let help = editor.ask("textDocument/signatureHelp", place(text, " 90 Color"));
+    assert_eq!(help["signatures"][0]["label"], "Shape roundv [a0 a1]");
+    assert_eq!(help["activeParameter"], 0);
+    let definition = editor.ask("textDocument/definition", place(text, "Ubody$"));
+    assert_eq!(slice(text, &definition[0]["range"]), "Ubody");
+    let mut references = place(text, "Ubody$");
+    references["context"] = json!({"includeDeclaration": true});
+    assert_eq!(
+        editor
+            .ask("textDocument/references", references)
+            .as_array()
+            .expect("places")
+            .len(),
+        2
+    );
+    let highlights = editor.ask("textDocument/documentHighlight", place(text, "thick 4"));
+    assert_eq!(highlights.as_array().expect("places").len(), 2);
+    let prepared = editor.ask("textDocument/prepareRename", place(text, "Ubody<"));
+    assert_eq!(prepared["placeholder"], "Ubody");
+    let symbols = editor.ask("textDocument/documentSymbol", document());
+    assert_eq!(symbols[0]["name"], "Ubody");
+    assert_eq!(
+        symbols[0]["children"].as_array().expect("children").len(),
+        2
+    );
+    let selections =
+        json!({"textDocument": {"uri": URI}, "positions": [place(text, "roundv")["position"]]});
+    let selections = editor.ask("textDocument/selectionRange", selections);
+    assert_eq!(slice(text, &selections[0]["range"]), "roundv");
+    assert_eq!(
+        slice(text, &selections[0]["parent"]["range"]),
+        "Shape roundv -90 90"
+    );
+    let colours = editor.ask("textDocument/documentColor", document());
+    assert_eq!(slice(text, &colours[0]["range"]), "#ff8000");
+    let mut wanted = json!({"textDocument": {"uri": URI}, "range": colours[0]["range"]});
+    wanted["color"] = json!({"red": 0, "green": 0, "blue": 1, "alpha": 1});
+    let forms = editor.ask("textDocument/colorPresentation", wanted);
+    assert_eq!(forms[0]["label"], "#0000ff");
+    let lenses = editor.ask("textDocument/codeLens", document());
+    assert_eq!(lenses[0]["command"]["command"], "okoshi.preview");
+    let whole = json!({"textDocument": {"uri": URI}, "range": range(text, 0, text.len())});
+    let hints = editor.ask("textDocument/inlayHint", whole.clone());
+    let hints: Vec<String> = hints
+        .as_array()
+        .expect("hints")
+        .iter()
+        .map(|hint| {
+            hint["label"]
+                .as_array()
+                .expect("parts")
+                .iter()
+                .map(|part| part["value"].as_str().unwrap_or(""))
+                .collect()
+        })
+        .collect();
+    assert_eq!(hints, ["U-1@Ubody", "Smooth 20", "Offset 4 Smooth 20"]);
+    let full = editor.ask("textDocument/semanticTokens/full", document());
+    let ranged = editor.ask("textDocument/semanticTokens/range", whole);
+    assert_eq!(full, ranged);
+    assert_eq!(full["data"].as_array().expect("tokens").len() % 5, 0);
+    let unknown = editor.refused("workspace/executeCommand", json!({"command": "nonsense"}));
+    assert!(
+        unknown["message"]
+            .as_str()
+            .expect("text")
+            .contains("nonsense")
+    );
+    assert!(editor.leave().success());
+}
+
+#[test]
+fn edits_change_nothing_else() {
+    let mut editor = Editor::new();
+    let text = DRAWING
+        .replace("$Shape roundv", "$ shape  ROUNDV")
+        .replace("Ubody</text>", "<![CDATA[Ubody]]></text>")
+        .replace('\n', "\r\n");
+    editor.opened(URI, &text);
+    let options =
+        json!({"textDocument": {"uri": URI}, "options": {"tabSize": 2, "insertSpaces": true}});
+    let edits = editor.ask("textDocument/formatting", options);
+    let formatted = edited(&text, &edits);
+    assert_eq!(formatted, text.replace("$ shape  ROUNDV", "$Shape roundv"));
+    let mut rename = place(&text, "Ubody$");
+    if rename["position"].is_null() {
+        rename = place(&text, "Ubody$ shape");
+    }
+    rename["newName"] = json!("a & b");
+    let edits = editor.ask("textDocument/rename", rename);
+    let renamed = edited(&text, &edits["changes"][URI]);
+    let expected = text
+        .replace("<![CDATA[Ubody]]>", "<![CDATA[\"a & b\"]]>")
+        .replace("@Ubody", "@\"a &amp; b\"");
+    assert_eq!(renamed, expected);
+}
+
+#[test]
+fn sixty_changes_at_once_end_with_the_last() {
+    let mut editor = Editor::new();
+    editor.open(URI, 1, DRAWING);
+    let mut text = DRAWING.to_owned();
+    for version in 2..=61 {
+        // Each types one more letter into the parent's name.
+        let at = text.find("$Shape roundv").expect("the string");
+        let change = json!({"range": range(&text, at, at), "text": "x"});
+        editor.change(URI, version, &[change]);
+        text.insert(at, 'x');
+    }
+    let last = editor.diagnostics(URI, 61);
+    let parent = last.iter().find(|diagnostic| diagnostic["code"] == "E204");
+    let word = format!("Ubody{}", "x".repeat(60));
+    assert_eq!(
+        slice(&text, &parent.expect("the parent is unknown")["range"]),
+        word
+    );
+    let later = editor.during(
+        Duration::from_millis(500),
+        "textDocument/publishDiagnostics",
+    );
+    assert!(later.is_empty(), "{later:?}");
+}
+
+#[test]
+fn versions_never_go_back() {
+    let mut editor = Editor::new();
+    editor.open(URI, 1, DRAWING);
+    for version in 2..=200 {
+        editor.change(
+            URI,
+            version,
+            &[json!({"text": DRAWING.replace("Rarm", &format!("Rarm{version}"))})],
+        );
+        if version % 20 == 0 {
+            editor.request("textDocument/documentSymbol", document());
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+    let mut last = 0;
+    while last < 200 {
+        let note = editor.until(|note| note["method"] == "textDocument/publishDiagnostics");
+        let version = note["params"]["version"].as_i64().expect("a version");
+        assert!(version > last, "{version} came after {last}");
+        last = version;
+    }
+}
+
+#[test]
+fn answers_go_on_while_somebody_types_xml() {
+    let mut editor = Editor::new();
+    editor.opened(URI, DRAWING);
+    let at = DRAWING.find("  <text x=\"5\"").expect("a line");
+    let typed = "<text>Larm@<";
+    editor.change(
+        URI,
+        2,
+        &[json!({"range": range(DRAWING, at, at), "text": typed})],
+    );
+    let mut text = DRAWING.to_owned();
+    text.insert_str(at, typed);
+    assert_eq!(codes(&editor.diagnostics(URI, 2)), ["E001"]);
+    // Before and behind what is typed.
+    for (word, told) in [("Rarm@", "Root › Ubody › **Rarm**"), ("Let thick", "# Let")] {
+        let hover = editor.ask("textDocument/hover", place(&text, word));
+        assert!(
+            hover["contents"]["value"]
+                .as_str()
+                .expect("text")
+                .contains(told)
+        );
+        let expected = word.split([' ', '@']).next().expect("a word");
+        assert_eq!(slice(&text, &hover["range"]), expected);
+    }
+    let symbols = editor.ask("textDocument/documentSymbol", document());
+    assert_eq!(slice(&text, &symbols[0]["selectionRange"]), "Ubody");
+    let here = text.find("Larm@<").expect("the typed text") + "Larm@".len();
+    let completion = json!({"textDocument": {"uri": URI}, "position": position(&text, here), "context": {"triggerKind": 1}});
+    let items = editor.ask("textDocument/completion", completion);
+    let labels: Vec<_> = items
+        .as_array()
+        .expect("items")
+        .iter()
+        .map(|item| item["label"].as_str().unwrap_or(""))
+        .collect();
+    assert!(
+        labels.contains(&"Ubody") && labels.contains(&"Rarm"),
+        "{labels:?}"
+    );
+    // A text that cannot be read whole is not edited.
+    let mut rename = place(&text, "Ubody<");
+    rename["newName"] = json!("x");
+    let error = editor.refused("textDocument/rename", rename);
+    assert!(
+        error["message"]
+            .as_str()
+            .expect("text")
+            .contains("not well-formed")
+    );
+}
+
+#[test]
+fn columns_count_what_was_agreed() {
+    let text = DRAWING.replace("Rarm@Ubody", "腕😀@Ubdoy");
+    for (offered, agreed, expected) in [
+        (json!(["utf-8", "utf-16"]), "utf-8", 8),
+        (json!(["utf-16"]), "utf-16", 4),
+        (json!(["utf-32"]), "utf-16", 4),
+        (Value::Null, "utf-16", 4),
+    ] {
+        let mut editor = Editor::with(json!({"general": {"positionEncodings": offered}}));
+        assert_eq!(editor.offered["capabilities"]["positionEncoding"], agreed);
+        let found = editor.opened(URI, &text);
+        let parent = found.iter().find(|diagnostic| diagnostic["code"] == "E204");
+        let start = &parent.expect("the parent is unknown")["range"]["start"];
+        let line = text
+            .lines()
+            .position(|line| line.contains("腕"))
+            .expect("a line");
+        let column = text
+            .lines()
+            .nth(line)
+            .expect("a line")
+            .find('腕')
+            .expect("a place");
+        assert_eq!(
+            start,
+            &json!({"line": line, "character": column + expected})
+        );
+    }
+}
+
+#[test]
+fn linked_files_that_change_are_seen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = DRAWING.replace("Color #ff8000", "Texture \"sail.png\"");
+    let uri = address(&folder.path().join("a.svg"));
+    let mut editor = Editor::new();
+    assert!(codes(&editor.opened(&uri, &text)).contains(&"E006"));
+    let gull = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/gull.png");
+    fs::copy(gull, folder.path().join("sail.png")).expect("a picture");
+    let without = |editor: &mut Editor, wanted: bool| {
+        editor.until(|note| {
+            let found = note["params"]["diagnostics"].as_array();
+            note["method"] == "textDocument/publishDiagnostics"
+                && found.is_some_and(|found| codes(found).contains(&"E006") == wanted)
+        });
+    };
+    without(&mut editor, false);
+    fs::remove_file(folder.path().join("sail.png")).expect("gone");
+    without(&mut editor, true);
+    // Completion knows the folder, and the definition is the file.
+    fs::copy(gull, folder.path().join("sail.png")).expect("a picture");
+    without(&mut editor, false);
+    let at = text.find("sail.png").expect("the name");
+    let here = json!({"textDocument": {"uri": uri}, "position": position(&text, at), "context": {"triggerKind": 1}});
+    let items = editor.ask("textDocument/completion", here.clone());
+    assert_eq!(items[0]["textEdit"]["newText"], "\"sail.png\"");
+    let definition = editor.ask("textDocument/definition", here);
+    assert_eq!(
+        definition[0]["uri"],
+        address(&folder.path().join("sail.png"))
+    );
+}
+
+#[test]
+fn diagnostics_can_be_fetched() {
+    let mut editor = Editor::with(json!({"textDocument": {"diagnostic": {}}}));
+    assert!(editor.offered["capabilities"]["diagnosticProvider"].is_object());
+    let sent = editor.opened(URI, DRAWING);
+    let report = editor.ask("textDocument/diagnostic", document());
+    assert_eq!(report["kind"], "full");
+    assert_eq!(report["items"], json!(sent));
+    let mut again = document();
+    again["previousResultId"] = report["resultId"].clone();
+    let same = editor.ask("textDocument/diagnostic", again.clone());
+    assert_eq!(same["kind"], "unchanged");
+    editor.change(
+        URI,
+        2,
+        &[json!({"text": DRAWING.replace("@Ubody", "@Nobody")})],
+    );
+    let report = editor.ask("textDocument/diagnostic", again);
+    assert!(codes(report["items"].as_array().expect("items")).contains(&"E204"));
+    // Who fetches is not sent the same.
+    let sent = editor.during(
+        Duration::from_millis(300),
+        "textDocument/publishDiagnostics",
+    );
+    assert!(
+        sent.iter()
+            .all(|note| note["params"]["diagnostics"] == json!([])),
+        "{sent:?}"
+    );
+    // Who does not say that it can fetch is not told to.
+    assert!(Editor::new().offered["capabilities"]["diagnosticProvider"].is_null());
+}
+
+#[test]
+fn it_is_analysed_when_wanted() {
+    let params = json!({"processId": null, "capabilities": {}, "initializationOptions": {"analyse": "onSave"}});
+    let mut editor = Editor::begun(params);
+    editor.opened(URI, DRAWING);
+    let wrong = DRAWING.replace("@Ubody", "@Nobody");
+    editor.change(URI, 2, &[json!({"text": wrong})]);
+    assert_eq!(
+        editor.during(
+            Duration::from_millis(300),
+            "textDocument/publishDiagnostics"
+        ),
+        Vec::<Value>::new()
+    );
+    editor.tell("textDocument/didSave", document());
+    assert!(codes(&editor.diagnostics(URI, 2)).contains(&"E204"));
+    // What is asked is about the text as it is, saved or not.
+    editor.change(URI, 3, &[json!({"text": DRAWING})]);
+    let definition = editor.ask("textDocument/definition", place(DRAWING, "Ubody$"));
+    assert_eq!(definition.as_array().expect("places").len(), 1);
+    editor.tell(
+        "workspace/didChangeConfiguration",
+        json!({"settings": {"okoshi": {"analyse": "onType"}}}),
+    );
+    editor.change(URI, 4, &[json!({"text": wrong})]);
+    assert!(codes(&editor.diagnostics(URI, 4)).contains(&"E204"));
+}
+
+#[test]
+fn requests_can_be_called_off() {
+    let mut editor = Editor::new();
+    // Large enough that its analysis is still under way when the request is called off.
+    let text = many(4_000);
+    editor.open(URI, 1, &text);
+    let id = editor.request("textDocument/hover", place(&text, "Rarm@"));
+    editor.tell("$/cancelRequest", json!({"id": id}));
+    assert_eq!(editor.answer(id)["error"]["code"], -32800);
+    editor.diagnostics(URI, 1);
+    assert!(editor.leave().success());
+}
+
+#[test]
+fn a_long_analysis_shows_progress() {
+    let mut editor = Editor::with(json!({"window": {"workDoneProgress": true}}));
+    let text = many(40_000).replace("</svg>", &format!("<!--{}--></svg>", "あ".repeat(1 << 20)));
+    assert!(text.len() > 5_000_000, "{} bytes", text.len());
+    editor.open(URI, 1, &text);
+    let created = editor.until(|note| note["method"] == "window/workDoneProgress/create");
+    let token = created["params"]["token"].clone();
+    for kind in ["begin", "end"] {
+        let note = editor.until(|note| note["method"] == "$/progress");
+        assert_eq!(note["params"]["token"], token);
+        assert_eq!(note["params"]["value"]["kind"], kind);
+    }
+    editor.diagnostics(URI, 1);
+}
+
+#[test]
+fn it_ends_with_its_client() {
+    assert_eq!(Editor::new().leave().code(), Some(0));
+    // Without a word it ends all the same, and says that something was wrong.
+    assert_eq!(Editor::new().vanish().code(), Some(1));
+    let mut editor = Editor::new();
+    editor.tell("exit", Value::Null);
+    assert_eq!(editor.vanish().code(), Some(1));
+}
+
+#[cfg(unix)]
+#[test]
+fn it_ends_when_its_clients_process_is_gone() {
+    let mut client = std::process::Command::new("sleep")
+        .arg("60")
+        .spawn()
+        .expect("a process");
+    let editor = Editor::begun(json!({"processId": client.id(), "capabilities": {}}));
+    client.kill().expect("killed");
+    client.wait().expect("gone");
+    let until = Instant::now() + Duration::from_secs(20);
+    let here = format!("/proc/{}/stat", editor.id());
+    while fs::read_to_string(&here).is_ok_and(|stat| !stat.contains(") Z ")) {
+        assert!(Instant::now() < until, "the server goes on");
+        std::thread::sleep(Duration::from_millis(50));
+    }
+}
+
+#[test]
+fn nonsense_is_answered() {
+    let mut editor = Editor::new();
+    assert_eq!(
+        editor.refused("textDocument/hover", json!({"nonsense": 1}))["code"],
+        -32602
+    );
+    assert_eq!(editor.refused("no/such", json!({}))["code"], -32601);
+    // What was never opened is not known.
+    assert!(
+        editor
+            .ask("textDocument/hover", place(DRAWING, "Rarm@"))
+            .is_null()
+    );
+    editor.change(URI, 1, &[json!({"text": "x"})]);
+    editor.tell("textDocument/didChange", json!({"nonsense": 1}));
+    // Places outside of the text are moved into it.
+    editor.opened(URI, DRAWING);
+    let far = json!({"line": 99_999, "character": 99_999});
+    editor.change(
+        URI,
+        2,
+        &[json!({"range": {"start": far, "end": far}, "text": "<!-- end -->"})],
+    );
+    editor.diagnostics(URI, 2);
+    let hover = json!({"textDocument": {"uri": URI}, "position": far});
+    assert!(editor.ask("textDocument/hover", hover).is_null());
+    assert!(editor.leave().success());
+}
+
+#[test]
+fn parts_of_all_drawings_are_found_by_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::create_dir(folder.path().join("inner")).expect("a folder");
+    fs::write(
+        folder.path().join("inner/b.svg"),
+        DRAWING.replace("Rarm", "Wing"),
+    )
+    .expect("written");
+    let root = address(folder.path());
+    let mut editor = Editor::begun(json!({
+        "processId": null,
+        "capabilities": {},
+        "workspaceFolders": [{"uri": root, "name": "drawings"}],
+    }));
+    let uri = address(&folder.path().join("a.svg"));
+    editor.opened(&uri, DRAWING);
+    let found = editor.ask("workspace/symbol", json!({"query": "w"}));
+    let names: Vec<_> = found
+        .as_array()
+        .expect("symbols")
+        .iter()
+        .map(|symbol| symbol["name"].as_str().unwrap_or(""))
+        .collect();
+    assert_eq!(names, ["Wing"]);
+    assert_eq!(found[0]["containerName"], "Ubody");
+    let all = editor.ask("workspace/symbol", json!({"query": ""}));
+    assert_eq!(all.as_array().expect("symbols").len(), 6);
+}
