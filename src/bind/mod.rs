@@ -14,25 +14,25 @@ mod units;
 pub use attributes::{Look, Resolved, SetBy, Source};
 pub use sheet::{Binding, BoundBy, Part, PartKind, Place, Sheet, SheetString};
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::{Outline, bounds, measure};
+use crate::geometry::{bounds, measure};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::svg::{Drawing, Element};
 use units::{Member, Units};
 
-/// Binds the strings of a drawing to its parts. Takes the outlines out of the drawing.
-pub fn bind(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
+/// Binds the strings of a drawing to its parts.
+pub fn bind(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
     let mut sheet = strings::read(drawing, diagnostics);
     let units = Units::read(drawing, &sheet);
-    let outlines = outlines(drawing, &units.members);
     sheet.parts = units
         .members
         .par_iter()
-        .zip(outlines)
-        .filter_map(|(member, outline)| Part::measured(member, outline))
+        .filter_map(|member| Part::measured(member, drawing))
         .collect();
     let mut binder = Binder::new(drawing, &units, &mut sheet, diagnostics);
     binder.descriptions();
@@ -47,25 +47,6 @@ pub fn bind(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
     sheet
 }
 
-/// The outlines of the members, made from strokes where that is what they are.
-fn outlines(drawing: &mut Drawing, members: &[Member]) -> Vec<Outline> {
-    let strokes: Vec<Option<Outline>> = members
-        .par_iter()
-        .map(
-            |member| match drawing.shapes[member.shape].stroke.as_deref() {
-                Some(stroke) if member.is_stroke => Some(stroke.outline()),
-                _ => None,
-            },
-        )
-        .collect();
-    members
-        .iter()
-        .zip(strokes)
-        .map(|(member, stroke)| {
-            stroke.unwrap_or_else(|| std::mem::take(&mut drawing.shapes[member.shape].outline))
-        })
-        .collect()
-}
 
 /// A string, the part it is nearest to, and another part that is almost as near.
 struct Match {
@@ -401,7 +382,12 @@ fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
 }
 
 impl Part {
-    fn measured(member: &Member, outline: Outline) -> Option<Self> {
+    fn measured(member: &Member, drawing: &Drawing) -> Option<Self> {
+        let shape = &drawing.shapes[member.shape];
+        let outline = match shape.stroke.as_deref() {
+            Some(stroke) if member.is_stroke => Arc::new(stroke.outline()),
+            _ => Arc::clone(&shape.outline),
+        };
         let measure = measure(&outline)?;
         Some(Self::new(member, outline, measure))
     }

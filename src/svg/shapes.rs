@@ -232,7 +232,7 @@ impl Context<'_, '_> {
         Some(Shape {
             group: task.group,
             element,
-            outline,
+            outline: Arc::new(outline),
             paint,
             opacity,
             stroke,
@@ -293,7 +293,7 @@ impl Context<'_, '_> {
             Some(Shape {
                 group: task.group,
                 element,
-                outline,
+                outline: Arc::new(outline),
                 paint,
                 opacity,
                 stroke: None,
