@@ -47,7 +47,6 @@ pub fn bind(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
     sheet
 }
 
-
 /// A string, the part it is nearest to, and another part that is almost as near.
 struct Match {
     string: usize,

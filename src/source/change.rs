@@ -72,7 +72,10 @@ fn common_head(a: &[u8], b: &[u8]) -> usize {
 fn common_tail(a: &[u8], b: &[u8]) -> usize {
     let blocks = a.rchunks_exact(BLOCK).zip(b.rchunks_exact(BLOCK));
     let tail = BLOCK * blocks.take_while(|(a, b)| a == b).count();
-    let rest = a[..a.len() - tail].iter().rev().zip(b[..b.len() - tail].iter().rev());
+    let rest = a[..a.len() - tail]
+        .iter()
+        .rev()
+        .zip(b[..b.len() - tail].iter().rev());
     tail + rest.take_while(|(a, b)| a == b).count()
 }
 
