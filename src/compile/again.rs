@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::{Compiled, Followed, Options, Reading, given_up};
 use crate::diagnostic::Diagnostic;
+use crate::figure;
 use crate::resolver::Resolver;
 use crate::source::Change;
 use crate::svg::{Drawing, Retyped};
@@ -16,6 +17,7 @@ use crate::threads;
 #[derive(Debug, Default)]
 pub struct Compiler {
     memory: Option<Memory>,
+    figure: figure::Memory,
     partial: bool,
 }
 
@@ -43,17 +45,20 @@ impl Compiler {
     ) -> Compiled {
         // A panic loses it, so that nothing half changed is used again.
         let memory = self.memory.take();
+        let mut figure = std::mem::take(&mut self.figure);
         self.partial = false;
         let done = threads::run(move || {
             let again = memory.and_then(|memory| memory.again(source, options, resolver));
             let partial = again.is_some();
             let memory = again.unwrap_or_else(|| Memory::of(source, options, resolver));
-            (memory.reading().compiled(resolver), memory, partial)
+            let compiled = memory.reading().compiled(resolver, &mut figure);
+            (compiled, memory, figure, partial)
         });
-        let Some((compiled, memory, partial)) = done else {
+        let Some((compiled, memory, figure, partial)) = done else {
             return given_up();
         };
         self.memory = Some(memory);
+        self.figure = figure;
         self.partial = partial;
         compiled
     }

@@ -2,6 +2,7 @@
 
 mod again;
 
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
 use crate::bind::{self, Sheet};
@@ -61,7 +62,7 @@ impl Compiled {
 pub fn compile(source: &str, options: &Options, resolver: &dyn Resolver) -> Compiled {
     threads::run(|| {
         let (reading, _) = Reading::of(source, options, resolver);
-        reading.compiled(resolver)
+        reading.compiled(resolver, &mut figure::Memory::default())
     })
     .unwrap_or_else(given_up)
 }
@@ -104,7 +105,7 @@ impl Reading {
     }
 
     /// Builds what was read.
-    fn compiled(self, resolver: &dyn Resolver) -> Compiled {
+    fn compiled(self, resolver: &dyn Resolver, memory: &mut figure::Memory) -> Compiled {
         let Self {
             drawing,
             mut diagnostics,
@@ -112,7 +113,7 @@ impl Reading {
         } = self;
         let recorder = Recorder::new(resolver);
         let sheet = bind::bind(&drawing, &mut diagnostics);
-        let scene = figure::build(&drawing, &sheet, &recorder, &mut diagnostics);
+        let scene = figure::build(&drawing, &sheet, &recorder, memory, &mut diagnostics);
         diagnostic::sort(&mut diagnostics);
         dependencies.extend(recorder.followed().into_iter().map(|(link, _)| link));
         dependencies.sort();
@@ -130,7 +131,7 @@ impl Reading {
 /// A resolver that remembers what it was asked for.
 struct Recorder<'a> {
     inner: &'a dyn Resolver,
-    followed: Mutex<Vec<Followed>>,
+    followed: Mutex<BTreeMap<String, Result<Arc<[u8]>, LinkError>>>,
 }
 
 impl<'a> Recorder<'a> {
@@ -143,17 +144,17 @@ impl<'a> Recorder<'a> {
 
     /// The links that were followed, each with where it led first.
     fn followed(self) -> Vec<Followed> {
-        self.followed.into_inner().unwrap_or_default()
+        let followed = self.followed.into_inner().unwrap_or_default();
+        followed.into_iter().collect()
     }
 }
 
 impl Resolver for Recorder<'_> {
     fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
         let found = self.inner.read(link);
-        if let Ok(mut followed) = self.followed.lock()
-            && followed.iter().all(|(known, _)| known != link)
-        {
-            followed.push((link.to_owned(), found.clone()));
+        if let Ok(mut followed) = self.followed.lock() {
+            let known = followed.entry(link.to_owned());
+            known.or_insert_with(|| found.clone());
         }
         found
     }
