@@ -19,21 +19,79 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::{bounds, measure};
+use crate::geometry::{Measure, Outline, measure};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
-use crate::svg::{Drawing, Element};
+use crate::svg::{Drawing, Element, StrokeSource};
 use units::{Member, Units};
 
-/// Binds the strings of a drawing to its parts.
-pub fn bind(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
+/// What binding remembers for the next time: how the areas lie that a drawing has already had.
+#[derive(Debug, Default)]
+pub struct Memory {
+    /// Per shape its fill, and its stroke.
+    areas: Vec<[Option<Area>; 2]>,
+}
+
+/// An area and how it lies.
+#[derive(Debug, Clone)]
+struct Area {
+    /// What a stroke's area was made from.
+    stroke: Option<Arc<StrokeSource>>,
+    outline: Arc<Outline>,
+    measure: Measure,
+}
+
+impl Memory {
+    /// The area of a shape's fill or stroke, if it is what it was.
+    fn area(&self, drawing: &Drawing, member: &Member) -> Option<Area> {
+        let shape = &drawing.shapes[member.shape];
+        let known = self.areas.get(member.shape)?;
+        let known = known[usize::from(member.is_stroke)].as_ref()?;
+        let same = match (&known.stroke, &shape.stroke) {
+            (Some(known), Some(stroke)) => Arc::ptr_eq(known, stroke),
+            _ => Arc::ptr_eq(&known.outline, &shape.outline),
+        };
+        same.then(|| known.clone())
+    }
+
+    /// Remembers the areas of parts, and forgets all others.
+    fn keep(&mut self, drawing: &Drawing, parts: &[Part]) {
+        self.areas.clear();
+        self.areas.resize(drawing.shapes.len(), [None, None]);
+        for part in parts {
+            let stroke = drawing.shapes[part.shape].stroke.as_ref();
+            self.areas[part.shape][usize::from(part.is_stroke)] = Some(Area {
+                stroke: stroke.filter(|_| part.is_stroke).map(Arc::clone),
+                outline: Arc::clone(&part.outline),
+                measure: part.measure,
+            });
+        }
+    }
+}
+
+/// Binds the strings of a drawing to its parts. The sheet does not depend on what is remembered.
+pub fn bind(
+    drawing: &Drawing,
+    memory: Option<&mut Memory>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Sheet {
     let mut sheet = strings::read(drawing, diagnostics);
     let units = Units::read(drawing, &sheet);
     sheet.parts = units
         .members
         .par_iter()
-        .filter_map(|member| Part::measured(member, drawing))
+        .filter_map(|member| {
+            let known = memory.as_ref();
+            let known = known.and_then(|memory| memory.area(drawing, member));
+            let Area {
+                outline, measure, ..
+            } = known.or_else(|| Area::of(member, drawing))?;
+            Some(Part::new(member, outline, measure))
+        })
         .collect();
+    if let Some(memory) = memory {
+        memory.keep(drawing, &sheet.parts);
+    }
     let mut binder = Binder::new(drawing, &units, &mut sheet, diagnostics);
     binder.descriptions();
     binder.groups();
@@ -363,9 +421,7 @@ fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
     }
     let (page_low, page_size) = drawing.page;
     for part in &sheet.parts {
-        let Some((low, high)) = bounds(&part.outline) else {
-            continue;
-        };
+        let (low, high) = part.measure.bounds;
         let off = high.cmplt(page_low).any() || low.cmpgt(page_low + page_size).any();
         if off && part.kind == PartKind::Main {
             diagnostics.push(
@@ -380,14 +436,18 @@ fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
     }
 }
 
-impl Part {
-    fn measured(member: &Member, drawing: &Drawing) -> Option<Self> {
+impl Area {
+    fn of(member: &Member, drawing: &Drawing) -> Option<Self> {
         let shape = &drawing.shapes[member.shape];
         let outline = match shape.stroke.as_deref() {
             Some(stroke) if member.is_stroke => Arc::new(stroke.outline()),
             _ => Arc::clone(&shape.outline),
         };
         let measure = measure(&outline)?;
-        Some(Self::new(member, outline, measure))
+        Some(Self {
+            stroke: None,
+            outline,
+            measure,
+        })
     }
 }

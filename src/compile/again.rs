@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use super::{Compiled, Followed, Options, Reading, given_up};
+use super::{Compiled, Followed, Memory, Options, Reading, given_up};
 use crate::diagnostic::Diagnostic;
-use crate::figure;
 use crate::resolver::Resolver;
 use crate::source::Change;
 use crate::svg::{Drawing, Retyped};
@@ -16,14 +15,14 @@ use crate::threads;
 /// What it remembers is as large as the last drawing and the files that it links to.
 #[derive(Debug, Default)]
 pub struct Compiler {
-    memory: Option<Memory>,
-    figure: figure::Memory,
+    last: Option<Last>,
+    memory: Memory,
     partial: bool,
 }
 
 /// What is left of the last time.
 #[derive(Debug)]
-struct Memory {
+struct Last {
     source: String,
     options: Options,
     drawing: Arc<Drawing>,
@@ -44,21 +43,21 @@ impl Compiler {
         resolver: &dyn Resolver,
     ) -> Compiled {
         // A panic loses it, so that nothing half changed is used again.
-        let memory = self.memory.take();
-        let mut figure = std::mem::take(&mut self.figure);
+        let last = self.last.take();
+        let mut memory = std::mem::take(&mut self.memory);
         self.partial = false;
         let done = threads::run(move || {
-            let again = memory.and_then(|memory| memory.again(source, options, resolver));
+            let again = last.and_then(|last| last.again(source, options, resolver));
             let partial = again.is_some();
-            let memory = again.unwrap_or_else(|| Memory::of(source, options, resolver));
-            let compiled = memory.reading().compiled(resolver, &mut figure);
-            (compiled, memory, figure, partial)
+            let last = again.unwrap_or_else(|| Last::of(source, options, resolver));
+            let compiled = last.reading().compiled(resolver, Some(&mut memory));
+            (compiled, last, memory, partial)
         });
-        let Some((compiled, memory, figure, partial)) = done else {
+        let Some((compiled, last, memory, partial)) = done else {
             return given_up();
         };
-        self.memory = Some(memory);
-        self.figure = figure;
+        self.last = Some(last);
+        self.memory = memory;
         self.partial = partial;
         compiled
     }
@@ -74,7 +73,7 @@ impl Compiler {
     }
 }
 
-impl Memory {
+impl Last {
     /// Reads a drawing.
     fn of(source: &str, options: &Options, resolver: &dyn Resolver) -> Self {
         let (reading, followed) = Reading::of(source, options, resolver);

@@ -62,7 +62,7 @@ impl Compiled {
 pub fn compile(source: &str, options: &Options, resolver: &dyn Resolver) -> Compiled {
     threads::run(|| {
         let (reading, _) = Reading::of(source, options, resolver);
-        reading.compiled(resolver, &mut figure::Memory::default())
+        reading.compiled(resolver, None)
     })
     .unwrap_or_else(given_up)
 }
@@ -87,6 +87,13 @@ struct Reading {
     links: Vec<String>,
 }
 
+/// What making models remembers from one time to the next.
+#[derive(Debug, Default)]
+struct Memory {
+    areas: bind::Memory,
+    things: figure::Memory,
+}
+
 /// A link that was followed, and where it led.
 type Followed = (String, Result<Arc<[u8]>, LinkError>);
 
@@ -105,15 +112,20 @@ impl Reading {
     }
 
     /// Builds what was read.
-    fn compiled(self, resolver: &dyn Resolver, memory: &mut figure::Memory) -> Compiled {
+    fn compiled(self, resolver: &dyn Resolver, memory: Option<&mut Memory>) -> Compiled {
         let Self {
             drawing,
             mut diagnostics,
             links: mut dependencies,
         } = self;
         let recorder = Recorder::new(resolver);
-        let sheet = bind::bind(&drawing, &mut diagnostics);
-        let scene = figure::build(&drawing, &sheet, &recorder, memory, &mut diagnostics);
+        let mut nothing = figure::Memory::default();
+        let (areas, things) = match memory {
+            Some(Memory { areas, things }) => (Some(areas), things),
+            None => (None, &mut nothing),
+        };
+        let sheet = bind::bind(&drawing, areas, &mut diagnostics);
+        let scene = figure::build(&drawing, &sheet, &recorder, things, &mut diagnostics);
         diagnostic::sort(&mut diagnostics);
         dependencies.extend(recorder.followed().into_iter().map(|(link, _)| link));
         dependencies.sort();

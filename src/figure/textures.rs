@@ -9,7 +9,6 @@ use super::Model;
 use super::models::Models;
 use crate::bind::{PartKind, Source as SettingSource};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::bounds;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{ShapeKind, Value};
 use crate::resolver::{LinkError, Resolver};
@@ -126,9 +125,7 @@ impl<'a> Collector<'a> {
         if file.is_none() && paint.server.is_none() {
             return;
         }
-        let Some(extent) = bounds(&part.outline) else {
-            return;
-        };
+        let extent = part.measure.bounds;
         let (server, name) = match (file, &paint.server) {
             (Some((link, picture)), _) => {
                 let (low, high) = extent;

@@ -121,7 +121,7 @@ pub struct Shape {
     /// Opacity of fill, element and groups together, 0 to 1.
     pub opacity: f64,
     /// Its stroke, if it has a visible one.
-    pub stroke: Option<Box<StrokeSource>>,
+    pub stroke: Option<Arc<StrokeSource>>,
     /// What a line leads from and to, if the shape is an unfilled open line.
     pub line: Option<Box<Line>>,
 }

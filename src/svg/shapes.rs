@@ -207,7 +207,7 @@ impl Context<'_, '_> {
             line = open_line(&bez, node);
         }
         let stroke = stroke.map(|stroke| {
-            Box::new(StrokeSource {
+            Arc::new(StrokeSource {
                 path: path.data().clone(),
                 stroke: stroke.to_tiny_skia(),
                 transform,
