@@ -12,7 +12,7 @@ use okoshi::resolver::{LinkError, Resolver};
 use okoshi::source::Text;
 use proptest::prelude::*;
 use proptest::sample::Index;
-use proptest::test_runner::TestRunner;
+use proptest::test_runner::{FileFailurePersistence, TestRunner};
 
 /// What is typed or pasted into strings.
 const PIECES: &[&str] = &[
@@ -332,8 +332,13 @@ fn agree(drawing: &str, acts: &[Act]) -> Result<usize, TestCaseError> {
 /// was read, or the law says nothing.
 fn look_at(drawings: &[&str], histories: u32, longest: usize) {
     let config = ProptestConfig {
-        cases: histories,
-        source_file: Some(file!()),
+        cases: std::env::var("PROPTEST_CASES")
+            .ok()
+            .and_then(|count| count.parse().ok())
+            .unwrap_or(histories),
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(
+            "tests/regressions/again.txt",
+        ))),
         ..ProptestConfig::default()
     };
     let (done, partial) = (Cell::new(0), Cell::new(0));

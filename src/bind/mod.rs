@@ -6,68 +6,24 @@
 mod attributes;
 mod hierarchy;
 mod leaders;
+mod memory;
 mod nearest;
 mod sheet;
 mod strings;
 mod units;
 
 pub use attributes::{Look, Resolved, SetBy, Source};
+pub use memory::Memory;
 pub use sheet::{Binding, BoundBy, Part, PartKind, Place, Sheet, SheetString};
-
-use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::{Measure, Outline, measure};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
-use crate::svg::{Drawing, Element, StrokeSource};
-use units::{Member, Units};
-
-/// What binding remembers for the next time: how the areas lie that a drawing has already had.
-#[derive(Debug, Default)]
-pub struct Memory {
-    /// Per shape its fill, and its stroke.
-    areas: Vec<[Option<Area>; 2]>,
-}
-
-/// An area and how it lies.
-#[derive(Debug, Clone)]
-struct Area {
-    /// What a stroke's area was made from.
-    stroke: Option<Arc<StrokeSource>>,
-    outline: Arc<Outline>,
-    measure: Measure,
-}
-
-impl Memory {
-    /// The area of a shape's fill or stroke, if it is what it was.
-    fn area(&self, drawing: &Drawing, member: &Member) -> Option<Area> {
-        let shape = &drawing.shapes[member.shape];
-        let known = self.areas.get(member.shape)?;
-        let known = known[usize::from(member.is_stroke)].as_ref()?;
-        let same = match (&known.stroke, &shape.stroke) {
-            (Some(known), Some(stroke)) => Arc::ptr_eq(known, stroke),
-            _ => Arc::ptr_eq(&known.outline, &shape.outline),
-        };
-        same.then(|| known.clone())
-    }
-
-    /// Remembers the areas of parts, and forgets all others.
-    fn keep(&mut self, drawing: &Drawing, parts: &[Part]) {
-        self.areas.clear();
-        self.areas.resize(drawing.shapes.len(), [None, None]);
-        for part in parts {
-            let stroke = drawing.shapes[part.shape].stroke.as_ref();
-            self.areas[part.shape][usize::from(part.is_stroke)] = Some(Area {
-                stroke: stroke.filter(|_| part.is_stroke).map(Arc::clone),
-                outline: Arc::clone(&part.outline),
-                measure: part.measure,
-            });
-        }
-    }
-}
+use crate::svg::{Drawing, Element};
+use memory::Area;
+use units::Units;
 
 /// Binds the strings of a drawing to its parts. The sheet does not depend on what is remembered.
 pub fn bind(
@@ -433,21 +389,5 @@ fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
                 .help("it is built all the same; `*` in a string beside it leaves it out"),
             );
         }
-    }
-}
-
-impl Area {
-    fn of(member: &Member, drawing: &Drawing) -> Option<Self> {
-        let shape = &drawing.shapes[member.shape];
-        let outline = match shape.stroke.as_deref() {
-            Some(stroke) if member.is_stroke => Arc::new(stroke.outline()),
-            _ => Arc::clone(&shape.outline),
-        };
-        let measure = measure(&outline)?;
-        Some(Self {
-            stroke: None,
-            outline,
-            measure,
-        })
     }
 }
