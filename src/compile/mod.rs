@@ -95,7 +95,10 @@ struct Memory {
 }
 
 /// A link that was followed, and where it led.
-type Followed = (String, Result<Arc<[u8]>, LinkError>);
+type Followed = (String, Found);
+
+/// The bytes of a file, or why there are none.
+type Found = Result<Arc<[u8]>, LinkError>;
 
 impl Reading {
     /// Reads a drawing, and tells what its links led to.
@@ -143,7 +146,7 @@ impl Reading {
 /// A resolver that remembers what it was asked for.
 struct Recorder<'a> {
     inner: &'a dyn Resolver,
-    followed: Mutex<BTreeMap<String, Result<Arc<[u8]>, LinkError>>>,
+    followed: Mutex<BTreeMap<String, Found>>,
 }
 
 impl<'a> Recorder<'a> {
