@@ -3,7 +3,11 @@
 //! Invariant: every [`Span`] in the program is a byte range of the drawing's text as it is on disk
 //! (of the unpacked text for `.svgz`), whatever was decoded or rewritten on the way.
 
+mod change;
+
 use std::ops::Range;
+
+pub use change::Change;
 
 /// A byte range of the drawing's text, half open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]

@@ -6,7 +6,7 @@ use rstar::{AABB, RTree};
 use rustc_hash::FxHashMap;
 
 use super::sheet::{Place, Sheet};
-use crate::geometry::{bounds, contains};
+use crate::geometry::contains;
 use crate::lang::ast::Annotation;
 use crate::svg::{Drawing, Line};
 
@@ -67,8 +67,7 @@ impl<'a> Context<'a> {
             }
         }
         let parts = sheet.parts.iter().enumerate();
-        let parts =
-            parts.filter_map(|(index, part)| Some(rectangle(bounds(&part.outline)?, index)));
+        let parts = parts.map(|(index, part)| rectangle(part.measure.bounds, index));
         Self {
             drawing,
             sheet,

@@ -6,34 +6,48 @@
 mod attributes;
 mod hierarchy;
 mod leaders;
+mod memory;
 mod nearest;
 mod sheet;
 mod strings;
 mod units;
 
 pub use attributes::{Look, Resolved, SetBy, Source};
+pub use memory::Memory;
 pub use sheet::{Binding, BoundBy, Part, PartKind, Place, Sheet, SheetString};
 
 use rayon::prelude::*;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::{Outline, bounds, measure};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::svg::{Drawing, Element};
-use units::{Member, Units};
+use memory::Area;
+use units::Units;
 
-/// Binds the strings of a drawing to its parts. Takes the outlines out of the drawing.
-pub fn bind(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
+/// Binds the strings of a drawing to its parts. The sheet does not depend on what is remembered.
+pub fn bind(
+    drawing: &Drawing,
+    memory: Option<&mut Memory>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Sheet {
     let mut sheet = strings::read(drawing, diagnostics);
     let units = Units::read(drawing, &sheet);
-    let outlines = outlines(drawing, &units.members);
     sheet.parts = units
         .members
         .par_iter()
-        .zip(outlines)
-        .filter_map(|(member, outline)| Part::measured(member, outline))
+        .filter_map(|member| {
+            let known = memory.as_ref();
+            let known = known.and_then(|memory| memory.area(drawing, member));
+            let Area {
+                outline, measure, ..
+            } = known.or_else(|| Area::of(member, drawing))?;
+            Some(Part::new(member, outline, measure))
+        })
         .collect();
+    if let Some(memory) = memory {
+        memory.keep(drawing, &sheet.parts);
+    }
     let mut binder = Binder::new(drawing, &units, &mut sheet, diagnostics);
     binder.descriptions();
     binder.groups();
@@ -45,26 +59,6 @@ pub fn bind(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
     hierarchy::build(drawing, &mut sheet, diagnostics);
     hints(drawing, &sheet, diagnostics);
     sheet
-}
-
-/// The outlines of the members, made from strokes where that is what they are.
-fn outlines(drawing: &mut Drawing, members: &[Member]) -> Vec<Outline> {
-    let strokes: Vec<Option<Outline>> = members
-        .par_iter()
-        .map(
-            |member| match drawing.shapes[member.shape].stroke.as_deref() {
-                Some(stroke) if member.is_stroke => Some(stroke.outline()),
-                _ => None,
-            },
-        )
-        .collect();
-    members
-        .iter()
-        .zip(strokes)
-        .map(|(member, stroke)| {
-            stroke.unwrap_or_else(|| std::mem::take(&mut drawing.shapes[member.shape].outline))
-        })
-        .collect()
 }
 
 /// A string, the part it is nearest to, and another part that is almost as near.
@@ -383,9 +377,7 @@ fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
     }
     let (page_low, page_size) = drawing.page;
     for part in &sheet.parts {
-        let Some((low, high)) = bounds(&part.outline) else {
-            continue;
-        };
+        let (low, high) = part.measure.bounds;
         let off = high.cmplt(page_low).any() || low.cmpgt(page_low + page_size).any();
         if off && part.kind == PartKind::Main {
             diagnostics.push(
@@ -397,12 +389,5 @@ fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
                 .help("it is built all the same; `*` in a string beside it leaves it out"),
             );
         }
-    }
-}
-
-impl Part {
-    fn measured(member: &Member, outline: Outline) -> Option<Self> {
-        let measure = measure(&outline)?;
-        Some(Self::new(member, outline, measure))
     }
 }

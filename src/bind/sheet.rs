@@ -80,8 +80,8 @@ pub struct Binding {
 pub struct SheetString {
     /// Where it stands.
     pub place: Place,
-    /// Its characters.
-    pub text: Text,
+    /// Its characters; the drawing's too.
+    pub text: Arc<Text>,
     /// How it reads.
     pub annotation: Annotation,
     /// What its attributes say.
@@ -168,14 +168,14 @@ pub struct Part {
 }
 
 impl Part {
-    pub(super) fn new(member: &Member, outline: Outline, measure: Measure) -> Self {
+    pub(super) fn new(member: &Member, outline: Arc<Outline>, measure: Measure) -> Self {
         Self {
             name: String::new(),
             automatic: false,
             kind: PartKind::Sub,
             shape: member.shape,
             is_stroke: member.is_stroke,
-            outline: Arc::new(outline),
+            outline,
             origin: measure.center,
             measure,
             string: None,

@@ -1,5 +1,7 @@
 //! The strings of a drawing: found, parsed, their variables computed.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::sheet::{Place, Sheet, SheetString};
@@ -11,7 +13,7 @@ use crate::source::Text;
 use crate::svg::Drawing;
 
 /// Reads the strings.
-pub(super) fn read(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
+pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
     let mut texts = descriptions(drawing);
     let annotated = !texts.is_empty()
         || drawing
@@ -24,9 +26,9 @@ pub(super) fn read(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> 
     texts.extend(
         drawing
             .labels
-            .iter_mut()
+            .iter()
             .enumerate()
-            .map(|(index, (label, _))| (Place::Label(index), std::mem::take(&mut label.text))),
+            .map(|(index, (label, _))| (Place::Label(index), Arc::clone(&label.text))),
     );
     texts.sort_by_key(|(_, text)| text.whole());
     let parsed: Vec<_> = texts
@@ -65,7 +67,7 @@ pub(super) fn read(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> 
             .strings
             .iter()
             .filter(|string| matches!(string.annotation, Annotation::Defaults(_)))
-            .map(|string| (&string.text, &string.annotation)),
+            .map(|string| (&*string.text, &string.annotation)),
         diagnostics,
     );
     let findings: Vec<Vec<Diagnostic>> = sheet
@@ -85,22 +87,20 @@ pub(super) fn read(drawing: &mut Drawing, diagnostics: &mut Vec<Diagnostic>) -> 
 }
 
 /// Descriptions of shapes and groups that are strings.
-fn descriptions(drawing: &mut Drawing) -> Vec<(Place, Text)> {
+fn descriptions(drawing: &Drawing) -> Vec<(Place, Arc<Text>)> {
     let mut texts = Vec::new();
-    let mut take = |desc: &mut Option<Box<Text>>, place| {
-        if desc
-            .as_ref()
-            .is_some_and(|text| lang::looks_like_string(text.as_str()))
-            && let Some(text) = desc.take()
+    let mut take = |desc: &Option<Arc<Text>>, place| {
+        if let Some(text) = desc
+            && lang::looks_like_string(text.as_str())
         {
-            texts.push((place, *text));
+            texts.push((place, Arc::clone(text)));
         }
     };
-    for (index, shape) in drawing.shapes.iter_mut().enumerate() {
-        take(&mut shape.element.desc, Place::Shape(index));
+    for (index, shape) in drawing.shapes.iter().enumerate() {
+        take(&shape.element.desc, Place::Shape(index));
     }
-    for (index, group) in drawing.groups.iter_mut().enumerate() {
-        take(&mut group.element.desc, Place::Group(index));
+    for (index, group) in drawing.groups.iter().enumerate() {
+        take(&group.element.desc, Place::Group(index));
     }
     texts
 }

@@ -6,7 +6,6 @@ use rayon::prelude::*;
 use super::Model;
 use super::tree::{Branch, Tree};
 use crate::bind::{Part, PartKind, Sheet};
-use crate::geometry::bounds;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Ground, Value};
 use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene};
@@ -126,7 +125,7 @@ fn ground(model: &Model<'_>) -> DVec2 {
         _ => {
             let is_built = |part: &&Part| matches!(part.kind, PartKind::Main | PartKind::Sub);
             let built = model.sheet.parts.par_iter().filter(is_built);
-            let boxes = built.filter_map(|part| bounds(&part.outline));
+            let boxes = built.map(|part| part.measure.bounds);
             let all = boxes.reduce_with(|one, other| (one.0.min(other.0), one.1.max(other.1)));
             all.map_or(DVec2::ZERO, |(low, high)| {
                 DVec2::new((low.x + high.x) / 2.0, high.y)

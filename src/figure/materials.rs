@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 
 use super::Model;
 use super::models::Models;
-use super::textures::Textures;
+use super::textures::{self, Textures};
 use crate::bind::{Look, PartKind};
 use crate::diagnostic::Diagnostic;
 use crate::lang::keyword::Keyword;
@@ -39,10 +39,11 @@ impl Materials {
         model: &Model<'_>,
         models: &Models,
         resolver: &dyn Resolver,
+        memory: &mut textures::Memory,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let (drawing, sheet) = (model.drawing, model.sheet);
-        let textures = Textures::collect(model, models, resolver, diagnostics);
+        let textures = Textures::collect(model, models, resolver, memory, diagnostics);
         let mut list = Vec::new();
         let mut known: FxHashMap<Key, usize> = FxHashMap::default();
         let mut of_part = Vec::with_capacity(sheet.parts.len());

@@ -38,11 +38,20 @@ const CENTIMETRE: f64 = 0.01;
 /// How far the faces of `default` lie from the drawing plane, as a share of the page's diagonal.
 const DEFAULT_DEPTH: f64 = 0.025;
 
-/// Builds the figures of a drawing.
+/// What building remembers for the next time: things that take long to make, from what seldom changes. The next
+/// time checks that it has not.
+#[derive(Debug, Default)]
+pub struct Memory {
+    models: models::Memory,
+    textures: textures::Memory,
+}
+
+/// Builds the figures of a drawing. What it makes does not depend on what it remembers.
 pub fn build(
     drawing: &Drawing,
     sheet: &Sheet,
     resolver: &dyn Resolver,
+    memory: &mut Memory,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Scene {
     let model = Model::new(drawing, sheet);
@@ -50,8 +59,9 @@ pub fn build(
         || Relief::measure(&model),
         || {
             let mut found = Vec::new();
-            let models = Models::collect(&model, resolver, &mut found);
-            let materials = Materials::collect(&model, &models, resolver, &mut found);
+            let models = Models::collect(&model, resolver, &mut memory.models, &mut found);
+            let looks = &mut memory.textures;
+            let materials = Materials::collect(&model, &models, resolver, looks, &mut found);
             let frames: Vec<Frame> = sheet.parts.par_iter().map(Frame::of).collect();
             let tree = Tree::grow(&model, &frames, &mut found);
             (models, materials, frames, members(sheet), tree, found)

@@ -1,5 +1,7 @@
 //! Parts that are ready models: files that `Shape model` names, fitted to their parts.
 
+use std::sync::{Arc, Mutex};
+
 use glam::{DMat3, DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -25,10 +27,23 @@ pub(super) struct Models {
 }
 
 struct Loaded {
-    asset: Asset,
+    asset: Arc<Asset>,
     /// The number of its first material in the scene.
     first_material: usize,
 }
+
+/// What the next drawing may have use for: the models, by link.
+pub(super) type Memory = FxHashMap<String, Known>;
+
+/// A model that was read.
+#[derive(Debug)]
+pub(super) struct Known {
+    asset: Arc<Asset>,
+    /// The links that were followed to read it, and where they led.
+    followed: Vec<Followed>,
+}
+
+type Followed = (String, Result<Arc<[u8]>, LinkError>);
 
 /// Why a model is not used.
 enum Trouble {
@@ -40,6 +55,7 @@ impl Models {
     pub(super) fn collect(
         model: &Model<'_>,
         resolver: &dyn Resolver,
+        memory: &mut Memory,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let mut models = Self {
@@ -47,6 +63,7 @@ impl Models {
             of_part: FxHashMap::default(),
         };
         let mut known: FxHashMap<&str, Result<usize, Trouble>> = FxHashMap::default();
+        let mut now = Memory::default();
         let mut told = FxHashSet::default();
         let mut triangles = 0_usize;
         for (index, part) in model.sheet.parts.iter().enumerate() {
@@ -64,7 +81,12 @@ impl Models {
                 continue;
             }
             let found = known.entry(link).or_insert_with(|| {
-                let asset = load(link, resolver)?;
+                let read = match memory.remove(link.as_str()) {
+                    Some(known) if known.is_as_it_was(resolver) => known,
+                    _ => load(link, resolver)?,
+                };
+                let asset = Arc::clone(&read.asset);
+                now.insert(link.clone(), read);
                 models.assets.push(Loaded {
                     asset,
                     first_material: 0,
@@ -101,6 +123,7 @@ impl Models {
                 Err(_) => {}
             }
         }
+        *memory = now;
         models
     }
 
@@ -118,18 +141,18 @@ impl Models {
         {
             *first_material = scene.materials.len();
             let (first_texture, first_image) = (scene.textures.len(), scene.images.len());
-            scene.materials.append(&mut asset.materials);
+            scene.materials.extend_from_slice(&asset.materials);
             for used in scene.materials[*first_material..]
                 .iter_mut()
                 .flat_map(|material| material.textures_mut())
             {
                 used.texture += first_texture;
             }
-            scene.textures.append(&mut asset.textures);
+            scene.textures.extend_from_slice(&asset.textures);
             for texture in &mut scene.textures[first_texture..] {
                 texture.image += first_image;
             }
-            scene.images.append(&mut asset.images);
+            scene.images.extend_from_slice(&asset.images);
         }
     }
 
@@ -188,24 +211,47 @@ impl Models {
     }
 }
 
-fn load(link: &str, resolver: &dyn Resolver) -> Result<Asset, Trouble> {
-    let bytes = resolver.read(link).map_err(Trouble::Link)?;
+impl Known {
+    /// Whether all links still lead to the same.
+    fn is_as_it_was(&self, resolver: &dyn Resolver) -> bool {
+        let mut followed = self.followed.iter();
+        followed.all(|(link, found)| resolver.read(link) == *found)
+    }
+}
+
+fn load(link: &str, resolver: &dyn Resolver) -> Result<Known, Trouble> {
     let folder = link.rfind(['/', '\\']).map_or("", |end| &link[..=end]);
-    read_asset(&bytes, &Beside { resolver, folder }).map_err(Trouble::Import)
+    let bytes = resolver.read(link).map_err(Trouble::Link)?;
+    let beside = Beside {
+        resolver,
+        folder,
+        followed: Mutex::new(vec![(link.to_owned(), Ok(Arc::clone(&bytes)))]),
+    };
+    let asset = read_asset(&bytes, &beside).map_err(Trouble::Import)?;
+    Ok(Known {
+        asset: Arc::new(asset),
+        followed: beside.followed.into_inner().unwrap_or_default(),
+    })
 }
 
 /// Links of a linked file start from its own folder.
 struct Beside<'a> {
     resolver: &'a dyn Resolver,
     folder: &'a str,
+    followed: Mutex<Vec<Followed>>,
 }
 
 impl Resolver for Beside<'_> {
-    fn read(&self, link: &str) -> Result<std::sync::Arc<[u8]>, LinkError> {
+    fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
         let absolute = link.starts_with(['/', '\\']) || link.contains(':');
-        match absolute {
-            true => self.resolver.read(link),
-            false => self.resolver.read(&format!("{}{link}", self.folder)),
+        let link = match absolute {
+            true => link.to_owned(),
+            false => format!("{}{link}", self.folder),
+        };
+        let found = self.resolver.read(&link);
+        if let Ok(mut followed) = self.followed.lock() {
+            followed.push((link, found.clone()));
         }
+        found
     }
 }

@@ -7,7 +7,6 @@ use rstar::{AABB, RTree};
 
 use super::{Model, overlap};
 use crate::bind::PartKind;
-use crate::geometry::bounds;
 use crate::lang::value::ShapeKind;
 
 /// The step, as a share of the part's thickness.
@@ -41,7 +40,7 @@ impl Relief {
             .collect();
         let boxes = faces.par_iter().enumerate().filter_map(|(index, faces)| {
             faces.as_ref()?;
-            let (low, high) = bounds(&sheet.parts[index].outline)?;
+            let (low, high) = sheet.parts[index].measure.bounds;
             Some(GeomWithData::new(
                 Rectangle::from_corners(low.to_array(), high.to_array()),
                 index,
@@ -175,9 +174,10 @@ fn below(
     tree: &RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
 ) -> Vec<usize> {
     let parts = &model.sheet.parts;
-    let (Some(own), Some((low, high))) = (faces[part], bounds(&parts[part].outline)) else {
+    let Some(own) = faces[part] else {
         return vec![];
     };
+    let (low, high) = parts[part].measure.bounds;
     let area = AABB::from_corners(low.to_array(), high.to_array());
     let mut found: Vec<usize> = tree
         .locate_in_envelope_intersecting(area)

@@ -3,20 +3,20 @@
 use std::sync::Arc;
 
 use glam::DAffine2;
-use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Model;
 use super::models::Models;
 use crate::bind::{PartKind, Source as SettingSource};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::bounds;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{ShapeKind, Value};
-use crate::resolver::Resolver;
+use crate::resolver::{LinkError, Resolver};
 use crate::scene::{self, Image, Texture};
 use crate::svg::{PaintKey, broken_link};
-use crate::texture::{self, Alpha, Baked, Picture, PictureError, Plan, PlanKey, Server, Source};
+use crate::texture::{
+    self, Alpha, Baked, Baker, Picture, PictureError, Plan, PlanKey, Server, Source,
+};
 
 /// Pixels of a tile along as much of the drawing as the page's diagonal is long.
 const DETAIL: f64 = 2048.0;
@@ -53,12 +53,14 @@ impl Textures {
         model: &Model<'_>,
         models: &Models,
         resolver: &dyn Resolver,
+        memory: &mut Memory,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let mut collector = Collector {
             model,
             files: Files {
                 resolver,
+                last: &memory.pictures,
                 read: FxHashMap::default(),
                 told: FxHashSet::default(),
             },
@@ -74,9 +76,12 @@ impl Textures {
             }
         }
         texture::fit(&mut collector.plans);
-        let baked: Vec<Result<Baked, &'static str>> =
-            collector.plans.par_iter().map(Plan::bake).collect();
-        collector.finish(baked, diagnostics)
+        let baked = memory.baker.bake(&collector.plans);
+        let read = std::mem::take(&mut collector.files.read);
+        let textures = collector.finish(baked, diagnostics);
+        let held = |(link, held): (&str, Result<Held, _>)| Some((link.to_owned(), held.ok()?));
+        memory.pictures = read.into_iter().filter_map(held).collect();
+        textures
     }
 
     /// How a part is textured.
@@ -120,9 +125,7 @@ impl<'a> Collector<'a> {
         if file.is_none() && paint.server.is_none() {
             return;
         }
-        let Some(extent) = bounds(&part.outline) else {
-            return;
-        };
+        let extent = part.measure.bounds;
         let (server, name) = match (file, &paint.server) {
             (Some((link, picture)), _) => {
                 let (low, high) = extent;
@@ -231,15 +234,30 @@ impl<'a> Collector<'a> {
 /// The files that `Texture` names.
 struct Files<'a> {
     resolver: &'a dyn Resolver,
+    /// What files held the last time.
+    last: &'a Pictures,
     /// Each with its picture, or with what is wrong with it.
-    read: FxHashMap<&'a str, Result<Picture, Trouble>>,
+    read: FxHashMap<&'a str, Result<Held, LinkError>>,
     /// Strings that were told what is wrong.
     told: FxHashSet<usize>,
 }
 
-enum Trouble {
-    Link(crate::resolver::LinkError),
-    Picture(Code, String),
+/// What is in files, by link.
+type Pictures = FxHashMap<String, Held>;
+
+/// What a file holds.
+#[derive(Debug, Clone)]
+struct Held {
+    bytes: Arc<[u8]>,
+    /// The picture that the bytes are, or what is wrong with it.
+    picture: Result<Picture, (Code, String)>,
+}
+
+/// What the next drawing may have use for.
+#[derive(Debug, Default)]
+pub(super) struct Memory {
+    baker: Baker,
+    pictures: Pictures,
 }
 
 impl<'a> Files<'a> {
@@ -253,41 +271,48 @@ impl<'a> Files<'a> {
         let Value::Word(link) = &source.setting.value else {
             return None;
         };
-        let resolver = self.resolver;
+        let (resolver, last) = (self.resolver, self.last);
         let read = self
             .read
             .entry(link)
-            .or_insert_with(|| read(resolver, link));
-        let trouble = match read {
-            Ok(picture) => return Some((link, picture.clone())),
-            Err(trouble) => trouble,
-        };
+            .or_insert_with(|| read(resolver, link, last));
+        if let Ok(Held {
+            picture: Ok(picture),
+            ..
+        }) = read
+        {
+            return Some((link, picture.clone()));
+        }
         if self.told.insert(source.string) {
             let text = &model.sheet.strings[source.string].text;
             let span = text.span(source.setting.range.clone());
-            diagnostics.push(match trouble {
-                Trouble::Link(error) => broken_link(link, error, span),
-                Trouble::Picture(code, message) => {
+            diagnostics.extend(match read.as_ref().map(|held| &held.picture) {
+                Err(error) => Some(broken_link(link, error, span)),
+                Ok(Err((code, message))) => Some(
                     Diagnostic::new(*code, span, format!("the picture `{link}` {message}"))
-                        .help("use a smaller picture, or save it again as PNG or JPEG")
-                }
+                        .help("use a smaller picture, or save it again as PNG or JPEG"),
+                ),
+                Ok(Ok(_)) => None,
             });
         }
         None
     }
 }
 
-fn read(resolver: &dyn Resolver, link: &str) -> Result<Picture, Trouble> {
-    let bytes = resolver.read(link).map_err(Trouble::Link)?;
-    let decoded = texture::decode(&bytes).map_err(|error| {
-        let code = match error {
-            PictureError::TooLarge => Code::LimitPassed,
-            PictureError::Unreadable(_) => Code::MissingFile,
-        };
-        Trouble::Picture(code, error.to_string())
-    })?;
-    texture::picture(decoded, &bytes, false).ok_or_else(|| {
-        let message = "cannot be written as PNG".to_owned();
-        Trouble::Picture(Code::LimitPassed, message)
-    })
+fn read(resolver: &dyn Resolver, link: &str, last: &Pictures) -> Result<Held, LinkError> {
+    let bytes = resolver.read(link)?;
+    if let Some(held) = last.get(link).filter(|held| held.bytes == bytes) {
+        return Ok(held.clone());
+    }
+    let picture = match texture::decode(&bytes) {
+        Ok(decoded) => texture::picture(decoded, &bytes, false).ok_or_else(|| {
+            let message = "cannot be written as PNG".to_owned();
+            (Code::LimitPassed, message)
+        }),
+        Err(error) => Err(match error {
+            PictureError::TooLarge => (Code::LimitPassed, error.to_string()),
+            PictureError::Unreadable(_) => (Code::MissingFile, error.to_string()),
+        }),
+    };
+    Ok(Held { bytes, picture })
 }

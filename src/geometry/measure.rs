@@ -29,6 +29,8 @@ pub struct Measure {
     pub half_along: f64,
     /// Half the extent across the axis.
     pub half_across: f64,
+    /// The box along the page's axes: the least and the greatest corner.
+    pub bounds: (DVec2, DVec2),
     /// False where the moments leave the axis open, as for a circle or a square.
     pub certain: bool,
 }
@@ -71,15 +73,19 @@ pub fn measure(outline: &Outline) -> Option<Measure> {
     } else {
         UP
     };
-    let mut measure = measure_along(outline, axis)?;
+    let mut measure = within(outline, axis, (low, high))?;
     measure.certain = certain;
     Some(measure)
 }
 
 /// The measure of an outline about a given axis, `None` where either is empty.
 pub fn measure_along(outline: &Outline, axis: DVec2) -> Option<Measure> {
+    within(outline, axis, query::bounds(outline)?)
+}
+
+/// The measure of an outline with the given box about a given axis.
+fn within(outline: &Outline, axis: DVec2, (low, high): (DVec2, DVec2)) -> Option<Measure> {
     let axis = upright(axis.try_normalize()?);
-    let (low, high) = query::bounds(outline)?;
     let middle = low.midpoint(high);
     let (mut least, mut most) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     for p in outline
@@ -101,6 +107,7 @@ pub fn measure_along(outline: &Outline, axis: DVec2) -> Option<Measure> {
         ends: [center + axis * half.x, center - axis * half.x],
         half_along: half.x,
         half_across: half.y,
+        bounds: (low, high),
         certain: true,
     })
 }

@@ -1,5 +1,7 @@
 //! Elements of the XML: where they are, what they are called, which of them are texts.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use roxmltree::{Node, NodeId};
 use rustc_hash::FxHashMap;
@@ -85,7 +87,7 @@ pub(super) fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
             .attributes()
             .find(|attribute| attribute.name() == "label" && attribute.namespace().is_some())
             .map(|attribute| attribute.value().to_owned()),
-        desc: desc.map(|desc| Box::new(text::content(desc, prepared))),
+        desc: desc.map(|desc| Arc::new(text::content(desc, prepared))),
     }
 }
 

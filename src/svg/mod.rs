@@ -5,6 +5,7 @@
 //! shapes stand in paint order; every element, group and text knows its bytes in the file. This module
 //! knows nothing of the annotation language.
 
+mod again;
 mod clip;
 mod elements;
 mod growth;
@@ -22,6 +23,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+pub use again::Retyped;
 pub(crate) use links::broken_link;
 pub use paths::StrokeSource;
 pub(crate) use prepare::character;
@@ -34,7 +36,7 @@ use crate::source::{Span, Text};
 use crate::texture::Server;
 
 /// A drawing.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Drawing {
     /// Least corner and size of the page.
     pub page: (DVec2, DVec2),
@@ -58,7 +60,7 @@ pub enum GroupKind {
 }
 
 /// A group of the drawing.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Group {
     /// Index of the group it is in; the first group is in itself.
     pub parent: usize,
@@ -80,7 +82,7 @@ pub struct Element {
     /// Its `inkscape:label`.
     pub label: Option<String>,
     /// Its `<desc>`.
-    pub desc: Option<Box<Text>>,
+    pub desc: Option<Arc<Text>>,
 }
 
 /// What a shape is painted with.
@@ -106,20 +108,20 @@ pub enum PaintKey {
 }
 
 /// A shape of the drawing.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Shape {
     /// Index of the innermost group it is in.
     pub group: usize,
     /// Its element; for what a clone shows, the clone.
     pub element: Element,
-    /// Its filled area; empty for lines.
-    pub outline: Outline,
+    /// Its filled area; empty for lines. Parts and solids share it.
+    pub outline: Arc<Outline>,
     /// Its fill, or its stroke where it has no fill.
     pub paint: Paint,
     /// Opacity of fill, element and groups together, 0 to 1.
     pub opacity: f64,
     /// Its stroke, if it has a visible one.
-    pub stroke: Option<Box<StrokeSource>>,
+    pub stroke: Option<Arc<StrokeSource>>,
     /// What a line leads from and to, if the shape is an unfilled open line.
     pub line: Option<Box<Line>>,
 }

@@ -15,6 +15,9 @@ use crate::source::Span;
 /// How deep elements may be nested; usvg refuses a little more than this.
 pub(super) const MAX_DEPTH: usize = 1000;
 
+/// What ids that are made up begin with, unless the drawing has such ids itself.
+pub(super) const ID_PREFIX: &str = "okoshi-";
+
 /// How many characters all entities of a drawing may become.
 pub(super) const MAX_ENTITY_TEXT: usize = 16 << 20;
 
@@ -71,7 +74,7 @@ struct Replacement {
 /// well-formed is no error here: the copy then equals the original from that place on, and the parser says
 /// what is wrong.
 pub(super) fn prepare(text: &str) -> Result<Prepared, Box<Diagnostic>> {
-    let mut prefix = "okoshi-".to_owned();
+    let mut prefix = ID_PREFIX.to_owned();
     while ['"', '\'']
         .iter()
         .any(|quote| text.contains(&format!("{quote}{prefix}")))

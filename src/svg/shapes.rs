@@ -207,7 +207,7 @@ impl Context<'_, '_> {
             line = open_line(&bez, node);
         }
         let stroke = stroke.map(|stroke| {
-            Box::new(StrokeSource {
+            Arc::new(StrokeSource {
                 path: path.data().clone(),
                 stroke: stroke.to_tiny_skia(),
                 transform,
@@ -232,7 +232,7 @@ impl Context<'_, '_> {
         Some(Shape {
             group: task.group,
             element,
-            outline,
+            outline: Arc::new(outline),
             paint,
             opacity,
             stroke,
@@ -293,7 +293,7 @@ impl Context<'_, '_> {
             Some(Shape {
                 group: task.group,
                 element,
-                outline,
+                outline: Arc::new(outline),
                 paint,
                 opacity,
                 stroke: None,

@@ -1,5 +1,7 @@
 //! The texts of a drawing: their characters with places, and where they stand on the page.
 
+use std::sync::Arc;
+
 use glam::{DAffine2, DMat2, DVec2};
 use roxmltree::Node;
 
@@ -16,7 +18,7 @@ const LINE_HEIGHT: f64 = 1.25;
 #[derive(Debug, Clone)]
 pub struct Label {
     /// Its characters.
-    pub text: Text,
+    pub text: Arc<Text>,
     /// The top left corner of its first line, user units.
     pub corner: DVec2,
     /// The box of all its lines, user units: the least and the greatest corner.
@@ -27,6 +29,57 @@ pub struct Label {
     pub id: Option<String>,
     /// The element.
     pub element: Span,
+    /// What its place is computed from.
+    pub(super) frame: Frame,
+}
+
+/// What the place of a text depends on, besides its characters.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Frame {
+    /// The base point of its first line, the element's own coordinates.
+    base: DVec2,
+    /// What of the text stands there.
+    anchor: Anchor,
+    /// The font size, the element's own coordinates.
+    size: f64,
+    /// From the element's own coordinates to the page.
+    transform: DAffine2,
+}
+
+/// Which point of its first line a text is placed by.
+#[derive(Debug, Clone, Copy)]
+enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+impl Frame {
+    /// Where `text` stands: its top left corner, and its box; `None` where that is no place.
+    pub(super) fn place(&self, text: &str) -> Option<(DVec2, (DVec2, DVec2))> {
+        let Self { base, size, .. } = *self;
+        let widths = text.split('\n').map(|line| width(line) * size);
+        let width = widths.fold(0.0, f64::max);
+        let left = match self.anchor {
+            Anchor::Start => base.x,
+            Anchor::Middle => base.x - width / 2.0,
+            Anchor::End => base.x - width,
+        };
+        let lines = text.split('\n').count() as f64;
+        let top_left = DVec2::new(left, base.y - ASCENT * size);
+        let bottom_right = top_left + DVec2::new(width, (1.0 + LINE_HEIGHT * (lines - 1.0)) * size);
+        let corners = [
+            top_left,
+            DVec2::new(bottom_right.x, top_left.y),
+            DVec2::new(top_left.x, bottom_right.y),
+            bottom_right,
+        ]
+        .map(|corner| self.transform.transform_point2(corner));
+        let corner = corners[0];
+        let low = corners.iter().copied().fold(corner, DVec2::min);
+        let high = corners.iter().copied().fold(corner, DVec2::max);
+        corner.is_finite().then_some((corner, (low, high)))
+    }
 }
 
 /// Reads a `<text>` or `<flowRoot>` element; `None` where it is hidden or has no place.
@@ -35,43 +88,26 @@ pub(super) fn read(node: Node<'_, '_>, styles: &Styles<'_>, prepared: &Prepared)
         return None;
     }
     let text = content(node, prepared);
-    let transform = page_transform(node);
     let size = styles.font_size(first_run(node));
-    let anchor = styles
-        .inherited(first_run(node), "text-anchor")
-        .unwrap_or("start")
-        .to_owned();
-    let base = position(node, styles)?;
-    let widths = text.as_str().split('\n').map(|line| width(line) * size);
-    let width = widths.fold(0.0, f64::max);
-    let left = match anchor.as_str() {
-        "middle" => base.x - width / 2.0,
-        "end" => base.x - width,
-        _ => base.x,
+    let frame = Frame {
+        base: position(node, styles)?,
+        anchor: match styles.inherited(first_run(node), "text-anchor") {
+            Some("middle") => Anchor::Middle,
+            Some("end") => Anchor::End,
+            _ => Anchor::Start,
+        },
+        size,
+        transform: page_transform(node),
     };
-    let lines = text.as_str().split('\n').count() as f64;
-    let top_left = DVec2::new(left, base.y - ASCENT * size);
-    let bottom_right = top_left + DVec2::new(width, (1.0 + LINE_HEIGHT * (lines - 1.0)) * size);
-    let corners = [
-        top_left,
-        DVec2::new(bottom_right.x, top_left.y),
-        DVec2::new(top_left.x, bottom_right.y),
-        bottom_right,
-    ]
-    .map(|corner| transform.transform_point2(corner));
-    let corner = corners[0];
-    if !corner.is_finite() {
-        return None;
-    }
-    let low = corners.iter().copied().fold(corner, DVec2::min);
-    let high = corners.iter().copied().fold(corner, DVec2::max);
+    let (corner, bounds) = frame.place(text.as_str())?;
     Some(Label {
-        text,
+        text: Arc::new(text),
         corner,
-        bounds: (low, high),
-        font_size: size * transform.matrix2.determinant().abs().sqrt(),
+        bounds,
+        font_size: size * frame.transform.matrix2.determinant().abs().sqrt(),
         id: node.attribute("id").map(str::to_owned),
         element: prepared.span(node.range()),
+        frame,
     })
 }
 

@@ -9,6 +9,7 @@
 //! linear gradient runs from x = 0 to 1, the end circle of a radial one is the unit circle, and the tile of a
 //! pattern, as a picture, fills the unit square, y down.
 
+mod baker;
 mod gradient;
 mod picture;
 mod tile;
@@ -17,6 +18,7 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DMat2, DVec2};
 
+pub use baker::Baker;
 pub use gradient::{Focus, Gradient, Spread, Stop};
 pub use picture::{Decoded, PictureError, decode, picture};
 

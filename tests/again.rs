@@ -1,0 +1,478 @@
+//! Compiling again gives what compiling gives, whatever was edited before.
+
+mod common;
+
+use std::cell::Cell;
+use std::fs;
+use std::path::Path;
+use std::sync::{Arc, LazyLock};
+
+use okoshi::compile::{Compiled, Compiler, Options, compile};
+use okoshi::resolver::{LinkError, Resolver};
+use okoshi::source::Text;
+use proptest::prelude::*;
+use proptest::sample::Index;
+use proptest::test_runner::{FileFailurePersistence, TestRunner};
+
+/// What is typed or pasted into strings.
+const PIECES: &[&str] = &[
+    "a",
+    "k",
+    "1",
+    "-",
+    ".",
+    " ",
+    "  ",
+    "$",
+    "@",
+    "%",
+    "*",
+    "#",
+    "\"",
+    "(",
+    ")",
+    "あ",
+    "Ｕ",
+    "🦀",
+    "é",
+    "e\u{301}",
+    "\t",
+    "\n",
+    "\u{a0}",
+    "\u{3000}",
+    "\u{200b}",
+    "]",
+    "]]",
+    ">",
+    "=>",
+    "'",
+    "@Ubody",
+    "@arm",
+    "$Shape ",
+    "roundv -90 90",
+    " Axis 30",
+    " -s",
+    " -d",
+    " Color red",
+    "Shape none",
+    "$Texture gull.png",
+    "Shape model duck.glb",
+    " Origin start",
+    "%Let a = 3",
+    "(a * 2)",
+    "%Scale 2",
+    "%Strokes all",
+    "%Bind outline",
+    "#",
+    "* ",
+    "arm",
+    "body",
+    "okoshi-",
+    "\"okoshi-1",
+    "'okoshi--",
+    "legend",
+    "Group",
+];
+
+/// What is put in anywhere.
+const SIGNS: &[&str] = &[
+    "<",
+    ">",
+    "&",
+    "\"",
+    "'",
+    "/",
+    "=",
+    ";",
+    "]]>",
+    "<!--",
+    "-->",
+    "</text>",
+    "<tspan>",
+    "<desc>a$</desc>",
+    "&amp;",
+    "&e;",
+    "\r",
+    "\n",
+    "\r\n",
+    "\u{1}",
+    "\u{fffe}",
+    "\u{feff}",
+    "0",
+    "9",
+    "-",
+    " ",
+    "x",
+    "url(#g)",
+    "display=\"none\"",
+    "<text x=\"3\" y=\"4\">new</text>",
+    "<rect width=\"4\" height=\"3\"/>",
+    "<![CDATA[",
+    "id=\"b\"",
+];
+
+/// Drawings in which texts are written in all the ways there are.
+const DRAWINGS: &[&str] = &[
+    // Entities, CDATA, lines, spaces, comments between.
+    r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 90 60" width="9cm">
+<rect id="body" x="30" y="20" width="20" height="30"/>
+<text x="30" y="24" text-anchor="middle">Ubody</text>
+<rect x="50" y="22" width="30" height="8" fill="red"/>
+<text xml:space="preserve" x="60" y="25">arm<tspan x="60" y="30">@Ubody </tspan><tspan dy="5">$Shape roundv -90 90</tspan> <!-- an --> end</text>
+<text x="70" y="50">c&amp;d&#x40;Ubody$Axis 35</text><circle r="8" cx="20" cy="10"/><text y="10" x="19" text-anchor="end" font-size="6">a&amp;b&#x40;Ubody<![CDATA[$Axis]]> 30</text>
+<text x="1" y="5"><![CDATA[%Let a = 3]]></text><text x="2" y="9">%Scale 2&lt;</text><text x="3" y="60"># Notiz</text></svg>"#,
+    // Descriptions, clones, groups, leaders, connectors, titles, hidden texts and texts in definitions.
+    r##"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="200" height="200">
+<title>arm</title><style>.c { fill: blue } text { font-size: 5px }</style>
+<defs><text id="unseen">in definitions</text><linearGradient id="g"><stop offset="0" stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient>
+<pattern id="p" width="4" height="4" patternUnits="userSpaceOnUse"><rect width="2" height="2"/></pattern></defs>
+<g id="limbs"><desc>torso$Shape default -5 5</desc><rect x="60" y="60" width="40" height="70" fill="url(#g)"/><rect x="70" y="70" width="9" height="9" fill="url(#p)"/></g>
+<rect id="one" x="100" y="60" width="50" height="12" class="c"><title>not this</title><desc>arm@torso$Shape roundh -90 90</desc></rect>
+<use xlink:href="#one" y="40"><desc>leg@torso</desc></use><use xlink:href="#limbs" x="90" y="60"/>
+<g><text x="10" y="10">outer <tspan y="20">line</tspan></text><text x="20" y="100">second</text><circle cx="10" cy="100" r="8"/><circle cx="30" cy="150" r="8"/></g>
+<text id="far" x="150" y="180">head@torso</text><circle id="head" cx="80" cy="40" r="15" fill="green"/>
+<path d="M150 178 L82 42" fill="none" stroke="black"/><path d="M0 0 9 9" fill="none" stroke="black" inkscape:connection-start="#far" inkscape:connection-end="#head"/>
+<text x="5" y="190" display="none">hidden</text><text x="9" y="199"> </text><text x="5" y="195"><desc>of a text</desc>* left out</text><rect x="2" y="188" width="5" height="5"/>
+<rect x="180" y="5" width="9" height="9" fill="#00f"/><text x="181" y="9">=$Color red</text></svg>"##,
+    // Entities of the drawing's own, one with markup; Japanese, emoji; a link that leads somewhere and one that does not.
+    "<!DOCTYPE svg [<!ENTITY e \"胴\"><!ENTITY m \"<tspan>腕＠胴</tspan>\"><!ENTITY t \"<text x='5' y='30'>twice</text>\">]>\r\n\
+<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"100\" height=\"100\">\r\n\
+<rect x=\"20\" y=\"20\" width=\"30\" height=\"40\"/><text x=\"22\" y=\"30\">&e;＄形 丸 －９０ ９０</text>\r\n\
+<rect x=\"60\" y=\"20\" width=\"30\" height=\"10\"/><text x=\"62\" y=\"25\">&m;</text>\r\n\
+<circle cx=\"30\" cy=\"80\" r=\"9\"/><text x=\"30\" y=\"80\">🦀🦀@胴\r\n  $Offset 3\r\n</text>&t;&t;<rect x=\"3\" y=\"29\" width=\"4\" height=\"4\"/>\r\n\
+<image x=\"60\" y=\"60\" width=\"30\" height=\"30\" xlink:href=\"gull.png\"/><text x=\"70\" y=\"75\">bird$Texture gull.png</text>\
+<image x=\"0\" y=\"60\" width=\"9\" height=\"9\" xlink:href=\"missing.png\"/></svg>\r\n",
+];
+
+static EXAMPLES: LazyLock<Vec<String>> = LazyLock::new(|| {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+    let read = |name: String| fs::read_to_string(root.join(name + ".svg")).expect("an example");
+    common::examples().into_iter().map(read).collect()
+});
+
+/// The pictures and models beside the examples, which come and go.
+struct Files {
+    gull: Option<Arc<[u8]>>,
+    canvas: Arc<[u8]>,
+    model: Arc<[u8]>,
+}
+
+impl Files {
+    fn new() -> Self {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
+        let read = |name: &str| Arc::from(fs::read(root.join(name)).expect("a file"));
+        Self {
+            gull: Some(read("gull.png")),
+            canvas: read("canvas.png"),
+            model: read("shapes/biscuit.glb"),
+        }
+    }
+}
+
+impl Resolver for Files {
+    fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
+        match link {
+            "gull.png" => self.gull.clone().ok_or(LinkError::Missing),
+            "canvas.png" => Ok(Arc::clone(&self.canvas)),
+            "duck.glb" | "biscuit.glb" => Ok(Arc::clone(&self.model)),
+            _ => Err(LinkError::Missing),
+        }
+    }
+}
+
+/// Something that is done to a drawing.
+#[derive(Debug, Clone)]
+enum Act {
+    /// Puts a piece into a text, for so many characters.
+    Type(Index, Index, Index, usize),
+    /// Puts signs anywhere, for so many characters.
+    Anywhere(Index, Index, usize),
+    /// Changes a digit in a tag.
+    Tag(Index, u8),
+    /// Takes back so many acts.
+    Undo(usize),
+    /// Changes a linked file.
+    File(u8),
+    /// Drops what is remembered.
+    Forget,
+    /// Chooses a tolerance.
+    Tolerance(bool),
+}
+
+fn act() -> impl Strategy<Value = Act> {
+    let index = any::<Index>;
+    prop_oneof![
+        12 => (index(), index(), index(), 0..3_usize).prop_map(|(t, at, piece, gone)| Act::Type(t, at, piece, gone)),
+        6 => (index(), index(), index()).prop_map(|(t, at, piece)| Act::Type(t, at, piece, 0)),
+        2 => (index(), index(), 0..3_usize).prop_map(|(at, signs, gone)| Act::Anywhere(at, signs, gone)),
+        2 => (index(), 0..10_u8).prop_map(|(at, digit)| Act::Tag(at, digit)),
+        3 => (1..4_usize).prop_map(Act::Undo),
+        1 => (0..3_u8).prop_map(Act::File),
+        1 => Just(Act::Forget),
+        1 => any::<bool>().prop_map(Act::Tolerance),
+    ]
+}
+
+/// The texts of a drawing that can be typed in.
+fn texts(compiled: &Compiled) -> Vec<&Text> {
+    let drawing = &compiled.drawing;
+    let groups = drawing.groups.iter().map(|group| &group.element);
+    let elements = groups.chain(drawing.shapes.iter().map(|shape| &shape.element));
+    let descs = elements.filter_map(|element| element.desc.as_deref());
+    let labels = drawing.labels.iter().map(|(label, _)| &*label.text);
+    descs.chain(labels).collect()
+}
+
+/// The byte range of so many characters from one of a text's on.
+fn range(text: &str, at: &Index, count: usize) -> (usize, usize) {
+    let mut bounds: Vec<usize> = text.char_indices().map(|(at, _)| at).collect();
+    bounds.push(text.len());
+    let from = at.index(bounds.len());
+    (bounds[from], bounds[(from + count).min(bounds.len() - 1)])
+}
+
+/// The text that an act makes of a drawing's.
+fn edited(text: &str, last: &Compiled, act: &Act) -> String {
+    let mut text = text.to_owned();
+    match act {
+        Act::Type(which, at, piece, count) => {
+            let texts = texts(last);
+            if !texts.is_empty() {
+                let chosen = texts[which.index(texts.len())];
+                let (from, to) = range(chosen.as_str(), at, *count);
+                let span = chosen.span(from..to);
+                // Half of what takes something away puts nothing in.
+                let piece = match piece.index(2 * PIECES.len()) {
+                    pick if pick < PIECES.len() => PIECES[pick],
+                    pick if *count == 0 => PIECES[pick - PIECES.len()],
+                    _ => "",
+                };
+                text.replace_range(span.start..span.end, piece);
+            }
+        }
+        Act::Anywhere(at, signs, count) => {
+            let (from, to) = range(&text, at, *count);
+            text.replace_range(from..to, SIGNS[signs.index(SIGNS.len())]);
+        }
+        Act::Tag(at, digit) => {
+            let digits: Vec<usize> = text
+                .char_indices()
+                .filter(|(_, c)| c.is_ascii_digit())
+                .map(|(at, _)| at)
+                .collect();
+            if !digits.is_empty() {
+                let at = digits[at.index(digits.len())];
+                text.replace_range(at..=at, &digit.to_string());
+            }
+        }
+        Act::Undo(_) | Act::File(_) | Act::Forget | Act::Tolerance(_) => {}
+    }
+    text
+}
+
+/// All that is said of a drawing but its scene.
+fn told(compiled: &Compiled) -> String {
+    format!(
+        "{:#?}\n{:#?}\n{:#?}\n{:#?}",
+        compiled.diagnostics,
+        compiled.dependencies,
+        compiled.sheet.strings,
+        compiled.drawing.labels
+    )
+}
+
+/// All of a compiled drawing, in one line.
+fn all(compiled: &Compiled) -> String {
+    format!("{:?}\n{:?}", compiled.sheet, compiled.drawing)
+}
+
+/// Does some acts one after another, and looks every time whether both ways to compile agree. Tells how often the
+/// drawing was not read anew.
+fn agree(drawing: &str, acts: &[Act]) -> Result<usize, TestCaseError> {
+    let mut files = Files::new();
+    let mut options = Options::default();
+    let mut compiler = Compiler::default();
+    let mut text = drawing.to_owned();
+    let mut undo = Vec::new();
+    let mut last = compiler.compile(&text, &options, &files);
+    let mut partial = 0;
+    for act in acts {
+        match act {
+            Act::Undo(count) => {
+                for _ in 0..*count {
+                    text = undo.pop().unwrap_or(text);
+                }
+            }
+            Act::File(0) => files.gull = None,
+            Act::File(1) => files.gull = Some(Arc::clone(&files.canvas)),
+            Act::File(_) => files.gull = Files::new().gull,
+            Act::Forget => compiler.forget(),
+            Act::Tolerance(coarse) => options.tolerance = if *coarse { 0.01 } else { 0.001 },
+            _ => {
+                let next = edited(&text, &last, act);
+                undo.push(std::mem::replace(&mut text, next));
+            }
+        }
+        let again = compiler.compile(&text, &options, &files);
+        let anew = compile(&text, &options, &files);
+        partial += usize::from(compiler.last_was_partial());
+        prop_assert_eq!(told(&again), told(&anew), "{:?} made {}", act, text);
+        prop_assert!(all(&again) == all(&anew), "{:?} made {}", act, text);
+        prop_assert!(again.scene == anew.scene, "{:?} made {}", act, text);
+        // What the last one held must not have changed under it; every other time nobody holds it.
+        last = if undo.len() % 2 == 0 { again } else { anew };
+    }
+    let anew = compile(&text, &options, &files);
+    let again = compiler.compile(&text, &options, &files);
+    prop_assert!(common::glb(&again) == common::glb(&anew), "{}", text);
+    Ok(partial)
+}
+
+/// Looks at so many random histories of drawings. Some of what is done, though not all, must leave the drawing as it
+/// was read, or the law says nothing.
+fn look_at(drawings: &[&str], histories: u32, longest: usize) {
+    let config = ProptestConfig {
+        cases: std::env::var("PROPTEST_CASES")
+            .ok()
+            .and_then(|count| count.parse().ok())
+            .unwrap_or(histories),
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(
+            "tests/regressions/again.txt",
+        ))),
+        ..ProptestConfig::default()
+    };
+    let (done, partial) = (Cell::new(0), Cell::new(0));
+    let strategy = (any::<Index>(), prop::collection::vec(act(), 1..longest));
+    let found = TestRunner::new(config).run(&strategy, |(which, acts)| {
+        partial.set(partial.get() + agree(drawings[which.index(drawings.len())], &acts)?);
+        done.set(done.get() + acts.len());
+        Ok(())
+    });
+    if let Err(error) = found {
+        panic!("{error}");
+    }
+    let (done, partial) = (done.get(), partial.get());
+    assert!(
+        10 * partial > 2 * done && 10 * partial < 9 * done,
+        "{partial} of {done}"
+    );
+}
+
+#[test]
+fn histories_leave_no_trace() {
+    look_at(DRAWINGS, 300, 24);
+}
+
+#[test]
+fn histories_of_examples_leave_no_trace() {
+    let examples: Vec<&str> = EXAMPLES.iter().map(String::as_str).collect();
+    look_at(&examples, 24, 12);
+}
+
+/// Whether a drawing was not read anew after one text took another's place in it.
+fn is_partial(drawing: &str, from: &str, to: &str) -> bool {
+    let (options, files) = (Options::default(), Files::new());
+    let mut compiler = Compiler::default();
+    let first = compiler.compile(drawing, &options, &files);
+    assert!(!compiler.last_was_partial());
+    assert!(drawing.contains(from), "{from}");
+    let text = drawing.replacen(from, to, 1);
+    let before = all(&first);
+    let again = compiler.compile(&text, &options, &files);
+    assert_eq!(all(&first), before, "what was given away has changed");
+    let anew = compile(&text, &options, &files);
+    assert_eq!(told(&again), told(&anew), "{from} -> {to}");
+    assert!(
+        all(&again) == all(&anew) && again.scene == anew.scene,
+        "{from} -> {to}"
+    );
+    compiler.last_was_partial()
+}
+
+#[test]
+fn keystrokes_in_strings_do_not_read_the_drawing_anew() {
+    for (which, from, to) in [
+        (0, ">Ubody", ">Uboody"),
+        (0, ">Ubody<", ">Ubody$<"),
+        (0, ">Ubody<", ">xUbody<"),
+        (0, ">Ubody<", ">U<"),
+        (0, ">arm<", ">armあ🦀<"),
+        (0, "@Ubody <", "@Ubody  <"),
+        (0, "roundv -90", "roundh -9"),
+        (0, "c&amp;d", "cx&amp;d"),
+        (0, "c&amp;d", "c&amp;xd"),
+        (0, " 35<", " 35.5<"),
+        (0, "%Scale 2&lt;", "%Scale 23&lt;"),
+        (0, "# Notiz", "Notiz"),
+        (1, "torso$Shape", "torso$ Shape"),
+        (1, "arm@torso$", "arm$"),
+        (1, "leg@torso", "leg"),
+        (1, "head@torso", "head\n@torso"),
+        (1, "line</tspan>", "lines</tspan>"),
+        (2, "🦀🦀", "🦀"),
+        (2, "$Offset 3", "$Offset 33"),
+        (2, "$Offset 3\r\n", "$Offset 30\r\n"),
+        (2, "$Texture gull.png", "$Texture gull.pn"),
+    ] {
+        assert!(is_partial(DRAWINGS[which], from, to), "{from} -> {to}");
+    }
+}
+
+#[test]
+fn what_may_mean_more_is_read_anew() {
+    for (which, from, to) in [
+        // Texts that come, go, or are not read.
+        (0, ">Ubody<", "><"),
+        (0, ">Ubody<", "> <"),
+        (1, "\"199\"> <", "\"199\"> x<"),
+        (1, "in definitions", "in definition"),
+        (1, ">hidden", ">hiden"),
+        (1, ">not this", ">not that"),
+        (1, "fill: blue", "fill: red"),
+        (1, ">of a text", ">of text"),
+        // Markup, and what becomes markup.
+        (0, ">Ubody<", ">U<b/>ody<"),
+        (0, ">Ubody<", ">U&amp;body<"),
+        (0, "a&amp;b", "a&gt;b"),
+        (0, "$Axis]]>", "$Axs]]>"),
+        (0, "<!-- an -->", "<!-- a -->"),
+        (0, ">Ubody<", ">]]>Ubody<"),
+        (0, "\"30\"", "\"31\""),
+        // What is in entities counts wherever they are.
+        (2, ">twice", ">thrice"),
+        (2, "\"胴\"", "\"体\""),
+        // A line end beside another, and a name like those that are made up.
+        (2, "3\r\n<", "3\r<"),
+        (0, ">Ubody<", ">\"okoshi-Ubody<"),
+    ] {
+        assert!(!is_partial(DRAWINGS[which], from, to), "{from} -> {to}");
+    }
+    // What was broken by one change is mended by the next.
+    let broken = DRAWINGS[0].replacen("Ubody", "U]]body", 1);
+    assert!(!is_partial(&broken, "]]body", "]]>body"));
+    let held_apart = DRAWINGS[0].replacen("Ubody", "U]x]&gt;body", 1);
+    assert!(is_partial(&held_apart, "]x]", "]]"));
+    let held_apart = DRAWINGS[0].replacen("Ubody", "U]x]>body", 1);
+    assert!(!is_partial(&held_apart, "]x]", "]]"));
+}
+
+#[test]
+fn linked_files_are_seen_to() {
+    let options = Options::default();
+    let mut files = Files::new();
+    let mut compiler = Compiler::default();
+    let text = DRAWINGS[2];
+    let first = compiler.compile(text, &options, &files);
+    compiler.compile(text, &options, &files);
+    assert!(compiler.last_was_partial());
+    files.gull = None;
+    let gone = compiler.compile(text, &options, &files);
+    assert!(!compiler.last_was_partial());
+    assert!(gone.diagnostics.len() > first.diagnostics.len());
+    assert_eq!(told(&gone), told(&compile(text, &options, &files)));
+    files = Files::new();
+    compiler.forget();
+    let back = compiler.compile(text, &options, &files);
+    assert!(!compiler.last_was_partial());
+    assert_eq!(told(&back), told(&first));
+}
