@@ -148,7 +148,7 @@ mod tests {
         assert_eq!(change("abc", "ac"), (1, 2, 1));
         assert_eq!(change("aa", "aaa"), (2, 2, 3));
         assert_eq!(change("aaa", "aa"), (2, 3, 2));
-        // あ and い begin alike; い and ア end in different bytes, あ and ち (e3 81 82, e3 81 a1) do not begin apart.
+        // These begin with the same bytes, and the next two end with the same byte.
         assert_eq!(change("xあy", "xいy"), (1, 4, 4));
         assert_eq!(change("é", "ĩ"), (0, 2, 2));
         assert!(Change::between("same", "same").is_empty());
