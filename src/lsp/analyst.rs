@@ -3,7 +3,7 @@
 //! A text that changes while it waits is compiled once, as it is then. What was found in a state that is no longer the
 //! newest is thrown away. Diagnostics leave in the order in which they were found, with the number of their state.
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
@@ -14,7 +14,7 @@ use tower_lsp::ls_types::Uri;
 
 use super::documents::{Analysed, Document, Documents};
 use super::{convert, links::Links, manual, progress};
-use crate::compile::{Compiled, Options, compile};
+use crate::compile::{Compiled, Compiler, Options};
 use crate::disk::FolderResolver;
 use crate::ide::Analysis;
 use crate::resolver::{MemoryResolver, Resolver};
@@ -168,23 +168,27 @@ pub(super) struct Abilities {
 
 /// Works until the process ends.
 pub(super) fn work(analyst: &Analyst, desk: &Desk) {
+    // What is remembered of each text from one keystroke to the next.
+    let mut compilers: BTreeMap<String, Compiler> = BTreeMap::new();
     loop {
         match analyst.next() {
             Task::Clear(uri) => {
+                compilers.remove(uri.as_str());
                 desk.links.forget(uri.as_str());
                 let sending = desk.client.publish_diagnostics(uri, vec![], None);
                 desk.runtime.block_on(sending);
             }
             Task::Analyse(uri) => {
                 if let Some(document) = analyst.documents.current(&uri) {
-                    analyse(analyst, desk, document);
+                    let compiler = compilers.entry(uri).or_default();
+                    analyse(analyst, desk, compiler, document);
                 }
             }
         }
     }
 }
 
-fn analyse(analyst: &Analyst, desk: &Desk, document: Arc<Document>) {
+fn analyse(analyst: &Analyst, desk: &Desk, compiler: &mut Compiler, document: Arc<Document>) {
     let uri = document.uri.clone();
     let progress = desk
         .abilities
@@ -192,7 +196,7 @@ fn analyse(analyst: &Analyst, desk: &Desk, document: Arc<Document>) {
         .load(Ordering::Relaxed)
         .then(|| progress::begin(desk, &document));
     let last = analyst.documents.last(uri.as_str());
-    let compiled = compiled(&document);
+    let compiled = compiled(compiler, &document);
     let places = places(&document, &compiled);
     desk.links.watch(uri.as_str(), places);
     let analysis = Analysis::new(document.text().clone(), compiled);
@@ -231,12 +235,12 @@ fn analyse(analyst: &Analyst, desk: &Desk, document: Arc<Document>) {
 }
 
 /// Compiles a state of a text; links are read from its folder.
-fn compiled(document: &Document) -> Compiled {
+fn compiled(compiler: &mut Compiler, document: &Document) -> Compiled {
     let resolver: Box<dyn Resolver> = match document.folder() {
         Some(folder) => Box::new(FolderResolver::new(folder)),
         None => Box::new(MemoryResolver::default()),
     };
-    compile(document.text(), &Options::default(), resolver.as_ref())
+    compiler.compile(document.text(), &Options::default(), resolver.as_ref())
 }
 
 /// The files that a drawing links to, also those that are not there yet.
