@@ -23,16 +23,22 @@ export function register(context: vscode.ExtensionContext, server: Server, outpu
   }
 }
 
-/** The drawing in the active editor, or a message that there is none. */
-function activeDrawing(): vscode.TextDocument | undefined {
-  const document = vscode.window.activeTextEditor?.document;
+/**
+ * The drawing in the active editor, or a message that there is none. Editors open SVG files as pictures too: such a drawing
+ * is read as text, without being shown as such.
+ */
+async function activeDrawing(): Promise<vscode.TextDocument | undefined> {
+  const input = vscode.window.tabGroups.activeTabGroup.activeTab?.input;
+  const shown = vscode.window.activeTextEditor?.document;
+  const document =
+    input instanceof vscode.TabInputCustom && input.uri.path.endsWith(".svg") ? await vscode.workspace.openTextDocument(input.uri) : shown;
   if (document && looksAfter(document)) return document;
-  void vscode.window.showInformationMessage("Open a drawing, an SVG file, as text first.");
+  void vscode.window.showInformationMessage("Open a drawing, an SVG file, first.");
   return undefined;
 }
 
 async function preview(server: Server): Promise<void> {
-  const drawing = activeDrawing();
+  const drawing = await activeDrawing();
   if (!drawing) return;
   if (!server.running) await server.restart();
   const client = server.running;
@@ -49,7 +55,7 @@ async function preview(server: Server): Promise<void> {
 }
 
 async function build(server: Server): Promise<void> {
-  const drawing = activeDrawing();
+  const drawing = await activeDrawing();
   if (!drawing) return;
   if (drawing.uri.scheme !== "file" || (drawing.isDirty && !(await drawing.save()))) {
     void vscode.window.showInformationMessage("Save the drawing first: the model is written beside it.");
