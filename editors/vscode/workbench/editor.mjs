@@ -38,7 +38,10 @@ export class Editor {
     await this.press("F1");
     const input = await this.see(".quick-input-widget input");
     await input.fill(`>${title}`);
-    await (await this.see(".quick-input-list .monaco-list-row", title)).click();
+    // The list is narrowed down a moment after typing.
+    await this.page.waitForTimeout(400);
+    await this.see(".quick-input-list .monaco-list-row.focused", title);
+    await this.press("Enter");
     await this.page.locator(".quick-input-widget").waitFor({ state: "hidden", timeout: PATIENCE }).catch(() => {});
   }
 
