@@ -83,19 +83,17 @@ export class Server implements vscode.Disposable {
 
   /** Ends the server and starts it again, whether drawings are open or not. */
   restart(): Promise<void> {
-    return this.inTurn(async () => {
-      this.told = false;
-      this.crashes = [];
-      await this.stopNow();
-      await this.startNow();
-    });
+    return this.inTurn(() => this.restartNow());
   }
 
   /** Tells the server what has changed in the settings, or starts the program that they now name. */
   settingsChanged(event: vscode.ConfigurationChangeEvent): void {
     if (event.affectsConfiguration("okoshi.trace.server")) this.tracing.ask(settings().traced);
     if (event.affectsConfiguration("okoshi.path")) {
-      if (this.now.kind !== "idle") void this.restart();
+      // In turn: settings often arrive while the program of the old ones is still looked for.
+      void this.inTurn(async () => {
+        if (this.now.kind !== "idle") await this.restartNow();
+      });
     } else if (event.affectsConfiguration("okoshi.analyse")) {
       this.running
         ?.sendNotification(DidChangeConfigurationNotification.type, configuration(settings()))
@@ -137,6 +135,13 @@ export class Server implements vscode.Disposable {
   private become(state: State): void {
     this.now = state;
     this.changes.fire();
+  }
+
+  private async restartNow(): Promise<void> {
+    this.told = false;
+    this.crashes = [];
+    await this.stopNow();
+    await this.startNow();
   }
 
   private async stopNow(): Promise<void> {

@@ -13,6 +13,12 @@ test("every command is registered, and every registered one is listed", () => {
   assert.deepEqual([...registered].sort(), [...commands].sort());
 });
 
+test("both languages colour tokens by meaning alike", () => {
+  const [xml, svg, ...more] = manifest.contributes.semanticTokenScopes;
+  assert.deepEqual([xml?.language, svg?.language, more], ["xml", "svg", []]);
+  assert.deepEqual(xml?.scopes, svg?.scopes);
+});
+
 test("the walkthrough's commands, pictures and pages are there", () => {
   for (const { steps } of manifest.contributes.walkthroughs) {
     for (const { description, media, completionEvents } of steps) {

@@ -125,13 +125,12 @@ try {
     assert.equal(await editor.colour("circle id", 'id="head"'), tag);
     assert.notEqual(await editor.colour("# Figures", "# Figures"), keyword);
   });
-  const ready = async (more = {}) => {
-    settings({ "okoshi.path": okoshi, "editor.semanticHighlighting.enabled": true, ...more });
-    await open("figure.svg");
-  };
+  const configure = (more) => settings({ "okoshi.path": okoshi, "editor.semanticHighlighting.enabled": true, ...more });
+  // In the window that has told of a missing program: what the setting names now is started there.
+  const ready = async () => configure({});
   const read = (name = "figure.svg") => readFileSync(join(project, name), "utf8");
   const reset = () => copyFileSync(join(here, "figure.svg"), join(project, "figure.svg"));
-  await withServer({ editor, page, step, ready, read, reset, open, shots });
+  await withServer({ editor, page, step, ready, configure, read, reset, open, shots });
   assert.ok(number > 0, `no step is named ${process.env.ONLY}`);
 } catch (error) {
   await page.screenshot({ path: join(shots, "failure.png") });

@@ -13,7 +13,7 @@ function place(text, wanted, at = 0) {
 
 const WRONG = "Head@Body$Shap round";
 
-export async function withServer({ editor, page, step, ready, read, reset, open, shots }) {
+export async function withServer({ editor, page, step, ready, configure, read, reset, open, shots }) {
   const figure = read();
   const at = (wanted, offset) => editor.caret(place(figure, wanted, offset));
   /** The drawing on disk after saving, once it is as wanted. */
@@ -160,6 +160,18 @@ export async function withServer({ editor, page, step, ready, read, reset, open,
     await picture.first().waitFor({ state: "visible", timeout: 60_000 });
     assert.ok(await picture.first().evaluate((image) => image.complete && image.naturalWidth > 100));
     await page.screenshot({ path: join(shots, "preview.png") });
+  });
+  await step("on demand, drawings are checked when they are saved", async () => {
+    await again();
+    configure({ "okoshi.analyse": "onSave" });
+    await page.waitForTimeout(1500);
+    await at("Arm@Body", 8);
+    await editor.type("x");
+    await page.waitForTimeout(2500);
+    assert.equal(await page.locator(".squiggly-error").count(), 1);
+    await editor.press("Control+s");
+    await editor.until("two errors", async () => (await page.locator(".squiggly-error").count()) >= 2);
+    configure({});
   });
   await step("drawings without strings are left alone", async () => {
     await page.waitForTimeout(300);
