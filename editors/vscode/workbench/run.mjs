@@ -6,7 +6,7 @@
 // time that takes minutes and 700 MB. Building code-server's native parts takes libkrb5-dev.
 
 import assert from "node:assert/strict";
-import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { pack } from "../scripts/package.mjs";
@@ -26,7 +26,7 @@ const shots = join(room, "shots");
 
 if (!existsSync(okoshi)) throw new Error(`There is no ${okoshi}: build it, or name another by OKOSHI=`);
 for (const folder of [project, data, shots, join(room, "extensions")]) rmSync(folder, { recursive: true, force: true });
-for (const folder of [project, join(data, "User"), shots]) mkdirSync(folder, { recursive: true });
+for (const folder of [project, join(data, "User"), join(data, "Machine"), shots]) mkdirSync(folder, { recursive: true });
 copyFileSync(join(here, "figure.svg"), join(project, "figure.svg"));
 copyFileSync(join(extension, "test", "plain.svg"), join(project, "plain.svg"));
 
@@ -46,11 +46,20 @@ const SETTINGS = {
   "workbench.startupEditor": "none",
   "workbench.tips.enabled": false,
 };
-const settings = (more) => writeFileSync(join(data, "User", "settings.json"), JSON.stringify({ ...SETTINGS, ...more }, null, 2));
+/** Writes settings by rename: the editor would read a file that is half written. */
+const write = (file, values) => {
+  writeFileSync(`${file}.new`, JSON.stringify(values, null, 2));
+  renameSync(`${file}.new`, file);
+};
+const settings = (path, more = {}) => {
+  write(join(data, "User", "settings.json"), { ...SETTINGS, ...more });
+  // What belongs to a machine is read from the machine's settings where the editor's window is elsewhere.
+  write(join(data, "Machine", "settings.json"), { "okoshi.path": path });
+};
 
 pack(join(room, "okoshi.vsix"));
 const found = await tools(room);
-settings({ "okoshi.path": "okoshi-that-is-not-there" });
+settings("okoshi-that-is-not-there");
 const server = await codeServer(found, { vsix: join(room, "okoshi.vsix"), data, extensions: join(room, "extensions"), env: { HOME: room } });
 const browser = await found.chromium.launch({
   executablePath: found.browser,
@@ -125,12 +134,19 @@ try {
     assert.equal(await editor.colour("circle id", 'id="head"'), tag);
     assert.notEqual(await editor.colour("# Figures", "# Figures"), keyword);
   });
-  const configure = (more) => settings({ "okoshi.path": okoshi, "editor.semanticHighlighting.enabled": true, ...more });
+  /** A program that stands before okoshi; its process id is in `NAME.pid`. Returns its path. */
+  const program = (name, script) => {
+    const file = join(room, name);
+    rmSync(`${file}.pid`, { force: true });
+    writeFileSync(file, `#!/bin/sh\necho $$ > ${file}.pid\n${script.replaceAll("OKOSHI", okoshi)}\n`, { mode: 0o755 });
+    return file;
+  };
+  const configure = (more, path = okoshi) => settings(path, { "editor.semanticHighlighting.enabled": true, ...more });
   // In the window that has told of a missing program: what the setting names now is started there.
   const ready = async () => configure({});
   const read = (name = "figure.svg") => readFileSync(join(project, name), "utf8");
   const reset = () => copyFileSync(join(here, "figure.svg"), join(project, "figure.svg"));
-  await withServer({ editor, page, step, ready, configure, read, reset, open, shots });
+  await withServer({ editor, page, step, ready, configure, program, read, reset, open, shots });
   assert.ok(number > 0, `no step is named ${process.env.ONLY}`);
 } catch (error) {
   await page.screenshot({ path: join(shots, "failure.png") });

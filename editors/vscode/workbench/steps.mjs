@@ -1,6 +1,7 @@
 // What a person does with the language server there. Each step begins with the drawing as it lies in figure.svg.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
 /** Line and column, from 1, of the `at`th character of a text's first occurrence. */
@@ -13,7 +14,7 @@ function place(text, wanted, at = 0) {
 
 const WRONG = "Head@Body$Shap round";
 
-export async function withServer({ editor, page, step, ready, configure, read, reset, open, shots }) {
+export async function withServer({ editor, page, step, ready, configure, program, read, reset, open, shots }) {
   const figure = read();
   const at = (wanted, offset) => editor.caret(place(figure, wanted, offset));
   /** The drawing on disk after saving, once it is as wanted. */
@@ -190,5 +191,29 @@ export async function withServer({ editor, page, step, ready, configure, read, r
     await page.waitForTimeout(1000);
     await editor.see(".squiggly-error");
     assert.deepEqual(await editor.messages(), []);
+  });
+  await step("a server that ends is started again", async () => {
+    const wrapped = program("okoshi-wrapped", 'exec OKOSHI "$@"');
+    configure({}, wrapped);
+    const pid = () => Number(readFileSync(`${wrapped}.pid`, "utf8"));
+    const serving = () => editor.until("a server", () => {
+      try {
+        return readFileSync(`/proc/${pid()}/cmdline`, "utf8").includes("lsp") && pid();
+      } catch {
+        return false;
+      }
+    });
+    const first = await serving();
+    await page.waitForTimeout(1000);
+    process.kill(first, "SIGKILL");
+    await editor.until("another server", async () => (await serving()) !== first);
+    await editor.see(".squiggly-error");
+    assert.deepEqual(await editor.messages(), []);
+  });
+  await step("another program is not taken for okoshi", async () => {
+    configure({}, program("not-okoshi", "echo cargo 1.90.0"));
+    await editor.see(".notifications-toasts", "is not okoshi");
+    await page.waitForTimeout(1500);
+    assert.equal((await editor.messages()).filter((one) => one.includes("is not okoshi")).length, 1);
   });
 }
