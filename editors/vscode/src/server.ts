@@ -14,6 +14,7 @@ import {
   State as ClientState,
   type CloseHandlerResult,
   type ErrorHandler,
+  type StaticFeature,
 } from "vscode-languageclient/node";
 import { candidates, firstThatRuns, versionIn } from "./binary";
 import { hasStrings, isDrawing, selector } from "./drawing";
@@ -182,6 +183,7 @@ export class Server implements vscode.Disposable {
         middleware: { window: { showDocument } },
       },
     );
+    client.registerFeature(pushOnly);
     this.client = client;
     client.onDidChangeState(({ newState }) => {
       if (this.client !== client) return;
@@ -233,6 +235,20 @@ export class Server implements vscode.Disposable {
     });
   }
 }
+
+/**
+ * Diagnostics are sent by the server when it has them, and not fetched after each change as well: the setting
+ * `okoshi.analyse` decides when that is.
+ */
+const pushOnly: StaticFeature = {
+  fillClientCapabilities: (capabilities) => {
+    delete capabilities.textDocument?.diagnostic;
+    delete capabilities.workspace?.diagnostics;
+  },
+  initialize: () => {},
+  getState: () => ({ kind: "static" }),
+  clear: () => {},
+};
 
 type Show = (message: string, ...items: string[]) => Thenable<string | undefined>;
 

@@ -39,7 +39,7 @@ export class Editor {
     const input = await this.see(".quick-input-widget input");
     await input.fill(`>${title}`);
     // The list is narrowed down a moment after typing.
-    await this.page.waitForTimeout(400);
+    await this.page.waitForTimeout(1000);
     await this.see(".quick-input-list .monaco-list-row.focused", title);
     await this.press("Enter");
     await this.page.locator(".quick-input-widget").waitFor({ state: "hidden", timeout: PATIENCE }).catch(() => {});
