@@ -45,7 +45,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     assert.equal(await editor.colour("text x", string), await editor.colour("rect id", 'id="leg"'));
   });
   await step("the status item counts", async () => {
-    await (await editor.see(".statusbar-item", "{}").catch(() => editor.see('.statusbar-item[id="status.languageStatus"]'))).hover();
+    await (await editor.see('.statusbar-item[id="status.languageStatus"]')).hover();
     await editor.see(".hover-language-status", "1 error");
   });
   await step("a hover tells of a part", async () => {
