@@ -136,6 +136,12 @@ readme() {
   bash tests/readme.sh "$(realpath "$okoshi")"
 }
 
+extension() {
+  need npm
+  cargo build --locked
+  OKOSHI=$(realpath "$okoshi") npm test --prefix editors/vscode
+}
+
 step format formatting
 step clippy lints
 step test tests
@@ -146,6 +152,7 @@ step validator validator
 step blender blender_import
 step gallery gallery
 step readme readme
+step extension extension
 
 printf '\n==== summary, %d s\n' $SECONDS
 printf '%s\n' "${summary[@]}"

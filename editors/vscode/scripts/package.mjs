@@ -1,0 +1,34 @@
+// Makes okoshi.vsix, from a clean clone too: dependencies by the lock file, type check, bundle, package.
+// Same sources, same bytes: the archive's times are fixed unless SOURCE_DATE_EPOCH names another.
+
+import { spawnSync } from "node:child_process";
+import { existsSync, statSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const here = join(dirname(fileURLToPath(import.meta.url)), "..");
+const env = { SOURCE_DATE_EPOCH: "315619200", ...process.env };
+
+function run(command, ...args) {
+  console.log(`> ${command} ${args.join(" ")}`);
+  const { status, error } = spawnSync(command, args, { cwd: here, env, stdio: "inherit", shell: process.platform === "win32" });
+  if (error) throw error;
+  if (status !== 0) process.exit(status ?? 1);
+}
+
+/** Installs what the lock file says, unless that was done since it changed. */
+export function install() {
+  const installed = join(here, "node_modules", ".package-lock.json");
+  const lock = join(here, "package-lock.json");
+  if (existsSync(installed) && statSync(installed).mtimeMs >= statSync(lock).mtimeMs) return;
+  run("npm", "ci", "--no-audit", "--no-fund");
+}
+
+export function pack(output) {
+  install();
+  run("npx", "--no-install", "tsc", "--noEmit");
+  run("node", "scripts/build.mjs");
+  run("npx", "--no-install", "vsce", "package", "--no-dependencies", "--allow-missing-repository", "-o", output);
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) pack(process.argv[2] ?? "okoshi.vsix");

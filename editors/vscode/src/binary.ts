@@ -1,0 +1,54 @@
+// Finding the program. Knows nothing of the editor, and touches the disk only through what it is given.
+
+import { posix, win32 } from "node:path";
+
+/** Where to look from. */
+export interface Surroundings {
+  /** `process.platform`. */
+  readonly platform: string;
+  readonly env: Readonly<Record<string, string | undefined>>;
+  /** The home folder. */
+  readonly home: string;
+  /** The first workspace folder, if there is one. */
+  readonly folder: string | undefined;
+}
+
+/**
+ * The paths at which the program may be, the likeliest first, for a value of the setting `okoshi.path`.
+ *
+ * A bare name is looked up on the `PATH` and then in `~/.cargo/bin`, which programs started from a desktop often lack.
+ * Relative folders on the `PATH` are left out: they would let a drawing's folder choose the program.
+ */
+export function candidates(setting: string, { platform, env, home, folder }: Surroundings): string[] {
+  const windows = platform === "win32";
+  const path = windows ? win32 : posix;
+  let name = setting.trim() || "okoshi";
+  if (name === "~" || name.startsWith("~/") || (windows && name.startsWith("~\\"))) name = path.join(home, name.slice(1));
+  if (name.includes("${workspaceFolder}")) {
+    if (folder === undefined) return [];
+    name = name.replaceAll("${workspaceFolder}", () => folder);
+  }
+  const named = (file: string) => (windows && path.extname(file) === "" ? [`${file}.exe`] : [file]);
+  if (path.isAbsolute(name)) return named(path.normalize(name));
+  if (name.includes("/") || (windows && name.includes("\\"))) {
+    return folder === undefined ? [] : named(path.resolve(folder, name));
+  }
+  const variable = windows ? Object.keys(env).find((key) => key.toUpperCase() === "PATH") : "PATH";
+  const listed = (variable === undefined ? "" : (env[variable] ?? "")).split(path.delimiter);
+  const folders = [...listed.map((entry) => entry.replace(/^"(.*)"$/, "$1")), path.join(home, ".cargo", "bin")];
+  const files = folders.filter((entry) => path.isAbsolute(entry)).flatMap((entry) => named(path.join(entry, name)));
+  return [...new Set(files)];
+}
+
+/** The first of the paths that `runs` says can be run. */
+export async function firstThatRuns(paths: readonly string[], runs: (path: string) => Promise<boolean>): Promise<string | undefined> {
+  for (const path of paths) {
+    if (await runs(path)) return path;
+  }
+  return undefined;
+}
+
+/** The version in what `okoshi --version` says; nothing if another program was asked. */
+export function versionIn(output: string): string | undefined {
+  return /^okoshi (\d+\.\d+\.\d+\S*)\s*$/m.exec(output)?.[1];
+}

@@ -1,0 +1,107 @@
+// What a person can call by name.
+
+import { execFile } from "node:child_process";
+import { basename, dirname } from "node:path";
+import { promisify } from "node:util";
+import * as vscode from "vscode";
+import { ExecuteCommandRequest } from "vscode-languageclient/node";
+import { looksAfter, type Server } from "./server";
+
+/** Registers the commands that package.json lists. */
+export function register(context: vscode.ExtensionContext, server: Server, output: vscode.LogOutputChannel): void {
+  const commands: Record<string, () => unknown> = {
+    "okoshi.previewActive": () => preview(server),
+    "okoshi.build": () => build(server),
+    "okoshi.newDrawing": () => newDrawing(server),
+    "okoshi.restart": () => server.restart(),
+    "okoshi.showOutput": () => output.show(),
+    "okoshi.openWalkthrough": () =>
+      vscode.commands.executeCommand("workbench.action.openWalkthrough", { category: `${context.extension.id}#begin` }, false),
+  };
+  for (const [name, run] of Object.entries(commands)) {
+    context.subscriptions.push(vscode.commands.registerCommand(name, run));
+  }
+}
+
+/**
+ * The drawing in the active editor, or a message that there is none. Editors open SVG files as pictures too: such a drawing
+ * is read as text, without being shown as such.
+ */
+async function activeDrawing(): Promise<vscode.TextDocument | undefined> {
+  const input = vscode.window.tabGroups.activeTabGroup.activeTab?.input;
+  const shown = vscode.window.activeTextEditor?.document;
+  const document =
+    input instanceof vscode.TabInputCustom && input.uri.path.endsWith(".svg") ? await vscode.workspace.openTextDocument(input.uri) : shown;
+  if (document && looksAfter(document)) return document;
+  void vscode.window.showInformationMessage("Open a drawing, an SVG file, first.");
+  return undefined;
+}
+
+async function preview(server: Server): Promise<void> {
+  const drawing = await activeDrawing();
+  if (!drawing) return;
+  if (!server.running) await server.restart();
+  const client = server.running;
+  if (!client) return;
+  const uri = client.code2ProtocolConverter.asUri(drawing.uri);
+  const options = { location: vscode.ProgressLocation.Window, title: `Drawing ${basename(drawing.uri.path)} in 3D` };
+  try {
+    await vscode.window.withProgress(options, async () => {
+      await client.sendRequest(ExecuteCommandRequest.type, { command: "okoshi.preview", arguments: [uri] });
+    });
+  } catch (error) {
+    void vscode.window.showErrorMessage(`There is no preview: ${message(error)}`);
+  }
+}
+
+async function build(server: Server): Promise<void> {
+  const drawing = await activeDrawing();
+  if (!drawing) return;
+  if (drawing.uri.scheme !== "file" || (drawing.isDirty && !(await drawing.save()))) {
+    void vscode.window.showInformationMessage("Save the drawing first: the model is written beside it.");
+    return;
+  }
+  const program = await findOrTell(server);
+  if (program === undefined) return;
+  const file = drawing.uri.fsPath;
+  const task = new vscode.Task(
+    { type: "process" },
+    vscode.workspace.getWorkspaceFolder(drawing.uri) ?? vscode.TaskScope.Global,
+    `build ${basename(file)}`,
+    "okoshi",
+    new vscode.ProcessExecution(program, ["build", file], { cwd: dirname(file) }),
+  );
+  task.presentationOptions = { reveal: vscode.TaskRevealKind.Always, panel: vscode.TaskPanelKind.Dedicated, clear: true };
+  await vscode.tasks.executeTask(task);
+}
+
+async function newDrawing(server: Server): Promise<void> {
+  const program = await findOrTell(server);
+  if (program === undefined) return;
+  const folder = vscode.workspace.workspaceFolders?.find(({ uri }) => uri.scheme === "file")?.uri;
+  const target = await vscode.window.showSaveDialog({
+    title: "New Drawing",
+    saveLabel: "Create",
+    filters: { Drawings: ["svg"] },
+    ...(folder && { defaultUri: vscode.Uri.joinPath(folder, "drawing.svg") }),
+  });
+  if (!target) return;
+  try {
+    await promisify(execFile)(program, ["new", target.fsPath], { windowsHide: true });
+    await vscode.window.showTextDocument(target);
+  } catch (error) {
+    void vscode.window.showErrorMessage(`There is no new drawing: ${message(error)}`);
+  }
+}
+
+async function findOrTell(server: Server): Promise<string | undefined> {
+  const program = server.program ?? (await server.find());
+  if (program === undefined) await vscode.commands.executeCommand("okoshi.openWalkthrough");
+  return program;
+}
+
+function message(error: unknown): string {
+  const { stderr } = error as { stderr?: unknown };
+  if (typeof stderr === "string" && stderr.trim() !== "") return stderr.trim();
+  return error instanceof Error ? error.message : String(error);
+}

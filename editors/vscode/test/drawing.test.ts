@@ -1,0 +1,60 @@
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { test } from "node:test";
+import { countOutline, hasStrings, isDrawing, isPicture, selector, type Outline } from "../src/drawing";
+import { drawings, repository } from "./paths";
+
+test("drawings are SVG files of either language, and untitled ones", () => {
+  assert.ok(isDrawing("xml", "file", "/a/b.svg"));
+  assert.ok(isDrawing("svg", "file", "/a/b.svg"));
+  assert.ok(isDrawing("xml", "untitled", "Untitled-1"));
+  assert.ok(!isDrawing("xml", "file", "/a/pom.xml"));
+  assert.ok(!isDrawing("plaintext", "untitled", "Untitled-1"));
+  assert.ok(!isDrawing("html", "file", "/a/b.svg"));
+  assert.ok(!isDrawing("xml", "git", "/a/b.svg"));
+});
+
+test("the selector says the same", () => {
+  assert.deepEqual([...new Set(selector.map(({ language }) => language))].sort(), ["svg", "xml"]);
+  for (const { scheme, language, pattern } of selector) {
+    assert.ok(isDrawing(language, scheme, scheme === "file" ? "/x.svg" : "x"));
+    assert.equal(pattern, scheme === "file" ? "**/*.svg" : undefined);
+  }
+});
+
+test("every annotated example has strings", () => {
+  for (const drawing of drawings("examples")) assert.ok(hasStrings(readFileSync(drawing, "utf8")), drawing);
+});
+
+test("strings are told from plain texts", () => {
+  const text = (content: string) => hasStrings(`<svg><text x="0">${content}</text></svg>`);
+  for (const string of ["Arm@Body", "Arm$Shape", "%Scale 2", "$Color red", "*", "@Body", '"left arm"@Body', "右腕＠胴", "％Scale"]) {
+    assert.ok(text(string), string);
+  }
+  for (const plain of ["Arm", "Fig. 1", "# note", "a b@c", "ann at home", ""]) assert.ok(!text(plain), plain);
+  assert.ok(hasStrings('<path><desc id="d">@Body</desc></path>'));
+  assert.ok(hasStrings("<svg:text>Arm@Body</svg:text>"));
+  assert.ok(!hasStrings("<style>@media print {}</style>"));
+  assert.ok(!hasStrings(readFileSync(`${repository}/editors/vscode/test/plain.svg`, "utf8")));
+});
+
+test("looking for strings takes a time that grows with the text", () => {
+  for (const unit of ['<text>"', "<text>a", "<text ", "<text><", "<text>\n", "a".repeat(50), '<text>"a>']) {
+    const began = process.hrtime.bigint();
+    hasStrings(unit.repeat(40_000));
+    assert.ok(process.hrtime.bigint() - began < 3_000_000_000n, JSON.stringify(unit));
+  }
+});
+
+test("outlines are counted with all that is in them, however deep", () => {
+  assert.equal(countOutline([]), 0);
+  assert.equal(countOutline([{ children: [{}, { children: [{}] }] }, {}]), 5);
+  let deep: Outline = {};
+  for (let depth = 1; depth < 100_000; depth += 1) deep = { children: [deep] };
+  assert.equal(countOutline([deep]), 100_000);
+});
+
+test("pictures are told by their endings", () => {
+  for (const path of ["/a.png", "/a.GIF", "/a.b.jpeg"]) assert.ok(isPicture(path), path);
+  for (const path of ["/a.svg", "/png", "/a.png.txt"]) assert.ok(!isPicture(path), path);
+});

@@ -1,0 +1,97 @@
+// The editor in the browser, as a person uses it: keys, and what is to be seen.
+
+const PATIENCE = 15_000;
+
+export class Editor {
+  constructor(page) {
+    this.page = page;
+  }
+
+  /** Waits until a selector is there, with the given text if one is given. Returns the locator. */
+  async see(selector, text) {
+    const found = this.page.locator(selector, text === undefined ? {} : { hasText: text }).first();
+    await found.waitFor({ state: "visible", timeout: PATIENCE });
+    return found;
+  }
+
+  /** Waits until something holds, and throws what was seen last if it does not. */
+  async until(what, probe) {
+    const end = Date.now() + PATIENCE;
+    for (;;) {
+      const value = await probe();
+      if (value) return value;
+      if (Date.now() > end) throw new Error(`waited in vain: ${what}`);
+      await this.page.waitForTimeout(100);
+    }
+  }
+
+  press(keys) {
+    return this.page.keyboard.press(keys);
+  }
+
+  type(text) {
+    return this.page.keyboard.type(text, { delay: 15 });
+  }
+
+  /** Runs a command of the palette by its title. */
+  async command(title) {
+    await this.press("F1");
+    const input = await this.see(".quick-input-widget input");
+    await input.fill(`>${title}`);
+    // The list is narrowed down a moment after typing.
+    await this.page.waitForTimeout(1000);
+    await this.see(".quick-input-list .monaco-list-row.focused", title);
+    await this.press("Enter");
+    await this.page.locator(".quick-input-widget").waitFor({ state: "hidden", timeout: PATIENCE }).catch(() => {});
+  }
+
+  /** Puts the caret at a line and column, both from 1. */
+  async caret({ line, column }) {
+    await this.press("Control+g");
+    const input = await this.see(".quick-input-widget input");
+    await input.fill(`:${line}:${column}`);
+    await this.press("Enter");
+    await this.page.locator(".quick-input-widget").waitFor({ state: "hidden", timeout: PATIENCE });
+    await this.page.waitForTimeout(150);
+  }
+
+  /** The lines on the screen, blanks as blanks. */
+  async lines() {
+    const lines = await this.page.locator(".editor-instance .view-lines .view-line").evaluateAll((all) =>
+      all
+        .map((line) => ({ top: line.getBoundingClientRect().top, text: line.textContent }))
+        .sort((a, b) => a.top - b.top)
+        .map(({ text }) => text.replaceAll("\u00a0", " ")),
+    );
+    return lines;
+  }
+
+  /** The colour of a word's first character, as CSS has it, on the first visible line that has `within`. */
+  colour(word, within) {
+    return this.page.evaluate(
+      ([word, within]) => {
+        for (const line of document.querySelectorAll(".editor-instance .view-lines .view-line")) {
+          const text = line.textContent.replaceAll("\u00a0", " ");
+          let at = text.indexOf(word);
+          if (at < 0 || !text.includes(within)) continue;
+          for (const span of line.querySelectorAll(":scope > span > span")) {
+            if (at < span.textContent.length) return getComputedStyle(span).color;
+            at -= span.textContent.length;
+          }
+        }
+        return null;
+      },
+      [word, within],
+    );
+  }
+
+  async save() {
+    await this.press("Control+s");
+    await this.page.locator(".tab.active.dirty").waitFor({ state: "detached", timeout: PATIENCE });
+  }
+
+  /** The messages that stand at the bottom right. */
+  messages() {
+    return this.page.locator(".notifications-toasts .notification-list-item-message").allTextContents();
+  }
+}

@@ -1,0 +1,159 @@
+// Drives the extension in a real workbench: npm run workbench
+//
+// Packages the extension, installs it into code-server, opens drawings in Chromium and does what a person does, looking at
+// what is to be seen after each step. Pictures of all steps are left in target/workbench/shots. What it takes is named by
+// OKOSHI (else target/debug/okoshi), NODE24, CODE_SERVER and CHROMIUM, or installed by name below target/workbench: the first
+// time that takes minutes and 700 MB. Building code-server's native parts takes libkrb5-dev.
+
+import assert from "node:assert/strict";
+import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { pack } from "../scripts/package.mjs";
+import { Editor } from "./editor.mjs";
+import { withServer } from "./steps.mjs";
+import { codeServer, tools } from "./tools.mjs";
+
+const here = dirname(fileURLToPath(import.meta.url));
+const extension = join(here, "..");
+const repository = join(extension, "..", "..");
+const target = resolve(repository, process.env.CARGO_TARGET_DIR ?? "target");
+const room = join(target, "workbench");
+const okoshi = resolve(process.env.OKOSHI ?? join(target, "debug", "okoshi"));
+const project = join(room, "project");
+const data = join(room, "data");
+const shots = join(room, "shots");
+
+if (!existsSync(okoshi)) throw new Error(`There is no ${okoshi}: build it, or name another by OKOSHI=`);
+for (const folder of [project, data, shots, join(room, "extensions")]) rmSync(folder, { recursive: true, force: true });
+for (const folder of [project, join(data, "User"), join(data, "Machine"), shots]) mkdirSync(folder, { recursive: true });
+copyFileSync(join(here, "figure.svg"), join(project, "figure.svg"));
+copyFileSync(join(extension, "test", "plain.svg"), join(project, "plain.svg"));
+
+const SETTINGS = {
+  "chat.disableAIFeatures": true,
+  "editor.fontSize": 13,
+  "editor.minimap.enabled": false,
+  "editor.semanticHighlighting.enabled": false,
+  "files.autoSave": "off",
+  "git.enabled": false,
+  "telemetry.telemetryLevel": "off",
+  "window.restoreWindows": "none",
+  // Newer editors open SVG files as pictures.
+  "workbench.editorAssociations": { "*.svg": "default" },
+  "workbench.colorTheme": "Default Light Modern",
+  "workbench.secondarySideBar.defaultVisibility": "hidden",
+  "workbench.startupEditor": "none",
+  "workbench.tips.enabled": false,
+};
+/** Writes settings by rename: the editor would read a file that is half written. */
+const write = (file, values) => {
+  writeFileSync(`${file}.new`, JSON.stringify(values, null, 2));
+  renameSync(`${file}.new`, file);
+};
+const settings = (path, more = {}) => {
+  write(join(data, "User", "settings.json"), { ...SETTINGS, ...more });
+  // What belongs to a machine is read from the machine's settings where the editor's window is elsewhere.
+  write(join(data, "Machine", "settings.json"), { "okoshi.path": path });
+};
+
+pack(join(room, "okoshi.vsix"));
+const found = await tools(room);
+settings("okoshi-that-is-not-there");
+const server = await codeServer(found, { vsix: join(room, "okoshi.vsix"), data, extensions: join(room, "extensions"), env: { HOME: room } });
+const browser = await found.chromium.launch({
+  executablePath: found.browser,
+  args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+});
+
+let failed = 0;
+let number = 0;
+const wanted = process.env.ONLY?.split(",");
+
+const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, deviceScaleFactor: 1 });
+const editor = new Editor(page);
+
+try {
+  /** Opens a drawing in a fresh window, and waits until it can be edited. */
+  const open = async (name) => {
+    const uri = `vscode-remote://${server.address}${join(project, name)}`;
+    const payload = encodeURIComponent(JSON.stringify([["openFile", uri]]));
+    await page.goto(`http://${server.address}/?folder=${encodeURIComponent(project)}&payload=${payload}`);
+    await editor.see(".editor-instance .view-line span", "svg");
+    await page.locator(".editor-instance .view-lines").first().click({ position: { x: 300, y: 10 } });
+  };
+
+  /** One step: does it, takes a picture, and says how it went. */
+  const step = async (name, act) => {
+    if (wanted && !wanted.some((one) => name.includes(one))) return;
+    number += 1;
+    const began = Date.now();
+    let verdict = "ok";
+    try {
+      await act();
+    } catch (error) {
+      failed += 1;
+      verdict = `FAILED: ${error.message}`;
+    }
+    const file = `${String(number).padStart(2, "0")}-${name.replaceAll(/\W+/g, "-")}.png`;
+    await page.screenshot({ path: join(shots, file) });
+    console.log(`${name}: ${verdict} (${Date.now() - began} ms)`);
+  };
+
+  await open("plain.svg");
+  await step("a missing program is no matter where there are no strings", async () => {
+    await page.waitForTimeout(3000);
+    assert.deepEqual(await editor.messages(), []);
+  });
+
+  await open("figure.svg");
+  await step("a missing program is said once", async () => {
+    await editor.see(".notifications-toasts", "okoshi-that-is-not-there was not found");
+    await editor.see(".notifications-toasts .monaco-button", "How to Install");
+    await page.waitForTimeout(1500);
+    assert.equal((await editor.messages()).length, 1);
+  });
+  await step("how to install leads to the walkthrough", async () => {
+    await (await editor.see(".notifications-toasts .monaco-button", "How to Install")).click();
+    await editor.see(".getting-started-step", "Install okoshi");
+  });
+  await open("figure.svg");
+  await step("the output says where it was looked for", async () => {
+    await editor.command("Okoshi: Show Output");
+    await editor.see(".output-view-container .view-line, .output-view .view-line", "Looked at:");
+    await editor.command("View: Toggle Panel Visibility");
+  });
+  await step("strings are coloured, tags keep their colours", async () => {
+    const string = "Arm@Body$Shape roundv";
+    const keyword = await editor.until("a coloured keyword", () => editor.colour("Shape", string));
+    const part = await editor.colour("Arm", string);
+    const tag = await editor.colour("text x", string);
+    assert.ok(part && tag, `part ${part}, tag ${tag}`);
+    assert.notEqual(keyword, part);
+    assert.equal(tag, await editor.colour("rect id", 'id="leg"'));
+    assert.equal(await editor.colour("circle id", 'id="head"'), tag);
+    assert.notEqual(await editor.colour("# Figures", "# Figures"), keyword);
+  });
+  /** A program that stands before okoshi; its process id is in `NAME.pid`. Returns its path. */
+  const program = (name, script) => {
+    const file = join(room, name);
+    rmSync(`${file}.pid`, { force: true });
+    writeFileSync(file, `#!/bin/sh\necho $$ > ${file}.pid\n${script.replaceAll("OKOSHI", okoshi)}\n`, { mode: 0o755 });
+    return file;
+  };
+  const configure = (more, path = okoshi) => settings(path, { "editor.semanticHighlighting.enabled": true, ...more });
+  // In the window that has told of a missing program: what the setting names now is started there.
+  const ready = async () => configure({});
+  const read = (name = "figure.svg") => readFileSync(join(project, name), "utf8");
+  const reset = () => copyFileSync(join(here, "figure.svg"), join(project, "figure.svg"));
+  await withServer({ editor, page, step, ready, configure, program, read, reset, open, shots });
+  assert.ok(number > 0, `no step is named ${process.env.ONLY}`);
+} catch (error) {
+  await page.screenshot({ path: join(shots, "failure.png") });
+  throw error;
+} finally {
+  await browser.close();
+  server.stop();
+}
+console.log(failed === 0 ? `all ${number} steps well` : `${failed} of ${number} steps failed`);
+process.exit(failed === 0 ? 0 : 1);

@@ -1,0 +1,219 @@
+// What a person does with the language server there. Each step begins with the drawing as it lies in figure.svg.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+
+/** Line and column, from 1, of the `at`th character of a text's first occurrence. */
+function place(text, wanted, at = 0) {
+  const offset = text.indexOf(wanted);
+  assert.ok(offset >= 0, `the drawing has ${wanted}`);
+  const before = text.slice(0, offset + at).split("\n");
+  return { line: before.length, column: before.at(-1).length + 1 };
+}
+
+const WRONG = "Head@Body$Shap round";
+
+export async function withServer({ editor, page, step, ready, configure, program, read, reset, open, shots }) {
+  const figure = read();
+  const at = (wanted, offset) => editor.caret(place(figure, wanted, offset));
+  /** The drawing on disk after saving, once it is as wanted. */
+  const saved = (what, good) =>
+    editor.until(what, async () => {
+      if ((await page.locator(".tab.active.dirty").count()) > 0) await editor.press("Control+s");
+      return good(read());
+    });
+  /** Begins anew: the drawing as it was, in a fresh window, with its errors found. */
+  const again = async () => {
+    await page.locator(".tab.active.dirty").count().then((dirty) => dirty && editor.press("Control+s"));
+    await page.waitForTimeout(300);
+    reset();
+    await open("figure.svg");
+    await editor.see(".squiggly-error");
+  };
+
+  await ready();
+  await step("the setting's program is started, errors are underlined", async () => {
+    await editor.see(".squiggly-error");
+  });
+  await step("what stands in strings is coloured by what it means", async () => {
+    const string = "Arm@Body$Shape roundv";
+    const kind = await editor.until("a coloured kind", () => editor.colour("roundv", string));
+    const plain = await editor.colour("=", 'id="leg"');
+    const colours = [await editor.colour("Arm", string), await editor.colour("Shape", string), kind, plain];
+    assert.equal(new Set(colours).size, colours.length, `part, keyword, kind and plain text: ${colours.join("; ")}`);
+    assert.equal(await editor.colour("text x", string), await editor.colour("rect id", 'id="leg"'));
+  });
+  await step("the status item counts", async () => {
+    await (await editor.see('.statusbar-item[id="status.languageStatus"]')).hover();
+    await editor.see(".hover-language-status", "1 error");
+  });
+  await step("a hover tells of a part", async () => {
+    await at("Arm@Body", 1);
+    await editor.press("Control+k");
+    await editor.press("Control+i");
+    const hover = await editor.see(".monaco-hover-content");
+    await editor.until("the hover to name the part", async () => /Arm/.test(await hover.textContent()));
+    assert.match(await hover.textContent(), /Body/);
+  });
+  await step("a hover tells of a keyword", async () => {
+    await editor.press("Escape");
+    await at("Origin start", 2);
+    await editor.press("Control+k");
+    await editor.press("Control+i");
+    await editor.see(".monaco-hover-content", "Origin");
+  });
+  await step("problems are listed", async () => {
+    await editor.press("Escape");
+    await editor.command("Problems: Focus on Problems View");
+    await editor.see(".markers-panel .monaco-list-row", "Shap");
+    await editor.see(".markers-panel .monaco-list-row", "E101");
+  });
+  await step("the outline is the figure's hierarchy", async () => {
+    await editor.command("View: Toggle Panel Visibility");
+    await editor.command("Explorer: Focus on Outline View");
+    for (const [name, level] of [["Body", 1], ["Arm", 2], ["Head", 2], ["Leg", 2]]) {
+      const row = await editor.see(".outline-tree .monaco-list-row", name);
+      assert.equal(await row.getAttribute("aria-level"), String(level), name);
+    }
+  });
+  await step("colours have swatches", async () => {
+    await editor.command("View: Focus Active Editor Group").catch(() => {});
+    await editor.until("a swatch in the string", () =>
+      page.evaluate(() => [...document.querySelectorAll(".view-line")].some((line) => line.textContent.includes("Color") && line.querySelector(".colorpicker-color-decoration"))),
+    );
+  });
+  await step("inlay hints say what is inherited or automatic", async () => {
+    await editor.until("a hint", () => page.evaluate(() => document.querySelector('.view-line [class*="dyn-rule"], .view-line .ced-') !== null));
+  });
+  await page.screenshot({ path: join(shots, "at-work.png") });
+  await step("a fix is applied", async () => {
+    await again();
+    await at(WRONG, 11);
+    await editor.press("Control+.");
+    await (await editor.see(".action-widget .monaco-list-row, .context-view .monaco-list-row", "Shape")).click();
+    await saved("the keyword to be mended", (text) => text.includes("Head@Body$Shape round"));
+    await page.locator(".squiggly-error").first().waitFor({ state: "detached", timeout: 20_000 });
+  });
+  await step("a completion is accepted", async () => {
+    await again();
+    await at("Origin start", 12);
+    await editor.type(" Seg");
+    const row = await editor.see(".suggest-widget .monaco-list-row", "Segments");
+    await page.screenshot({ path: join(shots, "completion.png") });
+    await row.waitFor();
+    await editor.press("Enter");
+    await saved("the keyword to be written", (text) => /Origin start Segments/.test(text));
+  });
+  await step("kinds of shapes come with their parameters", async () => {
+    await again();
+    await at("Head@Body$Shap", 14);
+    await editor.type("e con");
+    await editor.see(".suggest-widget .monaco-list-row", "conev");
+    await editor.press("Escape");
+  });
+  await step("a part is renamed everywhere", async () => {
+    await again();
+    await at("Body$Shape default", 1);
+    await editor.press("F2");
+    const input = await editor.see(".rename-box input");
+    await input.fill("Trunk");
+    await editor.press("Enter");
+    await saved("four strings to change", (text) => text.split("Trunk").length === 5 && !text.includes("Body"));
+  });
+  await step("a definition is gone to", async () => {
+    await again();
+    await at("Arm@Body", 5);
+    await editor.press("F12");
+    const { line } = place(figure, "Body$Shape default");
+    await editor.see(".statusbar-item", `Ln ${line}, Col`);
+  });
+  await step("strings are formatted, and nothing else", async () => {
+    await again();
+    await editor.command("Format Document");
+    await saved("the blanks to go", (text) => text.includes("Leg@Body$Shape roundv -7 7"));
+    const rest = (text) => text.split("\n").filter((line) => !line.includes("Leg@")).join("\n");
+    assert.equal(rest(read()), rest(figure));
+  });
+  await step("errors come and go while typing", async () => {
+    await again();
+    await at("Arm@Body", 8);
+    await editor.type("x");
+    await editor.until("two errors", async () => (await page.locator(".squiggly-error").count()) >= 2);
+    await editor.press("Backspace");
+    await editor.until("one error", async () => (await page.locator(".squiggly-error").count()) === 1);
+  });
+  await step("a snippet is inserted", async () => {
+    await again();
+    await at("<text x=\"10\"", 0);
+    await editor.type("okoshi-def");
+    // Emmet, which takes any word for a tag, stands before it.
+    await (await editor.see(".suggest-widget .monaco-list-row", "okoshi-defaults")).click();
+    await editor.press("Escape");
+    await saved("a text for all parts", (text) => text.includes(">%Shape default -20 20 Scale 1.0</text>"));
+  });
+  await step("the lens shows the model, errors mended", async () => {
+    await again();
+    await at(WRONG, 14);
+    await editor.type("e");
+    await (await editor.see(".codelens-decoration a", "Preview in 3D")).click();
+    const picture = page.frameLocator("iframe.webview").frameLocator("iframe#active-frame").locator("img");
+    await picture.first().waitFor({ state: "visible", timeout: 60_000 });
+    assert.ok(await picture.first().evaluate((image) => image.complete && image.naturalWidth > 100));
+    await page.screenshot({ path: join(shots, "preview.png") });
+  });
+  await step("on demand, drawings are checked when they are saved", async () => {
+    await again();
+    configure({ "okoshi.analyse": "onSave" });
+    await page.waitForTimeout(1500);
+    await at("Arm@Body", 8);
+    await editor.type("x");
+    await page.waitForTimeout(2500);
+    assert.equal(await page.locator(".squiggly-error").count(), 1);
+    await editor.press("Control+s");
+    await editor.until("two errors", async () => (await page.locator(".squiggly-error").count()) >= 2);
+    configure({});
+  });
+  await step("drawings without strings are left alone", async () => {
+    await page.waitForTimeout(300);
+    await editor.press("Control+s");
+    await open("plain.svg");
+    await page.waitForTimeout(2500);
+    assert.equal(await page.locator(".codelens-decoration a").count(), 0);
+    assert.equal(await page.locator(".squiggly-error, .squiggly-warning, .squiggly-info, .squiggly-hint").count(), 0);
+    assert.deepEqual(await editor.messages(), []);
+  });
+  await step("the server is started anew", async () => {
+    reset();
+    await open("figure.svg");
+    await editor.see(".squiggly-error");
+    await editor.command("Okoshi: Restart the Language Server");
+    await page.waitForTimeout(1000);
+    await editor.see(".squiggly-error");
+    assert.deepEqual(await editor.messages(), []);
+  });
+  await step("a server that ends is started again", async () => {
+    const wrapped = program("okoshi-wrapped", 'exec OKOSHI "$@"');
+    configure({}, wrapped);
+    const pid = () => Number(readFileSync(`${wrapped}.pid`, "utf8"));
+    const serving = () => editor.until("a server", () => {
+      try {
+        return readFileSync(`/proc/${pid()}/cmdline`, "utf8").includes("lsp") && pid();
+      } catch {
+        return false;
+      }
+    });
+    const first = await serving();
+    await page.waitForTimeout(1000);
+    process.kill(first, "SIGKILL");
+    await editor.until("another server", async () => (await serving()) !== first);
+    await editor.see(".squiggly-error");
+    assert.deepEqual(await editor.messages(), []);
+  });
+  await step("another program is not taken for okoshi", async () => {
+    configure({}, program("not-okoshi", "echo cargo 1.90.0"));
+    await editor.see(".notifications-toasts", "is not okoshi");
+    await page.waitForTimeout(1500);
+    assert.equal((await editor.messages()).filter((one) => one.includes("is not okoshi")).length, 1);
+  });
+}
