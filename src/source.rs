@@ -157,20 +157,39 @@ impl Text {
         self.span(0..self.text.len())
     }
 
-    /// Whether all bytes of `span` are this text's, none of them tags or comments between its parts: only
-    /// then they can be replaced as one.
+    /// Whether all bytes of `span` are this text's, none of them tags or comments between its parts, and none of them
+    /// an entity that stands for several characters: only then they can be replaced as one.
     pub fn is_whole(&self, span: Span) -> bool {
         let from = self
             .runs
             .partition_point(|run| run.raw + run.raw_len <= span.start);
         let mut at = span.start;
-        for run in &self.runs[from..] {
+        for (index, run) in self.runs.iter().enumerate().skip(from) {
             if at >= span.end || run.raw > at {
                 break;
+            }
+            let end = self
+                .runs
+                .get(index + 1)
+                .map_or(self.text.len(), |run| run.at);
+            if run.form == Form::Unit && self.text[run.at..end].chars().nth(1).is_some() {
+                return false;
             }
             at = at.max(run.raw + run.raw_len);
         }
         at >= span.end
+    }
+
+    /// Whether the decoded characters `range` can be replaced without those around them: an entity may stand for
+    /// several.
+    pub fn can_replace(&self, range: Range<usize>) -> bool {
+        let splits = |offset: usize| {
+            let run = self.run_at(offset);
+            run.is_some_and(|run| {
+                run.form == Form::Unit && run.at < offset && offset < self.text.len()
+            })
+        };
+        !splits(range.start) && !splits(range.end)
     }
 
     /// The stretches of the drawing that the decoded characters `range` were read from: one, unless tags or comments
@@ -321,6 +340,25 @@ mod tests {
         assert!(text.is_whole(Span::new(40, 42)));
         assert!(text.is_whole(Span::at(30)));
         assert!(!text.is_whole(Span::new(17, 41)));
+    }
+
+    #[test]
+    fn what_an_entity_stands_for_is_replaced_as_a_whole() {
+        let mut text = Text::default();
+        text.push("a", Span::new(0, 1), Form::Plain);
+        text.push("bcd", Span::new(1, 4), Form::Unit);
+        text.push("e", Span::new(4, 5), Form::Plain);
+        for (range, can) in [
+            (0..1, true),
+            (1..4, true),
+            (0..5, true),
+            (1..2, false),
+            (2..5, false),
+            (4..5, true),
+        ] {
+            assert_eq!(text.can_replace(range.clone()), can, "{range:?}");
+        }
+        assert!(text.is_whole(Span::new(0, 1)) && !text.is_whole(Span::new(0, 4)));
     }
 
     #[test]

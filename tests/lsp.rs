@@ -404,7 +404,10 @@ fn linked_files_that_change_are_seen() {
 
 #[test]
 fn diagnostics_can_be_fetched() {
-    let mut editor = Editor::with(json!({"textDocument": {"diagnostic": {}}}));
+    let mut editor = Editor::with(json!({
+        "textDocument": {"diagnostic": {}},
+        "workspace": {"diagnostics": {"refreshSupport": true}},
+    }));
     assert!(editor.offered["capabilities"]["diagnosticProvider"].is_object());
     let sent = editor.opened(URI, DRAWING);
     let report = editor.ask("textDocument/diagnostic", document());
@@ -500,6 +503,11 @@ fn it_ends_with_its_client() {
     let mut editor = Editor::new();
     editor.tell("exit", Value::Null);
     assert_eq!(editor.vanish().code(), Some(1));
+    // Some clients take their leave with empty parameters.
+    let mut editor = Editor::new();
+    editor.ask("shutdown", json!({}));
+    editor.tell("exit", json!({}));
+    assert_eq!(editor.vanish().code(), Some(0));
 }
 
 #[cfg(unix)]

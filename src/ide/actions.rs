@@ -168,7 +168,7 @@ impl Analysis {
         });
         let alike = alike.count();
         let words = words_of(&found.text, first.range.start..last.range.end);
-        let mut edits = replace(&found.text, sign.start..last.range.end, "");
+        let mut edits = replace(&found.text, sign.start..last.range.end, "")?;
         match part.legend {
             Some(legend) => {
                 let (legend, _) = *self.sheet().legends[legend].settings.first()?;
@@ -255,10 +255,8 @@ impl Analysis {
             .first()
             .map(|group| group.element.span);
         let name = root.and_then(|span| self.source.get(span.start + 1..span.end));
-        match name.and_then(|name| name.find(':').map(|colon| &name[..=colon])) {
-            Some(prefix) => prefix,
-            None => "",
-        }
+        let prefix = name.and_then(|name| name.find(':').map(|colon| &name[..=colon]));
+        prefix.unwrap_or_default()
     }
 
     /// The font size that most strings have: their median.

@@ -85,9 +85,9 @@ impl Analysis {
             }
         }
         let range = first.range.start..last.range.end;
-        let edits = forms.into_iter().map(|form| {
-            let edits = replace(&string.text, range.clone(), &form);
-            (form, edits)
+        let edits = forms.into_iter().filter_map(|form| {
+            let edits = replace(&string.text, range.clone(), &form)?;
+            Some((form, edits))
         });
         edits.collect()
     }

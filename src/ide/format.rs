@@ -89,7 +89,11 @@ impl Analysis {
             let written = &text[token.range.clone()];
             let usual = self.usual(string, token, written);
             if usual != written {
-                edits.extend(replace(&string.text, token.range.clone(), &usual));
+                edits.extend(
+                    replace(&string.text, token.range.clone(), &usual)
+                        .into_iter()
+                        .flatten(),
+                );
             }
             end = token.range.end;
             before = Some(token);
@@ -171,7 +175,7 @@ fn gap(
         }];
     }
     match text.pieces(range.clone()).as_slice() {
-        [_] => replace(text, range, usual),
+        [_] => replace(text, range, usual).unwrap_or_default(),
         // Tags stand between the words.
         _ => vec![],
     }

@@ -33,6 +33,11 @@ pub enum RenameError {
     /// The part has no string.
     #[error("`{0}` has no string that names it: give it one first")]
     NoString(String),
+    /// It is written by an entity.
+    #[error(
+        "`{0}` is written by an entity of the drawing that says more than the name: write it out first"
+    )]
+    InEntity(String),
     /// The drawing's text cannot be read.
     #[error("the drawing is not well-formed XML: mend that first, so that no name is missed")]
     NotSound,
@@ -73,7 +78,8 @@ impl Analysis {
         for found in self.uses(&symbol) {
             let string = &self.sheet().strings[found.string];
             let new = rewritten(string, &found, &symbol, &name);
-            edits.extend(replace(&string.text, found.range.clone(), &new));
+            let replaced = replace(&string.text, found.range.clone(), &new);
+            edits.extend(replaced.ok_or_else(|| RenameError::InEntity(symbol.name().to_owned()))?);
         }
         if let Symbol::Part(old) = &symbol {
             edits.extend(self.named_by_element(old, &name));
@@ -142,20 +148,21 @@ fn rewritten(string: &SheetString, found: &Use, symbol: &Symbol, name: &str) -> 
 }
 
 /// The edits that put `new` in the place of the decoded characters `range`, and nothing else: tags that stand between
-/// them stay.
-pub(super) fn replace(text: &Text, range: std::ops::Range<usize>, new: &str) -> Vec<Edit> {
+/// them stay. `None` if they are only a part of what an entity stands for.
+pub(super) fn replace(text: &Text, range: std::ops::Range<usize>, new: &str) -> Option<Vec<Edit>> {
+    if !text.can_replace(range.clone()) {
+        return None;
+    }
     let escaped = text.escape_at(range.start, new);
     let pieces = text.pieces(range).into_iter().enumerate();
-    pieces
-        .map(|(index, span)| Edit {
-            span,
-            text: if index == 0 {
-                escaped.clone()
-            } else {
-                String::new()
-            },
-        })
-        .collect()
+    let edits = pieces.map(|(index, span)| Edit {
+        span,
+        text: match index {
+            0 => escaped.clone(),
+            _ => String::new(),
+        },
+    });
+    Some(edits.collect())
 }
 
 #[cfg(test)]
@@ -207,6 +214,29 @@ mod tests {
         let before = ["<![CDATA[Body]]>", "Rarm@¦Body", "", "", ""];
         let after = ["<![CDATA[a&b<c]]>", "Rarm@a&amp;b&lt;c", "", "", ""];
         assert_eq!(renamed(&figure(before), "a&b<c").unwrap(), figure(after));
+    }
+
+    #[test]
+    fn names_beside_entities_and_sections_are_found_alone() {
+        let before = [
+            "Bo&#x64;y",
+            "a&amp;b@¦Body<![CDATA[$Offset]]> 3<!-- -->",
+            "",
+            "",
+            "",
+        ];
+        let after = [
+            "Trunk",
+            "a&amp;b@Trunk<![CDATA[$Offset]]> 3<!-- -->",
+            "",
+            "",
+            "",
+        ];
+        assert_eq!(renamed(&figure(before), "Trunk").unwrap(), figure(after));
+        let entity = "<!DOCTYPE svg [<!ENTITY e \"Rarm@Body\">]>";
+        let source = format!("{entity}{}", figure(["¦Body", "&e;$Offset 1", "", "", ""]));
+        let refused = RenameError::InEntity("Body".to_owned());
+        assert_eq!(renamed(&source, "Trunk"), Err(refused));
     }
 
     #[test]

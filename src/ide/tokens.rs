@@ -53,8 +53,8 @@ impl Analysis {
         let strings = &self.sheet().strings;
         let first = strings.partition_point(|string| string.text.whole().end < window.start);
         let mut out: Vec<Colouring> = vec![];
-        for index in first..strings.len() {
-            let whole = strings[index].text.whole();
+        for (index, string) in strings.iter().enumerate().skip(first) {
+            let whole = string.text.whole();
             if whole.start > window.end {
                 break;
             }

@@ -39,11 +39,22 @@ pub(super) struct Analyst {
 
 #[derive(Debug, Default)]
 struct Queue {
-    waiting: VecDeque<String>,
-    closed: Vec<Uri>,
+    tasks: VecDeque<Task>,
+    /// Texts whose diagnostics are to be sent as soon as they are found.
+    due: BTreeSet<String>,
     /// Texts whose diagnostics the client fetches itself.
-    pulled: BTreeSet<String>,
+    fetched: BTreeSet<String>,
     when: When,
+}
+
+#[derive(Debug, PartialEq)]
+enum Task {
+    /// Analyse the newest state of a text, and send its diagnostics if they are due.
+    Analyse(String),
+    /// A text was closed: forget it.
+    Close(Uri),
+    /// Take back the diagnostics of a text that were sent.
+    TakeBack(Uri),
 }
 
 impl Analyst {
@@ -71,51 +82,56 @@ impl Analyst {
         }
     }
 
-    /// A text was opened: it is analysed.
-    pub(super) fn opened(&self, uri: &str) {
-        self.ask(uri);
+    /// A text was opened or saved: its diagnostics are sent.
+    pub(super) fn opened_or_saved(&self, uri: &str) {
+        let mut queue = self.queue();
+        queue.due.insert(uri.to_owned());
+        self.add(queue, Task::Analyse(uri.to_owned()));
     }
 
-    /// A text has changed: it is analysed, if that is wanted while typing.
+    /// A text has changed: its diagnostics are sent, if that is wanted while typing.
     pub(super) fn changed(&self, uri: &str) {
         if self.queue().when == When::OnType {
-            self.ask(uri);
+            self.opened_or_saved(uri);
         }
-    }
-
-    /// A text was saved.
-    pub(super) fn saved(&self, uri: &str) {
-        self.ask(uri);
     }
 
     /// Something that a text links to has changed.
     pub(super) fn touched(&self, uri: &str) {
         self.documents.touch(uri);
-        self.ask(uri);
+        self.opened_or_saved(uri);
     }
 
     /// A text was closed: its diagnostics go.
     pub(super) fn closed(&self, uri: &Uri) {
         let mut queue = self.queue();
-        queue.waiting.retain(|waiting| waiting != uri.as_str());
-        queue.pulled.remove(uri.as_str());
-        queue.closed.push(uri.clone());
-        self.woken.notify_one();
+        queue.due.remove(uri.as_str());
+        queue.fetched.remove(uri.as_str());
+        self.add(queue, Task::Close(uri.clone()));
     }
 
-    /// The client fetches a text's diagnostics itself: they are no longer sent. Says whether this is new.
-    pub(super) fn pulled(&self, uri: &str) -> bool {
-        self.queue().pulled.insert(uri.to_owned())
-    }
-
-    /// Has a text analysed, unless it is or will be.
-    pub(super) fn ask(&self, uri: &str) {
-        if !self.documents.ask(uri) {
-            return;
-        }
+    /// The client fetches a text's diagnostics: they are no longer sent, and what was sent is taken back, or it would
+    /// be shown twice.
+    pub(super) fn fetched(&self, uri: &Uri) {
         let mut queue = self.queue();
-        if !queue.waiting.iter().any(|waiting| waiting == uri) {
-            queue.waiting.push_back(uri.to_owned());
+        if queue.fetched.insert(uri.to_string()) {
+            self.add(queue, Task::TakeBack(uri.clone()));
+        }
+    }
+
+    /// Has a text analysed, unless it is.
+    pub(super) fn ask(&self, uri: &str) {
+        let current = self.documents.current(uri);
+        let last = self.documents.last(uri);
+        let generation = |analysed: &Analysed| analysed.document.generation;
+        if current.map(|document| document.generation) != last.as_deref().map(generation) {
+            self.add(self.queue(), Task::Analyse(uri.to_owned()));
+        }
+    }
+
+    fn add(&self, mut queue: MutexGuard<'_, Queue>, task: Task) {
+        if !queue.tasks.contains(&task) {
+            queue.tasks.push_back(task);
         }
         self.woken.notify_one();
     }
@@ -124,11 +140,8 @@ impl Analyst {
     fn next(&self) -> Task {
         let mut queue = self.queue();
         loop {
-            if let Some(uri) = queue.closed.pop() {
-                return Task::Clear(uri);
-            }
-            if let Some(uri) = queue.waiting.pop_front() {
-                return Task::Analyse(uri);
+            if let Some(task) = queue.tasks.pop_front() {
+                return task;
             }
             queue = self
                 .woken
@@ -137,14 +150,15 @@ impl Analyst {
         }
     }
 
-    fn sends(&self, uri: &str) -> bool {
-        !self.queue().pulled.contains(uri)
+    /// Whether diagnostics of a text are to be sent; they are no longer due then.
+    fn is_due(&self, uri: &str) -> bool {
+        let mut queue = self.queue();
+        queue.due.remove(uri)
     }
-}
 
-enum Task {
-    Analyse(String),
-    Clear(Uri),
+    fn is_fetched(&self, uri: &str) -> bool {
+        self.queue().fetched.contains(uri)
+    }
 }
 
 /// What the thread needs besides the texts.
@@ -153,7 +167,7 @@ pub(super) struct Desk {
     pub(super) client: Client,
     pub(super) runtime: Handle,
     pub(super) links: Arc<Links>,
-    /// Whether the client shows progress, links at codes, and can be asked to fetch diagnostics anew.
+    /// What the client can do.
     pub(super) abilities: Arc<Abilities>,
 }
 
@@ -163,39 +177,73 @@ pub(super) struct Abilities {
     pub(super) progress: AtomicBool,
     pub(super) links_at_codes: AtomicBool,
     pub(super) fetches_diagnostics: AtomicBool,
-    pub(super) fetches_again: AtomicBool,
 }
 
 /// Works until the process ends.
 pub(super) fn work(analyst: &Analyst, desk: &Desk) {
     // What is remembered of each text from one keystroke to the next.
     let mut compilers: BTreeMap<String, Compiler> = BTreeMap::new();
+    let send = |uri, diagnostics, version| {
+        let sending = desk.client.publish_diagnostics(uri, diagnostics, version);
+        desk.runtime.block_on(sending);
+    };
     loop {
         match analyst.next() {
-            Task::Clear(uri) => {
+            Task::TakeBack(uri) => send(uri, vec![], None),
+            Task::Close(uri) => {
+                // It may be open again, and then be analysed behind this.
                 compilers.remove(uri.as_str());
                 desk.links.forget(uri.as_str());
-                let sending = desk.client.publish_diagnostics(uri, vec![], None);
-                desk.runtime.block_on(sending);
+                send(uri, vec![], None);
             }
             Task::Analyse(uri) => {
-                if let Some(document) = analyst.documents.current(&uri) {
-                    let compiler = compilers.entry(uri).or_default();
-                    analyse(analyst, desk, compiler, document);
+                let Some(document) = analyst.documents.current(&uri) else {
+                    continue;
+                };
+                let compiler = compilers.entry(uri.clone()).or_default();
+                let Some((analysed, by_a_link)) = analysed(analyst, desk, compiler, document)
+                else {
+                    continue;
+                };
+                if !analyst.is_due(&uri) {
+                    continue;
                 }
+                if analyst.is_fetched(&uri) {
+                    // Who fetches diagnostics after changes of the text cannot know of changes elsewhere.
+                    if by_a_link {
+                        let client = desk.client.clone();
+                        desk.runtime
+                            .spawn(async move { client.workspace_diagnostic_refresh().await });
+                    }
+                    continue;
+                }
+                let links = desk.abilities.links_at_codes.load(Ordering::Relaxed);
+                let diagnostics = convert::diagnostics(&analysed, manual::links(links));
+                // Between here and the wire the text may change again; what is sent then is sent behind this.
+                let document = &analysed.document;
+                send(document.uri.clone(), diagnostics, Some(document.version));
             }
         }
     }
 }
 
-fn analyse(analyst: &Analyst, desk: &Desk, compiler: &mut Compiler, document: Arc<Document>) {
+/// Analyses a state of a text, unless that is done, and hands it to those who wait. `None` if its state is gone
+/// meanwhile: it is analysed behind this as it is then. Says too whether only something that it links to has changed.
+fn analysed(
+    analyst: &Analyst,
+    desk: &Desk,
+    compiler: &mut Compiler,
+    document: Arc<Document>,
+) -> Option<(Arc<Analysed>, bool)> {
     let uri = document.uri.clone();
-    let progress = desk
-        .abilities
-        .progress
-        .load(Ordering::Relaxed)
-        .then(|| progress::begin(desk, &document));
     let last = analyst.documents.last(uri.as_str());
+    if let Some(last) = &last
+        && last.document.generation == document.generation
+    {
+        return Some((last.clone(), false));
+    }
+    let shows_progress = desk.abilities.progress.load(Ordering::Relaxed);
+    let progress = shows_progress.then(|| progress::begin(desk, &document));
     let compiled = compiled(compiler, &document);
     let places = places(&document, &compiled);
     desk.links.watch(uri.as_str(), places);
@@ -214,24 +262,8 @@ fn analyse(analyst: &Analyst, desk: &Desk, compiler: &mut Compiler, document: Ar
         good,
     });
     drop(progress);
-    if !analyst.documents.arrive(analysed.clone()) {
-        return;
-    }
-    if !analyst.sends(uri.as_str()) {
-        // Who fetches diagnostics after changes of the text cannot know of changes elsewhere.
-        if by_a_link && desk.abilities.fetches_again.load(Ordering::Relaxed) {
-            let client = desk.client.clone();
-            desk.runtime
-                .spawn(async move { client.workspace_diagnostic_refresh().await });
-        }
-        return;
-    }
-    let links = desk.abilities.links_at_codes.load(Ordering::Relaxed);
-    let diagnostics = convert::diagnostics(&analysed, manual::links(links));
-    // Between here and the wire the text may change again; what is sent then is sent behind this.
-    let version = Some(analysed.document.version);
-    let sending = desk.client.publish_diagnostics(uri, diagnostics, version);
-    desk.runtime.block_on(sending);
+    let arrived = analyst.documents.arrive(analysed.clone());
+    arrived.then_some((analysed, by_a_link))
 }
 
 /// Compiles a state of a text; links are read from its folder.

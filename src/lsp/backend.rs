@@ -249,7 +249,8 @@ impl Backend {
             (true, Some(uri)) => {
                 let params = ShowDocumentParams {
                     uri,
-                    external: Some(false),
+                    // Editors of text cannot show it: the system's viewer can.
+                    external: Some(true),
                     take_focus: Some(false),
                     selection: None,
                 };
@@ -332,12 +333,8 @@ impl LanguageServer for Backend {
     ) -> Result<DocumentDiagnosticReportResult> {
         let uri = &params.text_document.uri;
         let analysed = self.analysed(uri).await?;
-        let fetches = self.abilities.fetches_diagnostics.load(Ordering::Relaxed);
-        if fetches && self.analyst.pulled(uri.as_str()) && analysed.is_some() {
-            // What was sent before the client first fetched would be shown twice.
-            self.client
-                .publish_diagnostics(uri.clone(), vec![], None)
-                .await;
+        if analysed.is_some() && self.abilities.fetches_diagnostics.load(Ordering::Relaxed) {
+            self.analyst.fetched(uri);
         }
         let id = analysed
             .as_ref()
@@ -764,14 +761,18 @@ impl LanguageServer for Backend {
                 params.command
             )));
         }
-        let uri = params
-            .arguments
-            .first()
-            .and_then(Value::as_str)
-            .map(str::parse::<Uri>);
-        let Some(Ok(uri)) = uri else {
+        let uri = match params.arguments.first() {
+            Some(argument) => argument.as_str().and_then(|uri| uri.parse().ok()),
+            // Some editors send commands without arguments: then it is the text that changed last.
+            None => SNAPSHOTS.with(|snapshots| {
+                let documents = snapshots.values().map(|snapshot| &snapshot.document);
+                let newest = documents.max_by_key(|document| document.generation);
+                newest.map(|document| document.uri.clone())
+            }),
+        };
+        let Some(uri) = uri else {
             return Err(Error::invalid_params(
-                "the command needs the address of a drawing",
+                "the command needs the address of an open drawing",
             ));
         };
         self.show_preview(&uri).await?;

@@ -18,26 +18,29 @@ impl Abilities {
             .and_then(|can| can.code_description_support);
         let window = can.window.as_ref();
         let progress = window.and_then(|window| window.work_done_progress);
-        let fetches = text.is_some_and(|text| text.diagnostic.is_some());
-        let workspace = can.workspace.as_ref();
-        let again = workspace
-            .and_then(|workspace| workspace.diagnostics.as_ref())
-            .and_then(|can| can.refresh_support);
         self.links_at_codes
             .store(links.unwrap_or(false), Ordering::Relaxed);
         self.progress
             .store(progress.unwrap_or(false), Ordering::Relaxed);
-        self.fetches_diagnostics.store(fetches, Ordering::Relaxed);
-        self.fetches_again
-            .store(again.unwrap_or(false), Ordering::Relaxed);
+        self.fetches_diagnostics
+            .store(fetches_diagnostics(can), Ordering::Relaxed);
     }
+}
+
+/// Whether the client can fetch diagnostics, and be told to do so again: a linked file may change while the text
+/// does not.
+fn fetches_diagnostics(can: &ClientCapabilities) -> bool {
+    let text = can.text_document.as_ref();
+    let workspace = can.workspace.as_ref();
+    let again = workspace
+        .and_then(|workspace| workspace.diagnostics.as_ref())
+        .and_then(|can| can.refresh_support);
+    text.is_some_and(|text| text.diagnostic.is_some()) && again.unwrap_or(false)
 }
 
 /// The answer to a client that introduces itself.
 pub(super) fn offer(can: &ClientCapabilities, encoding: Encoding) -> InitializeResult {
     let words = |words: &[&str]| Some(words.iter().map(|word| (*word).to_owned()).collect());
-    let text = can.text_document.as_ref();
-    let fetches = text.is_some_and(|text| text.diagnostic.is_some());
     let capabilities = ServerCapabilities {
         position_encoding: Some(encoding.kind()),
         text_document_sync: Some(TextDocumentSyncCapability::Options(
@@ -95,7 +98,7 @@ pub(super) fn offer(can: &ClientCapabilities, encoding: Encoding) -> InitializeR
             .into(),
         ),
         inlay_hint_provider: Some(OneOf::Left(true)),
-        diagnostic_provider: fetches.then(|| {
+        diagnostic_provider: fetches_diagnostics(can).then(|| {
             DiagnosticServerCapabilities::Options(DiagnosticOptions {
                 identifier: Some(convert::SOURCE.to_owned()),
                 inter_file_dependencies: false,

@@ -204,8 +204,9 @@ pub(super) fn proposal(
         kind: Some(kind),
         detail: Some(proposal.detail.clone()),
         sort_text: Some(format!("{index:04}")),
-        // What stands there may begin with a quote or a sign: the word is found by what will be written.
-        filter_text: (proposal.text != proposal.label).then(|| proposal.text.clone()),
+        // What stands there may begin with a quote or a sign: the word is found by what will be written. Always given,
+        // since some clients take its absence for a list that is filtered already.
+        filter_text: Some(proposal.text.clone()),
         insert_text_format: Some(match snippet {
             Some(_) => InsertTextFormat::SNIPPET,
             None => InsertTextFormat::PLAIN_TEXT,

@@ -61,8 +61,6 @@ pub(super) type Arrivals = watch::Receiver<Option<Arc<Analysed>>>;
 struct Entry {
     document: Arc<Document>,
     analysed: watch::Sender<Option<Arc<Analysed>>>,
-    /// The generation that an analysis was asked for last.
-    asked: u64,
 }
 
 /// All open texts.
@@ -127,7 +125,6 @@ impl Documents {
         let entry = Entry {
             document: Arc::new(document),
             analysed: watch::Sender::new(None),
-            asked: 0,
         };
         state.entries.insert(key, entry);
     }
@@ -209,22 +206,11 @@ impl Documents {
         Some(state.entries.get(uri)?.document.clone())
     }
 
-    /// Whether an analysis of a text as it is now must still be asked for; it counts as asked for from here on.
-    pub(super) fn ask(&self, uri: &str) -> bool {
-        let mut state = self.state();
-        let Some(entry) = state.entries.get_mut(uri) else {
-            return false;
-        };
-        let news = entry.asked < entry.document.generation;
-        entry.asked = entry.document.generation;
-        news
-    }
-
     /// The last analysis of a text.
     pub(super) fn last(&self, uri: &str) -> Option<Arc<Analysed>> {
         let state = self.state();
-        let last = state.entries.get(uri)?.analysed.borrow().clone();
-        last
+        let entry = state.entries.get(uri);
+        entry.and_then(|entry| entry.analysed.borrow().clone())
     }
 
     /// Hands an analysis to those who wait for it, unless its state is gone. Says whether it was handed over.

@@ -58,7 +58,7 @@ impl<S> Ordered<S> {
                 if let Some(params) = read::<DidOpenTextDocumentParams>(params) {
                     let uri = params.text_document.uri.to_string();
                     self.documents.open(params.text_document);
-                    self.analyst.opened(&uri);
+                    self.analyst.opened_or_saved(&uri);
                 }
             }
             "textDocument/didChange" => {
@@ -76,7 +76,8 @@ impl<S> Ordered<S> {
             }
             "textDocument/didSave" => {
                 if let Some(params) = read::<DidSaveTextDocumentParams>(params) {
-                    self.analyst.saved(params.text_document.uri.as_str());
+                    let uri = params.text_document.uri.as_str();
+                    self.analyst.opened_or_saved(uri);
                 }
             }
             "workspace/didChangeConfiguration" => {
@@ -109,6 +110,7 @@ where
     }
 
     fn call(&mut self, request: Request) -> Self::Future {
+        let request = without_empty_params(request);
         let id = request.id().cloned();
         let begun = std::panic::catch_unwind(AssertUnwindSafe(|| {
             if self.changes_texts(&request) {
@@ -128,6 +130,15 @@ where
                 Err(_) => Ok(id.map(gave_up)),
             }
         })
+    }
+}
+
+/// `shutdown` and `exit` as the framework wants them: some clients send them with empty parameters, which it refuses.
+fn without_empty_params(request: Request) -> Request {
+    match (request.method(), request.id().cloned()) {
+        ("shutdown", Some(id)) => Request::build("shutdown").id(id).finish(),
+        ("exit", None) => Request::build("exit").finish(),
+        _ => request,
     }
 }
 

@@ -164,7 +164,31 @@ fn starts_line(node: Node<'_, '_>) -> bool {
 fn decode(node: Node<'_, '_>, prepared: &Prepared, out: &mut Text) {
     let Some(expected) = node.text() else { return };
     let range = node.range();
-    let source = &prepared.text[range.clone()];
+    let written = decoded(range.clone(), prepared)
+        .filter(|text| text.as_str() == expected)
+        .or_else(|| {
+            // Characters beside a CDATA section are one node with it, whose range is that of its beginning.
+            let whole = decoded(range.start..end_of(node, prepared)?, prepared);
+            whole.filter(|text| text.as_str() == expected)
+        });
+    match written {
+        Some(text) => out.append(&text),
+        // Markup out of an entity: its characters have no places of their own.
+        None => out.push(expected, prepared.span(range), Form::Unit),
+    }
+}
+
+/// Where a text node ends: where the next node or the end tag begins.
+fn end_of(node: Node<'_, '_>, prepared: &Prepared) -> Option<usize> {
+    match node.next_sibling() {
+        Some(next) => Some(next.range().start),
+        None => prepared.text[..node.parent()?.range().end].rfind("</"),
+    }
+}
+
+/// The characters that stand at a place of the copy; `None` if they cannot be read.
+fn decoded(range: std::ops::Range<usize>, prepared: &Prepared) -> Option<Text> {
+    let source = prepared.text.get(range.clone())?;
     let origin = prepared.original(range.start);
     let mut text = Text::default();
     let mut rest = 0;
@@ -179,26 +203,24 @@ fn decode(node: Node<'_, '_>, prepared: &Prepared, out: &mut Text) {
             plain(&mut text, &cdata[..end], origin + start, Form::Cdata);
             rest = (start + end + "]]>".len()).min(source.len());
         } else if tail.starts_with('&') {
-            let Some(end) = tail.find(';') else { break };
+            let end = tail.find(';')?;
             let name = &tail[1..end];
             match (character(name), prepared.entities.get(name)) {
                 (Some(c), _) => unit(&mut text, c.encode_utf8(&mut [0; 4]), rest, rest + end + 1),
                 (None, Some(value)) => unit(&mut text, value, rest, rest + end + 1),
-                (None, None) => break,
+                (None, None) => return None,
             }
             rest += end + 1;
         } else {
-            let end = tail.find(['&', '<']).unwrap_or(tail.len()).max(1);
+            let end = tail.find(['&', '<']).unwrap_or(tail.len());
+            if end == 0 {
+                return None;
+            }
             plain(&mut text, &tail[..end], origin + rest, Form::Plain);
             rest += end;
         }
     }
-    if text.as_str() == expected {
-        out.append(&text);
-    } else {
-        // Markup out of an entity: its characters have no places of their own.
-        out.push(expected, prepared.span(range), Form::Unit);
-    }
+    Some(text)
 }
 
 /// Appends characters that are not escaped; line ends become line feeds, as XML wants it.

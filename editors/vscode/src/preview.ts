@@ -4,14 +4,14 @@ import * as vscode from "vscode";
 import type { ShowDocumentParams, ShowDocumentRequest } from "vscode-languageclient/node";
 import { isPicture } from "./drawing";
 
-/** Shows a picture in the picture viewer, which the client library does not; leaves other documents to the library. */
+/** Shows a picture in the editor's own viewer, which is nearer than the system's; leaves other documents to the library. */
 export async function showDocument(
   params: ShowDocumentParams,
   token: vscode.CancellationToken,
   next: ShowDocumentRequest.HandlerSignature,
 ): Promise<{ success: boolean }> {
   const uri = vscode.Uri.parse(params.uri);
-  if (params.external || !isPicture(uri.path)) {
+  if (!isPicture(uri.path)) {
     const result = await next(params, token);
     return "success" in result ? result : { success: false };
   }
