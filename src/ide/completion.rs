@@ -1,5 +1,9 @@
 //! What can be written at a place.
 
+mod snippets;
+#[cfg(test)]
+mod tests;
+
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -8,7 +12,7 @@ use super::at::attributes;
 use super::quoting::{Role, written};
 use super::typed::{Typed, typed_at};
 use crate::bind::{PartKind, Place};
-use crate::lang::ast::{Annotation, Argument, ArgumentKind, Attribute};
+use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::colours::COLOURS;
 use crate::lang::keyword::kinds::{KINDS, Kind};
 use crate::lang::keyword::signature::Takes;
@@ -16,6 +20,7 @@ use crate::lang::keyword::words::{AXES, FUNCTIONS, STRINGS};
 use crate::lang::keyword::{Holder, Keyword, Status};
 use crate::lang::{self, explain, folded, in_name, in_word, slot};
 use crate::source::{Span, Text};
+use snippets::{example_arguments, filled, kind_arguments, plain};
 
 /// What is known where something is typed.
 pub struct Context<'a> {
@@ -297,7 +302,8 @@ impl Cursor<'_> {
                     detail: format!("{}{later}", row.summary),
                     page: Some(keyword.name()),
                     text: keyword.name().to_owned(),
-                    snippet: self.filled(keyword.name(), example_arguments(keyword)),
+                    snippet: filled(keyword.name(), &example_arguments(keyword))
+                        .map(|snippet| self.escape(&snippet)),
                 }
             })
             .collect()
@@ -395,7 +401,7 @@ impl Cursor<'_> {
         Proposal {
             page: Some(kind.name),
             detail: format!("{}{later}", kind.summary),
-            snippet: self.filled(kind.name, kind_arguments(kind)),
+            snippet: filled(kind.name, &kind_arguments(kind)).map(|snippet| self.escape(&snippet)),
             ..simple(kind.name, ProposalKind::Word, "")
         }
     }
@@ -445,26 +451,6 @@ impl Cursor<'_> {
                 ..simple(&name, ProposalKind::File, "in the drawing's folder")
             })
             .collect()
-    }
-
-    /// A word with the arguments that its example gives, each to be typed over.
-    fn filled(&self, word: &str, arguments: Vec<String>) -> Option<String> {
-        if arguments.is_empty() {
-            return None;
-        }
-        let mut out = word.to_owned();
-        for (index, argument) in arguments.iter().enumerate() {
-            let (open, inner, close) = match argument.strip_prefix('"') {
-                Some(inner) => ("\"", inner.trim_end_matches('"'), "\""),
-                None => ("", argument.as_str(), ""),
-            };
-            let inner = inner
-                .replace('\\', "\\\\")
-                .replace('$', "\\$")
-                .replace('}', "\\}");
-            out.push_str(&format!(" {open}${{{}:{inner}}}{close}", index + 1));
-        }
-        Some(self.escape(&out))
     }
 
     fn escape(&self, text: &str) -> String {
@@ -578,200 +564,9 @@ fn can_end(attribute: &Attribute) -> bool {
     }
 }
 
-/// The arguments that a keyword has in its example.
-fn example_arguments(keyword: Keyword) -> Vec<String> {
-    arguments_of(keyword.row().example, keyword, 0)
-}
-
-/// The parameters that a kind of shape has in its example.
-fn kind_arguments(kind: &Kind) -> Vec<String> {
-    arguments_of(kind.example, Keyword::Shape, 1)
-}
-
-/// The arguments of a keyword in a string, without the first few.
-fn arguments_of(string: &str, keyword: Keyword, skipped: usize) -> Vec<String> {
-    let (annotation, _) = lang::parse(&Text::plain(string, 0), lang::Place::Text);
-    let found = attributes(&annotation)
-        .iter()
-        .find(|attribute| attribute.keyword == keyword);
-    let arguments = found.map_or(&[][..], |attribute| attribute.arguments.as_slice());
-    let words = arguments.iter().skip(skipped);
-    words
-        .map(|argument: &Argument| string[argument.range.clone()].to_owned())
-        .collect()
-}
-
-/// A snippet's text, its places filled as they are.
-fn plain(snippet: &str) -> String {
-    let mut out = String::new();
-    let mut rest = snippet;
-    while let Some(c) = rest.chars().next() {
-        rest = &rest[c.len_utf8()..];
-        match c {
-            '\\' => {
-                let escaped = rest.chars().next();
-                out.extend(escaped);
-                rest = &rest[escaped.map_or(0, char::len_utf8)..];
-            }
-            '$' => {
-                let inner = rest
-                    .split_once(':')
-                    .and_then(|(_, inner)| inner.split_once('}'));
-                let (inner, behind) = inner.unwrap_or_default();
-                out.push_str(inner);
-                rest = behind;
-            }
-            c => out.push(c),
-        }
-    }
-    out
-}
-
 impl Proposal {
     /// The manual page of what it is, in Markdown.
     pub fn manual(page: &str) -> Option<String> {
         explain::page(page)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::samples::{analysis, figure};
-    use super::*;
-
-    fn proposed(source: &str) -> Option<(String, Vec<Proposal>)> {
-        let (analysis, at) = analysis(source);
-        let files = || {
-            vec![
-                "a.png".to_owned(),
-                "b/c d.glb".to_owned(),
-                "e.txt".to_owned(),
-            ]
-        };
-        let context = Context {
-            source: &analysis.source().clone(),
-            analysis: &analysis,
-            files: &files,
-        };
-        let found = completion(&context, at)?;
-        let replaced = analysis.source()[found.span.start..found.span.end].to_owned();
-        Some((replaced, found.proposals))
-    }
-
-    fn labels(string: &str) -> (String, Vec<String>) {
-        let source = figure(["Body", string, "Larm@Rarm", "", "%Let wide 12"]);
-        let (replaced, proposals) = proposed(&source).unwrap();
-        (
-            replaced,
-            proposals
-                .into_iter()
-                .map(|proposal| proposal.label)
-                .collect(),
-        )
-    }
-
-    #[test]
-    fn parents_are_all_but_oneself_and_what_one_carries() {
-        assert_eq!(labels("Rarm@¦"), (String::new(), vec!["Body".to_owned()]));
-        assert_eq!(labels("Rarm@Bo¦dx$Shape round").0, "Bodx");
-    }
-
-    #[test]
-    fn keywords_stand_where_they_can() {
-        let (replaced, found) = labels("Rarm@Body$Sh¦");
-        assert_eq!(replaced, "Sh");
-        assert!(found.contains(&"Shape".to_owned()) && !found.contains(&"Scale".to_owned()));
-        let (_, found) = labels("Rarm@Body$Offset 3 ¦");
-        assert!(!found.contains(&"Offset".to_owned()) && found.contains(&"Shape".to_owned()));
-        let (_, found) = labels("%¦");
-        assert!(found.contains(&"Scale".to_owned()) && found.contains(&"Shape".to_owned()));
-        // What must still be given is proposed alone.
-        let (_, found) = labels("Rarm@Body$Offset ¦");
-        assert_eq!(found, ["wide"]);
-    }
-
-    #[test]
-    fn arguments_go_by_their_parameter() {
-        for (string, expected) in [
-            ("Rarm@Body$Shape ¦", "inflate"),
-            ("Rarm@Body$Shape ¦", "-d"),
-            ("Rarm@Body$Shape -¦", "-s"),
-            ("Rarm@Body$Shape cone ¦", "wide"),
-            ("Rarm@Body$Origin ¦", "center"),
-            ("Rarm@Body$Color ¦", "orange"),
-            ("Rarm@Body$Offset (¦", "sqrt"),
-            ("Rarm@Body$Offset (2 * ¦)", "wide"),
-            ("Rarm@Body$Texture ¦", "a.png"),
-            ("Rarm@Body$Texture \"¦", "a.png"),
-            ("Rarm@Body$Shape model \"b¦\"", "b/c d.glb"),
-            ("Rarm@Body$Mark red Follow ¦", "Body"),
-            ("%Axes +x ¦", "-y"),
-        ] {
-            let (_, found) = labels(string);
-            assert!(found.contains(&expected.to_owned()), "{string}: {found:?}");
-        }
-        assert!(!labels("%Axes +x ¦").1.contains(&"-x".to_owned()));
-        assert_eq!(labels("Rarm@Body$Texture \"¦a.png\"").0, "\"a.png\"");
-    }
-
-    #[test]
-    fn nothing_is_proposed_outside_of_strings() {
-        for source in [
-            figure(["Body", "Rarm@Body", "", "", ""])
-                .replace("<rect id=\"right\"", "<rect ¦id=\"right\""),
-            figure(["Body", "# Rarm@¦", "", "", ""]),
-            figure(["Body", "Rarm ¦", "", "", ""]),
-        ] {
-            assert!(
-                proposed(&source).is_none_or(|(_, found)| found.is_empty()),
-                "{source}"
-            );
-        }
-    }
-
-    #[test]
-    fn an_empty_text_can_begin_any_string() {
-        let source = figure(["Body", "<tspan>¦</tspan>", "", "", ""]);
-        let (_, found) = proposed(&source).unwrap();
-        let named: Vec<_> = found
-            .iter()
-            .map(|proposal| proposal.label.as_str())
-            .collect();
-        assert_eq!(named, ["# …", "% …", "*", "$ …", "Name@Parent$ …"]);
-        assert_eq!(found[4].text, "Name@Parent$Shape roundv");
-    }
-
-    #[test]
-    fn a_text_that_is_no_drawing_is_read_around_the_place() {
-        let (good, _) = analysis(&figure(["Body", "Rarm@Body", "", "", ""]));
-        let source = figure(["Body", "Rarm@Body$Shape ¦", "", "", ""]).replace("</svg>", "<text>&");
-        let at = source.find('¦').unwrap();
-        let source = source.replacen('¦', "", 1);
-        let context = Context {
-            source: &source,
-            analysis: &good,
-            files: &Vec::new,
-        };
-        let found = completion(&context, at).unwrap();
-        assert!(
-            found
-                .proposals
-                .iter()
-                .any(|proposal| proposal.label == "roundv")
-        );
-    }
-
-    #[test]
-    fn every_example_fills_its_keyword() {
-        for keyword in Keyword::ALL {
-            let takes_nothing = keyword.row().forms.iter().all(|form| form.most() == 0);
-            assert_eq!(
-                example_arguments(*keyword).is_empty(),
-                takes_nothing,
-                "{}",
-                keyword.name()
-            );
-        }
-        assert_eq!(example_arguments(Keyword::Color), ["1", "0.8", "0.6"]);
     }
 }

@@ -1,0 +1,139 @@
+use super::super::samples::{analysis, figure};
+use super::snippets::example_arguments;
+use super::*;
+
+fn proposed(source: &str) -> Option<(String, Vec<Proposal>)> {
+    let (analysis, at) = analysis(source);
+    let files = || {
+        vec![
+            "a.png".to_owned(),
+            "b/c d.glb".to_owned(),
+            "e.txt".to_owned(),
+        ]
+    };
+    let context = Context {
+        source: &analysis.source().clone(),
+        analysis: &analysis,
+        files: &files,
+    };
+    let found = completion(&context, at)?;
+    let replaced = analysis.source()[found.span.start..found.span.end].to_owned();
+    Some((replaced, found.proposals))
+}
+
+fn labels(string: &str) -> (String, Vec<String>) {
+    let source = figure(["Body", string, "Larm@Rarm", "", "%Let wide 12"]);
+    let (replaced, proposals) = proposed(&source).unwrap();
+    (
+        replaced,
+        proposals
+            .into_iter()
+            .map(|proposal| proposal.label)
+            .collect(),
+    )
+}
+
+#[test]
+fn parents_are_all_but_oneself_and_what_one_carries() {
+    assert_eq!(labels("Rarm@¦"), (String::new(), vec!["Body".to_owned()]));
+    assert_eq!(labels("Rarm@Bo¦dx$Shape round").0, "Bodx");
+}
+
+#[test]
+fn keywords_stand_where_they_can() {
+    let (replaced, found) = labels("Rarm@Body$Sh¦");
+    assert_eq!(replaced, "Sh");
+    assert!(found.contains(&"Shape".to_owned()) && !found.contains(&"Scale".to_owned()));
+    let (_, found) = labels("Rarm@Body$Offset 3 ¦");
+    assert!(!found.contains(&"Offset".to_owned()) && found.contains(&"Shape".to_owned()));
+    let (_, found) = labels("%¦");
+    assert!(found.contains(&"Scale".to_owned()) && found.contains(&"Shape".to_owned()));
+    // What must still be given is proposed alone.
+    let (_, found) = labels("Rarm@Body$Offset ¦");
+    assert_eq!(found, ["wide"]);
+}
+
+#[test]
+fn arguments_go_by_their_parameter() {
+    for (string, expected) in [
+        ("Rarm@Body$Shape ¦", "inflate"),
+        ("Rarm@Body$Shape ¦", "-d"),
+        ("Rarm@Body$Shape -¦", "-s"),
+        ("Rarm@Body$Shape cone ¦", "wide"),
+        ("Rarm@Body$Origin ¦", "center"),
+        ("Rarm@Body$Color ¦", "orange"),
+        ("Rarm@Body$Offset (¦", "sqrt"),
+        ("Rarm@Body$Offset (2 * ¦)", "wide"),
+        ("Rarm@Body$Texture ¦", "a.png"),
+        ("Rarm@Body$Texture \"¦", "a.png"),
+        ("Rarm@Body$Shape model \"b¦\"", "b/c d.glb"),
+        ("Rarm@Body$Mark red Follow ¦", "Body"),
+        ("%Axes +x ¦", "-y"),
+    ] {
+        let (_, found) = labels(string);
+        assert!(found.contains(&expected.to_owned()), "{string}: {found:?}");
+    }
+    assert!(!labels("%Axes +x ¦").1.contains(&"-x".to_owned()));
+    assert_eq!(labels("Rarm@Body$Texture \"¦a.png\"").0, "\"a.png\"");
+}
+
+#[test]
+fn nothing_is_proposed_outside_of_strings() {
+    for source in [
+        figure(["Body", "Rarm@Body", "", "", ""])
+            .replace("<rect id=\"right\"", "<rect ¦id=\"right\""),
+        figure(["Body", "# Rarm@¦", "", "", ""]),
+        figure(["Body", "Rarm ¦", "", "", ""]),
+    ] {
+        assert!(
+            proposed(&source).is_none_or(|(_, found)| found.is_empty()),
+            "{source}"
+        );
+    }
+}
+
+#[test]
+fn an_empty_text_can_begin_any_string() {
+    let source = figure(["Body", "<tspan>¦</tspan>", "", "", ""]);
+    let (_, found) = proposed(&source).unwrap();
+    let named: Vec<_> = found
+        .iter()
+        .map(|proposal| proposal.label.as_str())
+        .collect();
+    assert_eq!(named, ["# …", "% …", "*", "$ …", "Name@Parent$ …"]);
+    assert_eq!(found[4].text, "Name@Parent$Shape roundv");
+}
+
+#[test]
+fn a_text_that_is_no_drawing_is_read_around_the_place() {
+    let (good, _) = analysis(&figure(["Body", "Rarm@Body", "", "", ""]));
+    let source = figure(["Body", "Rarm@Body$Shape ¦", "", "", ""]).replace("</svg>", "<text>&");
+    let at = source.find('¦').unwrap();
+    let source = source.replacen('¦', "", 1);
+    let context = Context {
+        source: &source,
+        analysis: &good,
+        files: &Vec::new,
+    };
+    let found = completion(&context, at).unwrap();
+    assert!(
+        found
+            .proposals
+            .iter()
+            .any(|proposal| proposal.label == "roundv")
+    );
+}
+
+#[test]
+fn every_example_fills_its_keyword() {
+    for keyword in Keyword::ALL {
+        let takes_nothing = keyword.row().forms.iter().all(|form| form.most() == 0);
+        assert_eq!(
+            example_arguments(*keyword).is_empty(),
+            takes_nothing,
+            "{}",
+            keyword.name()
+        );
+    }
+    assert_eq!(example_arguments(Keyword::Color), ["1", "0.8", "0.6"]);
+}
