@@ -14,6 +14,13 @@ local function show_document(_, params, context, config)
   return { success = true }
 end
 
+-- Neovim 0.11 fetches diagnostics after edits, but does not know how to be asked to fetch them again when a linked file
+-- changes. It is sent them instead, as older versions are.
+local known = vim.lsp.protocol.make_client_capabilities()
+local fetches = (known.textDocument or {}).diagnostic ~= nil
+local fetches_again = ((known.workspace or {}).diagnostics or {}).refreshSupport
+local capabilities = fetches and not fetches_again and { textDocument = { diagnostic = vim.NIL } } or nil
+
 return {
   cmd = { 'okoshi', 'lsp' },
   filetypes = { 'svg', 'xml' },
@@ -27,5 +34,6 @@ return {
     local root = git ~= '' and vim.fn.fnamemodify(git, ':p:h:h') or vim.fn.fnamemodify(file, ':p:h')
     start(root)
   end,
+  capabilities = capabilities,
   handlers = { ['window/showDocument'] = show_document },
 }

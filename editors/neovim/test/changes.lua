@@ -124,16 +124,14 @@ return {
   {
     'attributes move to a legend',
     function()
-      h.open(h.with(h.example('human.svg'), '$Shape roundv -90 90 Color 0.2 0.3 0.7', '#nothing'))
+      h.open(h.with(h.example('human.svg'), '$Shape default -15 15 Color 1.0', '$Color 1.0'))
       local found = actions_at(arm, 12)
-      h.equal(#found, 1, 'actions')
+      h.equal(titles(found), { 'Move these attributes to the legend of all 3 parts that are painted like it' })
       h.equal(found[1].kind, 'refactor.rewrite')
       h.apply(found[1].edit)
       h.holds(h.text(), '>Rarm@Ubody<')
-      h.wait('the other parts are as they were', function()
-        return h.ask_at('textDocument/hover', '>Rarm', 2) ~= nil
-      end)
-      h.holds(h.ask_at('textDocument/hover', '>Rarm', 2).contents.value, '`roundv -90 90`')
+      h.holds(h.text(), '>$Color 1.0 0.8 0.6 Shape roundv -90 90<')
+      h.holds(h.ask_at('textDocument/hover', '>Rarm', 2).contents.value, '`roundv -90 90` | the legend of its paint')
     end,
   },
   {

@@ -40,10 +40,9 @@ function M.install()
     end,
   }
   if M.wanted_encoding ~= 'default' then
-    config.capabilities = vim.lsp.protocol.make_client_capabilities()
-    config.capabilities.general = config.capabilities.general or {}
-    config.capabilities.general.positionEncodings = { M.wanted_encoding }
+    config.capabilities = { general = { positionEncodings = { M.wanted_encoding } } }
     if not is_new then
+      config.capabilities = vim.tbl_deep_extend('force', vim.lsp.protocol.make_client_capabilities(), config.capabilities)
       -- Older versions do not know the server's answer; they leave it to this function.
       config.on_init = function(client, answer)
         client.offset_encoding = answer.capabilities.positionEncoding
@@ -132,11 +131,19 @@ end
 function M.try(method, params)
   params = params or {}
   params.textDocument = params.textDocument or { uri = M.uri }
-  local answers = assert(vim.lsp.buf_request_sync(M.buffer, method, params, 10000), method .. ' is not answered')
-  local _, answer = next(answers)
-  assert(answer, method .. ' is not answered')
-  local problem = answer.err or answer.error
-  return answer.result, problem
+  local client, answer = M.client(), nil
+  local function answered(problem, result)
+    answer = { result = result, problem = problem }
+  end
+  if is_new then
+    client:request(method, params, answered, M.buffer)
+  else
+    client.request(method, params, answered, M.buffer)
+  end
+  M.wait(method .. ' is answered', function()
+    return answer
+  end)
+  return answer.result, answer.problem
 end
 
 function M.ask(method, params)

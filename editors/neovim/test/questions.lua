@@ -82,6 +82,29 @@ return {
     end,
   },
   {
+    'diagnostics that Neovim fetches by itself',
+    needs = 'nvim-0.11',
+    function()
+      h.open(fault)
+      -- A second server for the same buffer, which is not kept from it.
+      local id = vim.lsp.start({ name = 'fetched', cmd = h.client().config.cmd, on_exit = h.client().config.on_exit })
+      local function codes()
+        local space = vim.lsp.diagnostic.get_namespace(id, true)
+        return vim.tbl_map(function(diagnostic)
+          return diagnostic.code
+        end, vim.diagnostic.get(h.buffer, { namespace = space }))
+      end
+      h.wait('the faults are fetched', function()
+        return vim.deep_equal(codes(), { 'H402', 'H402', 'E203', 'E204' })
+      end)
+      h.go('@Ubodi', 5)
+      h.type('ry')
+      h.wait('they are fetched again', function()
+        return vim.deep_equal(codes(), { 'H402', 'H402', 'E203' })
+      end)
+    end,
+  },
+  {
     'hover on a string, a keyword, a kind, a number and a tag',
     function()
       h.open(h.example('human.svg'))

@@ -18,7 +18,8 @@ local ok, problem = xpcall(function()
   for _, file in ipairs({ 'questions', 'changes', 'typing', 'life' }) do
     for _, test in ipairs(require(file)) do
       local name, run = test[1], test[2]
-      if not only or name:find(only, 1, true) then
+      local can = not test.needs or vim.fn.has(test.needs) == 1
+      if can and (not only or name:find(only, 1, true)) then
         local well, trouble = xpcall(run, debug.traceback)
         local ended, unrest = xpcall(harness.close, debug.traceback)
         if well and ended then
