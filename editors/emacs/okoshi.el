@@ -58,18 +58,34 @@
                            :error-fn (eglot--lambda (&key message &allow-other-keys)
                                        (message "%s" message)))))
 
+(defun okoshi--drawing-p ()
+  "Whether the buffer's file is an SVG file."
+  (and buffer-file-name
+       (string-match-p "\\.svg\\'" (downcase buffer-file-name))))
+
 (defun okoshi-ensure ()
   "Have the language server look at the buffer, if it shows the text of a drawing."
-  (when (and buffer-file-name
-             (string-match-p "\\.svg\\'" (downcase buffer-file-name)))
+  (when (okoshi--drawing-p)
     ;; For this buffer alone: other XML may have another server.
     (setq-local eglot-server-programs
                 (cons `((nxml-mode) . (okoshi-server . ,okoshi-command))
                       eglot-server-programs))
+    ;; `nxml-mode' takes `$' for a letter; a keyword begins behind it.
+    (let ((signs (make-syntax-table (syntax-table))))
+      (modify-syntax-entry ?$ "." signs)
+      (modify-syntax-entry ?＄ "." signs)
+      (set-syntax-table signs))
     (eglot-ensure)))
+
+(defun okoshi-show-text ()
+  "Show a drawing's text where `image-mode' has given up: in terminals it does."
+  (when (and (okoshi--drawing-p) (eq major-mode 'fundamental-mode))
+    (nxml-mode)))
 
 ;;;###autoload
 (add-hook 'nxml-mode-hook #'okoshi-ensure)
+;;;###autoload
+(add-hook 'find-file-hook #'okoshi-show-text)
 
 (provide 'okoshi)
 ;;; okoshi.el ends here
