@@ -55,7 +55,7 @@
     (jsonrpc-async-request server :workspace/executeCommand
                            (list :command "okoshi.preview" :arguments (vector place))
                            :success-fn #'ignore
-                           :error-fn (eglot--lambda (&key message &allow-other-keys)
+                           :error-fn (jsonrpc-lambda (&key message &allow-other-keys)
                                        (message "%s" message)))))
 
 (defun okoshi--drawing-p ()

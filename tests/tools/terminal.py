@@ -53,10 +53,18 @@ def colour(name, fallback):
     return "#" + NAMED.get(name, name)
 
 
+class Screen(pyte.Screen):
+    """A screen that is not put off by questions which it does not know."""
+
+    def report_device_status(self, mode, private=False):
+        if not private:
+            super().report_device_status(mode)
+
+
 def run(arguments):
     """The screen after all keys were typed."""
     columns, rows = (int(side) for side in arguments.size.split("x"))
-    screen = pyte.Screen(columns, rows)
+    screen = Screen(columns, rows)
     stream = pyte.ByteStream(screen)
     process, terminal = pty.fork()
     if process == 0:
