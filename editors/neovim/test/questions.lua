@@ -82,26 +82,40 @@ return {
     end,
   },
   {
-    'diagnostics that Neovim fetches by itself',
+    'a client that can fetch diagnostics sees each of them once',
     needs = 'nvim-0.11',
     function()
       h.open(fault)
-      -- A second server for the same buffer, which is not kept from it.
-      local id = vim.lsp.start({ name = 'fetched', cmd = h.client().config.cmd, on_exit = h.client().config.on_exit })
+      -- A second server for the same buffer, which is told all that this Neovim can do.
+      local config = h.client().config
+      vim.lsp.start({ name = 'second', cmd = config.cmd, on_exit = config.on_exit })
       local function codes()
-        local space = vim.lsp.diagnostic.get_namespace(id, true)
+        local found = {}
+        for name, space in pairs(vim.api.nvim_get_namespaces()) do
+          if name:find('second', 1, true) then
+            vim.list_extend(found, vim.diagnostic.get(h.buffer, { namespace = space }))
+          end
+        end
         return vim.tbl_map(function(diagnostic)
           return diagnostic.code
-        end, vim.diagnostic.get(h.buffer, { namespace = space }))
+        end, found)
       end
-      h.wait('the faults are fetched', function()
-        return vim.deep_equal(codes(), { 'H402', 'H402', 'E203', 'E204' })
-      end)
-      h.go('@Ubodi', 5)
-      h.type('ry')
-      h.wait('they are fetched again', function()
-        return vim.deep_equal(codes(), { 'H402', 'H402', 'E203' })
-      end)
+      for _, case in ipairs({
+        { '', { 'H402', 'H402', 'E203', 'E204' } },
+        { 'ry', { 'H402', 'H402', 'E203' } },
+      }) do
+        h.go('Rarm@Ubodi', 9)
+        h.type(case[1])
+        h.wait('the faults are told', function()
+          return vim.deep_equal(codes(), case[2])
+        end)
+        -- What comes late must not stand beside them.
+        vim.wait(300)
+        h.equal(codes(), case[2])
+        if case[1] == '' then
+          h.equal(#vim.diagnostic.get(h.buffer), 8, 'diagnostics of both servers')
+        end
+      end
     end,
   },
   {
