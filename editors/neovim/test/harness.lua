@@ -119,7 +119,8 @@ function M.close()
     vim.lsp.stop_client(client.id)
   end
   M.wait('the server has ended', function()
-    return #M.exits == before + running
+    -- A client may stay in the list for a moment after its server has ended.
+    return #M.exits == before + running and vim.tbl_isempty(clients())
   end)
   for index = before + 1, #M.exits do
     M.equal(M.exits[index], { 0, 0 }, 'exit code and signal of the server')
