@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Runs everything that tells whether okoshi is in order: bash tests/all.sh [--quick]
 #
-# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender is installed if it is missing and that is
-# allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the summary says why.
-# --quick leaves Blender out. Exit status 1 if anything failed. All of cargo's work is done in one profile.
+# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender, Neovim and Emacs are installed if they are missing
+# and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the summary says why.
+# --quick leaves Blender out, and installs nothing. Exit status 1 if anything failed. All of cargo's work is done in one profile.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -142,6 +142,30 @@ extension() {
   OKOSHI=$(realpath "$okoshi") npm test --prefix editors/vscode
 }
 
+# Eglot is a package of its own before Emacs 29.
+has_eglot() { emacs -q --batch -l eglot > /dev/null 2>&1; }
+
+install_editors() {
+  command -v nvim > /dev/null && command -v python3 > /dev/null && has_eglot && return
+  [ $quick = no ] || skip "--quick, and Neovim, Emacs or its Eglot is not installed"
+  command -v apt-get > /dev/null || skip "Neovim, Emacs or its Eglot is not installed, and there is no apt-get"
+  local sudo=
+  if [ "$(id -u)" != 0 ]; then
+    sudo -n true 2> /dev/null || skip "Neovim, Emacs or its Eglot is not installed, and installing takes root or sudo without password"
+    sudo="sudo -n"
+  fi
+  $sudo apt-get update -q
+  local install="$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends"
+  $install neovim emacs-nox python3-venv
+  has_eglot || $install elpa-eglot
+}
+
+editors() {
+  install_editors
+  cargo build --locked
+  OKOSHI=$(realpath "$okoshi") SCRATCH=$target/editors bash $tools/editors.sh
+}
+
 step format formatting
 step clippy lints
 step test tests
@@ -153,6 +177,7 @@ step blender blender_import
 step gallery gallery
 step readme readme
 step extension extension
+step editors editors
 
 printf '\n==== summary, %d s\n' $SECONDS
 printf '%s\n' "${summary[@]}"
