@@ -204,16 +204,21 @@ impl Analysis {
         };
         let _ = write!(out, "\n\n{}, {why}", self.element_of(index));
         if matches!(part.kind, PartKind::Main | PartKind::Sub) {
-            out.push_str("\n\n| attribute | value | from |\n|---|---|---|\n");
+            // A list, since many editors show tables as they are written.
+            out.push_str("\n\n");
             for attribute in sheet.resolved(self.drawing(), index) {
                 let from = match attribute.from {
-                    SetBy::Own => "its own string".to_owned(),
-                    SetBy::Legend => "the legend of its paint".to_owned(),
-                    SetBy::Default => "a `%` string".to_owned(),
-                    SetBy::Builtin => "okoshi".to_owned(),
+                    SetBy::Own => "its own string",
+                    SetBy::Legend => "the legend of its paint",
+                    SetBy::Default => "a `%` string",
+                    SetBy::Builtin => "okoshi",
                 };
-                let value = attribute.value.replace('|', "\\|").replace('`', "'");
-                let _ = writeln!(out, "| {} | `{value}` | {from} |", attribute.keyword.name());
+                let name = attribute.keyword.name();
+                let value = attribute.value.replace('`', "'");
+                let _ = match value.is_empty() {
+                    true => writeln!(out, "- {name}, from {from}"),
+                    false => writeln!(out, "- {name} `{value}`, from {from}"),
+                };
             }
         }
         if part.kind == PartKind::Main {
@@ -344,10 +349,10 @@ mod tests {
         for part in [
             "Root › Body › **Rarm**",
             "`<rect>` `#right`, by the string that is nearest to it",
-            "| Shape | `roundv` | its own string |",
-            "| Offset | `4` | the legend of its paint |",
-            "| Smooth | `20` | a `%` string |",
-            "| Color | `1 0.8 0.6` | okoshi |",
+            "- Shape `roundv`, from its own string",
+            "- Offset `4`, from the legend of its paint",
+            "- Smooth `20`, from a `%` string",
+            "- Color `1 0.8 0.6`, from okoshi",
             "Carries `Larm`.",
         ] {
             assert!(card.contains(part), "{part} is not in:\n{card}");

@@ -124,7 +124,7 @@ return {
       h.open(h.example('human.svg'))
       for _, case in ipairs({
         { 0, 'Rarm', '**Rarm**\n\nRoot › Ubody › **Rarm**' },
-        { 0, 'Rarm', '| Shape | `roundv -90 90` | its own string |' },
+        { 0, 'Rarm', '- Shape `roundv -90 90`, from its own string' },
         { 6, 'Ubody', 'Carries `Rarm`, `Larm`, `Head`.' },
         { 12, 'Shape', '# Shape\n\nHow the flat outline becomes a solid.' },
         { 18, 'roundv', '# Shape roundv' },
