@@ -17,7 +17,6 @@ use super::{convert, links::Links, manual, progress};
 use crate::compile::{Compiled, Compiler, Options};
 use crate::disk::FolderResolver;
 use crate::ide::Analysis;
-use crate::resolver::{MemoryResolver, Resolver};
 
 /// When texts are analysed that nobody asks about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -244,7 +243,8 @@ fn analysed(
     }
     let shows_progress = desk.abilities.progress.load(Ordering::Relaxed);
     let progress = shows_progress.then(|| progress::begin(desk, &document));
-    let compiled = compiled(compiler, &document);
+    let resolver = document.resolver();
+    let compiled = compiler.compile(document.text(), &Options::default(), resolver.as_ref());
     let places = places(&document, &compiled);
     desk.links.watch(uri.as_str(), places);
     let analysis = Analysis::new(document.text().clone(), compiled);
@@ -264,15 +264,6 @@ fn analysed(
     drop(progress);
     let arrived = analyst.documents.arrive(analysed.clone());
     arrived.then_some((analysed, by_a_link))
-}
-
-/// Compiles a state of a text; links are read from its folder.
-fn compiled(compiler: &mut Compiler, document: &Document) -> Compiled {
-    let resolver: Box<dyn Resolver> = match document.folder() {
-        Some(folder) => Box::new(FolderResolver::new(folder)),
-        None => Box::new(MemoryResolver::default()),
-    };
-    compiler.compile(document.text(), &Options::default(), resolver.as_ref())
 }
 
 /// The files that a drawing links to, also those that are not there yet.

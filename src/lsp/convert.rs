@@ -112,12 +112,21 @@ impl<'a> Places<'a> {
     }
 }
 
-/// The diagnostics of an analysis; of a drawing without strings none.
+/// How many diagnostics of a drawing are shown: with more, editors come to a stand, and nobody reads them.
+const MOST_SHOWN: usize = 1000;
+
+/// The diagnostics of an analysis, if they are too many the worst; of a drawing without strings none.
 pub(super) fn diagnostics(analysed: &Analysed, pages: Option<&Pages>) -> Vec<Diagnostic> {
     if !analysed.analysis.is_annotated() {
         return vec![];
     }
-    let found = analysed.analysis.diagnostics().iter();
+    let mut found: Vec<_> = analysed.analysis.diagnostics().iter().collect();
+    if found.len() > MOST_SHOWN {
+        found.sort_by_key(|diagnostic| diagnostic.severity());
+        found.truncate(MOST_SHOWN);
+        found.sort_by_key(|diagnostic| diagnostic.span);
+    }
+    let found = found.into_iter();
     found
         .map(|diagnostic| self::diagnostic(analysed, diagnostic, pages))
         .collect()

@@ -13,7 +13,9 @@ use tower_lsp::ls_types::{
 };
 
 use super::positions::{Encoding, Positions};
+use crate::disk::FolderResolver;
 use crate::ide::Analysis;
+use crate::resolver::{MemoryResolver, Resolver};
 use crate::source::Span;
 
 /// One state of a text.
@@ -40,6 +42,14 @@ impl Document {
     /// The folder that its links start from.
     pub(super) fn folder(&self) -> Option<&Path> {
         self.path.as_deref().and_then(Path::parent)
+    }
+
+    /// What reads its links; a text that is no file has none.
+    pub(super) fn resolver(&self) -> Box<dyn Resolver> {
+        match self.folder() {
+            Some(folder) => Box::new(FolderResolver::new(folder)),
+            None => Box::new(MemoryResolver::default()),
+        }
     }
 }
 

@@ -13,12 +13,14 @@
 //! since 2023 and names an unkept crate of types. What it leaves open, the order of changes and panics of handlers, is
 //! closed by the service in `ordered`.
 
+mod alter;
 mod analyst;
 mod backend;
 mod capabilities;
 mod convert;
 mod documents;
 mod links;
+mod look;
 mod manual;
 mod ordered;
 mod positions;

@@ -1,0 +1,276 @@
+//! Requests that alter: renaming, mending, formatting, and commands.
+
+use std::collections::HashMap;
+use std::sync::atomic::Ordering;
+
+use tower_lsp::jsonrpc::{Error, ErrorCode, Result};
+use tower_lsp::ls_types::*;
+
+use super::backend::{Backend, PREVIEW, View};
+use super::convert::{self, Places};
+use super::documents::Document;
+use super::ordered::SNAPSHOTS;
+use super::{manual, preview};
+use crate::compile::{Options, compile};
+use crate::ide::{self, Analysis};
+use crate::source::Span;
+
+impl Backend {
+    pub(super) async fn on_prepare_rename(
+        &self,
+        params: TextDocumentPositionParams,
+    ) -> Result<Option<PrepareRenameResponse>> {
+        let Some((document, analysed)) = self.analysed(&params.text_document.uri).await? else {
+            return Ok(None);
+        };
+        let offset = document.positions.offset(params.position);
+        match analysed.analysis.prepare_rename(offset) {
+            Ok((span, placeholder)) => Ok(Some(PrepareRenameResponse::RangeWithPlaceholder {
+                range: document.positions.range(span),
+                placeholder,
+            })),
+            Err(ide::RenameError::NoName) => Ok(None),
+            Err(error) => Err(refused(&error)),
+        }
+    }
+
+    pub(super) async fn on_rename(&self, params: RenameParams) -> Result<Option<WorkspaceEdit>> {
+        let place = &params.text_document_position;
+        let Some((document, analysed)) = self.analysed(&place.text_document.uri).await? else {
+            return Ok(None);
+        };
+        let offset = document.positions.offset(place.position);
+        let edits = analysed
+            .analysis
+            .rename(offset, &params.new_name)
+            .map_err(|error| refused(&error))?;
+        let edits = Places::same(&document.positions)
+            .edits(&edits)
+            .unwrap_or_default();
+        Ok(Some(self.workspace_edit(&document, edits)))
+    }
+
+    pub(super) async fn on_color_presentation(
+        &self,
+        params: ColorPresentationParams,
+    ) -> Result<Vec<ColorPresentation>> {
+        let Some(view) = self
+            .view(&params.text_document.uri)
+            .await?
+            .filter(View::is_current)
+        else {
+            return Ok(vec![]);
+        };
+        let places = view.places();
+        let Color {
+            red,
+            green,
+            blue,
+            alpha,
+        } = params.color;
+        let rgba = [red, green, blue, alpha].map(f64::from);
+        let forms = view
+            .analysis()
+            .colour_edits(places.span(params.range), rgba)
+            .into_iter();
+        let presentations = forms.filter_map(|(label, edits)| {
+            let mut edits = places.edits(&edits)?.into_iter();
+            let first = edits.next()?;
+            let others: Vec<_> = edits.collect();
+            Some(ColorPresentation {
+                label,
+                text_edit: Some(first),
+                additional_text_edits: (!others.is_empty()).then_some(others),
+            })
+        });
+        Ok(presentations.collect())
+    }
+
+    pub(super) async fn on_code_action(
+        &self,
+        params: CodeActionParams,
+    ) -> Result<Option<CodeActionResponse>> {
+        let Some((document, analysed)) = self.analysed(&params.text_document.uri).await? else {
+            return Ok(None);
+        };
+        let places = Places::same(&document.positions);
+        let analysis = &analysed.analysis;
+        let wanted = |kind: &CodeActionKind| {
+            let only = params.context.only.as_deref();
+            only.is_none_or(|only| {
+                only.iter().any(|wanted| {
+                    let inner = kind.as_str().strip_prefix(wanted.as_str());
+                    inner.is_some_and(|inner| {
+                        inner.is_empty() || inner.starts_with('.') || wanted.as_str().is_empty()
+                    })
+                })
+            })
+        };
+        let links = manual::links(self.abilities.links_at_codes.load(Ordering::Relaxed));
+        let actions = analysis
+            .actions(document.positions.span(params.range))
+            .into_iter();
+        let actions = actions.filter_map(|action| {
+            let kind = match action.mends {
+                Some(_) => CodeActionKind::QUICKFIX,
+                None => CodeActionKind::REFACTOR_REWRITE,
+            };
+            if !wanted(&kind) {
+                return None;
+            }
+            let mends = action.mends.map(|index| {
+                let found = &analysis.diagnostics()[index];
+                vec![convert::diagnostic(&analysed, found, links)]
+            });
+            let edits = places.edits(&action.edits)?;
+            Some(CodeActionOrCommand::CodeAction(CodeAction {
+                title: action.title,
+                kind: Some(kind),
+                diagnostics: mends,
+                edit: Some(self.workspace_edit(&document, edits)),
+                is_preferred: action.is_preferred.then_some(true),
+                ..CodeAction::default()
+            }))
+        });
+        let actions: Vec<_> = actions.collect();
+        Ok((!actions.is_empty()).then_some(actions))
+    }
+
+    pub(super) async fn on_formatting(
+        &self,
+        params: DocumentFormattingParams,
+    ) -> Result<Option<Vec<TextEdit>>> {
+        self.formatted(&params.text_document.uri, None).await
+    }
+
+    pub(super) async fn on_range_formatting(
+        &self,
+        params: DocumentRangeFormattingParams,
+    ) -> Result<Option<Vec<TextEdit>>> {
+        self.formatted(&params.text_document.uri, Some(params.range))
+            .await
+    }
+
+    pub(super) async fn on_execute_command(
+        &self,
+        params: ExecuteCommandParams,
+    ) -> Result<Option<LSPAny>> {
+        if params.command != PREVIEW {
+            return Err(Error::invalid_params(format!(
+                "there is no command `{}`",
+                params.command
+            )));
+        }
+        let uri = match params.arguments.first() {
+            Some(argument) => argument.as_str().and_then(|uri| uri.parse().ok()),
+            // Some editors send commands without arguments: then it is the text that changed last.
+            None => SNAPSHOTS.with(|snapshots| {
+                let documents = snapshots.values().map(|snapshot| &snapshot.document);
+                let newest = documents.max_by_key(|document| document.generation);
+                newest.map(|document| document.uri.clone())
+            }),
+        };
+        let Some(uri) = uri else {
+            return Err(Error::invalid_params(
+                "the command needs the address of an open drawing",
+            ));
+        };
+        self.show_preview(&uri).await?;
+        Ok(None)
+    }
+
+    async fn formatted(&self, uri: &Uri, range: Option<Range>) -> Result<Option<Vec<TextEdit>>> {
+        let Some(view) = self.view(uri).await?.filter(View::is_current) else {
+            return Ok(None);
+        };
+        // Compiling anew may take as long as it did before.
+        let edits = tokio::task::spawn_blocking(move || {
+            let places = view.places();
+            let window = match range {
+                Some(range) => places.span(range),
+                None => Span::new(0, view.document.text().len()),
+            };
+            let resolver = view.document.resolver();
+            let again = |text: &str| {
+                let compiled = compile(text, &Options::default(), resolver.as_ref());
+                Analysis::new(text, compiled)
+            };
+            places.edits(&view.analysis().format(window, &again))
+        });
+        edits.await.map_err(|_| Error::internal_error())
+    }
+
+    async fn show_preview(&self, uri: &Uri) -> Result<()> {
+        let Some((document, analysed)) = self.analysed(uri).await? else {
+            return Err(Error::invalid_params("this drawing is not open"));
+        };
+        let name = document.path.as_deref().and_then(|path| path.file_stem());
+        let name = name.map_or_else(
+            || "untitled".to_owned(),
+            |name| name.to_string_lossy().into_owned(),
+        );
+        let drawn =
+            tokio::task::spawn_blocking(move || preview::picture(&analysed.analysis, &name)).await;
+        let picture = match drawn {
+            Ok(Ok(picture)) => picture,
+            Ok(Err(error)) => {
+                self.client.show_message(MessageType::WARNING, error).await;
+                return Ok(());
+            }
+            Err(_) => return Err(Error::internal_error()),
+        };
+        let can = self.client_can().window.and_then(|can| can.show_document);
+        let shown = match (
+            can.is_some_and(|can| can.support),
+            Uri::from_file_path(&picture),
+        ) {
+            (true, Some(uri)) => {
+                let params = ShowDocumentParams {
+                    uri,
+                    // Editors of text cannot show it: the system's viewer can.
+                    external: Some(true),
+                    take_focus: Some(false),
+                    selection: None,
+                };
+                self.client.show_document(params).await.unwrap_or(false)
+            }
+            _ => false,
+        };
+        if !shown {
+            let message = format!("the model's picture is {}", picture.display());
+            self.client.show_message(MessageType::INFO, message).await;
+        }
+        Ok(())
+    }
+    /// The edits of one text, with its version where the client can tell versions.
+    fn workspace_edit(&self, document: &Document, edits: Vec<TextEdit>) -> WorkspaceEdit {
+        let can = self
+            .client_can()
+            .workspace
+            .and_then(|can| can.workspace_edit);
+        let versions = can.and_then(|can| can.document_changes).unwrap_or(false);
+        if !versions {
+            let changes = HashMap::from([(document.uri.clone(), edits)]);
+            return WorkspaceEdit::new(changes);
+        }
+        WorkspaceEdit {
+            document_changes: Some(DocumentChanges::Edits(vec![TextDocumentEdit {
+                text_document: OptionalVersionedTextDocumentIdentifier {
+                    uri: document.uri.clone(),
+                    version: Some(document.version),
+                },
+                edits: edits.into_iter().map(OneOf::Left).collect(),
+            }])),
+            ..WorkspaceEdit::default()
+        }
+    }
+}
+
+/// A rename that cannot be made, told to the person.
+fn refused(error: &ide::RenameError) -> Error {
+    Error {
+        code: ErrorCode::ServerError(-32803),
+        message: error.to_string().into(),
+        data: None,
+    }
+}
