@@ -11,7 +11,7 @@ use super::Analysis;
 use super::at::attributes;
 use super::quoting::{Role, written};
 use super::typed::{Typed, typed_at};
-use crate::bind::{PartKind, Place};
+use crate::bind::{PartKind, Place, Sheet};
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::colours::COLOURS;
 use crate::lang::keyword::kinds::{KINDS, Kind};
@@ -232,24 +232,19 @@ impl Cursor<'_> {
             None => None,
         };
         let typed = own_name_of(self.text, self.in_desc);
-        let below = |part: usize| {
-            let mut at = Some(part);
-            // A cycle of parents is cut by the binder, so the way up ends.
-            while let Some(here) = at {
-                if Some(here) == own {
-                    return true;
-                }
-                at = sheet.parts[here].parent;
-            }
-            false
-        };
+        let carried = own.map_or_else(Vec::new, |own| carried_by(sheet, own));
         let parts = sheet.parts.iter().enumerate().filter(|(index, part)| {
             part.kind == PartKind::Main
                 && !part.name.is_empty()
+                && !part.name.contains('"')
                 && typed.as_deref() != Some(part.name.as_str())
-                && !below(*index)
+                && !carried.get(*index).copied().unwrap_or(false)
         });
+        let mut parts: Vec<_> = parts.collect();
+        // Those that people have named come first.
+        parts.sort_by_key(|(_, part)| part.automatic);
         parts
+            .into_iter()
             .map(|(_, part)| {
                 let on = part
                     .parent
@@ -361,9 +356,10 @@ impl Cursor<'_> {
                     ..simple(word.name, ProposalKind::Word, word.summary)
                 })),
                 Takes::SignedAxis => {
+                    let axis = |name: &str| name.trim_start_matches(['+', '-']).to_owned();
                     let given = |name: &str| {
                         attribute.arguments.iter().any(|argument| {
-                            matches!(&argument.kind, ArgumentKind::Word(word) if word[1..].eq_ignore_ascii_case(&name[1..]))
+                            matches!(&argument.kind, ArgumentKind::Word(word) if axis(word).eq_ignore_ascii_case(&axis(name)))
                         })
                     };
                     let axes = AXES.iter().filter(|axis| !given(axis.name));
@@ -487,6 +483,24 @@ impl Cursor<'_> {
         proposals.retain(|proposal| seen.insert((proposal.label.clone(), proposal.kind as u8)));
         Completion { span, proposals }
     }
+}
+
+/// Of each part whether it is `own` or hangs on it, however far down.
+fn carried_by(sheet: &Sheet, own: usize) -> Vec<bool> {
+    let mut children: Vec<Vec<usize>> = vec![vec![]; sheet.parts.len()];
+    for (index, part) in sheet.parts.iter().enumerate() {
+        if let Some(parent) = part.parent {
+            children[parent].push(index);
+        }
+    }
+    let mut carried = vec![false; sheet.parts.len()];
+    let mut waiting = vec![own];
+    while let Some(part) = waiting.pop() {
+        if !std::mem::replace(&mut carried[part], true) {
+            waiting.append(&mut children[part]);
+        }
+    }
+    carried
 }
 
 /// A proposal that is written as it is shown.

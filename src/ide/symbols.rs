@@ -36,7 +36,7 @@ impl Analysis {
         let mut order: Vec<usize> = (0..sheet.parts.len())
             .filter(|part| sheet.parts[*part].kind == PartKind::Main)
             .collect();
-        order.sort_by_key(|part| self.place_of_part(*part));
+        order.sort_by_cached_key(|part| self.place_of_part(*part));
         for part in order {
             match sheet.parts[part].parent {
                 Some(parent) => children[parent].push(part),

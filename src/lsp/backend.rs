@@ -9,12 +9,13 @@ use tower_lsp::jsonrpc::{Error, ErrorCode, Result};
 use tower_lsp::ls_types::*;
 use tower_lsp::{Client, LanguageServer};
 
-use super::analyst::{Abilities, Analyst};
+use super::analyst::Analyst;
 use super::convert::{self, Places};
 use super::documents::{Analysed, Document, Documents, Snapshot, file_path};
 use super::links::Links;
 use super::ordered::SNAPSHOTS;
 use super::positions::Encoding;
+use super::worker::Abilities;
 use super::workspace::Workspace;
 use super::{capabilities, manual};
 use crate::ide::Analysis;

@@ -4,10 +4,10 @@ use std::sync::atomic::Ordering;
 
 use tower_lsp::ls_types::*;
 
-use super::analyst::Abilities;
 use super::backend::PREVIEW;
 use super::convert;
 use super::positions::Encoding;
+use super::worker::Abilities;
 
 impl Abilities {
     /// Takes down what the client can do.

@@ -3,7 +3,7 @@
 //! ```text
 //!  stdin ─► Ordered ─► Backend ─► ide          (requests, answered from the state they came in)
 //!              │                   ▲
-//!              └► Documents ─► Analyst ─► diagnostics      (one thread, the newest state of each text)
+//!              └► Documents ─► Analyst ─► Worker ─► diagnostics     (one thread, the newest state of each text)
 //!                                  ▲
 //!                        Links ────┘           (linked files that change)
 //! ```
@@ -28,6 +28,7 @@ mod preview;
 mod progress;
 #[cfg(test)]
 mod tests;
+mod worker;
 mod workspace;
 
 use std::sync::Arc;
@@ -37,11 +38,12 @@ use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::runtime::Handle;
 use tower_lsp::{LspService, Server};
 
-use analyst::{Abilities, Analyst, Desk};
+use analyst::Analyst;
 use backend::Backend;
 use documents::Documents;
 use links::Links;
 use ordered::Ordered;
+use worker::{Abilities, Worker};
 
 /// Serves one client on stdin and stdout until it goes. Says whether the client took its leave as the protocol wants,
 /// by `shutdown` and `exit`.
@@ -80,14 +82,16 @@ fn service() -> Parts {
     let builder = LspService::build(|client| {
         let links = Arc::new(Links::new(analyst.clone()));
         let abilities = Arc::new(Abilities::default());
-        let desk = Desk {
+        let mut worker = Worker {
+            analyst: analyst.clone(),
+            documents: documents.clone(),
             client: client.clone(),
             runtime: Handle::current(),
             links: links.clone(),
             abilities: abilities.clone(),
+            compilers: std::collections::BTreeMap::new(),
         };
-        let worker = analyst.clone();
-        std::thread::spawn(move || analyst::work(&worker, &desk));
+        std::thread::spawn(move || worker.work());
         Backend {
             client,
             documents: documents.clone(),

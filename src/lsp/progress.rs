@@ -2,10 +2,11 @@
 
 use std::time::Duration;
 
+use tokio::runtime::Handle;
 use tokio::sync::oneshot;
+use tower_lsp::Client;
 use tower_lsp::ls_types::ProgressToken;
 
-use super::analyst::Desk;
 use super::documents::Document;
 
 /// After how long it is shown: before, it would only flicker.
@@ -18,16 +19,16 @@ pub(super) struct Progress {
 }
 
 /// Says that a text is being read, if that takes long.
-pub(super) fn begin(desk: &Desk, document: &Document) -> Progress {
+pub(super) fn begin(client: &Client, runtime: &Handle, document: &Document) -> Progress {
     let (sender, ended) = oneshot::channel();
-    let client = desk.client.clone();
+    let client = client.clone();
     let token = ProgressToken::String(format!("okoshi/reading/{}", document.generation));
     let name = document.path.as_deref().and_then(|path| path.file_name());
     let name = name.map_or_else(
         || "the drawing".to_owned(),
         |name| name.to_string_lossy().into_owned(),
     );
-    desk.runtime.spawn(async move {
+    runtime.spawn(async move {
         let mut ended = ended;
         if tokio::time::timeout(LONG, &mut ended).await.is_ok() {
             return;
