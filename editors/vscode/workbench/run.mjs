@@ -27,7 +27,7 @@ const shots = join(room, "shots");
 if (!existsSync(okoshi)) throw new Error(`There is no ${okoshi}: build it, or name another by OKOSHI=`);
 for (const folder of [project, data, shots, join(room, "extensions")]) rmSync(folder, { recursive: true, force: true });
 for (const folder of [project, join(data, "User"), join(data, "Machine"), shots]) mkdirSync(folder, { recursive: true });
-copyFileSync(join(here, "figure.svg"), join(project, "figure.svg"));
+for (const name of ["figure.svg", "hints.svg"]) copyFileSync(join(here, name), join(project, name));
 copyFileSync(join(extension, "test", "plain.svg"), join(project, "plain.svg"));
 
 const SETTINGS = {
@@ -80,7 +80,11 @@ try {
     const payload = encodeURIComponent(JSON.stringify([["openFile", uri]]));
     await page.goto(`http://${server.address}/?folder=${encodeURIComponent(project)}&payload=${payload}`);
     await editor.see(".editor-instance .view-line span", "svg");
-    await page.locator(".editor-instance .view-lines").first().click({ position: { x: 300, y: 10 } });
+    // By a key: a click may come while the window still moves.
+    await editor.until("the drawing to have the keyboard", async () => {
+      await editor.press("Control+1");
+      return page.evaluate(() => document.activeElement?.closest(".editor-instance") !== null);
+    });
   };
 
   /** One step: does it, takes a picture, and says how it went. */
