@@ -52,11 +52,11 @@ const write = (file, values) => {
   renameSync(`${file}.new`, file);
 };
 const settings = (path, more = {}) => {
-  write(join(data, "User", "settings.json"), { ...SETTINGS, ...more });
-  // What belongs to a machine is read from the machine's settings where the editor's window is elsewhere.
-  write(join(data, "Machine", "settings.json"), { "okoshi.path": path });
+  // In a remote window what stands in the machine's settings is heeded at once, the user's not before the next window.
+  write(join(data, "Machine", "settings.json"), { "okoshi.path": path, ...more });
 };
 
+write(join(data, "User", "settings.json"), SETTINGS);
 pack(join(room, "okoshi.vsix"));
 const found = await tools(room);
 settings("okoshi-that-is-not-there");

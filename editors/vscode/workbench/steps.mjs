@@ -32,13 +32,18 @@ export async function withServer({ editor, page, step, ready, configure, program
     await editor.see(".squiggly-error");
   };
 
+  const string = "Arm@Body$Shape roundv";
+  const unread = await editor.until("a kind coloured by the grammar", () => editor.colour("roundv", string));
   await ready();
   await step("the setting's program is started, errors are underlined", async () => {
     await editor.see(".squiggly-error");
   });
   await step("what stands in strings is coloured by what it means", async () => {
-    const string = "Arm@Body$Shape roundv";
-    const kind = await editor.until("a coloured kind", () => editor.colour("roundv", string));
+    let kind;
+    await editor.until("a kind in another colour than the grammar's", async () => {
+      kind = await editor.colour("roundv", string);
+      return kind && kind !== unread;
+    });
     const plain = await editor.colour("=", 'id="leg"');
     const colours = [await editor.colour("Arm", string), await editor.colour("Shape", string), kind, plain];
     assert.equal(new Set(colours).size, colours.length, `part, keyword, kind and plain text: ${colours.join("; ")}`);
@@ -193,12 +198,18 @@ export async function withServer({ editor, page, step, ready, configure, program
     await editor.press("Control+k");
     await editor.press("Control+i");
     await editor.see(".monaco-hover-content li", "Shape roundv");
+    // Until the hover has come up in full.
+    await page.waitForTimeout(500);
     await page.screenshot({ path: join(shots, "page.png") });
   });
   await step("on demand, drawings are checked when they are saved", async () => {
     await again();
-    configure({ "okoshi.analyse": "onSave" });
-    await page.waitForTimeout(1500);
+    configure({ "okoshi.analyse": "onSave", "editor.renderFinalNewline": "off" });
+    // The number of the empty last line goes once the settings are read, which is when the server hears of them.
+    const numbers = page.locator(".editor-instance .line-numbers");
+    const last = String(figure.split("\n").length);
+    await editor.until("the settings to be read", async () => !(await numbers.allTextContents()).includes(last));
+    await page.waitForTimeout(500);
     await at("Arm@Body", 8);
     await editor.type("x");
     await page.waitForTimeout(2500);
