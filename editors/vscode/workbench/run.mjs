@@ -31,6 +31,8 @@ for (const name of ["figure.svg", "hints.svg"]) copyFileSync(join(here, name), j
 copyFileSync(join(extension, "test", "plain.svg"), join(project, "plain.svg"));
 
 const SETTINGS = {
+  // They would show where this runs.
+  "breadcrumbs.enabled": false,
   "chat.disableAIFeatures": true,
   "editor.fontSize": 13,
   "editor.minimap.enabled": false,
@@ -153,7 +155,8 @@ try {
   await withServer({ editor, page, step, ready, configure, program, read, reset, open, shots });
   assert.ok(number > 0, `no step is named ${process.env.ONLY}`);
 } catch (error) {
-  await page.screenshot({ path: join(shots, "failure.png") });
+  // Where the browser itself has ended, there is nothing to take a picture of.
+  await page.screenshot({ path: join(shots, "failure.png") }).catch(() => {});
   throw error;
 } finally {
   await browser.close();
