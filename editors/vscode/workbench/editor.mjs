@@ -55,13 +55,13 @@ export class Editor {
     await this.page.waitForTimeout(150);
   }
 
-  /** The lines on the screen, blanks as blanks. */
+  /** The lines on the screen as they are read, hints included: blanks as blanks, without what pads the hints. */
   async lines() {
     const lines = await this.page.locator(".editor-instance .view-lines .view-line").evaluateAll((all) =>
       all
         .map((line) => ({ top: line.getBoundingClientRect().top, text: line.textContent }))
         .sort((a, b) => a.top - b.top)
-        .map(({ text }) => text.replaceAll("\u00a0", " ")),
+        .map(({ text }) => text.replaceAll("\u00a0", " ").replaceAll(/[\u200a-\u200d]/g, "")),
     );
     return lines;
   }

@@ -32,13 +32,18 @@ export async function withServer({ editor, page, step, ready, configure, program
     await editor.see(".squiggly-error");
   };
 
+  const string = "Arm@Body$Shape roundv";
+  const unread = await editor.until("a kind coloured by the grammar", () => editor.colour("roundv", string));
   await ready();
   await step("the setting's program is started, errors are underlined", async () => {
     await editor.see(".squiggly-error");
   });
   await step("what stands in strings is coloured by what it means", async () => {
-    const string = "Arm@Body$Shape roundv";
-    const kind = await editor.until("a coloured kind", () => editor.colour("roundv", string));
+    let kind;
+    await editor.until("a kind in another colour than the grammar's", async () => {
+      kind = await editor.colour("roundv", string);
+      return kind && kind !== unread;
+    });
     const plain = await editor.colour("=", 'id="leg"');
     const colours = [await editor.colour("Arm", string), await editor.colour("Shape", string), kind, plain];
     assert.equal(new Set(colours).size, colours.length, `part, keyword, kind and plain text: ${colours.join("; ")}`);
@@ -54,7 +59,12 @@ export async function withServer({ editor, page, step, ready, configure, program
     await editor.press("Control+i");
     const hover = await editor.see(".monaco-hover-content");
     await editor.until("the hover to name the part", async () => /Arm/.test(await hover.textContent()));
-    assert.match(await hover.textContent(), /Body/);
+    const path = await hover.textContent();
+    assert.match(path, /Root › Body › Arm/);
+    const listed = await hover.locator("li").allTextContents();
+    for (const one of ["Shape roundv, from its own string", "Origin start, from its own string"]) {
+      assert.ok(listed.includes(one), `${one}: ${listed.join("; ")}`);
+    }
   });
   await step("a hover tells of a keyword", async () => {
     await editor.press("Escape");
@@ -83,10 +93,21 @@ export async function withServer({ editor, page, step, ready, configure, program
       page.evaluate(() => [...document.querySelectorAll(".view-line")].some((line) => line.textContent.includes("Color") && line.querySelector(".colorpicker-color-decoration"))),
     );
   });
-  await step("inlay hints say what is inherited or automatic", async () => {
-    await editor.until("a hint", () => page.evaluate(() => document.querySelector('.view-line [class*="dyn-rule"], .view-line .ced-') !== null));
-  });
   await page.screenshot({ path: join(shots, "at-work.png") });
+  await step("inlay hints say what is inherited or automatic", async () => {
+    await open("hints.svg");
+    // What stands behind what in the drawing, and nothing anywhere else.
+    const hints = [
+      ["<circle", "U-1@Arm"],
+      [">Body", "Segments 8 Smooth 10"],
+      ["Arm@Body$Shape roundv", "Offset 4 Segments 8 Smooth 10"],
+    ];
+    const shown = hints.reduce((text, [behind, hint]) => text.replace(behind, () => behind + hint), read("hints.svg"));
+    let seen;
+    await editor
+      .until("the hints", async () => (seen = (await editor.lines()).join("\n").trim()) === shown.trim())
+      .catch(() => assert.equal(seen, shown.trim()));
+  });
   await step("a fix is applied", async () => {
     await again();
     await at(WRONG, 11);
@@ -162,10 +183,33 @@ export async function withServer({ editor, page, step, ready, configure, program
     assert.ok(await picture.first().evaluate((image) => image.complete && image.naturalWidth > 100));
     await page.screenshot({ path: join(shots, "preview.png") });
   });
+  await step("fault, hover, outline, problems and model stand side by side", async () => {
+    // Undone, the fault is there again; the model is the last one that could be built.
+    await editor.press("Control+1");
+    await at(WRONG, 15);
+    await editor.press("Backspace");
+    await editor.see(".squiggly-error");
+    await editor.command("Explorer: Focus on Outline View");
+    await editor.see(".outline-tree .monaco-list-row", "Leg");
+    await editor.command("Problems: Focus on Problems View");
+    await editor.see(".markers-panel .monaco-list-row", "E101");
+    await editor.press("Control+1");
+    await at("Arm@Body", 1);
+    await editor.press("Control+k");
+    await editor.press("Control+i");
+    await editor.see(".monaco-hover-content li", "Shape roundv");
+    // Until the hover has come up in full.
+    await page.waitForTimeout(500);
+    await page.screenshot({ path: join(shots, "page.png") });
+  });
   await step("on demand, drawings are checked when they are saved", async () => {
     await again();
-    configure({ "okoshi.analyse": "onSave" });
-    await page.waitForTimeout(1500);
+    configure({ "okoshi.analyse": "onSave", "editor.renderFinalNewline": "off" });
+    // The number of the empty last line goes once the settings are read, which is when the server hears of them.
+    const numbers = page.locator(".editor-instance .line-numbers");
+    const last = String(figure.split("\n").length);
+    await editor.until("the settings to be read", async () => !(await numbers.allTextContents()).includes(last));
+    await page.waitForTimeout(500);
     await at("Arm@Body", 8);
     await editor.type("x");
     await page.waitForTimeout(2500);
