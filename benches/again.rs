@@ -23,16 +23,7 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 const ROUNDS: usize = 200;
 
 fn main() {
-    // cargo passes `--bench`.
-    let asked: Vec<usize> = std::env::args()
-        .skip(1)
-        .filter_map(|argument| argument.parse().ok())
-        .collect();
-    let sizes = if asked.is_empty() {
-        vec![1_000, 10_000]
-    } else {
-        asked
-    };
+    let sizes = drawing::sizes(std::env::args().skip(1), &[1_000, 10_000]);
     println!("parts   what                    median ms   p99 ms   ratios to usvg's median");
     for size in sizes {
         measure(size);

@@ -36,14 +36,7 @@ fn main() {
         std::mem::forget(std::hint::black_box(tree));
         return;
     }
-    let asked: Vec<usize> = arguments
-        .filter_map(|argument| argument.parse().ok())
-        .collect();
-    let sizes = if asked.is_empty() {
-        vec![1_000, 10_000, 100_000]
-    } else {
-        asked
-    };
+    let sizes = drawing::sizes(arguments, &[1_000, 10_000, 100_000]);
     println!("parts   usvg ms (least)  okoshi ms (least)  ratio (least)  triangles   MB  area");
     for size in sizes {
         measure(size);

@@ -26,15 +26,7 @@ const EDITS: usize = 200;
 const TYPED: &str = "$Shape roundv -90 90 Smooth 20 Offset 3";
 
 fn main() {
-    let arguments = std::env::args().skip(1);
-    let asked: Vec<usize> = arguments
-        .filter_map(|argument| argument.parse().ok())
-        .collect();
-    let sizes = if asked.is_empty() {
-        vec![1_000, 10_000]
-    } else {
-        asked
-    };
+    let sizes = drawing::sizes(std::env::args().skip(1), &[1_000, 10_000]);
     println!("parts   what                median ms   p99 ms   to usvg's median: median   p99");
     for size in sizes {
         measure(size);

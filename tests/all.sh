@@ -94,23 +94,24 @@ validator() {
   built_models | xargs node $tools/validate.mjs
 }
 
-install_blender() {
-  command -v blender > /dev/null && return
-  command -v apt-get > /dev/null || skip "blender is not installed, and there is no apt-get"
-  local sudo=
+# Installs Debian packages that WHAT needs, or leaves the step.
+install() { # WHAT PACKAGES…
+  local what=$1 sudo=
+  shift
+  command -v apt-get > /dev/null || skip "$what is not installed, and there is no apt-get"
   if [ "$(id -u)" != 0 ]; then
-    sudo -n true 2> /dev/null || skip "blender is not installed, and installing it takes root or sudo without password"
+    sudo -n true 2> /dev/null || skip "$what is not installed, and installing it takes root or sudo without password"
     sudo="sudo -n"
   fi
   $sudo apt-get update -q
-  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends blender python3-numpy
+  $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends "$@"
 }
 
 blender_import() {
   [ $quick = no ] || skip "--quick"
   need node
   built
-  install_blender
+  command -v blender > /dev/null || install Blender blender python3-numpy
   plain | xargs blender -b --factory-startup --python-exit-code 1 --python $tools/blender_tree.py -- \
     -o "$target/trees.json"
   node $tools/same_tree.mjs "$target/trees.json"
@@ -145,23 +146,12 @@ extension() {
 # Eglot is a package of its own before Emacs 29.
 has_eglot() { emacs -q --batch -l eglot > /dev/null 2>&1; }
 
-install_editors() {
-  command -v nvim > /dev/null && command -v python3 > /dev/null && has_eglot && return
-  [ $quick = no ] || skip "--quick, and Neovim, Emacs or its Eglot is not installed"
-  command -v apt-get > /dev/null || skip "Neovim, Emacs or its Eglot is not installed, and there is no apt-get"
-  local sudo=
-  if [ "$(id -u)" != 0 ]; then
-    sudo -n true 2> /dev/null || skip "Neovim, Emacs or its Eglot is not installed, and installing takes root or sudo without password"
-    sudo="sudo -n"
-  fi
-  $sudo apt-get update -q
-  local install="$sudo env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends"
-  $install neovim emacs-nox python3-venv
-  has_eglot || $install elpa-eglot
-}
-
 editors() {
-  install_editors
+  if ! command -v nvim > /dev/null || ! command -v python3 > /dev/null || ! has_eglot; then
+    [ $quick = no ] || skip "--quick, and Neovim, Emacs or its Eglot is not installed"
+    install "Neovim, Emacs or its Eglot" neovim emacs-nox python3-venv
+    has_eglot || install "Emacs' Eglot" elpa-eglot
+  fi
   cargo build --locked
   OKOSHI=$(realpath "$okoshi") SCRATCH=$target/editors bash $tools/editors.sh
 }

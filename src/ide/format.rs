@@ -8,7 +8,7 @@ use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::kinds;
 use crate::lang::keyword::signature::Takes;
-use crate::lang::keyword::words::AXES;
+use crate::lang::keyword::words::{AXES, Word};
 use crate::lang::{folded, slot};
 use crate::source::{Span, Text};
 
@@ -114,34 +114,26 @@ impl Analysis {
             Item::Argument(index, argument) => {
                 let known = |name: &str| self.is_variable(name);
                 let takes = slot(&all[index], argument, &known).map(|slot| &slot.parameter().takes);
-                match (&all[index].arguments[argument].kind, takes) {
-                    (ArgumentKind::Word(word), Some(Takes::Kind)) => kinds::from_name(word)
-                        .map_or_else(|| folded(written).into_owned(), |kind| kind.name.to_owned()),
-                    (ArgumentKind::Word(word), Some(Takes::Choice(words))) => {
-                        let known = words
-                            .iter()
-                            .find(|known| known.name.eq_ignore_ascii_case(word));
-                        known.map_or_else(
-                            || folded(written).into_owned(),
-                            |known| known.name.to_owned(),
-                        )
+                let known = match (&all[index].arguments[argument].kind, takes) {
+                    (ArgumentKind::Word(word), Some(Takes::Kind)) => {
+                        kinds::from_name(word).map(|kind| kind.name)
                     }
-                    (ArgumentKind::Word(word), Some(Takes::SignedAxis)) => {
-                        let known = AXES
-                            .iter()
-                            .find(|known| known.name.eq_ignore_ascii_case(word));
-                        known.map_or_else(
-                            || folded(written).into_owned(),
-                            |known| known.name.to_owned(),
-                        )
-                    }
-                    _ => folded(written).into_owned(),
-                }
+                    (ArgumentKind::Word(word), Some(Takes::Choice(words))) => named(words, word),
+                    (ArgumentKind::Word(word), Some(Takes::SignedAxis)) => named(&AXES, word),
+                    _ => None,
+                };
+                known.map_or_else(|| folded(written).into_owned(), str::to_owned)
             }
             Item::Sign | Item::Name | Item::Parent | Item::Feature => folded(written).into_owned(),
             Item::Remark => written.to_owned(),
         }
     }
+}
+
+/// The word of the language that `word` is, whatever its case.
+fn named(words: &'static [Word], word: &str) -> Option<&'static str> {
+    let mut names = words.iter().map(|known| known.name);
+    names.find(|name| name.eq_ignore_ascii_case(word))
 }
 
 /// The edits of what stands between two words: nothing but white space and the sign of flags is touched.

@@ -6,8 +6,8 @@ use super::at::{At, Item, attributes};
 use super::{Analysis, Symbol};
 use crate::bind::{BoundBy, PartKind, SetBy};
 use crate::lang::ast::{Annotation, ArgumentKind};
-use crate::lang::keyword::kinds;
 use crate::lang::keyword::signature::Takes;
+use crate::lang::keyword::{Keyword, kinds};
 use crate::lang::{Slot, explain, slot};
 use crate::source::Span;
 
@@ -211,6 +211,7 @@ impl Analysis {
                     SetBy::Own => "its own string",
                     SetBy::Legend => "the legend of its paint",
                     SetBy::Default => "a `%` string",
+                    SetBy::Builtin if attribute.keyword == Keyword::Color => "its own fill",
                     SetBy::Builtin => "okoshi",
                 };
                 let name = attribute.keyword.name();
@@ -352,7 +353,7 @@ mod tests {
             "- Shape `roundv`, from its own string",
             "- Offset `4`, from the legend of its paint",
             "- Smooth `20`, from a `%` string",
-            "- Color `1 0.8 0.6`, from okoshi",
+            "- Color `1 0.8 0.6`, from its own fill",
             "Carries `Larm`.",
         ] {
             assert!(card.contains(part), "{part} is not in:\n{card}");

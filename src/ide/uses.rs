@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::Analysis;
 use super::at::{At, Item, attributes};
 use crate::bind::SheetString;
-use crate::lang::ast::{Annotation, ArgumentKind, Attribute, Expression};
+use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::signature::Takes;
 use crate::lang::slot;
@@ -125,8 +125,8 @@ impl Analysis {
         for (index, argument) in attribute.arguments.iter().enumerate() {
             match &argument.kind {
                 ArgumentKind::Expression(expression) => {
-                    variables(expression, &mut |name, range| {
-                        push(Symbol::Variable(name.to_owned()), range, false);
+                    expression.variables(&mut |name| {
+                        push(Symbol::Variable(name.text.clone()), &name.range, false);
                     });
                 }
                 ArgumentKind::Word(word) | ArgumentKind::Quoted(word) => {
@@ -159,24 +159,6 @@ impl Analysis {
                 .iter()
                 .any(|(other, found)| found.defines && *other == symbol)
         })
-    }
-}
-
-/// The variables of an expression with their places.
-fn variables(expression: &Expression, found: &mut dyn FnMut(&str, &Range<usize>)) {
-    match expression {
-        Expression::Number(_) => {}
-        Expression::Variable(name) => found(&name.text, &name.range),
-        Expression::Negate(inner) => variables(inner, found),
-        Expression::Binary(_, left, right) => {
-            variables(left, found);
-            variables(right, found);
-        }
-        Expression::Call(_, arguments) => {
-            for argument in arguments {
-                variables(argument, found);
-            }
-        }
     }
 }
 

@@ -105,6 +105,26 @@ pub enum Expression {
     Call(Function, Vec<Expression>),
 }
 
+impl Expression {
+    /// Gives all variables that stand in it to `found`, in their order.
+    pub fn variables<'a>(&'a self, found: &mut dyn FnMut(&'a Name)) {
+        match self {
+            Self::Number(_) => {}
+            Self::Variable(name) => found(name),
+            Self::Negate(inner) => inner.variables(found),
+            Self::Binary(_, left, right) => {
+                left.variables(found);
+                right.variables(found);
+            }
+            Self::Call(_, arguments) => {
+                for argument in arguments {
+                    argument.variables(found);
+                }
+            }
+        }
+    }
+}
+
 /// The functions of expressions; angles are in degrees.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Function {

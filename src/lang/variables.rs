@@ -212,7 +212,7 @@ fn open(name: &str, definitions: &mut BTreeMap<String, Definition<'_>>) -> Optio
     definition.state = State::Open;
     let mut needed = vec![];
     if let Some(expression) = &definition.expression {
-        variables_of(expression, &mut needed);
+        expression.variables(&mut |name| needed.push(name.text.clone()));
     }
     needed.reverse();
     Some(needed)
@@ -328,21 +328,4 @@ fn report_cycle(
         }
     }
     diagnostics.push(diagnostic);
-}
-
-fn variables_of(expression: &Expression, out: &mut Vec<String>) {
-    match expression {
-        Expression::Number(_) => {}
-        Expression::Variable(name) => out.push(name.text.clone()),
-        Expression::Negate(inner) => variables_of(inner, out),
-        Expression::Binary(_, left, right) => {
-            variables_of(left, out);
-            variables_of(right, out);
-        }
-        Expression::Call(_, arguments) => {
-            for argument in arguments {
-                variables_of(argument, out);
-            }
-        }
-    }
 }

@@ -22,64 +22,41 @@ pub struct Kind {
     pub status: Status,
 }
 
-static ANGLES: [Parameter; 2] = [
-    number(
-        "a0",
-        Bounds::QUARTER,
-        "where the rounding begins: -90 is the back, 0 the drawing plane, degrees",
-    ),
-    number(
-        "a1",
-        Bounds::QUARTER,
-        "where the rounding ends: 0 is the drawing plane, 90 the front, degrees",
-    ),
-];
-static ROUND: [Parameter; 3] = [
-    number(
-        "a0",
-        Bounds::QUARTER,
-        "where the rounding begins: -90 is the back, 0 the drawing plane, degrees",
-    ),
-    number(
-        "a1",
-        Bounds::QUARTER,
-        "where the rounding ends: 0 is the drawing plane, 90 the front, degrees",
-    ),
-    number(
-        "r",
-        Bounds::NOT_NEGATIVE,
-        "how far it comes out of the drawing, drawing units",
-    ),
-];
-static DEPTHS: [Parameter; 2] = [
-    number(
-        "z0",
-        Bounds::ANY,
-        "depth of one end, towards the viewer, drawing units",
-    ),
-    number(
-        "z1",
-        Bounds::ANY,
-        "depth of the other end, towards the viewer, drawing units",
-    ),
-];
-static CONE: [Parameter; 3] = [
-    number(
-        "z0",
-        Bounds::ANY,
-        "depth of one end, towards the viewer, drawing units",
-    ),
-    number(
-        "z1",
-        Bounds::ANY,
-        "depth of the other end, towards the viewer, drawing units",
-    ),
-    number(
-        "top",
-        Bounds::NOT_NEGATIVE,
-        "size at `z1` over the size at `z0`",
-    ),
-];
+const A0: Parameter = number(
+    "a0",
+    Bounds::QUARTER,
+    "where the rounding begins: -90 is the back, 0 the drawing plane, degrees",
+);
+const A1: Parameter = number(
+    "a1",
+    Bounds::QUARTER,
+    "where the rounding ends: 0 is the drawing plane, 90 the front, degrees",
+);
+const R: Parameter = number(
+    "r",
+    Bounds::NOT_NEGATIVE,
+    "how far it comes out of the drawing, drawing units",
+);
+const Z0: Parameter = number(
+    "z0",
+    Bounds::ANY,
+    "depth of one end, towards the viewer, drawing units",
+);
+const Z1: Parameter = number(
+    "z1",
+    Bounds::ANY,
+    "depth of the other end, towards the viewer, drawing units",
+);
+const TOP: Parameter = number(
+    "top",
+    Bounds::NOT_NEGATIVE,
+    "size at `z1` over the size at `z0`",
+);
+
+static ANGLES: [Parameter; 2] = [A0, A1];
+static ROUND: [Parameter; 3] = [A0, A1, R];
+static DEPTHS: [Parameter; 2] = [Z0, Z1];
+static CONE: [Parameter; 3] = [Z0, Z1, TOP];
 static HEIGHT: [Parameter; 1] = [number(
     "h",
     Bounds::NOT_NEGATIVE,
