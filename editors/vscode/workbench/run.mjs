@@ -125,6 +125,8 @@ try {
   });
   await open("figure.svg");
   await step("the output says where it was looked for", async () => {
+    // The window has come up by then; a panel that is opened while it does so may be closed again.
+    await editor.see(".notifications-toasts", "was not found");
     await editor.command("Okoshi: Show Output");
     await editor.see(".output-view-container .view-line, .output-view .view-line", "Looked at:");
     await editor.command("View: Toggle Panel Visibility");
