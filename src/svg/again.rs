@@ -19,7 +19,7 @@ impl<'a> Retyped<'a> {
     ///
     /// It must lie in character data that is written as it is read and was read into labels or descriptions. What
     /// is put in must not be markup or begin it; whatever depends on there being a text, on its lines or on the
-    /// ids that [`super::prepare`] makes up must not change.
+    /// ids that `prepare` makes up must not change.
     pub fn find(drawing: &Drawing, old: &str, new: &'a str, change: Change) -> Option<Self> {
         let Change {
             start,
