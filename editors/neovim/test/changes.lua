@@ -131,7 +131,7 @@ return {
       h.apply(found[1].edit)
       h.holds(h.text(), '>Rarm@Ubody<')
       h.holds(h.text(), '>$Color 1.0 0.8 0.6 Shape roundv -90 90<')
-      h.holds(h.ask_at('textDocument/hover', '>Rarm', 2).contents.value, '`roundv -90 90` | the legend of its paint')
+      h.holds(h.ask_at('textDocument/hover', '>Rarm', 2).contents.value, '`roundv -90 90`, from the legend of its paint')
     end,
   },
   {
