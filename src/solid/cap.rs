@@ -4,7 +4,7 @@ use std::cell::RefCell;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3, Vec3};
 use i_triangle::i_overlay::core::fill_rule::FillRule;
 use i_triangle::i_overlay::core::overlay::{ContourDirection, IntOverlayOptions};
 use i_triangle::i_overlay::i_float::int::point::IntPoint;
@@ -134,12 +134,33 @@ pub(super) fn turn_empty(
     triangles: &mut [[u32; 3]],
     least: f64,
 ) -> Vec<[u32; 3]> {
+    let is_empty =
+        |triangle: &[u32; 3]| area(points, triangle) <= least * longest(points, triangle);
+    let square = |a: u32, b: u32| points[a as usize].distance_squared(points[b as usize]);
+    turn_edges(triangles, &is_empty, &square)
+}
+
+/// Turns edges of a closed surface so that no triangle is empty, also between a cap and a wall: there a point of the cap
+/// may come to lie on the edge of both, when places are rounded.
+pub(super) fn turn_empty_in_space(positions: &[[f32; 3]], triangles: &mut [[u32; 3]]) {
+    let place = |i: u32| Vec3::from(positions[i as usize]).as_dvec3();
+    let is_empty = |[a, b, c]: &[u32; 3]| {
+        let [a, b, c] = [*a, *b, *c].map(place);
+        (b - a).cross(c - a) == DVec3::ZERO
+    };
+    let square = |a: u32, b: u32| place(a).distance_squared(place(b));
+    turn_edges(triangles, &is_empty, &square);
+}
+
+/// Turns the longest edge of each triangle that is empty; returns those that stay so.
+fn turn_edges(
+    triangles: &mut [[u32; 3]],
+    is_empty: &dyn Fn(&[u32; 3]) -> bool,
+    square: &dyn Fn(u32, u32) -> f64,
+) -> Vec<[u32; 3]> {
     let empty = |triangles: &[[u32; 3]]| -> Vec<usize> {
-        let is_empty = |i: &usize| {
-            let triangle = &triangles[*i];
-            area(points, triangle) <= least * longest(points, triangle)
-        };
-        (0..triangles.len()).filter(is_empty).collect()
+        let all = 0..triangles.len();
+        all.filter(|i| is_empty(&triangles[*i])).collect()
     };
     let mut left = empty(triangles);
     let mut owner: HashMap<[u32; 2], usize> = HashMap::new();
@@ -153,7 +174,7 @@ pub(super) fn turn_empty(
             owner.extend([([*a, *b], i), ([*b, *c], i), ([*c, *a], i)]);
         }
         for i in left {
-            turn(points, triangles, i, &mut owner);
+            turn(square, triangles, i, &mut owner);
         }
         left = empty(triangles);
     }
@@ -173,13 +194,13 @@ fn longest(points: &[DVec2], [a, b, c]: &[u32; 3]) -> f64 {
 
 /// Replaces the longest edge of a triangle by the other diagonal with its neighbour.
 fn turn(
-    points: &[DVec2],
+    square: &dyn Fn(u32, u32) -> f64,
     triangles: &mut [[u32; 3]],
     i: usize,
     owner: &mut HashMap<[u32; 2], usize>,
 ) {
     let t = triangles[i];
-    let length = |k: usize| points[t[k] as usize].distance_squared(points[t[(k + 1) % 3] as usize]);
+    let length = |k: usize| square(t[k], t[(k + 1) % 3]);
     let longest = (0..3).max_by(|a, b| length(*a).total_cmp(&length(*b)));
     let longest = longest.unwrap_or(0);
     let [a, b, c] = [t[longest], t[(longest + 1) % 3], t[(longest + 2) % 3]];

@@ -101,6 +101,7 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
             triangles.push([a, c, b].map(|i| place(i as usize, 0)));
             triangles.push([a, b, c].map(|i| place(i as usize, steps)));
         }
+        cap::turn_empty_in_space(&written, &mut triangles);
     }
     let tips: Vec<u32> = (0..rings.len())
         .filter(|i| on_axis(*i))
