@@ -66,9 +66,12 @@ impl Worker {
                 let Some(document) = self.documents.current(&uri) else {
                     return;
                 };
+                // Held until all is said: taking it apart takes time.
+                let before = self.documents.last(&uri);
                 if let Some((analysed, by_a_link)) = self.analysed(document) {
                     self.tell(&analysed, by_a_link);
                 }
+                drop(before);
             }
         }
     }
