@@ -18,7 +18,7 @@ use crate::lang::keyword::kinds::{KINDS, Kind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::words::{AXES, FUNCTIONS, STRINGS};
 use crate::lang::keyword::{Holder, Keyword, Status};
-use crate::lang::{self, explain, folded, in_name, in_word, slot};
+use crate::lang::{self, folded, in_name, in_word, slot};
 use crate::source::{Span, Text};
 use snippets::{example_arguments, filled, kind_arguments, plain};
 
@@ -575,12 +575,5 @@ fn can_end(attribute: &Attribute) -> bool {
             let forms = attribute.keyword.row().forms;
             forms.iter().any(|form| form.fits(count))
         }
-    }
-}
-
-impl Proposal {
-    /// The manual page of what it is, in Markdown.
-    pub fn manual(page: &str) -> Option<String> {
-        explain::page(page)
     }
 }
