@@ -18,6 +18,7 @@ pub mod geometry;
 pub mod gltf;
 pub mod ide;
 pub mod import;
+mod kept;
 pub mod lang;
 pub mod lsp;
 pub mod render;

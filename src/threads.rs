@@ -8,6 +8,9 @@ use std::sync::LazyLock;
 /// Stack of each thread, bytes. It is address space: memory is taken where a drawing is deep.
 const STACK: usize = 256 << 20;
 
+/// How many parts, or strings, a thread takes at once: to hand over fewer takes longer than doing them.
+pub(crate) const GRAIN: usize = 64;
+
 static POOL: LazyLock<Option<rayon::ThreadPool>> = LazyLock::new(|| {
     let pool = rayon::ThreadPoolBuilder::new()
         .stack_size(STACK)

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 const MAY_KNOW: &[(&str, &[&str])] = &[
     ("source", &[]),
     ("resolver", &[]),
+    ("kept", &[]),
     ("geometry", &[]),
     ("diagnostic", &["source"]),
     ("lang", &["diagnostic", "source"]),
@@ -28,7 +29,18 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("solid", &["geometry", "lang", "scene"]),
     ("scene", &["solid"]),
     ("gltf", &["scene", "threads"]),
-    ("bind", &["diagnostic", "geometry", "lang", "source", "svg"]),
+    (
+        "bind",
+        &[
+            "diagnostic",
+            "geometry",
+            "kept",
+            "lang",
+            "source",
+            "svg",
+            "threads",
+        ],
+    ),
     (
         "figure",
         &[
@@ -36,12 +48,14 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "diagnostic",
             "geometry",
             "import",
+            "kept",
             "lang",
             "resolver",
             "scene",
             "solid",
             "svg",
             "texture",
+            "threads",
         ],
     ),
     (

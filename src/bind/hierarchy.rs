@@ -1,11 +1,14 @@
 //! Names, parents and joints (figure.md, Hierarchy and local frames).
 
+use std::sync::Arc;
+
 use glam::DVec2;
 use rayon::prelude::*;
 use rstar::primitives::GeomWithData;
 use rstar::{PointDistance, RTree};
 use rustc_hash::FxHashMap;
 
+use super::memory::Hangers;
 use super::sheet::{Part, PartKind, Sheet};
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::geometry::{Measure, measure_along};
@@ -13,6 +16,7 @@ use crate::lang::ast::{Annotation, Name};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Origin, ShapeKind, Value};
 use crate::svg::Drawing;
+use crate::threads::GRAIN;
 
 /// The name of the virtual node that parts without a parent hang on.
 const ROOT: &str = "Root";
@@ -22,9 +26,14 @@ const LONG: f64 = 2.0;
 const MOST_NAMED: usize = 200;
 
 /// Names every main part, finds its parent, its axis and its joint.
-pub(super) fn build(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
+pub(super) fn build(
+    drawing: &Drawing,
+    sheet: &mut Sheet,
+    hangers: &mut Hangers,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     let mut names = names(drawing, sheet, diagnostics);
-    automatic(drawing, sheet, &mut names, diagnostics);
+    automatic(drawing, sheet, &mut names, hangers, diagnostics);
     parents(drawing, sheet, &names, diagnostics);
     break_cycles(drawing, sheet, diagnostics);
     axes(drawing, sheet, diagnostics);
@@ -32,6 +41,7 @@ pub(super) fn build(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<
     let is_main = |part: &usize| sheet.parts[*part].kind == PartKind::Main;
     let joints: Vec<(usize, DVec2, Option<Diagnostic>)> = parts
         .into_par_iter()
+        .with_min_len(GRAIN)
         .filter(is_main)
         .map(|part| {
             let origin = origin(sheet, part);
@@ -95,35 +105,24 @@ fn automatic(
     drawing: &Drawing,
     sheet: &mut Sheet,
     names: &mut FxHashMap<String, usize>,
+    hangers: &mut Hangers,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let named = sheet
-        .parts
-        .iter()
-        .enumerate()
-        .filter(|(_, part)| part.kind == PartKind::Main && !part.name.is_empty());
-    let tree = RTree::bulk_load(
-        named
-            .map(|(index, part)| GeomWithData::new(part.measure.center.to_array(), index))
-            .collect(),
-    );
-    let waiting: Vec<usize> = (0..sheet.parts.len())
-        .filter(|part| {
-            sheet.parts[*part].kind == PartKind::Main && sheet.parts[*part].name.is_empty()
-        })
-        .collect();
-    let parents: Vec<Option<usize>> = waiting
-        .par_iter()
-        .map(|part| {
-            let center = sheet.parts[*part].measure.center.to_array();
-            let nearest = tree.nearest_neighbor(center)?.distance_2(&center);
-            // Of several as near, the hindmost.
-            let as_near = tree.locate_within_distance(center, nearest);
-            as_near.map(|found| found.data).min()
-        })
-        .collect();
+    let main = |part: &usize| sheet.parts[*part].kind == PartKind::Main;
+    let (named, waiting): (Vec<usize>, Vec<usize>) = (0..sheet.parts.len())
+        .filter(main)
+        .partition(|part| !sheet.parts[*part].name.is_empty());
+    let center = |part: usize| sheet.parts[part].measure.center.to_array();
+    let named = named.into_iter().map(|part| (center(part), part)).collect();
+    let centers = waiting.iter().map(|part| center(*part)).collect();
+    let parents = hangers.get((named, centers), |(named, centers)| nearest(named, centers));
     let mut counter = 0;
-    for (place, (index, parent)) in waiting.iter().copied().zip(parents).enumerate() {
+    for (place, (index, parent)) in waiting
+        .iter()
+        .copied()
+        .zip(parents.iter().copied())
+        .enumerate()
+    {
         let name = loop {
             counter += 1;
             let name = format!("U-{counter}");
@@ -152,6 +151,21 @@ fn automatic(
         let help = "`okoshi inspect` lists them all, each with the part that it hangs on";
         diagnostics.push(Diagnostic::new(Code::AutomaticName, span, message).help(help));
     }
+}
+
+/// For each centre the nearest of the parts, of several as near the hindmost.
+fn nearest(parts: &[([f64; 2], usize)], centers: &[[f64; 2]]) -> Arc<[Option<usize>]> {
+    let parts = parts
+        .iter()
+        .map(|(center, part)| GeomWithData::new(*center, *part));
+    let tree = RTree::bulk_load(parts.collect());
+    let nearest = |center: &[f64; 2]| {
+        let distance = tree.nearest_neighbor(*center)?.distance_2(center);
+        let as_near = tree.locate_within_distance(*center, distance);
+        as_near.map(|found| found.data).min()
+    };
+    let centers = centers.par_iter().with_min_len(GRAIN);
+    centers.map(nearest).collect::<Vec<_>>().into()
 }
 
 /// Says how a part without a string is called.
@@ -317,6 +331,7 @@ fn break_cycles(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diag
 fn axes(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
     let found: Vec<(usize, Axis)> = (0..sheet.parts.len())
         .into_par_iter()
+        .with_min_len(GRAIN)
         .filter_map(|part| Some((part, axis(drawing, sheet, part)?)))
         .collect();
     for (part, axis) in found {

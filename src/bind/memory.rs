@@ -2,17 +2,29 @@
 
 use std::sync::Arc;
 
+use super::nearest::{Found, Question};
 use super::sheet::Part;
 use super::units::Member;
 use crate::geometry::{Measure, Outline, measure};
+use crate::kept::Kept;
 use crate::svg::{Drawing, StrokeSource};
 
-/// What binding remembers for the next time: how the areas lie that a drawing has already had.
+/// What binding remembers for the next time: how the areas lie that a drawing has already had, and what is nearest.
 #[derive(Debug, Default)]
 pub struct Memory {
     /// Per shape its fill, and its stroke.
     areas: Vec<[Option<Area>; 2]>,
+    /// For the strings in no container what they are bound to.
+    pub(super) nearest: Nearest,
+    /// What the parts without a string hang on.
+    pub(super) hangers: Hangers,
 }
+
+/// See [`Question`].
+pub(super) type Nearest = Kept<Question, Arc<[Found]>>;
+
+/// Centres of parts that have names, with their indices, and of parts that have none; for these the nearest of those.
+pub(super) type Hangers = Kept<(Vec<([f64; 2], usize)>, Vec<[f64; 2]>), Arc<[Option<usize>]>>;
 
 /// An area and how it lies.
 #[derive(Debug, Clone)]

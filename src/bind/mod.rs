@@ -16,19 +16,23 @@ pub use attributes::{Look, Resolved, SetBy, Source};
 pub use memory::Memory;
 pub use sheet::{Binding, BoundBy, Part, PartKind, Place, Sheet, SheetString};
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use crate::diagnostic::{Code, Diagnostic};
+use crate::kept::Same;
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::svg::{Drawing, Element};
+use crate::threads::GRAIN;
 use memory::Area;
 use units::Units;
 
 /// Binds the strings of a drawing to its parts. The sheet does not depend on what is remembered.
 pub fn bind(
     drawing: &Drawing,
-    memory: Option<&mut Memory>,
+    mut memory: Option<&mut Memory>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Sheet {
     let mut sheet = strings::read(drawing, diagnostics);
@@ -36,8 +40,9 @@ pub fn bind(
     sheet.parts = units
         .members
         .par_iter()
+        .with_min_len(GRAIN)
         .filter_map(|member| {
-            let known = memory.as_ref();
+            let known = memory.as_deref();
             let known = known.and_then(|memory| memory.area(drawing, member));
             let Area {
                 outline, measure, ..
@@ -45,18 +50,20 @@ pub fn bind(
             Some(Part::new(member, outline, measure))
         })
         .collect();
-    if let Some(memory) = memory {
+    if let Some(memory) = &mut memory {
         memory.keep(drawing, &sheet.parts);
     }
+    let mut nothing = Memory::default();
+    let memory = memory.unwrap_or(&mut nothing);
     let mut binder = Binder::new(drawing, &units, &mut sheet, diagnostics);
     binder.descriptions();
     binder.groups();
     binder.leaders();
-    binder.nearest();
+    binder.nearest(&mut memory.nearest);
     binder.left_over();
     classify(drawing, &mut sheet);
     attributes::legends(drawing, &mut sheet, diagnostics);
-    hierarchy::build(drawing, &mut sheet, diagnostics);
+    hierarchy::build(drawing, &mut sheet, &mut memory.hangers, diagnostics);
     hints(drawing, &sheet, diagnostics);
     sheet
 }
@@ -162,7 +169,7 @@ impl<'a> Binder<'a> {
     }
 
     /// Rule 4: every other string to the nearest main part candidate, containers among themselves first.
-    fn nearest(&mut self) {
+    fn nearest(&mut self, known: &mut memory::Nearest) {
         let by_outline = self
             .sheet
             .word(Keyword::Bind)
@@ -185,7 +192,8 @@ impl<'a> Binder<'a> {
             .par_iter()
             .map(|strings| {
                 let candidates = strings[0].0.and_then(|container| contained.get(&container));
-                self.matches(strings, candidates.map_or(&[], Vec::as_slice), mode)
+                let candidates = candidates.map_or(&[][..], Vec::as_slice);
+                self.matches(strings, candidates, mode, &mut memory::Nearest::default())
             })
             .collect();
         self.bind_matches(found.into_iter().flatten());
@@ -193,7 +201,7 @@ impl<'a> Binder<'a> {
             let candidates: Vec<usize> = (0..self.sheet.parts.len())
                 .filter(|part| self.sheet.parts[*part].is_candidate())
                 .collect();
-            let found = self.matches(&waiting[free..], &candidates, mode);
+            let found = self.matches(&waiting[free..], &candidates, mode, known);
             self.bind_matches(found.into_iter());
         }
     }
@@ -204,34 +212,35 @@ impl<'a> Binder<'a> {
         strings: &[(Option<usize>, usize)],
         candidates: &[usize],
         mode: nearest::Mode,
+        known: &mut memory::Nearest,
     ) -> Vec<Match> {
         let corner = |(_, string): &(Option<usize>, usize)| match self.sheet.strings[*string].place
         {
             Place::Label(label) => self.drawing.labels[label].0.corner,
             Place::Shape(_) | Place::Group(_) => glam::DVec2::ZERO,
         };
-        let corners: Vec<_> = strings.iter().map(corner).collect();
         let candidates: Vec<usize> = candidates
             .iter()
             .copied()
             .filter(|part| self.sheet.parts[*part].string.is_none())
             .collect();
-        let targets: Vec<_> = candidates
-            .iter()
-            .map(|part| nearest::Target {
-                center: self.sheet.parts[*part].measure.center,
-                outline: &self.sheet.parts[*part].outline,
-            })
-            .collect();
-        let pairs = nearest::pairs(&corners, &targets, mode);
-        let rivals = nearest::rivals(&corners, &targets, &pairs, mode);
-        let pairs = strings.iter().zip(pairs).zip(rivals);
+        let target = |part: &usize| nearest::Target {
+            center: self.sheet.parts[*part].measure.center,
+            outline: Same(Arc::clone(&self.sheet.parts[*part].outline)),
+        };
+        let question = nearest::Question {
+            corners: strings.iter().map(corner).collect(),
+            targets: candidates.iter().map(target).collect(),
+            mode,
+        };
+        let found = known.get(question, |question| question.answer().into());
+        let pairs = strings.iter().zip(found.iter());
         pairs
-            .filter_map(|(((_, string), target), rival)| {
+            .filter_map(|((_, string), found)| {
                 Some(Match {
                     string: *string,
-                    part: candidates[target?],
-                    rival: rival.map(|rival| candidates[rival]),
+                    part: candidates[found.target?],
+                    rival: found.rival.map(|rival| candidates[rival]),
                 })
             })
             .collect()

@@ -14,6 +14,8 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use rustc_hash::FxHashMap;
 
 use crate::geometry::{Outline, bounds, distance_squared};
+use crate::kept::Same;
+use crate::threads::GRAIN;
 
 /// From where to where distances are measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,17 +27,51 @@ pub(super) enum Mode {
 }
 
 /// A part that a string can be bound to.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Target<'a> {
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Target {
     pub(super) center: DVec2,
-    pub(super) outline: &'a Outline,
+    pub(super) outline: Same<Outline>,
 }
 
-impl Target<'_> {
+/// Strings' corners, and the parts that they can be bound to.
+#[derive(Debug, PartialEq)]
+pub(super) struct Question {
+    pub(super) corners: Vec<DVec2>,
+    pub(super) targets: Vec<Target>,
+    pub(super) mode: Mode,
+}
+
+/// What a string is bound to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Found {
+    /// Index of its target. Ties go to the earlier string, then to the earlier target.
+    pub(super) target: Option<usize>,
+    /// Another target that is at most a tenth farther away.
+    pub(super) rival: Option<usize>,
+}
+
+impl Question {
+    /// For each string what it is bound to.
+    pub(super) fn answer(&self) -> Vec<Found> {
+        let Self {
+            corners,
+            targets,
+            mode,
+        } = self;
+        let pairs = pairs(corners, targets, *mode);
+        let rivals = rivals(corners, targets, &pairs, *mode);
+        let found = pairs.into_iter().zip(rivals);
+        found
+            .map(|(target, rival)| Found { target, rival })
+            .collect()
+    }
+}
+
+impl Target {
     fn distance_squared(&self, corner: DVec2, mode: Mode) -> f64 {
         match mode {
             Mode::Center => self.center.distance_squared(corner),
-            Mode::Outline => distance_squared(self.outline, corner),
+            Mode::Outline => distance_squared(&self.outline.0, corner),
         }
     }
 }
@@ -44,7 +80,7 @@ impl Target<'_> {
 const FEW: usize = 4096;
 
 /// For each string's corner the index of its target. Ties go to the earlier string, then to the earlier target.
-pub(super) fn pairs(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Vec<Option<usize>> {
+fn pairs(corners: &[DVec2], targets: &[Target], mode: Mode) -> Vec<Option<usize>> {
     if corners.len() * targets.len() <= FEW {
         return all_pairs(corners, targets, mode);
     }
@@ -52,7 +88,7 @@ pub(super) fn pairs(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Ve
 }
 
 /// All pairs in order of distance, then of strings, then of targets.
-fn all_pairs(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Vec<Option<usize>> {
+fn all_pairs(corners: &[DVec2], targets: &[Target], mode: Mode) -> Vec<Option<usize>> {
     let mut all = Vec::with_capacity(corners.len() * targets.len());
     for (string, corner) in corners.iter().enumerate() {
         all.extend(
@@ -75,7 +111,7 @@ fn all_pairs(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Vec<Optio
 }
 
 /// The same by chains of nearest neighbours.
-fn chains(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Vec<Option<usize>> {
+fn chains(corners: &[DVec2], targets: &[Target], mode: Mode) -> Vec<Option<usize>> {
     let mut strings = Points::new(corners.iter().copied());
     let mut parts = Parts::new(targets, mode);
     let mut bound = vec![None; corners.len()];
@@ -105,9 +141,9 @@ fn chains(corners: &[DVec2], targets: &[Target<'_>], mode: Mode) -> Vec<Option<u
 }
 
 /// For each bound string another target that is at most a tenth farther away.
-pub(super) fn rivals(
+fn rivals(
     corners: &[DVec2],
-    targets: &[Target<'_>],
+    targets: &[Target],
     pairs: &[Option<usize>],
     mode: Mode,
 ) -> Vec<Option<usize>> {
@@ -141,7 +177,8 @@ pub(super) fn rivals(
         });
         (near(distance) && !settled).then_some(rival)
     };
-    corners.par_iter().zip(pairs).map(find).collect()
+    let corners = corners.par_iter().with_min_len(GRAIN);
+    corners.zip(pairs).map(find).collect()
 }
 
 type Key = [u64; 2];
@@ -227,17 +264,17 @@ impl PointDistance for Shape<'_> {
 /// The parts that are left.
 enum Parts<'a> {
     Centers {
-        targets: &'a [Target<'a>],
+        targets: &'a [Target],
         points: Points,
     },
     Outlines {
-        targets: &'a [Target<'a>],
+        targets: &'a [Target],
         tree: RTree<Shape<'a>>,
     },
 }
 
 impl<'a> Parts<'a> {
-    fn new(targets: &'a [Target<'a>], mode: Mode) -> Self {
+    fn new(targets: &'a [Target], mode: Mode) -> Self {
         match mode {
             Mode::Center => Self::Centers {
                 targets,
@@ -247,7 +284,7 @@ impl<'a> Parts<'a> {
                 let shapes = targets.iter().enumerate().map(|(index, target)| Shape {
                     index,
                     envelope: envelope(target),
-                    outline: target.outline,
+                    outline: &target.outline.0,
                 });
                 Self::Outlines {
                     targets,
@@ -288,7 +325,7 @@ impl<'a> Parts<'a> {
                     let Some(string) = strings.first_at(point.geom()) else {
                         continue;
                     };
-                    let candidate = (distance_squared(target.outline, corners[string]), string);
+                    let candidate = (distance_squared(&target.outline.0, corners[string]), string);
                     if best.is_none_or(|best| candidate < best) {
                         best = Some(candidate);
                     }
@@ -343,15 +380,16 @@ impl<'a> rstar::SelectionFunction<Shape<'a>> for Selected {
     }
 }
 
-fn envelope(target: &Target<'_>) -> AABB<[f64; 2]> {
-    let (low, high) = bounds(target.outline).unwrap_or((target.center, target.center));
+fn envelope(target: &Target) -> AABB<[f64; 2]> {
+    let (low, high) = bounds(&target.outline.0).unwrap_or((target.center, target.center));
     AABB::from_corners(low.to_array(), high.to_array())
 }
 
 /// How far a part's outline reaches from its centre.
-fn reach(target: &Target<'_>) -> f64 {
+fn reach(target: &Target) -> f64 {
     let points = target
         .outline
+        .0
         .polygons
         .iter()
         .flat_map(|polygon| polygon.rings.iter().flatten());
@@ -362,6 +400,8 @@ fn reach(target: &Target<'_>) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use proptest::prelude::*;
 
@@ -383,11 +423,11 @@ mod tests {
         ) {
             let point = |(x, y): (i32, i32)| DVec2::new(f64::from(x), f64::from(y));
             let corners: Vec<_> = corners.into_iter().map(point).collect();
-            let outlines: Vec<_> = centers.iter().map(|center| square(point(*center))).collect();
+            let outlines = centers.iter().map(|center| square(point(*center)));
             let targets: Vec<_> = centers
                 .iter()
-                .zip(&outlines)
-                .map(|(center, outline)| Target { center: point(*center), outline })
+                .zip(outlines)
+                .map(|(center, outline)| Target { center: point(*center), outline: Same(Arc::new(outline)) })
                 .collect();
             for mode in [Mode::Center, Mode::Outline] {
                 prop_assert_eq!(chains(&corners, &targets, mode), all_pairs(&corners, &targets, mode));

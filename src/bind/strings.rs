@@ -11,6 +11,7 @@ use crate::lang::keyword::Keyword;
 use crate::lang::{self, variables::Variables};
 use crate::source::Text;
 use crate::svg::Drawing;
+use crate::threads::GRAIN;
 
 /// Reads the strings.
 pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
@@ -33,6 +34,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Shee
     texts.sort_by_key(|(_, text)| text.whole());
     let parsed: Vec<_> = texts
         .into_par_iter()
+        .with_min_len(GRAIN)
         .map(|(place, text)| {
             let kind = if matches!(place, Place::Label(_)) {
                 lang::Place::Text
@@ -73,6 +75,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Shee
     let findings: Vec<Vec<Diagnostic>> = sheet
         .strings
         .par_iter_mut()
+        .with_min_len(GRAIN)
         .map(|string| {
             let mut findings = Vec::new();
             string.settings =

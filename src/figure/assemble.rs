@@ -10,6 +10,7 @@ use crate::lang::keyword::Keyword;
 use crate::lang::value::{Ground, Value};
 use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene};
 use crate::solid;
+use crate::threads::GRAIN;
 
 /// The rotation from the drawing's right, its up and the viewer's direction to the world (`Axes`), which is
 /// right-handed: other axes are refused where they are read.
@@ -61,7 +62,12 @@ pub(super) fn assemble(
             }),
         }
     };
-    scene.nodes = tree.branches.into_par_iter().map(node).collect();
+    scene.nodes = tree
+        .branches
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .map(node)
+        .collect();
     let mut meshes = Meshes {
         placed: vec![[None; 2]; meshes.len()],
         made: meshes,
@@ -124,7 +130,12 @@ fn ground(model: &Model<'_>) -> DVec2 {
         Some(Value::Ground(Ground::Point([x, y]))) => DVec2::new(*x, *y),
         _ => {
             let is_built = |part: &&Part| matches!(part.kind, PartKind::Main | PartKind::Sub);
-            let built = model.sheet.parts.par_iter().filter(is_built);
+            let built = model
+                .sheet
+                .parts
+                .par_iter()
+                .with_min_len(GRAIN)
+                .filter(is_built);
             let boxes = built.map(|part| part.measure.bounds);
             let all = boxes.reduce_with(|one, other| (one.0.min(other.0), one.1.max(other.1)));
             all.map_or(DVec2::ZERO, |(low, high)| {

@@ -8,6 +8,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::ShapeKind;
 use crate::solid;
+use crate::threads::GRAIN;
 
 /// How many ancestors are looked at: each that is doubled doubles the parts below it.
 const MOST_ANCESTORS: usize = 64;
@@ -18,11 +19,13 @@ pub(super) fn check(model: &Model<'_>, diagnostics: &mut Vec<Diagnostic>) {
     let doubled: Vec<bool> = parts
         .clone()
         .into_par_iter()
+        .with_min_len(GRAIN)
         .map(|part| model.sheet.shape(part).doubled)
         .collect();
     let copied = doubled.contains(&true);
     let found: Vec<Diagnostic> = parts
         .into_par_iter()
+        .with_min_len(GRAIN)
         .filter_map(|part| {
             let own = coincident(model, part);
             own.or_else(|| copied.then(|| inherited(model, part, &doubled))?)

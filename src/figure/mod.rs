@@ -26,6 +26,7 @@ use crate::resolver::Resolver;
 use crate::scene::{Mesh, Piece, Primitive, Scene};
 use crate::solid::{self, Placement, Sides, Solid};
 use crate::svg::Drawing;
+use crate::threads::GRAIN;
 
 use frame::Frame;
 use materials::{Materials, Painted};
@@ -44,6 +45,7 @@ const DEFAULT_DEPTH: f64 = 0.025;
 pub struct Memory {
     models: models::Memory,
     textures: textures::Memory,
+    relief: relief::Memory,
 }
 
 /// Builds the figures of a drawing. What it makes does not depend on what it remembers.
@@ -55,14 +57,20 @@ pub fn build(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Scene {
     let model = Model::new(drawing, sheet);
+    let known = &mut memory.relief;
     let (relief, (mut models, materials, frames, members, tree, found)) = rayon::join(
-        || Relief::measure(&model),
+        || Relief::measure(&model, known),
         || {
             let mut found = Vec::new();
             let models = Models::collect(&model, resolver, &mut memory.models, &mut found);
             let looks = &mut memory.textures;
             let materials = Materials::collect(&model, &models, resolver, looks, &mut found);
-            let frames: Vec<Frame> = sheet.parts.par_iter().map(Frame::of).collect();
+            let frames: Vec<Frame> = sheet
+                .parts
+                .par_iter()
+                .with_min_len(GRAIN)
+                .map(Frame::of)
+                .collect();
             let tree = Tree::grow(&model, &frames, &mut found);
             (models, materials, frames, members(sheet), tree, found)
         },
@@ -80,6 +88,7 @@ pub fn build(
     let meshes: Vec<Option<Mesh>> = members
         .par_iter()
         .enumerate()
+        .with_min_len(GRAIN)
         .map(|(main, parts)| model.mesh(main, parts, &stock))
         .collect();
     assemble::assemble(&model, tree, meshes, scene)

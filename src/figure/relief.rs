@@ -1,13 +1,18 @@
 //! Drawing order kept in depth (figure.md, Relief): where two parts overlap and their front or back faces
 //! would lie in one plane, the later drawn one stands out by a small step.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use super::{Model, overlap};
-use crate::bind::PartKind;
+use crate::bind::{Part, PartKind};
+use crate::geometry::Outline;
+use crate::kept::{Kept, Same};
 use crate::lang::value::ShapeKind;
+use crate::threads::GRAIN;
 
 /// The step, as a share of the part's thickness.
 const STEP: f64 = 0.01;
@@ -20,54 +25,33 @@ const MOST_BOXES: usize = 4096;
 
 /// How far the faces of each part stand out, drawing units.
 pub(super) struct Relief {
-    steps: Vec<[f64; 2]>,
+    steps: Arc<[[f64; 2]]>,
 }
 
+/// Per part its plane faces and its outline, and how far the faces stand out.
+pub(super) type Memory = Kept<(Vec<Option<Faces>>, Vec<Same<Outline>>), Arc<[[f64; 2]]>>;
+
 /// The plane faces of a part: back and front, where it has them.
-#[derive(Clone, Copy)]
-struct Faces {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Faces {
     planes: [Option<f64>; 2],
     thickness: f64,
 }
 
 impl Relief {
-    pub(super) fn measure(model: &Model<'_>) -> Self {
+    pub(super) fn measure(model: &Model<'_>, memory: &mut Memory) -> Self {
         let sheet = model.sheet;
         let depths = node_depths(model);
         let faces: Vec<Option<Faces>> = (0..sheet.parts.len())
             .into_par_iter()
+            .with_min_len(GRAIN)
             .map(|part| faces(model, part, &depths))
             .collect();
-        let boxes = faces.par_iter().enumerate().filter_map(|(index, faces)| {
-            faces.as_ref()?;
-            let (low, high) = sheet.parts[index].measure.bounds;
-            Some(GeomWithData::new(
-                Rectangle::from_corners(low.to_array(), high.to_array()),
-                index,
-            ))
+        let outline = |part: &Part| Same(Arc::clone(&part.outline));
+        let outlines = sheet.parts.iter().map(outline).collect();
+        let steps = memory.get((faces, outlines), |(faces, _)| {
+            steps(&sheet.parts, faces).into()
         });
-        let tree = RTree::bulk_load(boxes.collect());
-        let below: Vec<Vec<usize>> = (0..sheet.parts.len())
-            .into_par_iter()
-            .map(|part| below(model, part, &faces, &tree))
-            .collect();
-        let mut steps = vec![[0.0_f64; 2]; sheet.parts.len()];
-        for (part, below) in below.iter().enumerate() {
-            let Some(own) = faces[part] else { continue };
-            let raised = [0, 1].map(|side| {
-                let same = |other: &&usize| {
-                    faces[**other].is_some_and(|other| same_plane(own, other, side))
-                };
-                let highest = below
-                    .iter()
-                    .filter(same)
-                    .map(|other| steps[*other][side])
-                    .reduce(f64::max);
-                highest.map_or(0.0, |highest| highest + STEP * own.thickness)
-            });
-            let most = MOST_STEPS * STEP * own.thickness;
-            steps[part] = raised.map(|step| step.min(most));
-        }
         Self { steps }
     }
 
@@ -94,6 +78,41 @@ impl Relief {
             other => other,
         }
     }
+}
+
+/// How far the faces of each part stand out.
+fn steps(parts: &[Part], faces: &[Option<Faces>]) -> Vec<[f64; 2]> {
+    let boxes = faces.par_iter().enumerate().with_min_len(GRAIN);
+    let boxes = boxes.filter_map(|(index, faces)| {
+        faces.as_ref()?;
+        let (low, high) = parts[index].measure.bounds;
+        Some(GeomWithData::new(
+            Rectangle::from_corners(low.to_array(), high.to_array()),
+            index,
+        ))
+    });
+    let tree = RTree::bulk_load(boxes.collect());
+    let below: Vec<Vec<usize>> = (0..parts.len())
+        .into_par_iter()
+        .map(|part| below(parts, part, faces, &tree))
+        .collect();
+    let mut steps = vec![[0.0_f64; 2]; parts.len()];
+    for (part, below) in below.iter().enumerate() {
+        let Some(own) = faces[part] else { continue };
+        let raised = [0, 1].map(|side| {
+            let same =
+                |other: &&usize| faces[**other].is_some_and(|other| same_plane(own, other, side));
+            let highest = below
+                .iter()
+                .filter(same)
+                .map(|other| steps[*other][side])
+                .reduce(f64::max);
+            highest.map_or(0.0, |highest| highest + STEP * own.thickness)
+        });
+        let most = MOST_STEPS * STEP * own.thickness;
+        steps[part] = raised.map(|step| step.min(most));
+    }
+    steps
 }
 
 fn same_plane(a: Faces, b: Faces, side: usize) -> bool {
@@ -168,12 +187,11 @@ fn faces(model: &Model<'_>, part: usize, depths: &[f64]) -> Option<Faces> {
 
 /// The earlier parts that a part overlaps and shares a plane with.
 fn below(
-    model: &Model<'_>,
+    parts: &[Part],
     part: usize,
     faces: &[Option<Faces>],
     tree: &RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
 ) -> Vec<usize> {
-    let parts = &model.sheet.parts;
     let Some(own) = faces[part] else {
         return vec![];
     };

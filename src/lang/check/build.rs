@@ -13,10 +13,9 @@ use crate::lang::value::{Ground, Origin, Shape, ShapeKind, SignedAxis, Value};
 impl Checker<'_> {
     /// The value of an attribute and its arguments as words.
     pub(super) fn value(&mut self, attribute: &Attribute) -> Option<(Value, Vec<String>)> {
-        let usage = attribute.keyword.usages().join("`, or `");
         let taker = Taker {
             name: attribute.keyword.name(),
-            usage: &usage,
+            kind: None,
             place: &attribute.keyword_range,
             parameters: attribute
                 .keyword
@@ -174,10 +173,9 @@ impl Checker<'_> {
         if kind.status == Status::Planned {
             self.not_built(kind.name, first.range.clone());
         }
-        let usage = format!("Shape {}", kind.usage());
         let taker = Taker {
             name: kind.name,
-            usage: &usage,
+            kind: Some(kind),
             place: &first.range,
             parameters: kind.form.parameters.len(),
             keyword: Keyword::Shape,

@@ -5,6 +5,7 @@ use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::{Argument, ArgumentKind, Name};
 use crate::lang::evaluate::{Failure, Known, evaluate};
 use crate::lang::keyword::colours::{self, COLOURS};
+use crate::lang::keyword::kinds::Kind;
 use crate::lang::keyword::signature::{Bounds, Form, Parameter, Takes};
 use crate::lang::keyword::{Keyword, words};
 use crate::lang::parse::slips;
@@ -39,14 +40,24 @@ enum Misfit {
 pub(super) struct Taker<'a> {
     /// A keyword or a kind of `Shape`.
     pub(super) name: &'a str,
-    /// How it is written in full.
-    pub(super) usage: &'a str,
+    /// The kind, where it is one.
+    pub(super) kind: Option<&'static Kind>,
     /// The place of its name.
     pub(super) place: &'a std::ops::Range<usize>,
     /// How many parameters there are.
     pub(super) parameters: usize,
     /// Whose values `Let` tells about: there nothing is said here.
     pub(super) keyword: Keyword,
+}
+
+impl Taker<'_> {
+    /// How it is written in full.
+    fn usage(&self) -> String {
+        match self.kind {
+            Some(kind) => format!("Shape {}", kind.usage()),
+            None => self.keyword.usages().join("`, or `"),
+        }
+    }
 }
 
 impl Checker<'_> {
@@ -296,7 +307,7 @@ impl Checker<'_> {
                 1 => "one too many".to_owned(),
                 count => format!("{count} too many"),
             })
-            .help(format!("write `{}`", taker.usage)),
+            .help(format!("write `{}`", taker.usage())),
         );
         false
     }
@@ -333,7 +344,7 @@ impl Checker<'_> {
             self.text.span(taker.place.start..end),
             format!("`{}` has too few arguments", taker.name),
         )
-        .help(format!("write `{}`", taker.usage));
+        .help(format!("write `{}`", taker.usage()));
         self.diagnostics.push(match missing {
             Some(missing) => diagnostic.label(format!("`{}` is missing", missing.print())),
             None => diagnostic,
@@ -370,7 +381,7 @@ impl Checker<'_> {
                         .escape_at(argument.range.start, &format!("\"{written}\"")),
                 );
         } else {
-            diagnostic = diagnostic.help(format!("write `{}`", taker.usage));
+            diagnostic = diagnostic.help(format!("write `{}`", taker.usage()));
         }
         self.diagnostics.push(diagnostic);
     }
