@@ -29,3 +29,4 @@ pub mod source;
 pub mod svg;
 pub mod texture;
 mod threads;
+pub mod watch;

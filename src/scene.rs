@@ -90,9 +90,17 @@ pub enum Piece {
 impl Piece {
     /// Its triangles.
     pub fn surface(&self) -> Cow<'_, Surface> {
+        self.surface_by(&mut |solid| Cow::Owned(solid.surface()))
+    }
+
+    /// Its triangles, with solids made by `make`.
+    pub fn surface_by<'a>(
+        &'a self,
+        make: &mut dyn FnMut(&'a Solid) -> Cow<'a, Surface>,
+    ) -> Cow<'a, Surface> {
         match self {
             Self::Surface(surface) => Cow::Borrowed(surface),
-            Self::Solid(solid) => Cow::Owned(solid.surface()),
+            Self::Solid(solid) => make(solid),
             Self::Posed(posed) => Cow::Owned(posed.surface()),
         }
     }
@@ -101,10 +109,18 @@ impl Piece {
 impl Primitive {
     /// The triangles of all its pieces.
     pub fn surface(&self) -> Cow<'_, Surface> {
+        self.surface_by(&mut |solid| Cow::Owned(solid.surface()))
+    }
+
+    /// The triangles of all its pieces, with solids made by `make`.
+    pub fn surface_by<'a>(
+        &'a self,
+        make: &mut dyn FnMut(&'a Solid) -> Cow<'a, Surface>,
+    ) -> Cow<'a, Surface> {
         match self.pieces.as_slice() {
-            [piece] => piece.surface(),
+            [piece] => piece.surface_by(make),
             pieces => Cow::Owned(pieces.iter().fold(Surface::default(), |mut all, piece| {
-                all.append(&piece.surface());
+                all.append(&piece.surface_by(make));
                 all
             })),
         }

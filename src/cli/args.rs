@@ -13,6 +13,7 @@ Examples:
   okoshi build human.svg -o out/man.glb  writes it elsewhere
   okoshi check *.svg                     says what is wrong, writes nothing
   okoshi render human.svg                draws a picture of the model, human.png
+  okoshi watch human.svg                 builds it again at every save
   okoshi inspect human.svg               shows who is bound to what, and why
   okoshi explain Shape                   the manual of a keyword
   okoshi explain E204                    the manual of a diagnostic
@@ -73,6 +74,8 @@ pub(super) enum Command {
         /// E204, Shape, roundv …
         topic: Option<String>,
     },
+    /// Build drawings again whenever they are saved
+    Watch(Watch),
     /// Language server on stdin and stdout, for editors
     ///
     /// Editors start it by themselves; docs/editors says how each is set up. Positions are counted in
@@ -144,6 +147,38 @@ pub(super) struct Build {
     pub(super) stats: bool,
     #[command(flatten)]
     pub(super) reading: Reading,
+}
+
+const WATCH_EXAMPLES: &str = "\
+Examples:
+  okoshi watch human.svg            writes human.glb now, and at every save
+  okoshi watch drawings -o models   all drawings below a folder, also those that come
+  okoshi watch human.svg --poll     where the system does not tell of saves: network folders, WSL
+
+What a drawing links to is watched too: models, pictures, motions. While a drawing has errors, the last good
+model stays. Ctrl-C ends it; a model is never left half written.";
+
+#[derive(Debug, Args)]
+#[command(after_help = WATCH_EXAMPLES)]
+pub(super) struct Watch {
+    /// Drawings, and folders of drawings
+    #[arg(required = true, value_name = "PATH")]
+    pub(super) paths: Vec<PathBuf>,
+    /// The folder that models are written to [default: beside each drawing]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) noticing: Noticing,
+    #[command(flatten)]
+    pub(super) reading: Reading,
+}
+
+/// How changes are noticed.
+#[derive(Debug, Clone, Args)]
+pub(super) struct Noticing {
+    /// Look at the files every so many milliseconds, where the system does not tell of changes [default: 200]
+    #[arg(long, value_name = "MS", num_args = 0..=1, require_equals = true, default_missing_value = "200", value_parser = clap::value_parser!(u64).range(10..=60_000))]
+    pub(super) poll: Option<u64>,
 }
 
 #[derive(Debug, Args)]

@@ -113,7 +113,7 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
     };
     let compiled = start.elapsed();
     let mut text = describe(
-        &loaded,
+        loaded.findings(),
         common,
         Detail::Aside,
         style(common, &std::io::stderr()),

@@ -37,7 +37,7 @@ fn human(read: &[Loaded], common: Common) -> String {
     let style = style(common, &std::io::stdout());
     let mut out = String::new();
     for loaded in read {
-        out.push_str(&describe(loaded, common, Detail::Asked, style));
+        out.push_str(&describe(loaded.findings(), common, Detail::Asked, style));
         if !common.quiet {
             let counts = tally(&loaded.compiled.diagnostics);
             let findings = if counts == [0; 3] {

@@ -24,7 +24,7 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
     eprint!(
         "{}",
         describe(
-            &loaded,
+            loaded.findings(),
             common,
             Detail::Aside,
             style(common, &std::io::stderr())

@@ -7,9 +7,8 @@ use super::args::{Common, Reading};
 use super::report::{self, Style};
 use super::{Findings, Outcome, fail};
 use crate::compile::{Compiled, Options, compile};
-use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::disk::{FolderResolver, decode, read_drawing};
-use crate::source::Span;
 
 /// How many hints a command that was not asked for them shows.
 const MOST_HINTS: usize = 10;
@@ -54,13 +53,7 @@ pub(super) fn load(path: &Path, reading: &Reading) -> Result<Loaded, Outcome> {
     let text = match decode(bytes) {
         Ok(text) => text,
         Err(error) => {
-            let help = "in Inkscape, File → Save As writes UTF-8; in an editor, choose the encoding when saving";
-            let diagnostic =
-                Diagnostic::new(Code::NotUtf8, Span::at(0), error.to_string()).help(help);
-            let compiled = Compiled {
-                diagnostics: vec![diagnostic],
-                ..Compiled::default()
-            };
+            let compiled = Compiled::undecoded(&error.to_string());
             return Ok(Loaded {
                 path: name,
                 text: lossy,
@@ -95,15 +88,23 @@ pub(super) enum Detail {
     Asked,
     /// The command was asked for something else: a few hints.
     Aside,
+    /// The command says it again and again: no hints.
+    Repeated,
 }
 
 /// The findings of a drawing as text for people.
-pub(super) fn describe(loaded: &Loaded, common: Common, detail: Detail, style: Style) -> String {
+pub(super) fn describe(
+    findings: Findings<'_>,
+    common: Common,
+    detail: Detail,
+    style: Style,
+) -> String {
     let most_hints = match detail {
         _ if common.quiet => 0,
         _ if common.verbose => usize::MAX,
         Detail::Asked => MOST_FINDINGS,
         Detail::Aside => MOST_HINTS,
+        Detail::Repeated => 0,
     };
     let most = if common.verbose {
         usize::MAX
@@ -113,7 +114,7 @@ pub(super) fn describe(loaded: &Loaded, common: Common, detail: Detail, style: S
     let mut shown: Vec<Diagnostic> = Vec::new();
     let mut hidden = [0_usize; 3];
     let mut counts = [0_usize; 3];
-    for diagnostic in &loaded.compiled.diagnostics {
+    for diagnostic in findings.diagnostics {
         let slot = diagnostic.severity() as usize;
         let limit = match diagnostic.severity() {
             Severity::Error => most,
@@ -131,10 +132,13 @@ pub(super) fn describe(loaded: &Loaded, common: Common, detail: Detail, style: S
     let mut out = report::human(
         Findings {
             diagnostics: &shown,
-            ..loaded.findings()
+            ..findings
         },
         style,
     );
+    if detail == Detail::Repeated {
+        hidden[Severity::Hint as usize] = 0;
+    }
     if !common.quiet && hidden.iter().sum::<usize>() > 0 {
         out.push_str(&format!(
             "… and {}, which `okoshi check -v` shows\n",

@@ -24,6 +24,7 @@ pub mod report;
 #[cfg(test)]
 mod samples;
 pub mod sarif;
+mod watch;
 
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
@@ -79,6 +80,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Check(arguments) => check::run(arguments, cli.common),
         Command::Inspect(arguments) => inspect::run(arguments, cli.common),
         Command::Explain { topic } => explain::run(topic.as_deref(), cli.common),
+        Command::Watch(arguments) => watch::run(arguments, cli.common),
         Command::Lsp => lsp(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -119,7 +119,12 @@ fn model(arguments: &Render, common: Common) -> Result<(Vec<u8>, Outcome), Outco
     let loaded = spinning("building", || load(drawing, &arguments.reading))?;
     eprint!(
         "{}",
-        describe(&loaded, common, Detail::Aside, style(common, &io::stderr()))
+        describe(
+            loaded.findings(),
+            common,
+            Detail::Aside,
+            style(common, &io::stderr())
+        )
     );
     let empty = loaded.compiled.scene.nodes.is_empty();
     if loaded.compiled.has_errors() && (empty || !arguments.keep_going) {

@@ -50,6 +50,15 @@ pub struct Compiled {
 }
 
 impl Compiled {
+    /// What is said of a drawing whose bytes are no text.
+    pub fn undecoded(why: &str) -> Self {
+        let help = "in Inkscape, File → Save As writes UTF-8; in an editor, choose the encoding when saving";
+        Self {
+            diagnostics: vec![Diagnostic::new(Code::NotUtf8, Span::at(0), why).help(help)],
+            ..Self::default()
+        }
+    }
+
     /// Whether there are errors, which keep the model from being written.
     pub fn has_errors(&self) -> bool {
         self.diagnostics

@@ -2,6 +2,7 @@
 
 mod cache;
 mod folder;
+mod poll;
 mod read;
 mod search;
 mod text;
@@ -11,10 +12,10 @@ mod write;
 pub use cache::write_cached;
 pub use folder::{FolderResolver, LINK_LIMIT};
 pub use read::{DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, read_drawing};
-pub use search::{files_below, stamp};
+pub use search::{Below, Stamp, below, is_drawing, stamp};
 pub use text::{Decode, decode};
-pub use watch::{FolderWatch, real_path};
-pub use write::{Output, WriteError, write_atomic, write_new};
+pub use watch::{Changed, FolderWatch, Notice, WatchError, as_told};
+pub use write::{Output, WriteError, make_folder, write_atomic, write_new};
 
 use std::path::Path;
 

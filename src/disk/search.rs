@@ -12,9 +12,18 @@ const DEEPEST: usize = 8;
 /// Folders that hold no work of people.
 const PASSED_OVER: &[&str] = &["node_modules", "target"];
 
-/// The files below a folder in the order of their names, folders last. Hidden ones and links are passed over.
-pub fn files_below(folder: &Path) -> Vec<PathBuf> {
-    let mut found = vec![];
+/// What lies below a folder.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Below {
+    /// The files, in the order of their names, those of inner folders last.
+    pub files: Vec<PathBuf>,
+    /// The folders, itself the first.
+    pub folders: Vec<PathBuf>,
+}
+
+/// The files and folders below a folder. Hidden ones and links are passed over.
+pub fn below(folder: &Path) -> Below {
+    let mut found = Below::default();
     let mut folders = vec![(folder.to_owned(), 0)];
     let mut seen = 0;
     while let Some((folder, depth)) = folders.pop() {
@@ -24,6 +33,7 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
         let mut entries: Vec<_> = entries.flatten().take(MOST_FILES - seen).collect();
         entries.sort_by_key(fs::DirEntry::file_name);
         seen += entries.len();
+        found.folders.push(folder);
         let mut inner = vec![];
         for entry in entries {
             let name = entry.file_name();
@@ -35,7 +45,7 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
                 continue;
             }
             if kind.is_file() {
-                found.push(entry.path());
+                found.files.push(entry.path());
             } else if kind.is_dir() && depth < DEEPEST {
                 inner.push((entry.path(), depth + 1));
             }
@@ -45,8 +55,19 @@ pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
+/// Whether a file is taken for a drawing, by its name.
+pub fn is_drawing(path: &Path) -> bool {
+    let name = path.file_name().map(|name| name.to_string_lossy());
+    let hidden = name.is_none_or(|name| name.starts_with('.'));
+    let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
+    !hidden && ending.is_some_and(|ending| ending == "svg" || ending == "svgz")
+}
+
 /// What tells that a file is the one that it was: its length and when it was written.
-pub fn stamp(path: &Path) -> Option<(u64, SystemTime)> {
+pub type Stamp = (u64, SystemTime);
+
+/// The stamp of a file that is there.
+pub fn stamp(path: &Path) -> Option<Stamp> {
     let metadata = fs::metadata(path).ok()?;
     Some((metadata.len(), metadata.modified().ok()?))
 }
@@ -69,7 +90,10 @@ mod tests {
             fs::create_dir_all(path.parent().unwrap()).unwrap();
             fs::write(path, "").unwrap();
         }
-        let found: Vec<_> = files_below(folder.path())
+        let below_it = below(folder.path());
+        assert_eq!(below_it.folders.len(), 3);
+        let found: Vec<_> = below_it
+            .files
             .iter()
             .map(|path| {
                 path.strip_prefix(folder.path())
@@ -80,6 +104,6 @@ mod tests {
             })
             .collect();
         assert_eq!(found, ["b.svg", "a/c.png", "a/d/e.svg"]);
-        assert!(files_below(&folder.path().join("nowhere")).is_empty());
+        assert_eq!(below(&folder.path().join("nowhere")), Below::default());
     }
 }

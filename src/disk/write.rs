@@ -97,6 +97,14 @@ pub fn write_atomic<T>(
     Ok(answer)
 }
 
+/// Makes a folder, and those that it lies in.
+pub fn make_folder(path: &Path) -> Result<(), WriteError> {
+    fs::create_dir_all(path).map_err(|source| WriteError::Failed {
+        path: path.to_owned(),
+        source,
+    })
+}
+
 /// Writes a file that does not exist yet; what has the name already, a dangling link too, is left as it is.
 ///
 /// The file is there with all its content or not at all.

@@ -9,6 +9,7 @@ mod check;
 mod document;
 mod lists;
 mod looks;
+mod memory;
 mod packing;
 mod room;
 mod spool;
@@ -19,7 +20,10 @@ use std::io::{self, Seek, Write};
 
 use crate::scene::Scene;
 use crate::threads;
+use memory::Used;
 use spool::Spool;
+
+pub use memory::Memory;
 
 /// The name of the virtual node that holds the parts without a parent.
 pub const ROOT: &str = "Root";
@@ -59,11 +63,39 @@ pub fn write(
     container: Container,
     out: &mut (impl Write + Seek + Send + ?Sized),
 ) -> io::Result<Written> {
+    written(scene, container, out, None)
+}
+
+/// Writes `scene` as [`write`] does; solids that are in `memory` are not made anew, and those of `scene` will be in it.
+///
+/// # Errors
+/// Those of [`write`]; `memory` is as it was then.
+pub fn write_again(
+    scene: &Scene,
+    container: Container,
+    out: &mut (impl Write + Seek + Send + ?Sized),
+    memory: &mut Memory,
+) -> io::Result<Written> {
+    let mut used = Used::default();
+    let written = written(scene, container, out, Some((memory, &mut used)))?;
+    memory.keep(used);
+    Ok(written)
+}
+
+/// What is remembered, and what of it is used.
+type Again<'a> = Option<(&'a Memory, &'a mut Used)>;
+
+fn written(
+    scene: &Scene,
+    container: Container,
+    out: &mut (impl Write + Seek + Send + ?Sized),
+    again: Again<'_>,
+) -> io::Result<Written> {
     check::check(scene)?;
     let written = threads::run(|| match container {
         Container::Glb => {
             let mut spool = Spool::new(out, room::room(scene)?);
-            let packed = packing::pack(scene, |bytes| spool.push(bytes))?;
+            let packed = packing::pack(scene, again, |bytes| spool.push(bytes))?;
             spool.finish(|out| {
                 document::write(scene, &packed, out)?;
                 if packed.length > 0 {
@@ -73,7 +105,7 @@ pub fn write(
             })?;
             Ok(packed.total())
         }
-        Container::Gltf => write_gltf(scene, out),
+        Container::Gltf => write_gltf(scene, out, again),
     });
     written.unwrap_or_else(|| {
         Err(io::Error::other(
@@ -82,9 +114,13 @@ pub fn write(
     })
 }
 
-fn write_gltf(scene: &Scene, out: &mut (impl Write + ?Sized)) -> io::Result<Written> {
+fn write_gltf(
+    scene: &Scene,
+    out: &mut (impl Write + ?Sized),
+    again: Again<'_>,
+) -> io::Result<Written> {
     let mut data = Vec::new();
-    let packed = packing::pack(scene, |bytes| {
+    let packed = packing::pack(scene, again, |bytes| {
         data.extend_from_slice(bytes);
         Ok(())
     })?;

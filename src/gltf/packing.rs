@@ -10,7 +10,8 @@ use glam::DMat4;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::invalid;
+use super::memory::{Memory, Used};
+use super::{Again, invalid};
 use crate::scene::{Image, MediaType, Pose, Primitive, Scene, Surface};
 
 /// Primitives in a window.
@@ -184,6 +185,7 @@ impl Packed {
 struct Batch {
     data: [Vec<u8>; KINDS],
     entries: Vec<Option<Entry>>,
+    used: Used,
 }
 
 /// Packs every primitive and hands the bytes to `write` in order.
@@ -192,8 +194,13 @@ struct Batch {
 /// What `write` answers; [`io::ErrorKind::InvalidInput`] for a surface that breaks its own rules.
 pub(super) fn pack(
     scene: &Scene,
+    again: Again<'_>,
     mut write: impl FnMut(&[u8]) -> io::Result<()> + Send,
 ) -> io::Result<Packed> {
+    let (memory, mut used) = match again {
+        Some((memory, used)) => (Some(memory), Some(used)),
+        None => (None, None),
+    };
     let primitives: Vec<&Primitive> = scene
         .meshes
         .iter()
@@ -206,13 +213,18 @@ pub(super) fn pack(
     let make = |window: &[&Primitive], batches: &mut Vec<Batch>| -> io::Result<()> {
         batches.resize_with(window.len().div_ceil(BATCH), Batch::default);
         let batches = batches.par_iter_mut().zip(window.par_chunks(BATCH));
-        batches.try_for_each(|(batch, window)| batch.fill(window, scene))
+        batches.try_for_each(|(batch, window)| batch.fill(window, scene, memory))
     };
     let mut windows = primitives.chunks(WINDOW);
     // Two sets of buffers take turns, so that no memory is asked for after the second window.
     let (mut ready, mut next) = (Vec::new(), Vec::new());
     make(windows.next().unwrap_or(&[]), &mut ready)?;
     while !ready.is_empty() {
+        if let Some(used) = &mut used {
+            ready
+                .iter_mut()
+                .for_each(|batch| used.append(&mut batch.used));
+        }
         let window = windows.next().unwrap_or(&[]);
         let (written, made) = rayon::join(
             || packed.take(&mut ready, &mut write),
@@ -343,11 +355,19 @@ impl Packed {
 }
 
 impl Batch {
-    fn fill(&mut self, primitives: &[&Primitive], scene: &Scene) -> io::Result<()> {
+    fn fill(
+        &mut self,
+        primitives: &[&Primitive],
+        scene: &Scene,
+        memory: Option<&Memory>,
+    ) -> io::Result<()> {
         self.data.iter_mut().for_each(Vec::clear);
         self.entries.clear();
         for primitive in primitives {
-            let surface = primitive.surface();
+            let surface = match memory {
+                Some(memory) => primitive.surface_by(&mut |solid| self.used.surface(solid, memory)),
+                None => primitive.surface(),
+            };
             let Some(material) = scene.materials.get(primitive.material) else {
                 return Err(invalid("a primitive with a material out of range"));
             };

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard};
 
 use super::analyst::Analyst;
-use crate::disk::{FolderWatch, real_path};
+use crate::disk::{FolderWatch, Notice, as_told};
 
 /// See the module.
 pub(super) struct Links {
@@ -33,11 +33,13 @@ impl Links {
     pub(super) fn new(analyst: Arc<Analyst>) -> Self {
         let places: Arc<Places> = Arc::default();
         let known = places.clone();
-        let watch = FolderWatch::new(move |changed| {
-            for uri in affected(&known, changed) {
+        let watch = FolderWatch::new(Notice::Told, move |changed| {
+            for uri in affected(&known, &changed.paths) {
                 analyst.touched(&uri);
             }
         });
+        // Where the system cannot tell, clients may.
+        let watch = watch.ok();
         Self { places, watch }
     }
 
@@ -84,12 +86,4 @@ fn affected(places: &Places, changed: &BTreeSet<PathBuf>) -> Vec<String> {
         .filter(|(_, files)| !files.is_disjoint(&changed))
         .map(|(uri, _)| uri.clone())
         .collect()
-}
-
-/// A file's path as the system tells it: links in the path of its folder are followed.
-fn as_told(file: &Path) -> PathBuf {
-    match (file.parent(), file.file_name()) {
-        (Some(folder), Some(name)) => real_path(folder).join(name),
-        _ => file.to_owned(),
-    }
 }

@@ -10,7 +10,7 @@ use super::backend::{Backend, PREVIEW, View};
 use super::convert::{self, Places};
 use super::documents::Document;
 use super::ordered::SNAPSHOTS;
-use crate::disk::{FolderResolver, files_below};
+use crate::disk::{FolderResolver, below};
 use crate::ide::{self, Target};
 use crate::source::Span;
 
@@ -366,7 +366,7 @@ fn files_in(folder: Option<&Path>) -> Vec<String> {
     let Some(folder) = folder else {
         return vec![];
     };
-    let files = files_below(folder).into_iter();
+    let files = below(folder).files.into_iter();
     let names = files.filter_map(|file| {
         let parts = file.strip_prefix(folder).ok()?.components();
         let parts: Option<Vec<_>> = parts.map(|part| part.as_os_str().to_str()).collect();

@@ -11,7 +11,7 @@ use super::convert;
 use super::documents::Snapshot;
 use super::positions::{Encoding, Positions};
 use crate::compile::{Options, compile};
-use crate::disk::{FolderResolver, decode, files_below, read_drawing, stamp};
+use crate::disk::{FolderResolver, below, decode, is_drawing, read_drawing, stamp};
 use crate::ide::{Analysis, Outline};
 
 /// How many symbols are answered at most; a longer query finds what is missing.
@@ -75,7 +75,8 @@ impl Workspace {
             .unwrap_or_else(|poisoned| poisoned.into_inner())
             .clone();
         for folder in folders {
-            let drawings = files_below(&folder)
+            let drawings = below(&folder)
+                .files
                 .into_iter()
                 .filter(|file| is_drawing(file));
             for file in drawings.filter(|file| !seen.contains(file)) {
@@ -117,11 +118,6 @@ impl Workspace {
         read.insert(file.to_owned(), known);
         Some(parts)
     }
-}
-
-fn is_drawing(file: &Path) -> bool {
-    let ending = file.extension().map(|ending| ending.to_ascii_lowercase());
-    ending.is_some_and(|ending| ending == "svg")
 }
 
 fn parts(analysis: &Analysis, positions: &Positions) -> Vec<Found> {

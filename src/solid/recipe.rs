@@ -1,8 +1,10 @@
 //! A solid that is still to be made.
 
+use std::hash::Hasher;
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
+use rustc_hash::FxHasher;
 
 use super::{Options, build, mirror};
 use crate::geometry::{Outline, Polygon};
@@ -70,6 +72,62 @@ impl Solid {
                 surface
             }
         }
+    }
+
+    /// A number that tells solids apart: those that are made from other numbers, down to their signs, mostly have
+    /// another one.
+    pub fn key(&self) -> u64 {
+        let mut hasher = FxHasher::default();
+        let mut number = |number: f64| hasher.write_u64(number.to_bits());
+        for ring in self
+            .outline
+            .polygons
+            .iter()
+            .flat_map(|polygon| &polygon.rings)
+        {
+            number(ring.len() as f64);
+            ring.iter().for_each(|point| {
+                number(point.x);
+                number(point.y);
+            });
+        }
+        let Options {
+            segments,
+            crease,
+            thickness,
+            placement,
+        } = self.options;
+        number(f64::from(segments));
+        number(crease);
+        thickness.into_iter().for_each(&mut number);
+        number(placement.rotation);
+        placement
+            .translation
+            .to_array()
+            .into_iter()
+            .for_each(&mut number);
+        number(placement.scale);
+        self.to_frame
+            .to_cols_array()
+            .into_iter()
+            .for_each(&mut number);
+        let texture = self.texture.iter().flat_map(DAffine2::to_cols_array);
+        texture.for_each(&mut number);
+        match &self.kind {
+            ShapeKind::Default(Some(depths))
+            | ShapeKind::RoundV(depths)
+            | ShapeKind::RoundH(depths) => depths.iter().copied().for_each(&mut number),
+            ShapeKind::Cone(depths) | ShapeKind::ConeV(depths) | ShapeKind::ConeH(depths) => {
+                depths.iter().copied().for_each(&mut number);
+            }
+            ShapeKind::Round(angles, radius) => {
+                angles.iter().copied().chain(*radius).for_each(&mut number);
+            }
+            ShapeKind::Inflate(height) => height.iter().copied().for_each(&mut number),
+            ShapeKind::Lathe(length) | ShapeKind::Flat(length) => number(*length),
+            ShapeKind::Default(None) | ShapeKind::Model(_) | ShapeKind::None => {}
+        }
+        hasher.finish()
     }
 
     /// From the solid's final places, seen from the front, back to the drawing.

@@ -1,0 +1,175 @@
+//! `okoshi watch`
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use super::args::{Common, Noticing, Reading, Watch};
+use super::loading::{Detail, count, describe, tally};
+use super::{Findings, Outcome, fail, style};
+use crate::disk::{Notice, make_folder, write_atomic};
+use crate::watch::{Build, Event, NoModel, Options, watch};
+
+/// Builds drawings at every save, until it is stopped.
+pub(super) fn run(arguments: &Watch, common: Common) -> Outcome {
+    if let Some(missing) = arguments.paths.iter().find(|path| !path.exists()) {
+        return fail(&format!(
+            "`{}` is not there; check the path",
+            missing.display()
+        ));
+    }
+    let mut outputs = Outputs {
+        folder: arguments.output.as_deref(),
+        targets: &arguments.paths,
+        taken: BTreeMap::new(),
+    };
+    let options = options(&arguments.reading, &arguments.noticing);
+    let ended = watch(&arguments.paths, &options, |event| {
+        let told = match event {
+            Event::Built(drawing, build) => built(drawing, build, &mut outputs, common),
+            event => told(&event, common),
+        };
+        eprint!("{told}");
+    });
+    match ended {
+        Ok(never) => match never {},
+        Err(error) => fail(&format!(
+            "changes of files are not told of here: {error}; try --poll"
+        )),
+    }
+}
+
+/// How drawings are read and watched.
+pub(super) fn options(reading: &Reading, noticing: &Noticing) -> Options {
+    Options {
+        root: reading.root.clone(),
+        tolerance: reading.tolerance,
+        notice: noticing.poll.map_or(Notice::Told, |pause| {
+            Notice::Polled(Duration::from_millis(pause))
+        }),
+    }
+}
+
+/// Where models go.
+struct Outputs<'a> {
+    folder: Option<&'a Path>,
+    targets: &'a [PathBuf],
+    /// By output, the drawing that it is made from.
+    taken: BTreeMap<PathBuf, PathBuf>,
+}
+
+impl Outputs<'_> {
+    /// The file of a drawing's model.
+    fn of(&mut self, drawing: &Path) -> Result<PathBuf, String> {
+        let output = match self.folder {
+            None => drawing.with_extension("glb"),
+            Some(folder) => {
+                // Below a folder that is watched, drawings keep their places.
+                let below = |target: &PathBuf| drawing.strip_prefix(target).ok();
+                let inner = self.targets.iter().filter_map(below);
+                let place = inner.filter(|place| !place.as_os_str().is_empty()).next();
+                let place = place.or(drawing.file_name().map(Path::new));
+                folder.join(place.unwrap_or(drawing)).with_extension("glb")
+            }
+        };
+        let taken = self.taken.entry(output.clone());
+        let owner = taken.or_insert_with(|| drawing.to_owned());
+        if owner != drawing {
+            return Err(format!(
+                "it would be written to `{}`, as `{}` is; rename one of them",
+                output.display(),
+                owner.display()
+            ));
+        }
+        Ok(output)
+    }
+}
+
+/// Writes a model that was built, and tells of it: what is wrong, and then one line.
+fn built(drawing: &Path, build: &Build, outputs: &mut Outputs<'_>, common: Common) -> String {
+    let name = drawing.display().to_string();
+    let findings = Findings {
+        path: &name,
+        text: &build.text,
+        diagnostics: &build.compiled.diagnostics,
+    };
+    let mut text = describe(
+        findings,
+        common,
+        Detail::Repeated,
+        style(common, &std::io::stderr()),
+    );
+    let counts = tally(&build.compiled.diagnostics);
+    let found = match counts {
+        [0, 0, 0] => String::new(),
+        counts => format!("{}, ", count(counts)),
+    };
+    let output = match outputs.of(drawing) {
+        Ok(output) => output,
+        Err(why) => return format!("{text}{}", line(&name, &format!("not written: {why}"))),
+    };
+    let kept = || match output.exists() {
+        true => format!("{} stays as it was", output.display()),
+        false => "nothing was written".to_owned(),
+    };
+    let (said, failed) = match &build.model {
+        Err(NoModel::Errors) => (format!("{found}{}", kept()), true),
+        Err(NoModel::Unwritten(why)) => (format!("{found}{why}; {}", kept()), true),
+        Ok(model) => {
+            let folder = output.parent().filter(|_| outputs.folder.is_some());
+            let written = folder
+                .map_or(Ok(()), make_folder)
+                .and_then(|()| write_atomic(&output, |out| out.write_all(&model.bytes)));
+            match written {
+                Err(error) => (error.to_string(), true),
+                Ok(()) => (
+                    format!(
+                        "{}, {}, {found}{} in {:.1} ms",
+                        counted(build.compiled.sheet.parts.len(), "part"),
+                        counted(model.written.triangles, "triangle"),
+                        output.display(),
+                        build.steps.duration().as_secs_f64() * 1e3,
+                    ),
+                    false,
+                ),
+            }
+        }
+    };
+    if failed || !common.quiet {
+        text.push_str(&line(&name, &said));
+    }
+    text
+}
+
+/// What is told of a drawing or a folder that was not built.
+pub(super) fn told(event: &Event<'_>, common: Common) -> String {
+    match event {
+        Event::Gone(drawing) => line(&drawing.display().to_string(), "it is gone; waiting for it"),
+        Event::Back(drawing) => line(&drawing.display().to_string(), "it is back, as it was"),
+        Event::Unreadable(drawing, why) => line(&drawing.display().to_string(), why),
+        Event::Deaf(folder, why) => line(
+            &folder.display().to_string(),
+            &format!("changes in it are not told of: {why}; try --poll"),
+        ),
+        Event::Ready(_) if common.quiet => String::new(),
+        Event::Ready(0) => "no drawings there yet; waiting for them, Ctrl-C ends it\n".to_owned(),
+        Event::Ready(drawings) => format!(
+            "watching {}; Ctrl-C ends it\n",
+            counted(*drawings, "drawing")
+        ),
+        Event::Built(..) => String::new(),
+    }
+}
+
+/// `12:01:07 human.svg: …`
+fn line(name: &str, said: &str) -> String {
+    format!(
+        "{} {name}: {said}\n",
+        chrono::Local::now().format("%H:%M:%S")
+    )
+}
+
+/// `1 part`, `2 parts`
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}

@@ -1,0 +1,79 @@
+//! Looks at folders again and again, for file systems that tell nothing.
+//!
+//! notify has such a watcher too, but it sees times of change in whole seconds: of two saves in one second it misses
+//! the second, unless it reads all files in the folder every time.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, Weak};
+use std::time::Duration;
+
+use super::search::{Stamp, stamp};
+
+/// Folders that are looked at until this is dropped.
+#[derive(Debug)]
+pub(super) struct Poll {
+    folders: Arc<Mutex<BTreeMap<PathBuf, Listing>>>,
+}
+
+/// The files of a folder.
+type Listing = BTreeMap<PathBuf, Stamp>;
+
+impl Poll {
+    /// Looks at folders every `pause`, and calls `changed` with what is new, gone or another than before.
+    pub(super) fn new(
+        pause: Duration,
+        changed: impl Fn(Vec<PathBuf>) -> bool + Send + 'static,
+    ) -> Self {
+        let folders: Arc<Mutex<BTreeMap<PathBuf, Listing>>> = Arc::default();
+        let looked_at = Arc::downgrade(&folders);
+        std::thread::spawn(move || {
+            loop {
+                std::thread::sleep(pause);
+                match look(&looked_at) {
+                    Some(paths) if paths.is_empty() || changed(paths.clone()) => {}
+                    _ => return,
+                }
+            }
+        });
+        Self { folders }
+    }
+
+    /// Looks at these folders and no others from now on.
+    pub(super) fn set(&self, folders: &BTreeSet<PathBuf>) {
+        let mut known = self
+            .folders
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner());
+        known.retain(|folder, _| folders.contains(folder));
+        for folder in folders {
+            let listing = || listing(folder);
+            known.entry(folder.clone()).or_insert_with(listing);
+        }
+    }
+}
+
+/// What has changed since the last look; `None` if nobody wants to know any more.
+fn look(folders: &Weak<Mutex<BTreeMap<PathBuf, Listing>>>) -> Option<Vec<PathBuf>> {
+    let folders = folders.upgrade()?;
+    let mut folders = folders
+        .lock()
+        .unwrap_or_else(|poisoned| poisoned.into_inner());
+    let mut paths = vec![];
+    for (folder, before) in folders.iter_mut() {
+        let now = listing(folder);
+        let other = |(path, stamp): &(&PathBuf, &Stamp)| before.get(*path) != Some(*stamp);
+        paths.extend(now.iter().filter(other).map(|(path, _)| path.clone()));
+        let gone = before.keys().filter(|path| !now.contains_key(*path));
+        paths.extend(gone.cloned());
+        *before = now;
+    }
+    Some(paths)
+}
+
+fn listing(folder: &Path) -> Listing {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let stamped = entries.filter_map(|entry| Some((entry.path(), stamp(&entry.path())?)));
+    stamped.collect()
+}
