@@ -14,6 +14,7 @@ Examples:
   okoshi check *.svg                     says what is wrong, writes nothing
   okoshi render human.svg                draws a picture of the model, human.png
   okoshi watch human.svg                 builds it again at every save
+  okoshi preview human.svg --open        shows it in the browser, live
   okoshi inspect human.svg               shows who is bound to what, and why
   okoshi explain Shape                   the manual of a keyword
   okoshi explain E204                    the manual of a diagnostic
@@ -76,6 +77,8 @@ pub(super) enum Command {
     },
     /// Build drawings again whenever they are saved
     Watch(Watch),
+    /// Show drawings on a live page in the browser
+    Preview(Preview),
     /// Language server on stdin and stdout, for editors
     ///
     /// Editors start it by themselves; docs/editors says how each is set up. Positions are counted in
@@ -167,6 +170,32 @@ pub(super) struct Watch {
     /// The folder that models are written to [default: beside each drawing]
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) noticing: Noticing,
+    #[command(flatten)]
+    pub(super) reading: Reading,
+}
+
+const PREVIEW_EXAMPLES: &str = "\
+Examples:
+  okoshi preview human.svg --open   shows the model in the browser, and again at every save
+  okoshi preview drawings           a gallery of all drawings below a folder
+
+The page's address is printed. It is served on this machine only, and to its own page only. Nothing is written:
+the page has a button for the model. Ctrl-C ends it.";
+
+#[derive(Debug, Args)]
+#[command(after_help = PREVIEW_EXAMPLES)]
+pub(super) struct Preview {
+    /// A drawing, or a folder of drawings
+    #[arg(value_name = "DRAWING|FOLDER")]
+    pub(super) path: PathBuf,
+    /// The port on 127.0.0.1 [default: 4173, or any that is free]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) port: Option<u16>,
+    /// Open the browser
+    #[arg(long)]
+    pub(super) open: bool,
     #[command(flatten)]
     pub(super) noticing: Noticing,
     #[command(flatten)]

@@ -8,10 +8,9 @@ use super::args::{Common, Inspect};
 use super::loading::{Detail, Loaded, describe, load};
 use super::progress::spinning;
 use super::{Outcome, pretty, print_out, style};
-use crate::bind::{Part, PartKind, SetBy};
-use crate::compile::Compiled;
+use crate::bind::{PartKind, SetBy};
 use crate::lang::keyword::Keyword;
-use crate::source::Lines;
+use crate::report::{Part, own_name, parts};
 
 /// Prints the hierarchy; findings go to stderr.
 pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
@@ -41,110 +40,21 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
 #[derive(Serialize)]
 struct Report<'a> {
     drawing: &'a str,
-    parts: Vec<PartReport<'a>>,
+    parts: Vec<Part<'a>>,
     terrain: [(); 0],
     billboards: [(); 0],
     clips: [(); 0],
 }
 
-#[derive(Serialize)]
-struct PartReport<'a> {
-    name: &'a str,
-    parent: Option<&'a str>,
-    kind: &'static str,
-    element: Option<&'a str>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    string: Option<StringReport<'a>>,
-    center: [f64; 2],
-    ends: [[f64; 2]; 2],
-    origin: [f64; 2],
-    axis: [f64; 2],
-    attributes: BTreeMap<&'static str, AttributeReport>,
-}
-
-#[derive(Serialize)]
-struct StringReport<'a> {
-    line: usize,
-    column: usize,
-    text: &'a str,
-    bound_by: &'static str,
-}
-
-#[derive(Serialize)]
-struct AttributeReport {
-    value: String,
-    from: &'static str,
-}
-
 fn json(loaded: &Loaded) -> String {
-    let sheet = &loaded.compiled.sheet;
-    let lines = Lines::new(&loaded.text);
-    let parts = sheet
-        .parts
-        .iter()
-        .enumerate()
-        .map(|(index, part)| PartReport {
-            name: name(loaded, part),
-            parent: match part.kind {
-                PartKind::Main => part.parent.map(|parent| sheet.parts[parent].name.as_str()),
-                _ => (part.main != index).then(|| name(loaded, &sheet.parts[part.main])),
-            },
-            kind: part.kind.name(),
-            element: loaded.compiled.drawing.shapes[part.shape]
-                .element
-                .id
-                .as_deref(),
-            string: part.string.map(|string| {
-                let string = &sheet.strings[string];
-                let (line, column) = lines.line_column(&loaded.text, string.text.whole().start);
-                let bound_by = string.binding.map_or("none", |binding| binding.by.name());
-                StringReport {
-                    line,
-                    column,
-                    text: string.text.as_str(),
-                    bound_by,
-                }
-            }),
-            center: part.measure.center.to_array(),
-            ends: part.measure.ends.map(|end| end.to_array()),
-            origin: part.origin.to_array(),
-            axis: part.measure.axis.to_array(),
-            attributes: attributes(loaded, index),
-        });
     let (terrain, billboards, clips) = ([], [], []);
     pretty(&Report {
         drawing: &loaded.path,
-        parts: parts.collect(),
+        parts: parts(&loaded.compiled, &loaded.text),
         terrain,
         billboards,
         clips,
     })
-}
-
-/// A part's name; sub-parts, legends and unused parts without one go by their element.
-fn name<'a>(loaded: &'a Loaded, part: &'a Part) -> &'a str {
-    if part.name.is_empty() {
-        loaded.compiled.drawing.shapes[part.shape]
-            .element
-            .own_name()
-    } else {
-        &part.name
-    }
-}
-
-/// Every attribute that is set, and the ones that every solid has.
-fn attributes(loaded: &Loaded, part: usize) -> BTreeMap<&'static str, AttributeReport> {
-    let Compiled { sheet, drawing, .. } = &loaded.compiled;
-    let resolved = sheet.resolved(drawing, part).into_iter();
-    resolved
-        .map(|attribute| {
-            let report = AttributeReport {
-                value: attribute.value,
-                from: attribute.from.name(),
-            };
-            (attribute.keyword.name(), report)
-        })
-        .collect()
 }
 
 fn tree(loaded: &Loaded) -> String {
@@ -189,7 +99,7 @@ fn tree(loaded: &Loaded) -> String {
         })
         .map(|(index, part)| {
             [
-                format!("   {}", name(loaded, part)),
+                format!("   {}", own_name(&loaded.compiled, part)),
                 format!("{}, {}", part.kind.name(), string(loaded, index)),
             ]
         })

@@ -6,8 +6,8 @@
 use serde::Serialize;
 
 use super::Findings;
-use super::places::Places;
 use crate::diagnostic::{Diagnostic, Edit, Fix, Related};
+use crate::report::Places;
 use crate::source::Span;
 
 /// The findings as JSON, with a line feed at the end.

@@ -17,7 +17,7 @@ pub mod json;
 mod loading;
 mod new;
 mod parallel;
-mod places;
+mod preview;
 mod progress;
 mod render;
 pub mod report;
@@ -81,6 +81,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Inspect(arguments) => inspect::run(arguments, cli.common),
         Command::Explain { topic } => explain::run(topic.as_deref(), cli.common),
         Command::Watch(arguments) => watch::run(arguments, cli.common),
+        Command::Preview(arguments) => preview::run(arguments, cli.common),
         Command::Lsp => lsp(),
         Command::Completions { shell } => {
             let mut script = Vec::new();

@@ -6,8 +6,8 @@ use std::ops::Range;
 use annotate_snippets::{AnnotationKind, Group, Level, Patch, Renderer, Snippet};
 
 use super::Findings;
-use super::places::Places;
 use crate::diagnostic::{Diagnostic, Fix, Severity};
+use crate::report::Places;
 use crate::source::Span;
 
 /// Whether the report goes to a terminal that shows colours.

@@ -3,8 +3,8 @@
 use serde::Serialize;
 
 use super::Findings;
-use super::places::Places;
 use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::report::Places;
 use crate::source::Span;
 
 /// The findings as SARIF, with a line feed at the end.

@@ -6,7 +6,7 @@ const STEP: usize = 4096;
 
 /// Knows the line and column of every byte of a text.
 #[derive(Debug)]
-pub(super) struct Places<'a> {
+pub struct Places<'a> {
     text: &'a str,
     /// Where each line begins.
     starts: Vec<usize>,
@@ -15,7 +15,8 @@ pub(super) struct Places<'a> {
 }
 
 impl<'a> Places<'a> {
-    pub(super) fn new(text: &'a str) -> Self {
+    /// The places of a text.
+    pub fn new(text: &'a str) -> Self {
         let mut starts = vec![0];
         let ends = text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n');
         starts.extend(ends.map(|(at, _)| at + 1));
@@ -33,14 +34,14 @@ impl<'a> Places<'a> {
     }
 
     /// `offset`, moved to the start of its character, and to the end of the text from behind it.
-    pub(super) fn clamp(&self, offset: usize) -> usize {
+    pub fn clamp(&self, offset: usize) -> usize {
         let offset = offset.min(self.text.len());
         let boundary = |offset: &usize| self.text.is_char_boundary(*offset);
         (0..=offset).rev().find(boundary).unwrap_or(0)
     }
 
     /// Line and column of byte `offset`, both from 1; columns count characters.
-    pub(super) fn line_column(&self, offset: usize) -> (usize, usize) {
+    pub fn line_column(&self, offset: usize) -> (usize, usize) {
         let offset = self.clamp(offset);
         let line = self.line(offset);
         let start = self.starts[line - 1];
@@ -51,12 +52,12 @@ impl<'a> Places<'a> {
     }
 
     /// The number of the line that holds `offset`, from 1.
-    pub(super) fn line(&self, offset: usize) -> usize {
+    pub fn line(&self, offset: usize) -> usize {
         self.starts.partition_point(|start| *start <= offset)
     }
 
     /// Where a line begins and where it ends, its line break left out.
-    pub(super) fn extent(&self, line: usize) -> (usize, usize) {
+    pub fn extent(&self, line: usize) -> (usize, usize) {
         let start = self.starts[line - 1];
         let next = self.starts.get(line).copied();
         let end = next.map_or(self.text.len(), |next| next - 1);

@@ -1,0 +1,107 @@
+//! Puts the preview's page into the program. It is built by npm from its lock file, unless it is there already; where
+//! npm is missing or fails, the program has a plain page that says so.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::{env, fs};
+
+const FILES: [&str; 3] = ["page.html", "page.js", "page.css"];
+
+fn main() {
+    let folder = Path::new("editors/web");
+    for watched in ["src", "package.json", "package-lock.json", "build.mjs"] {
+        println!("cargo::rerun-if-changed={}", folder.join(watched).display());
+    }
+    println!("cargo::rerun-if-env-changed=OKOSHI_NO_PAGE");
+    let Some(out) = env::var_os("OUT_DIR").map(PathBuf::from) else {
+        panic!("cargo tells where to build");
+    };
+    match built(folder) {
+        Ok(files) => {
+            for (name, bytes) in FILES.iter().zip(files) {
+                write(&out.join(name), &bytes);
+            }
+        }
+        Err(why) => {
+            println!("cargo::warning=the preview will have no page: {why}");
+            write(&out.join("page.html"), plain(&why).as_bytes());
+            write(&out.join("page.js"), b"");
+            write(&out.join("page.css"), b"");
+        }
+    }
+}
+
+/// The page's files, or why there are none.
+fn built(folder: &Path) -> Result<Vec<Vec<u8>>, String> {
+    if env::var_os("OKOSHI_NO_PAGE").is_some() {
+        return Err("OKOSHI_NO_PAGE is set".to_owned());
+    }
+    if !folder.join("package.json").exists() {
+        return Err("the sources of the page are not here".to_owned());
+    }
+    if is_old(folder) {
+        if !folder.join("node_modules/.package-lock.json").exists() {
+            npm(folder, &["ci", "--no-audit", "--no-fund"])?;
+        }
+        npm(folder, &["run", "build"])?;
+    }
+    let read = |name: &&str| {
+        let path = folder.join("dist").join(name);
+        fs::read(&path).map_err(|error| format!("{}: {error}", path.display()))
+    };
+    FILES.iter().map(read).collect()
+}
+
+/// Whether the page is missing, or older than what it is made from.
+fn is_old(folder: &Path) -> bool {
+    let time = |path: PathBuf| fs::metadata(path).and_then(|found| found.modified()).ok();
+    let dist = FILES
+        .iter()
+        .map(|name| time(folder.join("dist").join(name)));
+    let Some(oldest) = dist.min().flatten() else {
+        return true;
+    };
+    let sources = fs::read_dir(folder.join("src"))
+        .into_iter()
+        .flatten()
+        .flatten();
+    let sources = sources.map(|entry| entry.path());
+    let others = ["package.json", "package-lock.json", "build.mjs"].map(|name| folder.join(name));
+    sources
+        .chain(others)
+        .filter_map(time)
+        .any(|changed| changed > oldest)
+}
+
+fn npm(folder: &Path, arguments: &[&str]) -> Result<(), String> {
+    let program = if cfg!(windows) { "npm.cmd" } else { "npm" };
+    let said = Command::new(program)
+        .args(arguments)
+        .current_dir(folder)
+        .output();
+    let said = said.map_err(|error| format!("npm cannot be run ({error}); install Node.js"))?;
+    if said.status.success() {
+        return Ok(());
+    }
+    let errors = String::from_utf8_lossy(&said.stderr);
+    let last = errors.lines().rfind(|line| !line.trim().is_empty());
+    let last = last.unwrap_or("it failed");
+    Err(format!("npm {} failed: {last}", arguments.join(" ")))
+}
+
+fn plain(why: &str) -> String {
+    let escaped = why.replace('&', "&amp;").replace('<', "&lt;");
+    format!(
+        "<!doctype html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>okoshi</title>\n\
+         <h1>The preview's page is not in this program</h1>\n\
+         <p>When okoshi was built, the page could not be: {escaped}.</p>\n\
+         <p>Install Node.js, build okoshi again, and the page will be here. \
+         Until then <code>okoshi watch</code> builds models, and <code>okoshi render</code> draws pictures.</p>\n</html>\n"
+    )
+}
+
+fn write(path: &Path, bytes: &[u8]) {
+    if let Err(error) = fs::write(path, bytes) {
+        panic!("{}: {error}", path.display());
+    }
+}

@@ -1,0 +1,93 @@
+//! `okoshi preview`
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::args::{Common, Preview};
+use super::watch::{drawn, options, told};
+use super::{Outcome, fail};
+use crate::preview::{Hub, Shown, bind, serve};
+use crate::watch::{Build, Event, watch};
+
+/// Shows drawings on a page, until it is stopped.
+pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
+    let path = &arguments.path;
+    if !path.exists() {
+        return fail(&format!(
+            "`{}` is not there; check the path",
+            path.display()
+        ));
+    }
+    let bound = match bind(arguments.port) {
+        Ok(bound) => bound,
+        Err(error) => {
+            let port = arguments.port.unwrap_or_default();
+            return fail(&format!(
+                "port {port} cannot be had ({error}); choose another with --port, or none"
+            ));
+        }
+    };
+    let url = bound.url();
+    let hub = Hub::new(|_, _| ());
+    let server = hub.clone();
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .worker_threads(2)
+        .enable_all()
+        .build();
+    let runtime = match runtime {
+        Ok(runtime) => runtime,
+        Err(error) => return fail(&format!("the page cannot be served: {error}")),
+    };
+    runtime.spawn(serve(bound, server));
+    println!("{url}");
+    if arguments.open
+        && let Err(error) = open::that_detached(&url)
+    {
+        eprintln!("the browser cannot be opened ({error}); open {url} yourself");
+    }
+    let options = options(&arguments.reading, &arguments.noticing);
+    let ended = watch(std::slice::from_ref(path), &options, |event| {
+        show(&hub, path, &event);
+        let told = match event {
+            Event::Built(drawing, build) => drawn(drawing, build, common),
+            event => told(&event, common),
+        };
+        eprint!("{told}");
+    });
+    match ended {
+        Ok(never) => match never {},
+        Err(error) => fail(&format!(
+            "changes of files are not told of here: {error}; try --poll"
+        )),
+    }
+}
+
+fn show(hub: &Arc<Hub>, target: &Path, event: &Event<'_>) {
+    match event {
+        Event::Built(drawing, build) => publish(hub, target, drawing, build),
+        Event::Gone(drawing) => hub.gone(&drawing.display().to_string()),
+        _ => {}
+    }
+}
+
+fn publish(hub: &Arc<Hub>, target: &Path, drawing: &Path, build: &Build) {
+    let below = drawing.strip_prefix(target).unwrap_or(drawing);
+    let folder = below.parent().map(|folder| folder.display().to_string());
+    let name = drawing.file_name().map(|name| name.to_string_lossy());
+    let names = [
+        folder.as_deref().filter(|_| below != drawing).unwrap_or(""),
+        name.as_deref().unwrap_or(""),
+    ];
+    let model = build.model.as_ref().ok();
+    let bytes = model.map(|model| model.bytes.clone().into());
+    let model = bytes
+        .as_ref()
+        .zip(model.map(|model| model.written.triangles));
+    let shown = Shown {
+        text: &build.text,
+        compiled: &build.compiled,
+        model,
+        steps: build.steps,
+    };
+    hub.publish(&drawing.display().to_string(), names, &shown);
+}

@@ -1,0 +1,273 @@
+//! What there is to show, and the news of it.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
+
+use axum::body::Bytes;
+use tokio::sync::{Semaphore, watch};
+
+use super::message::{Build, Listed, ToPage, findings};
+use crate::compile::Compiled;
+use crate::render::{self, Options, Stage, write_png};
+use crate::report::parts;
+use crate::resolver::MemoryResolver;
+use crate::watch::Steps;
+
+/// Side of the pictures in the gallery, pixels.
+const PICTURE: u32 = 320;
+
+/// All drawings that pages can show. Pages ask it for what is new since they asked last, so that one that reads
+/// slowly gets the newest only, and nothing is kept for one that does not read.
+pub struct Hub {
+    state: Mutex<State>,
+    /// Counts the news.
+    clock: watch::Sender<u64>,
+    on_pick: Box<dyn Fn(&str, &str) + Send + Sync>,
+    /// Pictures are drawn one at a time: builds go first.
+    pub(super) drawing_pictures: Semaphore,
+}
+
+impl std::fmt::Debug for Hub {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Hub").finish_non_exhaustive()
+    }
+}
+
+#[derive(Default)]
+struct State {
+    clock: u64,
+    /// When the list of drawings changed.
+    listed: u64,
+    drawings: BTreeMap<String, Entry>,
+    /// Numbers of models, never used again.
+    models: u64,
+}
+
+/// A drawing, and when each of its news was news.
+#[derive(Default)]
+struct Entry {
+    name: String,
+    folder: String,
+    revision: u64,
+    build: Option<(u64, Arc<str>)>,
+    gone: Option<u64>,
+    light: (u64, Option<String>),
+    /// The last good model, and the one before it, which a page may be about to fetch.
+    models: Vec<Arc<Kept>>,
+}
+
+/// A model that can be fetched.
+pub(super) struct Kept {
+    pub(super) number: u64,
+    pub(super) bytes: Bytes,
+    triangles: usize,
+    picture: OnceLock<Option<Bytes>>,
+}
+
+impl Kept {
+    /// A picture of it, a PNG; `None` where it cannot be drawn. Takes as long as drawing takes, the first time.
+    pub(super) fn picture(&self) -> Option<Bytes> {
+        let drawn = || {
+            let model = render::read(&self.bytes, &MemoryResolver::default()).ok()?;
+            let stage = Stage::new(&model, &model.rest()).ok()?;
+            let options = Options {
+                size: [PICTURE; 2],
+                ..Options::default()
+            };
+            let mut png = Vec::new();
+            write_png(&stage.picture(&options).ok()?, &mut png).ok()?;
+            Some(Bytes::from(png))
+        };
+        self.picture.get_or_init(drawn).clone()
+    }
+}
+
+/// A build that is to be shown.
+#[derive(Debug, Clone, Copy)]
+pub struct Shown<'a> {
+    /// The drawing's text.
+    pub text: &'a str,
+    /// What came of it.
+    pub compiled: &'a Compiled,
+    /// The model, binary glTF, and how many triangles it has; `None`: the last good one stays.
+    pub model: Option<(&'a Bytes, usize)>,
+    /// When it was built.
+    pub steps: Steps,
+}
+
+impl Hub {
+    /// A hub without drawings; `on_pick` is told when a part is picked on a page: the drawing, and the part's name.
+    pub fn new(on_pick: impl Fn(&str, &str) + Send + Sync + 'static) -> Arc<Self> {
+        Arc::new(Self {
+            state: Mutex::default(),
+            clock: watch::Sender::new(0),
+            on_pick: Box::new(on_pick),
+            drawing_pictures: Semaphore::new(1),
+        })
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+
+    /// Changes something and tells pages.
+    fn change(&self, change: impl FnOnce(&mut State, u64)) {
+        let mut state = self.state();
+        state.clock += 1;
+        let now = state.clock;
+        change(&mut state, now);
+        drop(state);
+        self.clock.send_replace(now);
+    }
+
+    /// Shows a build of the drawing `id`, which is listed under its name, and the folder it lies in.
+    pub fn publish(&self, id: &str, [folder, name]: [&str; 2], shown: &Shown<'_>) {
+        // Put into words outside of the lock.
+        let found = findings(&shown.compiled.diagnostics, shown.text);
+        let parts = parts(shown.compiled, shown.text);
+        self.change(|state, now| {
+            let number = state.models + 1;
+            if !state.drawings.contains_key(id) {
+                state.listed = now;
+            }
+            let entry = state.drawings.entry(id.to_owned()).or_default();
+            entry.name = name.to_owned();
+            entry.folder = folder.to_owned();
+            entry.revision += 1;
+            entry.gone = None;
+            if let Some((bytes, triangles)) = shown.model {
+                let same = entry.models.last().is_some_and(|last| last.bytes == *bytes);
+                if !same {
+                    state.models = number;
+                    entry.models.push(Arc::new(Kept {
+                        number,
+                        bytes: bytes.clone(),
+                        triangles,
+                        picture: OnceLock::new(),
+                    }));
+                    let old = entry.models.len().saturating_sub(2);
+                    entry.models.drain(..old);
+                }
+            }
+            let model = entry.models.last();
+            let build = Build {
+                revision: entry.revision,
+                milliseconds: shown.steps.duration().as_secs_f64() * 1e3,
+                model: model.map(|model| format!("builds/{}.glb", model.number)),
+                picture: model.map(|model| format!("pictures/{}.png", model.number)),
+                stale: shown.model.is_none() && model.is_some(),
+                triangles: model.map_or(0, |model| model.triangles),
+                findings: found,
+                parts,
+                steps: shown.steps.into(),
+            };
+            let message = ToPage::Build { drawing: id, build };
+            entry.build = Some((now, json(&message)));
+        });
+    }
+
+    /// Says that a drawing's file is gone; what was built of it stays.
+    pub fn gone(&self, id: &str) {
+        self.change(|state, now| {
+            if let Some(entry) = state.drawings.get_mut(id) {
+                entry.gone = Some(now);
+            }
+        });
+    }
+
+    /// A drawing is no longer shown.
+    pub fn remove(&self, id: &str) {
+        self.change(|state, now| {
+            if state.drawings.remove(id).is_some() {
+                state.listed = now;
+            }
+        });
+    }
+
+    /// Lights up a part, or none.
+    pub fn light(&self, id: &str, part: Option<&str>) {
+        let lit = |state: &State| state.drawings.get(id).map(|entry| entry.light.1.clone());
+        if lit(&self.state()).is_none_or(|lit| lit.as_deref() == part) {
+            return;
+        }
+        self.change(|state, now| {
+            if let Some(entry) = state.drawings.get_mut(id) {
+                entry.light = (now, part.map(str::to_owned));
+            }
+        });
+    }
+
+    /// Whether a drawing is shown.
+    pub fn shows(&self, id: &str) -> bool {
+        self.state().drawings.contains_key(id)
+    }
+
+    /// The model of a number.
+    pub(super) fn model(&self, number: u64) -> Option<Arc<Kept>> {
+        let state = self.state();
+        let models = state.drawings.values().flat_map(|entry| &entry.models);
+        models
+            .into_iter()
+            .find(|model| model.number == number)
+            .cloned()
+    }
+
+    /// The bytes of a model, by the address that messages name.
+    pub fn bytes(&self, address: &str) -> Option<Bytes> {
+        let number = address.strip_prefix("builds/")?.strip_suffix(".glb")?;
+        Some(self.model(number.parse().ok()?)?.bytes.clone())
+    }
+
+    /// Tells when there is news.
+    pub(super) fn clock(&self) -> watch::Receiver<u64> {
+        self.clock.subscribe()
+    }
+
+    /// The news since a moment, as messages, and the moment that it is now.
+    pub fn news(&self, since: u64) -> (Vec<Arc<str>>, u64) {
+        let state = self.state();
+        let mut news = vec![];
+        if state.listed > since || since == 0 {
+            let listed = state.drawings.iter().map(|(id, entry)| Listed {
+                id,
+                name: &entry.name,
+                folder: &entry.folder,
+            });
+            news.push(json(&ToPage::Drawings {
+                drawings: listed.collect(),
+            }));
+        }
+        for (drawing, entry) in &state.drawings {
+            if let Some((when, build)) = &entry.build
+                && *when > since
+            {
+                news.push(build.clone());
+            }
+            if entry.gone.is_some_and(|when| when > since) {
+                news.push(json(&ToPage::Gone { drawing }));
+            }
+            let (when, part) = &entry.light;
+            if *when > since {
+                news.push(json(&ToPage::Light {
+                    drawing,
+                    part: part.as_deref(),
+                }));
+            }
+        }
+        (news, state.clock)
+    }
+
+    /// A part was picked on a page.
+    pub(super) fn picked(&self, drawing: &str, part: &str) {
+        if self.shows(drawing) {
+            (self.on_pick)(drawing, part);
+        }
+    }
+}
+
+/// Messages hold texts and numbers only, so writing them does not fail.
+fn json(message: &ToPage<'_>) -> Arc<str> {
+    serde_json::to_string(message).unwrap_or_default().into()
+}

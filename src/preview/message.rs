@@ -1,0 +1,175 @@
+//! What is said to a page, and what it says.
+
+use std::time::SystemTime;
+
+use serde::{Deserialize, Serialize};
+
+use crate::diagnostic::Diagnostic;
+use crate::report::{Part, Places};
+use crate::watch::Steps;
+
+/// To a page.
+#[derive(Debug, Serialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+pub(super) enum ToPage<'a> {
+    /// All drawings that there are.
+    Drawings { drawings: Vec<Listed<'a>> },
+    /// A drawing was built.
+    Build { drawing: &'a str, build: Build<'a> },
+    /// A drawing's file is gone.
+    Gone { drawing: &'a str },
+    /// An editor's cursor is in the string of a part, or of none.
+    Light {
+        drawing: &'a str,
+        part: Option<&'a str>,
+    },
+}
+
+/// A drawing in the list.
+#[derive(Debug, Serialize)]
+pub(super) struct Listed<'a> {
+    pub(super) id: &'a str,
+    pub(super) name: &'a str,
+    pub(super) folder: &'a str,
+}
+
+/// A build.
+#[derive(Debug, Serialize)]
+pub(super) struct Build<'a> {
+    pub(super) revision: u64,
+    pub(super) milliseconds: f64,
+    /// The address of the last good model.
+    pub(super) model: Option<String>,
+    /// The address of its picture.
+    pub(super) picture: Option<String>,
+    /// Whether the model is older than the drawing.
+    pub(super) stale: bool,
+    pub(super) triangles: usize,
+    pub(super) findings: Vec<Finding<'a>>,
+    pub(super) parts: Vec<Part<'a>>,
+    pub(super) steps: Moments,
+}
+
+/// The moments of a build, milliseconds since 1970.
+#[derive(Debug, Serialize)]
+pub(super) struct Moments {
+    noticed: f64,
+    begun: f64,
+    built: f64,
+    pushed: f64,
+}
+
+impl From<Steps> for Moments {
+    fn from(steps: Steps) -> Self {
+        let milliseconds = |time: SystemTime| {
+            let since = time.duration_since(SystemTime::UNIX_EPOCH);
+            since.unwrap_or_default().as_secs_f64() * 1e3
+        };
+        Self {
+            noticed: milliseconds(steps.noticed),
+            begun: milliseconds(steps.begun),
+            built: milliseconds(steps.built),
+            pushed: milliseconds(SystemTime::now()),
+        }
+    }
+}
+
+/// A finding with the line that it is about. Lines and columns count from 1, `from` and `to` from 0, in characters.
+#[derive(Debug, Serialize)]
+pub(super) struct Finding<'a> {
+    severity: &'static str,
+    code: &'static str,
+    message: &'a str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    label: Option<&'a str>,
+    help: Vec<&'a str>,
+    line: usize,
+    column: usize,
+    text: String,
+    from: usize,
+    to: usize,
+}
+
+/// How much of a line is shown on each side of what is marked, and how much of that, in characters.
+const AROUND: usize = 60;
+const MARKED: usize = 160;
+/// How many findings are shown.
+const MOST_FINDINGS: usize = 500;
+
+/// The findings of a drawing, the worst first where there are many.
+pub(super) fn findings<'a>(diagnostics: &'a [Diagnostic], text: &str) -> Vec<Finding<'a>> {
+    let places = Places::new(text);
+    let mut shown: Vec<&Diagnostic> = diagnostics.iter().collect();
+    if shown.len() > MOST_FINDINGS {
+        shown.sort_by_key(|diagnostic| diagnostic.severity());
+        shown.truncate(MOST_FINDINGS);
+    }
+    let finding = |diagnostic: &'a Diagnostic| {
+        let start = places.clamp(diagnostic.span.start);
+        let (line, column) = places.line_column(start);
+        let (low, high) = places.extent(line);
+        let end = places
+            .clamp(diagnostic.span.end)
+            .clamp(start, high.max(start));
+        let last = |text: &str, count| {
+            let cut = text.chars().rev().take(count).collect::<Vec<_>>();
+            cut.into_iter().rev().collect::<String>()
+        };
+        let before = last(&text[low.min(start)..start], AROUND);
+        let marked: String = text[start..end].chars().take(MARKED).collect();
+        let behind: String = text[end..high.max(end)].chars().take(AROUND).collect();
+        let before = before.trim_start();
+        let from = before.chars().count();
+        Finding {
+            severity: diagnostic.severity().name(),
+            code: diagnostic.code.id(),
+            message: &diagnostic.message,
+            label: diagnostic.label.as_deref(),
+            help: diagnostic.help.as_deref().into_iter().collect(),
+            line,
+            column,
+            from,
+            to: from + marked.chars().count(),
+            text: format!("{before}{marked}{behind}"),
+        }
+    };
+    shown.into_iter().map(finding).collect()
+}
+
+/// From a page. What is not known is passed over.
+#[derive(Debug, Deserialize)]
+#[serde(tag = "type", rename_all = "lowercase")]
+pub(super) enum FromPage {
+    /// A part was picked.
+    Pick { drawing: String, part: String },
+    /// The page shows this drawing.
+    Want {},
+    #[serde(other)]
+    Other,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diagnostic::Code;
+    use crate::source::Span;
+
+    #[test]
+    fn findings_show_the_line_around_what_they_are_about() {
+        let text = format!(
+            "<svg>\n  {}腕$Shap</text>{}\n",
+            "y".repeat(500),
+            "z".repeat(500)
+        );
+        let at = text.find("Shap").unwrap();
+        let found = Diagnostic::new(Code::UnknownKeyword, Span::new(at, at + 4), "unknown");
+        let off = Diagnostic::new(Code::UnknownKeyword, Span::new(1 << 20, 1 << 21), "unknown");
+        let diagnostics = [found, off];
+        let shown = findings(&diagnostics, &text);
+        let marked: String = shown[0].text.chars().skip(shown[0].from).take(4).collect();
+        assert_eq!(marked, "Shap");
+        assert_eq!((shown[0].line, shown[0].column), (2, 505));
+        assert!(shown[0].text.chars().count() < 2 * AROUND + MARKED);
+        assert_eq!(shown[1].text, "");
+    }
+}

@@ -1,0 +1,7 @@
+//! What a compiled drawing says of itself, as data for programs: `inspect --json`, the preview's page.
+
+mod parts;
+mod places;
+
+pub use parts::{AttributeReport, Part, StringReport, own_name, parts};
+pub use places::Places;

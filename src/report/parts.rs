@@ -1,0 +1,111 @@
+//! The parts of a drawing (frontends.md, `inspect --json`).
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::Places;
+use crate::bind::{self, PartKind};
+use crate::compile::Compiled;
+
+/// A part. Coordinates are drawing units, y down.
+#[derive(Debug, Clone, Serialize)]
+pub struct Part<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The name of what it hangs on; `None`: the root.
+    pub parent: Option<&'a str>,
+    /// `main`, `sub`, `legend` or `unused`.
+    pub kind: &'static str,
+    /// The `id` of its element.
+    pub element: Option<&'a str>,
+    /// Its string.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub string: Option<StringReport<'a>>,
+    /// The middle of its area.
+    pub center: [f64; 2],
+    /// Where its axis leaves it.
+    pub ends: [[f64; 2]; 2],
+    /// Its joint.
+    pub origin: [f64; 2],
+    /// The direction of its axis.
+    pub axis: [f64; 2],
+    /// Every attribute that is set, and the ones that every solid has.
+    pub attributes: BTreeMap<&'static str, AttributeReport>,
+}
+
+/// A string. Lines and columns count from 1, columns in characters.
+#[derive(Debug, Clone, Serialize)]
+pub struct StringReport<'a> {
+    /// Its line in the drawing.
+    pub line: usize,
+    /// Its column there.
+    pub column: usize,
+    /// Its characters.
+    pub text: &'a str,
+    /// By what rule it belongs to its part.
+    pub bound_by: &'static str,
+}
+
+/// An attribute.
+#[derive(Debug, Clone, Serialize)]
+pub struct AttributeReport {
+    /// Its words, variables resolved.
+    pub value: String,
+    /// `own`, `legend`, `default` or `builtin`.
+    pub from: &'static str,
+}
+
+/// The parts of a drawing, in the order in which they are drawn.
+pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
+    let sheet = &compiled.sheet;
+    let places = Places::new(text);
+    let parts = sheet.parts.iter().enumerate();
+    let report = |(index, part): (usize, &'a bind::Part)| Part {
+        name: own_name(compiled, part),
+        parent: match part.kind {
+            PartKind::Main => part.parent.map(|parent| sheet.parts[parent].name.as_str()),
+            _ => (part.main != index).then(|| own_name(compiled, &sheet.parts[part.main])),
+        },
+        kind: part.kind.name(),
+        element: compiled.drawing.shapes[part.shape].element.id.as_deref(),
+        string: part.string.map(|string| {
+            let string = &sheet.strings[string];
+            let (line, column) = places.line_column(string.text.whole().start);
+            StringReport {
+                line,
+                column,
+                text: string.text.as_str(),
+                bound_by: string.binding.map_or("none", |binding| binding.by.name()),
+            }
+        }),
+        center: part.measure.center.to_array(),
+        ends: part.measure.ends.map(|end| end.to_array()),
+        origin: part.origin.to_array(),
+        axis: part.measure.axis.to_array(),
+        attributes: attributes(compiled, index),
+    };
+    parts.map(report).collect()
+}
+
+/// A part's name; sub-parts, legends and unused parts without one go by their element.
+pub fn own_name<'a>(compiled: &'a Compiled, part: &'a bind::Part) -> &'a str {
+    if part.name.is_empty() {
+        compiled.drawing.shapes[part.shape].element.own_name()
+    } else {
+        &part.name
+    }
+}
+
+fn attributes(compiled: &Compiled, part: usize) -> BTreeMap<&'static str, AttributeReport> {
+    let resolved = compiled.sheet.resolved(&compiled.drawing, part).into_iter();
+    resolved
+        .map(|attribute| {
+            let report = AttributeReport {
+                value: attribute.value,
+                from: attribute.from.name(),
+            };
+            (attribute.keyword.name(), report)
+        })
+        .collect()
+}
