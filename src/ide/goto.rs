@@ -9,6 +9,7 @@ use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::signature::Takes;
 use crate::lang::slot;
+use crate::report::own_name;
 use crate::source::Span;
 
 /// Where something leads.
@@ -51,6 +52,22 @@ impl Analysis {
                 Some((from, to))
             }
         }
+    }
+
+    /// The name of the part whose string, or whose shape's tag, is at byte `offset`.
+    pub fn part_at(&self, offset: usize) -> Option<&str> {
+        let part = match self.at(offset)? {
+            At::Tag { part, .. } => part?,
+            At::String { string, .. } => self.sheet().strings[string].binding?.part,
+        };
+        Some(own_name(&self.compiled, &self.sheet().parts[part]))
+    }
+
+    /// Where the string of a part is, or its shape's tag if it has none.
+    pub fn place_of(&self, name: &str) -> Option<Span> {
+        let mut parts = self.sheet().parts.iter().enumerate();
+        let (part, _) = parts.find(|(_, part)| own_name(&self.compiled, part) == name)?;
+        Some(self.place_of_part(part))
     }
 
     /// Where the symbol at byte `offset` is defined.

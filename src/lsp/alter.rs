@@ -9,8 +9,8 @@ use tower_lsp::ls_types::*;
 use super::backend::{Backend, PREVIEW, View};
 use super::convert::{self, Places};
 use super::documents::Document;
+use super::manual;
 use super::ordered::SNAPSHOTS;
-use super::{manual, preview};
 use crate::compile::{Options, compile};
 use crate::ide::{self, Analysis};
 use crate::source::Span;
@@ -175,7 +175,7 @@ impl Backend {
                 "the command needs the address of an open drawing",
             ));
         };
-        self.show_preview(&uri).await?;
+        self.show_page(&uri).await?;
         Ok(None)
     }
 
@@ -200,48 +200,6 @@ impl Backend {
         edits.await.map_err(|_| Error::internal_error())
     }
 
-    async fn show_preview(&self, uri: &Uri) -> Result<()> {
-        let Some((document, analysed)) = self.analysed(uri).await? else {
-            return Err(Error::invalid_params("this drawing is not open"));
-        };
-        let name = document.path.as_deref().and_then(|path| path.file_stem());
-        let name = name.map_or_else(
-            || "untitled".to_owned(),
-            |name| name.to_string_lossy().into_owned(),
-        );
-        let drawn =
-            tokio::task::spawn_blocking(move || preview::picture(&analysed.analysis, &name)).await;
-        let picture = match drawn {
-            Ok(Ok(picture)) => picture,
-            Ok(Err(error)) => {
-                self.client.show_message(MessageType::WARNING, error).await;
-                return Ok(());
-            }
-            Err(_) => return Err(Error::internal_error()),
-        };
-        let can = self.client_can().window.and_then(|can| can.show_document);
-        let shown = match (
-            can.is_some_and(|can| can.support),
-            Uri::from_file_path(&picture),
-        ) {
-            (true, Some(uri)) => {
-                let params = ShowDocumentParams {
-                    uri,
-                    // Editors of text cannot show it: the system's viewer can.
-                    external: Some(true),
-                    take_focus: Some(false),
-                    selection: None,
-                };
-                self.client.show_document(params).await.unwrap_or(false)
-            }
-            _ => false,
-        };
-        if !shown {
-            let message = format!("the model's picture is {}", picture.display());
-            self.client.show_message(MessageType::INFO, message).await;
-        }
-        Ok(())
-    }
     /// The edits of one text, with its version where the client can tell versions.
     fn workspace_edit(&self, document: &Document, edits: Vec<TextEdit>) -> WorkspaceEdit {
         let can = self

@@ -15,6 +15,7 @@ use super::documents::{Analysed, Document, Documents, Snapshot, file_path};
 use super::links::Links;
 use super::ordered::SNAPSHOTS;
 use super::positions::Encoding;
+use super::preview::Previews;
 use super::worker::Abilities;
 use super::workspace::Workspace;
 use super::{capabilities, manual};
@@ -32,6 +33,7 @@ pub(super) struct Backend {
     pub(super) abilities: Arc<Abilities>,
     pub(super) links: Arc<Links>,
     pub(super) workspace: Arc<Workspace>,
+    pub(super) previews: Arc<Previews>,
     pub(super) client_can: Mutex<ClientCapabilities>,
     pub(super) ended: Arc<std::sync::atomic::AtomicBool>,
 }
@@ -150,6 +152,9 @@ impl LanguageServer for Backend {
         self.abilities.take(&can);
         if let Some(options) = &params.initialization_options {
             self.analyst.configure(options);
+            if options.get("preview").and_then(serde_json::Value::as_bool) == Some(true) {
+                self.previews.into_panels();
+            }
         }
         #[allow(deprecated, reason = "older clients name one folder so")]
         let root = params

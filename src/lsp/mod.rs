@@ -43,6 +43,7 @@ use backend::Backend;
 use documents::Documents;
 use links::Links;
 use ordered::Ordered;
+use preview::Previews;
 use worker::{Abilities, Worker};
 
 /// Serves one client on stdin and stdout until it goes. Says whether the client took its leave as the protocol wants,
@@ -82,6 +83,7 @@ fn service() -> Parts {
     let builder = LspService::build(|client| {
         let links = Arc::new(Links::new(analyst.clone()));
         let abilities = Arc::new(Abilities::default());
+        let previews = Previews::new(client.clone(), Handle::current(), documents.clone());
         let mut worker = Worker {
             analyst: analyst.clone(),
             documents: documents.clone(),
@@ -89,6 +91,7 @@ fn service() -> Parts {
             runtime: Handle::current(),
             links: links.clone(),
             abilities: abilities.clone(),
+            previews: previews.clone(),
             compilers: std::collections::BTreeMap::new(),
         };
         std::thread::spawn(move || worker.work());
@@ -99,10 +102,17 @@ fn service() -> Parts {
             abilities,
             links,
             workspace: Arc::default(),
+            previews,
             client_can: std::sync::Mutex::default(),
             ended: left.clone(),
         }
     });
+    let builder = builder
+        .custom_method("okoshi/preview/open", Backend::preview_open)
+        .custom_method("okoshi/preview/close", Backend::preview_close)
+        .custom_method("okoshi/preview/model", Backend::preview_model)
+        .custom_method("okoshi/preview/place", Backend::preview_place)
+        .custom_method("okoshi/preview/cursor", Backend::preview_cursor);
     #[cfg(test)]
     let builder = tests::plant(builder);
     let (service, socket) = builder.finish();

@@ -1,51 +1,368 @@
-//! A picture of the model, for editors to show.
+//! The live preview of open texts, saved or not: shown by the client's own panel, or on a page in the browser.
 
-use std::io::{self, Cursor};
-use std::path::PathBuf;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::Cursor;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock};
+use std::time::SystemTime;
 
-use crate::disk::write_cached;
+use base64::Engine;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+use serde_json::value::RawValue;
+use tokio::runtime::Handle;
+use tower_lsp::Client;
+use tower_lsp::jsonrpc::{Error, Result};
+use tower_lsp::ls_types::notification::Notification;
+use tower_lsp::ls_types::*;
+
+use super::backend::Backend;
+use super::documents::{Analysed, Documents};
 use crate::gltf::{self, Container};
-use crate::ide::Analysis;
-use crate::render::{self, Options, Stage, write_png};
-use crate::resolver::MemoryResolver;
+use crate::preview::{Hub, Shown, bind, serve};
+use crate::watch::Steps;
 
-/// Why there is no picture.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub(super) enum PreviewError {
-    /// The drawing has errors.
-    #[error("the drawing has errors: mend them first, they are marked in the text")]
-    Errors,
-    /// There is nothing to see.
-    #[error("the drawing has no parts that could be shown")]
-    Nothing,
-    /// It could not be drawn or written.
-    #[error("the model cannot be shown: {0}")]
-    Failed(String),
+/// What is shown, and to whom.
+pub(super) struct Previews {
+    hub: Arc<Hub>,
+    client: Client,
+    runtime: Handle,
+    queue: Mutex<Queue>,
+    woken: Condvar,
+    /// The page's address, once one is served.
+    page: OnceLock<String>,
+    /// Whether the client has panels of its own.
+    panels: OnceLock<()>,
 }
 
-/// Draws the model of a drawing, and says in which file the picture is. `name` tells drawings apart.
-pub(super) fn picture(analysis: &Analysis, name: &str) -> Result<PathBuf, PreviewError> {
-    let compiled = analysis.compiled();
-    if compiled.has_errors() {
-        return Err(PreviewError::Errors);
+impl std::fmt::Debug for Previews {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Previews").finish_non_exhaustive()
     }
-    if compiled.scene.nodes.is_empty() {
-        return Err(PreviewError::Nothing);
+}
+
+#[derive(Default)]
+struct Queue {
+    /// The texts that are shown.
+    open: BTreeSet<String>,
+    /// Their newest states that are still to be built.
+    waiting: BTreeMap<String, Arc<Analysed>>,
+}
+
+impl Previews {
+    /// Shows nothing yet; builds on a thread of its own.
+    pub(super) fn new(client: Client, runtime: Handle, documents: Arc<Documents>) -> Arc<Self> {
+        let (teller, told) = (client.clone(), runtime.clone());
+        let hub = Hub::new(move |uri, part| {
+            let found = documents.last(uri).and_then(|last| {
+                let span = last.analysis.place_of(part)?;
+                Some((
+                    last.document.uri.clone(),
+                    last.document.positions.range(span),
+                ))
+            });
+            let Some((uri, range)) = found else { return };
+            let client = teller.clone();
+            told.spawn(async move {
+                let params = ShowDocumentParams {
+                    uri,
+                    external: None,
+                    take_focus: Some(true),
+                    selection: Some(range),
+                };
+                // A client that cannot show it has no use for being told so.
+                let _ = client.show_document(params).await;
+            });
+        });
+        let previews = Arc::new(Self {
+            hub,
+            client,
+            runtime,
+            queue: Mutex::default(),
+            woken: Condvar::new(),
+            page: OnceLock::new(),
+            panels: OnceLock::new(),
+        });
+        let builder = previews.clone();
+        std::thread::spawn(move || builder.build());
+        previews
     }
-    let failed = |error: &dyn std::fmt::Display| PreviewError::Failed(error.to_string());
-    let mut bytes = Cursor::new(Vec::new());
-    gltf::write(&compiled.scene, Container::Glb, &mut bytes).map_err(|error| failed(&error))?;
-    let model = render::read(&bytes.into_inner(), &MemoryResolver::default())
-        .map_err(|error| failed(&error))?;
-    let stage = Stage::new(&model, &model.rest()).map_err(|error| failed(&error))?;
-    let options = Options {
-        background: Some([255, 255, 255]),
-        ..Options::default()
+
+    fn queue(&self) -> MutexGuard<'_, Queue> {
+        self.queue
+            .lock()
+            .unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+
+    /// The client has panels: news is sent to it, and no page is served.
+    pub(super) fn into_panels(self: &Arc<Self>) {
+        if self.panels.set(()).is_ok() {
+            let previews = self.clone();
+            self.runtime.spawn(async move { previews.tell().await });
+        }
+    }
+
+    /// A state of a text was analysed: it is shown, if its text is.
+    pub(super) fn analysed(&self, analysed: &Arc<Analysed>) {
+        let mut queue = self.queue();
+        let uri = analysed.document.uri.to_string();
+        if queue.open.contains(&uri) {
+            queue.waiting.insert(uri, analysed.clone());
+            self.woken.notify_one();
+        }
+    }
+
+    /// A text was closed in the editor.
+    pub(super) fn closed(&self, uri: &str) {
+        self.hub.gone(uri);
+    }
+
+    fn open(&self, analysed: &Arc<Analysed>) {
+        let uri = analysed.document.uri.to_string();
+        // News of a text that was shown before is news again.
+        if self.queue().open.insert(uri.clone()) {
+            self.hub.remove(&uri);
+        }
+        self.analysed(analysed);
+    }
+
+    fn close(&self, uri: &str) {
+        let mut queue = self.queue();
+        queue.open.remove(uri);
+        queue.waiting.remove(uri);
+        drop(queue);
+        self.hub.remove(uri);
+    }
+
+    /// Builds what waits, always the newest state, until the process ends.
+    fn build(&self) {
+        let mut memories: BTreeMap<String, gltf::Memory> = BTreeMap::new();
+        loop {
+            let mut queue = self.queue();
+            let next = loop {
+                if let Some(next) = queue.waiting.pop_first() {
+                    break next;
+                }
+                queue = self
+                    .woken
+                    .wait(queue)
+                    .unwrap_or_else(|poisoned| poisoned.into_inner());
+            };
+            memories.retain(|uri, _| queue.open.contains(uri));
+            drop(queue);
+            let (uri, analysed) = next;
+            self.publish(&uri, &analysed, memories.entry(uri.clone()).or_default());
+        }
+    }
+
+    fn publish(&self, uri: &str, analysed: &Analysed, memory: &mut gltf::Memory) {
+        let begun = SystemTime::now();
+        let compiled = analysed.analysis.compiled();
+        let made = || {
+            let mut out = Cursor::new(Vec::new());
+            let written =
+                gltf::write_again(&compiled.scene, Container::Glb, &mut out, memory).ok()?;
+            Some((out.into_inner().into(), written.triangles))
+        };
+        let model = (!compiled.has_errors()).then(made).flatten();
+        let path = analysed.document.path.as_deref();
+        let name = path.and_then(|path| path.file_name());
+        let name = name.map_or("untitled".into(), |name| name.to_string_lossy());
+        let shown = Shown {
+            text: analysed.document.text(),
+            compiled,
+            model: model.as_ref().map(|(bytes, triangles)| (bytes, *triangles)),
+            steps: Steps {
+                noticed: begun,
+                begun,
+                built: SystemTime::now(),
+            },
+        };
+        // It may have been closed meanwhile.
+        if self.queue().open.contains(uri) {
+            self.hub.publish(uri, ["", &name], &shown);
+        }
+    }
+
+    /// Sends the client's panels all news, until the client goes.
+    async fn tell(&self) {
+        let mut clock = self.hub.clock();
+        let mut heard: BTreeMap<String, u64> = BTreeMap::new();
+        loop {
+            clock.borrow_and_update();
+            let open = self.queue().open.clone();
+            heard.retain(|uri, _| open.contains(uri));
+            for uri in open.iter().filter(|uri| self.hub.shows(uri)) {
+                let since = heard.entry(uri.clone()).or_default();
+                let (messages, now) = self.hub.news(*since, Some(uri));
+                *since = now;
+                let Ok(uri) = uri.parse() else { continue };
+                let messages = messages.iter();
+                let raw = messages.map(|message| RawValue::from_string(message.to_string()));
+                let messages: Vec<_> = raw.flatten().collect();
+                if messages.is_empty() {
+                    continue;
+                }
+                let news = News {
+                    text_document: TextDocumentIdentifier { uri },
+                    messages,
+                };
+                self.client.send_notification::<ToPanel>(news).await;
+            }
+            if clock.changed().await.is_err() {
+                return;
+            }
+        }
+    }
+
+    /// The address of the page that shows a text, in the browser.
+    fn page(&self, uri: &str) -> std::io::Result<String> {
+        let url = match self.page.get() {
+            Some(url) => url.clone(),
+            None => {
+                let bound = bind(None)?;
+                let url = bound.url();
+                if self.page.set(url.clone()).is_ok() {
+                    self.runtime.spawn(serve(bound, self.hub.clone()));
+                }
+                self.page.get().cloned().unwrap_or(url)
+            }
+        };
+        Ok(format!("{url}#{}", escaped(uri)))
+    }
+}
+
+/// Text as it stands behind the `#` of an address.
+fn escaped(text: &str) -> String {
+    let escape = |byte: u8| match byte {
+        b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
+            char::from(byte).to_string()
+        }
+        byte => format!("%{byte:02X}"),
     };
-    let image = stage.picture(&options).map_err(|error| failed(&error))?;
-    let file = format!("preview-{name}.png");
-    write_cached(&file, |out| {
-        write_png(&image, out).map_err(io::Error::other)
-    })
-    .ok_or_else(|| failed(&"there is no folder for it"))
+    text.bytes().map(escape).collect()
+}
+
+/// News of one drawing.
+#[derive(Debug, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct News {
+    text_document: TextDocumentIdentifier,
+    messages: Vec<Box<RawValue>>,
+}
+
+struct ToPanel;
+
+impl Notification for ToPanel {
+    type Params = News;
+    const METHOD: &'static str = "okoshi/preview/news";
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct OpenParams {
+    text_document: TextDocumentIdentifier,
+}
+
+#[derive(Debug, Deserialize)]
+pub(super) struct ModelParams {
+    address: String,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct ModelAnswer {
+    bytes: String,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct PlaceParams {
+    text_document: TextDocumentIdentifier,
+    part: String,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub(super) struct CursorParams {
+    text_document: TextDocumentIdentifier,
+    position: Option<Position>,
+}
+
+impl Backend {
+    /// Shows a text in the client's panel from now on.
+    pub(super) async fn preview_open(&self, params: OpenParams) -> Result<Value> {
+        let Some((_, analysed)) = self.analysed(&params.text_document.uri).await? else {
+            return Err(Error::invalid_params("this drawing is not open"));
+        };
+        self.previews.open(&analysed);
+        Ok(Value::Null)
+    }
+
+    /// Shows it no longer.
+    pub(super) async fn preview_close(&self, params: OpenParams) {
+        self.previews.close(params.text_document.uri.as_str());
+    }
+
+    /// The bytes of a model, in base64.
+    pub(super) async fn preview_model(&self, params: ModelParams) -> Result<Option<ModelAnswer>> {
+        let bytes = self.previews.hub.bytes(&params.address);
+        Ok(bytes.map(|bytes| ModelAnswer {
+            bytes: base64::engine::general_purpose::STANDARD.encode(bytes),
+        }))
+    }
+
+    /// Where the string of a part is.
+    pub(super) async fn preview_place(&self, params: PlaceParams) -> Result<Option<Location>> {
+        let Some(view) = self.view(&params.text_document.uri).await? else {
+            return Ok(None);
+        };
+        let span = view.analysis().place_of(&params.part);
+        let range = span.and_then(|span| view.places().range(span));
+        Ok(range.map(|range| Location::new(params.text_document.uri, range)))
+    }
+
+    /// Lights up the part at the cursor.
+    pub(super) async fn preview_cursor(&self, params: CursorParams) {
+        let uri = &params.text_document.uri;
+        let Ok(Some(view)) = self.view(uri).await else {
+            return;
+        };
+        let places = view.places();
+        let offset = params.position.and_then(|position| places.offset(position));
+        let part = offset.and_then(|offset| view.analysis().part_at(offset));
+        self.previews.hub.light(uri.as_str(), part);
+    }
+
+    /// Shows a text on a page in the browser, or says where that page is.
+    pub(super) async fn show_page(&self, uri: &Uri) -> Result<()> {
+        let Some((_, analysed)) = self.analysed(uri).await? else {
+            return Err(Error::invalid_params("this drawing is not open"));
+        };
+        self.previews.open(&analysed);
+        let page = match self.previews.page(uri.as_str()) {
+            Ok(page) => page,
+            Err(error) => {
+                let message = format!("the preview cannot be served: {error}");
+                self.client.show_message(MessageType::ERROR, message).await;
+                return Ok(());
+            }
+        };
+        let can = self.client_can().window.and_then(|can| can.show_document);
+        let shown = match (can.is_some_and(|can| can.support), page.parse()) {
+            (true, Ok(uri)) => {
+                let params = ShowDocumentParams {
+                    uri,
+                    external: Some(true),
+                    take_focus: Some(false),
+                    selection: None,
+                };
+                self.client.show_document(params).await.unwrap_or(false)
+            }
+            _ => false,
+        };
+        if !shown {
+            let message = format!("the preview is at {page}");
+            self.client.show_message(MessageType::INFO, message).await;
+        }
+        Ok(())
+    }
 }

@@ -15,6 +15,7 @@ use tower_lsp::ls_types::{Diagnostic, Uri};
 
 use super::analyst::{Analyst, Task};
 use super::documents::{Analysed, Document, Documents};
+use super::preview::Previews;
 use super::{convert, links::Links, manual, progress};
 use crate::compile::{Compiled, Compiler, Options};
 use crate::disk::FolderResolver;
@@ -29,6 +30,7 @@ pub(super) struct Worker {
     pub(super) runtime: Handle,
     pub(super) links: Arc<Links>,
     pub(super) abilities: Arc<Abilities>,
+    pub(super) previews: Arc<Previews>,
     /// What is remembered of each text from one keystroke to the next.
     pub(super) compilers: BTreeMap<String, Compiler>,
 }
@@ -60,6 +62,7 @@ impl Worker {
                 // It may be open again, and then be analysed behind this.
                 self.compilers.remove(uri.as_str());
                 self.links.forget(uri.as_str());
+                self.previews.closed(uri.as_str());
                 self.send(uri, vec![], None);
             }
             Task::Analyse(uri) => {
@@ -70,6 +73,7 @@ impl Worker {
                 let before = self.documents.last(&uri);
                 if let Some((analysed, by_a_link)) = self.analysed(document) {
                     self.tell(&analysed, by_a_link);
+                    self.previews.analysed(&analysed);
                 }
                 drop(before);
             }

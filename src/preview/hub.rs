@@ -221,16 +221,18 @@ impl Hub {
     }
 
     /// Tells when there is news.
-    pub(super) fn clock(&self) -> watch::Receiver<u64> {
+    pub fn clock(&self) -> watch::Receiver<u64> {
         self.clock.subscribe()
     }
 
-    /// The news since a moment, as messages, and the moment that it is now.
-    pub fn news(&self, since: u64) -> (Vec<Arc<str>>, u64) {
+    /// The news since a moment, of all drawings or of one alone, as messages, and the moment that it is now.
+    pub fn news(&self, since: u64, only: Option<&str>) -> (Vec<Arc<str>>, u64) {
         let state = self.state();
+        let wanted = |id: &&String| only.is_none_or(|only| *id == only);
+        let drawings = || state.drawings.iter().filter(|(id, _)| wanted(id));
         let mut news = vec![];
         if state.listed > since || since == 0 {
-            let listed = state.drawings.iter().map(|(id, entry)| Listed {
+            let listed = drawings().map(|(id, entry)| Listed {
                 id,
                 name: &entry.name,
                 folder: &entry.folder,
@@ -239,7 +241,7 @@ impl Hub {
                 drawings: listed.collect(),
             }));
         }
-        for (drawing, entry) in &state.drawings {
+        for (drawing, entry) in drawings() {
             if let Some((when, build)) = &entry.build
                 && *when > since
             {

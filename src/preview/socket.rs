@@ -40,7 +40,7 @@ async fn converse(mut socket: WebSocket, hub: &Arc<Hub>) {
     let mut heard = Instant::now();
     loop {
         clock.borrow_and_update();
-        let (news, now) = hub.news(since);
+        let (news, now) = hub.news(since, None);
         since = now;
         for message in news {
             if !send(&mut socket, Message::text(message.as_ref())).await {
