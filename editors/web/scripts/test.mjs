@@ -1,0 +1,44 @@
+// All tests: `npm test`. Checks types, bundles the page, and tries it: its modules by themselves, and in Chromium against a host of
+// the tests' own. OKOSHI names the program that makes the models (else the repository's own build is taken), CHROMIUM the browser;
+// without one of them the tests in the browser are skipped, and say so.
+
+import { spawnSync } from "node:child_process";
+import { existsSync, readdirSync, rmSync } from "node:fs";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+import { install } from "./install.mjs";
+
+const here = join(dirname(fileURLToPath(import.meta.url)), "..");
+const repository = join(here, "..", "..");
+const target = process.env.CARGO_TARGET_DIR ?? join(repository, "target");
+const programs = [process.env.OKOSHI && resolve(process.env.OKOSHI), join(target, "debug", "okoshi"), join(target, "release", "okoshi")];
+const okoshi = programs.find((path) => path && existsSync(path));
+process.chdir(here);
+install();
+
+const check = spawnSync("npx", ["--no-install", "tsc", "--noEmit"], { stdio: "inherit", shell: process.platform === "win32" });
+if (check.status !== 0) process.exit(check.status ?? 1);
+const { bundle } = await import("./build.mjs");
+await bundle();
+
+const { build } = await import("esbuild");
+// Within the package: what tests import is found from there.
+const out = join("test", "out", "js");
+rmSync(out, { recursive: true, force: true });
+const wanted = process.argv.slice(2);
+const names = readdirSync("test").filter((name) => name.endsWith(".test.ts") && (wanted.length === 0 || wanted.some((one) => name.includes(one))));
+await build({
+  entryPoints: names.map((name) => join("test", name)),
+  outdir: out,
+  outExtension: { ".js": ".mjs" },
+  bundle: true,
+  platform: "node",
+  format: "esm",
+  target: "node20",
+  packages: "external",
+  logLevel: "warning",
+});
+const files = readdirSync(out).sort().map((name) => join(out, name));
+const env = { ...process.env, ...(okoshi ? { OKOSHI: okoshi } : {}) };
+const { status } = spawnSync(process.execPath, ["--test", "--test-reporter=spec", ...files], { stdio: "inherit", env });
+process.exit(status ?? 1);

@@ -1,0 +1,84 @@
+// What buttons and keys do.
+
+import { partNode } from "./stage/model";
+import { screenshot } from "./stage/screenshot";
+import type { Host } from "./host/host";
+import type { Pointer } from "./stage/pointer";
+import type { State } from "./state";
+import type { Shading } from "./stage/model";
+import type { Viewer } from "./stage/viewer";
+
+const SHADINGS: readonly Shading[] = ["smooth", "flat", "wire", "edges"];
+
+export class Commands {
+  private readonly listeners: (() => void)[] = [];
+  pointer: Pointer | null = null;
+  /** Opens the help; set by the page. */
+  help: () => void = () => {};
+
+  constructor(private readonly viewer: Viewer, private readonly state: State, private readonly host: Host) {}
+
+  /** The listener hears when the posing mode is switched. */
+  onMode(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  get isPosing(): boolean {
+    return this.pointer?.posesLimbs === true;
+  }
+
+  togglePosing(): void {
+    if (!this.pointer) return;
+    this.pointer.posesLimbs = !this.pointer.posesLimbs;
+    for (const listener of this.listeners) listener();
+  }
+
+  turn(degrees: number, aboutLimb: boolean): void {
+    const node = this.viewer.nodesOf(this.state.selected)[0];
+    if (node && partNode(node)) this.pointer?.posing.turn(node, degrees, aboutLimb);
+  }
+
+  resetPose(): void {
+    this.pointer?.cancel();
+    this.viewer.pose.reset();
+    this.viewer.posed();
+  }
+
+  /** Takes back one thing: a drag, a pose, the mode, the selection. */
+  escape(): void {
+    if (this.pointer?.cancel()) return;
+    if (!this.viewer.pose.isEmpty) this.resetPose();
+    else if (this.isPosing) this.togglePosing();
+    else this.state.select(null);
+  }
+
+  toggleParallel(): void {
+    this.viewer.setParallel(!this.viewer.view.isParallel);
+  }
+
+  nextShading(): void {
+    const next = SHADINGS[(SHADINGS.indexOf(this.viewer.shading) + 1) % SHADINGS.length];
+    if (next) this.viewer.setShading(next);
+  }
+
+  async screenshot(transparent: boolean): Promise<void> {
+    if (!this.viewer.model) return;
+    const background = transparent ? null : getComputedStyle(document.body).backgroundColor;
+    await this.host.save(`${this.fileName()}.png`, await screenshot(this.viewer, background));
+  }
+
+  async download(): Promise<void> {
+    const { bytes } = this.viewer;
+    if (bytes) await this.host.save(`${this.fileName()}.glb`, new Blob([bytes], { type: "model/gltf-binary" }));
+  }
+
+  async toggleFullScreen(): Promise<void> {
+    if (document.fullscreenElement) await document.exitFullscreen();
+    else if (document.fullscreenEnabled) await document.documentElement.requestFullscreen();
+  }
+
+  /** The drawing's name without folder and ending. */
+  private fileName(): string {
+    return (this.state.drawing?.name ?? "").replace(/^.*[\\/]/, "").replace(/\.svgz?$/i, "") || "model";
+  }
+}

@@ -1,0 +1,78 @@
+// Elements, made by calls. Text is only ever set as text: strings from drawings are never read as markup.
+
+import type { IconNode } from "lucide";
+
+type Child = Node | string | null | undefined | false;
+export interface Properties {
+  readonly class?: string;
+  readonly title?: string;
+  readonly hidden?: boolean;
+  /** Attributes by name; null and false leave one out, true writes it empty. */
+  readonly attributes?: Readonly<Record<string, string | number | boolean | null>>;
+  readonly on?: { readonly [Name in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[Name]) => void };
+}
+
+export function h<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, properties: Properties = {}, ...children: Child[]): HTMLElementTagNameMap[Tag] {
+  const element = document.createElement(tag);
+  if (properties.class) element.className = properties.class;
+  if (properties.title) element.title = properties.title;
+  if (properties.hidden) element.hidden = true;
+  for (const [name, value] of Object.entries(properties.attributes ?? {})) {
+    if (value !== null && value !== false) element.setAttribute(name, value === true ? "" : String(value));
+  }
+  for (const [name, listener] of Object.entries(properties.on ?? {})) element.addEventListener(name, listener as EventListener);
+  fill(element, ...children);
+  return element;
+}
+
+/** Puts these children in the place of those that are there. */
+export function fill(element: Element, ...children: Child[]): void {
+  element.replaceChildren(...children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false && child !== ""));
+}
+
+export function icon(node: IconNode): SVGSVGElement {
+  const space = "http://www.w3.org/2000/svg";
+  const svg = document.createElementNS(space, "svg");
+  svg.setAttribute("viewBox", "0 0 24 24");
+  svg.setAttribute("class", "icon");
+  svg.setAttribute("aria-hidden", "true");
+  for (const [tag, attributes] of node) {
+    const shape = document.createElementNS(space, tag);
+    for (const [name, value] of Object.entries(attributes)) if (value !== undefined) shape.setAttribute(name, String(value));
+    svg.append(shape);
+  }
+  return svg;
+}
+
+export interface ButtonOptions {
+  readonly icon?: IconNode;
+  /** What it does, in words; shown beside the icon if `wide`. */
+  readonly label: string;
+  /** The key that does the same. */
+  readonly key?: string;
+  readonly wide?: boolean;
+  readonly class?: string;
+  readonly press: (event: MouseEvent) => void;
+}
+
+export function button({ icon: node, label, key, wide, class: name, press }: ButtonOptions): HTMLButtonElement {
+  return h(
+    "button",
+    {
+      class: ["button", wide ? "wide" : "", name ?? ""].filter(Boolean).join(" "),
+      title: key ? `${label} (${key})` : label,
+      attributes: { type: "button", "aria-label": wide ? null : label, "aria-keyshortcuts": key && key.length === 1 ? key : null },
+      on: { click: press },
+    },
+    node && icon(node),
+    wide && h("span", {}, label),
+  );
+}
+
+/** Says in numbers and a noun how many there are. */
+export function count(number: number, one: string, many = `${one}s`): string {
+  return `${number.toLocaleString("en")} ${number === 1 ? one : many}`;
+}
+
+/** Whether the person asked their system for little movement. */
+export const wantsStillness = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;

@@ -1,0 +1,78 @@
+// The host inside a VS Code webview: everything goes by posted messages.
+
+import { read, type FromHost, type ToHost } from "../protocol";
+import type { Host, Link } from "./host";
+
+export interface CodeApi {
+  postMessage(message: unknown): void;
+}
+
+type Waiting = { readonly resolve: (bytes: ArrayBuffer) => void; readonly reject: (error: Error) => void };
+
+export class CodeHost implements Host {
+  /** Who waits for the bytes of which address. */
+  private readonly waiting = new Map<string, Waiting[]>();
+
+  constructor(private readonly api: CodeApi) {}
+
+  listen(handler: (message: FromHost) => void, link: (state: Link) => void): void {
+    addEventListener("message", ({ data }: MessageEvent<unknown>) => {
+      const posted = typeof data === "object" && data !== null && "okoshi" in data ? data.okoshi : undefined;
+      if (typeof posted !== "object" || posted === null) return;
+      if ("type" in posted && posted.type === "modelBytes") return this.arrived(posted);
+      const message = read(posted);
+      if (message) handler(message);
+    });
+    link("open");
+    this.api.postMessage({ type: "ready" });
+  }
+
+  send(message: ToHost): void {
+    this.api.postMessage(message);
+  }
+
+  model(address: string): Promise<ArrayBuffer> {
+    return new Promise((resolve, reject) => {
+      const already = this.waiting.get(address);
+      if (already) return void already.push({ resolve, reject });
+      this.waiting.set(address, [{ resolve, reject }]);
+      this.api.postMessage({ type: "model", address });
+    });
+  }
+
+  async picture(address: string): Promise<string> {
+    return URL.createObjectURL(new Blob([await this.model(address)], { type: "image/png" }));
+  }
+
+  async save(name: string, content: Blob): Promise<void> {
+    // A webview may not download: the editor asks where to write.
+    this.api.postMessage({ type: "save", name, bytes: toBase64(new Uint8Array(await content.arrayBuffer())) });
+  }
+
+  private arrived(posted: object): void {
+    const { address, bytes } = posted as { address?: unknown; bytes?: unknown };
+    const waiting = typeof address === "string" ? this.waiting.get(address) : undefined;
+    if (!waiting) return;
+    this.waiting.delete(address as string);
+    const buffer = toBuffer(bytes);
+    for (const { resolve, reject } of waiting) {
+      if (buffer) resolve(buffer);
+      else reject(new Error("the editor has no such file"));
+    }
+  }
+}
+
+/** Bytes as VS Code hands them over: as such, or as base64. */
+export function toBuffer(bytes: unknown): ArrayBuffer | null {
+  if (bytes instanceof ArrayBuffer) return bytes;
+  if (ArrayBuffer.isView(bytes)) return new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength).slice().buffer;
+  if (typeof bytes !== "string") return null;
+  return Uint8Array.from(atob(bytes), (one) => one.charCodeAt(0)).buffer;
+}
+
+export function toBase64(bytes: Uint8Array): string {
+  let binary = "";
+  // Piece by piece: arguments of a call are limited in number.
+  for (let at = 0; at < bytes.length; at += 8192) binary += String.fromCharCode(...bytes.subarray(at, at + 8192));
+  return btoa(binary);
+}

@@ -1,0 +1,84 @@
+// The page of the live preview.
+
+import "./style/page.css";
+import { followAddress, openGallery } from "./address";
+import { Commands } from "./commands";
+import { h } from "./dom";
+import { findHost } from "./host/host";
+import { Bar } from "./panels/bar";
+import { Clips } from "./panels/clips";
+import { Findings } from "./panels/findings";
+import { Gallery } from "./panels/gallery";
+import { Help } from "./panels/help";
+import { Inspector } from "./panels/inspector";
+import { Notes } from "./panels/notes";
+import { PoseBar } from "./panels/posebar";
+import { Side } from "./panels/side";
+import { Toolbar } from "./panels/toolbar";
+import { Tree } from "./panels/tree";
+import { listenToKeys } from "./shortcuts";
+import { Pointer } from "./stage/pointer";
+import { Viewer } from "./stage/viewer";
+import { State } from "./state";
+import { followTheme } from "./theme";
+
+function start(page: HTMLElement): void {
+  const state = new State();
+  const host = findHost();
+  const place = h("div", { class: "stage" });
+  let viewer: Viewer;
+  try {
+    viewer = new Viewer(state, host, place);
+  } catch {
+    page.append(h("p", { class: "no-3d" }, "This browser draws no 3D: WebGL 2 is switched off or missing. Turn on hardware acceleration, or try another browser."));
+    return;
+  }
+  const commands = new Commands(viewer, state, host);
+
+  const choose = (part: string): void => {
+    state.select(part);
+    picked(part);
+  };
+  const picked = (part: string): void => {
+    if (state.current !== null) host.send({ type: "pick", drawing: state.current, part });
+  };
+  const tree = new Tree(state, picked);
+  const inspector = new Inspector(state, choose);
+  const findings = new Findings(state, ({ line, column }) => {
+    const part = state.parts.all.find(({ string }) => string?.line === line);
+    if (part) state.select(part.name);
+    if (state.current !== null) host.send({ type: "open", drawing: state.current, line, column });
+  });
+  const posebar = new PoseBar(viewer, commands);
+  const pointer = new Pointer(viewer, state, picked, (part, degrees) => posebar.tell(part, degrees));
+  commands.pointer = pointer;
+  const clips = new Clips(viewer);
+  const help = new Help();
+  commands.help = () => help.toggle();
+
+  place.append(posebar.element, new Notes(state, viewer).element, findings.element);
+  const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, clips.element, new Side(state, tree, inspector).element);
+  page.append(new Bar(state, viewer).element, studio, new Gallery(state, host).element, help.element);
+
+  const shows = (): boolean => state.current !== null;
+  const showEither = (): void => {
+    studio.hidden = !shows();
+    page.dataset["shows"] = shows() ? "drawing" : "gallery";
+    document.title = state.drawing ? `${state.drawing.name} · okoshi` : "okoshi preview";
+    if (state.current !== null) host.send({ type: "want", drawing: state.current });
+  };
+  state.on(["current", "link"], showEither);
+  showEither();
+
+  viewer.setShading("smooth");
+  followTheme(({ accent, grid, ink }) => viewer.setColors(accent, grid, ink));
+  followAddress(state);
+  listenToKeys(viewer, commands, { clips, findings, tree, gallery: () => state.list.length > 1 && openGallery() }, shows);
+  host.listen(
+    (message) => state.receive(message),
+    (link) => state.setLink(link),
+  );
+}
+
+const page = document.getElementById("page");
+if (page) start(page);

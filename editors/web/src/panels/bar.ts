@@ -1,0 +1,41 @@
+// The head of the page: which drawing is shown, how its last build went, and whether the host is there.
+
+import { LayoutGrid, WifiOff } from "lucide";
+import { count, fill, h, icon } from "../dom";
+import type { State } from "../state";
+import type { Viewer } from "../stage/viewer";
+
+export class Bar {
+  readonly element = h("header", { class: "bar" });
+  private readonly back = h("a", { class: "button wide", title: "All drawings (G)", attributes: { href: "#" } }, icon(LayoutGrid), h("span", {}, "Drawings"));
+  private readonly title = h("h1", { class: "bar-title" });
+  private readonly facts = h("p", { class: "bar-facts muted" });
+  private readonly link = h("p", { class: "bar-link", attributes: { role: "status" } });
+
+  constructor(private readonly state: State, private readonly viewer: Viewer) {
+    fill(this.element, this.back, this.title, this.facts, this.link);
+    state.on(["current", "drawings", "build", "link"], () => this.draw());
+    viewer.on(["model"], () => this.draw());
+    this.draw();
+  }
+
+  private draw(): void {
+    const { drawing, list, link } = this.state;
+    this.back.hidden = drawing === undefined || list.length < 2;
+    this.title.textContent = drawing?.name ?? "okoshi";
+    const build = drawing?.build;
+    fill(
+      this.facts,
+      ...(build
+        ? [
+            h("span", {}, count(this.state.parts.inModel, "part")),
+            h("span", {}, count(this.viewer.model?.triangles ?? build.triangles, "triangle")),
+            h("span", { class: "bar-time", title: `Build ${build.revision}`, attributes: { "data-build": build.revision } }, `built in ${Math.round(build.milliseconds)} ms`),
+          ]
+        : []),
+    );
+    this.element.dataset["link"] = link;
+    this.link.hidden = link === "open";
+    fill(this.link, link === "lost" && icon(WifiOff), h("span", {}, link === "lost" ? "Connection lost, trying again…" : "Connecting…"));
+  }
+}

@@ -1,0 +1,93 @@
+// All drawings of a folder, as cards that follow their builds.
+
+import { Image } from "lucide";
+import { count, fill, h, icon } from "../dom";
+import type { Host } from "../host/host";
+import type { Drawing, State } from "../state";
+import { badge } from "./findings";
+
+interface Card {
+  readonly element: HTMLAnchorElement;
+  readonly picture: HTMLElement;
+  readonly facts: HTMLElement;
+  address: string;
+}
+
+export class Gallery {
+  readonly element = h("main", { class: "gallery", attributes: { "aria-label": "Drawings" } });
+  private readonly grid = h("ul", { class: "cards" });
+  private readonly title = h("p", { class: "muted" });
+  private readonly cards = new Map<string, Card>();
+
+  constructor(private readonly state: State, private readonly host: Host) {
+    fill(this.element, h("header", { class: "gallery-head" }, h("h1", {}, "Drawings"), this.title), this.grid);
+    state.on(["drawings", "current"], () => this.draw());
+    state.on("build", (id) => {
+      const drawing = state.find(id);
+      const card = this.cards.get(id);
+      if (drawing && card) this.fill(card, drawing);
+      this.count();
+    });
+  }
+
+  private draw(): void {
+    this.element.hidden = this.state.current !== null || !this.state.known;
+    const { list } = this.state;
+    for (const id of this.cards.keys()) if (!list.some((drawing) => drawing.id === id)) this.cards.delete(id);
+    for (const drawing of list) {
+      let card = this.cards.get(drawing.id);
+      if (!card) this.cards.set(drawing.id, (card = this.card(drawing)));
+      this.fill(card, drawing);
+    }
+    const items = list.map(({ id }) => this.cards.get(id)!.element.parentElement!);
+    // Only when the order changed: cards that are moved lose the focus.
+    if (items.some((item, at) => this.grid.children[at] !== item) || items.length !== this.grid.children.length) fill(this.grid, ...items);
+    this.count();
+  }
+
+  private count(): void {
+    const { list } = this.state;
+    const failing = list.filter(({ build }) => build?.findings.some(({ severity }) => severity === "error")).length;
+    this.title.textContent = list.length === 0 ? "No drawing here yet. One that is saved in the folder appears by itself." : count(list.length, "drawing") + (failing > 0 ? `, ${failing} with errors` : "");
+  }
+
+  private card(drawing: Drawing): Card {
+    const picture = h("span", { class: "card-picture" }, icon(Image));
+    const facts = h("span", { class: "card-facts" });
+    const element = h(
+      "a",
+      { class: "card", attributes: { href: `#${encodeURIComponent(drawing.id)}`, "data-drawing": drawing.id } },
+      picture,
+      h("span", { class: "card-text" }, h("span", { class: "card-name" }, drawing.name), drawing.folder && h("span", { class: "card-folder muted" }, drawing.folder), facts),
+    );
+    h("li", {}, element);
+    return { element, picture, facts, address: "" };
+  }
+
+  private fill(card: Card, { build, parts, gone, name }: Drawing): void {
+    card.element.classList.toggle("gone", gone);
+    fill(
+      card.facts,
+      gone
+        ? h("span", { class: "muted" }, "its file is gone")
+        : build
+          ? h("span", { class: "muted" }, count(parts.inModel, "part"))
+          : h("span", { class: "muted" }, "building…"),
+      ...(["error", "warning", "hint"] as const).map((severity) => build && badge(severity, build.findings)),
+    );
+    const address = build?.picture ? `${this.state.connection} ${build.picture}` : "";
+    if (address === card.address) return;
+    card.address = address;
+    if (!build?.picture) return fill(card.picture, icon(Image));
+    void this.host.picture(build.picture).then(
+      (source) => {
+        if (card.address !== address) return;
+        const image = h("img", { attributes: { alt: `Model of ${name}`, width: 256, height: 256 } });
+        // The old picture stays until the new one is there.
+        image.addEventListener("load", () => card.address === address && fill(card.picture, image));
+        image.src = source;
+      },
+      () => {},
+    );
+  }
+}

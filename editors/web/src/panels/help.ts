@@ -1,0 +1,38 @@
+// The keys, and what the pointer does.
+
+import { X } from "lucide";
+import { button, fill, h } from "../dom";
+
+const KEYS: readonly (readonly [string, readonly (readonly [string, string])[]])[] = [
+  ["Look", [["drag", "turn the view"], ["right drag, two fingers", "move it"], ["wheel, pinch, + −", "nearer, farther"], ["← → ↑ ↓", "turn the view by 10°"], ["0 1 3 7", "three-quarter, front, side, top (Shift: from the other side)"], ["5", "perspective or parallel"], ["F", "frame the model"], ["Z", "next shading"]]],
+  ["Parts", [["click", "select a part, and jump to its string in the editor"], ["T", "go to the list of parts"], ["E", "open or close the findings"], ["Esc", "select nothing"]]],
+  ["Pose", [["P", "turn posing on or off"], ["drag", "turn a limb about its joint"], ["Shift + drag", "turn it about its own axis"], [", .", "turn the selected part by 5°"], ["Esc", "put all limbs back"]]],
+  ["Clips", [["Space", "play, pause"], ["J K", "key before, next key"]]],
+  ["Take along", [["S", "screenshot (Shift: transparent)"], ["D", "download the model"], ["Shift + F", "full screen"], ["G", "all drawings"]]],
+];
+
+export class Help {
+  readonly element = h("dialog", { class: "help-dialog", attributes: { "aria-label": "Help" } });
+
+  constructor() {
+    fill(
+      this.element,
+      h("header", { class: "dialog-head" }, h("h2", {}, "Keys and pointer"), button({ icon: X, label: "Close", press: () => this.element.close() })),
+      h(
+        "div",
+        { class: "help-groups" },
+        ...KEYS.map(([title, keys]) => h("section", {}, h("h3", {}, title), h("dl", {}, ...keys.flatMap(([key, does]) => [h("dt", {}, h("kbd", {}, key)), h("dd", {}, does)])))),
+      ),
+      h("p", { class: "muted" }, "Posing is only a look: nothing is written to the drawing."),
+    );
+    // A click beside the dialog is one on its backdrop, which is the element itself.
+    this.element.addEventListener("click", ({ target }) => {
+      if (target === this.element) this.element.close();
+    });
+  }
+
+  toggle(): void {
+    if (this.element.open) this.element.close();
+    else this.element.showModal();
+  }
+}

@@ -1,0 +1,96 @@
+// What is known of the selected part.
+
+import { count, fill, h } from "../dom";
+import { isAside, isAutomatic } from "../parts";
+import type { Part, Source } from "../protocol";
+import type { State } from "../state";
+
+const BOUND: Readonly<Record<string, string>> = {
+  group: "in one group with its shape",
+  desc: "the shape's own description",
+  leader: "a line leads to its shape",
+  nearest: "its shape is the nearest",
+  none: "bound to no shape",
+};
+const FROM: Readonly<Record<Source, string>> = { own: "its string", legend: "a legend", default: "the drawing's default", builtin: "built in" };
+const KIND: Readonly<Record<Part["kind"], string>> = { main: "part", sub: "shape of a part", legend: "legend", unused: "left out" };
+
+export class Inspector {
+  readonly element = h("section", { class: "inspector", attributes: { "aria-label": "Selected part", "aria-live": "polite" } });
+
+  /** `go` shows a part that was clicked here. */
+  constructor(private readonly state: State, private readonly go: (part: string) => void) {
+    state.on(["selection", "current"], () => this.draw());
+    state.on("build", (drawing) => {
+      if (drawing === state.current) this.draw();
+    });
+    this.draw();
+  }
+
+  private draw(): void {
+    const { selected, parts } = this.state;
+    if (selected === null) {
+      return fill(this.element, h("h2", {}, "Part"), h("p", { class: "muted pad" }, "Click a part, in the model or in the list, to see its string and attributes."));
+    }
+    const part = parts.get(selected);
+    if (!part) {
+      return fill(this.element, h("h2", {}, h("span", { class: "part-name" }, selected)), h("p", { class: "muted pad" }, "The drawing has no part of this name at present."));
+    }
+    fill(this.element, h("h2", {}, h("span", { class: "part-name" }, part.name), h("span", { class: "muted" }, KIND[part.kind])), this.string(part), this.facts(part), this.attributes(part));
+  }
+
+  private string(part: Part): HTMLElement {
+    if (!part.string) {
+      return h("p", { class: "muted pad" }, isAutomatic(part) && part.kind === "main" ? "No string: its name and place are automatic." : "No string of its own.");
+    }
+    return h("p", { class: "string" }, h("code", {}, part.string.text));
+  }
+
+  private facts(part: Part): HTMLElement {
+    const rows: [string, Node | string][] = [];
+    if (part.string) rows.push(["Bound", BOUND[part.string.boundBy] ?? part.string.boundBy], ["Line", `${part.string.line}, column ${part.string.column}`]);
+    if (!isAside(part)) rows.push(["Hangs on", part.parent === null ? "the root" : this.link(part.parent)]);
+    const children = this.state.parts.children(part.name).filter(({ kind }) => kind !== "sub");
+    const shapes = this.state.parts.children(part.name).length - children.length;
+    if (children.length > 0) rows.push(["Carries", this.links(children)]);
+    if (shapes > 0) rows.push(["Shapes", count(shapes, "more shape")]);
+    if (part.joint !== null) rows.push(["Joint", part.joint]);
+    rows.push(["Element", `#${part.element}`]);
+    return h("dl", { class: "facts" }, ...rows.flatMap(([term, value]) => [h("dt", {}, term), h("dd", {}, value)]));
+  }
+
+  private attributes({ attributes }: Part): HTMLElement | null {
+    if (attributes.length === 0) return null;
+    const rows = attributes.map(({ name, value, from }) =>
+      h("tr", {}, h("th", { attributes: { scope: "row" } }, name), h("td", {}, this.swatch(name, value), value || "on"), h("td", { class: `from ${from}` }, FROM[from])),
+    );
+    const head = h("thead", {}, h("tr", {}, ...["Attribute", "Value", "From"].map((title) => h("th", { attributes: { scope: "col" } }, title))));
+    return h("table", { class: "attributes" }, head, h("tbody", {}, ...rows));
+  }
+
+  private swatch(name: string, value: string): HTMLElement | null {
+    const color = name === "Color" ? cssColor(value) : null;
+    if (color === null) return null;
+    const swatch = h("span", { class: "swatch", attributes: { "aria-hidden": "true" } });
+    swatch.style.backgroundColor = color;
+    return swatch;
+  }
+
+  private link(name: string): HTMLElement {
+    return h("button", { class: "link", attributes: { type: "button" }, on: { click: () => this.go(name) } }, name);
+  }
+
+  private links(parts: readonly Part[]): HTMLElement {
+    return h("span", { class: "links" }, ...parts.map(({ name }) => this.link(name)));
+  }
+}
+
+/** A colour's value as CSS has it: `r g b [a]` from 0 to 1 become one; names and `#rrggbb` are left; anything else is none. */
+export function cssColor(value: string): string | null {
+  const numbers = value.trim().split(/\s+/).map(Number);
+  if ((numbers.length === 3 || numbers.length === 4) && numbers.every(Number.isFinite)) {
+    const [r, g, b, a = 1] = numbers as [number, number, number, number?];
+    return `rgb(${r * 255} ${g * 255} ${b * 255} / ${a})`;
+  }
+  return /^(#[0-9a-f]{3,8}|[a-z]+)$/i.test(value) ? value : null;
+}

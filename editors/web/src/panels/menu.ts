@@ -1,0 +1,54 @@
+// A button that opens a few choices.
+
+import type { IconNode } from "lucide";
+import { button, h } from "../dom";
+
+export interface Choice {
+  readonly label: string;
+  readonly key: string;
+  readonly press: () => void;
+}
+
+export function menu({ icon, label }: { readonly icon: IconNode; readonly label: string }, choices: readonly Choice[]): HTMLElement {
+  const items = choices.map(({ label, key, press }) =>
+    h(
+      "button",
+      {
+        class: "menu-item",
+        attributes: { type: "button", role: "menuitem", tabindex: -1 },
+        on: {
+          click: () => {
+            set(false, true);
+            press();
+          },
+        },
+      },
+      h("span", {}, label),
+      h("kbd", {}, key),
+    ),
+  );
+  const list = h("div", { class: "menu", hidden: true, attributes: { role: "menu", "aria-label": label } }, ...items);
+  const opener = button({ icon, label, press: () => set(list.hidden !== false, false) });
+  opener.setAttribute("aria-haspopup", "menu");
+  const element = h("div", { class: "menu-place" }, opener, list);
+  const set = (open: boolean, back: boolean): void => {
+    list.hidden = !open;
+    opener.setAttribute("aria-expanded", String(open));
+    if (open) items[0]?.focus();
+    else if (back) opener.focus();
+  };
+  set(false, false);
+  element.addEventListener("focusout", ({ relatedTarget }) => {
+    if (!(relatedTarget instanceof Node && element.contains(relatedTarget))) set(false, false);
+  });
+  list.addEventListener("keydown", (event) => {
+    const at = items.indexOf(document.activeElement as HTMLButtonElement);
+    const to = { ArrowDown: at + 1, ArrowUp: at - 1, Home: 0, End: -1 }[event.key];
+    if (event.key === "Escape") set(false, true);
+    else if (to !== undefined) items.at(to % items.length)?.focus();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  });
+  return element;
+}

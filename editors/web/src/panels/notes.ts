@@ -1,0 +1,34 @@
+// What is to be said in the middle of the stage, in words.
+
+import { fill, h } from "../dom";
+import type { State } from "../state";
+import type { Viewer } from "../stage/viewer";
+
+export class Notes {
+  readonly element = h("div", { class: "notes", attributes: { role: "status" } });
+
+  constructor(private readonly state: State, private readonly viewer: Viewer) {
+    state.on(["current", "build", "drawings"], () => this.draw());
+    viewer.on(["model"], () => this.draw());
+    this.draw();
+  }
+
+  private draw(): void {
+    const { drawing } = this.state;
+    const words = this.words();
+    fill(this.element, words !== "" && h("p", {}, words));
+    this.element.hidden = words === "";
+    this.element.classList.toggle("over-model", this.viewer.model !== null);
+    this.viewer.canvas.classList.toggle("faded", drawing?.gone === true);
+  }
+
+  private words(): string {
+    const { drawing } = this.state;
+    if (!drawing) return "";
+    if (this.viewer.failure !== "") return `The model could not be shown: ${this.viewer.failure}`;
+    if (drawing.gone) return this.viewer.model ? "The drawing's file is not there at present. This is its last model." : "The drawing's file is not there at present.";
+    if (this.viewer.model) return "";
+    if (!drawing.build) return "Building…";
+    return drawing.build.model === null ? (drawing.build.stale || drawing.build.findings.some(({ severity }) => severity === "error") ? "There is no model yet: the drawing has errors." : "The drawing makes no model: it has no parts.") : "";
+  }
+}

@@ -1,0 +1,64 @@
+// The buttons over the stage.
+
+import { Camera, Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, PersonStanding, Square } from "lucide";
+import { button, fill, h } from "../dom";
+import type { Commands } from "../commands";
+import type { Shading } from "../stage/model";
+import type { Viewer } from "../stage/viewer";
+import { menu } from "./menu";
+
+export class Toolbar {
+  readonly element = h("div", { class: "toolbar", attributes: { role: "toolbar", "aria-label": "View and tools" } });
+
+  constructor(viewer: Viewer, commands: Commands) {
+    const shadings: [Shading, HTMLButtonElement][] = (
+      [
+        ["smooth", Circle, "Smooth"],
+        ["flat", Hexagon, "Flat: every triangle as it is"],
+        ["wire", Globe, "Wireframe"],
+        ["edges", Grid3x3, "Smooth, with the triangles' edges"],
+      ] as const
+    ).map(([shading, icon, label]) => [shading, button({ icon, label, press: () => viewer.setShading(shading) })]);
+    const parallel = button({ icon: Square, label: "Parallel projection", key: "5", press: () => commands.toggleParallel() });
+    const pose = button({ icon: PersonStanding, label: "Pose", key: "P", wide: true, press: () => commands.togglePosing() });
+    const picture = menu({ icon: Camera, label: "Screenshot" }, [
+      { label: "With background", key: "S", press: () => void commands.screenshot(false) },
+      { label: "Transparent, the model alone", key: "Shift+S", press: () => void commands.screenshot(true) },
+    ]);
+    const download = button({ icon: Download, label: "Download the model (GLB)", key: "D", press: () => void commands.download() });
+    fill(
+      this.element,
+      group(
+        "Look from",
+        ...([["¾", "threeQuarter", "0", "Three-quarter view"], ["Front", "front", "1", "Front view"], ["Side", "side", "3", "Side view"], ["Top", "top", "7", "Top view"]] as const).map(
+          ([text, name, key, label]) =>
+            h("button", { class: "button text", title: `${label} (${key})`, attributes: { type: "button", "aria-label": label, "aria-keyshortcuts": key }, on: { click: () => viewer.view.look(name) } }, text),
+        ),
+      ),
+      group("Shading", ...shadings.map(([, element]) => element)),
+      group("View", button({ icon: Focus, label: "Frame the model", key: "F", press: () => viewer.view.frame() }), parallel),
+      group("Pose", pose),
+      h("span", { class: "spring" }),
+      group(
+        "Take along",
+        picture,
+        download,
+        document.fullscreenEnabled && button({ icon: Fullscreen, label: "Full screen", key: "Shift+F", press: () => void commands.toggleFullScreen() }),
+        button({ icon: CircleQuestionMark, label: "Help", key: "?", press: () => commands.help() }),
+      ),
+    );
+    const follow = (): void => {
+      for (const [shading, element] of shadings) element.setAttribute("aria-pressed", String(viewer.shading === shading));
+      parallel.setAttribute("aria-pressed", String(viewer.view.isParallel));
+      pose.setAttribute("aria-pressed", String(commands.isPosing));
+      download.disabled = viewer.model === null;
+    };
+    viewer.on(["look", "model"], follow);
+    commands.onMode(follow);
+    follow();
+  }
+}
+
+function group(label: string, ...children: (Node | false)[]): HTMLElement {
+  return h("div", { class: "group", attributes: { role: "group", "aria-label": label } }, ...children);
+}

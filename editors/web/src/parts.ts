@@ -1,0 +1,71 @@
+// The parts of a drawing, as a hierarchy.
+
+import type { Part } from "./protocol";
+
+export class Parts {
+  private readonly byName = new Map<string, Part>();
+  private readonly byElement = new Map<string, Part>();
+  private readonly below = new Map<string | null, Part[]>();
+  /** Parts that are in no model: legends, and shapes that are left out. */
+  readonly aside: readonly Part[];
+  readonly inModel: number;
+
+  constructor(readonly all: readonly Part[]) {
+    // Of parts with the same name the first is meant; the others are a finding.
+    for (const part of all) {
+      if (!this.byName.has(part.name)) this.byName.set(part.name, part);
+      if (!this.byElement.has(part.element)) this.byElement.set(part.element, part);
+    }
+    this.aside = all.filter(isAside);
+    this.inModel = all.length - this.aside.length;
+    for (const part of all) {
+      if (isAside(part)) continue;
+      const parent = part.parent !== null && this.isInModel(part.parent) && !this.hangsOnItself(part) ? part.parent : null;
+      const siblings = this.below.get(parent);
+      if (siblings) siblings.push(part);
+      else this.below.set(parent, [part]);
+    }
+    for (const siblings of this.below.values()) siblings.sort((a, b) => Number(a.kind === "sub") - Number(b.kind === "sub"));
+  }
+
+  get(name: string | null): Part | undefined {
+    return name === null ? undefined : this.byName.get(name);
+  }
+
+  at(element: string): Part | undefined {
+    return this.byElement.get(element);
+  }
+
+  /** What hangs on the part of this name, or on the root: parts first, then the shapes that belong to it. */
+  children(name: string | null): readonly Part[] {
+    return this.below.get(name) ?? [];
+  }
+
+  /** The names above a part, the nearest first. */
+  above(name: string): string[] {
+    const names: string[] = [];
+    for (let part = this.get(name); part && part.parent !== null && !names.includes(part.parent); part = this.get(part.parent)) names.push(part.parent);
+    return names;
+  }
+
+  /** The part whose node carries this one: itself, or for a shape that belongs to a part, that part. */
+  carrier(name: string): Part | undefined {
+    let part = this.get(name);
+    for (let steps = 0; part?.kind === "sub" && steps < this.all.length; steps++) part = this.get(part.parent);
+    return part && !isAside(part) ? part : undefined;
+  }
+
+  private isInModel(name: string): boolean {
+    const part = this.byName.get(name);
+    return part !== undefined && !isAside(part);
+  }
+
+  private hangsOnItself(part: Part): boolean {
+    return this.above(part.name).includes(part.name);
+  }
+}
+
+export const isAside = (part: Part): boolean => part.kind === "legend" || part.kind === "unused";
+
+/** Whether okoshi made the part's name up, as no string says it. */
+export const isAutomatic = (part: Part): boolean => part.string === null && !isAside(part);

@@ -1,0 +1,106 @@
+// Keys.
+
+import type { Commands } from "./commands";
+import type { Viewer } from "./stage/viewer";
+
+export interface Places {
+  readonly clips: { toggle(): void; step(keys: 1 | -1): void };
+  readonly findings: { flip(): void };
+  readonly tree: { focus(): void };
+  /** Shows all drawings, if there are several. */
+  readonly gallery: () => void;
+}
+
+/** Degrees for a press of an arrow. */
+const TURN = 10;
+const ZOOM = 1.2;
+const POSE = 5;
+
+export function listenToKeys(viewer: Viewer, commands: Commands, places: Places, shows: () => boolean): void {
+  const { view } = viewer;
+  addEventListener("keydown", (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
+    const target = event.target instanceof Element ? event.target : null;
+    // Keys that a field or an open dialog needs are its own; a button's are space and enter.
+    if (target?.closest("input, select, textarea, dialog")) return;
+    if (event.key === "?") {
+      event.preventDefault();
+      return commands.help();
+    }
+    if (!shows()) return;
+    if (target?.closest("button, a") && (event.key === " " || event.key === "Enter")) return;
+    const act = byPlace(event) ?? byLetter(event);
+    if (!act) return;
+    event.preventDefault();
+    act();
+  });
+
+  /** Keys that are where they are on every keyboard, whatever is printed on them with Shift. */
+  function byPlace({ code, shiftKey }: KeyboardEvent): (() => void) | undefined {
+    switch (code) {
+      case "Digit0":
+      case "Numpad0":
+        return () => view.look("threeQuarter");
+      case "Digit1":
+      case "Numpad1":
+        return () => view.look(shiftKey ? "back" : "front");
+      case "Digit3":
+      case "Numpad3":
+        return () => view.look(shiftKey ? "otherSide" : "side");
+      case "Digit7":
+      case "Numpad7":
+        return () => view.look(shiftKey ? "bottom" : "top");
+      case "Digit5":
+      case "Numpad5":
+        return () => commands.toggleParallel();
+      case "Comma":
+        return commands.isPosing ? () => commands.turn(POSE, shiftKey) : undefined;
+      case "Period":
+        return commands.isPosing ? () => commands.turn(-POSE, shiftKey) : undefined;
+    }
+    return undefined;
+  }
+
+  function byLetter({ key, shiftKey }: KeyboardEvent): (() => void) | undefined {
+    switch (key.length === 1 ? key.toLowerCase() : key) {
+      case "ArrowLeft":
+        return () => view.orbit(-TURN, 0);
+      case "ArrowRight":
+        return () => view.orbit(TURN, 0);
+      case "ArrowUp":
+        return () => view.orbit(0, TURN);
+      case "ArrowDown":
+        return () => view.orbit(0, -TURN);
+      case "+":
+      case "=":
+        return () => view.zoom(ZOOM);
+      case "-":
+        return () => view.zoom(1 / ZOOM);
+      case "f":
+        return shiftKey ? () => void commands.toggleFullScreen() : () => view.frame();
+      case "z":
+        return () => commands.nextShading();
+      case "p":
+        return () => commands.togglePosing();
+      case "s":
+        return () => void commands.screenshot(shiftKey);
+      case "d":
+        return () => void commands.download();
+      case "t":
+        return () => places.tree.focus();
+      case "e":
+        return () => places.findings.flip();
+      case "g":
+        return () => places.gallery();
+      case "j":
+        return () => places.clips.step(-1);
+      case "k":
+        return () => places.clips.step(1);
+      case " ":
+        return () => places.clips.toggle();
+      case "Escape":
+        return () => commands.escape();
+    }
+    return undefined;
+  }
+}

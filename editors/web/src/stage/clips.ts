@@ -1,0 +1,127 @@
+// Clips: which there are, which one shows, and where in it one is.
+
+import { AnimationMixer, InterpolateDiscrete, LoopOnce, type AnimationAction, type AnimationClip } from "three";
+import type { Model } from "./model";
+
+export interface Keys {
+  /** Seconds at which anything has a key, in order. */
+  readonly times: readonly number[];
+  /** Nothing moves between keys: each is a drawing that is held. */
+  readonly held: boolean;
+}
+
+/** Where a clip has keys. */
+export function keysOf(clip: Pick<AnimationClip, "tracks">): Keys {
+  const times = new Set<number>();
+  for (const track of clip.tracks) for (const time of track.times) times.add(time);
+  const held = clip.tracks.length > 0 && clip.tracks.every((track) => track.getInterpolation() === InterpolateDiscrete);
+  return { times: [...times].sort((a, b) => a - b), held };
+}
+
+/** Which of the held drawings shows at a time, counted from 1. */
+export function drawingAt({ times }: Keys, time: number): number {
+  let low = 0;
+  let high = times.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    // Keys are kept in single precision: a time that was read from one may lie a little before it.
+    if (times[middle]! <= time + 1e-5) low = middle + 1;
+    else high = middle;
+  }
+  return Math.max(low, 1);
+}
+
+export class Player {
+  private mixer: AnimationMixer | null = null;
+  private action: AnimationAction | null = null;
+  clips: readonly AnimationClip[] = [];
+  clip: AnimationClip | null = null;
+  keys: Keys = { times: [], held: false };
+  time = 0;
+  speed = 1;
+  loops = true;
+  playing = false;
+
+  /** Goes on in another model: with the clip of the same name at the same time, else with its first. `plays` if it had none. */
+  take(model: Model, plays: boolean): void {
+    const before = this.clip;
+    this.mixer?.stopAllAction();
+    this.clips = model.clips;
+    this.mixer = model.clips.length > 0 ? new AnimationMixer(model.root) : null;
+    const same = before && model.clips.find(({ name }) => name === before.name);
+    if (!same) {
+      this.time = 0;
+      this.playing = plays && model.clips.length > 0;
+    }
+    this.use(same ?? model.clips[0] ?? null);
+  }
+
+  /** There is no model any more. */
+  clear(): void {
+    this.mixer = this.action = this.clip = null;
+    this.clips = [];
+    this.time = 0;
+    this.playing = false;
+  }
+
+  choose(clip: AnimationClip): void {
+    this.time = 0;
+    this.use(clip);
+  }
+
+  play(on: boolean): void {
+    if (!this.clip) return;
+    if (on && this.time >= this.clip.duration) this.time = 0;
+    this.playing = on;
+  }
+
+  seek(time: number): void {
+    this.time = Math.min(Math.max(time, 0), this.clip?.duration ?? 0);
+    this.set();
+  }
+
+  /** Goes to the key before or after. */
+  step(keys: 1 | -1): void {
+    const { times } = this.keys;
+    const next = keys > 0 ? times.find((time) => time > this.time + 1e-5) : times.findLast((time) => time < this.time - 1e-5);
+    this.playing = false;
+    this.seek(next ?? (keys > 0 ? times[0] : times.at(-1)) ?? 0);
+  }
+
+  /** Lets time go by. True while it does. */
+  advance(seconds: number): boolean {
+    if (!this.playing || !this.clip) return false;
+    const { duration } = this.clip;
+    this.time += seconds * this.speed;
+    if (this.time >= duration) {
+      if (this.loops && duration > 0) this.time %= duration;
+      else {
+        this.time = duration;
+        this.playing = false;
+      }
+    }
+    this.set();
+    return this.playing;
+  }
+
+  private use(clip: AnimationClip | null): void {
+    this.mixer?.stopAllAction();
+    this.clip = clip;
+    this.keys = clip ? keysOf(clip) : { times: [], held: false };
+    this.action = clip && this.mixer ? this.mixer.clipAction(clip).setLoop(LoopOnce, 1) : null;
+    if (this.action) {
+      this.action.clampWhenFinished = true;
+      this.action.play();
+    }
+    this.time = Math.min(this.time, clip?.duration ?? 0);
+    this.set();
+  }
+
+  private set(): void {
+    if (!this.action || !this.mixer) return;
+    this.action.paused = false;
+    this.action.enabled = true;
+    this.action.time = this.time;
+    this.mixer.update(0);
+  }
+}

@@ -1,0 +1,92 @@
+// The ground: a soft shadow under the model, and a grid that fades out.
+
+import {
+  BufferGeometry,
+  Color,
+  DirectionalLight,
+  Float32BufferAttribute,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  PlaneGeometry,
+  ShadowMaterial,
+  type Box3,
+  type Scene,
+  Vector3,
+} from "three";
+
+/** Cells on each side of the model. */
+const CELLS = 12;
+
+export class Ground {
+  readonly group = new Group();
+  private readonly shadow = new Mesh(new PlaneGeometry(1, 1).rotateX(-Math.PI / 2), new ShadowMaterial({ opacity: 0.22, depthWrite: false }));
+  private readonly grid = new LineSegments(gridLines(), new LineBasicMaterial({ vertexColors: true, transparent: true, depthWrite: false }));
+  /** From straight above. It gives no light: only the ground asks what it reaches. */
+  private readonly sun = new DirectionalLight(0xffffff, 0);
+
+  constructor(scene: Scene) {
+    this.shadow.receiveShadow = true;
+    this.shadow.renderOrder = -1;
+    this.grid.renderOrder = -2;
+    this.sun.castShadow = true;
+    this.sun.shadow.mapSize.set(512, 512);
+    this.sun.shadow.radius = 6;
+    this.sun.shadow.blurSamples = 16;
+    this.group.add(this.grid, this.shadow, this.sun, this.sun.target);
+    this.group.visible = false;
+    scene.add(this.group);
+  }
+
+  /** Lies under a model that fills this box. */
+  fit(box: Box3): void {
+    const size = box.getSize(new Vector3());
+    const centre = box.getCenter(new Vector3());
+    const reach = Math.max(size.x, size.y, size.z, 1e-6);
+    const cell = 10 ** Math.round(Math.log10(reach / 5));
+    // A hair lower than the feet, so that soles and ground do not flicker.
+    this.group.position.set(0, box.min.y - reach * 0.001, 0);
+    this.grid.position.set(Math.round(centre.x / cell) * cell, 0, Math.round(centre.z / cell) * cell);
+    this.grid.scale.setScalar(cell);
+    this.shadow.position.set(centre.x, 0, centre.z);
+    this.shadow.scale.setScalar(reach * 4);
+    this.sun.position.set(centre.x, size.y + reach, centre.z);
+    this.sun.target.position.set(centre.x, 0, centre.z);
+    const camera = this.sun.shadow.camera;
+    // Room for limbs that are turned, and for the blur.
+    camera.left = camera.bottom = -reach * 1.1;
+    camera.right = camera.top = reach * 1.1;
+    camera.near = reach * 0.01;
+    camera.far = size.y + reach * 1.5;
+    camera.updateProjectionMatrix();
+    this.group.visible = true;
+  }
+
+  color(color: string): void {
+    this.grid.material.color = new Color(color);
+  }
+}
+
+function gridLines(): BufferGeometry {
+  const points: number[] = [];
+  const colors: number[] = [];
+  const add = (x: number, z: number): void => {
+    points.push(x, 0, z);
+    const far = Math.min(1, Math.hypot(x, z) / CELLS);
+    colors.push(1, 1, 1, (1 - far) ** 1.5 * 0.5);
+  };
+  for (let a = -CELLS; a <= CELLS; a++) {
+    // A line is cut into pieces, each of which can be paler than the last.
+    for (let b = -CELLS; b < CELLS; b++) {
+      add(a, b);
+      add(a, b + 1);
+      add(b, a);
+      add(b + 1, a);
+    }
+  }
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
+  geometry.setAttribute("color", new Float32BufferAttribute(colors, 4));
+  return geometry;
+}

@@ -1,0 +1,130 @@
+// A model that was read: which of its nodes are parts, how it is shaded, and what it takes on the graphics card.
+
+import { Box3, DoubleSide, Group, Mesh, SkinnedMesh, Texture, TextureLoader, Vector3, type AnimationClip, type Material, type Object3D } from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+
+export type Shading = "smooth" | "flat" | "wire" | "edges";
+
+/** Reads a GLB. Throws with a message for people when it is none. */
+export async function readModel(bytes: ArrayBuffer): Promise<Model> {
+  const loader = new GLTFLoader();
+  loader.register((parser) => {
+    // Textures are read as <img> elements: the other way fetches blobs, which the page's policy forbids.
+    parser.textureLoader = new TextureLoader(parser.options.manager);
+    return { name: "okoshi-images" };
+  });
+  const { scene, animations } = await loader.parseAsync(bytes, "");
+  return new Model(scene, animations);
+}
+
+export class Model {
+  /** Nodes by the names that the file gives them. */
+  private readonly nodes = new Map<string, Object3D>();
+  /** Nodes by the element they were made from: a part, and its copies. */
+  private readonly made = new Map<string, Object3D[]>();
+  private readonly materials = new Map<Material, { readonly flat: boolean }>();
+  readonly meshes: Mesh[] = [];
+  readonly box: Box3;
+  readonly triangles: number;
+
+  constructor(readonly root: Group, readonly clips: readonly AnimationClip[]) {
+    let triangles = 0;
+    root.traverse((object) => {
+      const name = nodeName(object);
+      if (name && !this.nodes.has(name)) this.nodes.set(name, object);
+      const element = elementOf(object);
+      if (element !== null) {
+        const same = this.made.get(element);
+        if (same) same.push(object);
+        else this.made.set(element, [object]);
+      }
+      if (!(object instanceof Mesh)) return;
+      this.meshes.push(object);
+      object.castShadow = true;
+      triangles += (object.geometry.index ?? object.geometry.getAttribute("position")).count / 3;
+      for (const material of materialsOf(object)) {
+        if (this.materials.has(material)) continue;
+        this.materials.set(material, { flat: "flatShading" in material && material.flatShading === true });
+        // One looks at a model from all sides, into open surfaces too.
+        material.side = DoubleSide;
+        material.polygonOffset = true;
+        material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
+      }
+    });
+    this.triangles = Math.round(triangles);
+    root.updateMatrixWorld(true);
+    this.box = new Box3().setFromObject(root);
+    if (this.box.isEmpty()) this.box.set(new Vector3(-0.5, 0, -0.5), new Vector3(0.5, 1, 0.5));
+  }
+
+  node(name: string): Object3D | undefined {
+    return this.nodes.get(name);
+  }
+
+  /** The nodes of a part, its copies included. */
+  nodesOf(part: { readonly name: string; readonly element: string }): readonly Object3D[] {
+    const made = this.made.get(part.element);
+    if (made) return made;
+    const node = this.nodes.get(part.name);
+    return node ? [node] : [];
+  }
+
+  /** The meshes of a node, without those of parts that hang on it. */
+  meshesOf(node: Object3D): Mesh[] {
+    const meshes: Mesh[] = [];
+    const collect = (object: Object3D): void => {
+      if (object instanceof Mesh && this.meshes.includes(object)) meshes.push(object);
+      for (const child of object.children) if (elementOf(child) === null) collect(child);
+    };
+    collect(node);
+    return meshes;
+  }
+
+  shade(shading: Shading): void {
+    for (const [material, { flat }] of this.materials) {
+      if ("flatShading" in material) material.flatShading = flat || shading === "flat";
+      if ("wireframe" in material) material.wireframe = shading === "wire";
+      material.needsUpdate = true;
+    }
+  }
+
+  dispose(): void {
+    for (const { geometry } of this.meshes) geometry.dispose();
+    for (const mesh of this.meshes) if (mesh instanceof SkinnedMesh) mesh.skeleton.dispose();
+    for (const material of this.materials.keys()) {
+      for (const value of Object.values(material)) if (value instanceof Texture) value.dispose();
+      material.dispose();
+    }
+    this.root.removeFromParent();
+  }
+}
+
+/** The name as the file has it; three.js takes some characters out of names that its animations use. */
+export function nodeName(object: Object3D): string {
+  const name: unknown = object.userData["name"];
+  return typeof name === "string" ? name : object.name;
+}
+
+/** The id of the element that a node was made from, or null for a node that is not a part's. */
+export function elementOf(object: Object3D): string | null {
+  const okoshi: unknown = object.userData["okoshi"];
+  if (typeof okoshi !== "object" || okoshi === null || !("element" in okoshi)) return null;
+  return typeof okoshi.element === "string" ? okoshi.element : null;
+}
+
+/** The part's node that an object belongs to. */
+export function partNode(object: Object3D): Object3D | null {
+  for (let at: Object3D | null = object; at; at = at.parent) if (elementOf(at) !== null) return at;
+  return null;
+}
+
+const materialsOf = ({ material }: Mesh): Material[] => (Array.isArray(material) ? material : [material]);
+
+/** Another mesh of the same shape and in the same place, to be drawn over it. The pointer does not meet it. */
+export function overlay(mesh: Mesh, material: Material, geometry = mesh.geometry): Mesh {
+  const copy = mesh instanceof SkinnedMesh ? new SkinnedMesh(geometry, material) : new Mesh(geometry, material);
+  if (copy instanceof SkinnedMesh) copy.bind((mesh as SkinnedMesh).skeleton, (mesh as SkinnedMesh).bindMatrix);
+  copy.raycast = () => {};
+  mesh.add(copy);
+  return copy;
+}

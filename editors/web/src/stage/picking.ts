@@ -1,0 +1,29 @@
+// What is under the pointer.
+
+import { Raycaster, Vector2, type Object3D, type Vector3 } from "three";
+import { partNode, type Model } from "./model";
+import type { View } from "./view";
+
+export interface Hit {
+  /** The node of the part that was met. */
+  readonly node: Object3D;
+  readonly point: Vector3;
+}
+
+/** The nearest part at a place of the window, or null. */
+export function pick(model: Model, view: View, canvas: HTMLElement, x: number, y: number): Hit | null {
+  const caster = new Raycaster();
+  caster.setFromCamera(place(canvas, x, y), view.camera);
+  // Surfaces are met from both sides, as they are seen.
+  for (const { object, point } of caster.intersectObjects(model.meshes, false)) {
+    const node = partNode(object);
+    if (node) return { node, point };
+  }
+  return null;
+}
+
+/** A place of the window in the picture: -1 to 1, to the right and up. */
+export function place(canvas: HTMLElement, x: number, y: number): Vector2 {
+  const { left, top, width, height } = canvas.getBoundingClientRect();
+  return new Vector2(((x - left) / width) * 2 - 1, 1 - ((y - top) / height) * 2);
+}

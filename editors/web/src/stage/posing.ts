@@ -1,0 +1,106 @@
+// Turning limbs with the pointer and with keys.
+
+import { Quaternion, Vector3, type Object3D } from "three";
+import { nodeName } from "./model";
+import type { Hit } from "./picking";
+import type { Pose } from "./pose";
+import type { View } from "./view";
+
+/** So near to the joint, in pixels, the direction of the pointer says little. */
+const NEAR = 10;
+/** Radians about the limb's own axis for a pixel to the right. */
+const TWIST = 0.01;
+
+interface Drag {
+  readonly node: Object3D;
+  readonly name: string;
+  readonly before: Quaternion | undefined;
+  x: number;
+  y: number;
+  /** Radians since the drag began. */
+  turned: number;
+}
+
+export class Posing {
+  private drag: Drag | null = null;
+
+  /** `told` hears which limb is turned and by how many degrees in this drag. */
+  constructor(
+    private readonly pose: Pose,
+    private readonly view: View,
+    private readonly canvas: HTMLElement,
+    private readonly told: (name: string, degrees: number) => void,
+  ) {}
+
+  get drags(): boolean {
+    return this.drag !== null;
+  }
+
+  begin({ node }: Hit, x: number, y: number): void {
+    const name = nodeName(node);
+    this.drag = { node, name, before: this.pose.get(name), x, y, turned: 0 };
+    this.told(name, 0);
+  }
+
+  move(x: number, y: number, aboutLimb: boolean): void {
+    const drag = this.drag;
+    if (!drag) return;
+    let angle: number;
+    if (aboutLimb) {
+      angle = (x - drag.x) * TWIST;
+      this.pose.turnAboutLimb(drag.node, angle);
+    } else {
+      const joint = this.onScreen(drag.node);
+      const from = [drag.x - joint.x, joint.y - drag.y] as const;
+      const to = [x - joint.x, joint.y - y] as const;
+      if (Math.hypot(...from) < NEAR || Math.hypot(...to) < NEAR) angle = 0;
+      else angle = Math.atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]);
+      this.pose.turnInWorld(drag.node, this.towardsViewer(drag.node), angle);
+    }
+    drag.x = x;
+    drag.y = y;
+    drag.turned += angle;
+    this.told(drag.name, (drag.turned * 180) / Math.PI);
+  }
+
+  end(): void {
+    this.drag = null;
+  }
+
+  /** Puts the limb back to where the drag began. */
+  cancel(): void {
+    if (this.drag) this.pose.put(this.drag.name, this.drag.before);
+    this.drag = null;
+  }
+
+  /** Turns a limb by degrees, counter-clockwise as one sees it, or about its own axis. */
+  turn(node: Object3D, degrees: number, aboutLimb: boolean): void {
+    const angle = (degrees * Math.PI) / 180;
+    if (aboutLimb) this.pose.turnAboutLimb(node, angle);
+    else this.pose.turnInWorld(node, this.towardsViewer(node), angle);
+    this.told(nodeName(node), this.pose.degrees(nodeName(node)));
+  }
+
+  /** The model was changed for another: the limb under the pointer is one of the new. */
+  renew(node: (name: string) => Object3D | undefined): void {
+    if (!this.drag) return;
+    const again = node(this.drag.name);
+    this.drag = again ? { ...this.drag, node: again } : null;
+  }
+
+  private joint(node: Object3D): Vector3 {
+    node.updateWorldMatrix(true, false);
+    return new Vector3().setFromMatrixPosition(node.matrixWorld);
+  }
+
+  private onScreen(node: Object3D): { x: number; y: number } {
+    const at = this.joint(node).project(this.view.camera);
+    const { left, top, width, height } = this.canvas.getBoundingClientRect();
+    return { x: left + ((at.x + 1) / 2) * width, y: top + ((1 - at.y) / 2) * height };
+  }
+
+  private towardsViewer(node: Object3D): Vector3 {
+    if (this.view.isParallel) return new Vector3(0, 0, 1).applyQuaternion(this.view.camera.quaternion);
+    return this.view.camera.position.clone().sub(this.joint(node)).normalize();
+  }
+}

@@ -1,0 +1,220 @@
+// Where the model is seen from: orbit, fixed views, perspective and parallel projection, framing.
+
+import { Box3, OrthographicCamera, PerspectiveCamera, Spherical, Vector3 } from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { wantsStillness } from "../dom";
+
+/** Degrees to the model's left and up, as `okoshi render --view` takes them. */
+export const VIEWS = {
+  threeQuarter: [30, 15],
+  front: [0, 0],
+  back: [180, 0],
+  side: [90, 0],
+  otherSide: [-90, 0],
+  top: [0, 90],
+  bottom: [0, -90],
+} as const satisfies Record<string, readonly [number, number]>;
+export type ViewName = keyof typeof VIEWS;
+
+const FIELD = 30;
+/** Milliseconds from one view to the next. */
+const MOVE = 220;
+/** What is left free around a framed model. */
+const MARGIN = 1.16;
+/** Straight above and below, left and right are not told apart: a view stays this far from there, in radians. */
+const POLE = 1e-4;
+
+export class View {
+  private readonly perspective = new PerspectiveCamera(FIELD, 1, 0.1, 100);
+  private readonly parallel = new OrthographicCamera(-1, 1, 1, -1, 0.1, 100);
+  private readonly controls: OrbitControls;
+  private readonly listeners: (() => void)[] = [];
+  private readonly box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
+  private aspect = 1;
+  private animation = 0;
+  camera: PerspectiveCamera | OrthographicCamera = this.perspective;
+
+  constructor(canvas: HTMLElement) {
+    this.perspective.position.set(2, 1, 3);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener("start", () => this.stop());
+    this.controls.addEventListener("change", () => this.changed());
+  }
+
+  onChange(listener: () => void): void {
+    this.listeners.push(listener);
+  }
+
+  /** While it is off, the pointer does not turn the view. */
+  set turns(on: boolean) {
+    this.controls.enabled = on;
+  }
+
+  get isParallel(): boolean {
+    return this.camera === this.parallel;
+  }
+
+  get target(): Vector3 {
+    return this.controls.target;
+  }
+
+  /** Where the camera is, as numbers: what it looks at, where from, how high the picture is there; and how it projects. */
+  describe(): string {
+    const numbers = [...this.controls.target.toArray(), ...this.camera.position.toArray(), this.height()];
+    return `${numbers.map((one) => Number(one.toPrecision(6))).join(" ")} ${this.isParallel ? "parallel" : "perspective"}`;
+  }
+
+  resize(aspect: number): void {
+    this.aspect = aspect;
+    this.perspective.aspect = aspect;
+    const half = (this.parallel.top - this.parallel.bottom) / 2;
+    this.parallel.left = -half * aspect;
+    this.parallel.right = half * aspect;
+    this.changed();
+  }
+
+  /** What there is to be seen. The camera stays. */
+  bound(box: Box3): void {
+    this.box.copy(box);
+    this.changed();
+  }
+
+  /** Moves until all is seen, from where the camera is or from the named view. */
+  frame(name?: ViewName, moves = true): void {
+    const direction = name ? directionOf(VIEWS[name]) : this.direction();
+    const centre = this.box.getCenter(new Vector3());
+    this.go(direction, centre, this.distanceFor(direction, centre), moves);
+  }
+
+  /** Looks from the named side; distance and target stay. */
+  look(name: ViewName): void {
+    this.go(directionOf(VIEWS[name]), this.controls.target.clone(), this.distance(), true);
+  }
+
+  /** Turns by degrees, to the right and up. */
+  orbit(right: number, up: number): void {
+    this.stop();
+    const at = new Spherical().setFromVector3(this.direction());
+    at.theta += (right * Math.PI) / 180;
+    at.phi = clamp(at.phi - (up * Math.PI) / 180, POLE, Math.PI - POLE);
+    this.place(new Vector3().setFromSpherical(at), this.controls.target, this.distance());
+  }
+
+  zoom(factor: number): void {
+    this.stop();
+    this.place(this.direction(), this.controls.target, this.distance() / factor);
+  }
+
+  /** Changes the projection; what is at the target keeps its size. */
+  setParallel(parallel: boolean): void {
+    if (parallel === this.isParallel) return;
+    const direction = this.direction();
+    const distance = this.distance();
+    this.camera = parallel ? this.parallel : this.perspective;
+    this.controls.object = this.camera;
+    this.place(direction, this.controls.target, distance);
+  }
+
+  private direction(): Vector3 {
+    const direction = this.camera.position.clone().sub(this.controls.target);
+    return direction.lengthSq() > 0 ? direction.normalize() : new Vector3(0, 0, 1);
+  }
+
+  /** How high the picture is at the target, in metres. */
+  private height(): number {
+    if (this.isParallel) return (this.parallel.top - this.parallel.bottom) / this.parallel.zoom;
+    return 2 * this.camera.position.distanceTo(this.controls.target) * Math.tan((FIELD * Math.PI) / 360);
+  }
+
+  /** The distance from which a picture in perspective is as high as this one. */
+  private distance(): number {
+    return this.height() / (2 * Math.tan((FIELD * Math.PI) / 360));
+  }
+
+  /** The least distance from which no corner of the box is outside the picture. */
+  private distanceFor(direction: Vector3, centre: Vector3): number {
+    const turn = new PerspectiveCamera();
+    turn.position.copy(direction);
+    turn.lookAt(0, 0, 0);
+    const inverse = turn.quaternion.clone().invert();
+    const up = Math.tan((FIELD * Math.PI) / 360) / MARGIN;
+    let distance = 1e-6;
+    for (let corner = 0; corner < 8; corner++) {
+      const { min, max } = this.box;
+      const at = new Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z).sub(centre).applyQuaternion(inverse);
+      distance = Math.max(distance, at.z + Math.abs(at.y) / up, at.z + Math.abs(at.x) / (up * this.aspect));
+    }
+    return distance;
+  }
+
+  private go(direction: Vector3, target: Vector3, distance: number, moves: boolean): void {
+    this.stop();
+    if (!moves || wantsStillness()) return this.place(direction, target, distance);
+    const from = { direction: this.direction(), target: this.controls.target.clone(), distance: this.distance() };
+    const turn = turnBetween(from.direction, direction);
+    const began = performance.now();
+    const step = (now: number): void => {
+      const t = clamp((now - began) / MOVE, 0, 1);
+      const eased = 1 - (1 - t) ** 3;
+      if (t === 1) {
+        this.animation = 0;
+        return this.place(direction, target, distance);
+      }
+      this.place(turn(eased), from.target.clone().lerp(target, eased), from.distance * (distance / from.distance) ** eased);
+      this.animation = requestAnimationFrame(step);
+    };
+    this.animation = requestAnimationFrame(step);
+  }
+
+  private stop(): void {
+    cancelAnimationFrame(this.animation);
+    this.animation = 0;
+  }
+
+  private place(direction: Vector3, target: Vector3, distance: number): void {
+    this.controls.target.copy(target);
+    this.camera.position.copy(target).addScaledVector(direction, distance);
+    if (this.isParallel) {
+      const half = distance * Math.tan((FIELD * Math.PI) / 360);
+      this.parallel.top = half;
+      this.parallel.bottom = -half;
+      this.parallel.left = -half * this.aspect;
+      this.parallel.right = half * this.aspect;
+      this.parallel.zoom = 1;
+    }
+    this.controls.update();
+    this.changed();
+  }
+
+  /** Puts the planes between which things are seen around the model and its ground. */
+  private changed(): void {
+    const reach = this.box.getSize(new Vector3()).length();
+    const centre = this.box.getCenter(new Vector3());
+    const away = this.camera.position.distanceTo(centre);
+    this.camera.far = away + reach * 10;
+    // The parallel camera sees what is behind it too: it may stand within a wide model.
+    this.camera.near = this.isParallel ? -reach * 10 : Math.max((away - reach * 10) / 2, this.camera.far / 20_000);
+    this.controls.minDistance = reach * 0.01;
+    this.controls.maxDistance = reach * 50;
+    this.camera.updateProjectionMatrix();
+    this.camera.updateMatrixWorld();
+    for (const listener of this.listeners) listener();
+  }
+}
+
+export const clamp = (value: number, least: number, most: number): number => Math.min(Math.max(value, least), most);
+
+/** The direction in which the camera stands, for degrees to the model's left and up. */
+export function directionOf([yaw, pitch]: readonly [number, number]): Vector3 {
+  const phi = clamp(((90 - pitch) * Math.PI) / 180, POLE, Math.PI - POLE);
+  return new Vector3().setFromSphericalCoords(1, phi, (yaw * Math.PI) / 180);
+}
+
+/** Directions from one to the other, round the vertical axis the shorter way and up or down, never over the pole. */
+function turnBetween(from: Vector3, to: Vector3): (t: number) => Vector3 {
+  const a = new Spherical().setFromVector3(from);
+  const b = new Spherical().setFromVector3(to);
+  const around = Math.atan2(Math.sin(b.theta - a.theta), Math.cos(b.theta - a.theta));
+  return (t) => new Vector3().setFromSphericalCoords(1, clamp(a.phi + (b.phi - a.phi) * t, POLE, Math.PI - POLE), a.theta + around * t);
+}

@@ -1,0 +1,230 @@
+// The model on the stage: which one it is, how it looks, what is marked in it, how it is posed, and the clip that plays.
+
+import type { Host } from "../host/host";
+import { count, wantsStillness } from "../dom";
+import type { State } from "../state";
+import { Ground } from "./ground";
+import { Highlight, type Mark } from "./highlight";
+import { Newest } from "./loading";
+import { elementOf, nodeName, readModel, type Model, type Shading } from "./model";
+import { Player } from "./clips";
+import { Pose } from "./pose";
+import { Stage } from "./stage";
+import { View } from "./view";
+import type { Object3D } from "three";
+
+/** A model that was asked for. */
+interface Wanted {
+  readonly drawing: string;
+  readonly connection: number;
+  readonly revision: number;
+  readonly address: string;
+}
+
+/** model: another is shown, or none · look: shading, projection or mode changed · time: the clip moved · pose: a limb did */
+export type ViewerTopic = "model" | "look" | "time" | "pose";
+
+export class Viewer {
+  readonly canvas = document.createElement("canvas");
+  readonly view: View;
+  readonly stage: Stage;
+  readonly pose = new Pose(() => this.model);
+  readonly player = new Player();
+  private readonly ground: Ground;
+  private readonly highlight = new Highlight();
+  private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
+  private readonly loading: Newest<Wanted, { model: Model; bytes: ArrayBuffer }>;
+  private shown: Wanted | null = null;
+  model: Model | null = null;
+  /** The file that the model was read from. */
+  bytes: ArrayBuffer | null = null;
+  /** Why the newest model is not shown, in words. */
+  failure = "";
+  shading: Shading = "smooth";
+
+  constructor(private readonly state: State, host: Host, place: HTMLElement) {
+    place.prepend(this.canvas);
+    this.view = new View(this.canvas);
+    this.stage = new Stage(place, this.canvas, this.view);
+    this.ground = new Ground(this.stage.scene);
+    this.loading = new Newest(
+      async ({ address }) => {
+        const bytes = await host.model(address);
+        const model = await readModel(bytes);
+        model.shade(this.shading);
+        // Shaders are made before the model is put in, so that the swap takes no longer than a frame.
+        await this.stage.renderer.compileAsync(model.root, this.view.camera, this.stage.scene);
+        return { model, bytes };
+      },
+      ({ model, bytes }, wanted) => this.take(model, bytes, wanted),
+      (error, wanted) => this.failed(error, wanted),
+    );
+    this.stage.beforeFrame((seconds) => this.step(seconds));
+    state.on(["current", "build", "link"], () => this.update());
+    state.on("selection", () => this.mark("selected"));
+    state.on("hover", () => this.mark("hovered"));
+    state.on("light", () => this.mark("lit"));
+  }
+
+  on(topics: readonly ViewerTopic[], listener: () => void): void {
+    for (const topic of topics) this.listeners.set(topic, [...(this.listeners.get(topic) ?? []), listener]);
+  }
+
+  /** The part that a node stands for. */
+  partOf(node: Object3D): string {
+    const element = elementOf(node);
+    const part = element === null ? undefined : this.state.parts.at(element);
+    return part?.name ?? nodeName(node);
+  }
+
+  nodesOf(name: string | null): readonly Object3D[] {
+    const part = name === null ? undefined : this.state.parts.carrier(name);
+    if (part && this.model) return this.model.nodesOf(part);
+    const node = name === null ? undefined : this.model?.node(name);
+    return node ? [node] : [];
+  }
+
+  setShading(shading: Shading): void {
+    this.shading = shading;
+    this.model?.shade(shading);
+    this.highlight.edges(this.model, shading === "edges");
+    this.stage.invalidate();
+    this.canvas.dataset["shading"] = shading;
+    this.tell("look");
+  }
+
+  setParallel(parallel: boolean): void {
+    this.view.setParallel(parallel);
+    this.tell("look");
+  }
+
+  /** Colours that follow the page's. */
+  setColors(accent: string, grid: string, ink: string): void {
+    this.highlight.color(accent, ink);
+    this.ground.color(grid);
+    this.stage.invalidate();
+  }
+
+  posed(): void {
+    this.pose.apply();
+    this.canvas.dataset["posed"] = this.pose.names.join(" ");
+    this.stage.invalidate();
+    this.tell("pose");
+  }
+
+  /** The clip was stopped, started or moved by a person. */
+  moved(change: () => void): void {
+    this.pose.release();
+    change();
+    this.pose.apply();
+    this.stage.invalidate();
+    this.tell("time");
+  }
+
+  /** Draws the model by itself while `draw` runs: no marks, no ground. */
+  bare<T>(draw: () => T): T {
+    this.highlight.show(false);
+    this.ground.group.visible = false;
+    try {
+      return draw();
+    } finally {
+      this.highlight.show(true);
+      this.ground.group.visible = true;
+      this.stage.invalidate();
+    }
+  }
+
+  private update(): void {
+    const { drawing, connection } = this.state;
+    const build = drawing?.build;
+    if (!drawing || (this.shown && this.shown.drawing !== drawing.id)) this.remove();
+    if (!drawing || !build) return;
+    if (build.model === null) {
+      if (this.shown) this.remove();
+      return;
+    }
+    const { shown } = this;
+    if (shown && shown.connection === connection && shown.address === build.model) {
+      // The same model; its parts may be bound by other strings now.
+      this.markAll();
+      return;
+    }
+    if (this.state.link === "lost") return;
+    this.loading.want({ drawing: drawing.id, connection, revision: build.revision, address: build.model });
+  }
+
+  private take(model: Model, bytes: ArrayBuffer, wanted: Wanted): void {
+    if (wanted.drawing !== this.state.current) return model.dispose();
+    const first = this.model === null;
+    this.pose.release();
+    for (const mark of ["hovered", "lit", "selected"] as const) this.highlight.clear(mark);
+    this.highlight.edges(null, false);
+    this.model?.dispose();
+    this.model = model;
+    this.bytes = bytes;
+    this.shown = wanted;
+    this.failure = "";
+    // The person may have changed it while the model was read.
+    model.shade(this.shading);
+    this.highlight.edges(model, this.shading === "edges");
+    this.player.take(model, !wantsStillness());
+    this.pose.apply();
+    this.stage.scene.add(model.root);
+    this.ground.fit(model.box);
+    this.view.bound(model.box);
+    if (first) this.view.frame("threeQuarter", false);
+    this.markAll();
+    this.canvas.dataset["revision"] = String(wanted.revision);
+    this.canvas.setAttribute("aria-label", `Model of ${this.state.drawing?.name ?? "the drawing"}: ${count(model.triangles, "triangle")}`);
+    this.stage.invalidate();
+    this.tell("model", "time");
+  }
+
+  private failed(error: unknown, wanted: Wanted): void {
+    if (wanted.drawing !== this.state.current || this.state.link === "lost") return;
+    this.failure = error instanceof Error ? error.message : String(error);
+    this.tell("model");
+  }
+
+  private remove(): void {
+    for (const mark of ["hovered", "lit", "selected"] as const) this.highlight.clear(mark);
+    this.highlight.edges(null, false);
+    this.pose.reset();
+    this.model?.dispose();
+    this.model = null;
+    this.bytes = null;
+    this.shown = null;
+    this.failure = "";
+    this.player.clear();
+    this.ground.group.visible = false;
+    delete this.canvas.dataset["revision"];
+    this.stage.invalidate();
+    this.tell("model", "time", "pose");
+  }
+
+  private markAll(): void {
+    for (const mark of ["hovered", "lit", "selected"] as const) this.mark(mark);
+  }
+
+  private mark(mark: Mark): void {
+    const name = { hovered: this.state.hovered, lit: this.state.lit, selected: this.state.selected }[mark];
+    const nodes = this.nodesOf(name);
+    if (this.model) this.highlight.set(mark, this.model, nodes);
+    this.canvas.dataset[mark] = nodes.map(nodeName).join(" ");
+    this.stage.invalidate();
+  }
+
+  private step(seconds: number): boolean {
+    this.highlight.measure(this.stage.renderer);
+    if (!this.player.playing) return false;
+    this.pose.release();
+    const more = this.player.advance(seconds);
+    this.pose.apply();
+    this.tell("time");
+    return more;
+  }
+
+  private tell(...topics: ViewerTopic[]): void {
+    for (const topic of topics) for (const listener of this.listeners.get(topic) ?? []) listener();
+  }
+}

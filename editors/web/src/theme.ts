@@ -1,0 +1,26 @@
+// Colours that the stage takes from the page: of the system's light or dark mode, or of the editor's theme.
+
+export interface Colors {
+  readonly accent: string;
+  readonly grid: string;
+  readonly ink: string;
+}
+
+export function followTheme(apply: (colors: Colors) => void): void {
+  const read = (): void => {
+    // Asked of an element, a colour comes as numbers, however the style sheet or the editor wrote it.
+    const probe = document.createElement("span");
+    document.body.append(probe);
+    const color = (name: string): string => {
+      probe.style.color = `var(${name})`;
+      return getComputedStyle(probe).color;
+    };
+    apply({ accent: color("--accent"), grid: color("--grid"), ink: color("--ink") });
+    probe.remove();
+  };
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", read);
+  // VS Code changes classes and style of body and html with its theme. The probe is a child: it does not set this off.
+  const observer = new MutationObserver(read);
+  for (const element of [document.documentElement, document.body]) observer.observe(element, { attributes: true, attributeFilter: ["class", "style"] });
+  read();
+}

@@ -1,0 +1,97 @@
+// Chromium, and what tests ask of it.
+
+import { accessSync, constants, existsSync, mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
+import { PNG } from "pngjs";
+import { OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
+
+const executable = (path: string): boolean => {
+  try {
+    accessSync(path, constants.X_OK);
+    return true;
+  } catch {
+    return false;
+  }
+};
+
+export const CHROMIUM = [process.env["CHROMIUM"], "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => path && executable(path));
+export const OUT = join("test", "out");
+
+export async function launch(): Promise<Browser> {
+  mkdirSync(OUT, { recursive: true });
+  if (!CHROMIUM || !existsSync(CHROMIUM)) throw new Error("there is no Chromium");
+  return chromium.launch({
+    executablePath: CHROMIUM,
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+  });
+}
+
+/** A page whose errors, policy breaches among them, fail the test through `wrong`. */
+export async function open(browser: Browser, address: string, options: BrowserContextOptions = {}): Promise<{ page: Page; wrong: string[] }> {
+  const context = await browser.newContext({ viewport: { width: 1200, height: 800 }, reducedMotion: "reduce", ...options });
+  const page = await context.newPage();
+  page.setDefaultTimeout(20_000);
+  const wrong: string[] = [];
+  page.on("pageerror", (error) => wrong.push(String(error)));
+  page.on("console", (message) => {
+    if (message.type() !== "error" && message.type() !== "warning") return;
+    // What the software renderer says of its own speed, and what a browser says of a host that is away.
+    if (/GPU stall|KHR_parallel_shader_compile|GL Driver Message|WebSocket connection to|net::ERR_CONNECTION/.test(message.text())) return;
+    wrong.push(message.text());
+  });
+  await page.goto(address);
+  return { page, wrong };
+}
+
+/** Waits until the model of this build is shown, or of any. */
+export async function shown(page: Page, revision?: number): Promise<void> {
+  await page.waitForSelector(revision === undefined ? "canvas[data-revision]" : `canvas[data-revision="${revision}"]`, { state: "attached" });
+  await still(page);
+}
+
+/** Waits until nothing is drawn any more. */
+export async function still(page: Page): Promise<void> {
+  await page.evaluate(async () => {
+    const canvas = document.querySelector("canvas")!;
+    for (let last = ""; last !== (canvas.dataset["frames"] ?? "-"); ) {
+      last = canvas.dataset["frames"] ?? "-";
+      await new Promise((resolve) => setTimeout(resolve, 120));
+    }
+  });
+}
+
+/** Where the camera is, as the page says. */
+export const camera = async (page: Page): Promise<string> => (await page.getAttribute("canvas", "data-view")) ?? "";
+
+/** Where in the window a place of the model is seen. */
+export async function project(page: Page, x: number, y: number, z: number): Promise<{ x: number; y: number }> {
+  const words = (await camera(page)).split(" ");
+  const [tx, ty, tz, px, py, pz, height] = words.map(Number) as [number, number, number, number, number, number, number];
+  const box = (await page.locator("canvas").boundingBox())!;
+  const aspect = box.width / box.height;
+  const half = height / 2;
+  const eye = words.at(-1) === "parallel" ? new OrthographicCamera(-half * aspect, half * aspect, half, -half, -1000, 1000) : new PerspectiveCamera((Math.atan(half / Math.hypot(px - tx, py - ty, pz - tz)) * 360) / Math.PI, aspect);
+  eye.position.set(px, py, pz);
+  eye.lookAt(tx, ty, tz);
+  eye.updateMatrixWorld();
+  const at = new Vector3(x, y, z).project(eye);
+  return { x: box.x + ((at.x + 1) / 2) * box.width, y: box.y + ((1 - at.y) / 2) * box.height };
+}
+
+export type Colour = readonly [number, number, number];
+
+/** The window as it is seen. */
+export async function picture(page: Page, name?: string): Promise<{ at(place: { x: number; y: number }): Colour; width: number; height: number; data: Buffer }> {
+  const png = PNG.sync.read(await page.screenshot(name ? { path: join(OUT, `${name}.png`) } : {}));
+  const scale = png.width / page.viewportSize()!.width;
+  return {
+    width: png.width,
+    height: png.height,
+    data: png.data,
+    at: ({ x, y }) => {
+      const start = (Math.round(y * scale) * png.width + Math.round(x * scale)) * 4;
+      return [png.data[start]!, png.data[start + 1]!, png.data[start + 2]!];
+    },
+  };
+}

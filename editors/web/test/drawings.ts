@@ -1,0 +1,53 @@
+// What a host would say of a drawing, made with the program itself.
+
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { basename, dirname, join } from "node:path";
+
+export interface Made {
+  readonly model: Buffer | null;
+  readonly picture: Buffer | null;
+  readonly build: Record<string, unknown>;
+}
+
+interface Diagnostic {
+  readonly code: string;
+  readonly severity: string;
+  readonly message: string;
+  readonly label: string | null;
+  readonly help: string | null;
+  readonly line: number;
+  readonly column: number;
+  readonly end_line: number;
+  readonly end_column: number;
+}
+
+/** Builds a drawing's text, beside the file whose links it has. */
+export function make(okoshi: string, text: string, beside: string): Made {
+  const scratch = mkdtempSync(join(tmpdir(), "okoshi-web-"));
+  // The drawing lies where its links are found; its name keeps it from others'.
+  const drawing = join(dirname(beside), `.${basename(scratch)}.svg`);
+  try {
+    writeFileSync(drawing, text);
+    const run = (...args: string[]) => spawnSync(okoshi, args, { encoding: "utf8", maxBuffer: 1 << 28 });
+    const built = run("build", "-q", drawing, "-o", join(scratch, "a.glb")).status === 0;
+    if (built) execFileSync(okoshi, ["render", "-q", join(scratch, "a.glb"), "-o", join(scratch, "a.png"), "--size", "256x256"]);
+    const { parts } = JSON.parse(run("inspect", drawing, "--json").stdout) as { parts: unknown[] };
+    const { drawings } = JSON.parse(run("check", drawing, "--format", "json").stdout) as { drawings: { diagnostics: Diagnostic[] }[] };
+    const lines = text.split("\n");
+    const findings = drawings[0]!.diagnostics.map(({ code, severity, message, label, help, line, column, end_line, end_column }) => {
+      const source = lines[line - 1] ?? "";
+      const to = end_line === line ? end_column - 1 : Array.from(source).length;
+      return { severity, code, message, label: label ?? undefined, help: help === null ? [] : [help], line, column, text: source, from: column - 1, to };
+    });
+    return {
+      model: built ? readFileSync(join(scratch, "a.glb")) : null,
+      picture: built ? readFileSync(join(scratch, "a.png")) : null,
+      build: { milliseconds: 12.3, stale: !built, triangles: 0, findings, parts },
+    };
+  } finally {
+    rmSync(drawing, { force: true });
+    rmSync(scratch, { recursive: true, force: true });
+  }
+}

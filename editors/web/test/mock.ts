@@ -1,0 +1,126 @@
+// A host for the page: serves the bundle under a strict policy, models and pictures by GET, messages through a WebSocket.
+
+import { readFileSync } from "node:fs";
+import { createServer, type IncomingMessage, type Server, type ServerResponse } from "node:http";
+import type { AddressInfo } from "node:net";
+import { join } from "node:path";
+import { WebSocketServer, type WebSocket } from "ws";
+import type { Made } from "./drawings";
+
+/** What the page can do with. */
+export const POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'";
+
+const TYPES: Readonly<Record<string, string>> = { html: "text/html; charset=utf-8", js: "text/javascript; charset=utf-8", css: "text/css; charset=utf-8", glb: "model/gltf-binary", png: "image/png" };
+
+interface Held {
+  readonly id: string;
+  name: string;
+  folder: string;
+  build: Record<string, unknown> | null;
+  gone: boolean;
+}
+
+export class MockHost {
+  private server: Server | null = null;
+  private sockets: WebSocketServer | null = null;
+  private readonly files = new Map<string, Buffer>();
+  private readonly drawings = new Map<string, Held>();
+  private builds = 0;
+  private port = 0;
+  /** What the page said. */
+  readonly heard: Record<string, unknown>[] = [];
+  /** Models are answered this much later, in milliseconds. */
+  delay = 0;
+  /** Addresses that were asked for. */
+  readonly asked: string[] = [];
+
+  constructor(private readonly dist: string) {}
+
+  get address(): string {
+    return `http://127.0.0.1:${this.port}/`;
+  }
+
+  /** Begins to answer; after a stop at the same port. */
+  async start(): Promise<void> {
+    const server = createServer((request, response) => this.answer(request, response));
+    this.sockets = new WebSocketServer({ server, path: "/live" });
+    this.sockets.on("connection", (socket) => this.greet(socket));
+    await new Promise<void>((resolve) => server.listen(this.port, "127.0.0.1", resolve));
+    this.port = (server.address() as AddressInfo).port;
+    this.server = server;
+  }
+
+  async stop(): Promise<void> {
+    for (const socket of this.sockets?.clients ?? []) socket.terminate();
+    this.sockets?.close();
+    this.server?.closeAllConnections();
+    await new Promise((resolve) => this.server?.close(resolve));
+  }
+
+  /** Begins to count builds anew, as a host does that was started again. */
+  forget(): void {
+    this.builds = 0;
+    this.files.clear();
+    this.drawings.clear();
+  }
+
+  add(id: string, name = id, folder = ""): void {
+    this.drawings.set(id, { id, name, folder, build: null, gone: false });
+    this.say({ type: "drawings", drawings: this.list() });
+  }
+
+  /** A drawing was built. One with errors keeps its last good model. */
+  built(id: string, { model, picture, build }: Made): void {
+    const held = this.drawings.get(id)!;
+    const number = ++this.builds;
+    const before = held.build;
+    if (model) this.files.set(`/builds/${number}.glb`, model);
+    if (picture) this.files.set(`/builds/${number}.png`, picture);
+    held.gone = false;
+    held.build = {
+      ...build,
+      revision: number,
+      model: model ? `builds/${number}.glb` : (before?.["model"] ?? null),
+      picture: picture ? `builds/${number}.png` : (before?.["picture"] ?? null),
+    };
+    this.say({ type: "build", drawing: id, build: held.build, aFieldOfTheFuture: 1 });
+  }
+
+  gone(id: string): void {
+    this.drawings.get(id)!.gone = true;
+    this.say({ type: "gone", drawing: id });
+  }
+
+  say(message: unknown): void {
+    for (const socket of this.sockets?.clients ?? []) socket.send(JSON.stringify(message));
+  }
+
+  private list() {
+    return [...this.drawings.values()].map(({ id, name, folder }) => ({ id, name, folder }));
+  }
+
+  private greet(socket: WebSocket): void {
+    socket.on("message", (data) => this.heard.push(JSON.parse(String(data)) as Record<string, unknown>));
+    socket.send("not json");
+    socket.send(JSON.stringify({ type: "ofTheFuture" }));
+    socket.send(JSON.stringify({ type: "drawings", drawings: this.list() }));
+    for (const { id, build, gone } of this.drawings.values()) {
+      if (build) socket.send(JSON.stringify({ type: "build", drawing: id, build }));
+      if (gone) socket.send(JSON.stringify({ type: "gone", drawing: id }));
+    }
+  }
+
+  private answer({ url = "/" }: IncomingMessage, response: ServerResponse): void {
+    const { pathname } = new URL(url, this.address);
+    this.asked.push(pathname);
+    const page = pathname === "/" ? "page.html" : /^\/page\.(js|css)$/.test(pathname) ? pathname.slice(1) : null;
+    const body = page ? readFileSync(join(this.dist, page)) : this.files.get(pathname);
+    const type = TYPES[(page ?? pathname).split(".").at(-1) ?? ""] ?? "application/octet-stream";
+    const send = () =>
+      response
+        .writeHead(body ? 200 : 404, { "content-type": type, "content-security-policy": POLICY, "x-content-type-options": "nosniff", "cache-control": "no-store" })
+        .end(body ?? "");
+    if (this.delay > 0 && pathname.endsWith(".glb")) setTimeout(send, this.delay);
+    else send();
+  }
+}
