@@ -3,13 +3,16 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::SystemTime;
 use std::{env, fs};
 
 const FILES: [&str; 3] = ["page.html", "page.js", "page.css"];
+/// What it is made from.
+const SOURCES: [&str; 4] = ["src", "scripts", "package.json", "package-lock.json"];
 
 fn main() {
     let folder = Path::new("editors/web");
-    for watched in ["src", "package.json", "package-lock.json", "build.mjs"] {
+    for watched in SOURCES {
         println!("cargo::rerun-if-changed={}", folder.join(watched).display());
     }
     println!("cargo::rerun-if-env-changed=OKOSHI_NO_PAGE");
@@ -61,16 +64,19 @@ fn is_old(folder: &Path) -> bool {
     let Some(oldest) = dist.min().flatten() else {
         return true;
     };
-    let sources = fs::read_dir(folder.join("src"))
-        .into_iter()
-        .flatten()
-        .flatten();
-    let sources = sources.map(|entry| entry.path());
-    let others = ["package.json", "package-lock.json", "build.mjs"].map(|name| folder.join(name));
-    sources
-        .chain(others)
-        .filter_map(time)
-        .any(|changed| changed > oldest)
+    SOURCES
+        .iter()
+        .any(|name| newest(&folder.join(name)) > Some(oldest))
+}
+
+/// When a file, or the youngest file in a folder, was written.
+fn newest(path: &Path) -> Option<SystemTime> {
+    let metadata = fs::metadata(path).ok()?;
+    if !metadata.is_dir() {
+        return metadata.modified().ok();
+    }
+    let entries = fs::read_dir(path).ok()?.flatten();
+    entries.filter_map(|entry| newest(&entry.path())).max()
 }
 
 fn npm(folder: &Path, arguments: &[&str]) -> Result<(), String> {

@@ -5,6 +5,7 @@
 )]
 
 pub(crate) mod editor;
+pub(crate) mod live;
 pub(crate) mod program;
 
 use std::collections::{BTreeSet, HashMap, HashSet};

@@ -1,0 +1,90 @@
+//! A program that runs until it is stopped, and what it says meanwhile.
+
+use std::io::{BufRead, BufReader, Read};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::time::{Duration, Instant};
+
+/// How long something may take that must happen.
+const PATIENCE: Duration = Duration::from_secs(20);
+
+/// A process, which ends with this.
+pub(crate) struct Live {
+    child: Child,
+    lines: Receiver<String>,
+}
+
+impl Live {
+    /// Starts `okoshi` in a folder.
+    pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Self {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_okoshi"))
+            .args(arguments)
+            .current_dir(folder)
+            .env("NO_COLOR", "1")
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("the program starts");
+        let (sender, lines) = channel();
+        let streams: [Box<dyn Read + Send>; 2] = [
+            Box::new(child.stdout.take().expect("stdout")),
+            Box::new(child.stderr.take().expect("stderr")),
+        ];
+        for stream in streams {
+            let sender = sender.clone();
+            std::thread::spawn(move || {
+                for line in BufReader::new(stream).lines().map_while(Result::ok) {
+                    let _ = sender.send(line);
+                }
+            });
+        }
+        Self { child, lines }
+    }
+
+    /// The next line that holds `wanted`.
+    #[track_caller]
+    pub(crate) fn line(&self, wanted: &str) -> String {
+        let end = Instant::now() + PATIENCE;
+        let mut said = vec![];
+        while let Ok(line) = self
+            .lines
+            .recv_timeout(end.saturating_duration_since(Instant::now()))
+        {
+            if line.contains(wanted) {
+                return line;
+            }
+            said.push(line);
+        }
+        panic!("nothing with `{wanted}` was said, but {said:#?}");
+    }
+
+    /// All lines that come within a time.
+    pub(crate) fn during(&self, time: Duration) -> Vec<String> {
+        let end = Instant::now() + time;
+        let next = || {
+            self.lines
+                .recv_timeout(end.saturating_duration_since(Instant::now()))
+        };
+        std::iter::from_fn(|| next().ok()).collect()
+    }
+
+    /// Ends it as a power cut would.
+    pub(crate) fn kill(mut self) -> Vec<String> {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+        let mut lines = vec![];
+        while let Ok(line) = self.lines.recv_timeout(PATIENCE) {
+            lines.push(line);
+        }
+        lines
+    }
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}

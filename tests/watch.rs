@@ -1,0 +1,237 @@
+//! `okoshi watch` with a real process and real files: saves of all kinds, and kills.
+
+mod common;
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::Path;
+use std::process::Command;
+use std::thread::sleep;
+use std::time::Duration;
+
+use common::live::Live;
+
+/// A drawing whose model depends on a number.
+fn drawing(width: u32) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"400\" height=\"200\">\n\
+         <rect x=\"20\" y=\"20\" width=\"{width}\" height=\"40\" fill=\"#cc0000\" id=\"body\"/>\n\
+         <text x=\"50\" y=\"44\" font-size=\"5\">Body$Shape default -5 5</text>\n{}</svg>\n",
+        format!("<!-- {} -->\n", "padding ".repeat(120)).repeat(10)
+    )
+}
+
+/// A folder with a drawing that is watched.
+fn watched(arguments: &[&str]) -> (tempfile::TempDir, Live) {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("a.svg"), drawing(50)).expect("written");
+    let live = Live::start(folder.path(), &[&["watch"], arguments].concat());
+    live.line("a.glb in");
+    live.line("watching 1 drawing");
+    (folder, live)
+}
+
+/// The width of the model, which is its largest extent, centimetres.
+fn width(folder: &Path) -> u32 {
+    let glb = fs::read(folder.join("a.glb")).expect("a model");
+    let nodes = common::nodes(&glb).expect("a sound model");
+    let body = nodes
+        .iter()
+        .find(|node| node.name == "Body")
+        .expect("the part");
+    let positions = || {
+        body.primitives
+            .iter()
+            .flat_map(|primitive| &primitive.positions)
+    };
+    let extent = |axis: usize| {
+        let along = || positions().map(|position| position[axis]);
+        along().fold(f32::MIN, f32::max) - along().fold(f32::MAX, f32::min)
+    };
+    ((0..3).map(extent).fold(0.0, f32::max) * 100.0).round() as u32
+}
+
+/// Writes as Inkscape does: emptied, then piece by piece.
+fn in_pieces(path: &Path, text: &str) {
+    let mut file = File::create(path).expect("created");
+    for piece in text.as_bytes().chunks(4096) {
+        file.write_all(piece).expect("written");
+        sleep(Duration::from_millis(3));
+    }
+}
+
+#[test]
+fn every_save_is_built_once_however_it_is_made() {
+    let (folder, live) = watched(&["a.svg"]);
+    let path = folder.path().join("a.svg");
+    let mut widths = vec![];
+    for save in 0..40 {
+        let now = 60 + save;
+        match save % 4 {
+            0 | 1 => in_pieces(&path, &drawing(now)),
+            2 => {
+                let text = fs::read_to_string(&path).expect("read");
+                let before = format!("width=\"{}\" height=\"40\"", now - 1);
+                let after = format!("width=\"{now}\" height=\"40\"");
+                assert!(text.contains(&before));
+                let status = Command::new("sed")
+                    .args(["-i", &format!("s/{before}/{after}/")])
+                    .arg(&path)
+                    .status();
+                assert!(status.expect("sed").success());
+            }
+            _ => {
+                fs::remove_file(&path).expect("removed");
+                sleep(Duration::from_millis(20));
+                fs::write(&path, drawing(now)).expect("written");
+            }
+        }
+        let line = live.line("a.svg: ");
+        assert!(line.contains("a.glb in"), "{line}");
+        widths.push(width(folder.path()));
+    }
+    assert_eq!(widths, (60..100).collect::<Vec<_>>());
+    assert_eq!(
+        live.during(Duration::from_millis(300)),
+        Vec::<String>::new()
+    );
+}
+
+#[test]
+fn a_save_that_changes_nothing_builds_nothing() {
+    let (folder, live) = watched(&["a.svg"]);
+    for _ in 0..5 {
+        in_pieces(&folder.path().join("a.svg"), &drawing(50));
+    }
+    assert_eq!(
+        live.during(Duration::from_millis(600)),
+        Vec::<String>::new()
+    );
+}
+
+#[test]
+fn a_cut_drawing_is_an_error_only_after_a_while_and_the_model_stays() {
+    let (folder, live) = watched(&["a.svg"]);
+    let path = folder.path().join("a.svg");
+    let text = drawing(70);
+    fs::write(&path, &text[..text.len() / 2]).expect("written");
+    assert_eq!(
+        live.during(Duration::from_millis(500)),
+        Vec::<String>::new()
+    );
+    fs::write(&path, &text).expect("written");
+    let line = live.line("a.svg: ");
+    assert!(line.contains("a.glb in"), "{line}");
+    fs::write(&path, &text[..text.len() / 2]).expect("written");
+    live.line("error[E001]");
+    live.line("a.svg: 1 error, a.glb stays as it was");
+    assert_eq!(width(folder.path()), 70);
+    fs::remove_file(&path).expect("removed");
+    live.line("a.svg: it is gone; waiting for it");
+    fs::write(&path, drawing(80)).expect("written");
+    live.line("a.glb in");
+    assert_eq!(width(folder.path()), 80);
+}
+
+#[test]
+fn linked_files_are_watched_before_they_are_there() {
+    let (folder, live) = watched(&["a.svg"]);
+    let linking = drawing(50).replace("-5 5<", "-5 5 Texture \"skin.png\"<");
+    fs::write(folder.path().join("a.svg"), linking).expect("written");
+    live.line("error[E006]");
+    live.line("a.glb stays");
+    let picture = |colour: [u8; 3]| {
+        let image = image::RgbImage::from_pixel(4, 4, image::Rgb(colour));
+        image
+            .save(folder.path().join("skin.png"))
+            .expect("a picture");
+    };
+    picture([255, 0, 0]);
+    live.line("a.glb in");
+    let red = fs::read(folder.path().join("a.glb")).expect("a model");
+    picture([0, 255, 0]);
+    live.line("a.glb in");
+    assert_ne!(red, fs::read(folder.path().join("a.glb")).expect("a model"));
+    fs::remove_file(folder.path().join("skin.png")).expect("removed");
+    live.line("error[E006]");
+}
+
+#[test]
+fn a_folder_is_watched_with_all_that_comes_into_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::create_dir(folder.path().join("in")).expect("a folder");
+    let live = Live::start(folder.path(), &["watch", "in", "-o", "out"]);
+    live.line("no drawings there yet");
+    fs::write(folder.path().join("in/one.svg"), drawing(50)).expect("written");
+    live.line("one.glb in");
+    fs::create_dir_all(folder.path().join("in/deep/er")).expect("a folder");
+    sleep(Duration::from_millis(200));
+    fs::write(folder.path().join("in/deep/er/two.svg"), drawing(50)).expect("written");
+    live.line("two.glb in");
+    let built = folder.path().join("out");
+    for glb in ["one.glb", "deep/er/two.glb"] {
+        common::nodes(&fs::read(built.join(glb)).expect("there")).expect("a sound model");
+    }
+    assert!(!folder.path().join("in/one.glb").exists());
+}
+
+#[test]
+fn polling_sees_saves_too() {
+    let (folder, live) = watched(&["a.svg", "--poll=30"]);
+    for now in 60..65 {
+        in_pieces(&folder.path().join("a.svg"), &drawing(now));
+        live.line("a.glb in");
+        assert_eq!(width(folder.path()), now);
+    }
+}
+
+#[test]
+fn what_cannot_be_watched_is_said_at_once() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let live = Live::start(folder.path(), &["watch", "nowhere.svg"]);
+    live.line("error: `nowhere.svg` is not there; check the path");
+}
+
+#[test]
+fn a_kill_at_any_moment_leaves_a_sound_model() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("a.svg");
+    let many = |shift: usize| {
+        let circle = |index: usize| {
+            format!(
+                "<circle cx=\"{}\" cy=\"{}\" r=\"9\" fill=\"#00f\"/>\n",
+                20 * (index % 20) + shift % 7,
+                20 * (index / 20)
+            )
+        };
+        let circles: String = (0..200).map(circle).collect();
+        drawing(50).replace("<text", &format!("{circles}<text"))
+    };
+    let mut random = 12345_u64;
+    let (mut builds, mut kills, mut saves) = (0, 0, 0);
+    while builds < 200 {
+        fs::write(&path, many(saves)).expect("written");
+        let live = Live::start(folder.path(), &["watch", "a.svg", "-q"]);
+        random = random.wrapping_mul(6364136223846793005).wrapping_add(1);
+        let life = 30 + (random >> 33) % 400;
+        let mut last = fs::read(folder.path().join("a.glb")).unwrap_or_default();
+        let end = std::time::Instant::now() + Duration::from_millis(life);
+        while std::time::Instant::now() < end {
+            saves += 1;
+            fs::write(&path, many(saves)).expect("written");
+            sleep(Duration::from_millis(6));
+            let now = fs::read(folder.path().join("a.glb")).unwrap_or_default();
+            if now != last {
+                builds += 1;
+                last = now;
+            }
+        }
+        live.kill();
+        kills += 1;
+        if let Ok(glb) = fs::read(folder.path().join("a.glb")) {
+            let nodes = common::nodes(&glb).expect("a sound model after a kill");
+            assert_eq!(nodes.len(), 202);
+        }
+    }
+    println!("{builds} builds, {kills} kills");
+}
