@@ -4,10 +4,12 @@ mod common;
 
 use std::cell::Cell;
 use std::fs;
+use std::io::Cursor;
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use okoshi::compile::{Compiled, Compiler, Options, compile};
+use okoshi::gltf::{Container, Memory, write_again};
 use okoshi::resolver::{LinkError, Resolver};
 use okoshi::source::Text;
 use proptest::prelude::*;
@@ -286,6 +288,14 @@ fn all(compiled: &Compiled) -> String {
     format!("{:?}\n{:?}", compiled.sheet, compiled.drawing)
 }
 
+/// The model, with what is remembered of the ones before.
+fn written(compiled: &Compiled, memory: &mut Memory) -> Vec<u8> {
+    let mut out = Cursor::new(Vec::new());
+    let written = write_again(&compiled.scene, Container::Glb, &mut out, memory);
+    written.expect("a scene keeps its own rules");
+    out.into_inner()
+}
+
 /// Does some acts one after another, and looks every time whether both ways to compile agree. Tells how often the
 /// drawing was not read anew.
 fn agree(drawing: &str, acts: &[Act]) -> Result<usize, TestCaseError> {
@@ -296,7 +306,8 @@ fn agree(drawing: &str, acts: &[Act]) -> Result<usize, TestCaseError> {
     let mut undo = Vec::new();
     let mut last = compiler.compile(&text, &options, &files);
     let mut partial = 0;
-    for act in acts {
+    let mut memory = Memory::default();
+    for (step, act) in acts.iter().enumerate() {
         match act {
             Act::Undo(count) => {
                 for _ in 0..*count {
@@ -319,6 +330,10 @@ fn agree(drawing: &str, acts: &[Act]) -> Result<usize, TestCaseError> {
         prop_assert_eq!(told(&again), told(&anew), "{:?} made {}", act, text);
         prop_assert!(all(&again) == all(&anew), "{:?} made {}", act, text);
         prop_assert!(again.scene == anew.scene, "{:?} made {}", act, text);
+        if step % 3 == 0 {
+            let written = written(&again, &mut memory);
+            prop_assert!(written == common::glb(&anew), "{:?} made {}", act, text);
+        }
         // What the last one held must not have changed under it; every other time nobody holds it.
         last = if undo.len() % 2 == 0 { again } else { anew };
     }
@@ -475,4 +490,33 @@ fn linked_files_are_seen_to() {
     let back = compiler.compile(text, &options, &files);
     assert!(!compiler.last_was_partial());
     assert_eq!(told(&back), told(&first));
+}
+
+#[test]
+fn only_solids_that_changed_are_made_again() {
+    let files = Files::new();
+    let circles: String = (0..300)
+        .map(|index| {
+            let (x, y) = (30 * (index % 20), 30 * (index / 20));
+            format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{}\"/>\n", 5 + index % 7)
+        })
+        .collect();
+    let text = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"600\" height=\"450\">\n{circles}\
+         <text x=\"30\" y=\"30\" font-size=\"3\">Wheel$Shape round</text></svg>"
+    );
+    let mut compiler = Compiler::default();
+    let mut memory = Memory::default();
+    let mut made = |text: &str| {
+        let compiled = compiler.compile(text, &Options::default(), &files);
+        let again = written(&compiled, &mut memory);
+        assert!(again == common::glb(&compile(text, &Options::default(), &files)));
+        memory.made()
+    };
+    assert_eq!(made(&text), 300);
+    assert_eq!(made(&text), 0);
+    assert_eq!(made(&text.replace("Shape round", "Shape roundv")), 1);
+    assert_eq!(made(&text.replacen("r=\"9\"", "r=\"9.5\"", 1)), 2);
+    // What makes the page deeper makes all plates deeper.
+    assert!(made(&text.replacen("width=\"600\"", "width=\"700\"", 1)) > 290);
 }

@@ -72,12 +72,10 @@ fn show(hub: &Arc<Hub>, target: &Path, event: &Event<'_>) {
 
 fn publish(hub: &Arc<Hub>, target: &Path, drawing: &Path, build: &Build) {
     let below = drawing.strip_prefix(target).unwrap_or(drawing);
-    let folder = below.parent().map(|folder| folder.display().to_string());
+    let folder = below.parent().filter(|_| target.is_dir());
+    let folder = folder.map_or_else(String::new, |folder| folder.display().to_string());
     let name = drawing.file_name().map(|name| name.to_string_lossy());
-    let names = [
-        folder.as_deref().filter(|_| below != drawing).unwrap_or(""),
-        name.as_deref().unwrap_or(""),
-    ];
+    let names = [&folder, name.as_deref().unwrap_or("")];
     let model = build.model.as_ref().ok();
     let bytes = model.map(|model| model.bytes.clone().into());
     let model = bytes

@@ -1,0 +1,174 @@
+//! The live preview of open texts, in a client's own panel and on a page.
+
+mod common;
+
+use std::time::{Duration, Instant};
+
+use base64::Engine;
+use common::editor::{Editor, position};
+use serde_json::{Value, json};
+use tungstenite::Message;
+
+const URI: &str = "untitled:a.svg";
+
+const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100">
+  <rect id="body" x="80" y="20" width="40" height="60" fill="#336699"/>
+  <rect id="right" x="20" y="40" width="60" height="10" fill="#ffcc99"/>
+  <text x="100" y="54" font-size="5">Ubody$Shape default -5 5</text>
+  <text x="50" y="49" font-size="5">Rarm@Ubody</text>
+</svg>
+"##;
+
+fn document() -> Value {
+    json!({"textDocument": {"uri": URI}})
+}
+
+/// The next message of a kind to the panel.
+fn news(editor: &mut Editor, kind: &str) -> Value {
+    let is_wanted = |message: &Value| {
+        let messages = message["params"]["messages"].as_array();
+        message["method"] == "okoshi/preview/news"
+            && messages.is_some_and(|all| all.iter().any(|one| one["type"] == kind))
+    };
+    let found = editor.until(is_wanted);
+    assert_eq!(found["params"]["textDocument"]["uri"], URI);
+    let messages = found["params"]["messages"].as_array().expect("messages");
+    let wanted = messages.iter().rfind(|message| message["type"] == kind);
+    wanted.expect("it is there").clone()
+}
+
+/// The model of a build, fetched as a panel does.
+fn model(editor: &mut Editor, build: &Value) -> Vec<u8> {
+    let address = &build["build"]["model"];
+    let answer = editor.ask("okoshi/preview/model", json!({"address": address}));
+    let bytes = answer["bytes"].as_str().expect("base64");
+    let standard = base64::engine::general_purpose::STANDARD;
+    standard.decode(bytes).expect("base64")
+}
+
+fn insert(editor: &mut Editor, text: &mut String, version: i64, at: usize, what: &str) {
+    let place = position(text, at);
+    let change = json!({"range": {"start": place, "end": place}, "text": what});
+    text.insert_str(at, what);
+    editor.change(URI, version, &[change]);
+}
+
+#[test]
+fn a_panel_is_told_of_unsaved_texts() {
+    let mut editor = Editor::begun(json!({
+        "processId": null,
+        "capabilities": {},
+        "initializationOptions": {"preview": true},
+    }));
+    let mut text = DRAWING.to_owned();
+    editor.opened(URI, &text);
+    editor.ask("okoshi/preview/open", document());
+    let build = news(&mut editor, "build");
+    assert_eq!(build["drawing"], URI);
+    assert_eq!(build["build"]["parts"][1]["name"], "Rarm");
+    let first = model(&mut editor, &build);
+    assert_eq!(common::nodes(&first).expect("a sound model").len(), 3);
+
+    // A keystroke that is an error keeps the model; the next one mends it.
+    let at = text.find("-5 5<").expect("the depths");
+    insert(&mut editor, &mut text, 2, at, "x");
+    let build = news(&mut editor, "build");
+    assert_eq!(build["build"]["stale"], true);
+    assert_eq!(build["build"]["findings"][0]["severity"], "error");
+    assert!(model(&mut editor, &build) == first);
+    let place = |at| position(&text, at);
+    let change = json!({"range": {"start": place(at), "end": place(at + 2)}, "text": "-1"});
+    text.replace_range(at..at + 2, "-1");
+    editor.change(URI, 3, &[change]);
+    let build = news(&mut editor, "build");
+    assert_eq!(build["build"]["stale"], false);
+    assert!(model(&mut editor, &build) != first);
+
+    // The cursor lights parts up, in strings and in tags, and nothing elsewhere.
+    for (word, part) in [
+        ("Rarm@", json!("Rarm")),
+        ("rect id=\"body", json!("Ubody")),
+        ("viewBox", Value::Null),
+    ] {
+        let at = text.find(word).expect("the word is there");
+        let cursor = json!({"textDocument": {"uri": URI}, "position": position(&text, at)});
+        editor.tell("okoshi/preview/cursor", cursor);
+        assert_eq!(news(&mut editor, "light")["part"], part, "{word}");
+    }
+
+    let place = editor.ask(
+        "okoshi/preview/place",
+        json!({"textDocument": {"uri": URI}, "part": "Rarm"}),
+    );
+    assert_eq!(
+        place["range"]["start"],
+        position(&text, text.find("Rarm@").expect("there"))
+    );
+    let nowhere = editor.ask(
+        "okoshi/preview/place",
+        json!({"textDocument": {"uri": URI}, "part": "Nobody"}),
+    );
+    assert!(nowhere.is_null());
+
+    editor.tell("okoshi/preview/close", document());
+    editor.ask("okoshi/preview/model", json!({"address": "builds/1.glb"}));
+    insert(&mut editor, &mut text, 4, at, " ");
+    editor.diagnostics(URI, 4);
+    assert!(
+        editor
+            .during(Duration::from_millis(400), "okoshi/preview/news")
+            .is_empty()
+    );
+    editor.ask("okoshi/preview/open", document());
+    news(&mut editor, "build");
+    assert!(editor.leave().success());
+}
+
+#[test]
+fn a_page_shows_texts_of_editors_without_panels() {
+    let mut editor = Editor::with(json!({"window": {"showDocument": {"support": true}}}));
+    let mut text = DRAWING.to_owned();
+    editor.opened(URI, &text);
+    let id = editor.request(
+        "workspace/executeCommand",
+        json!({"command": "okoshi.preview", "arguments": [URI]}),
+    );
+    let asked = |editor: &mut Editor| {
+        let request = editor.until(|message| message["method"] == "window/showDocument");
+        editor.send(&json!({"jsonrpc": "2.0", "id": request["id"], "result": {"success": true}}));
+        request["params"].clone()
+    };
+    let shown = asked(&mut editor);
+    assert_eq!(shown["external"], true);
+    assert!(editor.answer(id)["result"].is_null());
+    let page = shown["uri"].as_str().expect("an address");
+    let (address, drawing) = page.split_once("/#").expect("the drawing behind a #");
+    assert_eq!(drawing, "untitled%3Aa.svg");
+    let socket = address.replace("http://127.0.0.1", "ws://127.0.0.1");
+    let (mut socket, _) = tungstenite::connect(format!("{socket}/live")).expect("let in");
+    let mut heard = |kind: &str| {
+        let end = Instant::now() + Duration::from_secs(20);
+        while Instant::now() < end {
+            if let Message::Text(text) = socket.read().expect("a message") {
+                let message: Value = serde_json::from_str(&text).expect("JSON");
+                if message["type"] == kind {
+                    return message;
+                }
+            }
+        }
+        panic!("no {kind} came");
+    };
+    assert_eq!(heard("build")["drawing"], URI);
+    let at = text.find("5<").expect("a depth");
+    insert(&mut editor, &mut text, 2, at, "1");
+    assert_eq!(heard("build")["build"]["revision"], 2);
+    let pick = json!({"type": "pick", "drawing": URI, "part": "Rarm"});
+    socket.send(Message::text(pick.to_string())).expect("sent");
+    let shown = asked(&mut editor);
+    assert_eq!(shown["uri"], URI);
+    assert_eq!(
+        shown["selection"]["start"],
+        position(&text, text.find("Rarm@").expect("there"))
+    );
+    assert!(editor.leave().success());
+}

@@ -1,0 +1,324 @@
+//! `okoshi preview` as a server: what it serves, what it refuses, and that nobody can hold it up.
+
+mod common;
+
+use std::fs;
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use common::live::Live;
+use serde_json::Value;
+use tungstenite::client::IntoClientRequest;
+use tungstenite::stream::MaybeTlsStream;
+use tungstenite::{Message, WebSocket, connect};
+
+const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
+  <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
+  <text x="50" y="44" font-size="5">Body$Shape default -5 5</text>
+</svg>
+"##;
+
+/// A page of a drawing, and its port.
+fn served(folder: &Path, target: &str) -> (Live, u16) {
+    let port = free_port();
+    let live = Live::start(folder, &["preview", target, "--port", &port.to_string()]);
+    live.line("http://127.0.0.1:");
+    live.line("watching");
+    (live, port)
+}
+
+/// A port that nobody has at this moment.
+fn free_port() -> u16 {
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
+    listener.local_addr().expect("its address").port()
+}
+
+fn folder() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("a.svg"), DRAWING).expect("written");
+    folder
+}
+
+/// The status and the body of an answer to a request as it is written.
+fn asked(port: u16, request: &str) -> (u16, Vec<u8>) {
+    let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("connected");
+    stream
+        .set_read_timeout(Some(Duration::from_secs(20)))
+        .expect("a timeout");
+    let request = request
+        .replace('\n', "\r\n")
+        .replace("PORT", &port.to_string());
+    stream.write_all(request.as_bytes()).expect("sent");
+    let mut answer = Vec::new();
+    let _ = stream.read_to_end(&mut answer);
+    let head = answer.windows(4).position(|bytes| bytes == b"\r\n\r\n");
+    let text = String::from_utf8_lossy(&answer).into_owned();
+    let status = text
+        .split(' ')
+        .nth(1)
+        .and_then(|status| status.parse().ok());
+    let body = head.map_or_else(Vec::new, |head| answer[head + 4..].to_vec());
+    (status.unwrap_or(0), body)
+}
+
+fn got(port: u16, path: &str) -> (u16, Vec<u8>) {
+    asked(
+        port,
+        &format!("GET {path} HTTP/1.1\nHost: 127.0.0.1:PORT\nConnection: close\n\n"),
+    )
+}
+
+type Socket = WebSocket<MaybeTlsStream<TcpStream>>;
+
+/// A page's socket, from an origin.
+fn socket(port: u16, origin: Option<&str>) -> tungstenite::Result<Socket> {
+    let mut request = format!("ws://127.0.0.1:{port}/live").into_client_request()?;
+    if let Some(origin) = origin {
+        let origin = origin.parse().expect("an origin");
+        request.headers_mut().insert("origin", origin);
+    }
+    connect(request).map(|(socket, _)| socket)
+}
+
+/// The next message of a kind.
+fn heard(socket: &mut Socket, kind: &str) -> Value {
+    if let MaybeTlsStream::Plain(stream) = socket.get_ref() {
+        let patience = Some(Duration::from_secs(20));
+        stream.set_read_timeout(patience).expect("a timeout");
+    }
+    loop {
+        if let Message::Text(text) = socket.read().expect("a message") {
+            let message: Value = serde_json::from_str(&text).expect("JSON");
+            if message["type"] == kind {
+                return message;
+            }
+        }
+    }
+}
+
+#[test]
+fn builds_are_pushed_and_models_can_be_fetched() {
+    let folder = folder();
+    let (live, port) = served(folder.path(), "a.svg");
+    let mut page = socket(port, Some(&format!("http://127.0.0.1:{port}"))).expect("let in");
+    let list = heard(&mut page, "drawings");
+    assert_eq!(list["drawings"][0]["name"], "a.svg");
+    let build = heard(&mut page, "build");
+    assert_eq!(build["build"]["stale"], false);
+    assert_eq!(build["build"]["parts"][0]["name"], "Body");
+    let address = |build: &Value| {
+        build["build"]["model"]
+            .as_str()
+            .expect("a model")
+            .to_owned()
+    };
+    let first = address(&build);
+    let (status, glb) = got(port, &format!("/{first}"));
+    assert_eq!(status, 200);
+    assert_eq!(common::nodes(&glb).expect("a sound model").len(), 2);
+    let (status, png) = got(
+        port,
+        &format!(
+            "/pictures/{}",
+            first.replace("builds/", "").replace("glb", "png")
+        ),
+    );
+    assert_eq!(status, 200);
+    let picture = image::load_from_memory(&png).expect("a picture").to_rgba8();
+    let reds = picture
+        .pixels()
+        .filter(|pixel| pixel[3] > 250 && pixel[0] > 2 * pixel[1].max(pixel[2]));
+    assert!(reds.count() > 5000, "the part's red is seen");
+
+    // An error keeps the model, and says where it is.
+    fs::write(
+        folder.path().join("a.svg"),
+        DRAWING.replace("default", "defalt"),
+    )
+    .expect("written");
+    let build = heard(&mut page, "build");
+    assert_eq!(build["build"]["stale"], true);
+    assert_eq!(address(&build), first);
+    let finding = &build["build"]["findings"][0];
+    assert_eq!(
+        (&finding["severity"], &finding["line"]),
+        (&"error".into(), &3.into())
+    );
+    live.line("the last good model is shown");
+
+    fs::write(folder.path().join("a.svg"), DRAWING.replace("-5 5", "-9 9")).expect("written");
+    let build = heard(&mut page, "build");
+    assert_eq!(build["build"]["stale"], false);
+    assert_ne!(address(&build), first);
+    fs::remove_file(folder.path().join("a.svg")).expect("removed");
+    heard(&mut page, "gone");
+}
+
+#[test]
+fn a_folder_is_a_list() {
+    let folder = folder();
+    fs::create_dir(folder.path().join("sub")).expect("a folder");
+    fs::write(folder.path().join("sub/b.svg"), DRAWING).expect("written");
+    let (_live, port) = served(folder.path(), ".");
+    let mut page = socket(port, None).expect("let in");
+    let list = heard(&mut page, "drawings");
+    let names: Vec<_> = list["drawings"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|drawing| {
+            [&drawing["folder"], &drawing["name"]]
+                .map(|text| text.as_str().expect("text").to_owned())
+        })
+        .collect();
+    assert_eq!(names, [["", "a.svg"], ["sub", "b.svg"]]);
+}
+
+#[test]
+fn foreign_pages_and_paths_are_refused() {
+    let folder = folder();
+    fs::write(folder.path().join("secret"), "secret").expect("written");
+    let (_live, port) = served(folder.path(), "a.svg");
+    assert_eq!(got(port, "/").0, 200);
+    for headers in [
+        "Host: evil.example",
+        "Host: evil.example:PORT",
+        "Host: 127.0.0.1.evil.example:PORT",
+        "Host: 127.0.0.1",
+        "Host: 127.0.0.1:PORT\nHost: evil.example",
+        "Host: 127.0.0.1:PORT\nOrigin: http://evil.example",
+        "Host: 127.0.0.1:PORT\nOrigin: null",
+        "Host: 127.0.0.1:PORT\nSec-Fetch-Site: cross-site",
+    ] {
+        for path in ["/", "/page.js", "/builds/1.glb", "/pictures/1.png"] {
+            let request = format!("GET {path} HTTP/1.1\n{headers}\nConnection: close\n\n");
+            let (status, body) = asked(port, &request);
+            assert!([400, 403].contains(&status), "{headers}: {status}");
+            assert!(body.len() < 200, "{headers}");
+        }
+    }
+    for path in [
+        "/../secret",
+        "/%2e%2e/secret",
+        "/builds/../secret",
+        "/builds/..%2fsecret",
+        "/builds/%2e%2e%2f%2e%2e%2fetc%2fpasswd",
+        "/builds//etc/passwd",
+        "//etc/passwd",
+        "/a.svg",
+        "/secret",
+        "/builds/99999999999999999999999.glb",
+        "/builds/1.svg",
+        "/pictures/-1.png",
+    ] {
+        let (status, body) = got(port, path);
+        assert!([400, 404].contains(&status), "{path}: {status}");
+        assert!(!String::from_utf8_lossy(&body).contains("secret"), "{path}");
+    }
+    let post = "POST / HTTP/1.1\nHost: 127.0.0.1:PORT\nContent-Length: 0\nConnection: close\n\n";
+    assert_eq!(asked(port, post).0, 405);
+
+    for origin in ["http://evil.example", "null", "https://127.0.0.1:1"] {
+        match socket(port, Some(origin)) {
+            Err(tungstenite::Error::Http(answer)) => assert_eq!(answer.status(), 403, "{origin}"),
+            other => panic!("{origin}: {other:?}"),
+        }
+    }
+    let own = format!("http://localhost:{port}");
+    heard(&mut socket(port, Some(&own)).expect("let in"), "build");
+}
+
+#[test]
+fn it_listens_on_loopback_only() {
+    let folder = folder();
+    let (_live, port) = served(folder.path(), "a.svg");
+    // Any other address of this machine, as an outside one would be.
+    let outside = std::net::UdpSocket::bind("0.0.0.0:0").and_then(|socket| {
+        socket.connect("192.0.2.1:9")?;
+        socket.local_addr()
+    });
+    let own = outside.map(|address| address.ip());
+    if let Ok(address) = own
+        && !address.is_loopback()
+        && !address.is_unspecified()
+    {
+        let reached = TcpStream::connect_timeout(&(address, port).into(), Duration::from_secs(2));
+        assert!(reached.is_err(), "{address} answers");
+    }
+    assert!(TcpStream::connect(("127.0.0.1", port)).is_ok());
+}
+
+#[test]
+fn a_thousand_idle_connections_are_survived() {
+    let folder = folder();
+    let (live, port) = served(folder.path(), "a.svg");
+    let mut page = socket(port, None).expect("let in");
+    heard(&mut page, "build");
+    let idle: Vec<TcpStream> = (0..1000)
+        .map_while(|_| TcpStream::connect(("127.0.0.1", port)).ok())
+        .collect();
+    assert!(
+        idle.len() > 900,
+        "only {} connections could be made",
+        idle.len()
+    );
+    // A page that is open is told of builds all the same.
+    fs::write(folder.path().join("a.svg"), DRAWING.replace("-5 5", "-6 6")).expect("written");
+    assert_eq!(heard(&mut page, "build")["build"]["revision"], 2);
+    live.line("shown in");
+    // And after a while the idle ones make room, though nobody closes them.
+    let end = Instant::now() + Duration::from_secs(30);
+    while got(port, "/").0 != 200 {
+        assert!(Instant::now() < end, "new pages are never served again");
+        std::thread::sleep(Duration::from_millis(200));
+    }
+    drop(idle);
+}
+
+#[test]
+fn pages_that_do_not_read_hold_up_nobody() {
+    let folder = folder();
+    let many: String = (0..3000)
+        .map(|index| {
+            format!("<rect x=\"{index}\" y=\"90\" width=\"0.9\" height=\"9\" fill=\"#00f\"/>\n")
+        })
+        .collect();
+    let drawing = |depth: usize| {
+        DRAWING
+            .replace("</svg>", &format!("{many}</svg>"))
+            .replace("-5 5", &format!("-{depth} 5"))
+    };
+    fs::write(folder.path().join("a.svg"), drawing(5)).expect("written");
+    let (live, port) = served(folder.path(), "a.svg");
+    // They are told a megabyte at every build, and never read it; as many as may listen, but one.
+    let deaf: Vec<_> = (0..63)
+        .map(|_| socket(port, None).expect("let in"))
+        .collect();
+    let mut page = socket(port, None).expect("let in");
+    heard(&mut page, "build");
+    assert!(socket(port, None).is_err(), "one page too many");
+    for depth in 6..12 {
+        let start = Instant::now();
+        fs::write(folder.path().join("a.svg"), drawing(depth)).expect("written");
+        let build = heard(&mut page, "build");
+        assert_eq!(build["build"]["revision"], depth - 4);
+        assert!(
+            start.elapsed() < Duration::from_secs(10),
+            "{:?}",
+            start.elapsed()
+        );
+        live.line("shown in");
+    }
+    drop(deaf);
+}
+
+#[test]
+fn a_taken_port_is_said() {
+    let folder = folder();
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = taken.local_addr().expect("its address").port().to_string();
+    let live = Live::start(folder.path(), &["preview", "a.svg", "--port", &port]);
+    live.line(&format!("error: port {port} cannot be had"));
+}
