@@ -71,7 +71,7 @@ export class Gallery {
       gone
         ? h("span", { class: "muted" }, "its file is gone")
         : build
-          ? h("span", { class: "muted" }, count(parts.inModel, "part"))
+          ? h("span", { class: "muted" }, count(parts.main, "part"))
           : h("span", { class: "muted" }, "building…"),
       ...(["error", "warning", "hint"] as const).map((severity) => build && badge(severity, build.findings)),
     );
