@@ -20,9 +20,9 @@ import { overlay, type Model } from "./model";
 
 /** Widths of outlines in pixels of the page, and how much lighter the surface is. */
 const LOOKS = {
-  hovered: { width: 1.5, light: 0.16 },
-  lit: { width: 3, light: 0.3 },
-  selected: { width: 2.5, light: 0 },
+  hovered: { width: 2, light: 0.16 },
+  lit: { width: 4, light: 0.3 },
+  selected: { width: 3.5, light: 0 },
 } as const;
 /** Joining the corners of larger meshes takes too long for a click; their outline may have gaps at edges. */
 const MOST_CORNERS = 300_000;
