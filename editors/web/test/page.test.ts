@@ -1,4 +1,6 @@
 import assert from "node:assert/strict";
+import { copyFileSync } from "node:fs";
+import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { camera, picture, shown, still } from "./browser";
 import type { Made } from "./drawings";
@@ -83,14 +85,14 @@ browse("several drawings are cards that follow their builds; one opens, and the 
   }
 }, async (page, host) => {
   await page.waitForFunction(() => document.querySelectorAll(".card img").length === 6);
-  assert.equal(await page.locator(".gallery-head").innerText().then((text) => text.replace(/\s+/g, " ")), "Drawings 6 drawings");
+  assert.equal(await page.locator(".gallery-head").innerText().then((text) => text.trim()), "6 drawings");
   const card = page.locator("[data-drawing=human]");
   assert.match(await card.innerText(), /human\.svg[\s\S]*7 parts/);
   assert.match(await page.locator("[data-drawing=car]").innerText(), /vehicles/);
   await picture(page, "gallery");
   host.built("human", broken());
   await card.getByText("3 errors").waitFor();
-  assert.match(await page.locator(".gallery-head").innerText(), /1 with errors/);
+  assert.match(await page.locator(".gallery-head").innerText(), /6 drawings\s+1 with errors/);
   host.add("new", "new.svg");
   await page.locator("[data-drawing=new]").getByText("building…").waitFor();
   await page.locator("[data-drawing=robot-ja]").click();
@@ -289,3 +291,51 @@ browse("a drawing of no parts, and one of thousands", (host) => {
   host.built("many.svg", { model: null, picture: null, build: { milliseconds: 1, stale: false, triangles: 0, findings: [], parts: [] } });
   await page.getByText("The drawing has no parts yet.").waitFor();
 });
+
+browse("inside VS Code everything goes by posted messages, and the editor's colours are worn", () => {}, async (page) => {
+  const { model, build: facts } = build(FIGURE);
+  await page.addInitScript(() => {
+    const sent: unknown[] = [];
+    Object.assign(globalThis, { acquireVsCodeApi: () => ({ postMessage: (message: unknown) => sent.push(structuredClone(message)) }), sentByThePage: sent });
+  });
+  await page.reload();
+  const sent = () => page.evaluate(() => (globalThis as unknown as { sentByThePage: Record<string, unknown>[] }).sentByThePage);
+  const post = (message: unknown) => page.evaluate((okoshi) => postMessage({ okoshi }, "*"), message);
+  assert.deepEqual(await sent(), [{ type: "ready" }]);
+  await page.evaluate(() => {
+    document.body.classList.add("vscode-dark");
+    for (const [name, value] of [["--vscode-editor-background", "#102030"], ["--vscode-sideBar-background", "#102030"], ["--vscode-foreground", "#eeeeee"]] as const) document.documentElement.style.setProperty(name, value);
+  });
+  await post({ type: "drawings", drawings: [{ id: "file:///a/figure.svg", name: "figure.svg", folder: "" }] });
+  await post({ type: "build", drawing: "file:///a/figure.svg", build: { ...facts, revision: 4, model: "builds/4.glb", picture: null } });
+  await page.waitForFunction(() => (globalThis as unknown as { sentByThePage: { type: string }[] }).sentByThePage.some(({ type }) => type === "model"));
+  assert.deepEqual((await sent()).filter(({ type }) => type === "model"), [{ type: "model", address: "builds/4.glb" }]);
+  await post({ type: "modelBytes", address: "builds/4.glb", bytes: model!.toString("base64") });
+  await shown(page, 4);
+  await picture(page, "vscode");
+  assert.deepEqual((await picture(page)).at({ x: 20, y: 200 }), [16, 32, 48]);
+  await page.locator("[data-part=Arm]").click();
+  await page.keyboard.press("d");
+  await page.waitForFunction(() => (globalThis as unknown as { sentByThePage: { type: string }[] }).sentByThePage.some(({ type }) => type === "save"));
+  const last = await sent();
+  assert.deepEqual(last.find(({ type }) => type === "pick"), { type: "pick", drawing: "file:///a/figure.svg", part: "Arm" });
+  assert.deepEqual(last.find(({ type }) => type === "save"), { type: "save", name: "figure.glb", bytes: model!.toString("base64") });
+  await post({ type: "light", drawing: "file:///a/figure.svg", part: "Head" });
+  await page.waitForSelector(".tree-item.lit[data-part=Head]");
+});
+
+browse("the picture of the manual", one(example("clockwork-dragon")), async (page) => {
+  await shown(page);
+  await page.locator("[data-part=Head]").click();
+  await page.locator("canvas").focus();
+  await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+  for (const key of ["ArrowLeft", "ArrowLeft", "+"]) await page.keyboard.press(key);
+  await page.mouse.move(2, 2);
+  await still(page);
+  const { width, height, data } = await picture(page, "manual");
+  assert.deepEqual([width, height], [1180, 720]);
+  const colours = new Set<number>();
+  for (let i = 0; i < data.length; i += 4) colours.add((data[i]! << 16) | (data[i + 1]! << 8) | data[i + 2]!);
+  assert.ok(colours.size > 3000, `${colours.size} colours`);
+  if (process.env["OKOSHI_REWRITE"]) copyFileSync(join("test", "out", "manual.png"), join("..", "..", "docs", "preview.png"));
+}, { viewport: { width: 1180, height: 720 } });
