@@ -8,7 +8,9 @@ export class Parts {
   private readonly below = new Map<string | null, Part[]>();
   /** Parts that are in no model: legends, and shapes that are left out. */
   readonly aside: readonly Part[];
-  readonly inModel: number;
+  /** How many parts the model has, and how many more shapes belong to them. */
+  readonly main: number;
+  readonly shapes: number;
 
   constructor(readonly all: readonly Part[]) {
     // Of parts with the same name the first is meant; the others are a finding.
@@ -17,7 +19,8 @@ export class Parts {
       if (!this.byElement.has(part.element)) this.byElement.set(part.element, part);
     }
     this.aside = all.filter(isAside);
-    this.inModel = all.length - this.aside.length;
+    this.main = all.filter(({ kind }) => kind === "main").length;
+    this.shapes = all.filter(({ kind }) => kind === "sub").length;
     for (const part of all) {
       if (isAside(part)) continue;
       const parent = part.parent !== null && this.isInModel(part.parent) && !this.hangsOnItself(part) ? part.parent : null;

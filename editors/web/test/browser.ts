@@ -50,13 +50,15 @@ export async function shown(page: Page, revision?: number): Promise<void> {
   await still(page);
 }
 
-/** Waits until nothing is drawn any more. */
+/** Waits until nothing is drawn any more: what was asked for is drawn within a frame, however long that takes here. */
 export async function still(page: Page): Promise<void> {
   await page.evaluate(async () => {
     const canvas = document.querySelector("canvas")!;
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
     for (let last = ""; last !== (canvas.dataset["frames"] ?? "-"); ) {
       last = canvas.dataset["frames"] ?? "-";
-      await new Promise((resolve) => setTimeout(resolve, 120));
+      for (let n = 0; n < 3; n++) await frame();
+      await new Promise((resolve) => setTimeout(resolve, 40));
     }
   });
 }

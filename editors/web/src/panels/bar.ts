@@ -28,7 +28,7 @@ export class Bar {
       this.facts,
       ...(build
         ? [
-            h("span", {}, count(this.state.parts.inModel, "part")),
+            h("span", {}, count(this.state.parts.main, "part")),
             h("span", {}, count(this.viewer.model?.triangles ?? build.triangles, "triangle")),
             h("span", { class: "bar-time", title: `Build ${build.revision}`, attributes: { "data-build": build.revision } }, `built in ${Math.round(build.milliseconds)} ms`),
           ]

@@ -91,8 +91,9 @@ export class Findings {
       h(
         "button",
         { class: "finding-main", attributes: { type: "button" }, on: { click: () => this.go(finding) } },
-        h("span", { class: "finding-title" }, icon(ICONS[severity]), h("span", { class: "code" }, `${severity} ${code}`), h("span", { class: "place" }, `line ${line}:${column}`)),
-        h("span", { class: "finding-message" }, ...inCode(message)),
+        icon(ICONS[severity]),
+        h("span", { class: "finding-message" }, h("span", { class: "code", title: severity }, code), " ", ...inCode(message)),
+        h("span", { class: "place", title: `line ${line}, column ${column}` }, `${line}:${column}`),
         (before + marked + after).trim() !== "" && h("code", { class: "excerpt" }, before, h("mark", {}, marked || " "), after),
         label !== "" && h("span", { class: "finding-label" }, ...inCode(label)),
       ),

@@ -16,11 +16,12 @@ interface Card {
 export class Gallery {
   readonly element = h("main", { class: "gallery", attributes: { "aria-label": "Drawings" } });
   private readonly grid = h("ul", { class: "cards" });
+  private readonly heading = h("h1");
   private readonly title = h("p", { class: "muted" });
   private readonly cards = new Map<string, Card>();
 
   constructor(private readonly state: State, private readonly host: Host) {
-    fill(this.element, h("header", { class: "gallery-head" }, h("h1", {}, "Drawings"), this.title), this.grid);
+    fill(this.element, h("header", { class: "gallery-head" }, this.heading, this.title), this.grid);
     state.on(["drawings", "current"], () => this.draw());
     state.on("build", (id) => {
       const drawing = state.find(id);
@@ -48,7 +49,8 @@ export class Gallery {
   private count(): void {
     const { list } = this.state;
     const failing = list.filter(({ build }) => build?.findings.some(({ severity }) => severity === "error")).length;
-    this.title.textContent = list.length === 0 ? "No drawing here yet. One that is saved in the folder appears by itself." : count(list.length, "drawing") + (failing > 0 ? `, ${failing} with errors` : "");
+    this.heading.textContent = count(list.length, "drawing");
+    this.title.textContent = list.length === 0 ? "One that is saved in the folder appears here by itself." : failing > 0 ? `${failing} with errors` : "";
   }
 
   private card(drawing: Drawing): Card {
@@ -71,7 +73,7 @@ export class Gallery {
       gone
         ? h("span", { class: "muted" }, "its file is gone")
         : build
-          ? h("span", { class: "muted" }, count(parts.inModel, "part"))
+          ? h("span", { class: "muted" }, count(parts.main, "part"))
           : h("span", { class: "muted" }, "building…"),
       ...(["error", "warning", "hint"] as const).map((severity) => build && badge(severity, build.findings)),
     );

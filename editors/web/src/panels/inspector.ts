@@ -12,7 +12,7 @@ const BOUND: Readonly<Record<string, string>> = {
   nearest: "its shape is the nearest",
   none: "bound to no shape",
 };
-const FROM: Readonly<Record<Source, string>> = { own: "its string", legend: "a legend", default: "the drawing's default", builtin: "built in" };
+const FROM: Readonly<Record<Source, string>> = { own: "its string", legend: "a legend", default: "defaults", builtin: "built in" };
 const KIND: Readonly<Record<Part["kind"], string>> = { main: "part", sub: "shape of a part", legend: "legend", unused: "left out" };
 
 export class Inspector {
@@ -29,6 +29,7 @@ export class Inspector {
 
   private draw(): void {
     const { selected, parts } = this.state;
+    this.element.dataset["empty"] = String(selected === null);
     if (selected === null) {
       return fill(this.element, h("h2", {}, "Part"), h("p", { class: "muted pad" }, "Click a part, in the model or in the list, to see its string and attributes."));
     }

@@ -33,6 +33,6 @@ export class PoseBar {
   private follow(viewer: Viewer, commands: Commands): void {
     this.element.hidden = !commands.isPosing && viewer.pose.isEmpty;
     this.reset.disabled = viewer.pose.isEmpty;
-    if (viewer.pose.isEmpty) this.readout.textContent = "Drag a limb. Shift: about its own axis.";
+    if (viewer.pose.isEmpty) this.readout.textContent = matchMedia("(max-width: 760px)").matches ? "Drag a limb" : "Drag a limb. Shift: about its own axis.";
   }
 }

@@ -1,6 +1,6 @@
 // The buttons over the stage.
 
-import { Camera, Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, PersonStanding, Square } from "lucide";
+import { Camera, Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, PersonStanding } from "lucide";
 import { button, fill, h } from "../dom";
 import type { Commands } from "../commands";
 import type { Shading } from "../stage/model";
@@ -19,7 +19,7 @@ export class Toolbar {
         ["edges", Grid3x3, "Smooth, with the triangles' edges"],
       ] as const
     ).map(([shading, icon, label]) => [shading, button({ icon, label, press: () => viewer.setShading(shading) })]);
-    const parallel = button({ icon: Square, label: "Parallel projection", key: "5", press: () => commands.toggleParallel() });
+    const parallel = h("button", { class: "button text", title: "Parallel projection (5)", attributes: { type: "button", "aria-keyshortcuts": "5" }, on: { click: () => commands.toggleParallel() } }, "Parallel");
     const pose = button({ icon: PersonStanding, label: "Pose", key: "P", wide: true, press: () => commands.togglePosing() });
     const picture = menu({ icon: Camera, label: "Screenshot" }, [
       { label: "With background", key: "S", press: () => void commands.screenshot(false) },

@@ -2,7 +2,7 @@
 
 import { ChevronRight } from "lucide";
 import { count, fill, h, icon } from "../dom";
-import { isAutomatic } from "../parts";
+import { isAside, isAutomatic } from "../parts";
 import type { Part } from "../protocol";
 import type { State } from "../state";
 
@@ -53,7 +53,7 @@ export class Tree {
 
   private draw(): void {
     const { parts } = this.state;
-    this.summary.textContent = count(parts.inModel, "part");
+    this.summary.textContent = parts.shapes > 0 ? `${parts.main} and ${count(parts.shapes, "shape")}` : String(parts.main || "");
     const rows: Row[] = [];
     const walk = (siblings: readonly Part[], level: number): void => {
       siblings.forEach((part, at) => {
@@ -102,7 +102,8 @@ export class Tree {
       },
       h("span", { class: "tree-indent", attributes: { "data-level": Math.min(level - 1, 12) } }),
       open === null ? h("span", { class: "tree-fold" }) : h("span", { class: "tree-fold", attributes: { "data-fold": true } }, icon(ChevronRight)),
-      h("span", { class: "tree-name" }, name),
+      // Legends have no names of their own: what they say tells them apart.
+      h("span", { class: "tree-name" }, isAside(part) && part.string ? part.string.text : name),
       note && h("span", { class: "tree-note" }, note),
     );
     if (!this.items.has(name)) this.items.set(name, item);
@@ -111,7 +112,7 @@ export class Tree {
 
   private isOpen(part: Part): boolean {
     const { parts } = this.state;
-    return this.folds.get(part.name) ?? (parts.inModel <= FEW || parts.children(part.name).some(({ kind }) => kind !== "sub"));
+    return this.folds.get(part.name) ?? (parts.main + parts.shapes <= FEW || parts.children(part.name).some(({ kind }) => kind !== "sub"));
   }
 
   private fold(name: string, open: boolean): void {

@@ -1,4 +1,5 @@
-// How a part is shown to be meant: a tint while the pointer or the editor's cursor is on it, an outline while it is selected.
+// How a part is shown to be meant: an outline, which is seen through what stands before the part, and a lighter surface while the
+// pointer or the editor's cursor is on it.
 
 import {
   AlwaysStencilFunc,
@@ -17,8 +18,12 @@ import {
 import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { overlay, type Model } from "./model";
 
-/** The outline's width in pixels of the page. */
-const WIDTH = 2.5;
+/** Widths of outlines in pixels of the page, and how much lighter the surface is. */
+const LOOKS = {
+  hovered: { width: 2, light: 0.16 },
+  lit: { width: 4, light: 0.3 },
+  selected: { width: 3.5, light: 0 },
+} as const;
 /** Joining the corners of larger meshes takes too long for a click; their outline may have gaps at edges. */
 const MOST_CORNERS = 300_000;
 
@@ -26,77 +31,46 @@ export type Mark = "hovered" | "lit" | "selected";
 
 export class Highlight {
   private readonly marked: Record<Mark, Mesh[]> = { hovered: [], lit: [], selected: [] };
-  private readonly tints = { hovered: tint(0.3), lit: tint(0.45) };
-  /** Marks where the part itself is, so that only what lies outside it is drawn. */
-  private readonly mask = new MeshBasicMaterial({
-    colorWrite: false,
-    depthWrite: false,
-    depthTest: false,
-    transparent: true,
-    side: DoubleSide,
-    stencilWrite: true,
-    stencilRef: 1,
-    stencilFunc: AlwaysStencilFunc,
-    stencilZPass: ReplaceStencilOp,
-  });
-  private readonly outline = new ShaderMaterial({
-    uniforms: { color: { value: new Color() }, step: { value: new Vector2() } },
-    vertexShader: `
-      uniform vec2 step;
-      void main() {
-        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-        vec2 outward = (projectionMatrix * vec4(normalMatrix * normal, 0.0)).xy / step;
-        float far = length(outward);
-        if (far > 0.0) gl_Position.xy += outward / far * step * gl_Position.w;
-      }`,
-    fragmentShader: `
-      uniform vec3 color;
-      void main() {
-        gl_FragColor = vec4(color, 1.0);
-        #include <colorspace_fragment>
-      }`,
-    depthTest: false,
-    depthWrite: false,
-    transparent: true,
-    side: DoubleSide,
-    stencilWrite: true,
-    stencilRef: 1,
-    stencilFunc: NotEqualStencilFunc,
-  });
-
+  private readonly looks = {
+    hovered: new Look(1, LOOKS.hovered.light),
+    lit: new Look(2, LOOKS.lit.light),
+    selected: new Look(3, LOOKS.selected.light),
+  };
   /** Lines along all triangles. */
   private readonly lines = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.28, depthWrite: false });
   private lined: Mesh[] = [];
 
   color(color: string, ink: string): void {
-    for (const material of [this.tints.hovered, this.tints.lit]) material.color.set(color);
+    for (const { outline } of Object.values(this.looks)) outline.uniforms["color"]!.value.set(color);
     this.lines.color.set(ink);
-    (this.outline.uniforms["color"]!.value as Color).set(color);
   }
 
-  /** Called before each picture: the outline's width is one of the screen. */
+  /** Called before each picture: an outline's width is one of the screen. */
   measure(renderer: WebGLRenderer): void {
     const size = renderer.getSize(new Vector2());
-    (this.outline.uniforms["step"]!.value as Vector2).set((2 * WIDTH) / size.x, (2 * WIDTH) / size.y);
+    for (const mark of Object.keys(LOOKS) as Mark[]) {
+      const width = 2 * LOOKS[mark].width;
+      this.looks[mark].outline.uniforms["step"]!.value.set(width / size.x, width / size.y);
+    }
   }
 
   /** Marks these nodes, and no others. */
   set(mark: Mark, model: Model, nodes: readonly Object3D[]): void {
     this.clear(mark);
-    for (const mesh of nodes.flatMap((node) => model.meshesOf(node))) {
-      if (mark === "selected") {
-        this.add(mark, overlay(mesh, this.mask), 10);
-        this.add(mark, overlay(mesh, this.outline, joined(mesh.geometry)), 11);
-      } else {
-        this.add(mark, overlay(mesh, this.tints[mark]), 5);
-      }
+    const { tint, mask, outline } = this.looks[mark];
+    const meshes = nodes.flatMap((node) => model.meshesOf(node));
+    for (const mesh of meshes) {
+      if (tint.opacity > 0) this.add(mark, overlay(mesh, tint), 5);
+      // Each mark covers all of its part before it is outlined, and marks come one after the other.
+      this.add(mark, overlay(mesh, mask), 8 + 2 * mask.stencilRef);
+      this.add(mark, overlay(mesh, outline, joined(mesh.geometry)), 9 + 2 * mask.stencilRef);
     }
   }
 
   clear(mark: Mark): void {
     for (const mesh of this.marked[mark]) {
       mesh.removeFromParent();
-      if (mesh.material === this.outline) mesh.geometry.dispose();
+      if (mesh.material === this.looks[mark].outline) mesh.geometry.dispose();
     }
     this.marked[mark] = [];
   }
@@ -119,8 +93,37 @@ export class Highlight {
   }
 }
 
-function tint(opacity: number): MeshBasicMaterial {
-  return new MeshBasicMaterial({ transparent: true, opacity, depthWrite: false, side: DoubleSide });
+/** The materials of one mark. */
+class Look {
+  readonly tint: MeshBasicMaterial;
+  /** Says where the part itself is, so that only what lies outside it is drawn. */
+  readonly mask: MeshBasicMaterial;
+  readonly outline: ShaderMaterial;
+
+  constructor(stencilRef: number, opacity: number) {
+    this.tint = new MeshBasicMaterial({ transparent: true, opacity, depthWrite: false, side: DoubleSide });
+    const over = { depthTest: false, depthWrite: false, transparent: true, side: DoubleSide, stencilWrite: true, stencilRef };
+    this.mask = new MeshBasicMaterial({ ...over, colorWrite: false, stencilFunc: AlwaysStencilFunc, stencilZPass: ReplaceStencilOp });
+    this.outline = new ShaderMaterial({
+      ...over,
+      stencilFunc: NotEqualStencilFunc,
+      uniforms: { color: { value: new Color() }, step: { value: new Vector2() } },
+      vertexShader: `
+        uniform vec2 step;
+        void main() {
+          gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+          vec2 outward = (projectionMatrix * vec4(normalMatrix * normal, 0.0)).xy / step;
+          float far = length(outward);
+          if (far > 0.0) gl_Position.xy += outward / far * step * gl_Position.w;
+        }`,
+      fragmentShader: `
+        uniform vec3 color;
+        void main() {
+          gl_FragColor = vec4(color, 1.0);
+          #include <colorspace_fragment>
+        }`,
+    });
+  }
 }
 
 /** The same surface with one normal in each place, so that its hull has no gaps at edges. */

@@ -21,7 +21,7 @@ import {
 const OWN = Math.PI;
 const SKY = 0.5 * OWN;
 const GROUND = 0.3 * OWN;
-const KEY = 0.52 * OWN;
+const KEY = 0.45 * OWN;
 const FILL = 0.12 * OWN;
 /** How much of the surroundings shows in metal and in what is smooth. */
 const SURROUNDINGS = 0.35;

@@ -29,10 +29,12 @@ export class Stage {
     this.renderer.toneMapping = NoToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = VSMShadowMap;
+    // Made anew when something moved, not whenever one looks from elsewhere.
+    this.renderer.shadowMap.autoUpdate = false;
     this.lights = new Lights(this.scene, this.renderer);
     new ResizeObserver(() => this.resize()).observe(place);
     this.watchPixels();
-    canvas.addEventListener("webglcontextrestored", () => this.invalidate());
+    canvas.addEventListener("webglcontextrestored", () => this.moved());
     view.onChange(() => this.invalidate());
     this.resize();
   }
@@ -42,6 +44,12 @@ export class Stage {
     if (this.asked) return;
     this.asked = true;
     requestAnimationFrame(this.frame);
+  };
+
+  /** Asks for a picture, as something in it moved. */
+  readonly moved = (): void => {
+    this.renderer.shadowMap.needsUpdate = true;
+    this.invalidate();
   };
 
   beforeFrame(step: BeforeFrame): void {

@@ -43,6 +43,9 @@ export class Viewer {
   shading: Shading = "smooth";
 
   constructor(private readonly state: State, host: Host, place: HTMLElement) {
+    this.canvas.tabIndex = 0;
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", "No model yet");
     place.prepend(this.canvas);
     this.view = new View(this.canvas);
     this.stage = new Stage(place, this.canvas, this.view);
@@ -108,7 +111,7 @@ export class Viewer {
   posed(): void {
     this.pose.apply();
     this.canvas.dataset["posed"] = this.pose.names.join(" ");
-    this.stage.invalidate();
+    this.stage.moved();
     this.tell("pose");
   }
 
@@ -117,7 +120,7 @@ export class Viewer {
     this.pose.release();
     change();
     this.pose.apply();
-    this.stage.invalidate();
+    this.stage.moved();
     this.tell("time");
   }
 
@@ -176,7 +179,7 @@ export class Viewer {
     this.markAll();
     this.canvas.dataset["revision"] = String(wanted.revision);
     this.canvas.setAttribute("aria-label", `Model of ${this.state.drawing?.name ?? "the drawing"}: ${count(model.triangles, "triangle")}`);
-    this.stage.invalidate();
+    this.stage.moved();
     this.tell("model", "time");
   }
 
@@ -198,7 +201,8 @@ export class Viewer {
     this.player.clear();
     this.ground.group.visible = false;
     delete this.canvas.dataset["revision"];
-    this.stage.invalidate();
+    this.canvas.setAttribute("aria-label", "No model yet");
+    this.stage.moved();
     this.tell("model", "time", "pose");
   }
 
@@ -220,6 +224,7 @@ export class Viewer {
     this.pose.release();
     const more = this.player.advance(seconds);
     this.pose.apply();
+    this.stage.renderer.shadowMap.needsUpdate = true;
     this.tell("time");
     return more;
   }

@@ -1,0 +1,341 @@
+import assert from "node:assert/strict";
+import { copyFileSync } from "node:fs";
+import { join } from "node:path";
+import type { Page } from "playwright-core";
+import { camera, picture, shown, still } from "./browser";
+import type { Made } from "./drawings";
+import { browse, build, example, FIGURE, one } from "./setup";
+import { make } from "./drawings";
+
+const HUMAN = example("human");
+const broken = (): Made => build(HUMAN, (text) => text.replaceAll("@Ubody", "@Ubdoy"));
+const phone = { viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 } as const;
+
+/** Names of things that lie over each other, or reach out of the window. */
+const overlaps = (page: Page) =>
+  page.evaluate(() => {
+    const seen = [...document.querySelectorAll<HTMLElement>(".bar > *, .toolbar button, .findings, .side, .clips > *, .posebar")].filter((one) => one.offsetParent !== null && one.getBoundingClientRect().width > 0);
+    const wrong: string[] = [];
+    const say = (one: Element) => one.getAttribute("aria-label") ?? one.textContent?.trim().slice(0, 20) ?? one.className;
+    seen.forEach((a, at) => {
+      const own = a.getBoundingClientRect();
+      if (own.left < -0.5 || own.right > innerWidth + 0.5 || own.top < -0.5 || own.bottom > innerHeight + 0.5) wrong.push(`${say(a)} reaches out of the window`);
+      for (const b of seen.slice(at + 1)) {
+        const other = b.getBoundingClientRect();
+        if (own.left < other.right - 0.5 && other.left < own.right - 0.5 && own.top < other.bottom - 0.5 && other.top < own.bottom - 0.5) wrong.push(`${say(a)} and ${say(b)}`);
+      }
+    });
+    return wrong;
+  });
+
+browse("errors open the findings over the last good model, and close them when they are gone", one(HUMAN), async (page, host) => {
+  await shown(page, 1);
+  const findings = page.locator(".findings");
+  assert.equal(await findings.getAttribute("data-open"), "false");
+  assert.equal(await page.locator(".findings-head").innerText(), "2 hints");
+  host.built("human.svg", broken());
+  await page.waitForSelector(".findings[data-open=true]");
+  assert.equal(await page.locator(".stale").innerText(), "The drawing has errors: this is the last good model.");
+  assert.equal(await page.getAttribute("canvas", "data-revision"), "1", "the model stays");
+  const first = page.locator(".finding").first();
+  assert.match(await first.innerText(), /E204\s+there is no part named Ubdoy/);
+  assert.equal(await first.locator("mark").innerText(), "Ubdoy");
+  assert.match(await first.innerText(), /did you mean Ubody\?[\s\S]*help: the name behind @ must be that of a part/);
+  assert.match(await page.locator(".findings-head").innerText(), /3 errors\s*2 hints/);
+  await picture(page, "errors");
+  await first.locator("button").click();
+  await page.waitForTimeout(50);
+  assert.deepEqual(host.heard.filter(({ type }) => type === "open"), [{ type: "open", drawing: "human.svg", line: 157, column: 24 }]);
+  assert.equal(await page.locator("[aria-selected=true]").getAttribute("data-part"), "Head");
+  host.built("human.svg", build(HUMAN));
+  await page.waitForSelector(".findings[data-open=false]");
+  await page.locator(".stale").waitFor({ state: "hidden" });
+  // Who opens it by hand keeps it open.
+  await page.locator(".findings-head").click();
+  host.built("human.svg", broken());
+  await page.locator(".stale").waitFor();
+  host.built("human.svg", build(HUMAN));
+  await page.locator(".stale").waitFor({ state: "hidden" });
+  assert.equal(await findings.getAttribute("data-open"), "true");
+});
+
+browse("a drawing that never built says so, and appears when it does", (host) => {
+  host.add("human.svg");
+  host.built("human.svg", broken());
+}, async (page, host) => {
+  await page.getByText("There is no model yet: the drawing has errors.").waitFor();
+  assert.equal(await page.getByRole("button", { name: "Download" }).isDisabled(), true);
+  host.built("human.svg", build(HUMAN));
+  await shown(page, 2);
+  await page.locator(".notes").waitFor({ state: "hidden" });
+});
+
+browse("a drawing whose file went is said to be gone, and comes back", one(HUMAN), async (page, host) => {
+  await shown(page);
+  host.gone("human.svg");
+  await page.getByText("The drawing's file is not there at present. This is its last model.").waitFor();
+  host.built("human.svg", build(HUMAN));
+  await page.locator(".notes").waitFor({ state: "hidden" });
+});
+
+browse("several drawings are cards that follow their builds; one opens, and the browser's back comes back", (host) => {
+  for (const name of ["human", "car", "dog", "lady", "looks", "robot-ja"]) {
+    host.add(name, `${name}.svg`, name === "car" ? "vehicles" : "");
+    host.built(name, build(example(name)));
+  }
+}, async (page, host) => {
+  await page.waitForFunction(() => document.querySelectorAll(".card img").length === 6);
+  assert.equal(await page.locator(".gallery-head").innerText().then((text) => text.trim()), "6 drawings");
+  const card = page.locator("[data-drawing=human]");
+  assert.match(await card.innerText(), /human\.svg[\s\S]*7 parts/);
+  assert.match(await page.locator("[data-drawing=car]").innerText(), /vehicles/);
+  await picture(page, "gallery");
+  host.built("human", broken());
+  await card.getByText("3 errors").waitFor();
+  assert.match(await page.locator(".gallery-head").innerText(), /6 drawings\s+1 with errors/);
+  host.add("new", "new.svg");
+  await page.locator("[data-drawing=new]").getByText("building…").waitFor();
+  await page.locator("[data-drawing=robot-ja]").click();
+  await shown(page);
+  assert.equal(new URL(page.url()).hash, "#robot-ja");
+  assert.equal(await page.title(), "robot-ja.svg · okoshi");
+  assert.equal(await page.locator(".tree-item").first().getAttribute("data-part"), "胴");
+  await page.waitForTimeout(50);
+  assert.deepEqual(host.heard.filter(({ type }) => type === "want").at(-1), { type: "want", drawing: "robot-ja" });
+  await page.goBack();
+  await card.waitFor();
+  assert.equal(await page.locator("canvas").isVisible(), false);
+  await page.goForward();
+  await shown(page);
+  await page.keyboard.press("g");
+  await card.waitFor();
+});
+
+browse("the address names a drawing", (host) => {
+  for (const name of ["human", "a drawing #1"]) {
+    host.add(name, `${name}.svg`);
+    host.built(name, build(HUMAN));
+  }
+}, async (page) => {
+  await shown(page);
+  assert.equal(await page.title(), "a drawing #1.svg · okoshi");
+}, { hash: `#${encodeURIComponent("a drawing #1")}` });
+
+browse("all is reached and done by keyboard, and where one is is seen", one(HUMAN), async (page, host) => {
+  await shown(page);
+  const reached = new Set<string>();
+  for (let n = 0; n < 60; n++) {
+    await page.keyboard.press("Tab");
+    const where = await page.evaluate(() => {
+      const at = document.activeElement!;
+      if (at === document.body) return "end";
+      const { outlineStyle, outlineWidth } = getComputedStyle(at);
+      return `${at.getAttribute("aria-label") ?? at.getAttribute("data-part") ?? at.textContent?.trim()}|${outlineStyle !== "none" && parseFloat(outlineWidth) >= 2}`;
+    });
+    if (where === "end") break;
+    const [name, ring] = where.split("|");
+    assert.equal(ring, "true", `${name} shows that it is focused`);
+    reached.add(name!);
+  }
+  for (const name of ["Three-quarter view", "Wireframe", "Frame the model", "Parallel", "Pose", "Screenshot", "Help", "2 hints", "Lbody"]) assert.ok(reached.has(name), `${name} is reached: ${[...reached].join(", ")}`);
+  assert.ok([...reached].some((name) => name.startsWith("Model of human.svg")), "the model is reached");
+
+  await page.keyboard.press("t");
+  const active = () => page.evaluate(() => document.activeElement?.getAttribute("data-part"));
+  assert.equal(await active(), "Lbody");
+  for (const [key, part] of [["ArrowDown", "U-1"], ["End", "rect184"], ["Home", "Lbody"], ["ArrowLeft", "Lbody"], ["ArrowDown", "Ubody"], ["ArrowRight", "Rarm"], ["ArrowLeft", "Ubody"]] as const) {
+    await page.keyboard.press(key);
+    assert.equal(await active(), part, `after ${key}`);
+  }
+  assert.equal(await page.locator("[data-part=Lbody]").getAttribute("aria-expanded"), "false");
+  await page.keyboard.press("Enter");
+  assert.equal(await page.getAttribute("canvas", "data-selected"), "Ubody");
+  await page.waitForTimeout(50);
+  assert.deepEqual(host.heard.at(-1), { type: "pick", drawing: "human.svg", part: "Ubody" });
+
+  await page.locator("canvas").focus();
+  for (const key of ["1", "ArrowRight", "ArrowUp", "+", "5", "7", "3", "f", "z"]) {
+    const before = `${await camera(page)} ${await page.getAttribute("canvas", "data-shading")}`;
+    await page.keyboard.press(key);
+    await still(page);
+    assert.notEqual(`${await camera(page)} ${await page.getAttribute("canvas", "data-shading")}`, before, `${key} does something`);
+  }
+  await page.keyboard.press("?");
+  await page.getByRole("dialog").waitFor();
+  await picture(page, "help");
+  await page.keyboard.press("Escape");
+  await page.getByRole("dialog").waitFor({ state: "hidden" });
+  await page.keyboard.press("e");
+  assert.equal(await page.locator(".findings").getAttribute("data-open"), "true");
+});
+
+browse("on a phone nothing lies over anything, and all is touched", one(HUMAN), async (page, host) => {
+  await shown(page);
+  assert.deepEqual(await overlaps(page), []);
+  await picture(page, "phone");
+  const box = (await page.locator("canvas").boundingBox())!;
+  assert.ok(box.height > 200, `the model has ${box.height} pixels`);
+  await page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 2);
+  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["selected"] !== "");
+  assert.notEqual(await page.locator(".sheet-words").innerText(), "Parts");
+  await picture(page, "phone-part");
+  await page.locator(".sheet-head").tap();
+  await page.locator(".side-body").waitFor({ state: "hidden" });
+  assert.ok((await page.locator("canvas").boundingBox())!.height > box.height);
+  for (const button of await page.locator(".toolbar button:visible, .sheet-head").all()) {
+    const { width, height } = (await button.boundingBox())!;
+    assert.ok(width >= 36 && height >= 36, `${await button.innerText()} is ${width} by ${height}`);
+  }
+  await page.getByRole("button", { name: "Pose" }).tap();
+  assert.deepEqual(await overlaps(page), []);
+  host.built("human.svg", broken());
+  await page.waitForSelector(".findings[data-open=true]");
+  await picture(page, "phone-errors");
+}, phone);
+
+browse("a wide page has nothing over anything either", one(HUMAN), async (page) => {
+  await shown(page);
+  for (const width of [1600, 1024, 900, 761, 760, 500, 320]) {
+    await page.setViewportSize({ width, height: 800 });
+    await page.waitForTimeout(60);
+    assert.deepEqual(await overlaps(page), [], `at ${width} pixels`);
+  }
+});
+
+browse("dark mode is followed, at once", one(HUMAN), async (page) => {
+  await shown(page);
+  const bright = async () => {
+    const { data } = await picture(page, "dark");
+    let sum = 0;
+    for (let i = 0; i < data.length; i += 4) sum += data[i]! + data[i + 1]! + data[i + 2]!;
+    return sum / (data.length / 4) / 3;
+  };
+  assert.ok((await bright()) < 80);
+  await page.emulateMedia({ colorScheme: "light" });
+  await still(page);
+  assert.ok((await bright()) > 180);
+  await page.emulateMedia({ colorScheme: "dark" });
+  await page.locator("[data-part=Ubody]").click();
+  await still(page);
+  await picture(page, "dark");
+  // Text stands out from what is behind it as WCAG asks for (4.5 to 1).
+  const least = await page.evaluate(() => {
+    const light = (color: string) => {
+      const [r, g, b] = color.match(/[\d.]+/g)!.map((one) => (Number(one) / 255 <= 0.03928 ? Number(one) / 255 / 12.92 : ((Number(one) / 255 + 0.055) / 1.055) ** 2.4));
+      return 0.2126 * r! + 0.7152 * g! + 0.0722 * b!;
+    };
+    const behind = (element: Element): string => {
+      const { backgroundColor } = getComputedStyle(element);
+      return /, 0\)|transparent/.test(backgroundColor) && element.parentElement ? behind(element.parentElement) : backgroundColor;
+    };
+    const ratios = [".bar-title", ".bar-facts", ".tree-name", ".tree-note", ".facts dt", ".facts .link", ".badge"].map((name) => {
+      const element = document.querySelector(name)!;
+      const [a, b] = [light(getComputedStyle(element).color), light(behind(element))];
+      return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
+    });
+    return Math.min(...ratios);
+  });
+  assert.ok(least >= 4.5, `the least contrast is ${least}`);
+}, { colorScheme: "dark" });
+
+browse("a host that goes away is waited for; what it builds then is shown", one(HUMAN), async (page, host) => {
+  await shown(page, 1);
+  const view = await camera(page);
+  await host.stop();
+  await page.getByText("Connection lost, trying again…").waitFor();
+  assert.equal(await page.getAttribute("canvas", "data-revision"), "1", "the model stays");
+  // Started again, it counts anew: the same address is another model.
+  host.forget();
+  host.add("human.svg");
+  host.built("human.svg", build(FIGURE));
+  const asked = host.asked.length;
+  await host.start();
+  await page.getByText("Connection lost, trying again…").waitFor({ state: "hidden" });
+  await page.locator("[data-part=Arm]").waitFor();
+  await page.waitForFunction(() => document.querySelector("canvas")?.getAttribute("aria-label")?.includes("36 triangles"));
+  assert.ok(host.asked.slice(asked).includes("/builds/1.glb"));
+  await still(page);
+  assert.equal(await camera(page), view);
+});
+
+browse("names and strings of drawings are text, whatever they look like", (host) => {
+  const evil = `<img src=x onerror="document.title='hacked'">`;
+  host.add("evil", evil, evil);
+  const { build: facts, ...rest } = build(HUMAN);
+  const parts = [{ name: evil, parent: null, kind: "main", element: evil, string: { line: 1, column: 1, text: evil, bound_by: evil }, attributes: { [evil]: { value: evil, from: "own" } }, joint: evil }];
+  const findings = [{ severity: "error", code: evil, message: `${evil} \`${evil}\``, label: evil, help: [evil], line: 1, column: 1, text: evil, from: 0, to: 5 }];
+  host.built("evil", { ...rest, build: { ...facts, parts, findings } });
+  host.add("other");
+}, async (page) => {
+  await page.locator(".card img").waitFor();
+  await page.locator(".card").first().click();
+  await shown(page);
+  await page.locator(".tree-item").first().click();
+  await page.waitForTimeout(100);
+  assert.equal(await page.locator("img:not(.card img)").count(), 0);
+  assert.doesNotMatch(await page.title(), /^hacked/);
+  assert.match(await page.locator(".inspector").innerText(), /<img src=x onerror=/);
+});
+
+browse("a drawing of no parts, and one of thousands", (host) => {
+  host.add("many.svg");
+  const shapes = Array.from({ length: 3000 }, (_, n) => `<rect id="r${n}" x="${(n % 60) * 5}" y="${Math.floor(n / 60) * 5}" width="4" height="4" fill="#3a7"/>`).join("");
+  host.built("many.svg", make(process.env["OKOSHI"] ?? "", `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 300">${shapes}</svg>`, FIGURE));
+}, async (page, host) => {
+  await shown(page);
+  assert.equal(await page.locator(".tree-item").count(), 3000);
+  const began = Date.now();
+  await page.locator(".tree-item").nth(1500).click();
+  await page.waitForFunction(() => document.querySelector("canvas")!.dataset["selected"] !== "");
+  assert.ok(Date.now() - began < 3000, `a click took ${Date.now() - began} ms`);
+  host.built("many.svg", { model: null, picture: null, build: { milliseconds: 1, stale: false, triangles: 0, findings: [], parts: [] } });
+  await page.getByText("The drawing has no parts yet.").waitFor();
+});
+
+browse("inside VS Code everything goes by posted messages, and the editor's colours are worn", () => {}, async (page) => {
+  const { model, build: facts } = build(FIGURE);
+  await page.addInitScript(() => {
+    const sent: unknown[] = [];
+    Object.assign(globalThis, { acquireVsCodeApi: () => ({ postMessage: (message: unknown) => sent.push(structuredClone(message)) }), sentByThePage: sent });
+  });
+  await page.reload();
+  const sent = () => page.evaluate(() => (globalThis as unknown as { sentByThePage: Record<string, unknown>[] }).sentByThePage);
+  const post = (message: unknown) => page.evaluate((okoshi) => postMessage({ okoshi }, "*"), message);
+  assert.deepEqual(await sent(), [{ type: "ready" }]);
+  await page.evaluate(() => {
+    document.body.classList.add("vscode-dark");
+    for (const [name, value] of [["--vscode-editor-background", "#102030"], ["--vscode-sideBar-background", "#102030"], ["--vscode-foreground", "#eeeeee"]] as const) document.documentElement.style.setProperty(name, value);
+  });
+  await post({ type: "drawings", drawings: [{ id: "file:///a/figure.svg", name: "figure.svg", folder: "" }] });
+  await post({ type: "build", drawing: "file:///a/figure.svg", build: { ...facts, revision: 4, model: "builds/4.glb", picture: null } });
+  await page.waitForFunction(() => (globalThis as unknown as { sentByThePage: { type: string }[] }).sentByThePage.some(({ type }) => type === "model"));
+  assert.deepEqual((await sent()).filter(({ type }) => type === "model"), [{ type: "model", address: "builds/4.glb" }]);
+  await post({ type: "modelBytes", address: "builds/4.glb", bytes: model!.toString("base64") });
+  await shown(page, 4);
+  await picture(page, "vscode");
+  assert.deepEqual((await picture(page)).at({ x: 20, y: 200 }), [16, 32, 48]);
+  await page.locator("[data-part=Arm]").click();
+  await page.keyboard.press("d");
+  await page.waitForFunction(() => (globalThis as unknown as { sentByThePage: { type: string }[] }).sentByThePage.some(({ type }) => type === "save"));
+  const last = await sent();
+  assert.deepEqual(last.find(({ type }) => type === "pick"), { type: "pick", drawing: "file:///a/figure.svg", part: "Arm" });
+  assert.deepEqual(last.find(({ type }) => type === "save"), { type: "save", name: "figure.glb", bytes: model!.toString("base64") });
+  await post({ type: "light", drawing: "file:///a/figure.svg", part: "Head" });
+  await page.waitForSelector(".tree-item.lit[data-part=Head]");
+});
+
+browse("the picture of the manual", one(example("clockwork-dragon")), async (page) => {
+  await shown(page);
+  await page.locator("[data-part=Head]").click();
+  await page.locator("canvas").focus();
+  await page.evaluate(() => (document.activeElement as HTMLElement).blur());
+  for (const key of ["ArrowLeft", "ArrowLeft", "+"]) await page.keyboard.press(key);
+  await page.mouse.move(2, 2);
+  await still(page);
+  const { width, height, data } = await picture(page, "manual");
+  assert.deepEqual([width, height], [1180, 720]);
+  const colours = new Set<number>();
+  for (let i = 0; i < data.length; i += 4) colours.add((data[i]! << 16) | (data[i + 1]! << 8) | data[i + 2]!);
+  assert.ok(colours.size > 3000, `${colours.size} colours`);
+  if (process.env["OKOSHI_REWRITE"]) copyFileSync(join("test", "out", "manual.png"), join("..", "..", "docs", "preview.png"));
+}, { viewport: { width: 1180, height: 720 } });

@@ -1,0 +1,65 @@
+// What the browser's tests share: one Chromium, drawings, and a host for each test.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, test } from "node:test";
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+import { CHROMIUM, launch, open, type Colour } from "./browser";
+import { make, type Made } from "./drawings";
+import { MockHost } from "./mock";
+
+const okoshi = process.env["OKOSHI"] ?? "";
+const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
+
+const examples = join("..", "..", "examples");
+export const FIGURE = join("test", "figure.svg");
+export const example = (name: string): string => join(examples, `${name}.svg`);
+export const source = (file: string): string => readFileSync(file, "utf8");
+
+const made = new Map<string, Made>();
+/** A drawing's build, its text changed if so wished. */
+export function build(file: string, change: (text: string) => string = (text) => text): Made {
+  const text = change(source(file));
+  const key = `${file}\n${text}`;
+  let one = made.get(key);
+  if (!one) made.set(key, (one = make(okoshi, text, file)));
+  return one;
+}
+
+let browser: Promise<Browser> | undefined;
+after(async () => (await browser)?.close());
+
+/** A test of the page with a host of its own. Whatever the page complains of fails it, breaches of the policy among them. */
+export function browse(name: string, prepare: (host: MockHost) => void, run: (page: Page, host: MockHost) => Promise<void>, options: BrowserContextOptions & { hash?: string } = {}): void {
+  test(name, { skip, timeout: 90_000 }, async () => {
+    browser ??= launch();
+    const host = new MockHost("dist");
+    prepare(host);
+    await host.start();
+    const { hash = "", ...context } = options;
+    const { page, wrong } = await open(await browser, host.address + hash, context);
+    try {
+      await run(page, host);
+      assert.deepEqual(wrong, []);
+    } finally {
+      await page.context().close();
+      await host.stop();
+    }
+  });
+}
+
+/** Prepares a host with one drawing. */
+export const one = (file: string, id = file.replace(/^.*[\\/]/, "")) => (host: MockHost): void => {
+  host.add(id);
+  host.built(id, build(file));
+};
+
+/** Whether a colour is plainly the one that was drawn: lit, so a little darker or lighter, but of the same hue. */
+export function isLike(seen: Colour, drawn: Colour, most = 60): boolean {
+  return seen.every((value, at) => Math.abs(value - drawn[at]!) <= most);
+}
+
+export function assertLike(seen: Colour, drawn: Colour, what: string, most?: number): void {
+  assert.ok(isLike(seen, drawn, most), `${what} is rgb(${seen.join(" ")}), not like rgb(${drawn.join(" ")})`);
+}
