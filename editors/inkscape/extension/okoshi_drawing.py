@@ -116,10 +116,12 @@ def home_link(link, away, root):
     path = unquote(parts.path)
     stays = os.path.normpath(os.path.join(root, path))
     moved = os.path.normpath(os.path.join(away, path))
-    leads_home = inside(moved, root)
-    if moved == stays or (os.path.exists(stays) and not (leads_home and os.path.exists(moved))):
-        return None
-    return escaped(moved, root) if leads_home or os.path.exists(moved) else None
+    if inside(moved, root):
+        # Inkscape's work, unless there is a file at home and none there.
+        ours = os.path.exists(moved) or not os.path.exists(stays)
+    else:
+        ours = os.path.exists(moved) and not os.path.exists(stays)
+    return escaped(moved, root) if ours else None
 
 
 def inside(path, folder):

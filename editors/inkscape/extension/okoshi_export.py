@@ -18,6 +18,9 @@ class Export(inkex.OutputExtension):
         super().__init__()
         self.ending = ending
 
+    def load_raw(self):
+        """Nothing is read: okoshi reads the drawing."""
+
     def save(self, stream):
         """Writes the model's bytes to `stream`."""
         drawing = Drawing(self.options.input_file)

@@ -184,7 +184,11 @@ def open_page(page):
 def detach(command, said):
     """Starts a process that outlives us and Inkscape, and writes to `said`."""
     options = {"creationflags": DETACHED} if sys.platform == "win32" else {"start_new_session": True}
-    subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=said, stderr=said, cwd=os.path.expanduser("~"), **options)
+    process = subprocess.Popen(
+        command, stdin=subprocess.DEVNULL, stdout=said, stderr=said, cwd=os.path.expanduser("~"), **options
+    )
+    # It is not ours to wait for. Else Python warns of it, and inkex has all warnings shown in a window.
+    process.returncode = 0
 
 
 def free_port():

@@ -396,6 +396,20 @@ class Scripts(Folder):
         self.assertEqual(self.call("okoshi_explain.py", okoshi), (0, b"", "explain\n\n"))
         self.assertEqual(self.call("okoshi_explain.py", okoshi, "--about=-x"), (0, b"", "explain -- -x\n\n"))
 
+    def test_stop_and_manual_need_no_drawing(self):
+        environ = dict(os.environ, XDG_CACHE_HOME=self.folder, LOCALAPPDATA=self.folder, HOME=self.folder)
+        environ["OKOSHI"] = self.write("okoshi", "#!/bin/sh\necho manual\n", executable=True)
+        for script, expected in (("okoshi_stop.py", "no preview is running\n"), ("okoshi_explain.py", "manual\n\n")):
+            process = subprocess.Popen(
+                [sys.executable, os.path.join(EXTENSION, script)],
+                env=environ,
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.PIPE,
+            )
+            out, err = process.communicate()
+            self.assertEqual((process.returncode, out, err.decode()), (0, b"", expected))
+
     def test_a_missing_program_is_said_in_words(self):
         copy = self.write("tmp/ink_ext.svg", SVG % "")
         for script in ("okoshi_glb.py", "okoshi_check.py", "okoshi_preview.py", "okoshi_explain.py"):
