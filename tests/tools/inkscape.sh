@@ -14,7 +14,7 @@ fi
 : "${SCRATCH:?names a folder for what is not kept}"
 program=$(realpath "$OKOSHI")
 unset OKOSHI DISPLAY WAYLAND_DISPLAY
-for tool in inkscape Xvfb openbox xdotool import; do
+for tool in inkscape Xvfb openbox xdotool import curl; do
   command -v $tool > /dev/null || { echo "skipped: $tool is not installed"; exit 77; }
 done
 rm -rf "$SCRATCH"
@@ -29,7 +29,8 @@ mkdir -p "$INKSCAPE_PROFILE_DIR" "$XDG_CONFIG_HOME" "$XDG_DATA_HOME" "$XDG_CACHE
 python=/usr/bin/python3
 [ -x $python ] || python=python3
 inkex=$(inkscape --system-data-directory 2> /dev/null | tail -n 1)/extensions
-PYTHONPATH=$inkex $python -c 'import inkex' 2> /dev/null || { echo "skipped: Inkscape's inkex does not load (python3-cssselect, python3-lxml, python3-numpy)"; exit 77; }
+PYTHONPATH=$inkex $python -c 'import inkex' 2> /dev/null \
+  || { echo "skipped: Inkscape's inkex does not load (python3-cssselect, python3-lxml, python3-numpy)"; exit 77; }
 
 started=()
 cleanup() {
@@ -73,6 +74,9 @@ bash $install --uninstall > "$SCRATCH/log"
 [ ! -e "$place" ] || fail "still there: $place"
 bash $install --uninstall > "$SCRATCH/log"
 has "$SCRATCH/log" "nothing to remove"
+bash $install --okoshi "$program" --link > "$SCRATCH/log"
+inkscape examples/human.svg --export-filename="$SCRATCH/linked.glb" > "$SCRATCH/log" 2>&1 || { cat "$SCRATCH/log"; fail "links"; }
+[ -s "$SCRATCH/linked.glb" ] || fail "links do not work"
 # From here on Inkscape finds the program by the note alone.
 bash $install --okoshi "$program" --folder "$INKSCAPE_PROFILE_DIR/extensions" > "$SCRATCH/log"
 

@@ -3,6 +3,7 @@
 import re
 
 from okoshi_drawing import Drawing
+from okoshi_findings import for_window, plural
 from okoshi_previews import Failed, show, stop_all
 from okoshi_program import Missing, find, run
 from okoshi_say import say
@@ -38,26 +39,22 @@ class Check(Entry):
         with drawing.in_folder() as (folder, reading):
             status, said, complained = run(["check"] + reading, folder)
             text = said + complained
+            found = for_window(run(["check", "--format", "json"] + reading, folder)[1], drawing.data)
             if status != 0:
-                say(text + drawing.advice(text))
+                advice = drawing.advice(text)
+                say((text if found is None else found + "\n") + advice, text + advice)
                 return
-            found = re.findall(r"^(warning|hint)\[", text, re.M)
             status, said, complained = run(["build", "--stats", "-q", "-o", "model.glb"] + reading, folder)
         counted = said + complained
         parts, strings = (re.search(r"^\s*%s\s+(\d+)\s*$" % what, counted, re.M) for what in ("parts", "strings"))
         if status != 0 or parts is None or strings is None:
             raise Failed("okoshi did not say what the drawing has:\n\n" + counted)
         verdict = "%s: %s, %s" % (
-            "no errors" if "warning" in found else "no problems",
+            "no errors" if re.search(r"^warning\[", text, re.M) else "no problems",
             plural(parts.group(1), "part"),
             plural(strings.group(1), "string"),
         )
-        say(text + "\n" + verdict if found else verdict)
-
-
-def plural(number, thing):
-    """`1 part`, `2 parts`."""
-    return "%s %s" % (number, thing if number == "1" else thing + "s")
+        say("\n\n".join([found, verdict]) if found else verdict, text + verdict)
 
 
 class Preview(Entry):

@@ -4,6 +4,7 @@ import os
 import sys
 
 from okoshi_drawing import Drawing
+from okoshi_findings import for_window
 from okoshi_program import Missing, run
 from okoshi_say import say
 
@@ -29,7 +30,9 @@ class Export(inkex.OutputExtension):
                 model = "model." + self.ending
                 status, _, said = run(["build", "-o", model] + reading, folder)
                 if status != 0:
-                    say(said + drawing.advice(said))
+                    found = for_window(run(["check", "--format", "json"] + reading, folder)[1], drawing.data)
+                    advice = drawing.advice(said)
+                    say((said if found is None else found + "\n\nnothing was written\n") + advice, said + advice)
                     sys.exit(1)
                 with open(os.path.join(folder, model), "rb") as file:
                     content = file.read()

@@ -5,7 +5,8 @@ import shutil
 import subprocess
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
+# Of the script that Inkscape calls: a module's own place is another one where the files are links.
+HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
 # What the install script notes: one line, the program's path.
 NOTE = "okoshi.path"
 # Of subprocess, which has it from Python 3.7 on, and on Windows alone.

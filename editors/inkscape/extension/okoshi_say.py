@@ -6,12 +6,12 @@ import sys
 import inkex
 
 
-def say(text):
-    """Shows a text in Inkscape's message window; without a window, on Inkscape's own stderr."""
+def say(text, terminal=None):
+    """Shows a text in Inkscape's message window; without a window, on Inkscape's own stderr, there as `terminal` if given."""
     inkex.errormsg(text)
     sys.stderr.flush()
     if version() < (1, 4):
-        beside(text)
+        beside(text if terminal is None else terminal)
 
 
 def version():

@@ -3,6 +3,7 @@
 What talks to Inkscape itself takes inkex on PYTHONPATH, and is skipped without; `tests/tools/inkscape.sh` has it.
 """
 
+import json
 import os
 import stat
 import subprocess
@@ -19,6 +20,7 @@ EXTENSION = os.path.join(os.path.dirname(HERE), "extension")
 sys.path.insert(0, EXTENSION)
 
 import okoshi_drawing
+import okoshi_findings
 import okoshi_follow
 import okoshi_previews
 import okoshi_program
@@ -180,6 +182,40 @@ class Drawings(Folder):
         self.assertIn("Save a Copy", self.drawing(os.path.join(self.folder, "out.glb")).advice(said))
         self.assertEqual(self.drawing(os.path.join(self.folder, "a.svg")).advice(said), "")
         self.assertEqual(self.drawing("").advice("error[E204]"), "")
+
+
+class Findings(unittest.TestCase):
+    def finding(self, start, severity="error", code="E204", **more):
+        return dict({"severity": severity, "code": code, "message": "hm", "start": start, "label": None, "help": None}, **more)
+
+    def answer(self, *findings):
+        return json.dumps({"drawings": [{"diagnostics": findings}]})
+
+    def test_errors_come_first_with_their_string_and_object(self):
+        text = SVG % '<g id="g"><path id="p"><desc id="d">Ärm</desc></path><text id="t"><tspan id="s">A@B &amp;\n x</tspan></text></g>'
+        data = text.encode("utf-8")
+        findings = [
+            self.finding(data.index(b"<path"), "hint", "H402"),
+            self.finding(data.index(b"@B"), label="did you mean `C`?", help="write it alike"),
+            self.finding(data.index("Ärm".encode("utf-8")), "warning", "W101"),
+        ]
+        self.assertEqual(
+            okoshi_findings.for_window(self.answer(*findings), data),
+            "error[E204]: hm\n    in the string: A@B & x\n    of the object: t\n    did you mean `C`?\n    help: write it alike\n\n"
+            "warning[W101]: hm\n    in the string: Ärm\n    of the object: p\n\n"
+            "hint[H402]: hm\n    of the object: p\n\n"
+            "1 error, 1 warning, 1 hint",
+        )
+
+    def test_many_are_cut_short(self):
+        said = okoshi_findings.for_window(self.answer(*[self.finding(0)] * 70), b"<svg/>")
+        self.assertEqual(said.count("E204"), okoshi_findings.MOST)
+        self.assertIn("… and 20 more\n\n70 errors", said)
+
+    def test_what_is_no_answer_is_told(self):
+        for answer in ("", "error: no", "{}", "[]", self.answer({})):
+            self.assertIsNone(okoshi_findings.for_window(answer, b"<svg/>"), answer)
+        self.assertEqual(okoshi_findings.for_window(self.answer(self.finding(3)), b"<svg"), "error[E204]: hm\n\n1 error")
 
 
 @unittest.skipIf(sys.platform == "win32", "the stand-in is a script")
@@ -386,8 +422,11 @@ class Scripts(Folder):
         self.assertEqual(self.call("okoshi_check.py", okoshi), (0, b"", "no problems: 15 parts, 1 string\n"))
 
     def test_the_check_shows_findings(self):
-        okoshi = 'case $3 in check) echo "hint[H402]: hm";; *) echo "  parts  1"; echo "  strings  2";; esac\n'
-        self.assertEqual(self.call("okoshi_check.py", okoshi), (0, b"", "hint[H402]: hm\n\nno problems: 1 part, 2 strings\n"))
+        answer = '{"drawings": [{"diagnostics": [{"severity": "hint", "code": "H402", "message": "hm", "start": 0, "label": null, "help": null}]}]}'
+        okoshi = "case $3-$4 in check-) :;; check---format) echo '%s';; *) echo '  parts  1'; echo '  strings  2';; esac\n" % answer
+        expected = "hint[H402]: hm\n\n1 hint\n\nno problems: 1 part, 2 strings\n"
+        self.assertEqual(self.call("okoshi_check.py", okoshi), (0, b"", expected))
+        # An answer that is not understood is shown as it is for terminals.
         status, out, err = self.call("okoshi_check.py", "echo 'error[E006]: gone'; exit 1\n")
         self.assertEqual((status, out, err), (0, b"", "error[E006]: gone\n\n"))
 
