@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Runs everything that tells whether okoshi is in order: bash tests/all.sh [--quick]
 #
-# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender, Neovim and Emacs are installed if they are missing
-# and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the summary says why.
+# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender, Inkscape, Neovim and Emacs are installed if they are
+# missing and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the summary says why.
 # --quick leaves Blender out, and installs nothing. Exit status 1 if anything failed. All of cargo's work is done in one profile.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -156,6 +156,20 @@ editors() {
   OKOSHI=$(realpath "$okoshi") SCRATCH=$target/editors bash $tools/editors.sh
 }
 
+inkscape_extension() {
+  if ! command -v inkscape > /dev/null || ! command -v Xvfb > /dev/null || ! command -v xdotool > /dev/null \
+    || ! command -v openbox > /dev/null || ! command -v import > /dev/null; then
+    [ $quick = no ] || skip "--quick, and Inkscape or the tools that drive it are not installed"
+    install "Inkscape or the tools that drive it" inkscape python3-cssselect python3-lxml python3-numpy xvfb openbox xdotool \
+      imagemagick curl
+  fi
+  cargo build --locked
+  local status=0
+  OKOSHI=$(realpath "$okoshi") SCRATCH=$target/inkscape bash $tools/inkscape.sh || status=$?
+  [ $status != 77 ] || skip "Inkscape cannot run its extensions here"
+  return $status
+}
+
 step format formatting
 step clippy lints
 step test tests
@@ -168,6 +182,7 @@ step gallery gallery
 step readme readme
 step extension extension
 step editors editors
+step inkscape inkscape_extension
 
 printf '\n==== summary, %d s\n' $SECONDS
 printf '%s\n' "${summary[@]}"

@@ -1,0 +1,37 @@
+# Installs okoshi's extension into Inkscape on Windows: powershell -ExecutionPolicy Bypass -File install.ps1
+# -Okoshi PATH names the program, -Folder DIR Inkscape's folder of extensions; -Uninstall takes it away again.
+param([string]$Okoshi = $env:OKOSHI, [string]$Folder, [switch]$Uninstall)
+$ErrorActionPreference = 'Stop'
+
+# inkscape.com is the one that writes to a console.
+$inkscape = @('inkscape.com', "$env:ProgramFiles\Inkscape\bin\inkscape.com") |
+    ForEach-Object { Get-Command $_ -ErrorAction SilentlyContinue } | Select-Object -First 1
+if ($inkscape) {
+    $version = (& $inkscape.Source --version | Select-Object -First 1)
+    if ($version -notmatch '^Inkscape [1-9]') { throw "This is $version; the extension takes Inkscape 1.0 or newer." }
+    Write-Output "${version}: $($inkscape.Source)"
+    if (-not $Folder) { $Folder = Join-Path (& $inkscape.Source --user-data-directory | Select-Object -Last 1) 'extensions' }
+}
+if (-not $Folder) { $Folder = Join-Path $env:APPDATA 'inkscape\extensions' }
+$target = Join-Path $Folder 'okoshi'
+
+if ($Uninstall) {
+    if (Test-Path $target) { Remove-Item -Recurse -Force $target; Write-Output "removed: $target" }
+    else { Write-Output "nothing to remove: there is no $target" }
+    exit 0
+}
+
+if (-not $Okoshi) { $Okoshi = 'okoshi' }
+$program = @($Okoshi, "$env:USERPROFILE\.cargo\bin\okoshi.exe") |
+    ForEach-Object { Get-Command $_ -ErrorAction SilentlyContinue } | Select-Object -First 1
+if (-not $program) { throw 'The program okoshi was not found. Install it (cargo install --path .), or name it: -Okoshi C:\path\to\okoshi.exe' }
+$said = (& $program.Source --version)
+if ($said -notmatch '^okoshi ') { throw "$($program.Source) is not okoshi: it says `"$said`"." }
+Write-Output "${said}: $($program.Source)"
+
+if (Test-Path $target) { Remove-Item -Recurse -Force $target }
+New-Item -ItemType Directory -Force $target | Out-Null
+Copy-Item (Join-Path $PSScriptRoot 'extension\*.inx'), (Join-Path $PSScriptRoot 'extension\*.py') $target
+[IO.File]::WriteAllText((Join-Path $target 'okoshi.path'), "$($program.Source)`n")
+Write-Output "installed: $target"
+Write-Output 'Start Inkscape anew: File > Save As has glTF, and Extensions has Okoshi.'

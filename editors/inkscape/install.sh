@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# Installs okoshi's extension into Inkscape, for the person who runs this: bash install.sh
+#
+#   --okoshi PATH   the program, if it is not on the PATH or in ~/.cargo/bin; the variable OKOSHI does the same
+#   --folder DIR    Inkscape's folder of extensions, if Inkscape cannot be asked (Edit → Preferences → System shows it)
+#   --link          links instead of copies, for work on the extension
+#   --uninstall     takes it away again
+#
+# The variable INKSCAPE names Inkscape, if it is not on the PATH. Running it again brings everything up to date.
+set -euo pipefail
+
+usage() { sed -n '2,9s/^# \{0,1\}//p' "$0"; }
+fail() { printf '%s\n' "$@" >&2; exit 1; }
+
+here=$(cd "$(dirname "$0")" && pwd)
+okoshi=${OKOSHI:-} folder='' link=no uninstall=no
+while [ $# -gt 0 ]; do
+  case $1 in
+    --okoshi | --folder)
+      [ $# -gt 1 ] || { echo "$1 wants a path" >&2; exit 2; }
+      if [ "$1" = --okoshi ]; then okoshi=$2; else folder=$2; fi
+      shift ;;
+    --link) link=yes ;;
+    --uninstall) uninstall=yes ;;
+    -h | --help) usage; exit 0 ;;
+    *) usage >&2; exit 2 ;;
+  esac
+  shift
+done
+
+# ---- Inkscape and its folder
+
+inkscape=${INKSCAPE:-}
+if [ -z "$inkscape" ]; then
+  for place in inkscape /Applications/Inkscape.app/Contents/MacOS/inkscape "$HOME/Applications/Inkscape.app/Contents/MacOS/inkscape"; do
+    if command -v "$place" > /dev/null; then inkscape=$place; break; fi
+  done
+fi
+if [ -n "$inkscape" ]; then
+  command -v "$inkscape" > /dev/null || fail "INKSCAPE names $inkscape, and there is no such program."
+  said=$("$inkscape" --version 2> /dev/null | sed -n 's/^Inkscape \([0-9][0-9.]*\).*/\1/p' | head -n 1)
+  case $said in
+    '') fail "$inkscape does not say which version it is." ;;
+    0.*) fail "This is Inkscape $said; the extension takes 1.0 or newer." ;;
+  esac
+  echo "Inkscape $said: $(command -v "$inkscape")"
+  [ -n "$folder" ] || folder=$("$inkscape" --user-data-directory 2> /dev/null | tail -n 1)/extensions
+elif [ -z "$folder" ]; then
+  fail "Inkscape was not found. Install it, or name it in the variable INKSCAPE, or name its folder of extensions with --folder:" \
+    "Edit → Preferences → System shows it as User extensions."
+fi
+target=$folder/okoshi
+
+# ---- Away with it
+
+if [ $uninstall = yes ]; then
+  if [ -d "$target" ]; then
+    rm -rf -- "$target"
+    echo "removed: $target"
+  else
+    echo "nothing to remove: there is no $target"
+  fi
+  exit 0
+fi
+
+# ---- The program
+
+if [ -z "$okoshi" ]; then
+  for place in okoshi "$HOME/.cargo/bin/okoshi"; do
+    if command -v "$place" > /dev/null; then okoshi=$place; break; fi
+  done
+fi
+[ -n "$okoshi" ] || fail "The program okoshi was not found on the PATH or in ~/.cargo/bin. Install it (cargo install --path .)," \
+  "or name it: bash install.sh --okoshi /path/to/okoshi"
+okoshi=$(command -v "$okoshi") || fail "There is no program $okoshi."
+okoshi=$(cd "$(dirname "$okoshi")" && pwd)/$(basename "$okoshi")
+said=$("$okoshi" --version) || fail "$okoshi does not run."
+case $said in okoshi\ *) ;; *) fail "$okoshi is not okoshi: it says \"$said\"." ;; esac
+echo "$said: $okoshi"
+"$okoshi" preview --help > /dev/null 2>&1 || echo "note: this okoshi has no preview, so Preview in 3D will say so; a newer one has"
+
+# ---- The files
+
+# Only ours are in the folder; what an older version has left must not stay.
+rm -rf -- "$target"
+mkdir -p "$target"
+for file in "$here"/extension/*.inx "$here"/extension/*.py; do
+  if [ $link = yes ]; then ln -s "$file" "$target/"; else cp "$file" "$target/"; fi
+done
+printf '%s\n' "$okoshi" > "$target/okoshi.path"
+echo "installed: $target"
+
+# Debian's Inkscape comes without a module that its extensions need. Other builds bring a Python of their own.
+if [ -n "$inkscape" ] && system=$("$inkscape" --system-data-directory 2> /dev/null | tail -n 1) && [ -d "$system/extensions/inkex" ]; then
+  case $system in
+    /usr/*)
+      if [ -x /usr/bin/python3 ] && ! PYTHONPATH=$system/extensions /usr/bin/python3 -c 'import inkex' 2> /dev/null; then
+        echo "note: Inkscape's own module inkex does not load; on Debian and Ubuntu this helps:"
+        echo "  sudo apt-get install python3-lxml python3-numpy python3-cssselect"
+      fi ;;
+  esac
+fi
+echo "Start Inkscape anew: File → Save As has glTF, and Extensions has Okoshi."

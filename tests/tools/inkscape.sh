@@ -1,0 +1,238 @@
+#!/usr/bin/env bash
+# Drives the extension from the real Inkscape: OKOSHI=/path/to/okoshi SCRATCH=folder bash tests/tools/inkscape.sh
+#
+# Installing and taking away; models from the command line, byte for byte those of `okoshi build`; faults of a drawing; the entries
+# of the menu and Save As in a window, on a screen of its own (Xvfb, openbox, xdotool). Pictures of the windows are left in
+# SCRATCH/shots. Without OKOSHI the program is taken from target/. Exit status 77 with a reason if something is not installed.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+project=$PWD
+if [ -z "${OKOSHI:-}" ]; then
+  for built in target/debug/okoshi target/release/okoshi; do [ ! -x $built ] || OKOSHI=$built; done
+fi
+: "${OKOSHI:?names the program to test}"
+: "${SCRATCH:?names a folder for what is not kept}"
+program=$(realpath "$OKOSHI")
+unset OKOSHI DISPLAY WAYLAND_DISPLAY
+for tool in inkscape Xvfb openbox xdotool import curl; do
+  command -v $tool > /dev/null || { echo "skipped: $tool is not installed"; exit 77; }
+done
+rm -rf "$SCRATCH"
+mkdir -p "$SCRATCH/shots"
+SCRATCH=$(realpath "$SCRATCH")
+
+# Nothing of the person who runs this, and nothing for them.
+export INKSCAPE_PROFILE_DIR=$SCRATCH/profile XDG_CONFIG_HOME=$SCRATCH/config XDG_DATA_HOME=$SCRATCH/data \
+  XDG_CACHE_HOME=$SCRATCH/cache PYTHONDONTWRITEBYTECODE=1
+mkdir -p "$INKSCAPE_PROFILE_DIR" "$XDG_CONFIG_HOME" "$XDG_DATA_HOME" "$XDG_CACHE_HOME"
+
+python=/usr/bin/python3
+[ -x $python ] || python=python3
+inkex=$(inkscape --system-data-directory 2> /dev/null | tail -n 1)/extensions
+PYTHONPATH=$inkex $python -c 'import inkex' 2> /dev/null \
+  || { echo "skipped: Inkscape's inkex does not load (python3-cssselect, python3-lxml, python3-numpy)"; exit 77; }
+
+started=()
+cleanup() {
+  # Previews end with the extension's own word.
+  env PYTHONPATH="$inkex" $python "$project/editors/inkscape/extension/okoshi_stop.py" > /dev/null 2>&1 || true
+  local one
+  for one in "${started[@]}"; do kill "$one" 2> /dev/null || true; done
+}
+trap cleanup EXIT
+
+fail() { echo "FAILED: $*" >&2; exit 1; }
+has() { grep -qF -- "$2" "$1" || { cat "$1" >&2; fail "$1 lacks: $2"; }; } # FILE TEXT
+await() { # SECONDS COMMAND…
+  local end=$((SECONDS + $1))
+  shift
+  until "$@" > /dev/null 2>&1; do
+    [ $SECONDS -lt $end ] || { shot in-vain; cat "$log"; fail "in vain: $*"; }
+    sleep 0.1
+  done
+}
+
+echo "-- without Inkscape"
+PYTHONPATH=$inkex $python -m unittest discover -q editors/inkscape/test
+
+echo "-- installing"
+install=editors/inkscape/install.sh
+place=$INKSCAPE_PROFILE_DIR/extensions/okoshi
+if env PATH=/usr/bin:/bin HOME="$SCRATCH" bash $install > "$SCRATCH/log" 2>&1; then fail "installed without a program"; fi
+has "$SCRATCH/log" "cargo install --path ."
+if bash $install --okoshi /bin/true > "$SCRATCH/log" 2>&1; then fail "took something else for okoshi"; fi
+has "$SCRATCH/log" "is not okoshi"
+if bash $install --nonsense > "$SCRATCH/log" 2>&1; then fail "took an option that is none"; fi
+has "$SCRATCH/log" "--uninstall"
+bash $install --okoshi "$program" > "$SCRATCH/log"
+has "$SCRATCH/log" "installed: $place"
+(cd "$place" && sha256sum ./*) > "$SCRATCH/first"
+touch "$place/okoshi_left_by_an_older_version.inx"
+bash $install --okoshi "$program" > "$SCRATCH/log"
+(cd "$place" && sha256sum ./*) | diff "$SCRATCH/first" -
+bash $install --uninstall > "$SCRATCH/log"
+[ ! -e "$place" ] || fail "still there: $place"
+bash $install --uninstall > "$SCRATCH/log"
+has "$SCRATCH/log" "nothing to remove"
+bash $install --okoshi "$program" --link > "$SCRATCH/log"
+inkscape examples/human.svg --export-filename="$SCRATCH/linked.glb" > "$SCRATCH/log" 2>&1 || { cat "$SCRATCH/log"; fail "links"; }
+[ -s "$SCRATCH/linked.glb" ] || fail "links do not work"
+# From here on Inkscape finds the program by the note alone.
+bash $install --okoshi "$program" --folder "$INKSCAPE_PROFILE_DIR/extensions" > "$SCRATCH/log"
+
+echo "-- models from the command line"
+here="$SCRATCH/zwei Öhrchen"
+mkdir "$here"
+cp examples/human.svg examples/looks.svg examples/*.png examples/shapes/model.svg examples/shapes/biscuit.glb "$here/"
+# A picture whose link is written with escapes, in a folder below.
+mkdir "$here/Bil der"
+cp "$here/gull.png" "$here/Bil der/Möwe & Co.png"
+sed 's|href="gull.png"|href="Bil%20der/M%C3%B6we%20\&amp;%20Co.png"|' "$here/looks.svg" > "$here/möwe.svg"
+cmp -s "$here/looks.svg" "$here/möwe.svg" && fail "möwe.svg has its old link"
+cd /
+for name in human looks model möwe; do
+  for ending in glb gltf; do
+    "$program" build -q "$here/$name.svg" -o "$SCRATCH/expected.$ending"
+    inkscape "$here/$name.svg" --export-filename="$SCRATCH/$name.$ending" > "$SCRATCH/log" 2>&1 || { cat "$SCRATCH/log"; fail "$name.$ending"; }
+    cmp "$SCRATCH/$name.$ending" "$SCRATCH/expected.$ending"
+  done
+done
+
+echo "-- a drawing with a fault"
+sed 's/@Ubody/@Ubdoy/' "$here/human.svg" > "$here/fault.svg"
+echo "as before" > "$SCRATCH/fault.glb"
+# Inkscape 1.2 knows no better than to die when an extension writes nothing.
+if inkscape "$here/fault.svg" --export-filename="$SCRATCH/fault.glb" 2>&1 | cat > "$SCRATCH/log"; then fail "the fault was passed over"; fi
+has "$SCRATCH/log" 'error[E204]: there is no part named `Ubdoy`'
+has "$SCRATCH/log" "did you mean \`Ubody\`?"
+has "$SCRATCH/log" "--> fault.svg:"
+[ "$(cat "$SCRATCH/fault.glb")" = "as before" ] || fail "the file of before was written over"
+rm "$SCRATCH/fault.glb"
+! inkscape "$here/fault.svg" --export-filename="$SCRATCH/fault.glb" > /dev/null 2> "$SCRATCH/log" || fail "the fault was passed over"
+has "$SCRATCH/log" 'error[E204]: there is no part named `Ubdoy`'
+[ ! -e "$SCRATCH/fault.glb" ] || fail "a file was written in spite of errors"
+cp "$here/looks.svg" "$SCRATCH/alone.svg"
+! inkscape "$SCRATCH/alone.svg" --export-filename="$SCRATCH/fault.glb" 2>&1 | cat > "$SCRATCH/log"
+has "$SCRATCH/log" 'error[E006]: the link `gull.png` is not there'
+
+echo "-- a screen"
+Xvfb -displayfd 3 -screen 0 1280x900x24 -nolisten tcp 3> "$SCRATCH/display" > "$SCRATCH/xvfb.log" 2>&1 &
+started+=($!)
+until [ -s "$SCRATCH/display" ]; do kill -0 "${started[0]}" || fail "Xvfb does not start"; sleep 0.1; done
+DISPLAY=:$(cat "$SCRATCH/display")
+export DISPLAY
+log=$SCRATCH/inkscape.log
+openbox > "$SCRATCH/openbox.log" 2>&1 &
+started+=($!)
+shot() { import -window root "$SCRATCH/shots/$1.png"; }
+gone() { ! kill -0 "$1"; }
+window() { xdotool search --onlyvisible --name "$1"; }
+# A message has a window without a name.
+message() {
+  local active name
+  active=$(xdotool getactivewindow) && name=$(xdotool getwindowname "$active") && [ -z "$name" ]
+}
+begin() { # ARGUMENTS…
+  : > "$log"
+  inkscape "$@" >> "$log" 2>&1 &
+  inkscape=$!
+  started+=("$inkscape")
+}
+entry() { # DRAWING ID TEXT: calls an entry of the menu, and waits for its message, in which the text must be
+  begin --batch-process "$1" --actions="org.okoshi.$2.noprefs"
+  await 60 grep -qF -- "$3" "$log"
+  await 20 message
+  sleep 0.5
+  shot "$2-$(basename "$1" .svg)"
+  xdotool key Escape
+  await 20 gone "$inkscape"
+}
+inkscape --action-list 2> /dev/null > "$SCRATCH/actions"
+for id in check explain preview stop; do has "$SCRATCH/actions" "org.okoshi.$id.noprefs:"; done
+
+echo "-- entries of the menu"
+cp "$here/human.svg" "$here/fault.svg" "$SCRATCH/"
+entry "$here/human.svg" check "no problems: 15 parts, 12 strings"
+entry "$here/looks.svg" check "no problems: 9 parts, 10 strings"
+entry "$here/fault.svg" check 'error[E204]: there is no part named `Ubdoy`'
+entry "$here/human.svg" explain '- `Shape`: how the flat outline becomes a solid'
+cmp "$here/human.svg" "$SCRATCH/human.svg"
+cmp "$here/fault.svg" "$SCRATCH/fault.svg"
+
+echo "-- the preview"
+mkdir "$SCRATCH/bin"
+for opener in xdg-open www-browser; do
+  printf '#!/bin/sh\necho "$@" >> "%s"\n' "$SCRATCH/opened" > "$SCRATCH/bin/$opener"
+  chmod +x "$SCRATCH/bin/$opener"
+done
+export BROWSER="$SCRATCH/bin/xdg-open"
+if ! "$program" preview --help > /dev/null 2>&1; then
+  echo "this okoshi has no preview: a stand-in serves"
+  export REAL_OKOSHI=$program FAKE_LOG=$SCRATCH/calls
+  printf '%s\n' "$project/editors/inkscape/test/fake_okoshi.py" > "$place/okoshi.path"
+fi
+preview() {
+  begin --batch-process "$1" --actions="org.okoshi.preview.noprefs"
+  await 60 gone "$inkscape"
+}
+opened() { [ "$(grep -c . "$SCRATCH/opened")" = "$1" ]; } # NUMBER
+states() { find "$XDG_CACHE_HOME/okoshi/inkscape" -name server.json; }
+field() { $python -c 'import json, sys; print(json.load(open(sys.argv[1]))[sys.argv[2]])' "$(states)" "$1"; }
+preview "$here/looks.svg"
+await 10 opened 1
+page=$(head -n 1 "$SCRATCH/opened")
+serves() { curl -sf -o "$SCRATCH/page" "$page"; }
+await 10 serves
+pid=$(field pid)
+preview "$here/looks.svg"
+await 10 opened 2
+[ "$(sort -u "$SCRATCH/opened")" = "$page" ] || fail "two pages of one drawing: $(cat "$SCRATCH/opened")"
+[ "$(field pid)" = "$pid" ] || fail "a second server was started"
+# What the server watches is the canvas, its links as in the drawing; and then what is saved.
+copy=$(field copy)
+has "$copy" 'xlink:href="gull.png"'
+sed 's/Sail@Mast/Canvas@Mast/' "$here/looks.svg" > "$SCRATCH/new.svg"
+cat "$SCRATCH/new.svg" > "$here/looks.svg"
+await 10 cmp -s "$copy" "$SCRATCH/new.svg"
+entry "$here/looks.svg" stop "1 preview stopped"
+[ ! -e "$copy" ] || fail "the copy was left"
+if serves; then fail "the page is served on"; fi
+printf '%s\n' "$program" > "$place/okoshi.path"
+
+echo "-- Save As and Save a Copy"
+save() { # KEYS NAME
+  xdotool key "$1"
+  await 30 window "Select file to save"
+  xdotool windowactivate --sync "$(window "Select file to save" | tail -n 1)" key ctrl+a
+  xdotool type --delay 30 -- "$2"
+  sleep 0.5
+  shot "save-as-$(basename "$2")"
+  xdotool key Return
+}
+begin "$here/möwe.svg"
+await 60 window "möwe.svg - Inkscape"
+xdotool windowactivate --sync "$(window "möwe.svg - Inkscape" | tail -n 1)"
+sleep 1
+# The menu, to be looked at: Okoshi stands ten from its end.
+xdotool key 5 alt+n
+sleep 1
+xdotool key --delay 50 Up Up Up Up Up Up Up Up Up Right
+sleep 1
+shot menu
+xdotool key --delay 100 Escape Escape Escape
+mkdir "$SCRATCH/elsewhere"
+save ctrl+shift+alt+s "$SCRATCH/elsewhere/copy.glb"
+await 30 cmp -s "$SCRATCH/elsewhere/copy.glb" "$SCRATCH/expected.glb"
+save ctrl+shift+s beside.gltf
+await 30 cmp -s "$here/beside.gltf" "$SCRATCH/expected.gltf"
+await 30 window "beside.gltf - Inkscape"
+# Under Save As, Inkscape tells where the model goes, not where the drawing lies.
+save ctrl+shift+s "$SCRATCH/elsewhere/lost.glb"
+await 30 grep -qF 'File → Save a Copy' "$log"
+await 20 message
+sleep 0.5
+shot save-as-elsewhere
+has "$log" 'canvas.png` is not there'
+[ ! -e "$SCRATCH/elsewhere/lost.glb" ] || fail "a file was written in spite of errors"
+kill "$inkscape"
+echo "all of Inkscape is well; pictures are in $SCRATCH/shots"
