@@ -55,8 +55,8 @@ export class Viewer {
         const bytes = await host.model(address);
         const model = await readModel(bytes);
         model.shade(this.shading);
-        // Shaders are made before the model is put in, so that the swap takes no longer than a frame.
-        await this.stage.renderer.compileAsync(model.root, this.view.camera, this.stage.scene);
+        // The first model's shaders are made before it is put in, so that nothing stalls; those after it mostly use the same.
+        if (!this.model) await this.stage.renderer.compileAsync(model.root, this.view.camera, this.stage.scene);
         return { model, bytes };
       },
       ({ model, bytes }, wanted) => this.take(model, bytes, wanted),
