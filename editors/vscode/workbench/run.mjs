@@ -90,6 +90,12 @@ try {
     });
   };
 
+  /** Loads the window anew. An address that names a drawing would open that alone. */
+  const reload = async () => {
+    await page.goto(`http://${server.address}/?folder=${encodeURIComponent(project)}`);
+    await editor.see(".editor-instance .view-line span", "svg");
+  };
+
   /** One step: does it, takes a picture, and says how it went. */
   const step = async (name, act) => {
     if (wanted && !wanted.some((one) => name.includes(one))) return;
@@ -155,7 +161,7 @@ try {
   const ready = async () => configure({});
   const read = (name = "figure.svg") => readFileSync(join(project, name), "utf8");
   const reset = () => copyFileSync(join(here, "figure.svg"), join(project, "figure.svg"));
-  await withServer({ editor, page, step, ready, configure, program, read, reset, open, shots });
+  await withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shots });
   assert.ok(number > 0, `no step is named ${process.env.ONLY}`);
 } catch (error) {
   // Where the browser itself has ended, there is nothing to take a picture of.

@@ -15,7 +15,7 @@ export function place(text, wanted, at = 0) {
 
 const WRONG = "Head@Body$Shap round";
 
-export async function withServer({ editor, page, step, ready, configure, program, read, reset, open, shots }) {
+export async function withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shots }) {
   const figure = read();
   const at = (wanted, offset) => editor.caret(place(figure, wanted, offset));
   /** The drawing on disk after saving, once it is as wanted. */
@@ -26,8 +26,12 @@ export async function withServer({ editor, page, step, ready, configure, program
     });
   /** Begins anew: the drawing as it was, in a fresh window, with its errors found. */
   const again = async () => {
-    await page.locator(".tab.active.dirty").count().then((dirty) => dirty && editor.press("Control+s"));
-    await page.waitForTimeout(300);
+    // Saved first: the next window would bring back what was not.
+    if ((await page.locator(".tab.dirty").count()) > 0) {
+      await editor.press("Control+1");
+      await editor.press("Control+s");
+      await page.locator(".tab.dirty").first().waitFor({ state: "detached" });
+    }
     reset();
     await open("figure.svg");
     await editor.see(".squiggly-error");
@@ -174,7 +178,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await editor.press("Escape");
     await saved("a text for all parts", (text) => text.includes(">%Shape default -20 20 Scale 1.0</text>"));
   });
-  await previews({ editor, page, step, again, at, saved, figure, shots, WRONG });
+  await previews({ editor, page, step, again, at, saved, figure, shots, reload, WRONG });
   await step("on demand, drawings are checked when they are saved", async () => {
     await again();
     configure({ "okoshi.analyse": "onSave", "editor.renderFinalNewline": "off" });
