@@ -1,10 +1,11 @@
 // Bundles the extension into dist/ and puts beside it what the package takes from elsewhere in the repository:
-// the grammars that are generated from the keyword table, and the licences.
+// the page of the preview, the grammars that are generated from the keyword table, and the licences.
 
 import { cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { build } from "esbuild";
+import { page } from "./page.mjs";
 
 const here = join(dirname(fileURLToPath(import.meta.url)), "..");
 const repository = join(here, "..", "..");
@@ -18,6 +19,9 @@ mkdirSync(join(dist, "syntaxes"), { recursive: true });
 for (const name of ["okoshi", "okoshi-injection"]) {
   cpSync(join(repository, "grammar", `${name}.tmLanguage.json`), join(dist, "syntaxes", `${name}.tmLanguage.json`));
 }
+const made = await page();
+mkdirSync(join(dist, "page"));
+for (const name of ["page.html", "page.js", "page.css"]) cpSync(join(made, name), join(dist, "page", name));
 const licence = (name) => readFileSync(join(repository, name), "utf8").trim();
 writeFileSync(
   join(here, "LICENSE.txt"),

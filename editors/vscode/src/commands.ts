@@ -4,13 +4,13 @@ import { execFile } from "node:child_process";
 import { basename, dirname } from "node:path";
 import { promisify } from "node:util";
 import * as vscode from "vscode";
-import { ExecuteCommandRequest } from "vscode-languageclient/node";
+import type { Previews } from "./preview/panels";
 import { looksAfter, type Server } from "./server";
 
 /** Registers the commands that package.json lists. */
-export function register(context: vscode.ExtensionContext, server: Server, output: vscode.LogOutputChannel): void {
-  const commands: Record<string, () => unknown> = {
-    "okoshi.previewActive": () => preview(server),
+export function register(context: vscode.ExtensionContext, server: Server, previews: Previews, output: vscode.LogOutputChannel): void {
+  const commands: Record<string, (argument?: unknown) => unknown> = {
+    "okoshi.preview": (drawing) => preview(server, previews, drawing),
     "okoshi.build": () => build(server),
     "okoshi.newDrawing": () => newDrawing(server),
     "okoshi.restart": () => server.restart(),
@@ -37,21 +37,12 @@ async function activeDrawing(): Promise<vscode.TextDocument | undefined> {
   return undefined;
 }
 
-async function preview(server: Server): Promise<void> {
-  const drawing = await activeDrawing();
-  if (!drawing) return;
+/** Shows a drawing in 3D: the one that the code lens or a menu names, else the active one. */
+async function preview(server: Server, previews: Previews, named: unknown): Promise<void> {
+  const uri = named instanceof vscode.Uri ? named : typeof named === "string" ? vscode.Uri.parse(named) : (await activeDrawing())?.uri;
+  if (!uri) return;
+  await previews.show(uri);
   if (!server.running) await server.restart();
-  const client = server.running;
-  if (!client) return;
-  const uri = client.code2ProtocolConverter.asUri(drawing.uri);
-  const options = { location: vscode.ProgressLocation.Window, title: `Drawing ${basename(drawing.uri.path)} in 3D` };
-  try {
-    await vscode.window.withProgress(options, async () => {
-      await client.sendRequest(ExecuteCommandRequest.type, { command: "okoshi.preview", arguments: [uri] });
-    });
-  } catch (error) {
-    void vscode.window.showErrorMessage(`There is no preview: ${message(error)}`);
-  }
 }
 
 async function build(server: Server): Promise<void> {

@@ -39,8 +39,3 @@ export function countOutline(nodes: readonly Outline[]): number {
   }
   return count;
 }
-
-/** Whether a picture editor shows a path better than a text editor. */
-export function isPicture(path: string): boolean {
-  return /\.(?:png|apng|gif|jpe?g|webp)$/i.test(path);
-}

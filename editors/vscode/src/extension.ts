@@ -2,6 +2,7 @@
 
 import * as vscode from "vscode";
 import { register } from "./commands";
+import { Previews } from "./preview/panels";
 import { looksAfter, Server } from "./server";
 import { Status } from "./status";
 
@@ -11,16 +12,18 @@ export function activate(context: vscode.ExtensionContext): void {
   const output = vscode.window.createOutputChannel("Okoshi", { log: true });
   server = new Server(output);
   const started = server;
+  const previews = new Previews(context.extensionUri, started, output);
   context.subscriptions.push(
     output,
     started,
     new Status(started),
+    previews,
     vscode.workspace.onDidChangeConfiguration((event) => started.settingsChanged(event)),
     vscode.workspace.onDidOpenTextDocument((document) => {
       if (looksAfter(document)) void started.start();
     }),
   );
-  register(context, started, output);
+  register(context, started, previews, output);
   void started.start();
 }
 

@@ -18,7 +18,7 @@ import {
 } from "vscode-languageclient/node";
 import { candidates, firstThatRuns, versionIn } from "./binary";
 import { hasStrings, isDrawing, selector } from "./drawing";
-import { showDocument } from "./preview";
+import { NEWS, news, type Message } from "./preview/wire";
 import { configuration, initializationOptions, settingsFrom, type Settings } from "./settings";
 import type { State } from "./status-text";
 import { TraceChannel } from "./trace";
@@ -41,9 +41,16 @@ export function looksAfter(document: vscode.TextDocument): boolean {
   return isDrawing(document.languageId, document.uri.scheme, document.uri.path);
 }
 
+/** What the server says for the page that shows a drawing. */
+export interface News {
+  readonly uri: vscode.Uri;
+  readonly messages: readonly Message[];
+}
+
 /** The one server of a window. */
 export class Server implements vscode.Disposable {
   private readonly changes = new vscode.EventEmitter<void>();
+  private readonly newsOfPreviews = new vscode.EventEmitter<News>();
   private readonly tracing: TraceChannel;
   private client: LanguageClient | undefined;
   private found: string | undefined;
@@ -51,9 +58,12 @@ export class Server implements vscode.Disposable {
   private crashes: number[] = [];
   private queue: Promise<void> = Promise.resolve();
   private now: State = { kind: "idle" };
+  private run = 0;
 
   /** Fires when `state` has changed. */
   readonly onDidChange = this.changes.event;
+  /** Fires when a drawing that is shown was built, or something in it is to be lit up. */
+  readonly onNews = this.newsOfPreviews.event;
 
   constructor(private readonly output: vscode.LogOutputChannel) {
     this.tracing = new TraceChannel(output, settings().traced);
@@ -61,6 +71,11 @@ export class Server implements vscode.Disposable {
 
   get state(): State {
     return this.now;
+  }
+
+  /** How often the server has come to run. What it was told in one run it does not know in the next. */
+  get runs(): number {
+    return this.run;
   }
 
   /** The running client. */
@@ -125,6 +140,7 @@ export class Server implements vscode.Disposable {
 
   dispose(): void {
     this.changes.dispose();
+    this.newsOfPreviews.dispose();
     this.tracing.dispose();
   }
 
@@ -180,15 +196,21 @@ export class Server implements vscode.Disposable {
         initializationFailedHandler: () => false,
         errorHandler: this.errorHandler(() => client),
         markdown: { isTrusted: false, supportHtml: false },
-        middleware: { window: { showDocument } },
       },
     );
     client.registerFeature(pushOnly);
+    client.registerFeature(ownPreview);
+    client.onNotification(NEWS, (params: unknown) => {
+      const read = news(params);
+      if (read) this.newsOfPreviews.fire({ uri: client.protocol2CodeConverter.asUri(read.uri), messages: read.messages });
+    });
     this.client = client;
     client.onDidChangeState(({ newState }) => {
       if (this.client !== client) return;
-      if (newState === ClientState.Running) this.become({ kind: "running", version });
-      else if (newState === ClientState.Starting) this.become({ kind: "starting" });
+      if (newState === ClientState.Running) {
+        this.run += 1;
+        this.become({ kind: "running", version });
+      } else if (newState === ClientState.Starting) this.become({ kind: "starting" });
       else if (this.now.kind !== "failed") this.become({ kind: "stopped" });
     });
     try {
@@ -244,6 +266,21 @@ const pushOnly: StaticFeature = {
   fillClientCapabilities: (capabilities) => {
     delete capabilities.textDocument?.diagnostic;
     delete capabilities.workspace?.diagnostics;
+  },
+  initialize: () => {},
+  getState: () => ({ kind: "static" }),
+  clear: () => {},
+};
+
+/**
+ * The command behind the server's code lens is the extension's own, which opens a panel: the library would register another
+ * of that name, and could not.
+ */
+const ownPreview: StaticFeature = {
+  fillClientCapabilities: () => {},
+  preInitialize: ({ executeCommandProvider }) => {
+    if (!executeCommandProvider) return;
+    executeCommandProvider.commands = executeCommandProvider.commands.filter((command) => command !== "okoshi.preview");
   },
   initialize: () => {},
   getState: () => ({ kind: "static" }),

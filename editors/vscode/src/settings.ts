@@ -22,8 +22,9 @@ export function settingsFrom(get: (name: string) => unknown): Settings {
 }
 
 /** What the server is started with. */
-export function initializationOptions({ analyse }: Settings): { analyse: Analyse } {
-  return { analyse };
+export function initializationOptions({ analyse }: Settings): { analyse: Analyse; preview: true } {
+  // Previews have a panel here; without this, the server would open a browser.
+  return { analyse, preview: true };
 }
 
 /** What `workspace/didChangeConfiguration` carries. */

@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
-import { countOutline, hasStrings, isDrawing, isPicture, selector, type Outline } from "../src/drawing";
+import { countOutline, hasStrings, isDrawing, selector, type Outline } from "../src/drawing";
 import { drawings, repository } from "./paths";
 
 test("drawings are SVG files of either language, and untitled ones", () => {
@@ -52,9 +52,4 @@ test("outlines are counted with all that is in them, however deep", () => {
   let deep: Outline = {};
   for (let depth = 1; depth < 100_000; depth += 1) deep = { children: [deep] };
   assert.equal(countOutline([deep]), 100_000);
-});
-
-test("pictures are told by their endings", () => {
-  for (const path of ["/a.png", "/a.GIF", "/a.b.jpeg"]) assert.ok(isPicture(path), path);
-  for (const path of ["/a.svg", "/png", "/a.png.txt"]) assert.ok(!isPicture(path), path);
 });

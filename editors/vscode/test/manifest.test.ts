@@ -9,7 +9,7 @@ const sources = ["commands", "extension", "server", "status"].map((name) => read
 const commands = manifest.contributes.commands.map(({ command }) => command);
 
 test("every command is registered, and every registered one is listed", () => {
-  const registered = [...sources.matchAll(/^ {4}"(okoshi\.\w+)": \(\) =>/gm)].map((match) => match[1]);
+  const registered = [...sources.matchAll(/^ {4}"(okoshi\.\w+)": \(\w*\) =>/gm)].map((match) => match[1]);
   assert.deepEqual([...registered].sort(), [...commands].sort());
 });
 
@@ -34,9 +34,9 @@ test("the walkthrough's commands, pictures and pages are there", () => {
   }
 });
 
-test("no language is contributed, and nothing but XML wakes the extension", () => {
+test("no language is contributed, and nothing but XML and its own panel wakes the extension", () => {
   assert.ok(!("languages" in manifest.contributes));
-  assert.deepEqual(manifest.activationEvents, ["onLanguage:xml", "onLanguage:svg"]);
+  assert.deepEqual(manifest.activationEvents, ["onLanguage:xml", "onLanguage:svg", "onWebviewPanel:okoshi.preview"]);
 });
 
 /** A snippet as it is inserted when nothing is changed. */

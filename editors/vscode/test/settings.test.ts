@@ -24,9 +24,9 @@ test("what is of the wrong kind counts as not set", () => {
   }
 });
 
-test("the server is told when to check, and nothing else", () => {
+test("the server is told when to check, and that previews have a panel", () => {
   const settings = from({ analyse: "onSave", path: "/bin/okoshi" });
-  assert.deepEqual(initializationOptions(settings), { analyse: "onSave" });
+  assert.deepEqual(initializationOptions(settings), { analyse: "onSave", preview: true });
   assert.deepEqual(configuration(settings), { settings: { okoshi: { analyse: "onSave" } } });
 });
 

@@ -65,7 +65,8 @@ settings("okoshi-that-is-not-there");
 const server = await codeServer(found, { vsix: join(room, "okoshi.vsix"), data, extensions: join(room, "extensions"), env: { HOME: room } });
 const browser = await found.chromium.launch({
   executablePath: found.browser,
-  args: ["--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+  // WebGL is drawn by the processor, so that it is there on every machine.
+  args: ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
 });
 
 let failed = 0;
@@ -87,6 +88,12 @@ try {
       await editor.press("Control+1");
       return page.evaluate(() => document.activeElement?.closest(".editor-instance") !== null);
     });
+  };
+
+  /** Loads the window anew. An address that names a drawing would open that alone. */
+  const reload = async () => {
+    await page.goto(`http://${server.address}/?folder=${encodeURIComponent(project)}`);
+    await editor.see(".editor-instance .view-line span", "svg");
   };
 
   /** One step: does it, takes a picture, and says how it went. */
@@ -154,7 +161,7 @@ try {
   const ready = async () => configure({});
   const read = (name = "figure.svg") => readFileSync(join(project, name), "utf8");
   const reset = () => copyFileSync(join(here, "figure.svg"), join(project, "figure.svg"));
-  await withServer({ editor, page, step, ready, configure, program, read, reset, open, shots });
+  await withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shots });
   assert.ok(number > 0, `no step is named ${process.env.ONLY}`);
 } catch (error) {
   // Where the browser itself has ended, there is nothing to take a picture of.

@@ -76,7 +76,7 @@ function start(page: HTMLElement): void {
   listenToKeys(viewer, commands, { clips, findings, tree, gallery: () => state.list.length > 1 && openGallery() }, shows);
   host.listen(
     (message) => state.receive(message),
-    (link) => state.setLink(link),
+    (link, note) => state.setLink(link, note),
   );
 }
 

@@ -29,6 +29,8 @@ export class State {
   hovered: string | null = null;
   lit: string | null = null;
   link: Link = "connecting";
+  /** Why the connection is as it is, in the host's words; empty if it has none. */
+  linkNote = "";
   /** Counts connections. Addresses of models hold within one. */
   connection = 0;
   /** Whether the host has said which drawings there are. */
@@ -81,10 +83,11 @@ export class State {
     }
   }
 
-  setLink(link: Link): void {
-    if (link === this.link) return;
-    if (link === "open") this.connection++;
+  setLink(link: Link, note = ""): void {
+    if (link === this.link && note === this.linkNote) return;
+    if (link === "open" && link !== this.link) this.connection++;
     this.link = link;
+    this.linkNote = note;
     this.tell("link");
   }
 

@@ -296,7 +296,9 @@ browse("inside VS Code everything goes by posted messages, and the editor's colo
   const { model, build: facts } = build(FIGURE);
   await page.addInitScript(() => {
     const sent: unknown[] = [];
-    Object.assign(globalThis, { acquireVsCodeApi: () => ({ postMessage: (message: unknown) => sent.push(structuredClone(message)) }), sentByThePage: sent });
+    const postMessage = (message: unknown) => sent.push(structuredClone(message));
+    const setState = (state: unknown) => sent.push({ type: "state", state });
+    Object.assign(globalThis, { acquireVsCodeApi: () => ({ postMessage, setState }), sentByThePage: sent });
   });
   await page.reload();
   const sent = () => page.evaluate(() => (globalThis as unknown as { sentByThePage: Record<string, unknown>[] }).sentByThePage);
@@ -322,6 +324,18 @@ browse("inside VS Code everything goes by posted messages, and the editor's colo
   assert.deepEqual(last.find(({ type }) => type === "save"), { type: "save", name: "figure.glb", bytes: model!.toString("base64") });
   await post({ type: "light", drawing: "file:///a/figure.svg", part: "Head" });
   await page.waitForSelector(".tree-item.lit[data-part=Head]");
+  // The editor hands this to the extension when it brings the panel back.
+  assert.deepEqual(last.find(({ type }) => type === "state"), { type: "state", state: { drawing: "file:///a/figure.svg" } });
+  // The language server went away, and another came: its builds are counted anew.
+  await post({ type: "link", state: "lost", note: "okoshi is not running at present." });
+  await page.waitForSelector(".bar[data-link=lost] .bar-link >> text=okoshi is not running at present.");
+  await post({ type: "build", drawing: "file:///a/figure.svg", build: { ...facts, revision: 1, model: "builds/4.glb", picture: null } });
+  assert.equal((await sent()).filter(({ type }) => type === "model").length, 1);
+  await post({ type: "link", state: "open", note: "" });
+  await page.waitForFunction(() => (globalThis as unknown as { sentByThePage: { type: string }[] }).sentByThePage.filter(({ type }) => type === "model").length === 2);
+  await page.waitForSelector(".bar-link", { state: "hidden" });
+  await post({ type: "modelBytes", address: "builds/4.glb", bytes: model!.toString("base64") });
+  await shown(page, 1);
 });
 
 browse("the picture of the manual", one(example("clockwork-dragon")), async (page) => {

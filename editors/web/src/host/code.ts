@@ -5,6 +5,8 @@ import type { Host, Link } from "./host";
 
 export interface CodeApi {
   postMessage(message: unknown): void;
+  /** What the editor hands to the extension when it brings the panel back in a window that was loaded anew. */
+  setState(state: unknown): void;
 }
 
 type Waiting = { readonly resolve: (bytes: ArrayBuffer) => void; readonly reject: (error: Error) => void };
@@ -15,12 +17,18 @@ export class CodeHost implements Host {
 
   constructor(private readonly api: CodeApi) {}
 
-  listen(handler: (message: FromHost) => void, link: (state: Link) => void): void {
+  listen(handler: (message: FromHost) => void, link: (state: Link, note?: string) => void): void {
     addEventListener("message", ({ data }: MessageEvent<unknown>) => {
       const posted = typeof data === "object" && data !== null && "okoshi" in data ? data.okoshi : undefined;
       if (typeof posted !== "object" || posted === null) return;
       if ("type" in posted && posted.type === "modelBytes") return this.arrived(posted);
+      // The extension is always there; the language server behind it may be away, or begin anew.
+      if ("type" in posted && posted.type === "link") {
+        const { state, note } = posted as { state?: unknown; note?: unknown };
+        return link(state === "lost" || state === "connecting" ? state : "open", typeof note === "string" ? note : "");
+      }
       const message = read(posted);
+      if (message?.type === "drawings") this.api.setState({ drawing: message.drawings[0]?.id });
       if (message) handler(message);
     });
     link("open");

@@ -7,8 +7,8 @@ import { CodeHost, type CodeApi } from "./code";
 export type Link = "connecting" | "open" | "lost";
 
 export interface Host {
-  /** Hands over what the host says, and how the connection to it is, from now on. */
-  listen(handler: (message: FromHost) => void, link: (state: Link) => void): void;
+  /** Hands over what the host says, and how the connection to it is, from now on. A note says why it is so, in words. */
+  listen(handler: (message: FromHost) => void, link: (state: Link, note?: string) => void): void;
   /** What is sent while there is no connection is lost. */
   send(message: ToHost): void;
   /** The bytes of a model. */

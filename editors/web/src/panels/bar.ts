@@ -20,7 +20,7 @@ export class Bar {
   }
 
   private draw(): void {
-    const { drawing, list, link } = this.state;
+    const { drawing, list, link, linkNote } = this.state;
     this.back.hidden = drawing === undefined || list.length < 2;
     this.title.textContent = drawing?.name ?? "okoshi";
     const build = drawing?.build;
@@ -35,7 +35,7 @@ export class Bar {
         : []),
     );
     this.element.dataset["link"] = link;
-    this.link.hidden = link === "open";
-    fill(this.link, link === "lost" && icon(WifiOff), h("span", {}, link === "lost" ? "Connection lost, trying again…" : "Connecting…"));
+    this.link.hidden = link === "open" && linkNote === "";
+    fill(this.link, link === "lost" && icon(WifiOff), h("span", {}, linkNote || (link === "lost" ? "Connection lost, trying again…" : "Connecting…")));
   }
 }

@@ -1,0 +1,244 @@
+// Panels that show drawings in 3D beside their text: one a drawing.
+
+import { randomBytes } from "node:crypto";
+import { basename } from "node:path";
+import * as vscode from "vscode";
+import { looksAfter, type Server } from "../server";
+import { html } from "./page";
+import { linkWhile, Session, type Surroundings } from "./session";
+import { Remote, unitOf, type Place } from "./wire";
+
+const TYPE = "okoshi.preview";
+
+export class Previews implements vscode.Disposable, vscode.WebviewPanelSerializer {
+  private readonly shown = new Map<string, Preview>();
+  private readonly disposables: vscode.Disposable[];
+
+  constructor(
+    private readonly extension: vscode.Uri,
+    private readonly server: Server,
+    private readonly output: vscode.LogOutputChannel,
+  ) {
+    this.disposables = [
+      vscode.window.registerWebviewPanelSerializer(TYPE, this),
+      server.onDidChange(() => this.each((preview) => preview.follow())),
+      server.onNews(({ uri, messages }) => this.shown.get(uri.toString())?.session.news(messages)),
+      vscode.workspace.onDidCloseTextDocument(({ uri }) => this.shown.get(uri.toString())?.closed()),
+      vscode.workspace.onDidOpenTextDocument((document) => {
+        if (looksAfter(document)) this.shown.get(document.uri.toString())?.follow();
+      }),
+      vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => this.shown.get(textEditor.document.uri.toString())?.session.moved()),
+      vscode.window.onDidChangeActiveTextEditor((editor) => {
+        // There is none while a panel has the keyboard: what is lit stays so.
+        if (editor) this.each(({ session }) => session.moved());
+      }),
+    ];
+  }
+
+  /** Shows a drawing in its panel, which is opened beside the text if it is not there. The text keeps the keyboard. */
+  async show(uri: vscode.Uri): Promise<void> {
+    const there = this.shown.get(uri.toString());
+    if (there) return there.panel.reveal(undefined, true);
+    const panel = vscode.window.createWebviewPanel(
+      TYPE,
+      title(uri),
+      { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true },
+      // Camera, pose and playing clip are the page's.
+      { retainContextWhenHidden: true, ...this.options },
+    );
+    await this.fill(panel, uri);
+  }
+
+  /** Brings a panel back in a window that was loaded anew. */
+  async deserializeWebviewPanel(panel: vscode.WebviewPanel, state: unknown): Promise<void> {
+    const { drawing } = (state ?? {}) as { drawing?: unknown };
+    if (typeof drawing !== "string") return panel.dispose();
+    const uri = vscode.Uri.parse(drawing);
+    if (this.shown.has(uri.toString())) return panel.dispose();
+    panel.webview.options = this.options;
+    await this.fill(panel, uri);
+  }
+
+  dispose(): void {
+    for (const disposable of this.disposables) disposable.dispose();
+  }
+
+  private async fill(panel: vscode.WebviewPanel, uri: vscode.Uri): Promise<void> {
+    const key = uri.toString();
+    const preview = new Preview(uri, panel, this.server, this.output);
+    this.shown.set(key, preview);
+    panel.onDidDispose(() => {
+      if (this.shown.get(key) === preview) this.shown.delete(key);
+      preview.dispose();
+    });
+    panel.title = title(uri);
+    panel.iconPath = vscode.Uri.joinPath(this.extension, "icon.png");
+    const at = (name: string) => panel.webview.asWebviewUri(vscode.Uri.joinPath(this.folder, name)).toString();
+    const template = await vscode.workspace.fs.readFile(vscode.Uri.joinPath(this.folder, "page.html"));
+    panel.webview.html = html(Buffer.from(template).toString("utf8"), {
+      script: at("page.js"),
+      style: at("page.css"),
+      source: panel.webview.cspSource,
+      nonce: randomBytes(16).toString("base64url"),
+    });
+    preview.follow();
+  }
+
+  private get folder(): vscode.Uri {
+    return vscode.Uri.joinPath(this.extension, "dist", "page");
+  }
+
+  private get options(): vscode.WebviewOptions {
+    return { enableScripts: true, localResourceRoots: [this.folder] };
+  }
+
+  private each(act: (preview: Preview) => void): void {
+    for (const preview of [...this.shown.values()]) act(preview);
+  }
+}
+
+/** A drawing's panel. */
+class Preview implements Surroundings, vscode.Disposable {
+  readonly session: Session;
+  /** Which run of the server was asked for news. */
+  private asked: number | undefined;
+  private queue: Promise<void> = Promise.resolve();
+  private watcher: vscode.FileSystemWatcher | undefined;
+  private disposed = false;
+
+  constructor(
+    private readonly uri: vscode.Uri,
+    readonly panel: vscode.WebviewPanel,
+    private readonly server: Server,
+    private readonly output: vscode.LogOutputChannel,
+  ) {
+    this.session = new Session(uri.toString(), this);
+    panel.webview.onDidReceiveMessage((data: unknown) => void this.session.hear(data));
+  }
+
+  /** Goes along with the server and the text: asks for news when both are there. */
+  follow(): void {
+    this.queue = this.queue.then(() => this.followNow()).catch((error: unknown) => this.log(String(error)));
+  }
+
+  /** The text was closed: it is opened again without being shown, so that the panel follows the file. */
+  closed(): void {
+    this.asked = undefined;
+    this.follow();
+  }
+
+  dispose(): void {
+    this.disposed = true;
+    this.watcher?.dispose();
+    this.session.dispose();
+  }
+
+  post(message: object): void {
+    void this.panel.webview.postMessage({ okoshi: message });
+  }
+
+  cursor(): vscode.Position | null {
+    const active = vscode.window.activeTextEditor;
+    const editor = active ?? vscode.window.visibleTextEditors.find(({ document }) => this.isOurs(document));
+    return editor && this.isOurs(editor.document) ? editor.selection.active : null;
+  }
+
+  async show({ uri, range: { start, end } }: Place): Promise<void> {
+    const document = await vscode.workspace.openTextDocument(vscode.Uri.parse(uri));
+    const range = new vscode.Range(start.line, start.character, end.line, end.character);
+    // The keyboard stays with the panel: a key that is meant for the page would replace what is selected.
+    await this.select(document, range, true);
+  }
+
+  async goTo(line: number, column: number): Promise<void> {
+    const document = await vscode.workspace.openTextDocument(this.uri);
+    const at = Math.min(line, document.lineCount) - 1;
+    const place = new vscode.Position(at, unitOf(document.lineAt(at).text, column));
+    await this.select(document, new vscode.Range(place, place), false);
+  }
+
+  async save(name: string, bytes: Uint8Array): Promise<void> {
+    const folder = this.uri.scheme === "file" ? vscode.Uri.joinPath(this.uri, "..") : vscode.workspace.workspaceFolders?.[0]?.uri;
+    const target = await vscode.window.showSaveDialog(folder ? { defaultUri: vscode.Uri.joinPath(folder, name) } : {});
+    if (!target) return;
+    try {
+      await vscode.workspace.fs.writeFile(target, bytes);
+    } catch (error) {
+      void vscode.window.showErrorMessage(`${basename(target.path)} was not written: ${error instanceof Error ? error.message : String(error)}`);
+    }
+  }
+
+  log(message: string): void {
+    this.output.warn(message);
+  }
+
+  private isOurs(document: vscode.TextDocument): boolean {
+    return document.uri.toString() === this.uri.toString();
+  }
+
+  private async followNow(): Promise<void> {
+    if (this.disposed) return;
+    const document = await this.read();
+    if (this.disposed) return;
+    this.watch(document === undefined);
+    if (!document) {
+      this.asked = undefined;
+      if (this.uri.scheme === "file") this.session.gone();
+      else this.session.disconnect({ state: "lost", note: "The drawing was closed. This is its last model." });
+      return;
+    }
+    const { running: client, runs, state } = this.server;
+    if (!client || state.kind !== "running") {
+      this.asked = undefined;
+      return this.session.disconnect(linkWhile(state));
+    }
+    if (this.asked === runs) return;
+    this.asked = runs;
+    await this.session.connect(new Remote(client, client.code2ProtocolConverter.asUri(this.uri)));
+  }
+
+  /** The drawing's text, opened if its file is there. An untitled one that was closed is no more. */
+  private async read(): Promise<vscode.TextDocument | undefined> {
+    const open = vscode.workspace.textDocuments.find((document) => this.isOurs(document));
+    if (open || this.uri.scheme !== "file") return open;
+    try {
+      return await vscode.workspace.openTextDocument(this.uri);
+    } catch {
+      return undefined;
+    }
+  }
+
+  /** Waits for a file that is not there. */
+  private watch(wanted: boolean): void {
+    if (!wanted) {
+      this.watcher?.dispose();
+      this.watcher = undefined;
+    } else if (!this.watcher && this.uri.scheme === "file") {
+      const pattern = new vscode.RelativePattern(vscode.Uri.joinPath(this.uri, ".."), escaped(basename(this.uri.path)));
+      this.watcher = vscode.workspace.createFileSystemWatcher(pattern, false, false, true);
+      this.watcher.onDidCreate(() => this.follow());
+      this.watcher.onDidChange(() => this.follow());
+    }
+  }
+
+  private async select(document: vscode.TextDocument, selection: vscode.Range, preserveFocus: boolean): Promise<void> {
+    await vscode.window.showTextDocument(document, { viewColumn: this.column(document), selection, preserveFocus, preview: false });
+  }
+
+  /** The column where the text is, or should be: not the panel's, which would be covered. */
+  private column(document: vscode.TextDocument): vscode.ViewColumn {
+    const key = document.uri.toString();
+    const elsewhere = (column: vscode.ViewColumn | undefined) => column !== undefined && column !== this.panel.viewColumn;
+    const editors = vscode.window.visibleTextEditors.filter((editor) => editor.document.uri.toString() === key);
+    const groups = vscode.window.tabGroups.all.filter(({ tabs }) =>
+      tabs.some(({ input }) => input instanceof vscode.TabInputText && input.uri.toString() === key),
+    );
+    const found = [...editors, ...groups, ...vscode.window.tabGroups.all].find(({ viewColumn }) => elsewhere(viewColumn));
+    return found?.viewColumn ?? vscode.ViewColumn.Beside;
+  }
+}
+
+const title = (uri: vscode.Uri) => `Preview ${basename(uri.path)}`;
+
+/** A name in a pattern for file names, without its signs. */
+const escaped = (name: string) => name.replace(/[*?{}[\]]/g, "[$&]");

@@ -1,0 +1,293 @@
+// The preview of a drawing, between a page and a language server that are made up here: the server speaks JSON-RPC over streams.
+
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { PassThrough } from "node:stream";
+import { test, type TestContext } from "node:test";
+import { createMessageConnection, StreamMessageReader, StreamMessageWriter, type MessageConnection } from "vscode-jsonrpc/node";
+import { html } from "../src/preview/page";
+import { CURSOR_PAUSE, linkWhile, Session } from "../src/preview/session";
+import { fromPage, NEWS, news, Remote, unitOf, type Message, type Place, type Position } from "../src/preview/wire";
+
+const DRAWING = "file:///a/figure.svg";
+const textDocument = { uri: DRAWING };
+const arm: Place = { uri: DRAWING, range: { start: { line: 3, character: 8 }, end: { line: 3, character: 20 } } };
+const drawings: Message = { type: "drawings", drawings: [{ id: DRAWING, name: "figure.svg", folder: "" }] };
+const build = (revision: number): Message => ({ type: "build", drawing: DRAWING, build: { revision, model: `builds/${revision}.glb` } });
+const light = (part: string | null): Message => ({ type: "light", drawing: DRAWING, part });
+
+/** A server that knows one drawing with one part, Arm, and has the models 1 and 2. It notes what it is told. */
+function fakeServer(t: TestContext, knowsPreviews = true) {
+  const [there, back] = [new PassThrough(), new PassThrough()];
+  const server = createMessageConnection(new StreamMessageReader(there), new StreamMessageWriter(back));
+  const client = createMessageConnection(new StreamMessageReader(back), new StreamMessageWriter(there));
+  const told: unknown[] = [];
+  if (knowsPreviews) {
+    server.onRequest("okoshi/preview/open", (params: unknown) => {
+      told.push({ open: params });
+      return null;
+    });
+    server.onRequest("okoshi/preview/model", ({ address }: { address: string }) => {
+      const found = /^builds\/([12])\.glb$/.exec(address);
+      return found ? { bytes: Buffer.from(`glTF ${found[1]}`).toString("base64") } : null;
+    });
+    server.onRequest("okoshi/preview/place", ({ part }: { part: string }) => (part === "Arm" ? arm : null));
+    server.onNotification("okoshi/preview/cursor", (params: unknown) => void told.push({ cursor: params }));
+    server.onNotification("okoshi/preview/close", (params: unknown) => void told.push({ close: params }));
+  }
+  server.listen();
+  client.listen();
+  const end = () => {
+    server.dispose();
+    client.dispose();
+  };
+  t.after(end);
+  /** Sends news, and waits until it has arrived. */
+  const sends = async (...messages: Message[]) => {
+    await server.sendNotification(NEWS, { textDocument, messages });
+    await client.sendRequest("okoshi/preview/model", { address: "" });
+  };
+  return { server, client, told, end, sends };
+}
+
+/** A preview of the drawing whose page and text are made up. */
+function preview() {
+  const posted: Message[] = [];
+  const done: unknown[] = [];
+  const logged: string[] = [];
+  let cursor: Position | null = null;
+  const session = new Session(DRAWING, {
+    post: (message) => void posted.push(message),
+    cursor: () => cursor,
+    show: async (place) => void done.push({ show: place }),
+    goTo: async (line, column) => void done.push({ goTo: [line, column] }),
+    save: async (name, bytes) => void done.push({ save: [name, Buffer.from(bytes).toString()] }),
+    log: (message) => void logged.push(message),
+  });
+  const connect = async (client: MessageConnection) => {
+    client.onNotification(NEWS, (params: unknown) => session.news(news(params)?.messages ?? []));
+    await session.connect(new Remote(client, DRAWING));
+  };
+  const set = (position: Position | null) => {
+    cursor = position;
+    session.moved();
+  };
+  /** What was posted since the last time. */
+  const fresh = () => posted.splice(0);
+  return { session, posted, done, logged, connect, set, fresh };
+}
+
+/** Waits until something holds. */
+async function until(probe: () => boolean): Promise<void> {
+  const end = Date.now() + 5000;
+  while (!probe()) {
+    assert.ok(Date.now() < end, `waited in vain: ${String(probe)}`);
+    await new Promise((resolve) => setImmediate(resolve));
+  }
+}
+
+const open = { type: "link", state: "open", note: "" };
+
+test("the page is told the server's news as it is, once it listens", async (t) => {
+  const { client, told, sends } = fakeServer(t);
+  const { session, posted, fresh, connect } = preview();
+  await connect(client);
+  assert.deepEqual(told[0], { open: { textDocument } });
+  await sends(drawings, build(1), { type: "something new", drawing: DRAWING });
+  await sends(build(2), light("Arm"));
+  assert.deepEqual(posted, []);
+  await session.hear({ type: "ready" });
+  assert.deepEqual(fresh(), [drawings, { type: "something new", drawing: DRAWING }, build(2), light("Arm"), open]);
+  await sends(light(null));
+  assert.deepEqual(fresh(), [light(null)]);
+  // Moved to a window of its own, a page begins anew.
+  await session.hear({ type: "ready" });
+  assert.deepEqual(fresh().filter(({ type }) => type === "build" || type === "light"), [build(2), light(null)]);
+});
+
+test("models go to the page as bytes of their own, and where there is none it hears that", async (t) => {
+  const { client, end } = fakeServer(t);
+  const { session, fresh, connect, logged } = preview();
+  await session.hear({ type: "ready" });
+  await connect(client);
+  fresh();
+  await session.hear({ type: "model", address: "builds/2.glb" });
+  const [answer, ...more] = fresh();
+  assert.deepEqual([answer?.type, answer?.["address"], more], ["modelBytes", "builds/2.glb", []]);
+  const bytes = answer?.["bytes"] as Uint8Array;
+  // The editor posts neither a Buffer nor a part of a larger one as bytes.
+  assert.equal(bytes.constructor, Uint8Array);
+  assert.equal(bytes.buffer.byteLength, bytes.byteLength);
+  assert.equal(Buffer.from(bytes).toString(), "glTF 2");
+  const none = { type: "modelBytes", address: "builds/9.glb", bytes: null };
+  await session.hear({ type: "model", address: "builds/9.glb" });
+  assert.deepEqual(fresh(), [none]);
+  end();
+  await session.hear({ type: "model", address: "builds/9.glb" });
+  assert.deepEqual(fresh(), [none]);
+  assert.equal(logged.length, 1);
+  session.disconnect({ state: "lost", note: "" });
+  await session.hear({ type: "model", address: "builds/9.glb" });
+  assert.deepEqual(fresh().at(-1), none);
+});
+
+test("a part that is picked is shown in the text", async (t) => {
+  const { client } = fakeServer(t);
+  const { session, done, connect } = preview();
+  await session.hear({ type: "pick", drawing: DRAWING, part: "Arm" });
+  await connect(client);
+  await session.hear({ type: "pick", drawing: DRAWING, part: "Arm" });
+  await session.hear({ type: "pick", drawing: DRAWING, part: "No such part" });
+  assert.deepEqual(done, [{ show: arm }]);
+});
+
+test("the server hears where the cursor is when it stands still, when the page asks, and at the start", async (t) => {
+  const { client, told } = fakeServer(t);
+  const { session, connect, set } = preview();
+  await connect(client);
+  await until(() => told.length === 2);
+  assert.deepEqual(told.splice(0)[1], { cursor: { textDocument, position: null } });
+  t.mock.timers.enable({ apis: ["setTimeout"] });
+  for (let line = 0; line < 9; line += 1) {
+    set({ line, character: 4 });
+    t.mock.timers.tick(CURSOR_PAUSE - 1);
+  }
+  assert.deepEqual(told, []);
+  t.mock.timers.tick(1);
+  const there = { cursor: { textDocument, position: { line: 8, character: 4 } } };
+  await until(() => told.length === 1);
+  await session.hear({ type: "want", drawing: DRAWING });
+  await until(() => told.length === 2);
+  assert.deepEqual(told, [there, there]);
+});
+
+test("a server that ends is waited for, and the next one is asked anew", async (t) => {
+  const first = fakeServer(t);
+  const { session, fresh, connect, set } = preview();
+  await session.hear({ type: "ready" });
+  assert.deepEqual(fresh(), [{ type: "link", state: "connecting", note: "" }]);
+  await connect(first.client);
+  await first.sends(drawings, build(1));
+  assert.deepEqual(fresh(), [drawings, build(1), open]);
+  first.end();
+  const away = linkWhile({ kind: "stopped" });
+  session.disconnect(away);
+  assert.deepEqual(fresh(), [{ type: "link", ...away }]);
+  assert.match(away.note, /not running/);
+  // News that was on its way is not the next server's.
+  session.news([build(7)]);
+  assert.deepEqual(fresh(), []);
+
+  const second = fakeServer(t);
+  set({ line: 1, character: 1 });
+  await connect(second.client);
+  assert.deepEqual(fresh(), [{ type: "link", state: "connecting", note: "" }]);
+  // Its builds are counted anew. They are told of first: a page that heard of the server alone would ask it for an old model.
+  await second.sends(drawings);
+  await second.sends(build(1));
+  assert.deepEqual(fresh(), [drawings, build(1), open]);
+  await until(() => second.told.length >= 2);
+  assert.deepEqual(second.told.slice(0, 2), [{ open: { textDocument } }, { cursor: { textDocument, position: { line: 1, character: 1 } } }]);
+  session.dispose();
+});
+
+test("a server that knows no previews is called too old", async (t) => {
+  const { client } = fakeServer(t, false);
+  const { session, fresh, connect, logged } = preview();
+  await session.hear({ type: "ready" });
+  await connect(client);
+  const { state, note } = fresh().at(-1) as { state?: string; note?: string };
+  assert.equal(state, "lost");
+  assert.match(note ?? "", /too old/);
+  assert.equal(logged.length, 1);
+});
+
+test("the server is told once that a panel is closed, and nothing is posted to it any more", async (t) => {
+  const { client, told, sends } = fakeServer(t);
+  const { session, fresh, connect, set } = preview();
+  await session.hear({ type: "ready" });
+  await connect(client);
+  set({ line: 2, character: 0 });
+  session.dispose();
+  fresh();
+  session.dispose();
+  await sends(build(2));
+  await new Promise((resolve) => setTimeout(resolve, CURSOR_PAUSE * 2));
+  assert.deepEqual(told.filter((one) => "close" in (one as object)), [{ close: { textDocument } }]);
+  assert.equal(told.length, 3);
+  assert.deepEqual(fresh(), []);
+});
+
+test("a drawing whose text is closed is not gone, one whose file is not there is, until it is built again", async (t) => {
+  const { client, sends } = fakeServer(t);
+  const { session, fresh, connect } = preview();
+  const gone = { type: "gone", drawing: DRAWING };
+  await session.hear({ type: "ready" });
+  await connect(client);
+  await sends(drawings, build(1), gone, light("Arm"));
+  assert.ok(!fresh().some(({ type }) => type === "gone"));
+  session.gone();
+  assert.deepEqual(fresh(), [gone]);
+  await session.hear({ type: "ready" });
+  assert.ok(fresh().some(({ type }) => type === "gone"));
+  await sends(build(2));
+  fresh();
+  await session.hear({ type: "ready" });
+  assert.ok(!fresh().some(({ type }) => type === "gone"));
+});
+
+test("findings are gone to, files are written by their bare names", async () => {
+  const { session, done } = preview();
+  await session.hear({ type: "open", drawing: DRAWING, line: 4, column: 9 });
+  await session.hear({ type: "save", name: "../../etc/figure.glb", bytes: Buffer.from("glTF").toString("base64") });
+  assert.deepEqual(done, [{ goTo: [4, 9] }, { save: ["figure.glb", "glTF"] }]);
+});
+
+test("what the page may not say is not heard", () => {
+  for (const wrong of [null, 3, "ready", [], {}, { type: 3 }, { type: "eval" }, { type: "model" }, { type: "model", address: {} }]) {
+    assert.equal(fromPage(wrong), undefined, JSON.stringify(wrong));
+  }
+  for (const wrong of [{ type: "pick", part: null }, { type: "open", line: 0, column: 1 }, { type: "open", line: 1.5, column: 1 }, { type: "save", name: "a" }]) {
+    assert.equal(fromPage(wrong), undefined, JSON.stringify(wrong));
+  }
+  for (const wrong of [undefined, {}, { textDocument }, { textDocument: {}, messages: [] }, { textDocument, messages: {} }]) {
+    assert.equal(news(wrong), undefined, JSON.stringify(wrong));
+  }
+  assert.deepEqual(news({ textDocument, messages: [null, 1, build(1)] }), { uri: DRAWING, messages: [build(1)] });
+});
+
+test("every state of the server has words for the page", () => {
+  for (const kind of ["idle", "starting", "stopped"] as const) assert.notEqual(linkWhile({ kind }).note, "");
+  assert.match(linkWhile({ kind: "missing", path: "/opt/okoshi" }).note, /\/opt\/okoshi/);
+  assert.deepEqual(linkWhile({ kind: "failed", why: "It ended." }), { state: "lost", note: "It ended." });
+});
+
+test("columns count characters, the editor's units are UTF-16", () => {
+  assert.equal(unitOf("腕@体", 3), 2);
+  assert.equal(unitOf("a🦾b", 3), 3);
+  assert.equal(unitOf("ab", 1), 0);
+  assert.equal(unitOf("ab", 99), 2);
+});
+
+const addresses = { script: "https://panel/page.js", style: "https://panel/page.css", source: "https://panel", nonce: "n0nce" };
+
+test("the bundled page runs its own script, loads its own style, and may do nothing else", () => {
+  const page = html(readFileSync("dist/page/page.html", "utf8"), addresses);
+  const policy = /http-equiv="Content-Security-Policy" content="([^"]+)"/.exec(page)?.[1] ?? "";
+  const allowed = new Map(policy.split("; ").map((one) => [one.split(" ")[0], one.split(" ").slice(1)]));
+  assert.deepEqual(allowed.get("default-src"), ["'none'"]);
+  assert.deepEqual(allowed.get("script-src"), ["'nonce-n0nce'"]);
+  assert.doesNotMatch(policy, /unsafe|\*/);
+  // The policy holds for what follows it.
+  assert.ok(page.indexOf("Content-Security-Policy") < page.search(/<script|<link/));
+  const scripts = [...page.matchAll(/<script[^>]*>/g)].map(([tag]) => tag);
+  assert.deepEqual(scripts.map((tag) => [tag.includes('nonce="n0nce"'), tag.includes('src="https://panel/page.js"')]), [[true, true]]);
+  assert.deepEqual([...page.matchAll(/<link rel="stylesheet" href="([^"]+)"/g)].map(([, style]) => style), [addresses.style]);
+  assert.doesNotMatch(page, /<style|\son\w+=|\sstyle=/);
+});
+
+test("a page that is not as expected is not shown half", () => {
+  assert.throws(() => html("<html></html>", addresses), /charset/);
+  const twice = '<meta charset="utf-8"><link href="page.css"><script src="page.js"></script><script src="page.js"></script>';
+  assert.throws(() => html(twice, addresses), /page\.js/);
+});

@@ -1,0 +1,253 @@
+// What a person does with the panel that shows the model beside the text. The panel stays open from step to step.
+
+import assert from "node:assert/strict";
+import { join } from "node:path";
+import { place } from "./steps.mjs";
+
+/** Colours of the figure's parts, by how red, green and blue compare; lights and shadows leave that. */
+const RED = { name: "red", is: (r, g, b) => r > 90 && r > 1.6 * g && r > 1.6 * b };
+const TEAL = { name: "teal", is: (r, g, b) => g > 50 && g > 1.5 * r && b > 1.4 * r && b < 1.15 * g };
+const BLUE = { name: "blue", is: (r, g, b) => b > 60 && b > 1.4 * r && b > 1.15 * g };
+
+/** The panel in the second column. */
+class Panel {
+  constructor(editor, page) {
+    this.editor = editor;
+    this.page = page;
+  }
+
+  get frame() {
+    return this.page.frameLocator("iframe.webview").frameLocator("iframe#active-frame");
+  }
+
+  get canvas() {
+    return this.frame.locator(".stage canvas");
+  }
+
+  /** What the page says of its canvas: which build it shows, what is lit and selected. */
+  async says(name) {
+    return this.canvas.getAttribute(`data-${name}`, { timeout: 1000 }).catch(() => null);
+  }
+
+  /** Waits until a model is shown. */
+  async shows() {
+    await this.editor.until("a model in the panel", async () => (await this.says("revision")) !== null);
+  }
+
+  /** What is to be seen where the model is drawn: width, height, and red, green, blue and alpha of each pixel. */
+  async picture() {
+    // From the screen, not from the canvas: what covers it counts.
+    const taken = await this.canvas.screenshot();
+    const seen = await this.page.evaluate(async (base64) => {
+      const bytes = Uint8Array.from(atob(base64), (one) => one.charCodeAt(0));
+      const image = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+      const context = new OffscreenCanvas(image.width, image.height).getContext("2d");
+      context.drawImage(image, 0, 0);
+      return { width: image.width, height: image.height, data: [...context.getImageData(0, 0, image.width, image.height).data] };
+    }, taken.toString("base64"));
+    return seen;
+  }
+
+  /** How many pixels have a colour, and the middle of them. */
+  async find({ is }) {
+    const { width, data } = await this.picture();
+    let [count, x, y] = [0, 0, 0];
+    for (let at = 0; at < data.length; at += 4) {
+      if (!is(data[at], data[at + 1], data[at + 2])) continue;
+      count += 1;
+      x += (at / 4) % width;
+      y += Math.floor(at / 4 / width);
+    }
+    return { count, x: x / count, y: y / count };
+  }
+}
+
+/** How many pixels of two pictures differ by more than a shade. */
+function changes(before, after) {
+  assert.deepEqual([before.width, before.height], [after.width, after.height]);
+  let count = 0;
+  for (let at = 0; at < before.data.length; at += 4) {
+    const differs = (channel) => Math.abs(before.data[at + channel] - after.data[at + channel]) > 12;
+    if (differs(0) || differs(1) || differs(2)) count += 1;
+  }
+  return count;
+}
+
+export async function previews({ editor, page, step, again, at, saved, figure, shots, reload, WRONG }) {
+  const panel = new Panel(editor, page);
+  const shot = (name) => page.screenshot({ path: join(shots, `${name}.png`) });
+  const inText = () => page.evaluate(() => document.activeElement?.closest(".editor-instance .monaco-editor") !== null);
+  /** Puts the cursor where no part is spoken of, so that none is lit. */
+  const rest = async () => {
+    await editor.caret({ line: 1, column: 1 });
+    await editor.until("no part to be lit", async () => (await panel.says("lit")) === "");
+  };
+  /** A still picture: nothing moves in it, and no pointer is over a part. */
+  const still = async () => {
+    await page.mouse.move(5, 5);
+    await page.waitForTimeout(600);
+    return panel.picture();
+  };
+  /** Begins with the mended drawing, and its panel beside it. */
+  const begin = async () => {
+    await again();
+    await at(WRONG, 14);
+    await editor.type("e");
+    await editor.press("Control+k");
+    await editor.press("v");
+    await panel.shows();
+    await rest();
+  };
+
+  await step("the lens opens a panel beside the text, which shows the model", async () => {
+    await again();
+    await at(WRONG, 14);
+    await editor.type("e");
+    await (await editor.see(".codelens-decoration a", "Preview in 3D")).click();
+    await panel.shows();
+    const [text, beside] = [await page.locator(".editor-instance .monaco-editor").boundingBox(), await panel.canvas.boundingBox()];
+    assert.ok(beside.x >= text.x + text.width, `text at ${text.x}, panel at ${beside.x}`);
+    assert.ok(await inText(), "the text keeps the keyboard");
+    await rest();
+    await still();
+    for (const colour of [RED, BLUE]) {
+      const { count } = await panel.find(colour);
+      assert.ok(count > 300, `${count} ${colour.name} pixels`);
+    }
+    await shot("preview");
+  });
+  await step("the button and the key show the panel that is there", async () => {
+    await editor.press("Control+1");
+    await (await editor.see(".editor-actions .action-label[aria-label^='Preview in 3D']")).click();
+    await editor.press("Control+1");
+    await editor.press("Control+k");
+    await editor.press("v");
+    await page.waitForTimeout(500);
+    assert.equal(await page.locator(".tab", { hasText: "Preview figure.svg" }).count(), 1);
+  });
+  await step("a key in the text changes the picture", async () => {
+    await begin();
+    await still();
+    const before = await panel.find(RED);
+    await at("Color #d9534f", 7);
+    await editor.press("Shift+ArrowRight");
+    await editor.press("Shift+ArrowRight");
+    await editor.type("19");
+    await rest();
+    await editor.until("a teal body", async () => (await panel.find(TEAL)).count > 300);
+    const after = await panel.find(RED);
+    assert.ok(after.count < before.count / 5, `${before.count} red pixels before, ${after.count} after`);
+    await shot("preview-key");
+    await editor.press("Control+z");
+    await editor.press("Control+z");
+    await editor.until("a red body", async () => (await panel.find(RED)).count > before.count / 2);
+  });
+  await step("the cursor in a string lights its part up", async () => {
+    await begin();
+    const before = await still();
+    await at("Arm@Body", 2);
+    await editor.until("the arm to be lit", async () => (await panel.says("lit")) === "Arm");
+    const lit = changes(before, await still());
+    assert.ok(lit > 150, `${lit} pixels changed`);
+    assert.equal(changes(await still(), await still()), 0);
+    await shot("preview-lit");
+    await rest();
+    assert.equal(changes(before, await still()), 0);
+  });
+  await step("a click on a part selects its string, and the panel keeps its place and the keyboard", async () => {
+    await begin();
+    await still();
+    const { x, y } = await panel.find(BLUE);
+    await panel.canvas.click({ position: { x, y } });
+    await editor.until("the leg to be selected", async () => (await panel.says("selected")) === "Leg");
+    await editor.see(".editor-instance .selected-text");
+    assert.ok(!(await inText()), "the panel keeps the keyboard");
+    assert.ok(await panel.canvas.isVisible());
+    await editor.until("the leg to be lit", async () => (await panel.says("lit")) === "Leg");
+    await shot("preview-pick");
+    await editor.press("Control+1");
+    const string = "Leg@Body$Shape   roundv   -7 7";
+    const { line, column } = place(figure.replace(WRONG, "Head@Body$Shape round"), string);
+    const said = await (await editor.see(".statusbar-item", "selected)")).textContent();
+    const [, ...numbers] = /Ln (\d+), Col (\d+) \((\d+) selected\)/.exec(said).map(Number);
+    // Its name, or all of it.
+    assert.deepEqual([numbers[0], numbers[1] - numbers[2]], [line, column], said);
+  });
+  await step("an error is shown over the last good model, and leads to its place", async () => {
+    await begin();
+    await at("Arm@Body", 8);
+    await editor.type("x");
+    const finding = panel.frame.locator(".finding-main, .findings-head").first();
+    await finding.waitFor();
+    await rest();
+    await still();
+    assert.ok((await panel.find(RED)).count > 300);
+    if ((await panel.frame.locator(".finding-main").count()) === 0) await finding.click();
+    await shot("preview-error");
+    await panel.frame.locator(".finding-main").first().click();
+    const { line } = place(figure, "Arm@Body");
+    await editor.see(".statusbar-item", `Ln ${line}, Col`);
+    assert.ok(await inText(), "the text has the keyboard");
+    await editor.press("End");
+    await editor.press("Control+z");
+  });
+  await step("a text that is closed is followed on", async () => {
+    await begin();
+    await saved("the drawing to be saved", (text) => text.includes("Head@Body$Shape round"));
+    await editor.press("Control+1");
+    await editor.press("Control+F4");
+    await page.locator(".editor-instance .monaco-editor").waitFor({ state: "detached" });
+    await page.waitForTimeout(1500);
+    await panel.shows();
+    await still();
+    const { x, y } = await panel.find(BLUE);
+    // The text comes back where it belongs: not over the panel.
+    await panel.canvas.click({ position: { x, y } });
+    await editor.see(".editor-instance .selected-text");
+    assert.ok(await panel.canvas.isVisible());
+  });
+  await step("the panel is back in a window that was loaded anew", async () => {
+    await begin();
+    await saved("the drawing to be saved", (text) => text.includes("Head@Body$Shape round"));
+    await reload();
+    await panel.shows();
+    await still();
+    assert.ok((await panel.find(RED)).count > 300);
+  });
+  await step("a server that was started anew is asked anew", async () => {
+    await begin();
+    await editor.command("Okoshi: Restart the Language Server");
+    await page.waitForTimeout(1500);
+    await panel.shows();
+    await still();
+    await editor.press("Control+1");
+    await at("Color #d9534f", 7);
+    await editor.press("Shift+ArrowRight");
+    await editor.press("Shift+ArrowRight");
+    await editor.type("19");
+    await rest();
+    await editor.until("a teal body", async () => (await panel.find(TEAL)).count > 300);
+    assert.equal(await panel.frame.locator(".bar").getAttribute("data-link"), "open");
+    await editor.press("Control+z");
+  });
+  await step("fault, hover, outline, problems and model stand side by side", async () => {
+    await begin();
+    // Undone, the fault is there again; the model is the last one that could be built.
+    await editor.press("Control+1");
+    await at(WRONG, 15);
+    await editor.press("Backspace");
+    await editor.see(".squiggly-error");
+    await editor.command("Explorer: Focus on Outline View");
+    await editor.see(".outline-tree .monaco-list-row", "Leg");
+    await editor.command("Problems: Focus on Problems View");
+    await editor.see(".markers-panel .monaco-list-row", "E101");
+    await editor.press("Control+1");
+    await at("Arm@Body", 1);
+    await editor.press("Control+k");
+    await editor.press("Control+i");
+    await editor.see(".monaco-hover-content li", "Shape roundv");
+    // Until the hover has come up in full.
+    await page.waitForTimeout(500);
+    await shot("page");
+  });
+}
