@@ -248,9 +248,14 @@ browse("clips play, are scrubbed, and go on in the next model", (host) => {
   await still(page);
   assert.equal(await page.locator(".clips .readout").innerText(), "drawing 2 of 5");
   assert.ok(!isLike((await picture(page, "clip")).at(hand), GREEN), "the hand is elsewhere in the second drawing");
+  const drawn = await frames(page);
+  await page.locator(".clips select").last().selectOption("0.5");
   await page.keyboard.press("Space");
   await page.waitForFunction(() => document.querySelector(".clips .readout")?.textContent === "drawing 4 of 5");
   await page.keyboard.press("Space");
+  await still(page);
+  const pictures = (await frames(page)) - drawn;
+  assert.ok(pictures >= 2 && pictures <= 6, `held drawings are drawn once each, not in ${pictures} pictures`);
   await page.locator(".slider").fill("0.6");
   assert.equal(await page.locator(".clips .readout").innerText(), "drawing 3 of 5");
   const { model, ...rest } = build(FIGURE, (text) => text.replace("#ff0000", "#0000ff"));
