@@ -143,6 +143,12 @@ extension() {
   OKOSHI=$(realpath "$okoshi") npm test --prefix editors/vscode
 }
 
+page() {
+  need npm
+  cargo build --locked
+  OKOSHI=$(realpath "$okoshi") npm test --prefix editors/web
+}
+
 # Eglot is a package of its own before Emacs 29.
 has_eglot() { emacs -q --batch -l eglot > /dev/null 2>&1; }
 
@@ -181,6 +187,7 @@ step blender blender_import
 step gallery gallery
 step readme readme
 step extension extension
+step page page
 step editors editors
 step inkscape inkscape_extension
 

@@ -11,7 +11,11 @@ export function followAddress(state: State): void {
     state.show((named ?? only)?.id ?? null);
   };
   addEventListener("hashchange", choose);
-  state.on("drawings", choose);
+  state.on("drawings", () => {
+    if (!state.drawing) return choose();
+    // One that is being looked at stays; where others came, the address says which it is.
+    if (state.list.length > 1 && !state.find(hash())) history.replaceState(null, "", `#${encodeURIComponent(state.drawing.id)}`);
+  });
 }
 
 /** Shows all drawings. */

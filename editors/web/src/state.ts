@@ -9,6 +9,8 @@ export interface Drawing extends Listed {
   readonly parts: Parts;
   /** Its file is not there at present. */
   readonly gone: boolean;
+  /** The connection that its build came through: addresses of models and pictures hold within one. */
+  readonly connection: number;
 }
 
 /**
@@ -31,8 +33,7 @@ export class State {
   link: Link = "connecting";
   /** Why the connection is as it is, in the host's words; empty if it has none. */
   linkNote = "";
-  /** Counts connections. Addresses of models hold within one. */
-  connection = 0;
+  private connection = 0;
   /** Whether the host has said which drawings there are. */
   known = false;
 
@@ -67,13 +68,13 @@ export class State {
         this.drawings.clear();
         for (const listed of message.drawings) {
           const before = old.get(listed.id);
-          this.drawings.set(listed.id, { build: null, parts: NO_PARTS, gone: false, ...before, ...listed });
+          this.drawings.set(listed.id, { build: null, parts: NO_PARTS, gone: false, connection: 0, ...before, ...listed });
         }
         this.known = true;
         return this.tell("drawings");
       }
       case "build":
-        return this.change(message.drawing, { build: message.build, parts: new Parts(message.build.parts), gone: false });
+        return this.change(message.drawing, { build: message.build, parts: new Parts(message.build.parts), gone: false, connection: this.connection });
       case "gone":
         return this.change(message.drawing, { gone: true });
       case "light":

@@ -121,6 +121,19 @@ browse("the address names a drawing", (host) => {
   assert.equal(await page.title(), "a drawing #1.svg · okoshi");
 }, { hash: `#${encodeURIComponent("a drawing #1")}` });
 
+browse("a drawing that comes besides leaves the one that is looked at, and there is a way to both", one(HUMAN), async (page, host) => {
+  await shown(page, 1);
+  await page.getByRole("link", { name: "Drawings" }).waitFor({ state: "hidden" });
+  host.add("figure.svg");
+  host.built("figure.svg", build(FIGURE));
+  await page.getByRole("link", { name: "Drawings" }).waitFor();
+  assert.equal(await page.getAttribute("canvas", "data-revision"), "1");
+  await page.getByRole("link", { name: "Drawings" }).click();
+  await page.locator("[data-drawing='figure.svg']").click();
+  await shown(page, 2);
+  await page.locator("[data-part=Arm]").waitFor();
+});
+
 browse("all is reached and done by keyboard, and where one is is seen", one(HUMAN), async (page, host) => {
   await shown(page);
   const reached = new Set<string>();

@@ -66,7 +66,7 @@ export class Gallery {
     return { element, picture, facts, address: "" };
   }
 
-  private fill(card: Card, { build, parts, gone, name }: Drawing): void {
+  private fill(card: Card, { build, parts, gone, name, connection }: Drawing): void {
     card.element.classList.toggle("gone", gone);
     fill(
       card.facts,
@@ -77,7 +77,7 @@ export class Gallery {
           : h("span", { class: "muted" }, "building…"),
       ...(["error", "warning", "hint"] as const).map((severity) => build && badge(severity, build.findings)),
     );
-    const address = build?.picture ? `${this.state.connection} ${build.picture}` : "";
+    const address = build?.picture ? `${connection} ${build.picture}` : "";
     if (address === card.address) return;
     card.address = address;
     if (!build?.picture) return fill(card.picture, icon(Image));

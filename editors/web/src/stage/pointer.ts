@@ -106,7 +106,7 @@ export class Pointer {
     if (!place) return this.state.hover(null);
     // Once a frame at most.
     this.over = place;
-    this.viewer.stage.invalidate();
+    this.viewer.stage.ask();
   }
 
   private look(): boolean {

@@ -15,8 +15,8 @@ export class Stage {
   readonly renderer: WebGLRenderer;
   readonly lights: Lights;
   private readonly steps: BeforeFrame[] = [];
-  private readonly after: (() => void)[] = [];
   private asked = false;
+  private stale = false;
   private last = 0;
   private frames = 0;
 
@@ -41,6 +41,12 @@ export class Stage {
 
   /** Asks for a picture at the next chance. */
   readonly invalidate = (): void => {
+    this.stale = true;
+    this.ask();
+  };
+
+  /** Asks for the steps before a picture; it is drawn only if one of them wants it. */
+  readonly ask = (): void => {
     if (this.asked) return;
     this.asked = true;
     requestAnimationFrame(this.frame);
@@ -56,10 +62,6 @@ export class Stage {
     this.steps.push(step);
   }
 
-  afterFrame(step: () => void): void {
-    this.after.push(step);
-  }
-
   /** Draws now. */
   draw(camera: Camera = this.view.camera): void {
     this.lights.follow(camera);
@@ -73,12 +75,13 @@ export class Stage {
     let more = false;
     for (const step of this.steps) more = step(seconds) || more;
     this.last = more ? now : 0;
-    this.draw();
-    this.frames++;
-    this.canvas.dataset["frames"] = String(this.frames);
-    this.canvas.dataset["view"] = this.view.describe();
-    for (const step of this.after) step();
-    if (more) this.invalidate();
+    if (this.stale) {
+      this.stale = false;
+      this.draw();
+      this.canvas.dataset["frames"] = String(++this.frames);
+      this.canvas.dataset["view"] = this.view.describe();
+    }
+    if (more) this.ask();
   };
 
   private resize(): void {

@@ -7,7 +7,7 @@ import { Ground } from "./ground";
 import { Highlight, type Mark } from "./highlight";
 import { Newest } from "./loading";
 import { elementOf, nodeName, readModel, type Model, type Shading } from "./model";
-import { Player } from "./clips";
+import { drawingAt, Player } from "./clips";
 import { Pose } from "./pose";
 import { Stage } from "./stage";
 import { View } from "./view";
@@ -20,6 +20,8 @@ interface Wanted {
   readonly revision: number;
   readonly address: string;
 }
+
+const isSame = (a: Wanted, b: Wanted | null): boolean => b !== null && a.drawing === b.drawing && a.connection === b.connection && a.address === b.address;
 
 /** model: another is shown, or none · look: shading, projection or mode changed · time: the clip moved · pose: a limb did */
 export type ViewerTopic = "model" | "look" | "time" | "pose";
@@ -35,6 +37,8 @@ export class Viewer {
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
   private readonly loading: Newest<Wanted, { model: Model; bytes: ArrayBuffer }>;
   private shown: Wanted | null = null;
+  /** What was asked for last and is not shown yet. */
+  private awaited: Wanted | null = null;
   model: Model | null = null;
   /** The file that the model was read from. */
   bytes: ArrayBuffer | null = null;
@@ -63,7 +67,7 @@ export class Viewer {
       (error, wanted) => this.failed(error, wanted),
     );
     this.stage.beforeFrame((seconds) => this.step(seconds));
-    state.on(["current", "build", "link"], () => this.update());
+    state.on(["current", "build"], () => this.update());
     state.on("selection", () => this.mark("selected"));
     state.on("hover", () => this.mark("hovered"));
     state.on("light", () => this.mark("lit"));
@@ -138,25 +142,24 @@ export class Viewer {
   }
 
   private update(): void {
-    const { drawing, connection } = this.state;
+    const { drawing } = this.state;
     const build = drawing?.build;
-    if (!drawing || (this.shown && this.shown.drawing !== drawing.id)) this.remove();
+    const before = this.awaited ?? this.shown;
+    if (!drawing || (before && before.drawing !== drawing.id)) this.remove();
     if (!drawing || !build) return;
     if (build.model === null) {
-      if (this.shown) this.remove();
+      if (before) this.remove();
       return;
     }
-    const { shown } = this;
-    if (shown && shown.connection === connection && shown.address === build.model) {
-      // The same model; its parts may be bound by other strings now.
-      this.markAll();
-      return;
-    }
-    if (this.state.link === "lost") return;
-    this.loading.want({ drawing: drawing.id, connection, revision: build.revision, address: build.model });
+    const wanted: Wanted = { drawing: drawing.id, connection: drawing.connection, revision: build.revision, address: build.model };
+    // The same model; its parts may be bound by other strings now.
+    if (isSame(wanted, this.awaited ?? this.shown)) return this.markAll();
+    this.awaited = wanted;
+    this.loading.want(wanted);
   }
 
   private take(model: Model, bytes: ArrayBuffer, wanted: Wanted): void {
+    if (wanted === this.awaited) this.awaited = null;
     if (wanted.drawing !== this.state.current) return model.dispose();
     const first = this.model === null;
     this.pose.release();
@@ -184,6 +187,8 @@ export class Viewer {
   }
 
   private failed(error: unknown, wanted: Wanted): void {
+    if (wanted !== this.awaited) return;
+    this.awaited = null;
     if (wanted.drawing !== this.state.current || this.state.link === "lost") return;
     this.failure = error instanceof Error ? error.message : String(error);
     this.tell("model");
@@ -196,7 +201,7 @@ export class Viewer {
     this.model?.dispose();
     this.model = null;
     this.bytes = null;
-    this.shown = null;
+    this.shown = this.awaited = null;
     this.failure = "";
     this.player.clear();
     this.ground.group.visible = false;
@@ -221,10 +226,12 @@ export class Viewer {
   private step(seconds: number): boolean {
     this.highlight.measure(this.stage.renderer);
     if (!this.player.playing) return false;
+    const { keys, time } = this.player;
     this.pose.release();
     const more = this.player.advance(seconds);
     this.pose.apply();
-    this.stage.renderer.shadowMap.needsUpdate = true;
+    // A drawing that is held is not drawn again.
+    if (!keys.held || drawingAt(keys, time) !== drawingAt(keys, this.player.time)) this.stage.moved();
     this.tell("time");
     return more;
   }
