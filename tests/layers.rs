@@ -28,7 +28,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
     ("texture", &["scene"]),
     ("solid", &["geometry", "lang", "scene"]),
     ("scene", &["solid"]),
-    ("gltf", &["scene", "threads"]),
+    ("gltf", &["scene", "solid", "threads"]),
     (
         "bind",
         &[
