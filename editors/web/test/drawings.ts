@@ -31,7 +31,10 @@ export function make(okoshi: string, text: string, beside: string): Made {
   try {
     writeFileSync(drawing, text);
     const run = (...args: string[]) => spawnSync(okoshi, args, { encoding: "utf8", maxBuffer: 1 << 28 });
+    const began = performance.now();
     const built = run("build", "-q", drawing, "-o", join(scratch, "a.glb")).status === 0;
+    // The start of the program included: a host that stays is faster.
+    const milliseconds = performance.now() - began;
     if (built) execFileSync(okoshi, ["render", "-q", join(scratch, "a.glb"), "-o", join(scratch, "a.png"), "--size", "256x256"]);
     const { parts } = JSON.parse(run("inspect", drawing, "--json").stdout) as { parts: unknown[] };
     const { drawings } = JSON.parse(run("check", drawing, "--format", "json").stdout) as { drawings: { diagnostics: Diagnostic[] }[] };
@@ -44,7 +47,7 @@ export function make(okoshi: string, text: string, beside: string): Made {
     return {
       model: built ? readFileSync(join(scratch, "a.glb")) : null,
       picture: built ? readFileSync(join(scratch, "a.png")) : null,
-      build: { milliseconds: 12.3, stale: !built, triangles: 0, findings, parts },
+      build: { milliseconds, stale: !built, triangles: 0, findings, parts },
     };
   } finally {
     rmSync(drawing, { force: true });
