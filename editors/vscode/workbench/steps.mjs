@@ -178,7 +178,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await editor.press("Escape");
     await saved("a text for all parts", (text) => text.includes(">%Shape default -20 20 Scale 1.0</text>"));
   });
-  await previews({ editor, page, step, again, at, saved, figure, shots, reload, WRONG });
+  await previews({ editor, page, step, again, at, saved, figure, shots, reload, configure, program, WRONG });
   await step("on demand, drawings are checked when they are saved", async () => {
     await again();
     configure({ "okoshi.analyse": "onSave", "editor.renderFinalNewline": "off" });
