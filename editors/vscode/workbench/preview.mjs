@@ -77,7 +77,7 @@ function changes(before, after) {
   return count;
 }
 
-export async function previews({ editor, page, step, again, at, saved, figure, shots, reload, configure, program, WRONG }) {
+export async function previews({ editor, page, step, again, at, saved, figure, read, open, shots, reload, configure, program, WRONG }) {
   const panel = new Panel(editor, page);
   const shot = (name) => page.screenshot({ path: join(shots, `${name}.png`) });
   const inText = () => page.evaluate(() => document.activeElement?.closest(".editor-instance .monaco-editor") !== null);
@@ -106,6 +106,12 @@ export async function previews({ editor, page, step, again, at, saved, figure, s
     await editor.press("v");
     await panel.shows();
     await rest();
+  };
+
+  /** Saves the mended drawing. */
+  const keep = async () => {
+    await saved("the drawing to be saved", (text) => text.includes("Head@Body$Shape round"));
+    await page.locator(".tab.dirty").waitFor({ state: "detached" });
   };
 
   await step("the lens opens a panel beside the text, which shows the model", async () => {
@@ -148,7 +154,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, s
     assert.ok(after.count < before.count / 5, `${before.count} red pixels before, ${after.count} after`);
     await shot("preview-key");
     await editor.press("Control+z");
-    await editor.press("Control+z");
+    await rest();
     await editor.until("a red body", async () => (await panel.find(RED)).count > before.count / 2);
   });
   await step("the cursor in a string lights its part up", async () => {
@@ -202,9 +208,9 @@ export async function previews({ editor, page, step, again, at, saved, figure, s
   });
   await step("a text that is closed is followed on", async () => {
     await begin();
-    await saved("the drawing to be saved", (text) => text.includes("Head@Body$Shape round"));
+    await keep();
     await editor.press("Control+1");
-    await editor.command("View: Close Editor");
+    await editor.press("Control+w");
     await page.locator(".editor-instance .monaco-editor").waitFor({ state: "detached" });
     await page.waitForTimeout(1500);
     await panel.shows();
@@ -217,7 +223,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, s
   });
   await step("the panel is back in a window that was loaded anew", async () => {
     await begin();
-    await saved("the drawing to be saved", (text) => text.includes("Head@Body$Shape round"));
+    await keep();
     // The editor takes down what is open every five seconds.
     await page.waitForTimeout(8000);
     await reload();
@@ -228,7 +234,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, s
   await step("while the server is away the panel keeps its model and says so, and the next server is asked anew", async () => {
     await begin();
     // Not the first time, it takes a while to start.
-    const wrapped = program("okoshi-slow", 'if [ "$1" = lsp ]; then [ -e "$0.again" ] && sleep 4; touch "$0.again"; fi\nexec OKOSHI "$@"');
+    const wrapped = program("okoshi-slow", 'if [ "$1" = lsp ]; then [ -e "$0.again" ] && sleep 6; touch "$0.again"; fi\nexec OKOSHI "$@"');
     rmSync(`${wrapped}.again`, { force: true });
     configure({}, wrapped);
     const started = () => existsSync(`${wrapped}.again`) && Number(readFileSync(`${wrapped}.pid`, "utf8"));
@@ -239,9 +245,8 @@ export async function previews({ editor, page, step, again, at, saved, figure, s
     process.kill(started(), "SIGKILL");
     await editor.until("the panel to say so", async () => (await link()) !== "open");
     assert.match(await panel.frame.locator(".bar-link").textContent(), /Starting okoshi|not running/);
-    await still();
-    assert.ok((await panel.find(RED)).count > 300);
     await shot("preview-away");
+    assert.ok((await panel.find(RED)).count > 300);
     await editor.until("the next server's news", async () => (await link()) === "open");
     assert.deepEqual(await editor.messages(), []);
     await at("Color #d9534f", 7);
@@ -268,6 +273,21 @@ export async function previews({ editor, page, step, again, at, saved, figure, s
     await editor.until("the light theme again", async () => (await background()) === light);
     // White both in the light themes.
     assert.equal(seen.size, 3, [...seen].join("; "));
+  });
+  await step("a starter drawing shows its model, the picture of the manual", async () => {
+    await editor.press("Control+s");
+    await open("robot.svg");
+    await editor.see(".codelens-decoration a", "Preview in 3D");
+    await editor.press("Control+b");
+    await editor.press("Control+k");
+    await editor.press("v");
+    await panel.shows();
+    await at("RightArm@Body", 2, read("robot.svg"));
+    await editor.until("the arm to be lit", async () => (await panel.says("lit")) === "RightArm");
+    await still();
+    await shot("preview-manual");
+    await editor.press("Control+1");
+    await editor.press("Control+b");
   });
   await step("fault, hover, outline, problems and model stand side by side", async () => {
     await begin();
