@@ -15,8 +15,8 @@ export class Editor {
   }
 
   /** Waits until something holds, and throws what was seen last if it does not. */
-  async until(what, probe) {
-    const end = Date.now() + PATIENCE;
+  async until(what, probe, patience = PATIENCE) {
+    const end = Date.now() + patience;
     for (;;) {
       const value = await probe();
       if (value) return value;

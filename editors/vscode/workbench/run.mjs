@@ -6,6 +6,7 @@
 // time that takes minutes and 700 MB. Building code-server's native parts takes libkrb5-dev.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
@@ -28,6 +29,7 @@ if (!existsSync(okoshi)) throw new Error(`There is no ${okoshi}: build it, or na
 for (const folder of [project, data, shots, join(room, "extensions")]) rmSync(folder, { recursive: true, force: true });
 for (const folder of [project, join(data, "User"), join(data, "Machine"), shots]) mkdirSync(folder, { recursive: true });
 for (const name of ["figure.svg", "hints.svg"]) copyFileSync(join(here, name), join(project, name));
+execFileSync(okoshi, ["new", "-q", "robot"], { cwd: project });
 copyFileSync(join(extension, "test", "plain.svg"), join(project, "plain.svg"));
 
 const SETTINGS = {

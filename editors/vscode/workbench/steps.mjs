@@ -17,7 +17,7 @@ const WRONG = "Head@Body$Shap round";
 
 export async function withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shots }) {
   const figure = read();
-  const at = (wanted, offset) => editor.caret(place(figure, wanted, offset));
+  const at = (wanted, offset, text = figure) => editor.caret(place(text, wanted, offset));
   /** The drawing on disk after saving, once it is as wanted. */
   const saved = (what, good) =>
     editor.until(what, async () => {
@@ -178,7 +178,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await editor.press("Escape");
     await saved("a text for all parts", (text) => text.includes(">%Shape default -20 20 Scale 1.0</text>"));
   });
-  await previews({ editor, page, step, again, at, saved, figure, shots, reload, WRONG });
+  await previews({ editor, page, step, again, at, saved, figure, read, open, shots, reload, configure, program, WRONG });
   await step("on demand, drawings are checked when they are saved", async () => {
     await again();
     configure({ "okoshi.analyse": "onSave", "editor.renderFinalNewline": "off" });
