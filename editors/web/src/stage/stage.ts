@@ -15,6 +15,7 @@ export class Stage {
   readonly renderer: WebGLRenderer;
   readonly lights: Lights;
   private readonly steps: BeforeFrame[] = [];
+  private once: (() => void)[] = [];
   private asked = false;
   private stale = false;
   private last = 0;
@@ -62,6 +63,11 @@ export class Stage {
     this.steps.push(step);
   }
 
+  /** Does something after the next picture, once. */
+  afterNext(step: () => void): void {
+    this.once.push(step);
+  }
+
   /** Draws now. */
   draw(camera: Camera = this.view.camera): void {
     this.lights.follow(camera);
@@ -80,6 +86,9 @@ export class Stage {
       this.draw();
       this.canvas.dataset["frames"] = String(++this.frames);
       this.canvas.dataset["view"] = this.view.describe();
+      const once = this.once;
+      this.once = [];
+      for (const step of once) step();
     }
     if (more) this.ask();
   };

@@ -165,7 +165,8 @@ export class Viewer {
     this.pose.release();
     for (const mark of ["hovered", "lit", "selected"] as const) this.highlight.clear(mark);
     this.highlight.edges(null, false);
-    this.model?.dispose();
+    const before = this.model;
+    before?.root.removeFromParent();
     this.model = model;
     this.bytes = bytes;
     this.shown = wanted;
@@ -182,7 +183,13 @@ export class Viewer {
     this.markAll();
     this.canvas.dataset["revision"] = String(wanted.revision);
     this.canvas.setAttribute("aria-label", `Model of ${this.state.drawing?.name ?? "the drawing"}: ${count(model.triangles, "triangle")}`);
-    this.stage.moved();
+    this.stage.afterNext(() => {
+      // Not before the new model has taken over its shaders, or they would be made anew.
+      before?.dispose();
+      // Shadows take longer than all else, and follow a picture later.
+      this.stage.moved();
+    });
+    this.stage.invalidate();
     this.tell("model", "time");
   }
 
