@@ -33,7 +33,8 @@ export class State {
   link: Link = "connecting";
   /** Why the connection is as it is, in the host's words; empty if it has none. */
   linkNote = "";
-  private connection = 0;
+  /** Counts connections. A host may send what the next one has to say before it calls that open. */
+  connection = 0;
   /** Whether the host has said which drawings there are. */
   known = false;
 
@@ -86,7 +87,7 @@ export class State {
 
   setLink(link: Link, note = ""): void {
     if (link === this.link && note === this.linkNote) return;
-    if (link === "open" && link !== this.link) this.connection++;
+    if (this.link === "open" && link !== "open") this.connection++;
     this.link = link;
     this.linkNote = note;
     this.tell("link");

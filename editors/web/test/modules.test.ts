@@ -143,3 +143,21 @@ test("a drawing keeps what is known of it when the list comes again", () => {
   state.receive({ type: "gone", drawing: "a" });
   assert.equal(state.find("a")?.gone, true);
 });
+
+test("a build belongs to the connection it came through, also when the host calls that open later", () => {
+  const state = new State();
+  const listed = { type: "drawings", drawings: [{ id: "a", name: "a.svg", folder: "" }] } as const;
+  const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [] } } as const;
+  const isOfNow = () => state.find("a")?.connection === state.connection;
+  state.setLink("open");
+  state.receive(listed);
+  state.receive(build);
+  assert.ok(isOfNow());
+  const first = state.connection;
+  state.setLink("lost");
+  assert.ok(!isOfNow(), "what came before is of the connection that was lost");
+  state.setLink("connecting");
+  state.receive(build);
+  state.setLink("open");
+  assert.ok(isOfNow() && state.connection !== first);
+});

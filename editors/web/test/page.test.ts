@@ -328,6 +328,14 @@ browse("inside VS Code everything goes by posted messages, and the editor's colo
   await post({ type: "modelBytes", address: "builds/4.glb", bytes: model!.toString("base64") });
   await shown(page, 4);
   await picture(page, "vscode");
+  // The system is light and the theme dark: what the theme leaves out is dark too.
+  const faint = await page.evaluate(() => {
+    const light = (color: string) => color.match(/[\d.]+/g)!.slice(0, 3).reduce((sum, one) => sum + Number(one), 0) / 3;
+    const pressed = getComputedStyle(document.querySelector(".button[aria-pressed=true]")!);
+    const quiet = getComputedStyle(document.querySelector(".bar-facts")!);
+    return { pressed: light(pressed.color) - light(pressed.backgroundColor), quiet: light(quiet.color) };
+  });
+  assert.ok(faint.pressed > 100 && faint.quiet > 130, JSON.stringify(faint));
   assert.deepEqual((await picture(page)).at({ x: 20, y: 200 }), [16, 32, 48]);
   await page.locator("[data-part=Arm]").click();
   await page.keyboard.press("d");

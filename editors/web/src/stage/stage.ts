@@ -68,6 +68,13 @@ export class Stage {
     this.once.push(step);
   }
 
+  /** Does what waits for the next picture at once: in a tab that is not looked at there is none. */
+  settle(): void {
+    const { once } = this;
+    this.once = [];
+    for (const step of once) step();
+  }
+
   /** Draws now. */
   draw(camera: Camera = this.view.camera): void {
     this.lights.follow(camera);
@@ -86,9 +93,7 @@ export class Stage {
       this.draw();
       this.canvas.dataset["frames"] = String(++this.frames);
       this.canvas.dataset["view"] = this.view.describe();
-      const once = this.once;
-      this.once = [];
-      for (const step of once) step();
+      this.settle();
     }
     if (more) this.ask();
   };

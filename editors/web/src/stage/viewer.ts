@@ -67,7 +67,7 @@ export class Viewer {
       (error, wanted) => this.failed(error, wanted),
     );
     this.stage.beforeFrame((seconds) => this.step(seconds));
-    state.on(["current", "build"], () => this.update());
+    state.on(["current", "build", "link"], () => this.update());
     state.on("selection", () => this.mark("selected"));
     state.on("hover", () => this.mark("hovered"));
     state.on("light", () => this.mark("lit"));
@@ -154,6 +154,8 @@ export class Viewer {
     const wanted: Wanted = { drawing: drawing.id, connection: drawing.connection, revision: build.revision, address: build.model };
     // The same model; its parts may be bound by other strings now.
     if (isSame(wanted, this.awaited ?? this.shown)) return this.markAll();
+    // Of a host that is away nothing is asked, and of the next one no model of the last: its addresses are others.
+    if (this.state.link !== "open" || drawing.connection !== this.state.connection) return;
     this.awaited = wanted;
     this.loading.want(wanted);
   }
@@ -165,6 +167,8 @@ export class Viewer {
     this.pose.release();
     for (const mark of ["hovered", "lit", "selected"] as const) this.highlight.clear(mark);
     this.highlight.edges(null, false);
+    // The model before the last goes now, if no picture was made since.
+    this.stage.settle();
     const before = this.model;
     before?.root.removeFromParent();
     this.model = model;
