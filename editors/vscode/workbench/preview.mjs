@@ -97,7 +97,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     const text = (await editor.lines()).join("\n");
     if ((await panel.says("revision")) !== null && text.includes("Head@Body$Shape round") && text.includes("#d9534f<") && text.includes("Arm@Body$")) {
       await editor.press("Control+1");
-      return rest();
+      if (await inText()) return rest();
     }
     await again();
     await at(WRONG, 14);
