@@ -97,7 +97,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     const text = (await editor.lines()).join("\n");
     if ((await panel.says("revision")) !== null && text.includes("Head@Body$Shape round") && text.includes("#d9534f<") && text.includes("Arm@Body$")) {
       await editor.press("Control+1");
-      return rest();
+      if (await inText()) return rest();
     }
     await again();
     await at(WRONG, 14);
@@ -290,6 +290,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await editor.press("Control+b");
   });
   await step("fault, hover, outline, problems and model stand side by side", async () => {
+    await page.setViewportSize({ width: 1500, height: 900 });
     await begin();
     // Undone, the fault is there again; the model is the last one that could be built.
     await editor.press("Control+1");
@@ -300,7 +301,10 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await editor.see(".outline-tree .monaco-list-row", "Leg");
     await editor.command("Problems: Focus on Problems View");
     await editor.see(".markers-panel .monaco-list-row", "E101");
+    // What covers the model is folded up.
+    for (const fold of [".findings-head[aria-expanded=true]", ".side[data-open=true] .sheet-head"]) await panel.frame.locator(fold).click();
     await editor.press("Control+1");
+    await editor.until("the text to have the keyboard", inText);
     await at("Arm@Body", 1);
     await editor.press("Control+k");
     await editor.press("Control+i");
@@ -308,5 +312,6 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     // Until the hover has come up in full.
     await page.waitForTimeout(500);
     await shot("page");
+    await page.setViewportSize({ width: 1280, height: 800 });
   });
 }
