@@ -92,10 +92,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         ],
     ),
     ("report", &["bind", "compile"]),
-    (
-        "watch",
-        &["compile", "disk", "gltf", "resolver"],
-    ),
+    ("watch", &["compile", "disk", "gltf", "resolver"]),
     (
         "preview",
         &[

@@ -170,5 +170,12 @@ fn a_page_shows_texts_of_editors_without_panels() {
         shown["selection"]["start"],
         position(&text, text.find("Rarm@").expect("there"))
     );
+    let open = json!({"type": "open", "drawing": URI, "line": 5, "column": 36});
+    socket.send(Message::text(open.to_string())).expect("sent");
+    let shown = asked(&mut editor);
+    assert_eq!(
+        shown["selection"]["start"],
+        json!({"line": 4, "character": 35})
+    );
     assert!(editor.leave().success());
 }

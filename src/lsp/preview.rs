@@ -18,7 +18,8 @@ use tower_lsp::ls_types::*;
 use super::backend::Backend;
 use super::documents::{Analysed, Documents};
 use crate::gltf::{self, Container};
-use crate::preview::{Hub, Shown, bind, serve};
+use crate::preview::{Hub, Picked, Shown, bind, serve};
+use crate::source::Span;
 use crate::watch::Steps;
 
 /// What is shown, and to whom.
@@ -52,9 +53,14 @@ impl Previews {
     /// Shows nothing yet; builds on a thread of its own.
     pub(super) fn new(client: Client, runtime: Handle, documents: Arc<Documents>) -> Arc<Self> {
         let (teller, told) = (client.clone(), runtime.clone());
-        let hub = Hub::new(move |uri, part| {
+        let hub = Hub::new(move |uri, picked| {
             let found = documents.last(uri).and_then(|last| {
-                let span = last.analysis.place_of(part)?;
+                let span = match picked {
+                    Picked::Part(part) => last.analysis.place_of(part)?,
+                    Picked::Place { line, column } => {
+                        Span::at(offset(last.document.text(), line, column))
+                    }
+                };
                 Some((
                     last.document.uri.clone(),
                     last.document.positions.range(span),
@@ -229,6 +235,19 @@ impl Previews {
         };
         Ok(format!("{url}#{}", escaped(uri)))
     }
+}
+
+/// Where in a text a line and a column are, which count from 1.
+fn offset(text: &str, line: usize, column: usize) -> usize {
+    let mut lines = text.split_inclusive('\n');
+    let before: usize = lines
+        .by_ref()
+        .take(line.saturating_sub(1))
+        .map(str::len)
+        .sum();
+    let line = lines.next().unwrap_or("");
+    let mut places = line.char_indices().map(|(at, _)| at);
+    before + places.nth(column.saturating_sub(1)).unwrap_or(line.len())
 }
 
 /// Text as it stands behind the `#` of an address.

@@ -22,7 +22,7 @@ pub struct Hub {
     state: Mutex<State>,
     /// Counts the news.
     clock: watch::Sender<u64>,
-    on_pick: Box<dyn Fn(&str, &str) + Send + Sync>,
+    on_pick: Box<OnPick>,
     /// Pictures are drawn one at a time: builds go first.
     pub(super) drawing_pictures: Semaphore,
 }
@@ -31,6 +31,23 @@ impl std::fmt::Debug for Hub {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Hub").finish_non_exhaustive()
     }
+}
+
+/// Told of the drawing, and of what was picked in it.
+type OnPick = dyn Fn(&str, Picked<'_>) + Send + Sync;
+
+/// What can be picked on a page.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Picked<'a> {
+    /// A part, by its name.
+    Part(&'a str),
+    /// A place in the drawing's text. Lines and columns count from 1, columns in characters.
+    Place {
+        /// The line.
+        line: usize,
+        /// The column.
+        column: usize,
+    },
 }
 
 #[derive(Default)]
@@ -96,8 +113,8 @@ pub struct Shown<'a> {
 }
 
 impl Hub {
-    /// A hub without drawings; `on_pick` is told when a part is picked on a page: the drawing, and the part's name.
-    pub fn new(on_pick: impl Fn(&str, &str) + Send + Sync + 'static) -> Arc<Self> {
+    /// A hub without drawings; `on_pick` is told when something is picked on a page.
+    pub fn new(on_pick: impl Fn(&str, Picked<'_>) + Send + Sync + 'static) -> Arc<Self> {
         Arc::new(Self {
             state: Mutex::default(),
             clock: watch::Sender::new(0),
@@ -261,10 +278,10 @@ impl Hub {
         (news, state.clock)
     }
 
-    /// A part was picked on a page.
-    pub(super) fn picked(&self, drawing: &str, part: &str) {
+    /// Something was picked on a page.
+    pub(super) fn picked(&self, drawing: &str, picked: Picked<'_>) {
         if self.shows(drawing) {
-            (self.on_pick)(drawing, part);
+            (self.on_pick)(drawing, picked);
         }
     }
 }

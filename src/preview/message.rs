@@ -142,6 +142,12 @@ pub(super) fn findings<'a>(diagnostics: &'a [Diagnostic], text: &str) -> Vec<Fin
 pub(super) enum FromPage {
     /// A part was picked.
     Pick { drawing: String, part: String },
+    /// A finding was picked; lines and columns count from 1, columns in characters.
+    Open {
+        drawing: String,
+        line: usize,
+        column: usize,
+    },
     /// The page shows this drawing.
     Want {},
     #[serde(other)]

@@ -15,5 +15,5 @@ mod page;
 mod server;
 mod socket;
 
-pub use hub::{Hub, Shown};
+pub use hub::{Hub, Picked, Shown};
 pub use server::{Bound, bind, serve};

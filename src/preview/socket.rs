@@ -8,7 +8,7 @@ use axum::extract::ws::{Message, WebSocket, WebSocketUpgrade};
 use axum::http::StatusCode;
 use axum::response::{IntoResponse, Response};
 
-use super::hub::Hub;
+use super::hub::{Hub, Picked};
 use super::message::FromPage;
 use super::server::Shared;
 
@@ -79,7 +79,12 @@ async fn send(socket: &mut WebSocket, message: Message) -> bool {
 fn hear(message: &Message, hub: &Hub) {
     let Message::Text(text) = message else { return };
     match serde_json::from_str(text) {
-        Ok(FromPage::Pick { drawing, part }) => hub.picked(&drawing, &part),
+        Ok(FromPage::Pick { drawing, part }) => hub.picked(&drawing, Picked::Part(&part)),
+        Ok(FromPage::Open {
+            drawing,
+            line,
+            column,
+        }) => hub.picked(&drawing, Picked::Place { line, column }),
         Ok(FromPage::Want {} | FromPage::Other) | Err(_) => {}
     }
 }

@@ -1,0 +1,109 @@
+// The page with the real program behind it: `okoshi preview`, files that are saved, and what is seen of that.
+
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { copyFileSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { createInterface } from "node:readline";
+import { after, test } from "node:test";
+import type { Browser, Page } from "playwright-core";
+import { camera, CHROMIUM, launch, open, picture, project, shown, still } from "./browser";
+import { assertLike, example, FIGURE, isLike, source } from "./setup";
+
+const okoshi = process.env["OKOSHI"] ?? "";
+const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
+const RED = [255, 0, 0] as const;
+const GREEN = [0, 160, 0] as const;
+const BLUE = [0, 0, 255] as const;
+
+let browser: Promise<Browser> | undefined;
+after(async () => (await browser)?.close());
+
+/** A test with a folder in which there is a figure, and `okoshi preview` of the folder or of that drawing. */
+function real(name: string, target: string, run: (page: Page, folder: string) => Promise<void>): void {
+  test(name, { skip, timeout: 90_000 }, async () => {
+    const folder = mkdtempSync(join(tmpdir(), "okoshi-page-"));
+    copyFileSync(FIGURE, join(folder, "figure.svg"));
+    mkdirSync(join(folder, "more"));
+    copyFileSync(example("human"), join(folder, "more", "human.svg"));
+    const program = spawn(okoshi, ["preview", target, "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+    try {
+      const address = await new Promise<string>((found) => createInterface(program.stdout).once("line", found));
+      browser ??= launch();
+      const { page, wrong } = await open(await browser, address);
+      await run(page, folder);
+      assert.deepEqual(wrong, []);
+      await page.context().close();
+    } finally {
+      program.kill();
+      rmSync(folder, { recursive: true });
+    }
+  });
+}
+
+/** Where a place of the figure's drawing is in the window; `front` is how far its face stands out. */
+const at = (page: Page, x: number, y: number, front: number): Promise<{ x: number; y: number }> => project(page, (x - 180) / 100, (200 - y) / 100, front);
+const save = (folder: string, change: (text: string) => string): void => writeFileSync(join(folder, "figure.svg"), change(source(FIGURE)));
+
+real("a save changes the picture, and the camera stays", "figure.svg", async (page, folder) => {
+  await shown(page, 1);
+  for (const key of ["1", "ArrowLeft", "ArrowUp"]) await page.keyboard.press(key);
+  await still(page);
+  const view = await camera(page);
+  assertLike((await picture(page)).at(await at(page, 140, 180, 0.2)), RED, "the body", 80);
+  assertLike((await picture(page)).at(await at(page, 220, 120, 0.08)), GREEN, "the arm", 80);
+  save(folder, (text) => text.replace("#ff0000", "#0000ff"));
+  await shown(page, 2);
+  assert.equal(await camera(page), view);
+  assertLike((await picture(page, "real")).at(await at(page, 140, 180, 0.2)), BLUE, "the body that was saved", 80);
+});
+
+real("an error lies over the old model, until it is mended", "figure.svg", async (page, folder) => {
+  await shown(page, 1);
+  await page.keyboard.press("1");
+  save(folder, (text) => text.replace("#ff0000", "#0000ff").replace("Arm@Body", "Arm@Bdoy"));
+  await page.waitForSelector(".findings[data-open=true]");
+  const finding = await page.locator(".finding").first().innerText();
+  assert.match(finding, /E204\s+there is no part named Bdoy/);
+  assert.equal(await page.locator(".finding mark").first().innerText(), "Bdoy");
+  await still(page);
+  assertLike((await picture(page)).at(await at(page, 140, 110, 0.2)), RED, "the old body", 80);
+  save(folder, (text) => text.replace("#ff0000", "#0000ff"));
+  await page.waitForSelector(".findings[data-open=false]");
+  await shown(page);
+  assertLike((await picture(page)).at(await at(page, 140, 180, 0.2)), BLUE, "the new body", 80);
+});
+
+real("a click names the part, and posing turns the limb about its joint", "figure.svg", async (page) => {
+  await shown(page, 1);
+  await page.keyboard.press("1");
+  await still(page);
+  const tip = await at(page, 240, 120, 0.08);
+  await page.mouse.click(tip.x, tip.y);
+  await page.waitForSelector("[data-part=Arm][aria-selected=true]");
+  assert.equal(await page.locator(".inspector code").innerText(), "Arm@Body$Shape default -8 8");
+  // The joint is where the arm meets the body, at (170, 120): a drag of its tip to above the joint turns it up.
+  await page.locator("canvas").focus();
+  await page.keyboard.press("p");
+  const above = await at(page, 172, 50, 0.08);
+  await page.mouse.move(tip.x, tip.y);
+  await page.mouse.down();
+  await page.mouse.move(above.x + 30, above.y + 10, { steps: 6 });
+  await page.mouse.move(above.x, above.y, { steps: 6 });
+  await page.mouse.up();
+  await still(page);
+  const seen = await picture(page, "real-posed");
+  assert.ok(!isLike(seen.at(await at(page, 230, 120, 0)), GREEN), "the arm has left its place");
+  assertLike(seen.at(await at(page, 171, 60, 0.08)), GREEN, "the arm above its joint", 80);
+});
+
+real("a folder is a gallery with pictures; a drawing that comes into it is shown too", ".", async (page, folder) => {
+  await page.waitForFunction(() => [...document.querySelectorAll<HTMLImageElement>(".card img")].filter((image) => image.complete && image.naturalWidth > 0).length === 2);
+  assert.match(await page.locator(".gallery").innerText(), /figure\.svg\s+3 parts\s+human\.svg\s+more\s+7 parts/);
+  copyFileSync(example("dog"), join(folder, "more", "dog.svg"));
+  await page.waitForFunction(() => document.querySelectorAll(".card img").length === 3);
+  await page.locator(".card", { hasText: "human.svg" }).click();
+  await shown(page);
+  assert.equal(await page.locator("[data-part=Ubody]").count(), 1);
+});
