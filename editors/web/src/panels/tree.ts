@@ -26,6 +26,8 @@ export class Tree {
   private rows: Row[] = [];
   private items = new Map<string, HTMLElement>();
   private active: string | null = null;
+  /** What the rows were made from. */
+  private drawn = "";
 
   /** `picked` hears of parts that were clicked. */
   constructor(private readonly state: State, private readonly picked: (part: string) => void) {
@@ -69,6 +71,12 @@ export class Tree {
     this.rows = rows;
     if (!rows.some(({ part }) => part.name === this.active)) this.active = this.state.selected ?? rows[0]?.part.name ?? null;
     if (!rows.some(({ part }) => part.name === this.active)) this.active = rows[0]?.part.name ?? null;
+
+    // Most saves change no row, and to make them anew takes longer than to read the model.
+    const words = rows.map(({ part, level, open, place, among }) => [part.name, part.kind, part.element, part.string?.text, part.joint, level, open, place, among]);
+    const drawn = JSON.stringify([words, this.active, this.state.drawing?.build === null]);
+    if (drawn === this.drawn) return this.marks();
+    this.drawn = drawn;
 
     const focused = this.list.contains(document.activeElement);
     const scroll = this.list.scrollTop;
