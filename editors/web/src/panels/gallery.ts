@@ -24,6 +24,8 @@ export class Gallery {
     fill(this.element, h("header", { class: "gallery-head" }, this.heading, this.title), this.grid);
     state.on(["drawings", "current"], () => this.draw());
     state.on("build", (id) => {
+      // Nobody sees it, and pictures that are asked for are drawn.
+      if (this.element.hidden) return;
       const drawing = state.find(id);
       const card = this.cards.get(id);
       if (drawing && card) this.fill(card, drawing);
@@ -33,6 +35,7 @@ export class Gallery {
 
   private draw(): void {
     this.element.hidden = this.state.current !== null || !this.state.known;
+    if (this.element.hidden) return;
     const { list } = this.state;
     for (const id of this.cards.keys()) if (!list.some((drawing) => drawing.id === id)) this.cards.delete(id);
     for (const drawing of list) {
