@@ -233,5 +233,5 @@ fn a_kill_at_any_moment_leaves_a_sound_model() {
             assert_eq!(nodes.len(), 202);
         }
     }
-    println!("{builds} builds, {kills} kills");
+    assert!(kills > 5, "only {kills} kills");
 }

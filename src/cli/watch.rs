@@ -66,8 +66,8 @@ impl Outputs<'_> {
             Some(folder) => {
                 // Below a folder that is watched, drawings keep their places.
                 let below = |target: &PathBuf| drawing.strip_prefix(target).ok();
-                let inner = self.targets.iter().filter_map(below);
-                let place = inner.filter(|place| !place.as_os_str().is_empty()).next();
+                let mut inner = self.targets.iter().filter_map(below);
+                let place = inner.find(|place| !place.as_os_str().is_empty());
                 let place = place.or(drawing.file_name().map(Path::new));
                 folder.join(place.unwrap_or(drawing)).with_extension("glb")
             }
