@@ -66,10 +66,10 @@ pub fn write(
     written(scene, container, out, None)
 }
 
-/// Writes `scene` as [`write`] does; solids that are in `memory` are not made anew, and those of `scene` will be in it.
+/// Writes `scene` as [`write()`] does; solids that are in `memory` are not made anew, and those of `scene` will be in it.
 ///
 /// # Errors
-/// Those of [`write`]; `memory` is as it was then.
+/// Those of [`write()`]; `memory` is as it was then.
 pub fn write_again(
     scene: &Scene,
     container: Container,
