@@ -16,6 +16,8 @@ const root = new URL("..", import.meta.url).pathname;
 const { chromium } = createRequire(join(root, "editors/web/package.json"))("playwright-core");
 const okoshi = process.env.OKOSHI ?? join(root, "target/release/okoshi");
 const SAVES = 40;
+/** Kinds of solids, in turn. */
+const KINDS = ["default -9 9", "roundv", "default -5 5", "round", "conev -8 8 0.5", "flat"];
 
 /** A figure of so many parts, one of them of a width that changes. */
 function drawing(parts, width) {
@@ -27,7 +29,7 @@ function drawing(parts, width) {
     const shape = index % 2 === 0
       ? `<rect x="${x}" y="${y}" width="${wide}" height="20" fill="#c83737"/>`
       : `<ellipse cx="${x + 15}" cy="${y + 12}" rx="14" ry="9" fill="#2a7fff"/>`;
-    shapes.push(shape, `<text x="${x + 12}" y="${y + 10}" font-size="3">P${index}${index > 0 ? "@P0" : ""}$Shape ${index % 2 ? "round" : "roundv"}</text>`);
+    shapes.push(shape, `<text x="${x + 12}" y="${y + 10}" font-size="3">P${index}${index > 0 ? "@P0" : ""}$Shape ${KINDS[index % KINDS.length]}</text>`);
   }
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${40 * side}" height="${40 * side}">\n${shapes.join("\n")}\n</svg>\n`;
 }
