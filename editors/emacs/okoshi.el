@@ -29,26 +29,25 @@
   :documentation "Okoshi's language server.")
 
 (cl-defmethod eglot-client-capabilities ((_server okoshi-server))
-  "Say that pictures of models can be shown."
+  "Say that pages and places can be shown."
   (let* ((known (cl-call-next-method))
          (window (copy-sequence (plist-get known :window))))
     (plist-put known :window (plist-put window :showDocument '(:support t)))))
 
 (cl-defmethod eglot-handle-request
-  ((_server okoshi-server) (_method (eql window/showDocument)) &key uri &allow-other-keys)
-  "Show the file behind URI: the picture of a model."
-  (let* ((path (decode-coding-string (url-unhex-string (url-filename (url-generic-parse-url uri))) 'utf-8))
-         (buffer (find-buffer-visiting path)))
-    (cond ((not (and (display-images-p) (image-type-available-p 'png)))
-           (message "the model's picture is %s" path))
-          (buffer
-           (with-current-buffer buffer (revert-buffer t t))
-           (display-buffer buffer))
-          (t (display-buffer (find-file-noselect path))))
-    '(:success t)))
+  ((_server okoshi-server) (_method (eql window/showDocument)) &key uri selection &allow-other-keys)
+  "Show URI: the preview's page, or the drawing where SELECTION was picked."
+  (cond ((not (string-prefix-p "http://" uri))
+         (let ((path (url-filename (url-generic-parse-url uri))))
+           (pop-to-buffer (find-file-noselect (decode-coding-string (url-unhex-string path) 'utf-8)))
+           (when selection
+             (goto-char (eglot--lsp-position-to-point (plist-get selection :start))))))
+        ((display-graphic-p) (browse-url uri))
+        (t (message "the preview is at %s" uri)))
+  '(:success t))
 
 (defun okoshi-preview ()
-  "Draw the model of what stands in the buffer."
+  "Show the model of what stands in the buffer, on a page that follows each change."
   (interactive)
   (let ((server (or (eglot-current-server) (user-error "No language server looks at this buffer")))
         (place (plist-get (eglot--TextDocumentIdentifier) :uri)))

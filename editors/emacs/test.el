@@ -186,21 +186,16 @@
       (dolist (name '("Ubody" "Head" "Rarm" "Larm" "Lbody" "U-1" "U-2"))
         (should (cl-member name names :test (lambda (a b) (and (stringp b) (string-match-p (concat "\\b" a "\\'") b)))))))))
 
-(ert-deftest preview-draws-the-model ()
+(ert-deftest preview-leads-to-a-page ()
   (test-in (test-example "human.svg")
     (let (told)
       (cl-letf (((symbol-function 'message) (lambda (form &rest more) (push (apply #'format form more) told))))
         (okoshi-preview)
-        (let ((line (test-wait "the picture is told of"
-                               (lambda () (cl-find-if (lambda (words) (string-search "the model's picture is" words)) told)))))
-          (string-match "picture is \\(.*\\)\\'" line)
-          (let ((picture (match-string 1 line)))
-            (with-temp-buffer
-              (set-buffer-multibyte nil)
-              (insert-file-contents-literally picture)
-              (should (> (buffer-size) 5000))
-              (should (equal (buffer-substring 2 5) "PNG")))
-            (delete-file picture)))))))
+        (let ((line (test-wait "the page is told of"
+                               (lambda () (cl-find-if (lambda (words) (string-search "the preview is at" words)) told)))))
+          (should (string-match "at \\(http://127\\.0\\.0\\.1:[0-9]+/\\)#.*svg\\'" line))
+          (with-current-buffer (url-retrieve-synchronously (match-string 1 line) t)
+            (should (string-search "<title>okoshi preview</title>" (buffer-string)))))))))
 
 (ert-deftest other-xml-is-left-alone ()
   (let ((file (make-temp-file "okoshi" nil ".xml" "<notes/>\n")))

@@ -4,10 +4,10 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::args::{Common, Preview};
-use super::watch::{drawn, options, told};
+use super::watch::{drawn, follow, options, told};
 use super::{Outcome, fail};
 use crate::preview::{Hub, Shown, bind, serve};
-use crate::watch::{Build, Event, watch};
+use crate::watch::{Build, Event};
 
 /// Shows drawings on a page, until it is stopped.
 pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
@@ -46,20 +46,13 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
         eprintln!("the browser cannot be opened ({error}); open {url} yourself");
     }
     let options = options(&arguments.reading, &arguments.noticing);
-    let ended = watch(std::slice::from_ref(path), &options, |event| {
+    follow(std::slice::from_ref(path), &options, |event| {
         show(&hub, path, &event);
-        let told = match event {
+        match event {
             Event::Built(drawing, build) => drawn(drawing, build, common),
             event => told(&event, common),
-        };
-        eprint!("{told}");
-    });
-    match ended {
-        Ok(never) => match never {},
-        Err(error) => fail(&format!(
-            "changes of files are not told of here: {error}; try --poll"
-        )),
-    }
+        }
+    })
 }
 
 fn show(hub: &Arc<Hub>, target: &Path, event: &Event<'_>) {

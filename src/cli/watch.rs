@@ -24,14 +24,19 @@ pub(super) fn run(arguments: &Watch, common: Common) -> Outcome {
         taken: BTreeMap::new(),
     };
     let options = options(&arguments.reading, &arguments.noticing);
-    let ended = watch(&arguments.paths, &options, |event| {
-        let told = match event {
-            Event::Built(drawing, build) => built(drawing, build, &mut outputs, common),
-            event => told(&event, common),
-        };
-        eprint!("{told}");
-    });
-    match ended {
+    follow(&arguments.paths, &options, |event| match event {
+        Event::Built(drawing, build) => built(drawing, build, &mut outputs, common),
+        event => told(&event, common),
+    })
+}
+
+/// Watches until it is stopped, and prints what `tell` says of each event.
+pub(super) fn follow(
+    paths: &[PathBuf],
+    options: &Options,
+    mut tell: impl FnMut(Event<'_>) -> String,
+) -> Outcome {
+    match watch(paths, options, |event| eprint!("{}", tell(event))) {
         Ok(never) => match never {},
         Err(error) => fail(&format!(
             "changes of files are not told of here: {error}; try --poll"

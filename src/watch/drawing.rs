@@ -131,7 +131,6 @@ impl Drawing {
         Ok(Model {
             bytes: out.into_inner(),
             written,
-            made: self.memory.made(),
         })
     }
 }

@@ -59,8 +59,6 @@ pub struct Model {
     pub bytes: Vec<u8>,
     /// How much that is.
     pub written: Written,
-    /// How many solids were made anew for it.
-    pub made: usize,
 }
 
 /// Why there is no model.

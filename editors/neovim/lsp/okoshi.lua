@@ -1,17 +1,17 @@
 -- How Neovim starts okoshi's language server. Neovim 0.11 and newer finds this file by itself as `lsp/okoshi.lua` on the
 -- runtime path; `vim.lsp.config('okoshi', { … })` changes what is said here. plugin/okoshi.lua uses it in older ones.
 
--- Shows a picture of the model. Neovim would load it as text.
-local function show_document(_, params, context, config)
-  local file = vim.uri_to_fname(params.uri)
-  if not file:lower():match('%.png$') then
-    return vim.lsp.handlers['window/showDocument'](_, params, context, config)
+-- Shows the preview's page in the browser, and places that were picked on it in Neovim.
+local function show_document(problem, params, context, config)
+  if params.uri:match('^http://') then
+    local opened = vim.ui.open and vim.ui.open(params.uri)
+    if not opened then
+      vim.notify('the preview is at ' .. params.uri)
+    end
+    return { success = true }
   end
-  local opened = vim.ui.open and vim.ui.open(file)
-  if not opened then
-    vim.notify("the model's picture is " .. file)
-  end
-  return { success = true }
+  local shows = vim.lsp.handlers['window/showDocument']
+  return shows and shows(problem, params, context, config) or { success = false }
 end
 
 -- Neovim 0.11 fetches diagnostics after edits, but does not know how to be asked to fetch them again when a linked file

@@ -12,7 +12,17 @@ local function is_okoshi(client)
   return client and client.name == 'okoshi'
 end
 
--- Draws the model of what stands in the buffer.
+-- Tells the preview where the cursor is: the part whose string it is in is lit up.
+local function tell_cursor(client)
+  local params = vim.lsp.util.make_position_params(0, client.offset_encoding)
+  if vim.fn.has('nvim-0.11') == 1 then
+    client:notify('okoshi/preview/cursor', params)
+  else
+    client.notify('okoshi/preview/cursor', params)
+  end
+end
+
+-- Shows the model of what stands in the buffer, on a page that follows each change.
 local function preview(client, buffer)
   local params = { command = 'okoshi.preview', arguments = { vim.uri_from_bufnr(buffer) } }
   local function answered(problem)
@@ -20,6 +30,14 @@ local function preview(client, buffer)
       vim.notify(problem.message, vim.log.levels.ERROR)
     end
   end
+  vim.api.nvim_clear_autocmds({ group = group, buffer = buffer, event = 'CursorMoved' })
+  vim.api.nvim_create_autocmd('CursorMoved', {
+    group = group,
+    buffer = buffer,
+    callback = function()
+      tell_cursor(client)
+    end,
+  })
   if vim.fn.has('nvim-0.11') == 1 then
     client:request('workspace/executeCommand', params, answered, buffer)
   else
@@ -40,7 +58,7 @@ local function on_attach(client, buffer)
   show_lens()
   vim.api.nvim_buf_create_user_command(buffer, 'OkoshiPreview', function()
     preview(client, buffer)
-  end, { desc = 'Draw the model of what stands in the buffer' })
+  end, { desc = 'Show the model of what stands in the buffer' })
   if vim.fn.has('nvim-0.8') == 0 then
     vim.bo[buffer].omnifunc = 'v:lua.vim.lsp.omnifunc'
     vim.bo[buffer].tagfunc = 'v:lua.vim.lsp.tagfunc'
