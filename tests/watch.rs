@@ -175,6 +175,21 @@ fn a_folder_is_watched_with_all_that_comes_into_it() {
     assert!(!folder.path().join("in/one.glb").exists());
 }
 
+#[cfg(unix)]
+#[test]
+fn what_a_link_leads_to_is_watched() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::create_dir(folder.path().join("elsewhere")).expect("a folder");
+    let target = folder.path().join("elsewhere/b.svg");
+    fs::write(&target, drawing(50)).expect("written");
+    std::os::unix::fs::symlink("elsewhere/b.svg", folder.path().join("a.svg")).expect("a link");
+    let live = Live::start(folder.path(), &["watch", "a.svg"]);
+    live.line("a.glb in");
+    fs::write(&target, drawing(90)).expect("written");
+    live.line("a.glb in");
+    assert_eq!(width(folder.path()), 90);
+}
+
 #[test]
 fn polling_sees_saves_too() {
     let (folder, live) = watched(&["a.svg", "--poll=30"]);

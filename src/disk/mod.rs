@@ -14,7 +14,7 @@ pub use folder::{FolderResolver, LINK_LIMIT};
 pub use read::{DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, read_drawing};
 pub use search::{Below, Stamp, below, is_drawing, stamp};
 pub use text::{Decode, decode};
-pub use watch::{Changed, FolderWatch, Notice, WatchError, as_told};
+pub use watch::{Changed, FolderWatch, Notice, WatchError, as_told, names_told};
 pub use write::{Output, WriteError, make_folder, write_atomic, write_new};
 
 use std::path::Path;

@@ -180,6 +180,12 @@ pub fn as_told(file: &Path) -> PathBuf {
     }
 }
 
+/// All paths by which the system may tell of a file: its own, and that of the file that it is a link to.
+pub fn names_told(file: &Path) -> BTreeSet<PathBuf> {
+    let target = std::fs::canonicalize(file);
+    target.into_iter().chain([as_told(file)]).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

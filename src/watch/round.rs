@@ -6,7 +6,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use super::drawing::{Again, Drawing};
 use super::{Event, Options};
-use crate::disk::{Changed, FolderWatch, ReadError, as_told, below, is_drawing};
+use crate::disk::{Changed, FolderWatch, ReadError, as_told, below, is_drawing, names_told};
 
 /// How long a file may look half written before that is told.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -194,9 +194,9 @@ impl Watched {
             }
             Ok(Again::Built(build)) => {
                 self.told = None;
-                let own = as_told(self.drawing.path());
-                let linked = self.drawing.linked().map(|file| as_told(&file));
-                self.files = linked.chain([own]).collect();
+                let linked = self.drawing.linked();
+                let files = linked.chain([self.drawing.path().to_owned()]);
+                self.files = files.flat_map(|file| names_told(&file)).collect();
                 tell(Event::Built(self.drawing.path(), &build));
             }
             Err(ReadError::Missing(_)) if now < due.gone_from => self.due = again,
