@@ -22,6 +22,8 @@ pub(super) struct Round {
     /// These and the folders below them.
     inner: BTreeSet<PathBuf>,
     drawings: BTreeMap<PathBuf, Watched>,
+    /// The folders that are watched.
+    heard: BTreeSet<PathBuf>,
     /// Folders that are not watched, told once.
     deaf: BTreeSet<PathBuf>,
 }
@@ -84,6 +86,7 @@ impl Round {
             folders,
             inner: BTreeSet::new(),
             drawings: BTreeMap::new(),
+            heard: BTreeSet::new(),
             deaf: BTreeSet::new(),
         };
         for file in files {
@@ -117,9 +120,9 @@ impl Round {
     fn add(&mut self, path: &Path, due: Due) {
         let key = as_told(path);
         let options = &self.options;
-        self.drawings.entry(key.clone()).or_insert_with(|| Watched {
+        self.drawings.entry(key).or_insert_with(|| Watched {
             drawing: Drawing::new(path, options),
-            files: BTreeSet::from([key]),
+            files: names_told(path),
             due: Some(due),
             told: None,
         });
@@ -175,6 +178,17 @@ impl Round {
                 tell(Event::Deaf(&folder, error.to_string()));
             }
         }
+        // What changed after it was read, and before its folder was watched, was not told.
+        let is_new = |file: &PathBuf| {
+            let folder = file.parent();
+            folder.is_some_and(|folder| folders.contains(folder) && !self.heard.contains(folder))
+        };
+        for watched in self.drawings.values_mut() {
+            if watched.due.is_none() && watched.files.iter().any(is_new) {
+                watched.due = Some(Due::after(SystemTime::now()));
+            }
+        }
+        self.heard = folders;
     }
 }
 
