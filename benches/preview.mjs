@@ -3,8 +3,8 @@
 //   cargo build --release && npm ci --prefix editors/web && node benches/preview.mjs [PARTS…]
 //
 // Each drawing is saved 40 times, as Inkscape does it: emptied, then written in pieces. The steps: until the watcher notices (event),
-// until the save has settled, until the model is made (build), until the page hears of it (push), until the page has the model (load),
-// until it is drawn (frame). Chromium draws in software here, which a computer with a graphics card does sooner.
+// until the save has settled, until the model is made (build), until the page hears of it (push), until it has fetched and drawn it
+// (frame). Chromium draws in software here, which a computer with a graphics card does sooner.
 
 import { spawn } from "node:child_process";
 import { closeSync, mkdtempSync, openSync, rmSync, writeFileSync, writeSync } from "node:fs";
@@ -40,7 +40,8 @@ function save(path, text) {
   closeSync(file);
 }
 
-const now = () => performance.timeOrigin + performance.now();
+// The system's clock, which the program and the page read too.
+const now = () => Date.now();
 const median = (numbers) => numbers.sort((a, b) => a - b)[Math.floor(numbers.length / 2)];
 const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
 
@@ -56,7 +57,7 @@ async function measure(parts) {
   });
   const page = await browser.newPage({ viewport: { width: 640, height: 480 } });
   await page.addInitScript(() => {
-    const clock = () => performance.timeOrigin + performance.now();
+    const clock = () => Date.now();
     window.heard = {};
     const Socket = window.WebSocket;
     window.WebSocket = class extends Socket {
@@ -75,22 +76,19 @@ async function measure(parts) {
   await pause(1000);
   await page.evaluate(() => {
     const canvas = document.querySelector("canvas");
-    const clock = () => performance.timeOrigin + performance.now();
-    let shown = 0;
+    const clock = () => Date.now();
+    let [shown, frames] = [1, Number(canvas.dataset.frames)];
     new MutationObserver(() => {
-      const revision = Number(canvas.dataset.revision);
-      if (revision !== shown) {
-        shown = revision;
-        window.heard[revision].loaded = clock();
-        window.heard[revision].frames = Number(canvas.dataset.frames);
-      }
+      const [revision, drawn] = [Number(canvas.dataset.revision), Number(canvas.dataset.frames)];
       const times = window.heard[revision];
-      if (times.drawn === undefined && Number(canvas.dataset.frames) > times.frames) {
+      if (revision !== shown && drawn > frames) {
         // To read a pixel waits until the graphics have drawn it.
         const context = canvas.getContext("webgl2");
         context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
         times.drawn = clock();
+        shown = revision;
       }
+      frames = revision === shown ? drawn : frames;
     }).observe(canvas, { attributes: true });
   });
   const steps = [];
@@ -104,8 +102,7 @@ async function measure(parts) {
       settle: times.begun - times.noticed,
       build: times.built - times.begun,
       push: times.heard - times.built,
-      load: times.loaded - times.heard,
-      frame: times.drawn - times.loaded,
+      frame: times.drawn - times.heard,
       "in all": times.drawn - saved,
       "without build": times.drawn - saved - (times.built - times.begun),
     });

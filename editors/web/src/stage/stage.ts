@@ -63,6 +63,12 @@ export class Stage {
     this.steps.push(step);
   }
 
+  /** Draws without waiting for the browser to ask: what was saved is seen a moment sooner. */
+  drawNow(): void {
+    this.stale = true;
+    this.frame(performance.now());
+  }
+
   /** Does something after the next picture, once. */
   afterNext(step: () => void): void {
     this.once.push(step);

@@ -193,7 +193,7 @@ export class Viewer {
       // Shadows take longer than all else, and follow a picture later.
       this.stage.moved();
     });
-    this.stage.invalidate();
+    this.stage.drawNow();
     this.tell("model", "time");
   }
 
