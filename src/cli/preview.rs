@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::args::{Common, Preview};
 use super::watch::{drawn, follow, options, told};
 use super::{Outcome, fail};
+use crate::disk::ReadError;
 use crate::preview::{Hub, Shown, bind, serve};
 use crate::watch::{Build, Event};
 
@@ -13,10 +14,7 @@ use crate::watch::{Build, Event};
 pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
     let path = &arguments.path;
     if !path.exists() {
-        return fail(&format!(
-            "`{}` is not there; check the path",
-            path.display()
-        ));
+        return fail(&ReadError::Missing(path.clone()).to_string());
     }
     let bound = match bind(arguments.port) {
         Ok(bound) => bound,

@@ -7,16 +7,13 @@ use std::time::Duration;
 use super::args::{Common, Noticing, Reading, Watch};
 use super::loading::{Detail, count, describe, tally};
 use super::{Findings, Outcome, fail, style};
-use crate::disk::{Notice, make_folder, write_atomic};
+use crate::disk::{Notice, ReadError, make_folder, write_atomic};
 use crate::watch::{Build, Event, Model, NoModel, Options, watch};
 
 /// Builds drawings at every save, until it is stopped.
 pub(super) fn run(arguments: &Watch, common: Common) -> Outcome {
     if let Some(missing) = arguments.paths.iter().find(|path| !path.exists()) {
-        return fail(&format!(
-            "`{}` is not there; check the path",
-            missing.display()
-        ));
+        return fail(&ReadError::Missing(missing.clone()).to_string());
     }
     let mut outputs = Outputs {
         folder: arguments.output.as_deref(),
