@@ -27,6 +27,7 @@ pub(super) struct Previews {
     hub: Arc<Hub>,
     client: Client,
     runtime: Handle,
+    documents: Arc<Documents>,
     queue: Mutex<Queue>,
     woken: Condvar,
     /// The page's address, once one is served.
@@ -43,8 +44,8 @@ impl std::fmt::Debug for Previews {
 
 #[derive(Default)]
 struct Queue {
-    /// The texts that are shown.
-    open: BTreeSet<String>,
+    /// The texts that are shown, and the last state of each that was to be built.
+    open: BTreeMap<String, Option<u64>>,
     /// Their newest states that are still to be built.
     waiting: BTreeMap<String, Arc<Analysed>>,
 }
@@ -53,8 +54,9 @@ impl Previews {
     /// Shows nothing yet; builds on a thread of its own.
     pub(super) fn new(client: Client, runtime: Handle, documents: Arc<Documents>) -> Arc<Self> {
         let (teller, told) = (client.clone(), runtime.clone());
+        let texts = documents.clone();
         let hub = Hub::new(move |uri, picked| {
-            let found = documents.last(uri).and_then(|last| {
+            let found = texts.last(uri).and_then(|last| {
                 let span = match picked {
                     Picked::Part(part) => last.analysis.place_of(part)?,
                     Picked::Place { line, column } => {
@@ -83,6 +85,7 @@ impl Previews {
             hub,
             client,
             runtime,
+            documents,
             queue: Mutex::default(),
             woken: Condvar::new(),
             page: OnceLock::new(),
@@ -107,11 +110,16 @@ impl Previews {
         }
     }
 
-    /// A state of a text was analysed: it is shown, if its text is.
+    /// A state of a text was analysed: it is shown, if its text is, and once only.
     pub(super) fn analysed(&self, analysed: &Arc<Analysed>) {
         let mut queue = self.queue();
         let uri = analysed.document.uri.to_string();
-        if queue.open.contains(&uri) {
+        let generation = Some(analysed.document.generation);
+        let Some(last) = queue.open.get_mut(&uri) else {
+            return;
+        };
+        if *last < generation {
+            *last = generation;
             queue.waiting.insert(uri, analysed.clone());
             self.woken.notify_one();
         }
@@ -122,13 +130,20 @@ impl Previews {
         self.hub.gone(uri);
     }
 
-    fn open(&self, analysed: &Arc<Analysed>) {
-        let uri = analysed.document.uri.to_string();
-        // News of a text that was shown before is news again.
-        if self.queue().open.insert(uri.clone()) {
-            self.hub.remove(&uri);
+    /// Shows an analysed text from now on.
+    fn open(&self, uri: &Uri) {
+        let uri = uri.as_str();
+        let mut queue = self.queue();
+        if !queue.open.contains_key(uri) {
+            queue.open.insert(uri.to_owned(), None);
+            // News of a text that was shown before is news again.
+            self.hub.remove(uri);
         }
-        self.analysed(analysed);
+        drop(queue);
+        // Asked for only now: what is analysed from here on comes by itself.
+        if let Some(last) = self.documents.last(uri) {
+            self.analysed(&last);
+        }
     }
 
     fn close(&self, uri: &str) {
@@ -153,7 +168,7 @@ impl Previews {
                     .wait(queue)
                     .unwrap_or_else(|poisoned| poisoned.into_inner());
             };
-            memories.retain(|uri, _| queue.open.contains(uri));
+            memories.retain(|uri, _| queue.open.contains_key(uri));
             drop(queue);
             let (uri, analysed) = next;
             self.publish(&uri, &analysed, memories.entry(uri.clone()).or_default());
@@ -184,7 +199,7 @@ impl Previews {
             },
         };
         // It may have been closed meanwhile.
-        if self.queue().open.contains(uri) {
+        if self.queue().open.contains_key(uri) {
             self.hub.publish(uri, ["", &name], &shown);
         }
     }
@@ -195,7 +210,7 @@ impl Previews {
         let mut heard: BTreeMap<String, u64> = BTreeMap::new();
         loop {
             clock.borrow_and_update();
-            let open = self.queue().open.clone();
+            let open: BTreeSet<String> = self.queue().open.keys().cloned().collect();
             heard.retain(|uri, _| open.contains(uri));
             for uri in open.iter().filter(|uri| self.hub.shows(uri)) {
                 let since = heard.entry(uri.clone()).or_default();
@@ -309,10 +324,11 @@ pub(super) struct CursorParams {
 impl Backend {
     /// Shows a text in the client's panel from now on.
     pub(super) async fn preview_open(&self, params: OpenParams) -> Result<Value> {
-        let Some((_, analysed)) = self.analysed(&params.text_document.uri).await? else {
+        let uri = &params.text_document.uri;
+        if self.analysed(uri).await?.is_none() {
             return Err(Error::invalid_params("this drawing is not open"));
-        };
-        self.previews.open(&analysed);
+        }
+        self.previews.open(uri);
         Ok(Value::Null)
     }
 
@@ -353,10 +369,10 @@ impl Backend {
 
     /// Shows a text on a page in the browser, or says where that page is.
     pub(super) async fn show_page(&self, uri: &Uri) -> Result<()> {
-        let Some((_, analysed)) = self.analysed(uri).await? else {
+        if self.analysed(uri).await?.is_none() {
             return Err(Error::invalid_params("this drawing is not open"));
-        };
-        self.previews.open(&analysed);
+        }
+        self.previews.open(uri);
         let page = match self.previews.page(uri.as_str()) {
             Ok(page) => page,
             Err(error) => {
