@@ -29,6 +29,7 @@ pub mod scene;
 pub mod solid;
 pub mod source;
 pub mod svg;
+pub mod terrain;
 pub mod texture;
 mod threads;
 pub mod watch;

@@ -1,0 +1,96 @@
+//! The map: what is drawn in each cell of a tile layer's grid (terrain.md, Input).
+
+/// What a tile stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
+pub enum Tile {
+    /// Nothing is drawn there.
+    #[default]
+    None,
+    /// The top of ground.
+    Green,
+    /// The front of a cliff.
+    Brown,
+    /// Water.
+    Blue,
+    /// A roof.
+    Red,
+    /// The wall of a house.
+    Beige,
+}
+
+impl Tile {
+    /// The kinds that something is drawn for, in the order of the manual.
+    pub const DRAWN: [Self; 5] = [Self::Green, Self::Brown, Self::Blue, Self::Red, Self::Beige];
+
+    /// The word of the language.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Green => "green",
+            Self::Brown => "brown",
+            Self::Blue => "blue",
+            Self::Red => "red",
+            Self::Beige => "beige",
+        }
+    }
+
+    /// Its default colour, sRGB.
+    pub fn color(self) -> [u8; 3] {
+        match self {
+            Self::None => [0; 3],
+            Self::Green => [0x4c, 0xaf, 0x50],
+            Self::Brown => [0x8d, 0x6e, 0x63],
+            Self::Blue => [0x42, 0xa5, 0xf5],
+            Self::Red => [0xe5, 0x39, 0x35],
+            Self::Beige => [0xf5, 0xde, 0xb3],
+        }
+    }
+}
+
+/// There is an edge between a cell and the one to its right.
+pub const EDGE_RIGHT: u8 = 1;
+/// There is an edge between a cell and the one below it.
+pub const EDGE_BELOW: u8 = 2;
+
+/// The most cells that a map may have.
+pub const MOST_CELLS: usize = 1 << 26;
+
+/// A tile map. Rows count from the top, towards the viewer; columns from the left.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Map {
+    /// How many cells lie side by side.
+    pub columns: usize,
+    /// How many cells lie one above the other.
+    pub rows: usize,
+    /// Per cell, row by row, the index of its look.
+    pub cells: Vec<u8>,
+    /// Per look what it stands for; the first look is [`Tile::None`], and no other is.
+    pub looks: Vec<Tile>,
+    /// Per cell [`EDGE_RIGHT`] and [`EDGE_BELOW`].
+    pub edges: Vec<u8>,
+}
+
+impl Map {
+    /// A map without anything in it, whose looks are those of the five kinds, in the order of [`Tile::DRAWN`].
+    pub fn empty(columns: usize, rows: usize) -> Self {
+        let mut looks = vec![Tile::None];
+        looks.extend(Tile::DRAWN);
+        Self {
+            columns,
+            rows,
+            cells: vec![0; columns * rows],
+            looks,
+            edges: vec![0; columns * rows],
+        }
+    }
+
+    /// The index of a cell.
+    pub fn index(&self, column: usize, row: usize) -> usize {
+        row * self.columns + column
+    }
+
+    /// What a cell stands for.
+    pub fn tile(&self, cell: usize) -> Tile {
+        self.looks[usize::from(self.cells[cell])]
+    }
+}
