@@ -3,6 +3,16 @@
 //! Invariants: one unit is one tile; x grows to the right with the columns, y upwards, z towards the viewer; a point
 //! at height y that is seen at row r lies at z = r + y.
 
+mod column;
+mod grid;
+mod groups;
+mod houses;
+mod land;
+mod levels;
 mod map;
+mod solids;
+mod surface;
+mod ties;
 
+pub use land::{Built, Land, ROOF};
 pub use map::{EDGE_BELOW, EDGE_RIGHT, MOST_CELLS, Map, Tile};

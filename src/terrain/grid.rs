@@ -1,0 +1,84 @@
+//! The map column by column, as the law of terrain works.
+
+use rayon::prelude::*;
+
+use super::map::{EDGE_BELOW, EDGE_RIGHT, Map, Tile};
+
+/// Side of the squares in which a map is turned over, cells: a square and its image fit into the fastest cache.
+const SQUARE: usize = 64;
+
+/// A map whose cells stand column by column, so that a column is one slice.
+#[derive(Debug)]
+pub(super) struct Grid {
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    /// Per cell the index of its look.
+    pub(super) cells: Vec<u8>,
+    /// Per cell [`EDGE_RIGHT`] and [`EDGE_BELOW`].
+    pub(super) edges: Vec<u8>,
+    /// Per look what it stands for.
+    tiles: [Tile; 256],
+}
+
+impl Grid {
+    pub(super) fn new(map: &Map) -> Self {
+        let mut tiles = [Tile::None; 256];
+        for (slot, tile) in tiles.iter_mut().zip(&map.looks) {
+            *slot = *tile;
+        }
+        Self {
+            columns: map.columns,
+            rows: map.rows,
+            cells: turned(&map.cells, map.columns, map.rows),
+            edges: turned(&map.edges, map.columns, map.rows),
+            tiles,
+        }
+    }
+
+    /// What a look stands for.
+    pub(super) fn tile_of(&self, look: u8) -> Tile {
+        self.tiles[usize::from(look)]
+    }
+
+    /// What a cell stands for.
+    pub(super) fn tile(&self, cell: usize) -> Tile {
+        self.tile_of(self.cells[cell])
+    }
+
+    /// Whether there is an edge between a cell and the one below it.
+    pub(super) fn edge_below(&self, cell: usize) -> bool {
+        self.edges[cell] & EDGE_BELOW != 0
+    }
+
+    /// Whether there is an edge between a cell and the one to its right.
+    pub(super) fn edge_right(&self, cell: usize) -> bool {
+        self.edges[cell] & EDGE_RIGHT != 0
+    }
+
+    /// Column and row of a cell.
+    pub(super) fn place(&self, cell: usize) -> [usize; 2] {
+        [cell / self.rows, cell % self.rows]
+    }
+}
+
+/// A table row by row as one column by column.
+fn turned(table: &[u8], columns: usize, rows: usize) -> Vec<u8> {
+    let mut out = vec![0; table.len()];
+    if table.is_empty() {
+        return out;
+    }
+    out.par_chunks_mut(rows * SQUARE)
+        .enumerate()
+        .for_each(|(band, out)| {
+            let left = band * SQUARE;
+            for top in (0..rows).step_by(SQUARE) {
+                for row in top..(top + SQUARE).min(rows) {
+                    let line = &table[row * columns + left..row * columns + columns.min(left + SQUARE)];
+                    for (column, look) in line.iter().enumerate() {
+                        out[column * rows + row] = *look;
+                    }
+                }
+            }
+        });
+    out
+}

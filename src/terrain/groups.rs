@@ -1,0 +1,326 @@
+//! Groups: tiles of one kind that are connected through sides without an edge (terrain.md, rules 2, 4 and 8).
+
+use rayon::prelude::*;
+
+use super::grid::Grid;
+use super::map::Tile;
+
+/// What a group of tiles is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    /// Nothing is drawn.
+    Nothing,
+    /// The top of ground or water: index of the surface.
+    Surface(u32),
+    /// The front of cliffs.
+    Front,
+    /// The roof of a house: index of the house.
+    Roof(u32),
+    /// The wall of a house: index of the house.
+    Wall(u32),
+}
+
+impl Role {
+    /// The house that it is part of.
+    pub(super) fn house(self) -> Option<u32> {
+        match self {
+            Self::Roof(house) | Self::Wall(house) => Some(house),
+            _ => None,
+        }
+    }
+}
+
+/// A green group, a body of water, or what is read like one of them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Surface {
+    /// Whether it is water.
+    pub(super) water: bool,
+    /// How many cells it has; the ground, which is the first surface, has all.
+    pub(super) area: usize,
+    /// Its first cell, column by column.
+    pub(super) first: usize,
+    /// Whether it runs to the border of the map.
+    pub(super) at_border: bool,
+}
+
+/// The ground, at height 0.
+pub(super) const GROUND: u32 = 0;
+
+/// All groups of a map.
+#[derive(Debug)]
+pub(super) struct Groups {
+    /// Per cell, column by column, its group; what is connected by way of another kind may be several groups of one
+    /// surface.
+    pub(super) labels: Vec<u32>,
+    /// Per group what it is. The first group is that of the empty cells.
+    pub(super) roles: Vec<Role>,
+    /// The surfaces; the first is the ground.
+    pub(super) surfaces: Vec<Surface>,
+    /// How many houses there are.
+    pub(super) houses: usize,
+    /// Groups that are read as tops although their colour is that of a house: the first cell of each.
+    pub(super) plain: Vec<usize>,
+}
+
+impl Groups {
+    pub(super) fn new(grid: &Grid) -> Self {
+        let (labels, firsts) = components(grid);
+        let mut groups = Joined::new(grid, labels, &firsts);
+        groups.join_houses();
+        groups.join_tops();
+        groups.finish()
+    }
+
+    /// What a cell belongs to.
+    pub(super) fn role(&self, cell: usize) -> Role {
+        self.roles[self.labels[cell] as usize]
+    }
+}
+
+/// Follows pointers to the first cell, or group, of a set, and shortens the way.
+fn root(parents: &mut [u32], mut index: u32) -> u32 {
+    while parents[index as usize] != index {
+        let next = parents[parents[index as usize] as usize];
+        parents[index as usize] = next;
+        index = next;
+    }
+    index
+}
+
+fn join(parents: &mut [u32], one: u32, other: u32) {
+    let (one, other) = (root(parents, one), root(parents, other));
+    // The lesser one leads, so that the result does not depend on the order.
+    let (low, high) = (one.min(other), one.max(other));
+    parents[high as usize] = low;
+}
+
+/// Labels connected cells of one kind; 0 stands for empty ones. Says too which cell of each label is the first.
+fn components(grid: &Grid) -> (Vec<u32>, Vec<usize>) {
+    let (columns, rows) = (grid.columns, grid.rows);
+    let mut parents = vec![0_u32; columns * rows];
+    if parents.is_empty() {
+        return (parents, vec![0]);
+    }
+    let band = columns.div_ceil(rayon::current_num_threads() * 4).max(16);
+    // Each band by itself, with numbers of its own…
+    parents
+        .par_chunks_mut(band * rows)
+        .enumerate()
+        .for_each(|(index, parents)| {
+            let base = index * band * rows;
+            for at in 0..parents.len() {
+                let cell = base + at;
+                let tile = grid.tile(cell);
+                let row = cell % rows;
+                let above = row > 0 && grid.tile(cell - 1) == tile && !grid.edge_below(cell - 1);
+                parents[at] = if above { parents[at - 1] } else { at as u32 };
+                let left = at >= rows
+                    && grid.tile(cell - rows) == tile
+                    && !grid.edge_right(cell - rows);
+                // The pair above has joined the two columns already, most of the time.
+                let known = above
+                    && left
+                    && grid.tile(cell - rows - 1) == tile
+                    && !grid.edge_right(cell - rows - 1)
+                    && !grid.edge_below(cell - rows - 1);
+                if left && !known {
+                    join(parents, at as u32, (at - rows) as u32);
+                }
+            }
+            for at in 0..parents.len() {
+                parents[at] = root(parents, at as u32);
+            }
+            let base = base as u32;
+            parents.iter_mut().for_each(|parent| *parent += base);
+        });
+    // …then the bands with each other.
+    for column in (band..columns).step_by(band) {
+        for row in 0..rows {
+            let (cell, left) = (column * rows + row, (column - 1) * rows + row);
+            if grid.tile(cell) == grid.tile(left) && !grid.edge_right(left) {
+                join(&mut parents, cell as u32, left as u32);
+            }
+        }
+    }
+    number(grid, parents)
+}
+
+/// Gives the sets small numbers, in the order of their first cells.
+fn number(grid: &Grid, parents: Vec<u32>) -> (Vec<u32>, Vec<usize>) {
+    let leads = |cell: usize| parents[cell] as usize == cell && grid.tile(cell) != Tile::None;
+    let mut firsts = vec![usize::MAX];
+    firsts.extend((0..parents.len()).filter(|cell| leads(*cell)));
+    // Where each set's leader stands in the list is found again by halving; few cells are not like the one before.
+    let find = |cell: usize| {
+        let mut lead = cell as u32;
+        while parents[lead as usize] != lead {
+            lead = parents[lead as usize];
+        }
+        lead as usize
+    };
+    let mut labels = vec![0_u32; parents.len()];
+    labels
+        .par_chunks_mut(grid.rows.max(1))
+        .enumerate()
+        .for_each(|(column, labels)| {
+            let mut last = (usize::MAX, 0);
+            for (row, label) in labels.iter_mut().enumerate() {
+                let cell = column * grid.rows + row;
+                if grid.tile(cell) == Tile::None {
+                    continue;
+                }
+                let lead = find(cell);
+                if last.0 != lead {
+                    let index = firsts[1..].partition_point(|first| *first < lead) + 1;
+                    last = (lead, index as u32);
+                }
+                *label = last.1;
+            }
+        });
+    (labels, firsts)
+}
+
+/// Groups on their way to surfaces and houses.
+struct Joined<'a> {
+    grid: &'a Grid,
+    labels: Vec<u32>,
+    firsts: &'a [usize],
+    /// Per group the group that it is one with.
+    parents: Vec<u32>,
+    /// Per group whether it is part of a house.
+    housed: Vec<bool>,
+}
+
+impl<'a> Joined<'a> {
+    fn new(grid: &'a Grid, labels: Vec<u32>, firsts: &'a [usize]) -> Self {
+        Self {
+            grid,
+            labels,
+            firsts,
+            parents: (0..firsts.len() as u32).collect(),
+            housed: vec![false; firsts.len()],
+        }
+    }
+
+    fn tile(&self, label: usize) -> Tile {
+        match label {
+            0 => Tile::None,
+            label => self.grid.tile(self.firsts[label]),
+        }
+    }
+
+    /// Roofs and the walls right below them are one house (rule 8).
+    fn join_houses(&mut self) {
+        let rows = self.grid.rows;
+        for cell in 1..self.labels.len() {
+            let pair = [self.grid.tile(cell - 1), self.grid.tile(cell)];
+            if cell % rows != 0 && pair == [Tile::Red, Tile::Beige] {
+                let [roof, wall] = [self.labels[cell - 1], self.labels[cell]];
+                self.housed[roof as usize] = true;
+                self.housed[wall as usize] = true;
+                join(&mut self.parents, roof, wall);
+            }
+        }
+    }
+
+    /// Whether a group is a top: green, or a house's colour where there is no house (rule 9).
+    fn is_top(&self, label: u32) -> bool {
+        match self.tile(label as usize) {
+            Tile::Green => true,
+            Tile::Red | Tile::Beige => !self.housed[label as usize],
+            _ => false,
+        }
+    }
+
+    /// Paths and plazas are one with the ground around them.
+    fn join_tops(&mut self) {
+        let rows = self.grid.rows;
+        let colored = |tile| matches!(tile, Tile::Red | Tile::Beige);
+        if !(1..self.firsts.len()).any(|label| colored(self.tile(label)) && !self.housed[label]) {
+            return;
+        }
+        for cell in 0..self.labels.len() {
+            let label = self.labels[cell];
+            if label == 0 || !self.is_top(label) {
+                continue;
+            }
+            let below = (cell % rows + 1 < rows && !self.grid.edge_below(cell)).then_some(cell + 1);
+            let right = cell + rows;
+            let right = (right < self.labels.len() && !self.grid.edge_right(cell)).then_some(right);
+            for other in [below, right].into_iter().flatten() {
+                let other = self.labels[other];
+                if other != label && other != 0 && self.is_top(other) {
+                    join(&mut self.parents, label, other);
+                }
+            }
+        }
+    }
+
+    fn finish(mut self) -> Groups {
+        let (rows, count) = (self.grid.rows, self.firsts.len());
+        let ground = Surface {
+            water: false,
+            area: usize::MAX,
+            first: usize::MAX,
+            at_border: true,
+        };
+        let mut surfaces = vec![ground];
+        let mut roles = vec![Role::Nothing; count];
+        let mut numbers = vec![u32::MAX; count];
+        let (mut houses, mut plain) = (0_u32, vec![]);
+        for label in 1..count {
+            let tile = self.tile(label);
+            if tile == Tile::Brown {
+                roles[label] = Role::Front;
+                continue;
+            }
+            let lead = root(&mut self.parents, label as u32) as usize;
+            let surface = self.is_top(label as u32) || tile == Tile::Blue;
+            if numbers[lead] == u32::MAX {
+                numbers[lead] = if surface {
+                    surfaces.push(Surface {
+                        water: tile == Tile::Blue,
+                        area: 0,
+                        first: self.firsts[label],
+                        at_border: false,
+                    });
+                    surfaces.len() as u32 - 1
+                } else {
+                    houses += 1;
+                    houses - 1
+                };
+            }
+            if surface && matches!(tile, Tile::Red | Tile::Beige) {
+                plain.push(self.firsts[label]);
+            }
+            let number = numbers[lead];
+            roles[label] = match tile {
+                _ if surface => Role::Surface(number),
+                Tile::Red => Role::Roof(number),
+                _ => Role::Wall(number),
+            };
+        }
+        let columns = self.grid.columns;
+        for (column, labels) in self.labels.chunks(rows.max(1)).enumerate() {
+            let side = column == 0 || column + 1 == columns;
+            let mut row = 0;
+            while row < rows {
+                let label = labels[row];
+                let run = labels[row..].iter().take_while(|next| **next == label).count();
+                if let Role::Surface(surface) = roles[label as usize] {
+                    let surface = &mut surfaces[surface as usize];
+                    surface.area += run;
+                    surface.at_border |= side || row == 0 || row + run == rows;
+                }
+                row += run;
+            }
+        }
+        Groups {
+            labels: self.labels,
+            roles,
+            surfaces,
+            houses: houses as usize,
+            plain,
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Houses: a block under a roof (terrain.md, rule 8).
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::column::Column;
+use super::grid::Grid;
+use super::groups::{Groups, Role};
+use super::levels::Levels;
+use super::ties::STRIPE;
+
+/// A house, in tiles.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct House {
+    /// The columns of its walls.
+    pub(super) walls: Range<i32>,
+    /// The columns of its roof.
+    pub(super) roof: Range<i32>,
+    /// Height of its floor.
+    pub(super) base: i32,
+    /// Height of its walls.
+    pub(super) height: i32,
+    /// From front to back.
+    pub(super) depth: i32,
+    /// Where its front stands: z.
+    pub(super) front: i32,
+    /// The look of its roof, and that of its walls.
+    pub(super) looks: [u8; 2],
+    /// Whether its columns stand at different heights.
+    pub(super) uneven: bool,
+    /// Row and column of its first cell.
+    pub(super) first: [usize; 2],
+}
+
+impl House {
+    /// Height of its eaves.
+    pub(super) fn eaves(&self) -> i32 {
+        self.base + self.height
+    }
+
+    /// Where its back stands: z.
+    pub(super) fn back(&self) -> i32 {
+        self.front - self.depth
+    }
+
+    fn join(&mut self, other: &Self) {
+        let join = |one: &mut Range<i32>, other: &Range<i32>| {
+            *one = match (one.len() == 0, other.len() == 0) {
+                (true, _) => other.clone(),
+                (_, true) => one.clone(),
+                _ => one.start.min(other.start)..one.end.max(other.end),
+            };
+        };
+        let both_stand = !self.walls.is_empty() && !other.walls.is_empty();
+        self.uneven |= other.uneven;
+        self.uneven |= both_stand && (self.base, self.front) != (other.base, other.front);
+        let lower = self.walls.is_empty() || (both_stand && self.base < other.base);
+        if lower && !other.walls.is_empty() {
+            (self.base, self.front) = (other.base, other.front);
+            self.looks[1] = other.looks[1];
+        }
+        if self.roof.is_empty() {
+            self.looks[0] = other.looks[0];
+        }
+        join(&mut self.walls, &other.walls);
+        join(&mut self.roof, &other.roof);
+        self.height = self.height.max(other.height);
+        self.depth = self.depth.max(other.depth);
+        self.first = self.first.min(other.first);
+    }
+}
+
+/// Measures all houses.
+pub(super) fn measure(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<House> {
+    if groups.houses == 0 {
+        return vec![];
+    }
+    let found = (0..grid.columns.div_ceil(STRIPE))
+        .into_par_iter()
+        .map(|stripe| {
+            let mut found = Vec::new();
+            let mut column = Column::default();
+            for index in stripe * STRIPE..((stripe + 1) * STRIPE).min(grid.columns) {
+                column.read(grid, groups, index);
+                in_column(grid, levels, &column, index, &mut found);
+            }
+            found
+        })
+        .collect::<Vec<_>>();
+    let mut houses: FxHashMap<u32, House> = FxHashMap::default();
+    for (number, part) in found.into_iter().flatten() {
+        let known = houses.entry(number);
+        known
+            .and_modify(|known| known.join(&part))
+            .or_insert(part);
+    }
+    let all = 0..groups.houses as u32;
+    // Each has at least one column: that of a roof over a wall.
+    all.filter_map(|number| houses.remove(&number)).collect()
+}
+
+/// The houses as one column shows them.
+fn in_column(
+    grid: &Grid,
+    levels: &Levels,
+    column: &Column,
+    number: usize,
+    found: &mut Vec<(u32, House)>,
+) {
+    let here = number as i32..number as i32 + 1;
+    let nowhere = 0..0;
+    for (index, segment) in column.segments.iter().enumerate() {
+        let Some(house) = segment.role.house() else {
+            continue;
+        };
+        let is_roof = matches!(segment.role, Role::Roof(_));
+        let foot = match is_roof {
+            true => None,
+            false => column.foot(index),
+        };
+        let base = foot.map_or(0, |(surface, fronts)| levels.level[surface as usize] + fronts);
+        let look = grid.cells[number * grid.rows + segment.start as usize];
+        let part = House {
+            walls: if is_roof { nowhere.clone() } else { here.clone() },
+            roof: if is_roof { here.clone() } else { nowhere.clone() },
+            base,
+            height: if is_roof { 0 } else { segment.rows() },
+            depth: if is_roof { segment.rows() } else { 0 },
+            front: segment.end + base,
+            looks: [look; 2],
+            uneven: false,
+            first: [segment.start as usize, number],
+        };
+        found.push((house, part));
+    }
+}

@@ -1,0 +1,125 @@
+//! The landscape that a map shows.
+
+use super::grid::Grid;
+use super::groups::{Groups, Role};
+use super::houses::{self, House};
+use super::levels::Levels;
+use super::map::{Map, Tile};
+use super::solids::{self, Known, Seen, Solids};
+use super::surface;
+use super::ties::Ties;
+use crate::scene::Surface;
+
+/// The height of a roof over its depth, if nothing else is said (equation 3.1).
+pub const ROOF: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
+/// A landscape, in tiles.
+#[derive(Debug)]
+pub struct Land {
+    grid: Grid,
+    groups: Groups,
+    levels: Levels,
+    houses: Vec<House>,
+    flush: Vec<Option<i32>>,
+    earth: Option<u8>,
+    ties: Ties,
+}
+
+/// A house.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Built {
+    /// Height of its floor.
+    pub base: i32,
+    /// Columns of its walls.
+    pub width: i32,
+    /// From front to back.
+    pub depth: i32,
+    /// Height of its walls.
+    pub height: i32,
+}
+
+impl Land {
+    /// Works out how high everything on a map lies. Never fails: what is ambiguous is decided by the rules. Takes about as
+    /// long as reading the map a few times.
+    pub fn new(map: &Map) -> Self {
+        let grid = Grid::new(map);
+        let groups = Groups::new(&grid);
+        let ties = Ties::read(&grid, &groups);
+        let levels = Levels::new(&groups, &ties);
+        let houses = houses::measure(&grid, &groups, &levels);
+        let flush = solids::flush(&grid, &groups, &levels);
+        let earth = commonest(map, Tile::Brown);
+        Self {
+            grid,
+            groups,
+            levels,
+            houses,
+            flush,
+            earth,
+            ties,
+        }
+    }
+
+    /// The height of the top that is drawn in a cell: ground or water; `None` where there is none.
+    pub fn top(&self, column: usize, row: usize) -> Option<i32> {
+        match self.groups.role(column * self.grid.rows + row) {
+            Role::Surface(surface) => Some(self.levels.level[surface as usize]),
+            _ => None,
+        }
+    }
+
+    /// The height of what is seen in each cell of a column, at the cell's lower edge: of the top or the eaves, or of that place
+    /// on a front. `None` where nothing is drawn.
+    pub fn seen(&self, column: usize) -> Vec<Option<i32>> {
+        let mut solids = Solids::default();
+        solids.look_at(&self.known(), column);
+        let heights = solids.views.iter().flat_map(|view| {
+            let rows = view.start..view.end;
+            rows.map(|row| match view.seen {
+                Seen::Nothing => None,
+                Seen::Top(level) | Seen::Roof(level) => Some(level),
+                Seen::Front(plane) => Some(plane - row - 1),
+            })
+        });
+        heights.collect()
+    }
+
+    /// The houses.
+    pub fn houses(&self) -> impl Iterator<Item = Built> + '_ {
+        self.houses.iter().map(|house| Built {
+            base: house.base,
+            width: house.walls.len() as i32,
+            depth: house.depth,
+            height: house.height,
+        })
+    }
+
+    /// The triangles: per look the pieces of its surface, in tiles, about the map's middle at height 0. `roof` is the height of
+    /// roofs over their depth.
+    pub fn surface(&self, roof: f64) -> Vec<(u8, Vec<Surface>)> {
+        surface::surface(&self.known(), roof)
+    }
+
+    fn known(&self) -> Known<'_> {
+        Known {
+            grid: &self.grid,
+            groups: &self.groups,
+            levels: &self.levels,
+            houses: &self.houses,
+            flush: &self.flush,
+            earth: self.earth,
+        }
+    }
+}
+
+/// The look of a kind that most cells have.
+fn commonest(map: &Map, tile: Tile) -> Option<u8> {
+    let mut counts = [0_usize; 256];
+    for look in &map.cells {
+        counts[usize::from(*look)] += 1;
+    }
+    let looks = map.looks.iter().enumerate();
+    let of_kind = looks.filter(|(look, kind)| **kind == tile && counts[*look] > 0);
+    let best = of_kind.max_by_key(|(look, _)| (counts[*look], std::cmp::Reverse(*look)));
+    best.map(|(look, _)| look as u8)
+}

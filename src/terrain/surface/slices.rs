@@ -1,0 +1,107 @@
+//! Blocks that may overlap as slices that do not.
+
+use super::super::solids::Block;
+
+/// What is solid at one height, and what its top looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Span {
+    /// From below to above; a sheet has no height.
+    pub(super) y: [i32; 2],
+    /// The look of its top where nothing is drawn; `None` where something stands on it that is made elsewhere.
+    pub(super) top: Option<u8>,
+    /// The look of its sides where nothing is drawn.
+    pub(super) side: u8,
+}
+
+/// Part of a column in which the same is solid everywhere.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slice {
+    /// From back to front.
+    pub(super) z: [i32; 2],
+    /// Where its spans stand in the list.
+    spans: [usize; 2],
+}
+
+/// The solids of a column, from back to front. Slices without spans are left out. Used again.
+#[derive(Debug, Default)]
+pub(super) struct Slices {
+    pub(super) list: Vec<Slice>,
+    spans: Vec<Span>,
+    bounds: Vec<i32>,
+    order: Vec<Block>,
+    active: Vec<Block>,
+}
+
+impl Slices {
+    pub(super) fn clear(&mut self) {
+        self.list.clear();
+        self.spans.clear();
+    }
+
+    /// The spans of a slice, from below, with gaps between them.
+    pub(super) fn spans(&self, slice: &Slice) -> &[Span] {
+        &self.spans[slice.spans[0]..slice.spans[1]]
+    }
+
+    /// Puts the blocks of a column together.
+    pub(super) fn build(&mut self, blocks: &[Block]) {
+        self.clear();
+        self.order.clear();
+        self.order.extend(blocks.iter().filter(|block| block.z[0] < block.z[1]));
+        self.order.sort_unstable_by_key(|block| block.z[0]);
+        self.bounds.clear();
+        self.bounds.extend(self.order.iter().flat_map(|block| block.z));
+        self.bounds.sort_unstable();
+        self.bounds.dedup();
+        self.active.clear();
+        let mut next = 0;
+        for bound in 1..self.bounds.len() {
+            let z = [self.bounds[bound - 1], self.bounds[bound]];
+            self.active.retain(|block| block.z[1] > z[0]);
+            while let Some(block) = self.order.get(next)
+                && block.z[0] == z[0]
+            {
+                let at = self.active.partition_point(|other| other.y[0] <= block.y[0]);
+                self.active.insert(at, *block);
+                next += 1;
+            }
+            self.slice(z);
+        }
+    }
+
+    /// Adds the slice between two neighbouring bounds.
+    fn slice(&mut self, z: [i32; 2]) {
+        let start = self.spans.len();
+        for block in &self.active {
+            let span = Span {
+                y: block.y,
+                top: block.top,
+                side: block.side,
+            };
+            match self.spans[start..].last_mut() {
+                Some(last) if last.y[1] >= span.y[0] => {
+                    // What has a top of its own goes before what has none: that one lies below a roof.
+                    if span.y[1] > last.y[1] || (span.y[1] == last.y[1] && span.top.is_none()) {
+                        (last.y[1], last.top, last.side) = (span.y[1], span.top, span.side);
+                    }
+                }
+                _ => self.spans.push(span),
+            }
+        }
+        if self.spans.len() == start {
+            return;
+        }
+        if let Some(last) = self.list.last_mut()
+            && last.z[1] == z[0]
+            && self.spans[last.spans[0]..last.spans[1]] == self.spans[start..]
+        {
+            last.z[1] = z[1];
+            self.spans.truncate(start);
+            return;
+        }
+        self.list.push(Slice {
+            z,
+            spans: [start, self.spans.len()],
+        });
+    }
+}

@@ -1,0 +1,258 @@
+//! Landscapes whose heights are known, and the maps that the law of terrain draws of them.
+
+use okoshi::terrain::{EDGE_BELOW, EDGE_RIGHT, Map};
+
+/// A source of numbers that looks random and is the same everywhere (SplitMix64).
+pub struct Dice(u64);
+
+impl Dice {
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d)
+    }
+
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number from `low` to `high`, both included.
+    pub fn roll(&mut self, low: i32, high: i32) -> i32 {
+        low + (self.next() % (high - low + 1).max(1) as u64) as i32
+    }
+
+    pub fn chance(&mut self, percent: i32) -> bool {
+        self.roll(1, 100) <= percent
+    }
+}
+
+/// What a column of earth has on top.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Top {
+    Green,
+    Blue,
+    /// Eaves of a house, which has a number, over walls down to a height.
+    Roof(usize, i32),
+}
+
+/// A landscape: per place on the ground how high it is there and what is on top; `None` where there is nothing.
+#[derive(Debug, Clone)]
+pub struct World {
+    columns: i32,
+    depth: i32,
+    places: Vec<Option<(i32, Top)>>,
+    houses: usize,
+}
+
+/// What is seen in a cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Sight {
+    look: u8,
+    /// Height at the cell's lower edge.
+    height: i32,
+    /// What tells faces of one kind apart: height of tops, place of fronts, number of houses.
+    face: (i32, usize),
+}
+
+/// A map, and the height of what is seen in each cell, at its lower edge, row by row.
+pub struct Drawn {
+    pub map: Map,
+    pub heights: Vec<Option<i32>>,
+}
+
+const GREEN: u8 = 1;
+const BROWN: u8 = 2;
+const BLUE: u8 = 3;
+const RED: u8 = 4;
+const BEIGE: u8 = 5;
+
+impl World {
+    /// A landscape of plateaus, blocks on them, stairs, ponds, pits and houses.
+    pub fn random(seed: u64) -> Self {
+        let mut dice = Dice::new(seed);
+        let (columns, depth) = (dice.roll(10, 26), dice.roll(10, 24));
+        let ground = dice.chance(70).then_some((0, Top::Green));
+        let mut world = Self {
+            columns,
+            depth,
+            places: vec![ground; (columns * depth) as usize],
+            houses: 0,
+        };
+        for _ in 0..dice.roll(1, 4) {
+            world.plateau(&mut dice);
+        }
+        for _ in 0..dice.roll(0, 2) {
+            match dice.roll(0, 5) {
+                0 | 1 => world.block(&mut dice),
+                2 => world.stairs(&mut dice),
+                3 => world.hole(&mut dice, Top::Blue),
+                4 => world.hole(&mut dice, Top::Green),
+                _ => world.house(&mut dice),
+            }
+        }
+        world
+    }
+
+    fn index(&self, x: i32, z: i32) -> usize {
+        (z * self.columns + x) as usize
+    }
+
+    fn at(&self, x: i32, z: i32) -> Option<(i32, Top)> {
+        let inside = (0..self.columns).contains(&x) && (0..self.depth).contains(&z);
+        inside.then(|| self.places[self.index(x, z)]).flatten()
+    }
+
+    /// A rectangle: left, right, back, front; the latter of each pair is not in it.
+    fn rectangle(&self, dice: &mut Dice, width: [i32; 2], depth: [i32; 2]) -> [i32; 4] {
+        let width = dice.roll(width[0], width[1]).min(self.columns);
+        let depth = dice.roll(depth[0], depth[1]).min(self.depth);
+        let x = dice.roll(0, self.columns - width);
+        let z = dice.roll(0, self.depth - depth);
+        [x, x + width, z, z + depth]
+    }
+
+    fn fill(&mut self, [left, right, back, front]: [i32; 4], height: i32, top: Top) {
+        for z in back..front {
+            for x in left..right {
+                let index = self.index(x, z);
+                self.places[index] = Some((height, top));
+            }
+        }
+    }
+
+    /// The height of a rectangle of grass with a margin around it, if it is flat.
+    fn flat(&self, [left, right, back, front]: [i32; 4], margin: i32) -> Option<i32> {
+        let first = self.at(left, back)?;
+        let all = (back - margin..front + margin)
+            .flat_map(|z| (left - margin..right + margin).map(move |x| (x, z)))
+            .all(|(x, z)| self.at(x, z) == Some(first));
+        (all && first.1 == Top::Green).then_some(first.0)
+    }
+
+    fn plateau(&mut self, dice: &mut Dice) {
+        let place = self.rectangle(dice, [3, 12], [3, 10]);
+        let height = dice.roll(1, 4);
+        self.fill(place, height, Top::Green);
+    }
+
+    fn block(&mut self, dice: &mut Dice) {
+        for _ in 0..20 {
+            let place = self.rectangle(dice, [1, 4], [1, 4]);
+            if let Some(height) = self.flat(place, 0) {
+                let height = height + dice.roll(1, 3);
+                return self.fill(place, height, Top::Green);
+            }
+        }
+    }
+
+    fn stairs(&mut self, dice: &mut Dice) {
+        let steps = dice.roll(2, 4);
+        let sideways = dice.chance(40);
+        for _ in 0..20 {
+            let size = [[steps, steps], [2, 4]];
+            let [width, depth] = if sideways { size } else { [size[1], size[0]] };
+            let place = self.rectangle(dice, width, depth);
+            let Some(height) = self.flat(place, 0) else {
+                continue;
+            };
+            let [left, right, back, front] = place;
+            for step in 0..steps {
+                let strip = match sideways {
+                    true => [left + step, left + step + 1, back, front],
+                    false => [left, right, front - step - 1, front - step],
+                };
+                self.fill(strip, height + step + 1, Top::Green);
+            }
+            return;
+        }
+    }
+
+    /// A pond or a pit with banks on all sides.
+    fn hole(&mut self, dice: &mut Dice, top: Top) {
+        for _ in 0..20 {
+            let place = self.rectangle(dice, [1, 5], [2, 5]);
+            if let Some(height) = self.flat(place, 1) {
+                let height = height - dice.roll(1, 2);
+                return self.fill(place, height, top);
+            }
+        }
+    }
+
+    fn house(&mut self, dice: &mut Dice) {
+        for _ in 0..20 {
+            let place = self.rectangle(dice, [2, 5], [2, 4]);
+            if let Some(base) = self.flat(place, 0) {
+                let height = base + dice.roll(1, 3);
+                self.houses += 1;
+                return self.fill(place, height, Top::Roof(self.houses, base));
+            }
+        }
+    }
+
+    /// What is seen in a cell: the nearest that the line of sight z = row + y meets.
+    fn sight(&self, x: i32, row: i32, [low, high]: [i32; 2]) -> Option<Sight> {
+        (low..=high).rev().find_map(|y| {
+            let z = row + y;
+            let (height, top) = self.at(x, z)?;
+            let face = match top {
+                Top::Roof(house, _) => house,
+                _ => 0,
+            };
+            if height == y {
+                let look = match top {
+                    Top::Green => GREEN,
+                    Top::Blue => BLUE,
+                    Top::Roof(..) => RED,
+                };
+                let face = (height, face);
+                return Some(Sight { look, height, face });
+            }
+            let wall = matches!(top, Top::Roof(_, base) if y >= base);
+            (height > y).then(|| Sight {
+                look: if wall { BEIGE } else { BROWN },
+                height: y,
+                face: (z, if wall { face } else { 0 }),
+            })
+        })
+    }
+
+    /// The map: edges stand wherever heights or faces of neighbours differ.
+    pub fn draw(&self) -> Drawn {
+        let heights = self.places.iter().flatten().map(|(height, _)| *height);
+        let (low, high) = (heights.clone().min().unwrap_or(0).min(0), heights.max().unwrap_or(0));
+        let rows = self.depth + high;
+        let sights: Vec<Option<Sight>> = (-high..self.depth)
+            .flat_map(|row| (0..self.columns).map(move |x| (x, row)))
+            .map(|(x, row)| self.sight(x, row, [low, high]))
+            .collect();
+        let mut map = Map::empty(self.columns as usize, rows as usize);
+        for (cell, sight) in sights.iter().enumerate() {
+            let Some(sight) = sight else { continue };
+            map.cells[cell] = sight.look;
+            let differs = |other: usize| {
+                let other = sights.get(other).copied().flatten();
+                other.is_some_and(|other| other.look == sight.look && other.face != sight.face)
+            };
+            if (cell + 1) % map.columns != 0 && differs(cell + 1) {
+                map.edges[cell] |= EDGE_RIGHT;
+            }
+            if differs(cell + map.columns) {
+                map.edges[cell] |= EDGE_BELOW;
+            }
+        }
+        Drawn {
+            map,
+            heights: sights.iter().map(|sight| sight.map(|sight| sight.height)).collect(),
+        }
+    }
+}
+
+/// A map for people: a letter a cell.
+pub fn picture(map: &Map) -> String {
+    let letters = [' ', 'g', 'b', 'w', 'R', 'B'];
+    let rows = map.cells.chunks(map.columns);
+    let line = |row: &[u8]| -> String { row.iter().map(|look| letters[usize::from(*look)]).collect() };
+    rows.map(|row| line(row) + "\n").collect()
+}
