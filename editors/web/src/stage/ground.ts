@@ -36,6 +36,8 @@ export class Ground {
     this.sun.shadow.mapSize.set(512, 512);
     this.sun.shadow.radius = 6;
     this.sun.shadow.blurSamples = 16;
+    // This kind of shadow map holds what receives shadows too: without it the ground would shade itself.
+    this.sun.shadow.bias = -0.003;
     this.group.add(this.grid, this.shadow, this.sun, this.sun.target);
     this.group.visible = false;
     scene.add(this.group);
