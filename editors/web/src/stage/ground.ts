@@ -18,6 +18,8 @@ import {
 
 /** Cells on each side of the model. */
 const CELLS = 12;
+/** How far from the middle shadows are caught, in sizes of the model: there is room for limbs that are turned, and for the blur. */
+const ROOM = 1.1;
 
 export class Ground {
   readonly group = new Group();
@@ -34,6 +36,8 @@ export class Ground {
     this.sun.shadow.mapSize.set(512, 512);
     this.sun.shadow.radius = 6;
     this.sun.shadow.blurSamples = 16;
+    // This kind of shadow map holds what receives shadows too: without it the ground would shade itself.
+    this.sun.shadow.bias = -0.003;
     this.group.add(this.grid, this.shadow, this.sun, this.sun.target);
     this.group.visible = false;
     scene.add(this.group);
@@ -50,13 +54,12 @@ export class Ground {
     this.grid.position.set(Math.round(centre.x / cell) * cell, 0, Math.round(centre.z / cell) * cell);
     this.grid.scale.setScalar(cell);
     this.shadow.position.set(centre.x, 0, centre.z);
-    this.shadow.scale.setScalar(reach * 4);
+    this.shadow.scale.setScalar(reach * 2 * ROOM);
     this.sun.position.set(centre.x, size.y + reach, centre.z);
     this.sun.target.position.set(centre.x, 0, centre.z);
     const camera = this.sun.shadow.camera;
-    // Room for limbs that are turned, and for the blur.
-    camera.left = camera.bottom = -reach * 1.1;
-    camera.right = camera.top = reach * 1.1;
+    camera.left = camera.bottom = -reach * ROOM;
+    camera.right = camera.top = reach * ROOM;
     camera.near = reach * 0.01;
     camera.far = size.y + reach * 1.5;
     camera.updateProjectionMatrix();

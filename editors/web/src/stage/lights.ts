@@ -7,13 +7,19 @@ import {
   DirectionalLight,
   Group,
   HemisphereLight,
+  LightProbe,
   Mesh,
   MeshBasicMaterial,
   PlaneGeometry,
   PMREMGenerator,
+  Raycaster,
   Scene,
   SphereGeometry,
+  SphericalHarmonics3,
+  Vector3,
   type Camera,
+  type MeshStandardMaterial,
+  type Texture,
   type WebGLRenderer,
 } from "three";
 
@@ -23,20 +29,38 @@ const SKY = 0.5 * OWN;
 const GROUND = 0.3 * OWN;
 const KEY = 0.45 * OWN;
 const FILL = 0.12 * OWN;
-/** How much of the surroundings shows in metal and in what is smooth. */
+/** How bright the surroundings are. */
 const SURROUNDINGS = 0.35;
+/** What is no metal and at least so rough mirrors nothing that one could make out. */
+const MATT = 0.8;
+/** In so many directions the surroundings are looked at for the light that they shed. */
+const DIRECTIONS = 2000;
 
 export class Lights {
   /** The lights that turn with the viewer, as a photographer's do who walks round a thing. */
   private readonly rig = new Group();
+  /** What metal mirrors. */
+  private readonly mirrored: Texture;
 
   constructor(scene: Scene, renderer: WebGLRenderer) {
     scene.add(new HemisphereLight(0xffffff, new Color().setScalar(GROUND / SKY), SKY), this.rig);
     for (const one of [lamp(KEY, -0.45, 0.55, 0.85), lamp(FILL, 0.8, 0.1, 0.5)]) this.rig.add(one, one.target);
     const generator = new PMREMGenerator(renderer);
-    scene.environment = generator.fromScene(surroundings(), 0.03).texture;
-    scene.environmentIntensity = SURROUNDINGS;
+    const room = new Room();
+    this.mirrored = generator.fromScene(room.scene, 0.03).texture;
     generator.dispose();
+    scene.add(new LightProbe(room.light(), SURROUNDINGS));
+  }
+
+  /**
+   * Lets a material mirror the surroundings if it is smooth or metal. Others take from them only the light that they shed, in nine
+   * numbers: to look into a picture of them at each pixel costs more than all other light.
+   */
+  reach(material: MeshStandardMaterial): void {
+    if (material.metalness === 0 && material.roughness >= MATT && material.type === "MeshStandardMaterial") return;
+    material.envMap = this.mirrored;
+    material.envMapIntensity = SURROUNDINGS;
+    material.onBeforeCompile = withoutProbe;
   }
 
   follow(camera: Camera): void {
@@ -51,20 +75,53 @@ function lamp(intensity: number, x: number, y: number, z: number): DirectionalLi
   return light;
 }
 
-/** A grey room, lighter above, with three bright cloths: what metal mirrors. */
-function surroundings(): Scene {
-  const scene = new Scene();
-  const dome = new SphereGeometry(10, 32, 16);
-  const heights = dome.getAttribute("position");
-  const colors = new Float32Array(heights.count * 3);
-  for (let i = 0; i < heights.count; i++) colors.fill(0.35 + 0.35 * (0.5 + heights.getY(i) / 20), i * 3, i * 3 + 3);
-  dome.setAttribute("color", new BufferAttribute(colors, 3));
-  scene.add(new Mesh(dome, new MeshBasicMaterial({ side: BackSide, vertexColors: true })));
-  for (const [x, y, z, size, brightness] of [[-5, 6, 5, 5, 6], [7, 2, 3, 3, 3], [0, 4, -8, 6, 3]] as const) {
-    const cloth = new Mesh(new PlaneGeometry(size, size), new MeshBasicMaterial({ color: new Color().setScalar(brightness) }));
-    cloth.position.set(x, y, z);
-    cloth.lookAt(0, 0, 0);
-    scene.add(cloth);
-  }
-  return scene;
+/** The light of the surroundings is in the picture that is mirrored already. */
+function withoutProbe(shader: { fragmentShader: string }): void {
+  shader.fragmentShader = `#undef USE_LIGHT_PROBES\n${shader.fragmentShader}`;
 }
+
+/** How bright the room's wall is at a height from -1 to 1. */
+const wall = (height: number): number => 0.35 + 0.35 * (0.5 + height / 2);
+
+/** A grey room, lighter above, with three bright cloths. */
+class Room {
+  readonly scene = new Scene();
+  private readonly cloths: Mesh<PlaneGeometry, MeshBasicMaterial>[] = [];
+
+  constructor() {
+    const dome = new SphereGeometry(10, 32, 16);
+    const heights = dome.getAttribute("position");
+    const colors = new Float32Array(heights.count * 3);
+    for (let i = 0; i < heights.count; i++) colors.fill(wall(heights.getY(i) / 10), i * 3, i * 3 + 3);
+    dome.setAttribute("color", new BufferAttribute(colors, 3));
+    this.scene.add(new Mesh(dome, new MeshBasicMaterial({ side: BackSide, vertexColors: true })));
+    for (const [x, y, z, size, brightness] of [[-5, 6, 5, 5, 6], [7, 2, 3, 3, 3], [0, 4, -8, 6, 3]] as const) {
+      const cloth = new Mesh(new PlaneGeometry(size, size), new MeshBasicMaterial({ color: new Color().setScalar(brightness) }));
+      cloth.position.set(x, y, z);
+      cloth.lookAt(0, 0, 0);
+      cloth.updateMatrixWorld();
+      this.cloths.push(cloth);
+    }
+    this.scene.add(...this.cloths);
+  }
+
+  /** The light that comes from all sides, as spherical harmonics. */
+  light(): SphericalHarmonics3 {
+    const light = new SphericalHarmonics3();
+    const basis = new Array<number>(9);
+    const caster = new Raycaster();
+    for (let i = 0; i < DIRECTIONS; i++) {
+      // Points of a spiral from pole to pole lie evenly on the sphere.
+      const y = 1 - (2 * i + 1) / DIRECTIONS;
+      const turn = i * Math.PI * (3 - Math.sqrt(5));
+      caster.ray.direction.set(Math.cos(turn), 0, Math.sin(turn)).multiplyScalar(Math.sqrt(1 - y * y)).setY(y);
+      const cloth = caster.intersectObjects(this.cloths, false)[0]?.object as (typeof this.cloths)[number] | undefined;
+      const brightness = (cloth ? cloth.material.color.r : wall(y)) * ((4 * Math.PI) / DIRECTIONS);
+      SphericalHarmonics3.getBasisAt(caster.ray.direction, basis);
+      light.coefficients.forEach((coefficient, at) => coefficient.addScaledVector(WHITE, basis[at]! * brightness));
+    }
+    return light;
+  }
+}
+
+const WHITE = new Vector3(1, 1, 1);

@@ -1,6 +1,6 @@
 // A model that was read: which of its nodes are parts, how it is shaded, and what it takes on the graphics card.
 
-import { Box3, DoubleSide, Group, Mesh, SkinnedMesh, Texture, TextureLoader, Vector3, type AnimationClip, type Material, type Object3D } from "three";
+import { Box3, DoubleSide, Group, Mesh, MeshStandardMaterial, SkinnedMesh, Texture, TextureLoader, Vector3, type AnimationClip, type Material, type Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 
 export type Shading = "smooth" | "flat" | "wire" | "edges";
@@ -45,8 +45,9 @@ export class Model {
       for (const material of materialsOf(object)) {
         if (this.materials.has(material)) continue;
         this.materials.set(material, { flat: "flatShading" in material && material.flatShading === true });
-        // One looks at a model from all sides, into open surfaces too.
-        material.side = DoubleSide;
+        // Through what is not opaque one looks at surfaces from within. Others are seen from both sides if the file says so: the
+        // rest are closed, and half of their triangles need not be drawn.
+        if (material.transparent || material.alphaTest > 0) material.side = DoubleSide;
         material.polygonOffset = true;
         material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
       }
@@ -88,10 +89,17 @@ export class Model {
     }
   }
 
+  /** Calls `light` with each material that light falls on. */
+  light(light: (material: MeshStandardMaterial) => void): void {
+    for (const material of this.materials.keys()) if (material instanceof MeshStandardMaterial) light(material);
+  }
+
   dispose(): void {
     for (const { geometry } of this.meshes) geometry.dispose();
     for (const mesh of this.meshes) if (mesh instanceof SkinnedMesh) mesh.skeleton.dispose();
     for (const material of this.materials.keys()) {
+      // What is mirrored belongs to the stage.
+      if (material instanceof MeshStandardMaterial) material.envMap = null;
       for (const value of Object.values(material)) if (value instanceof Texture) value.dispose();
       material.dispose();
     }

@@ -59,6 +59,7 @@ export class Viewer {
         const bytes = await host.model(address);
         const model = await readModel(bytes);
         model.shade(this.shading);
+        model.light((material) => this.stage.lights.reach(material));
         // The first model's shaders are made before it is put in, so that nothing stalls; those after it mostly use the same.
         if (!this.model) await this.stage.renderer.compileAsync(model.root, this.view.camera, this.stage.scene);
         return { model, bytes };
