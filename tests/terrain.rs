@@ -1,10 +1,13 @@
-//! Terrain: maps of landscapes whose heights are known come out as those landscapes.
+//! Terrain: maps of landscapes whose heights are known come out as those landscapes, and what comes out looks like its
+//! map.
 
 #[path = "common/worlds.rs"]
 mod worlds;
 
-use okoshi::terrain::Land;
-use worlds::World;
+use std::collections::BTreeMap;
+
+use okoshi::terrain::{Land, Map, Tile};
+use worlds::{World, picture, scribble};
 
 /// Cells that come out right, and all that something is drawn in.
 fn score(seed: u64) -> [usize; 2] {
@@ -31,4 +34,136 @@ fn landscapes_come_out_of_their_maps() {
     eprintln!("{right:.4} of all cells are right, {exact} of {} maps", scores.len());
     assert!(right >= 0.95);
     assert!(exact * 2 >= scores.len());
+}
+
+/// A triangle with the look that it shows: corners in tiles from the map's top left.
+type Shown = (u8, [[f64; 3]; 3]);
+
+/// All triangles of a landscape.
+fn triangles(map: &Map, land: &Land, roof: f64) -> Vec<Shown> {
+    let middle = [map.columns as f64 / 2.0, 0.0, map.rows as f64 / 2.0];
+    let mut shown = vec![];
+    for (look, pieces) in land.surface(roof) {
+        for piece in pieces {
+            let place = |corner: u32| {
+                let place = piece.positions[corner as usize];
+                [0, 1, 2].map(|axis| f64::from(place[axis]) + middle[axis])
+            };
+            shown.extend(piece.triangles.iter().map(|triangle| (look, triangle.map(place))));
+        }
+    }
+    shown
+}
+
+/// The look that is seen at the middle of each cell, where a point (x, y, z) is seen at column x and row z − y.
+fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
+    // Not quite the middle: diagonals of squares run through that.
+    const SPOT: [f64; 2] = [0.47, 0.56];
+    let mut nearest = vec![(f64::NEG_INFINITY, 0); map.cells.len()];
+    for (look, corners) in triangles {
+        let flat = corners.map(|[x, y, z]| [x, z - y]);
+        let bounds = |axis: usize| {
+            let values = flat.map(|point| point[axis]);
+            let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            (low.floor().max(0.0) as usize, high.ceil().max(0.0) as usize)
+        };
+        let cross = |a: [f64; 2], b: [f64; 2], p: [f64; 2]| {
+            (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+        };
+        let area = cross(flat[0], flat[1], flat[2]);
+        if area == 0.0 {
+            continue;
+        }
+        let ((left, right), (top, bottom)) = (bounds(0), bounds(1));
+        for row in top..bottom.min(map.rows) {
+            for column in left..right.min(map.columns) {
+                let spot = [column as f64 + SPOT[0], row as f64 + SPOT[1]];
+                let weights = [
+                    cross(flat[1], flat[2], spot) / area,
+                    cross(flat[2], flat[0], spot) / area,
+                    cross(flat[0], flat[1], spot) / area,
+                ];
+                if weights.iter().any(|weight| *weight < 0.0) {
+                    continue;
+                }
+                let near = |axis: usize| -> f64 {
+                    (0..3).map(|corner| weights[corner] * corners[corner][axis]).sum()
+                };
+                let near = near(1) + near(2);
+                let cell = &mut nearest[row * map.columns + column];
+                // Where a wall stands on the ground both are equally near: what faces the viewer is seen.
+                let faces = area < 0.0;
+                if near > cell.0 + 1e-9 || (near > cell.0 - 1e-9 && faces) {
+                    *cell = (near, *look);
+                }
+            }
+        }
+    }
+    nearest.into_iter().map(|(_, look)| look).collect()
+}
+
+/// Says which cells of a map are not seen as they are drawn.
+fn assert_seen_as_drawn(map: &Map, name: &str) {
+    let land = Land::new(map);
+    let seen = looked_at(map, &triangles(map, &land, 0.5));
+    let wrong: Vec<_> = (0..map.cells.len())
+        .filter(|cell| map.tile(*cell) != Tile::None && seen[*cell] != map.cells[*cell])
+        .map(|cell| (cell % map.columns, cell / map.columns))
+        .collect();
+    let mut shown = map.clone();
+    shown.cells = seen;
+    assert!(
+        wrong.is_empty(),
+        "{name}: {wrong:?}\n{}\n{}",
+        picture(map),
+        picture(&shown)
+    );
+}
+
+/// Says where a surface is open: each side of a triangle must lie at that of another one that runs the other way.
+fn assert_closed(map: &Map, roof: f64, name: &str) {
+    let land = Land::new(map);
+    let mut sides: BTreeMap<[[i64; 3]; 2], i32> = BTreeMap::new();
+    for (_, corners) in triangles(map, &land, roof) {
+        let corners = corners.map(|place| place.map(|value| (value * 4096.0).round() as i64));
+        for side in 0..3 {
+            let [from, to] = [corners[side], corners[(side + 1) % 3]];
+            assert!(from != to, "{name}: a triangle without area");
+            *sides.entry([from.min(to), from.max(to)]).or_default() += if from < to { 1 } else { -1 };
+        }
+    }
+    let open: Vec<_> = sides.iter().filter(|(_, count)| **count != 0).collect();
+    let place = |side: &[[i64; 3]; 2]| side.map(|point| point.map(|value| value as f64 / 4096.0));
+    let open: Vec<_> = open.iter().map(|(side, count)| (place(side), **count)).take(8).collect();
+    assert!(open.is_empty(), "{name}: {open:?}\n{}", picture(map));
+}
+
+#[test]
+fn the_drawing_is_seen_again() {
+    let mut tried = 0;
+    let all = std::env::var("N").map_or(1000,|n|n.parse().unwrap());
+    let mut seen = 0;
+    let mut why = BTreeMap::new();
+    while seen < all {
+        let drawn = World::random(tried).draw();
+        let notes = Land::new(&drawn.map).notes();
+        if notes.is_empty() {
+            assert_seen_as_drawn(&drawn.map, &format!("landscape {tried}"));
+            seen += 1;
+        }
+        for note in notes { *why.entry(format!("{:?}", std::mem::discriminant(&note.what))).or_insert(0) += 1; }
+        tried += 1;
+    }
+    eprintln!("{seen} of {tried} landscapes are open in nothing {why:?}");
+}
+
+#[test]
+fn surfaces_are_closed() {
+    let all = std::env::var("N").map_or(300,|n|n.parse().unwrap());
+    for seed in 0..all {
+        let drawn = World::random(seed).draw();
+        assert_closed(&drawn.map, 0.5, &format!("landscape {seed}"));
+        assert_closed(&scribble(seed), 0.7, &format!("scribble {seed}"));
+    }
 }

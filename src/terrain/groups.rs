@@ -58,8 +58,8 @@ pub(super) struct Groups {
     pub(super) surfaces: Vec<Surface>,
     /// How many houses there are.
     pub(super) houses: usize,
-    /// Groups that are read as tops although their colour is that of a house: the first cell of each.
-    pub(super) plain: Vec<usize>,
+    /// Groups that are read as tops although their colour is that of a house: the first cell of each, and how many it has.
+    pub(super) plain: Vec<(usize, usize)>,
 }
 
 impl Groups {
@@ -291,7 +291,7 @@ impl<'a> Joined<'a> {
                 };
             }
             if surface && matches!(tile, Tile::Red | Tile::Beige) {
-                plain.push(self.firsts[label]);
+                plain.push(label);
             }
             let number = numbers[lead];
             roles[label] = match tile {
@@ -300,6 +300,7 @@ impl<'a> Joined<'a> {
                 _ => Role::Wall(number),
             };
         }
+        let mut areas = vec![0_usize; count];
         let columns = self.grid.columns;
         for (column, labels) in self.labels.chunks(rows.max(1)).enumerate() {
             let side = column == 0 || column + 1 == columns;
@@ -307,6 +308,7 @@ impl<'a> Joined<'a> {
             while row < rows {
                 let label = labels[row];
                 let run = labels[row..].iter().take_while(|next| **next == label).count();
+                areas[label as usize] += run;
                 if let Role::Surface(surface) = roles[label as usize] {
                     let surface = &mut surfaces[surface as usize];
                     surface.area += run;
@@ -315,6 +317,8 @@ impl<'a> Joined<'a> {
                 row += run;
             }
         }
+        let plain = plain.into_iter().map(|label: usize| (self.firsts[label], areas[label]));
+        let plain = plain.collect();
         Groups {
             labels: self.labels,
             roles,

@@ -5,7 +5,7 @@ use std::ops::Range;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::column::Column;
+use super::column::{Below, Column};
 use super::grid::Grid;
 use super::groups::{Groups, Role};
 use super::levels::Levels;
@@ -28,6 +28,8 @@ pub(super) struct House {
     pub(super) front: i32,
     /// The look of its roof, and that of its walls.
     pub(super) looks: [u8; 2],
+    /// Whether its foot is seen somewhere: no other house hides it.
+    stands: bool,
     /// Whether its columns stand at different heights.
     pub(super) uneven: bool,
     /// Row and column of its first cell.
@@ -53,12 +55,16 @@ impl House {
                 _ => one.start.min(other.start)..one.end.max(other.end),
             };
         };
-        let both_stand = !self.walls.is_empty() && !other.walls.is_empty();
         self.uneven |= other.uneven;
-        self.uneven |= both_stand && (self.base, self.front) != (other.base, other.front);
-        let lower = self.walls.is_empty() || (both_stand && self.base < other.base);
-        if lower && !other.walls.is_empty() {
+        self.uneven |= self.stands && other.stands && self.base != other.base;
+        // Where most of the wall is seen nothing hides its foot; of such columns the highest counts.
+        let foot = |house: &Self| {
+            let walled = !house.walls.is_empty();
+            (walled, house.stands, house.height, house.base, house.front)
+        };
+        if foot(self) < foot(other) {
             (self.base, self.front) = (other.base, other.front);
+            self.stands = other.stands;
             self.looks[1] = other.looks[1];
         }
         if self.roof.is_empty() {
@@ -101,6 +107,18 @@ pub(super) fn measure(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<Hous
     all.filter_map(|number| houses.remove(&number)).collect()
 }
 
+/// Per stripe of columns the houses whose walls reach into it.
+pub(super) fn by_stripe(houses: &[House], columns: usize) -> Vec<Vec<u32>> {
+    let mut stripes = vec![vec![]; columns.div_ceil(STRIPE)];
+    for (index, house) in houses.iter().enumerate() {
+        let walls = house.walls.start as usize..house.walls.end as usize;
+        for stripe in walls.start / STRIPE..walls.end.div_ceil(STRIPE) {
+            stripes[stripe].push(index as u32);
+        }
+    }
+    stripes
+}
+
 /// The houses as one column shows them.
 fn in_column(
     grid: &Grid,
@@ -130,6 +148,7 @@ fn in_column(
             depth: if is_roof { segment.rows() } else { 0 },
             front: segment.end + base,
             looks: [look; 2],
+            stands: !is_roof && !matches!(column.below(index).1, Below::House(_)),
             uneven: false,
             first: [segment.start as usize, number],
         };

@@ -5,6 +5,7 @@ use super::groups::{Groups, Role};
 use super::houses::{self, House};
 use super::levels::Levels;
 use super::map::{Map, Tile};
+use super::notes::{self, Note};
 use super::solids::{self, Known, Seen, Solids};
 use super::surface;
 use super::ties::Ties;
@@ -20,6 +21,7 @@ pub struct Land {
     groups: Groups,
     levels: Levels,
     houses: Vec<House>,
+    houses_of: Vec<Vec<u32>>,
     flush: Vec<Option<i32>>,
     earth: Option<u8>,
     ties: Ties,
@@ -53,6 +55,7 @@ impl Land {
             grid,
             groups,
             levels,
+            houses_of: houses::by_stripe(&houses, map.columns),
             houses,
             flush,
             earth,
@@ -84,6 +87,11 @@ impl Land {
         heights.collect()
     }
 
+    /// What the map leaves open.
+    pub fn notes(&self) -> Vec<Note> {
+        notes::notes(&self.known(), &self.ties)
+    }
+
     /// The houses.
     pub fn houses(&self) -> impl Iterator<Item = Built> + '_ {
         self.houses.iter().map(|house| Built {
@@ -106,6 +114,7 @@ impl Land {
             groups: &self.groups,
             levels: &self.levels,
             houses: &self.houses,
+            houses_of: &self.houses_of,
             flush: &self.flush,
             earth: self.earth,
         }

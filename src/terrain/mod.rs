@@ -10,9 +10,11 @@ mod houses;
 mod land;
 mod levels;
 mod map;
+mod notes;
 mod solids;
 mod surface;
 mod ties;
 
 pub use land::{Built, Land, ROOF};
 pub use map::{EDGE_BELOW, EDGE_RIGHT, MOST_CELLS, Map, Tile};
+pub use notes::{Note, Open};

@@ -11,6 +11,7 @@ use super::groups::{GROUND, Groups, Role};
 use super::houses::House;
 use super::levels::Levels;
 use super::map::Tile;
+use super::ties::STRIPE;
 
 /// A block in a column: z from back to front, y from below to above. A sheet has no height.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,6 +80,8 @@ pub(super) struct Known<'a> {
     pub(super) groups: &'a Groups,
     pub(super) levels: &'a Levels,
     pub(super) houses: &'a [House],
+    /// Per stripe of columns the houses that reach into it.
+    pub(super) houses_of: &'a [Vec<u32>],
     /// Per group of fronts whether it ends flush with what is behind it (rule 6).
     pub(super) flush: &'a [Option<i32>],
     /// The look of earth where none is drawn.
@@ -168,11 +171,12 @@ impl Solids {
             match self.column.segments[index].role {
                 Role::Surface(surface) => self.surface(known, number, index, surface, end),
                 Role::Front => self.lone_front(known, number, index),
-                Role::Wall(house) => self.house(known, number, index, house),
+                Role::Wall(house) => self.foundation(known, number, index, house, end),
                 Role::Roof(_) | Role::Nothing => {}
             }
             self.hidden.push(&self.views, index);
         }
+        self.walls(known, number);
     }
 
     /// What is seen in each segment.
@@ -234,7 +238,7 @@ impl Solids {
                 Role::Surface(surface) => {
                     let level = known.levels.level[surface as usize];
                     let own = self.views[index].back();
-                    own.min(self.back_of_block(index, level).unwrap_or(own))
+                    own.min(self.back_of_block(known, index, level).unwrap_or(own))
                 }
                 Role::Wall(house) => known.houses[house as usize].back(),
                 _ => self.views[index].back(),
@@ -244,11 +248,13 @@ impl Solids {
     }
 
     /// Where the back of that is which stands on a segment at a height, if something does.
-    fn back_of_block(&self, index: usize, level: i32) -> Option<i32> {
+    fn back_of_block(&self, known: &Known<'_>, index: usize, level: i32) -> Option<i32> {
         let above = index.checked_sub(1)?;
         let front = self.column.segments[above];
-        if front.role.house().is_some() {
-            return matches!(front.role, Role::Wall(_)).then_some(self.backs[above]);
+        if let Role::Wall(house) = front.role {
+            // Where something nearer hides the foot the house stands behind that, not on it.
+            let stands = known.houses[house as usize].base == level;
+            return stands.then_some(self.backs[above]);
         }
         if front.role != Role::Front {
             return None;
@@ -273,28 +279,35 @@ impl Solids {
         let look = known.grid.cells[number * known.grid.rows + segment.start as usize];
         let side = self.side(known, number, index + 1, look);
         let (fronts, _, next) = self.column.below(index);
-        let [back, mut front] = [self.backs[index], segment.end + level];
+        let [back, front] = [self.backs[index], segment.end + level];
         // Down to its foot, and farther where that is hidden.
         let seen = self.hidden.wall_seen(&self.views, front, end);
         let base = known.levels.base[surface as usize];
         let bottom = (level - fronts).min(base.max(level - (seen - segment.end)));
         self.flush_below(known, number, index, [level, bottom], side);
         self.support(known, index, surface, [bottom, front], next, end);
-        // On behind what hides it.
-        if fronts == 0
-            && let Some(nearer) = self.views.get(index + 1)
-            && let Seen::Top(top) | Seen::Roof(top) = nearer.seen
-            && top > level
-        {
-            let seen = self.hidden.level_seen(&self.views, level, end);
-            front += (top - level).min(seen.saturating_sub(segment.end)).max(0);
-        }
         self.blocks.push(Block {
             z: [back, front],
             y: [bottom, level],
             top: Some(look),
             side,
         });
+        // On behind what hides it.
+        if fronts == 0
+            && let Some(nearer) = self.views.get(index + 1)
+            && let Seen::Top(top) | Seen::Roof(top) = nearer.seen
+        {
+            let seen = self.hidden.level_seen(&self.views, level, end);
+            let hidden = (top - level).min(seen.saturating_sub(segment.end));
+            let end = self.hidden.wall_seen(&self.views, front + hidden, end);
+            let bottom = bottom.max((front + hidden).saturating_sub(end)).min(level);
+            self.blocks.push(Block {
+                z: [front, front + hidden],
+                y: [bottom, level],
+                top: Some(look),
+                side,
+            });
+        }
     }
 
     /// Fills below a front that hangs, so that it ends flush with what is behind it (rule 6).
@@ -317,6 +330,8 @@ impl Solids {
             return;
         };
         let segment = self.column.segments[index];
+        // No farther than fronts are drawn in this column: what is added must not be seen elsewhere.
+        let lowest = lowest.min(front.end - 1);
         let support = self.level_below(known, index + 1);
         let [back, plane] = [segment.start + level, segment.end + level];
         for y in support..bottom {
@@ -391,17 +406,33 @@ impl Solids {
         });
     }
 
-    /// A house's block in one of its columns, and what it stands on.
-    fn house(&mut self, known: &Known<'_>, number: usize, index: usize, house: u32) {
+    /// The blocks of houses, also where something nearer hides the wall.
+    fn walls(&mut self, known: &Known<'_>, number: usize) {
+        let column = number as i32;
+        for house in &known.houses_of[number / STRIPE] {
+            let house = &known.houses[*house as usize];
+            if house.walls.contains(&column) {
+                let wall = house.looks[1];
+                self.blocks.push(Block {
+                    z: [house.back(), house.front],
+                    y: [house.base, house.eaves()],
+                    top: (!house.roof.contains(&column)).then_some(wall),
+                    side: wall,
+                });
+            }
+        }
+    }
+
+    /// What a house stands on where fronts are seen below its wall.
+    fn foundation(
+        &mut self,
+        known: &Known<'_>,
+        number: usize,
+        index: usize,
+        house: u32,
+        end: i32,
+    ) {
         let house = &known.houses[house as usize];
-        let wall = house.looks[1];
-        let z = [house.back(), house.front];
-        self.blocks.push(Block {
-            z,
-            y: [house.base, house.eaves()],
-            top: (!house.roof.contains(&(number as i32))).then_some(wall),
-            side: wall,
-        });
         let (fronts, below, _) = self.column.below(index);
         if fronts == 0 {
             return;
@@ -410,10 +441,12 @@ impl Solids {
             Below::Surface(surface) => known.levels.level[surface as usize],
             Below::House(_) => house.base - fronts,
         };
-        let side = self.side(known, number, index + 1, wall);
+        let side = self.side(known, number, index + 1, house.looks[1]);
+        let seen = self.hidden.wall_seen(&self.views, house.front, end);
+        let hidden = house.base - (seen - self.column.segments[index].end);
         self.blocks.push(Block {
-            z,
-            y: [foot.min(house.base), house.base],
+            z: [house.back(), house.front],
+            y: [(house.base - fronts).min(foot.max(hidden)), house.base],
             top: Some(side),
             side,
         });

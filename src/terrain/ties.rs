@@ -34,15 +34,15 @@ pub(super) struct Ties {
     pub(super) strong: Vec<Tie>,
     /// Those that only suggest themselves. Strongest first.
     pub(super) weak: Vec<Tie>,
-    /// Whether there are pits: fronts between parts of one surface.
-    pub(super) pits: bool,
+    /// Row and column of the first pit: fronts between parts of one surface.
+    pub(super) pit: Option<[usize; 2]>,
 }
 
 #[derive(Debug, Default)]
 struct Found {
     strong: FxHashMap<(u32, u32), Tie>,
     weak: FxHashMap<(u32, u32, i32), Tie>,
-    pits: bool,
+    pit: Option<[usize; 2]>,
 }
 
 impl Ties {
@@ -98,7 +98,7 @@ impl Found {
         if self.strong.len() + self.weak.len() < other.strong.len() + other.weak.len() {
             return other.with(self);
         }
-        self.pits |= other.pits;
+        self.pit = self.pit.into_iter().chain(other.pit).min();
         // What is joined does not depend on the order in which it comes.
         #[expect(clippy::iter_over_hash_type, reason = "joining ties is commutative")]
         for (key, tie) in other.strong {
@@ -122,7 +122,9 @@ impl Found {
             let first = [segment.start as usize, number];
             let (fronts, below, next) = column.below(index);
             match below {
-                Below::Surface(lower) if lower == upper => self.pits = true,
+                Below::Surface(lower) if lower == upper => {
+                    self.pit = self.pit.into_iter().chain([first]).min();
+                }
                 Below::Surface(GROUND) => self.strong(upper, GROUND, fronts, first),
                 Below::Surface(lower) if fronts > 0 || (!water(upper) && water(lower)) => {
                     self.strong(upper, lower, fronts, first);
@@ -181,7 +183,7 @@ impl Found {
         Ties {
             strong,
             weak,
-            pits: self.pits,
+            pit: self.pit,
         }
     }
 }

@@ -3,10 +3,10 @@
 use okoshi::terrain::{EDGE_BELOW, EDGE_RIGHT, Map};
 
 /// A source of numbers that looks random and is the same everywhere (SplitMix64).
-pub struct Dice(u64);
+pub(crate) struct Dice(u64);
 
 impl Dice {
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x5851_f42d_4c95_7f2d)
     }
 
@@ -19,11 +19,11 @@ impl Dice {
     }
 
     /// A number from `low` to `high`, both included.
-    pub fn roll(&mut self, low: i32, high: i32) -> i32 {
+    pub(crate) fn roll(&mut self, low: i32, high: i32) -> i32 {
         low + (self.next() % (high - low + 1).max(1) as u64) as i32
     }
 
-    pub fn chance(&mut self, percent: i32) -> bool {
+    pub(crate) fn chance(&mut self, percent: i32) -> bool {
         self.roll(1, 100) <= percent
     }
 }
@@ -39,7 +39,7 @@ enum Top {
 
 /// A landscape: per place on the ground how high it is there and what is on top; `None` where there is nothing.
 #[derive(Debug, Clone)]
-pub struct World {
+pub(crate) struct World {
     columns: i32,
     depth: i32,
     places: Vec<Option<(i32, Top)>>,
@@ -57,9 +57,9 @@ struct Sight {
 }
 
 /// A map, and the height of what is seen in each cell, at its lower edge, row by row.
-pub struct Drawn {
-    pub map: Map,
-    pub heights: Vec<Option<i32>>,
+pub(crate) struct Drawn {
+    pub(crate) map: Map,
+    pub(crate) heights: Vec<Option<i32>>,
 }
 
 const GREEN: u8 = 1;
@@ -70,7 +70,7 @@ const BEIGE: u8 = 5;
 
 impl World {
     /// A landscape of plateaus, blocks on them, stairs, ponds, pits and houses.
-    pub fn random(seed: u64) -> Self {
+    pub(crate) fn random(seed: u64) -> Self {
         let mut dice = Dice::new(seed);
         let (columns, depth) = (dice.roll(10, 26), dice.roll(10, 24));
         let ground = dice.chance(70).then_some((0, Top::Green));
@@ -219,7 +219,7 @@ impl World {
     }
 
     /// The map: edges stand wherever heights or faces of neighbours differ.
-    pub fn draw(&self) -> Drawn {
+    pub(crate) fn draw(&self) -> Drawn {
         let heights = self.places.iter().flatten().map(|(height, _)| *height);
         let (low, high) = (heights.clone().min().unwrap_or(0).min(0), heights.max().unwrap_or(0));
         let rows = self.depth + high;
@@ -249,8 +249,33 @@ impl World {
     }
 }
 
+/// A map that nobody meant: rectangles of all kinds over each other, and edges anywhere.
+pub(crate) fn scribble(seed: u64) -> Map {
+    let mut dice = Dice::new(seed ^ 0x5c21_bb1e);
+    let (columns, rows) = (dice.roll(1, 18), dice.roll(1, 22));
+    let mut map = Map::empty(columns as usize, rows as usize);
+    for _ in 0..dice.roll(1, 24) {
+        let look = dice.roll(0, 5) as u8;
+        let (left, top) = (dice.roll(0, columns - 1), dice.roll(0, rows - 1));
+        let (right, bottom) = (left + dice.roll(1, 7), top + dice.roll(1, 7));
+        for row in top..bottom.min(rows) {
+            for column in left..right.min(columns) {
+                let cell = map.index(column as usize, row as usize);
+                map.cells[cell] = look;
+            }
+        }
+    }
+    let percent = [0, 3, 20][dice.roll(0, 2) as usize];
+    for edges in &mut map.edges {
+        if dice.chance(percent) {
+            *edges = dice.roll(1, 3) as u8;
+        }
+    }
+    map
+}
+
 /// A map for people: a letter a cell.
-pub fn picture(map: &Map) -> String {
+pub(crate) fn picture(map: &Map) -> String {
     let letters = [' ', 'g', 'b', 'w', 'R', 'B'];
     let rows = map.cells.chunks(map.columns);
     let line = |row: &[u8]| -> String { row.iter().map(|look| letters[usize::from(*look)]).collect() };

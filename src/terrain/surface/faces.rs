@@ -93,6 +93,12 @@ impl Faces<'_> {
                 back.push(Strip { plane, look, along });
             });
         }
+        let inner = slices.inner.iter().map(|(plane, along)| Strip {
+            plane: *plane,
+            look: known.earth.unwrap_or(1),
+            along: *along,
+        });
+        down.extend(inner);
         let across = [number as i32, number as i32 + 1];
         for (sweep, strips) in self.sweeps.iter_mut().zip(&mut self.strips) {
             sweep.line(across, strips, &mut self.rects);

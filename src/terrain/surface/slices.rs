@@ -1,5 +1,7 @@
 //! Blocks that may overlap as slices that do not.
 
+use std::cmp::Ordering;
+
 use super::super::solids::Block;
 
 /// What is solid at one height, and what its top looks like.
@@ -27,6 +29,8 @@ pub(super) struct Slice {
 pub(super) struct Slices {
     pub(super) list: Vec<Slice>,
     spans: Vec<Span>,
+    /// Heights of eaves that lie inside of something else, and from where to where.
+    pub(super) inner: Vec<(i32, [i32; 2])>,
     bounds: Vec<i32>,
     order: Vec<Block>,
     active: Vec<Block>,
@@ -36,6 +40,7 @@ impl Slices {
     pub(super) fn clear(&mut self) {
         self.list.clear();
         self.spans.clear();
+        self.inner.clear();
     }
 
     /// The spans of a slice, from below, with gaps between them.
@@ -80,8 +85,17 @@ impl Slices {
             };
             match self.spans[start..].last_mut() {
                 Some(last) if last.y[1] >= span.y[0] => {
-                    // What has a top of its own goes before what has none: that one lies below a roof.
-                    if span.y[1] > last.y[1] || (span.y[1] == last.y[1] && span.top.is_none()) {
+                    let order = span.y[1].cmp(&last.y[1]);
+                    // A roof whose place is taken by something else is closed from below.
+                    let roofed = match order {
+                        Ordering::Greater => last.top.is_none().then_some(last.y[1]),
+                        Ordering::Less => span.top.is_none().then_some(span.y[1]),
+                        Ordering::Equal => {
+                            (last.top.is_none() && span.top.is_none()).then_some(last.y[1])
+                        }
+                    };
+                    self.inner.extend(roofed.map(|y| (y, z)));
+                    if order.is_gt() || (order.is_eq() && span.top.is_none()) {
                         (last.y[1], last.top, last.side) = (span.y[1], span.top, span.side);
                     }
                 }
