@@ -103,9 +103,9 @@ impl Land {
     }
 
     /// The triangles: per look the pieces of its surface, in tiles, about the map's middle at height 0. `roof` is the height of
-    /// roofs over their depth.
-    pub fn surface(&self, roof: f64) -> Vec<(u8, Vec<Surface>)> {
-        surface::surface(&self.known(), roof)
+    /// roofs over their depth, `bevel` the radius of bevels in tiles, at most a half.
+    pub fn surface(&self, roof: f64, bevel: f64) -> Vec<(u8, Vec<Surface>)> {
+        surface::surface(&self.known(), roof, bevel)
     }
 
     fn known(&self) -> Known<'_> {

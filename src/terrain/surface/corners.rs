@@ -22,23 +22,25 @@ fn packed(stripe: usize, [x, y, z]: [i32; 3]) -> u64 {
 }
 
 impl Corners {
-    /// Collects the corners of rectangles, and some more.
-    pub(super) fn new(rects: &[Vec<Rect>], more: &[[i32; 3]]) -> Self {
+    /// Collects the corners of rectangles, stripe by stripe, and some more.
+    pub(super) fn new(rects: &[Vec<Rect>], squares: &[Vec<Rect>], more: &[[i32; 3]]) -> Self {
         let stripe_of = |x: i32| (x as usize / STRIPE).min(rects.len() - 1);
         let mut extra: Vec<Vec<[i32; 3]>> = vec![vec![]; rects.len()];
         for point in more {
             extra[stripe_of(point[0])].push(*point);
         }
+        let all = |stripe: usize| {
+            let squares = squares.get(stripe).into_iter().flatten();
+            rects[stripe].iter().chain(squares).flat_map(Rect::corners)
+        };
         let border = |stripe: usize| (stripe * STRIPE) as i32;
         let stripes = (0..rects.len()).into_par_iter().map(|stripe| {
             let mut points = FxHashSet::default();
-            let own = rects[stripe].iter().flat_map(Rect::corners);
-            points.extend(own.map(|point| packed(stripe, point)));
+            points.extend(all(stripe).map(|point| packed(stripe, point)));
             // On the border both stripes know all corners.
             let mut from = |other: usize, x: i32| {
-                let corners = rects[other].iter().flat_map(Rect::corners);
-                let all = corners.chain(extra[other].iter().copied());
-                let here = all.filter(|point| point[0] == x);
+                let corners = all(other).chain(extra[other].iter().copied());
+                let here = corners.filter(|point| point[0] == x);
                 points.extend(here.map(|point| packed(stripe, point)));
             };
             if let Some(before) = stripe.checked_sub(1) {

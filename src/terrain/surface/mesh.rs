@@ -32,7 +32,8 @@ impl Mesh {
     pub(super) fn finish(self) -> Vec<(u8, Surface)> {
         let all = self.looks.into_iter().enumerate();
         let made = all.filter(|(_, look)| !look.surface.triangles.is_empty());
-        made.map(|(index, look)| (index as u8, look.surface)).collect()
+        made.map(|(index, look)| (index as u8, look.surface))
+            .collect()
     }
 
     /// Adds a corner, once for all polygons that look the same way.
@@ -40,7 +41,13 @@ impl Mesh {
         let place = point.map(f64::from);
         let Look { surface, known } = &mut self.looks[usize::from(look)];
         *known.entry((point, facing)).or_insert_with(|| {
-            push(surface, self.middle, facing.normal(), uv(facing, place), place)
+            push(
+                surface,
+                self.middle,
+                facing.normal(),
+                uv(facing, place),
+                place,
+            )
         })
     }
 
@@ -48,7 +55,9 @@ impl Mesh {
     /// without its end, counter-clockwise seen from outside.
     pub(super) fn rectangle(&mut self, look: u8, facing: Facing, sides: &[Vec<[i32; 3]>; 4]) {
         let ids = sides.each_ref().map(|side| -> Vec<u32> {
-            side.iter().map(|point| self.corner(look, facing, *point)).collect()
+            side.iter()
+                .map(|point| self.corner(look, facing, *point))
+                .collect()
         });
         let plain = |side: usize| ids[side].len() == 1;
         if plain(1) && plain(3) {
@@ -60,10 +69,19 @@ impl Mesh {
             let [a, b] = [sides[0][0], sides[2][0]];
             let middle = [0, 1, 2].map(|axis| f64::from(a[axis] + b[axis]) / 2.0);
             let surface = &mut self.looks[usize::from(look)].surface;
-            let centre = push(surface, self.middle, facing.normal(), uv(facing, middle), middle);
+            let centre = push(
+                surface,
+                self.middle,
+                facing.normal(),
+                uv(facing, middle),
+                middle,
+            );
             let ring: Vec<u32> = ids.concat();
             let next = ring.iter().cycle().skip(1);
-            let fan = ring.iter().zip(next).map(|(one, other)| [centre, *one, *other]);
+            let fan = ring
+                .iter()
+                .zip(next)
+                .map(|(one, other)| [centre, *one, *other]);
             surface.triangles.extend(fan);
         }
     }
@@ -93,6 +111,52 @@ impl Mesh {
         }
     }
 
+    /// Adds a polygon whose corners keep the normals of the faces that they come from. Points that fall together are one.
+    pub(super) fn soft(&mut self, look: u8, facing: Facing, points: &[([f64; 3], Facing)]) {
+        let surface = &mut self.looks[usize::from(look)].surface;
+        let mut ring: Vec<([f64; 3], Facing)> = points.to_vec();
+        ring.dedup_by(|next, last| next.0 == last.0);
+        if ring.len() > 1 && ring[0].0 == ring[ring.len() - 1].0 {
+            ring.pop();
+        }
+        if ring.len() < 3 {
+            return;
+        }
+        let mut add = |place: [f64; 3], normal: [f32; 3]| {
+            push(surface, self.middle, normal, uv(facing, place), place)
+        };
+        let ids: Vec<u32> = ring
+            .iter()
+            .map(|(place, facing)| add(*place, facing.normal()))
+            .collect();
+        if let [a, b, c, rest @ ..] = ids.as_slice()
+            && rest.len() < 2
+        {
+            let two = [[*a, *b, *c]]
+                .into_iter()
+                .chain(rest.iter().map(|d| [*a, *c, *d]));
+            two.for_each(|triangle| whole(surface, triangle));
+            return;
+        }
+        let sum = |of: &dyn Fn(usize) -> [f64; 3]| {
+            (0..ring.len()).map(of).fold([0.0; 3], |sum, add| {
+                [0, 1, 2].map(|axis| sum[axis] + add[axis])
+            })
+        };
+        let middle = sum(&|at| ring[at].0).map(|value| value / ring.len() as f64);
+        let normal = sum(&|at| ring[at].1.normal().map(f64::from));
+        let length = normal.iter().map(|value| value * value).sum::<f64>().sqrt();
+        let normal = match length > 1e-6 {
+            true => normal.map(|value| (value / length) as f32),
+            false => facing.normal(),
+        };
+        let centre = add(middle, normal);
+        let next = ids.iter().cycle().skip(1);
+        for (one, other) in ids.iter().zip(next) {
+            whole(surface, [centre, *one, *other]);
+        }
+    }
+
     /// Adds a fan of triangles around its first point: a flat convex polygon no other point of which lies on a line with
     /// the first and its neighbour.
     pub(super) fn fan(&mut self, look: u8, normal: [f32; 3], points: &[([f64; 3], [f64; 2])]) {
@@ -102,7 +166,17 @@ impl Mesh {
             .map(|(place, uv)| push(surface, self.middle, normal, *uv, *place))
             .collect();
         let pairs = ids[1..].windows(2);
-        surface.triangles.extend(pairs.map(|pair| [ids[0], pair[0], pair[1]]));
+        surface
+            .triangles
+            .extend(pairs.map(|pair| [ids[0], pair[0], pair[1]]));
+    }
+}
+
+/// Adds a triangle, unless two of its corners are one: such a triangle closes nothing.
+fn whole(surface: &mut Surface, triangle: [u32; 3]) {
+    let [a, b, c] = triangle.map(|corner| surface.positions[corner as usize]);
+    if a != b && b != c && c != a {
+        surface.triangles.push(triangle);
     }
 }
 

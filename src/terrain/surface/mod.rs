@@ -2,6 +2,7 @@
 //! on the side of another that does not have it too: so nothing shines through where faces meet, and what is solid is
 //! closed.
 
+mod bevel;
 mod corners;
 mod faces;
 mod mesh;
@@ -16,13 +17,14 @@ use super::solids::Known;
 use super::ties::STRIPE;
 use crate::scene::Surface;
 
+use bevel::Bevel;
 use corners::Corners;
 use mesh::Mesh;
 use sweep::Rect;
 
 /// The triangles of all solids: per look pieces of its surface, in tiles, about the map's middle at height 0.
-/// `factor` is the height of roofs over their depth.
-pub(super) fn surface(known: &Known<'_>, factor: f64) -> Vec<(u8, Vec<Surface>)> {
+/// `factor` is the height of roofs over their depth, `radius` that of bevels.
+pub(super) fn surface(known: &Known<'_>, factor: f64, radius: f64) -> Vec<(u8, Vec<Surface>)> {
     let grid = known.grid;
     let stripes = grid.columns.div_ceil(STRIPE);
     if stripes == 0 || grid.rows == 0 {
@@ -30,7 +32,9 @@ pub(super) fn surface(known: &Known<'_>, factor: f64) -> Vec<(u8, Vec<Surface>)>
     }
     let columns = |stripe: usize| stripe * STRIPE..((stripe + 1) * STRIPE).min(grid.columns);
     let all = (0..stripes).into_par_iter();
-    let mut rects: Vec<Vec<Rect>> = all.map(|stripe| faces::faces(known, columns(stripe))).collect();
+    let mut rects: Vec<Vec<Rect>> = all
+        .map(|stripe| faces::faces(known, columns(stripe)))
+        .collect();
     let roofed = |house: &&House| house.depth > 0 && !house.roof.is_empty();
     let mut eaves = vec![];
     for house in known.houses.iter().filter(roofed) {
@@ -39,7 +43,15 @@ pub(super) fn surface(known: &Known<'_>, factor: f64) -> Vec<(u8, Vec<Surface>)>
             rects[rect.across[0] as usize / STRIPE].push(rect);
         }
     }
-    let corners = Corners::new(&rects, &eaves);
+    let mut squares = vec![vec![]; if radius > 0.0 { stripes } else { 0 }];
+    for (squares, rects) in squares.iter_mut().zip(&mut rects) {
+        let mut rest = vec![];
+        rects
+            .iter()
+            .for_each(|rect| bevel::ring(rect, squares, &mut rest));
+        *rects = rest;
+    }
+    let corners = Corners::new(&rects, &squares, &eaves);
     let looks = 256;
     let mesh = || Mesh::new(grid.columns, grid.rows, looks);
     let mut made: Vec<Vec<(u8, Surface)>> = rects
@@ -58,6 +70,9 @@ pub(super) fn surface(known: &Known<'_>, factor: f64) -> Vec<(u8, Vec<Surface>)>
                 }
                 mesh.rectangle(rect.look, rect.facing, &sides);
             }
+            if radius > 0.0 {
+                bevelled(known, radius, &squares, stripe, &mut mesh);
+            }
             mesh.finish()
         })
         .collect();
@@ -72,4 +87,27 @@ pub(super) fn surface(known: &Known<'_>, factor: f64) -> Vec<(u8, Vec<Surface>)>
     }
     surfaces.retain(|(_, pieces)| !pieces.is_empty());
     surfaces
+}
+
+/// Adds the bevelled squares of a stripe.
+fn bevelled(known: &Known<'_>, radius: f64, squares: &[Vec<Rect>], stripe: usize, mesh: &mut Mesh) {
+    let start = (stripe * STRIPE) as i32;
+    let end = start + STRIPE as i32;
+    let touches = |rect: &&Rect| {
+        let x = rect.corners().map(|corner| corner[0]);
+        let [low, high] = [x.iter().min(), x.iter().max()].map(|x| x.copied().unwrap_or(0));
+        low <= end && high >= start
+    };
+    let near = stripe.saturating_sub(1)..(stripe + 2).min(squares.len());
+    let mut around = squares[near].iter().flatten().filter(touches);
+    let houses = known.houses.iter().filter(|house| {
+        house.roof.start.min(house.walls.start) <= end + 1
+            && house.roof.end.max(house.walls.end) >= start - 1
+    });
+    let bevel = Bevel::new(radius, &mut around, houses.collect());
+    bevel.add(
+        mesh,
+        &squares[stripe],
+        bevel::columns(stripe, squares.len()),
+    );
 }

@@ -1,0 +1,383 @@
+//! Bevelled corners (ours: the thesis names rounded ground as its open problem).
+//!
+//! Every face draws back from its sides where the surface turns; strips join the faces along those sides, and patches join
+//! the strips at corners. Corners keep the normals of the faces that they come from, so that light runs softly
+//! across.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::super::houses::House;
+use super::super::ties::STRIPE;
+use super::mesh::Mesh;
+use super::sweep::{Facing, Rect};
+
+/// A bevel wider than this would turn thin walls inside out.
+pub(super) const WIDEST: f64 = 0.49;
+
+type Point = [i32; 3];
+
+/// Cuts a rectangle into the squares along its border, which may be bevelled, and the rest.
+pub(super) fn ring(rect: &Rect, squares: &mut Vec<Rect>, rest: &mut Vec<Rect>) {
+    let [across, along] = [rect.across, rect.along];
+    let mut square = |a: i32, b: i32| {
+        squares.push(Rect {
+            across: [a, a + 1],
+            along: [b, b + 1],
+            ..*rect
+        });
+    };
+    for a in across[0]..across[1] {
+        let side = a == across[0] || a + 1 == across[1];
+        if side {
+            (along[0]..along[1]).for_each(|b| square(a, b));
+        } else {
+            square(a, along[0]);
+            if along[1] - along[0] > 1 {
+                square(a, along[1] - 1);
+            }
+        }
+    }
+    if across[1] - across[0] > 2 && along[1] - along[0] > 2 {
+        rest.push(Rect {
+            across: [across[0] + 1, across[1] - 1],
+            along: [along[0] + 1, along[1] - 1],
+            ..*rect
+        });
+    }
+}
+
+/// The part of a plane's four squares around a point that a square belongs to: connected by way of sides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct Fan {
+    facing: Facing,
+    /// A bit a square: behind and before across the lines in bit 0, along them in bit 1.
+    squares: u8,
+}
+
+/// A corner of a fan of faces, drawn back.
+#[derive(Debug, Clone, Copy)]
+struct Corner {
+    fan: Fan,
+    point: Point,
+    look: u8,
+}
+
+/// What is known around the corners of a stripe.
+pub(super) struct Bevel<'a> {
+    radius: f64,
+    /// The squares that may be bevelled.
+    squares: FxHashMap<(Facing, Point), u8>,
+    /// The faces at each side of a square: the lesser point and the axis; up to four.
+    sides: FxHashMap<(Point, usize), Vec<(Facing, Point)>>,
+    /// Points that stay: at houses, and where the surface folds back onto itself.
+    fixed: FxHashSet<Point>,
+    houses: Vec<&'a House>,
+}
+
+/// The least corner of a square, which with its facing is its name.
+fn name(rect: &Rect) -> Point {
+    let [across, along, up] = rect.facing.axes();
+    let mut point = [0; 3];
+    point[across] = rect.across[0];
+    point[along] = rect.along[0];
+    point[up] = rect.plane;
+    point
+}
+
+fn moved(mut point: Point, axis: usize, by: i32) -> Point {
+    point[axis] += by;
+    point
+}
+
+impl<'a> Bevel<'a> {
+    /// Collects the squares of a stripe and those of its neighbours that touch it.
+    pub(super) fn new(
+        radius: f64,
+        squares: &mut dyn Iterator<Item = &Rect>,
+        houses: Vec<&'a House>,
+    ) -> Self {
+        let mut bevel = Self {
+            radius: radius.min(WIDEST),
+            squares: FxHashMap::default(),
+            sides: FxHashMap::default(),
+            fixed: FxHashSet::default(),
+            houses,
+        };
+        for square in squares {
+            let (facing, point) = (square.facing, name(square));
+            bevel.squares.insert((facing, point), square.look);
+            let [across, along, _] = facing.axes();
+            for (start, axis) in [
+                (point, across),
+                (moved(point, along, 1), across),
+                (point, along),
+                (moved(point, across, 1), along),
+            ] {
+                bevel
+                    .sides
+                    .entry((start, axis))
+                    .or_default()
+                    .push((facing, point));
+            }
+        }
+        bevel.fix();
+        bevel
+    }
+
+    /// Finds the points that must stay where they are.
+    fn fix(&mut self) {
+        let mut fixed = FxHashSet::default();
+        #[expect(
+            clippy::iter_over_hash_type,
+            reason = "a set does not depend on the order"
+        )]
+        for ((start, axis), faces) in &self.sides {
+            let end = moved(*start, *axis, 1);
+            let whole = self.pairs(*start, *axis, faces).is_some_and(|pairs| {
+                let folded = |pair: &[(Facing, Point); 2]| opposite(pair[0].0, pair[1].0);
+                !pairs.iter().any(folded)
+            });
+            if !whole {
+                fixed.extend([*start, end]);
+            }
+            for point in [*start, end] {
+                if self.houses.iter().any(|house| touches(house, point)) {
+                    fixed.insert(point);
+                }
+            }
+        }
+        self.fixed = fixed;
+    }
+
+    /// The faces that meet at a side, in pairs with only air between them; `None` where there is no way to pair them.
+    fn pairs(
+        &self,
+        start: Point,
+        axis: usize,
+        faces: &[(Facing, Point)],
+    ) -> Option<Vec<[(Facing, Point); 2]>> {
+        match faces {
+            [one, other] => Some(vec![[*one, *other]]),
+            [..] if faces.len() == 4 => {
+                // Around the side, the face at an angle has its air before or behind it.
+                let mut around: Vec<(u8, bool, (Facing, Point))> = faces
+                    .iter()
+                    .map(|face| {
+                        let (angle, air_behind) = angle(*face, start, axis);
+                        (angle, air_behind, *face)
+                    })
+                    .collect();
+                // Where two lie in one place, the one whose air comes first goes first.
+                around.sort_by_key(|(angle, air_behind, _)| (*angle, *air_behind));
+                let pair = |at: usize| {
+                    let [one, other] = [around[at], around[(at + 1) % 4]];
+                    (one.1 && !other.1).then_some([one.2, other.2])
+                };
+                let first = (0..4).find_map(|at| Some((at, pair(at)?)))?;
+                let second = pair((first.0 + 2) % 4)?;
+                Some(vec![first.1, second])
+            }
+            _ => None,
+        }
+    }
+
+    fn fan(&self, facing: Facing, square: Point, point: Point) -> Fan {
+        let [across, along, _] = facing.axes();
+        let has = |a: i32, b: i32| {
+            let name = moved(moved(point, across, a - 1), along, b - 1);
+            self.squares.contains_key(&(facing, name))
+        };
+        let there = [[has(0, 0), has(0, 1)], [has(1, 0), has(1, 1)]];
+        let own = [
+            (square[across] - point[across] + 1) as usize,
+            (square[along] - point[along] + 1) as usize,
+        ];
+        let mut squares = 1 << (own[0] | own[1] << 1);
+        let mut add = |a: usize, b: usize| {
+            if there[a][b] {
+                squares |= 1 << (a | b << 1);
+            }
+        };
+        let [a, b] = own;
+        add(1 - a, b);
+        add(a, 1 - b);
+        if there[1 - a][b] || there[a][1 - b] {
+            add(1 - a, 1 - b);
+        }
+        Fan { facing, squares }
+    }
+
+    /// Where a corner of a fan goes.
+    fn place(&self, corner: &Corner) -> [f64; 3] {
+        let mut place = corner.point.map(f64::from);
+        if self.fixed.contains(&corner.point) {
+            return place;
+        }
+        let [across, along, _] = corner.fan.facing.axes();
+        let has = |a: u8, b: u8| corner.fan.squares & (1 << (a | b << 1)) != 0;
+        let count = corner.fan.squares.count_ones();
+        let sum = |of: &dyn Fn(u8) -> [bool; 2]| {
+            let count = |side: u8| of(side).iter().filter(|there| **there).count() as f64;
+            count(1) - count(0)
+        };
+        let towards = [
+            sum(&|a| [has(a, 0), has(a, 1)]),
+            sum(&|b| [has(0, b), has(1, b)]),
+        ];
+        // One square: into it. Two: away from the side. Three: away from the missing one. Four: nowhere.
+        if count < 4 {
+            place[across] += self.radius * towards[0].signum() * f64::from(towards[0] != 0.0);
+            place[along] += self.radius * towards[1].signum() * f64::from(towards[1] != 0.0);
+        }
+        place
+    }
+
+    fn corner(&self, (facing, square): (Facing, Point), point: Point) -> Corner {
+        Corner {
+            fan: self.fan(facing, square, point),
+            point,
+            look: self.squares[&(facing, square)],
+        }
+    }
+
+    /// Adds the squares that are a stripe's own, drawn back, and the strips and patches that begin between `columns`.
+    pub(super) fn add(&self, mesh: &mut Mesh, own: &[Rect], columns: std::ops::Range<i32>) {
+        for square in own {
+            let face = (square.facing, name(square));
+            let ring = square.corners().map(|point| {
+                let corner = self.corner(face, point);
+                (self.place(&corner), square.facing)
+            });
+            mesh.soft(square.look, square.facing, &ring);
+        }
+        let mut ends: FxHashMap<Point, Vec<[Corner; 2]>> = FxHashMap::default();
+        let mut sides: Vec<_> = self
+            .sides
+            .iter()
+            .filter(|((start, _), _)| start[0] >= columns.start - 1 && start[0] <= columns.end)
+            .collect();
+        sides.sort_unstable_by_key(|(side, _)| **side);
+        for ((start, axis), faces) in sides {
+            for [one, other] in self.pairs(*start, *axis, faces).unwrap_or_default() {
+                if one.0 == other.0 {
+                    continue;
+                }
+                let end = moved(*start, *axis, 1);
+                // The face that runs along the side in its direction goes first.
+                let forward = runs_forward(one, *start, *axis);
+                let [f, g] = if forward { [one, other] } else { [other, one] };
+                let [f0, f1] = [*start, end].map(|point| self.corner(f, point));
+                let [g0, g1] = [*start, end].map(|point| self.corner(g, point));
+                if columns.contains(&start[0]) {
+                    let look = [f0, g0]
+                        .into_iter()
+                        .min_by_key(|corner| rank(corner.fan.facing));
+                    let ring = [f1, f0, g0, g1];
+                    let ring = ring.map(|corner| (self.place(&corner), corner.fan.facing));
+                    mesh.soft(look.map_or(f0.look, |corner| corner.look), f.0, &ring);
+                }
+                ends.entry(*start).or_default().push([g0, f0]);
+                ends.entry(end).or_default().push([f1, g1]);
+            }
+        }
+        let mut points: Vec<_> = ends
+            .into_iter()
+            .filter(|(point, _)| columns.contains(&point[0]))
+            .collect();
+        points.sort_unstable_by_key(|(point, _)| *point);
+        for (point, ends) in points {
+            if !self.fixed.contains(&point) {
+                self.patches(mesh, ends);
+            }
+        }
+    }
+
+    /// Closes the holes that strips leave at a corner.
+    fn patches(&self, mesh: &mut Mesh, mut ends: Vec<[Corner; 2]>) {
+        while let Some([first, mut last]) = ends.pop() {
+            let mut ring = vec![first, last];
+            while last.fan != first.fan
+                && let Some(next) = ends.iter().position(|[from, _]| from.fan == last.fan)
+            {
+                last = ends.swap_remove(next)[1];
+                ring.push(last);
+            }
+            ring.pop();
+            if ring.len() > 2 {
+                let look = ring.iter().min_by_key(|corner| rank(corner.fan.facing));
+                let look = look.map_or(first.look, |corner| corner.look);
+                let places: Vec<_> = ring
+                    .iter()
+                    .map(|corner| (self.place(corner), corner.fan.facing))
+                    .collect();
+                mesh.soft(look, first.fan.facing, &places);
+            }
+        }
+    }
+}
+
+/// Whose look strips and patches have: grass grows over edges.
+fn rank(facing: Facing) -> u8 {
+    match facing {
+        Facing::Up => 0,
+        Facing::Front => 1,
+        Facing::Right | Facing::Left => 2,
+        Facing::Back => 3,
+        Facing::Down => 4,
+    }
+}
+
+fn opposite(one: Facing, other: Facing) -> bool {
+    one != other && one.axes()[2] == other.axes()[2]
+}
+
+/// Whether a point lies on a house or its roof.
+fn touches(house: &House, [x, y, z]: Point) -> bool {
+    let columns = house.roof.start.min(house.walls.start)..=house.roof.end.max(house.walls.end);
+    columns.contains(&x)
+        && (house.base..=house.eaves()).contains(&y)
+        && (house.back()..=house.front).contains(&z)
+}
+
+/// At which quarter around a side a face lies, counter-clockwise about the axis, and whether air lies counter-clockwise of
+/// it.
+fn angle((facing, square): (Facing, Point), start: Point, axis: usize) -> (u8, bool) {
+    let [first, second] = [(axis + 1) % 3, (axis + 2) % 3];
+    let stands_on = facing.axes()[2];
+    let across = if stands_on == first { second } else { first };
+    let ahead = square[across] == start[across];
+    let quarter = match (across == first, ahead) {
+        (true, true) => 0,
+        (false, true) => 1,
+        (true, false) => 2,
+        (false, false) => 3,
+    };
+    let positive = facing.normal()[stands_on] > 0.0;
+    // Counter-clockwise of the first axis lies the second, of the second the first backwards.
+    let air = match quarter {
+        0 | 3 => positive,
+        _ => !positive,
+    };
+    (quarter, air)
+}
+
+/// Whether a face, seen from outside with its corners counter-clockwise, runs along a side in the axis' direction.
+fn runs_forward((facing, square): (Facing, Point), start: Point, axis: usize) -> bool {
+    let [across, along, up] = facing.axes();
+    let other = if axis == across { along } else { across };
+    let low_side = square[other] == start[other];
+    // With the side at its lower end, the corners run forward if axis, other and normal are right-handed.
+    let right_handed = (axis + 1) % 3 == other;
+    let positive = facing.normal()[up] > 0.0;
+    (right_handed == positive) == low_side
+}
+
+/// The columns that strips and patches of a stripe begin in.
+pub(super) fn columns(stripe: usize, stripes: usize) -> std::ops::Range<i32> {
+    let start = (stripe * STRIPE) as i32;
+    let end = match stripe + 1 == stripes {
+        true => i32::MAX,
+        false => start + STRIPE as i32,
+    };
+    start..end
+}

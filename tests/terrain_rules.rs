@@ -1,0 +1,462 @@
+//! Each rule of terrain with heights that were worked out by hand, and what the thesis states of its figures.
+
+#[path = "common/drawn.rs"]
+mod drawn;
+
+use drawn::map;
+use okoshi::terrain::{Built, Land, Map, Open};
+
+/// Heights of the tops, a line a row; a dot where there is none.
+fn tops(map: &Map) -> String {
+    let land = Land::new(map);
+    let mut lines = String::new();
+    for row in 0..map.rows {
+        let cells = (0..map.columns).map(|column| land.top(column, row));
+        let words: Vec<String> = cells
+            .map(|top| top.map_or(".".into(), |top| top.to_string()))
+            .collect();
+        lines += &(words.join(" ") + "\n");
+    }
+    lines
+}
+
+#[track_caller]
+fn assert_tops(lines: &str, expected: &str) {
+    let expected: String = expected
+        .lines()
+        .map(str::trim)
+        .filter(|line| !line.is_empty())
+        .map(|line| line.to_owned() + "\n")
+        .collect();
+    assert_eq!(tops(&map(lines)), expected);
+}
+
+/// Volume of what is solid, and its least and greatest corner: x from the left, y from the ground, z from the map's first row.
+fn measured(map: &Map) -> (f64, [[f64; 3]; 2]) {
+    let middle = [map.columns as f64 / 2.0, 0.0, map.rows as f64 / 2.0];
+    let mut volume = 0.0;
+    let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+    for piece in Land::new(map)
+        .surface(0.5, 0.0)
+        .iter()
+        .flat_map(|(_, pieces)| pieces)
+    {
+        let place = |corner: u32| {
+            let place = piece.positions[corner as usize];
+            [0, 1, 2].map(|axis| f64::from(place[axis]) + middle[axis])
+        };
+        for triangle in &piece.triangles {
+            let [a, b, c] = triangle.map(place);
+            volume += (a[0] * (b[1] * c[2] - b[2] * c[1])
+                + a[1] * (b[2] * c[0] - b[0] * c[2])
+                + a[2] * (b[0] * c[1] - b[1] * c[0]))
+                / 6.0;
+            for axis in 0..3 {
+                for corner in [a, b, c] {
+                    bounds[0][axis] = bounds[0][axis].min(corner[axis]);
+                    bounds[1][axis] = bounds[1][axis].max(corner[axis]);
+                }
+            }
+        }
+    }
+    (volume, bounds)
+}
+
+#[track_caller]
+fn assert_volume(lines: &str, expected: f64) {
+    let (volume, _) = measured(&map(lines));
+    assert!(
+        (volume - expected).abs() < 1e-3,
+        "{volume} is not {expected}"
+    );
+}
+
+fn notes(lines: &str) -> Vec<Open> {
+    Land::new(&map(lines))
+        .notes()
+        .iter()
+        .map(|note| note.what)
+        .collect()
+}
+
+/// Rule 1, figure 3.4: width, height and depth are the tiles side by side, the browns and the greens.
+#[test]
+fn a_basic_solid_is_as_wide_high_and_deep_as_it_is_drawn() {
+    let basic = map("
+        g g g
+        g g g
+        b b b
+        b b b
+        b b b");
+    let (volume, [low, high]) = measured(&basic);
+    assert_eq!(volume.round(), 18.0);
+    assert_eq!(
+        [0, 1, 2].map(|axis| high[axis] - low[axis]),
+        [3.0, 3.0, 2.0]
+    );
+    // Its foot is seen at row 5, and z = r + y.
+    assert_eq!((low[1], high[2]), (0.0, 5.0));
+}
+
+/// Rule 2, figure 3.6 without edges: all tops are at one height, and what has fewer browns hangs.
+#[test]
+fn columns_with_fewer_browns_hang_below_the_common_top() {
+    let stairs = "
+        g g g
+        b g g
+        b b g
+        b b b";
+    assert_tops(
+        stairs,
+        "
+        3 3 3
+        . 3 3
+        . . 3
+        . . .",
+    );
+    // Depth times thickness: 1 × 3, 2 × 2, 3 × 1.
+    assert_volume(stairs, 10.0);
+    let (_, [low, _]) = measured(&map("
+        . g g
+        . b g
+        . . b"));
+    assert_eq!(low[1], 0.0);
+    assert_eq!(notes(stairs), []);
+}
+
+/// Rule 4, figure 3.6 with edges: stairs, each step on the ground.
+#[test]
+fn edges_make_stairs() {
+    let stairs = "
+        g|g|g
+        b g|g
+        b b g
+        b b b";
+    assert_tops(
+        stairs,
+        "
+        3 2 1
+        . 2 1
+        . . 1
+        . . .",
+    );
+    assert_volume(stairs, 10.0);
+}
+
+/// Rule 3, figure 3.5: what is drawn on a plate stands on it; beside it the same thing stands on the ground.
+#[test]
+fn a_thin_box_stands_on_a_plate() {
+    assert_tops(
+        "
+        . . g . . . g
+        g g b g g . b
+        g g b g g . b
+        g g g g g . .
+        b b b b b . .",
+        "
+        . . 3 . . . 2
+        1 1 . 1 1 . .
+        1 1 . 1 1 . .
+        1 1 1 1 1 . .
+        . . . . . . .",
+    );
+}
+
+/// Rule 7, figure 3.7 on the left: without edges there is a hole in the plate.
+#[test]
+fn without_edges_a_plate_has_a_hole() {
+    let plate = "
+        g g g g g
+        g g g g g
+        g g b g g
+        g g g g g
+        b b b b b";
+    assert_tops(
+        plate,
+        "
+        1 1 1 1 1
+        1 1 1 1 1
+        1 1 . 1 1
+        1 1 1 1 1
+        . . . . .",
+    );
+    assert_volume(plate, 19.0);
+    assert_eq!(notes(plate), [Open::Pits]);
+}
+
+/// Rules 4 and 5, figure 3.7 on the right: a ring of edges lifts a block onto the plate, which goes on below and behind it.
+#[test]
+fn a_ring_of_edges_lifts_a_block_onto_the_plate() {
+    let plate = "
+        g g g g g
+        :    -
+        g g|g|g g
+        g g b g g
+        g g g g g
+        b b b b b";
+    assert_tops(
+        plate,
+        "
+        1 1 1 1 1
+        1 1 2 1 1
+        1 1 . 1 1
+        1 1 1 1 1
+        . . . . .",
+    );
+    // The whole plate and one cube: what is hidden is filled.
+    assert_volume(plate, 21.0);
+    assert_eq!(notes(plate), []);
+}
+
+/// Rule 6, figure 3.8: without edges the tongue hangs, with edges it goes on to the front behind it.
+#[test]
+fn fronts_with_edges_end_flush_with_what_is_behind() {
+    let lines = |edge: &str| {
+        format!(
+            "
+            g g g g g
+            g g g g g
+            b g g g b
+            b g g g b
+            b{edge}b b b{edge}b
+            b{edge}b b b{edge}b"
+        )
+    };
+    assert_volume(&lines(" "), 40.0);
+    // In each of three columns 3 tiles at height 1 and 2 on the ground.
+    assert_volume(&lines("|"), 55.0);
+    for edge in [" ", "|"] {
+        assert_eq!(Land::new(&map(&lines(edge))).top(2, 3), Some(4));
+    }
+}
+
+/// Rule 7, figure 3.9: a pond is as deep as its far bank has browns.
+#[test]
+fn ponds_are_as_deep_as_their_far_wall() {
+    let pond = |browns: &str| {
+        format!(
+            "
+        g g g g g
+        {browns}
+        g w w w g
+        g w w w g
+        g g g g g
+        b b b b b
+        b b b b b
+        b b b b b"
+        )
+    };
+    assert_tops(
+        &pond("g b b b g"),
+        "
+        3 3 3 3 3
+        3 . . . 3
+        3 2 2 2 3
+        3 2 2 2 3
+        3 3 3 3 3
+        . . . . .
+        . . . . .
+        . . . . .",
+    );
+    // 5 × 5 tiles of 3, less the pond: what is drawn and one hidden row.
+    assert_volume(&pond("g b b b g"), 75.0 - 9.0);
+    assert_tops(
+        &pond("g b b b g\n g b b b g"),
+        "
+        3 3 3 3 3
+        3 . . . 3
+        3 . . . 3
+        3 1 1 1 3
+        3 1 1 1 3
+        3 3 3 3 3
+        . . . . .
+        . . . . .
+        . . . . .",
+    );
+}
+
+/// Rule 7: water that runs to the border lies at 0; a pond in ground at 0 lies below it.
+#[test]
+fn open_water_lies_at_the_ground() {
+    assert_tops(
+        "
+        g g g
+        b b b
+        w w w",
+        "
+        1 1 1
+        . . .
+        0 0 0",
+    );
+    assert_tops(
+        "
+        g g g
+        g b g
+        g w g
+        g g g",
+        "
+        0 0 0
+        0 . 0
+        0 -1 0
+        0 0 0",
+    );
+}
+
+/// Rule 7: a sunken floor.
+#[test]
+fn a_green_floor_lies_below_its_wall() {
+    assert_tops(
+        "
+        g g g g
+        g b b g
+        :  - -
+        g|g g|g
+        :  - -
+        g g g g
+        b b b b
+        b b b b",
+        "
+        2 2 2 2
+        2 . . 2
+        2 1 1 2
+        2 2 2 2
+        . . . .
+        . . . .",
+    );
+}
+
+/// Rule 8, figures 3.10 to 3.13: sizes of houses, and equation 3.1.
+#[test]
+fn houses_are_as_large_as_they_are_drawn() {
+    let house = map("
+        R R R
+        R R R
+        B B B");
+    let land = Land::new(&house);
+    let built: Vec<Built> = land.houses().collect();
+    assert_eq!(
+        built,
+        [Built {
+            base: 0,
+            width: 3,
+            depth: 2,
+            height: 1
+        }]
+    );
+    let high = |roof: f64| {
+        let surface = land.surface(roof, 0.0);
+        let corners = surface
+            .iter()
+            .flat_map(|(_, pieces)| pieces)
+            .flat_map(|piece| &piece.positions);
+        corners.fold(0.0_f64, |high, place| high.max(place[1].into()))
+    };
+    assert!((high(okoshi::terrain::ROOF) - (1.0 + 2.0 / 2.0_f64.sqrt())).abs() < 1e-6);
+    assert_eq!(high(0.5), 2.0);
+    // The block, and a prism of half its height at `Roof 0.5`.
+    let (volume, _) = measured(&house);
+    assert!((volume - (6.0 + 3.0)).abs() < 1e-6);
+}
+
+/// Rule 8, figure 3.10 on the right: a house on a hill stands as high as the hill.
+#[test]
+fn a_house_stands_on_its_hill() {
+    let land = Land::new(&map("
+        g g g g g
+        g R R R g
+        g R R R g
+        g B B B g
+        g B B B g
+        g g g g g
+        b b b b b
+        b b b b b"));
+    let built: Vec<Built> = land.houses().collect();
+    assert_eq!(
+        built,
+        [Built {
+            base: 2,
+            width: 3,
+            depth: 2,
+            height: 2
+        }]
+    );
+}
+
+/// Rule 8: edges part houses that stand side by side.
+#[test]
+fn edges_part_houses() {
+    let pair = |edge: &str| {
+        let land = Land::new(&map(&format!(
+            "
+            R R{edge}R R
+            R R{edge}R R
+            B B{edge}B B"
+        )));
+        land.houses().map(|house| house.width).collect::<Vec<_>>()
+    };
+    assert_eq!(pair(" "), [4]);
+    assert_eq!(pair("|"), [2, 2]);
+}
+
+/// Rule 9: paths are tops, with a note; fronts without a top are one tile deep.
+#[test]
+fn what_is_left_is_built_too() {
+    let path = "
+        g g g
+        g B g
+        g B g
+        b b b";
+    assert_tops(
+        path,
+        "
+        1 1 1
+        1 1 1
+        1 1 1
+        . . .",
+    );
+    assert!(matches!(
+        notes(path)[..],
+        [Open::Plain(okoshi::terrain::Tile::Beige)]
+    ));
+    let (volume, [low, high]) = measured(&map("
+        b b
+        b b
+        b b"));
+    assert_eq!(volume.round(), 6.0);
+    assert_eq!(
+        [0, 1, 2].map(|axis| high[axis] - low[axis]),
+        [2.0, 3.0, 1.0]
+    );
+}
+
+/// Rule 3: what nothing leads to is put on the ground, with a note.
+#[test]
+fn loose_groups_are_told() {
+    let lines = "
+        . w .
+        R R R
+        B B B";
+    assert!(notes(lines).is_empty());
+    let lines = "
+        b b b
+        b w b
+        b g b
+        b b b";
+    assert_eq!(Land::new(&map(lines)).top(1, 2), Some(1));
+    assert!(notes(lines).contains(&Open::Loose));
+}
+
+/// An arch: the lintel hangs between its posts, and what is behind is seen below it.
+#[test]
+fn arches_are_open() {
+    let arch = "
+        g g g g
+        b b b b
+        b g g b
+        b g g b";
+    let land = Land::new(&map(arch));
+    assert_eq!(land.top(0, 0), Some(3));
+    assert_eq!(land.top(1, 2), Some(0));
+    // Two posts of 3, a lintel of 2, and sheets of grass.
+    assert_volume(arch, 8.0);
+}
