@@ -86,7 +86,8 @@ fn tops_and_fronts_are_full_squares_from_45_degrees() {
     let [width, height] = sides(&plain, RED);
     let ratio = f64::from(height) / f64::from(width);
     assert!((ratio - 0.5_f64.sqrt()).abs() < 0.02, "{ratio}");
-    assert_eq!(sides(&plain, GREEN), [width, height]);
+    let front = sides(&plain, GREEN);
+    assert!(front[0].abs_diff(width) <= 1 && front[1].abs_diff(height) <= 1);
 }
 
 #[test]
@@ -289,29 +290,4 @@ fn a_wish_that_is_none_is_malformed() {
             "{message}"
         );
     }
-}
-
-#[test]
-fn scratch_time() {
-    let mut shapes = vec![];
-    for i in 0..16 {
-        for j in 0..16 {
-            for mut face in cube() {
-                for p in &mut face.positions { *p += Vec3::new(i as f32, 0.0, j as f32); }
-                shapes.push(face);
-            }
-        }
-    }
-    let file = file(&shapes, &used());
-    let begin = std::time::Instant::now();
-    let model = read(&file, &MemoryResolver::default()).unwrap();
-    let read_in = begin.elapsed();
-    let begin = std::time::Instant::now();
-    for _ in 0..20 {
-        let stage = Stage::new(&model, &model.rest()).unwrap();
-        let window = Window { left: 0.0, top: 1.0, width: 16.0, height: 17.0 };
-        let n = stage.seen(DRAWN, true, window, [16, 17]).unwrap().iter().flatten().count();
-        assert_eq!(n, 16 * 17);
-    }
-    eprintln!("read {:?}, stage+seen {:?}, triangles {}", read_in, begin.elapsed() / 20, shapes.len() * 2);
 }
