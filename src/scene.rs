@@ -65,9 +65,8 @@ pub enum ViewDependent {
     /// normalised, the scale is along u = (+Y − h)/√2, for a viewer in front (0, 1, −1)/√2, by
     /// R = 1 + (√2 − 1)·(1 − ||θ| − 45| / 45): 1 at the ground and from above, √2 at 45°.
     ///
-    /// Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, 3.2.6. Equation 3.2 there swaps its two ranges for
-    /// negative θ, by which R would jump to 1.83 just below the ground; its text and this want |θ|. Only viewers in
-    /// front occur there.
+    /// Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, 3.2.6, for viewers in front. Equation 3.2 there swaps
+    /// its two ranges for negative θ, by which R would leap to 1.83 just below the ground; here it depends on |θ| alone.
     Bend,
 }
 

@@ -42,7 +42,7 @@ pub(super) fn bend(global: DMat4, towards: DVec3) -> DMat4 {
 }
 
 /// The bend for the unit vector towards the viewer, +Y being up: a scale by R along u = (up − h)/√2, where h is the
-/// viewer's horizontal direction (Kitamura 3.2.6; R as its text has it, not equation 3.2 below the ground).
+/// viewer's horizontal direction (Kitamura, equation 3.2 with the ranges for negative θ, which are swapped in print, put right).
 fn of(towards: DVec3) -> DMat3 {
     let Some(horizontal) = DVec3::new(towards.x, 0.0, towards.z).try_normalize() else {
         // From straight above R is 1.

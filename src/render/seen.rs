@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::camera::View;
 use super::stage::{Posed, Stage};
-use super::trace::Tracer;
+use super::trace::{Rays, Tracer};
 use super::{RenderError, SIZE_LIMIT};
 
 /// Rows that one thread looks at, at a time.
@@ -80,7 +80,7 @@ impl Stage<'_> {
                 .map(|(row, column)| at(row, column))
                 .collect()
         };
-        self.with(view, bend, look)
+        self.with(view, bend, Rays::Few, look)
     }
 }
 

@@ -12,7 +12,7 @@ use super::light::Rig;
 use super::model::Model;
 use super::surface::{Frame, Surface};
 use super::tile::{TILE, draw};
-use super::trace::Tracer;
+use super::trace::{Rays, Tracer};
 use super::{Options, RenderError, SIZE_LIMIT};
 use crate::import::{ImportError, Pose};
 use crate::threads;
@@ -38,10 +38,10 @@ pub(super) struct Posed<'a> {
 }
 
 impl<'a> Posed<'a> {
-    fn new(model: &'a Model, surface: Surface) -> Self {
+    fn new(model: &'a Model, surface: Surface, rays: Rays) -> Self {
         let points = surface.used();
         Self {
-            tracer: Tracer::new(surface, &model.materials, &model.textures),
+            tracer: Tracer::new(surface, &model.materials, &model.textures, rays),
             points,
         }
     }
@@ -63,7 +63,7 @@ impl<'a> Stage<'a> {
                 pose: pose.clone(),
                 frame: surface.frame,
                 triangles: surface.triangles.len(),
-                settled: (!model.follows_viewer()).then(|| Posed::new(model, surface)),
+                settled: (!model.follows_viewer()).then(|| Posed::new(model, surface, Rays::Many)),
             })
         };
         threads::run(build).unwrap_or(Err(RenderError::Broken))
@@ -91,11 +91,15 @@ impl<'a> Stage<'a> {
         &self,
         view: View,
         bend: bool,
+        rays: Rays,
         work: impl FnOnce(&Posed<'_>) -> T + Send,
     ) -> Result<T, RenderError> {
         let done = threads::run(|| match &self.settled {
             Some(posed) => Ok(work(posed)),
-            None => Ok(work(&Posed::new(self.model, self.surface(view, bend)?))),
+            None => {
+                let surface = self.surface(view, bend)?;
+                Ok(work(&Posed::new(self.model, surface, rays)))
+            }
         });
         done.unwrap_or(Err(RenderError::Broken))
     }
@@ -146,7 +150,7 @@ impl<'a> Stage<'a> {
     }
 
     fn draw(&self, options: &Options, framing: &Framing, view: View) -> Result<Image, RenderError> {
-        let pixels = self.with(view, options.bend, |posed| {
+        let pixels = self.with(view, options.bend, Rays::Many, |posed| {
             pixels(posed, options, framing, view)
         })?;
         let [width, height] = options.size;
