@@ -46,8 +46,28 @@ pub struct Node {
     pub rotation: DQuat,
     /// Its solid.
     pub mesh: Option<usize>,
+    /// How what it shows follows the viewer.
+    pub view_dependent: Option<ViewDependent>,
     /// Where it comes from.
     pub provenance: Option<Provenance>,
+}
+
+/// How a node follows the viewer; glTF carries it as the extension `OKOSHI_view_dependent`.
+///
+/// A viewer that does not know it shows the node as it is: true 3D.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ViewDependent {
+    /// The node's mesh and all below it are scaled about the node's origin, in its frame (+Y up, ground level), so that
+    /// from 45° above and with parallel projection both tops and fronts are seen at full size, as role-playing games
+    /// draw them.
+    ///
+    /// With d the unit vector towards the viewer, θ = asin(d.y) its elevation in degrees and h = (d.x, 0, d.z)
+    /// normalised, the scale is along u = (+Y − h)/√2, for a viewer in front (0, 1, −1)/√2, by
+    /// R = 1 + (√2 − 1)·(1 − ||θ| − 45| / 45): 1 at the ground and from above, √2 at 45°.
+    ///
+    /// Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, 3.2.6, for viewers in front. Equation 3.2 there swaps
+    /// its two ranges for negative θ, by which R would leap to 1.83 just below the ground; here it depends on |θ| alone.
+    Bend,
 }
 
 /// Where a node comes from; glTF carries it as `extras.okoshi`.

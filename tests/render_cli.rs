@@ -6,6 +6,8 @@ use std::fs;
 
 use common::program::{BAD, Room};
 use image::{AnimationDecoder, ImageDecoder};
+use okoshi::gltf::{Container, write};
+use okoshi::scene::{Material, Mesh, Node, Piece, Primitive, Scene, Surface, ViewDependent};
 
 const GOOD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
   <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
@@ -287,4 +289,68 @@ fn errors_in_the_drawing() {
     .expect("written");
     ends(&room, "render none.svg", 1, "error");
     assert!(files(&room).is_empty());
+}
+
+/// A model of one upright square, one metre wide, that bends with the view.
+fn bent() -> Vec<u8> {
+    let square = Surface {
+        positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
+        normals: vec![[0.0, 0.0, 1.0]; 4],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        ..Surface::default()
+    };
+    let scene = Scene {
+        nodes: vec![Node {
+            name: "Island".to_owned(),
+            mesh: Some(0),
+            view_dependent: Some(ViewDependent::Bend),
+            ..Node::default()
+        }],
+        roots: vec![0],
+        meshes: vec![Mesh {
+            primitives: vec![Primitive {
+                pieces: vec![Piece::Surface(square)],
+                material: 0,
+            }],
+        }],
+        materials: vec![Material::default()],
+        ..Scene::default()
+    };
+    let mut out = std::io::Cursor::new(Vec::new());
+    write(&scene, Container::Glb, &mut out).expect("sound");
+    out.into_inner()
+}
+
+#[test]
+fn terrain_is_bent_with_the_view_unless_that_is_switched_off() {
+    let room = room();
+    room.write("bent.glb", &bent());
+    let ratio = |arguments: &str| {
+        let arguments = format!("render bent.glb -o bent.png --size 200x200 {arguments}");
+        ends(&room, &arguments, 0, "wrote bent.png");
+        let image = picture(&room, "bent.png");
+        let solid = image.enumerate_pixels().filter(|(_, _, p)| p.0[3] == 255);
+        let [mut low, mut high] = [[u32::MAX; 2], [0; 2]];
+        for (x, y, _) in solid {
+            low = [low[0].min(x), low[1].min(y)];
+            high = [high[0].max(x), high[1].max(y)];
+        }
+        f64::from(high[1] - low[1] + 1) / f64::from(high[0] - low[0] + 1)
+    };
+    let drawn = "--view 0,45 --projection orthographic";
+    let flat = 0.5_f64.sqrt();
+    for (arguments, wanted) in [
+        (drawn.to_owned(), 1.0),
+        (format!("{drawn} --bend on"), 1.0),
+        (format!("{drawn} --bend off"), flat),
+    ] {
+        let found = ratio(&arguments);
+        assert!((found - wanted).abs() < 0.02, "{arguments}: {found}");
+    }
+    ends(
+        &room,
+        "render bent.glb --bend sideways",
+        2,
+        "[possible values: on, off]",
+    );
 }

@@ -252,6 +252,8 @@ Examples:
   okoshi render human.svg --view=-60,30               from its right, and from above
   okoshi render human.svg -o turn.gif --turntable 36  the model turns, as a moving GIF
   okoshi render human.svg -o turn.png --turntable 8   turn-1.png to turn-8.png
+  okoshi render island.svg --view 0,45 --projection orthographic
+                                                      terrain, tile for tile as it is drawn
   okoshi render human.glb --size 1920x1080 --background '#ffffff'
 
 The picture shows what `okoshi build` writes, framed by itself. Its background is transparent.";
@@ -277,6 +279,9 @@ pub(super) struct Render {
     /// With what is farther away smaller, or with parallels parallel
     #[arg(long, default_value = "perspective")]
     pub(super) projection: Projection,
+    /// Bend terrain with the view, so that from 45° above tops and fronts are as large as drawn; off shows it as it is
+    #[arg(long, value_name = "WHEN", default_value = "on")]
+    pub(super) bend: Bend,
     /// What lies behind the model [default: nothing, transparent]
     #[arg(long, value_name = "#RRGGBB", value_parser = background)]
     pub(super) background: Option<[u8; 3]>,
@@ -306,6 +311,15 @@ pub(super) enum Projection {
     Perspective,
     /// Parallels stay parallel
     Orthographic,
+}
+
+/// Whether what follows the viewer is bent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Bend {
+    /// As the model asks for it: the drawn look
+    On,
+    /// Not at all: true 3D
+    Off,
 }
 
 fn view(text: &str) -> Result<View, String> {

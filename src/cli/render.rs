@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::io::{self, Cursor};
 use std::path::{Path, PathBuf};
 
-use super::args::{Common, Projection, Render, Shading};
+use super::args::{Bend, Common, Projection, Render, Shading};
 use super::loading::{Detail, describe, load, root};
 use super::progress::{counting, spinning};
 use super::{Outcome, fail, style};
@@ -232,6 +232,7 @@ fn options(arguments: &Render) -> Options {
             Shading::Flat => render::Shading::Flat,
             Shading::Smooth => render::Shading::Smooth,
         },
+        bend: arguments.bend == Bend::On,
         background: arguments.background,
     }
 }

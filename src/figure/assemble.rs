@@ -56,6 +56,7 @@ pub(super) fn assemble(
             translation: translation * model.scale,
             rotation,
             mesh: None,
+            view_dependent: None,
             provenance: Some(Provenance {
                 element: model.drawing.shapes[part.shape].element.id.clone(),
                 string: string.map(|text| text.as_str().to_owned()),

@@ -7,13 +7,16 @@ use serde::{Serialize, Serializer};
 use super::lists::list;
 use super::looks::{Images, Materials, Samplers, Textures};
 use super::packing::{Entry, IndexType, JointType, Kind, Packed, Run, View};
-use super::{ROOT, SKINNED};
+use super::{ROOT, SKINNED, VIEW_DEPENDENT};
 use crate::scene::{self, Scene};
 
 /// What stands before the lists.
 #[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
 struct Head {
     asset: Asset,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    extensions_used: Option<[&'static str; 1]>,
     scene: usize,
     scenes: [Stage; 1],
 }
@@ -52,6 +55,11 @@ pub(super) fn write(
             version: "2.0",
             generator: concat!("okoshi ", env!("CARGO_PKG_VERSION")),
         },
+        extensions_used: scene
+            .nodes
+            .iter()
+            .any(|node| node.view_dependent.is_some())
+            .then_some([VIEW_DEPENDENT]),
         scene: 0,
         scenes: [Stage {
             // A skinned mesh follows its joints alone, so it hangs on nothing.
@@ -169,6 +177,7 @@ fn nodes(scene: &Scene, packed: &Packed, out: &mut (impl Write + ?Sized)) -> io:
         skin: None,
         translation: None,
         rotation: None,
+        extensions: None,
         extras: None,
     };
     let skin = scene
@@ -210,6 +219,8 @@ pub(super) struct Node<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) rotation: Option<[Number; 4]>,
     #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extensions: Option<Extensions>,
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) extras: Option<Extras<'a>>,
 }
 
@@ -228,7 +239,33 @@ impl<'a> Node<'a> {
             skin: None,
             translation: moved.then(|| translation.map(Number)),
             rotation: turned.then(|| rotation.map(Number)),
+            extensions: node.view_dependent.map(Extensions::new),
             extras: provenance.and_then(Extras::new),
+        }
+    }
+}
+
+#[derive(Serialize, Clone, Copy)]
+pub(super) struct Extensions {
+    #[serde(rename = "OKOSHI_view_dependent")]
+    view_dependent: ViewDependent,
+}
+
+/// One object for each way of following the viewer, so that files of today and later ones are told apart by their keys.
+#[derive(Serialize, Clone, Copy)]
+struct ViewDependent {
+    bend: Bend,
+}
+
+#[derive(Serialize, Clone, Copy)]
+struct Bend {}
+
+impl Extensions {
+    pub(super) fn new(view_dependent: scene::ViewDependent) -> Self {
+        Self {
+            view_dependent: match view_dependent {
+                scene::ViewDependent::Bend => ViewDependent { bend: Bend {} },
+            },
         }
     }
 }

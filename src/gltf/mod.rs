@@ -31,6 +31,9 @@ pub const ROOT: &str = "Root";
 /// The name of the node that shows a skinned mesh.
 pub const SKINNED: &str = "Figure";
 
+/// The extension by which nodes follow the viewer (docs/view-dependent.md).
+pub const VIEW_DEPENDENT: &str = "OKOSHI_view_dependent";
+
 /// How the JSON and the binary data are put into one file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Container {

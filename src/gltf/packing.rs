@@ -12,7 +12,7 @@ use rustc_hash::FxHashMap;
 
 use super::memory::{Memory, Used};
 use super::{Again, invalid};
-use crate::scene::{Image, MediaType, Pose, Primitive, Scene, Surface};
+use crate::scene::{Image, MediaType, Mesh, Pose, Primitive, Scene, Surface};
 
 /// Primitives in a window.
 pub(super) const WINDOW: usize = 512;
@@ -298,10 +298,15 @@ impl Packed {
         scene: &Scene,
         write: &mut impl FnMut(&[u8]) -> io::Result<()>,
     ) -> io::Result<()> {
-        let solid = self.entries.iter().any(Option::is_some);
-        let Some(skin) = scene.skin.as_ref().filter(|_| solid) else {
+        let Some(skin) = &scene.skin else {
             return Ok(());
         };
+        let primitives = |mesh: &Mesh| mesh.primitives.len();
+        let first: usize = scene.meshes[..skin.mesh].iter().map(primitives).sum();
+        let of_skin = &self.entries[first..][..primitives(&scene.meshes[skin.mesh])];
+        if of_skin.iter().all(Option::is_none) {
+            return Ok(());
+        }
         let matrix = |pose: &Pose| {
             let back = pose.inverse();
             let matrix = DMat4::from_rotation_translation(back.rotation, back.translation);

@@ -3,7 +3,7 @@
 use std::io;
 
 use super::document::{
-    Accessor, Attributes, BufferView, Extras, Node, Number, Primitive, Provenance,
+    Accessor, Attributes, BufferView, Extensions, Extras, Node, Number, Primitive, Provenance,
 };
 use super::looks;
 use super::packing::{KINDS, RUNS, WINDOW};
@@ -44,6 +44,7 @@ pub(super) fn room(scene: &Scene) -> io::Result<u64> {
         skin: None,
         translation: Some([LONGEST; 3]),
         rotation: Some([LONGEST; 4]),
+        extensions: Some(Extensions::new(scene::ViewDependent::Bend)),
         extras: Some(Extras {
             okoshi: Provenance {
                 element: Some(""),

@@ -7,12 +7,14 @@ use serde_json::json;
 use super::*;
 use crate::scene::{
     AlphaMode, Filter, Image, Material, MediaType, Mesh, Node, Piece, Primitive, Provenance,
-    Surface, Texture, TextureUse, Wrap,
+    Surface, Texture, TextureUse, ViewDependent, Wrap,
 };
 
 mod textured;
 
 mod skinned;
+
+mod view_dependent;
 
 fn bytes(scene: &Scene, container: Container) -> Vec<u8> {
     let mut out = io::Cursor::new(vec![]);
@@ -394,6 +396,7 @@ fn the_gap_holds_the_longest_numbers() {
             longest.into(),
         ),
         mesh: Some(part),
+        view_dependent: Some(ViewDependent::Bend),
         provenance: Some(Provenance {
             element: Some("\n".repeat(9)),
             string: Some("\"".repeat(9)),

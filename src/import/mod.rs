@@ -1,9 +1,10 @@
 //! glTF 2.0 that others made, taken apart: for pictures of it, and for models that drawings link to.
 //!
 //! Read are the hierarchy, triangles (lists, strips, fans), normals, one set of texture coordinates, vertex colours
-//! and skins; materials and images are left to whoever wants them. Morph targets and animations are not read.
+//! and skins, and which nodes bend with the view; materials and images are left to whoever wants them. Morph targets and animations are not read.
 
 mod asset;
+mod bend;
 mod data;
 mod meshes;
 mod pose;
@@ -115,13 +116,16 @@ fn nodes(document: &Document) -> Result<Vec<Node>, ImportError> {
     };
     let mut nodes: Vec<Node> = document
         .nodes()
-        .map(|node| Node {
-            parent: None,
-            local: matrix(&node),
-            mesh: node.mesh().map(|mesh| mesh.index()),
-            skin: node.skin().map(|skin| skin.index()),
+        .map(|node| {
+            Ok(Node {
+                parent: None,
+                local: matrix(&node),
+                mesh: node.mesh().map(|mesh| mesh.index()),
+                skin: node.skin().map(|skin| skin.index()),
+                bent: bend::asked(&node)?,
+            })
         })
-        .collect();
+        .collect::<Result<_, ImportError>>()?;
     for node in document.nodes() {
         for child in node.children() {
             if nodes[child.index()].parent.replace(node.index()).is_some() {

@@ -2,6 +2,7 @@
 
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
 
+use super::bend::bend;
 use super::{ImportError, TRIANGLE_LIMIT};
 
 /// What a file shows, not yet posed.
@@ -36,6 +37,8 @@ pub(super) struct Node {
     pub(super) local: DMat4,
     pub(super) mesh: Option<usize>,
     pub(super) skin: Option<usize>,
+    /// What it shows is bent with the view.
+    pub(super) bent: bool,
 }
 
 #[derive(Debug)]
@@ -59,10 +62,24 @@ pub(super) struct Primitive {
     pub(super) material: Option<usize>,
 }
 
-/// Where every node stands in its parent's frame.
+/// Where every node stands in its parent's frame, and from where it is seen.
 #[derive(Debug, Clone)]
 pub struct Pose {
     locals: Vec<DMat4>,
+    /// Towards the viewer, in the world; without one, nothing follows the viewer.
+    towards: Option<DVec3>,
+}
+
+impl Pose {
+    /// The same pose, with what follows the viewer as it is seen from a direction: the vector towards the viewer, in the
+    /// world.
+    #[must_use]
+    pub(crate) fn seen_from(&self, towards: Option<DVec3>) -> Self {
+        Self {
+            locals: self.locals.clone(),
+            towards,
+        }
+    }
 }
 
 impl Geometry {
@@ -70,18 +87,32 @@ impl Geometry {
     pub(crate) fn rest(&self) -> Pose {
         Pose {
             locals: self.nodes.iter().map(|node| node.local).collect(),
+            towards: None,
         }
+    }
+
+    /// Whether anything looks otherwise from elsewhere.
+    pub(crate) fn follows_viewer(&self) -> bool {
+        self.nodes.iter().any(|node| node.bent)
     }
 
     /// From each node's frame into the world.
     fn globals(&self, pose: &Pose) -> Vec<DMat4> {
         let mut globals = vec![DMat4::IDENTITY; self.nodes.len()];
-        for node in &self.order {
-            let local = pose.locals[*node];
-            globals[*node] = match self.nodes[*node].parent {
-                Some(parent) => globals[parent] * local,
-                None => local,
+        // Below a node that is bent nothing is bent again.
+        let mut bent = vec![false; self.nodes.len()];
+        for index in &self.order {
+            let node = &self.nodes[*index];
+            let local = pose.locals[*index];
+            let (mut global, within) = match node.parent {
+                Some(parent) => (globals[parent] * local, bent[parent]),
+                None => (local, false),
             };
+            if let Some(towards) = pose.towards.filter(|_| node.bent && !within) {
+                global *= bend(global, towards);
+            }
+            globals[*index] = global;
+            bent[*index] = within || node.bent;
         }
         globals
     }

@@ -1,6 +1,8 @@
 //! Where the camera stands and what it sees.
 
-use glam::{Vec2, Vec3};
+use std::borrow::Cow;
+
+use glam::{DVec3, Vec2, Vec3};
 
 /// How far the camera can be lifted or lowered, degrees.
 pub const PITCH_LIMIT: f64 = 90.0;
@@ -33,6 +35,19 @@ impl Default for View {
     }
 }
 
+impl View {
+    /// Right and up in the picture, and towards the camera: unit vectors of the model's world.
+    pub(super) fn axes(self) -> [DVec3; 3] {
+        let (yaw_sin, yaw_cos) = self.yaw.to_radians().sin_cos();
+        let (pitch_sin, pitch_cos) = self.pitch.to_radians().sin_cos();
+        [
+            DVec3::new(yaw_cos, 0.0, -yaw_sin),
+            DVec3::new(-pitch_sin * yaw_sin, pitch_cos, -pitch_sin * yaw_cos),
+            DVec3::new(pitch_cos * yaw_sin, pitch_sin, pitch_cos * yaw_cos),
+        ]
+    }
+}
+
 /// How space becomes a plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Projection {
@@ -53,13 +68,11 @@ struct Axes {
 
 impl Axes {
     fn new(view: View) -> Self {
-        let (yaw_sin, yaw_cos) = view.yaw.to_radians().sin_cos();
-        let (pitch_sin, pitch_cos) = view.pitch.to_radians().sin_cos();
-        let vector = |x: f64, y: f64, z: f64| Vec3::new(x as f32, y as f32, z as f32);
+        let [right, up, towards] = view.axes().map(|axis| axis.as_vec3());
         Self {
-            right: vector(yaw_cos, 0.0, -yaw_sin),
-            up: vector(-pitch_sin * yaw_sin, pitch_cos, -pitch_sin * yaw_cos),
-            forward: vector(-pitch_cos * yaw_sin, -pitch_sin, -pitch_cos * yaw_cos),
+            right,
+            up,
+            forward: -towards,
         }
     }
 
@@ -86,13 +99,14 @@ pub(super) struct Framing {
 }
 
 impl Framing {
-    /// Has all points in the picture from each of the views, with a margin, as large as they can be.
-    pub(super) fn new(
+    /// Has all points in the picture from each of the views, with a margin, as large as they can be. `points` tells what
+    /// is to be seen from a view, and may fail.
+    pub(super) fn new<'p, E>(
         views: &[View],
         projection: Projection,
         size: [u32; 2],
-        points: &[Vec3],
-    ) -> Self {
+        points: impl Fn(View) -> Result<Cow<'p, [Vec3]>, E>,
+    ) -> Result<Self, E> {
         let size_of = Vec2::new(size[0] as f32, size[1] as f32);
         let aspect = size_of / size_of.max_element();
         let inner = aspect * (Vec2::ONE - 2.0 * MARGIN * size_of.min_element() / size_of);
@@ -104,8 +118,9 @@ impl Framing {
         let mut high = Vec2::NEG_INFINITY;
         let mut low = Vec2::NEG_INFINITY;
         let mut nearest = f32::INFINITY;
-        for axes in views.iter().map(|view| Axes::new(*view)) {
-            for point in points {
+        for view in views {
+            let axes = Axes::new(*view);
+            for point in &*points(*view)? {
                 let seen = axes.of(*point);
                 let slope = tangents * seen.z;
                 high = high.max(seen.truncate() - slope);
@@ -130,17 +145,24 @@ impl Framing {
             half,
         };
         if projection == Projection::Perspective {
-            (0..CENTRINGS).for_each(|_| framing.centre(views, points));
+            for _ in 0..CENTRINGS {
+                framing.centre(views, &points)?;
+            }
         }
-        framing
+        Ok(framing)
     }
 
     /// Moves the eye sideways, so that the border is as wide on the left as on the right, and above as below.
-    fn centre(&mut self, views: &[View], points: &[Vec3]) {
+    fn centre<'p, E>(
+        &mut self,
+        views: &[View],
+        points: impl Fn(View) -> Result<Cow<'p, [Vec3]>, E>,
+    ) -> Result<(), E> {
         let mut high = Vec2::NEG_INFINITY;
         let mut low = Vec2::NEG_INFINITY;
-        for axes in views.iter().map(|view| Axes::new(*view)) {
-            for point in points {
+        for view in views {
+            let axes = Axes::new(*view);
+            for point in &*points(*view)? {
                 let seen = axes.of(*point);
                 let place = (seen.truncate() - self.middle) / (seen.z - self.depth);
                 high = high.max(place);
@@ -149,6 +171,7 @@ impl Framing {
         }
         // The model's middle lies at depth 0.
         self.middle += (high - low) / 2.0 * -self.depth;
+        Ok(())
     }
 
     /// The camera that sees one of the views so.

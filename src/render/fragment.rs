@@ -5,7 +5,7 @@ use glam::{Vec2, Vec3};
 use super::Shading;
 use super::camera::Camera;
 use super::light::{Arriving, even};
-use super::surface::Alpha;
+use super::surface::{Alpha, Surface};
 use super::trace::{Hit, Tracer};
 
 /// Rays of every pixel.
@@ -163,13 +163,13 @@ impl Eye<'_> {
 
     /// The ground where a ray meets it, seen from above and not too far from the model.
     fn ground(&self, origin: Vec3, direction: Vec3) -> Option<Fragment> {
-        let half = self.tracer.surface.half;
-        let distance = (-half.y - origin.y) / direction.y;
+        let surface = &self.tracer.surface;
+        let distance = (surface.low.y - origin.y) / direction.y;
         if direction.y > -1e-4 || !(0.0..1e6).contains(&distance) {
             return None;
         }
         let place = origin + direction * distance;
-        (ground_fade(place, half) > 0.0).then(|| Fragment {
+        (ground_fade(place, surface) > 0.0).then(|| Fragment {
             matter: Matter::Ground,
             weight: 0.0,
             colour: Vec3::ZERO,
@@ -182,9 +182,9 @@ impl Eye<'_> {
     }
 }
 
-/// How much of a shadow is left on the ground at a place, the model's box having these half sides.
-pub(super) fn ground_fade(place: Vec3, half: Vec3) -> f32 {
-    let beside = (place.abs() - half).max(Vec3::ZERO);
+/// How much of a shadow of the model is left on the ground at a place.
+pub(super) fn ground_fade(place: Vec3, model: &Surface) -> f32 {
+    let beside = (model.low - place).max(place - model.high).max(Vec3::ZERO);
     let share = 1.0 - (Vec2::new(beside.x, beside.z).length() / 0.65).min(1.0);
     share * share * (3.0 - 2.0 * share)
 }

@@ -1,6 +1,7 @@
 //! Pictures of a model: glTF in, pixels out. Knows no drawing, opens no file, prints nothing.
 //!
-//! [`read`] takes a file's bytes apart, [`Model::rest`] and [`Stage::new`] pose it, [`Stage::picture`] draws it:
+//! [`read`] takes a file's bytes apart, [`Model::rest`] and [`Stage::new`] pose it, [`Stage::picture`] draws it;
+//! [`Stage::seen`] tells what is seen where, without light:
 //!
 //! ```text
 //!  bytes ─► Model ─► (Pose) ─► Stage ─► Image ─► encode
@@ -25,6 +26,7 @@ mod fragment;
 mod light;
 mod materials;
 mod model;
+mod seen;
 mod shade;
 mod stage;
 mod surface;
@@ -39,6 +41,7 @@ pub use camera::{PITCH_LIMIT, Projection, View};
 pub use encode::{Animation, Palette, write_png};
 pub use error::RenderError;
 pub use model::{Model, read};
+pub use seen::{Seen, Window};
 pub use stage::{Image, Stage};
 
 /// The longest side of a picture, pixels.
@@ -67,6 +70,9 @@ pub struct Options {
     pub projection: Projection,
     /// How surfaces are shaded.
     pub shading: Shading,
+    /// Whether nodes with the extension `OKOSHI_view_dependent` are bent as it says (docs/view-dependent.md); else they
+    /// are shown as they are.
+    pub bend: bool,
     /// sRGB; transparent if there is none.
     pub background: Option<[u8; 3]>,
 }
@@ -78,6 +84,7 @@ impl Default for Options {
             view: View::default(),
             projection: Projection::default(),
             shading: Shading::default(),
+            bend: true,
             background: None,
         }
     }

@@ -2,7 +2,7 @@
 
 use super::RenderError;
 use super::materials;
-use super::surface::{Material, Surface};
+use super::surface::{Frame, Material, Surface};
 use super::texture::Texture;
 use crate::import::{self, Geometry, Pose};
 use crate::resolver::Resolver;
@@ -36,9 +36,20 @@ impl Model {
         self.geometry.rest()
     }
 
+    /// Whether anything looks otherwise from elsewhere.
+    pub(super) fn follows_viewer(&self) -> bool {
+        self.geometry.follows_viewer()
+    }
+
     /// All triangles in a pose.
-    pub(super) fn surface(&self, pose: &Pose) -> Result<Surface, RenderError> {
+    ///
+    /// They are moved into the frame, or where there is none into one that they fill.
+    pub(super) fn surface(
+        &self,
+        pose: &Pose,
+        frame: Option<Frame>,
+    ) -> Result<Surface, RenderError> {
         let soup = self.geometry.triangles(pose)?;
-        Ok(Surface::new(soup, self.materials.len() - 1))
+        Ok(Surface::new(soup, self.materials.len() - 1, frame))
     }
 }

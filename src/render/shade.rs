@@ -23,7 +23,7 @@ pub(super) fn shade(
 ) -> Vec4 {
     match fragment.matter {
         Matter::Ground => {
-            let fade = ground_fade(fragment.place, tracer.surface.half);
+            let fade = ground_fade(fragment.place, &tracer.surface);
             Vec4::new(0.0, 0.0, 0.0, shadow(arriving, rig) * fade)
         }
         Matter::Of(material) => {

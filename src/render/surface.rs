@@ -30,7 +30,22 @@ pub(super) struct Material {
     pub(super) unlit: bool,
 }
 
-/// Triangles, moved so that their box is centred at the origin and its longest side is 1.
+/// How the world is put on the stage: to `(point - middle) * scale`.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Frame {
+    pub(super) middle: DVec3,
+    pub(super) scale: f64,
+}
+
+impl Frame {
+    /// Where a point of the world goes.
+    pub(super) fn place(&self, point: DVec3) -> DVec3 {
+        (point - self.middle) * self.scale
+    }
+}
+
+/// Triangles on the stage: unless they keep to a frame from before, their box is centred at the origin and its longest
+/// side is 1.
 #[derive(Debug, Default)]
 pub(super) struct Surface {
     pub(super) positions: Vec<Vec3>,
@@ -42,13 +57,15 @@ pub(super) struct Surface {
     pub(super) triangles: Vec<[u32; 3]>,
     /// The material of each triangle.
     pub(super) materials: Vec<u32>,
-    /// Half the box's sides.
-    pub(super) half: Vec3,
+    /// The least and the greatest corner of the box.
+    pub(super) low: Vec3,
+    pub(super) high: Vec3,
+    pub(super) frame: Frame,
 }
 
 impl Surface {
     /// The triangles that stand somewhere and have an area. What has no material has the one behind the `materials`.
-    pub(super) fn new(soup: Soup, materials: usize) -> Self {
+    pub(super) fn new(soup: Soup, materials: usize, frame: Option<Frame>) -> Self {
         let mut surface = Self {
             normals: soup.normals,
             uvs: soup.uvs,
@@ -61,12 +78,12 @@ impl Surface {
                 .collect(),
             ..Self::default()
         };
-        surface.place(&soup.positions);
+        surface.place(&soup.positions, frame);
         surface
     }
 
     /// Takes over the positions; drops triangles that stand nowhere or have no area.
-    fn place(&mut self, world: &[DVec3]) {
+    fn place(&mut self, world: &[DVec3], frame: Option<Frame>) {
         let mut low = DVec3::INFINITY;
         let mut high = DVec3::NEG_INFINITY;
         let mut kept = self
@@ -93,11 +110,15 @@ impl Surface {
         let middle = (low + high) / 2.0;
         let size = (high - low).max_element();
         let scale = if size > 0.0 { 1.0 / size } else { 1.0 };
+        let frame = frame.unwrap_or(Frame { middle, scale });
         self.positions = world
             .iter()
-            .map(|point| ((point - middle) * scale).as_vec3())
+            .map(|point| frame.place(*point).as_vec3())
             .collect();
-        self.half = ((high - low) / 2.0 * scale).as_vec3();
+        let half = ((high - low) / 2.0 * frame.scale).as_vec3();
+        let middle = frame.place(middle).as_vec3();
+        (self.low, self.high) = (middle - half, middle + half);
+        self.frame = frame;
     }
 
     /// The corners that triangles have.

@@ -10,6 +10,7 @@ use serde_json::{Value, json};
 use super::*;
 use crate::resolver::MemoryResolver;
 
+mod bend;
 mod files;
 
 /// A mesh on a node of its own.

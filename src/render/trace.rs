@@ -36,11 +36,21 @@ pub(super) struct Hit {
     pub(super) shares: Vec3,
 }
 
+/// How many rays will be sent, which says how good a tree is worth its time.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Rays {
+    /// One a pixel of a small picture.
+    Few,
+    /// Those of a lit picture.
+    Many,
+}
+
 impl<'a> Tracer<'a> {
     pub(super) fn new(
         mut surface: Surface,
         materials: &'a [Material],
         textures: &'a [Option<Texture>],
+        rays: Rays,
     ) -> Self {
         let of = |[a, b, c]: [u32; 3]| {
             let at = |corner: u32| Vec3A::from(surface.positions[corner as usize]);
@@ -51,11 +61,11 @@ impl<'a> Tracer<'a> {
             .iter()
             .map(|corners| of(*corners))
             .collect();
-        let tree = build_bvh2(
-            &triangles,
-            BvhBuildParams::medium_build(),
-            &mut Duration::default(),
-        );
+        let effort = match rays {
+            Rays::Few => BvhBuildParams::fastest_build(),
+            Rays::Many => BvhBuildParams::medium_build(),
+        };
+        let tree = build_bvh2(&triangles, effort, &mut Duration::default());
         let order = || tree.primitive_indices.iter().map(|index| *index as usize);
         let triangles = order().map(|index| triangles[index]).collect();
         surface.triangles = order().map(|index| surface.triangles[index]).collect();

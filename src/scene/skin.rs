@@ -115,6 +115,8 @@ impl std::error::Error for TooManyJoints {}
 impl Scene {
     /// The same model with one skinned mesh, a primitive a material; the nodes become its joints.
     ///
+    /// Nodes that follow the viewer and those below them keep meshes of their own: a skin's corners know no viewer.
+    ///
     /// # Errors
     /// More nodes than [`MOST_JOINTS`].
     pub fn skinned(mut self) -> Result<Self, TooManyJoints> {
@@ -123,8 +125,12 @@ impl Scene {
             return Err(TooManyJoints { joints });
         }
         let rest = rest(&self.nodes);
+        let kept = below_view_dependent(&self.nodes);
         let mut by_material: Vec<Vec<Piece>> = vec![Vec::new(); self.materials.len()];
         for (joint, node) in self.nodes.iter_mut().enumerate() {
+            if kept[joint] {
+                continue;
+            }
             let Some(mesh) = node.mesh.take() else {
                 continue;
             };
@@ -145,13 +151,43 @@ impl Scene {
             .filter(|(_, pieces)| !pieces.is_empty())
             .map(|(material, pieces)| Primitive { pieces, material })
             .collect();
-        self.meshes.clear();
+        self.keep_used_meshes();
         if !primitives.is_empty() {
+            let mesh = self.meshes.len();
             self.meshes.push(Mesh { primitives });
-            self.skin = Some(Skin { mesh: 0, rest });
+            self.skin = Some(Skin { mesh, rest });
         }
         Ok(self)
     }
+
+    /// Leaves out the meshes that no node shows.
+    fn keep_used_meshes(&mut self) {
+        let mut kept = vec![None; self.meshes.len()];
+        for mesh in self.nodes.iter().filter_map(|node| node.mesh) {
+            kept[mesh] = Some(0);
+        }
+        let mut numbers = 0..;
+        for kept in kept.iter_mut().flatten() {
+            *kept = numbers.next().unwrap_or_default();
+        }
+        for node in &mut self.nodes {
+            node.mesh = node.mesh.and_then(|mesh| kept[mesh]);
+        }
+        let mut kept = kept.into_iter();
+        self.meshes.retain(|_| kept.next().flatten().is_some());
+    }
+}
+
+/// Which nodes follow the viewer, by themselves or with a node above them; a child stands behind its parent.
+fn below_view_dependent(nodes: &[Node]) -> Vec<bool> {
+    let mut found = vec![false; nodes.len()];
+    for (index, node) in nodes.iter().enumerate() {
+        found[index] |= node.view_dependent.is_some();
+        for child in &node.children {
+            found[*child] = found[index];
+        }
+    }
+    found
 }
 
 /// Where nodes stand in the world; a child stands behind its parent.

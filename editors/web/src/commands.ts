@@ -56,6 +56,16 @@ export class Commands {
     this.viewer.setParallel(!this.viewer.view.isParallel);
   }
 
+  /** Whether the model has anything that bends with the view. */
+  get bends(): boolean {
+    return this.viewer.model?.bend.isEmpty === false;
+  }
+
+  /** Goes between the drawn look and true 3D. */
+  toggleBend(): void {
+    this.viewer.setBent(this.viewer.bent > 0 ? 0 : 1);
+  }
+
   nextShading(): void {
     const next = SHADINGS[(SHADINGS.indexOf(this.viewer.shading) + 1) % SHADINGS.length];
     if (next) this.viewer.setShading(next);

@@ -6,6 +6,7 @@ import { Commands } from "./commands";
 import { h } from "./dom";
 import { findHost } from "./host/host";
 import { Bar } from "./panels/bar";
+import { BendBar } from "./panels/bendbar";
 import { Clips } from "./panels/clips";
 import { Findings } from "./panels/findings";
 import { Gallery } from "./panels/gallery";
@@ -57,7 +58,7 @@ function start(page: HTMLElement): void {
   commands.help = () => help.toggle();
 
   place.append(posebar.element, new Notes(state, viewer).element, findings.element);
-  const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, clips.element, new Side(state, tree, inspector).element);
+  const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, new BendBar(viewer, commands).element, clips.element, new Side(state, tree, inspector).element);
   page.append(new Bar(state, viewer).element, studio, new Gallery(state, host).element, help.element);
 
   const shows = (): boolean => state.current !== null;

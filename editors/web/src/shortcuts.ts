@@ -50,6 +50,9 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
       case "Digit7":
       case "Numpad7":
         return () => view.look(shiftKey ? "bottom" : "top");
+      case "Digit4":
+      case "Numpad4":
+        return commands.bends ? () => viewer.lookAsDrawn() : undefined;
       case "Digit5":
       case "Numpad5":
         return () => commands.toggleParallel();
@@ -78,6 +81,8 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
         return () => view.zoom(1 / ZOOM);
       case "f":
         return shiftKey ? () => void commands.toggleFullScreen() : () => view.frame();
+      case "b":
+        return commands.bends ? () => commands.toggleBend() : undefined;
       case "z":
         return () => commands.nextShading();
       case "p":

@@ -97,3 +97,20 @@ export async function picture(page: Page, name?: string): Promise<{ at(place: { 
     },
   };
 }
+
+/** Names of things that lie over each other, or reach out of the window. */
+export const overlaps = (page: Page) =>
+  page.evaluate(() => {
+    const seen = [...document.querySelectorAll<HTMLElement>(".bar > *, .toolbar button, .findings, .side, .bendbar > *, .clips > *, .posebar")].filter((one) => one.offsetParent !== null && one.getBoundingClientRect().width > 0);
+    const wrong: string[] = [];
+    const say = (one: Element) => one.getAttribute("aria-label") ?? one.textContent?.trim().slice(0, 20) ?? one.className;
+    seen.forEach((a, at) => {
+      const own = a.getBoundingClientRect();
+      if (own.left < -0.5 || own.right > innerWidth + 0.5 || own.top < -0.5 || own.bottom > innerHeight + 0.5) wrong.push(`${say(a)} reaches out of the window`);
+      for (const b of seen.slice(at + 1)) {
+        const other = b.getBoundingClientRect();
+        if (own.left < other.right - 0.5 && other.left < own.right - 0.5 && own.top < other.bottom - 0.5 && other.top < own.bottom - 0.5) wrong.push(`${say(a)} and ${say(b)}`);
+      }
+    });
+    return wrong;
+  });

@@ -1,8 +1,7 @@
 import assert from "node:assert/strict";
 import { copyFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Page } from "playwright-core";
-import { camera, picture, shown, still } from "./browser";
+import { camera, overlaps, picture, shown, still } from "./browser";
 import type { Made } from "./drawings";
 import { browse, build, example, FIGURE, one } from "./setup";
 import { make } from "./drawings";
@@ -10,23 +9,6 @@ import { make } from "./drawings";
 const HUMAN = example("human");
 const broken = (): Made => build(HUMAN, (text) => text.replaceAll("@Ubody", "@Ubdoy"));
 const phone = { viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 } as const;
-
-/** Names of things that lie over each other, or reach out of the window. */
-const overlaps = (page: Page) =>
-  page.evaluate(() => {
-    const seen = [...document.querySelectorAll<HTMLElement>(".bar > *, .toolbar button, .findings, .side, .clips > *, .posebar")].filter((one) => one.offsetParent !== null && one.getBoundingClientRect().width > 0);
-    const wrong: string[] = [];
-    const say = (one: Element) => one.getAttribute("aria-label") ?? one.textContent?.trim().slice(0, 20) ?? one.className;
-    seen.forEach((a, at) => {
-      const own = a.getBoundingClientRect();
-      if (own.left < -0.5 || own.right > innerWidth + 0.5 || own.top < -0.5 || own.bottom > innerHeight + 0.5) wrong.push(`${say(a)} reaches out of the window`);
-      for (const b of seen.slice(at + 1)) {
-        const other = b.getBoundingClientRect();
-        if (own.left < other.right - 0.5 && other.left < own.right - 0.5 && own.top < other.bottom - 0.5 && other.top < own.bottom - 0.5) wrong.push(`${say(a)} and ${say(b)}`);
-      }
-    });
-    return wrong;
-  });
 
 browse("errors open the findings over the last good model, and close them when they are gone", one(HUMAN), async (page, host) => {
   await shown(page, 1);

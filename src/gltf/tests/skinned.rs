@@ -12,7 +12,7 @@ fn chain(joints: usize) -> Scene {
         translation: DVec3::new(0.5, 1.0, -0.25),
         rotation: DQuat::from_rotation_z(0.7) * DQuat::from_rotation_x(0.3),
         mesh: Some(index % 3),
-        provenance: None,
+        ..Node::default()
     };
     let mesh = |material: usize| Mesh {
         primitives: vec![primitive(strip(5 + material as u32), material % 2)],

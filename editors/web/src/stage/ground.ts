@@ -8,6 +8,7 @@ import {
   Group,
   LineBasicMaterial,
   LineSegments,
+  Matrix4,
   Mesh,
   PlaneGeometry,
   ShadowMaterial,
@@ -23,6 +24,8 @@ const ROOM = 1.1;
 
 export class Ground {
   readonly group = new Group();
+  /** What one sees of it. */
+  private readonly plane = new Group();
   private readonly shadow = new Mesh(new PlaneGeometry(1, 1).rotateX(-Math.PI / 2), new ShadowMaterial({ opacity: 0.22, depthWrite: false }));
   private readonly grid = new LineSegments(gridLines(), new LineBasicMaterial({ vertexColors: true, transparent: true, depthWrite: false }));
   /** From straight above. It gives no light: only the ground asks what it reaches. */
@@ -38,7 +41,9 @@ export class Ground {
     this.sun.shadow.blurSamples = 16;
     // This kind of shadow map holds what receives shadows too: without it the ground would shade itself.
     this.sun.shadow.bias = -0.003;
-    this.group.add(this.grid, this.shadow, this.sun, this.sun.target);
+    this.plane.matrixAutoUpdate = false;
+    this.plane.add(this.grid, this.shadow);
+    this.group.add(this.plane, this.sun, this.sun.target);
     this.group.visible = false;
     scene.add(this.group);
   }
@@ -64,6 +69,14 @@ export class Ground {
     camera.far = size.y + reach * 1.5;
     camera.updateProjectionMatrix();
     this.group.visible = true;
+    this.bend(new Matrix4());
+  }
+
+  /** Bends it as terrain above it is bent, by a matrix of the world. */
+  bend(inWorld: Matrix4): void {
+    this.group.updateMatrix();
+    this.plane.matrix.copy(this.group.matrix).invert().multiply(inWorld).multiply(this.group.matrix);
+    this.plane.matrixWorldNeedsUpdate = true;
   }
 
   color(color: string): void {

@@ -2,6 +2,7 @@
 
 import { Box3, DoubleSide, Group, Mesh, MeshStandardMaterial, SkinnedMesh, Texture, TextureLoader, Vector3, type AnimationClip, type Material, type Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { Bend } from "./bend";
 
 export type Shading = "smooth" | "flat" | "wire" | "edges";
 
@@ -25,6 +26,7 @@ export class Model {
   private readonly materials = new Map<Material, { readonly flat: boolean }>();
   readonly meshes: Mesh[] = [];
   readonly box: Box3;
+  readonly bend: Bend;
   readonly triangles: number;
 
   constructor(readonly root: Group, readonly clips: readonly AnimationClip[]) {
@@ -55,6 +57,7 @@ export class Model {
     this.triangles = Math.round(triangles);
     root.updateMatrixWorld(true);
     this.box = new Box3().setFromObject(root);
+    this.bend = new Bend(root);
     if (this.box.isEmpty()) this.box.set(new Vector3(-0.5, 0, -0.5), new Vector3(0.5, 1, 0.5));
   }
 

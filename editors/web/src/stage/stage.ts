@@ -14,6 +14,8 @@ export class Stage {
   readonly scene = new Scene();
   readonly renderer: WebGLRenderer;
   readonly lights: Lights;
+  /** Called with the camera before the scene is drawn. */
+  follow: (camera: Camera) => void = () => {};
   private readonly steps: BeforeFrame[] = [];
   private once: (() => void)[] = [];
   private asked = false;
@@ -84,6 +86,7 @@ export class Stage {
   /** Draws now. */
   draw(camera: Camera = this.view.camera): void {
     this.lights.follow(camera);
+    this.follow(camera);
     this.renderer.render(this.scene, camera);
   }
 

@@ -3,6 +3,7 @@
 import { Box3, OrthographicCamera, PerspectiveCamera, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { wantsStillness } from "../dom";
+import { cornersOf } from "./bend";
 
 /** Degrees to the model's left and up, as `okoshi render --view` takes them. */
 export const VIEWS = {
@@ -13,6 +14,8 @@ export const VIEWS = {
   otherSide: [-90, 0],
   top: [0, 90],
   bottom: [0, -90],
+  /** As role-playing games are drawn: tops and fronts. */
+  drawn: [0, 45],
 } as const satisfies Record<string, readonly [number, number]>;
 export type ViewName = keyof typeof VIEWS;
 
@@ -30,6 +33,7 @@ export class View {
   private readonly controls: OrbitControls;
   private readonly listeners: (() => void)[] = [];
   private readonly box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
+  private points: (towards: Vector3) => Vector3[] = () => cornersOf(this.box);
   private aspect = 1;
   private animation = 0;
   camera: PerspectiveCamera | OrthographicCamera = this.perspective;
@@ -74,17 +78,19 @@ export class View {
     this.changed();
   }
 
-  /** What there is to be seen. The camera stays. */
-  bound(box: Box3): void {
+  /** What there is to be seen, and points around it, if these are others from elsewhere. The camera stays. */
+  bound(box: Box3, points: ((towards: Vector3) => Vector3[]) | null = null): void {
     this.box.copy(box);
+    this.points = points ?? (() => cornersOf(this.box));
     this.changed();
   }
 
   /** Moves until all is seen, from where the camera is or from the named view. */
   frame(name?: ViewName, moves = true): void {
     const direction = name ? directionOf(VIEWS[name]) : this.direction();
-    const centre = this.box.getCenter(new Vector3());
-    this.go(direction, centre, this.distanceFor(direction, centre), moves);
+    const points = this.points(direction);
+    const centre = new Box3().setFromPoints(points).getCenter(new Vector3());
+    this.go(direction, centre, this.distanceFor(direction, centre, points), moves);
   }
 
   /** Looks from the named side; distance and target stay. */
@@ -132,17 +138,16 @@ export class View {
     return this.height() / (2 * Math.tan((FIELD * Math.PI) / 360));
   }
 
-  /** The least distance from which no corner of the box is outside the picture. */
-  private distanceFor(direction: Vector3, centre: Vector3): number {
+  /** The least distance from which no point is outside the picture. */
+  private distanceFor(direction: Vector3, centre: Vector3, points: readonly Vector3[]): number {
     const turn = new PerspectiveCamera();
     turn.position.copy(direction);
     turn.lookAt(0, 0, 0);
     const inverse = turn.quaternion.clone().invert();
     const up = Math.tan((FIELD * Math.PI) / 360) / MARGIN;
     let distance = 1e-6;
-    for (let corner = 0; corner < 8; corner++) {
-      const { min, max } = this.box;
-      const at = new Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z).sub(centre).applyQuaternion(inverse);
+    for (const point of points) {
+      const at = point.clone().sub(centre).applyQuaternion(inverse);
       distance = Math.max(distance, at.z + Math.abs(at.y) / up, at.z + Math.abs(at.x) / (up * this.aspect));
     }
     return distance;

@@ -11,7 +11,7 @@ import { drawingAt, Player } from "./clips";
 import { Pose } from "./pose";
 import { Stage } from "./stage";
 import { View } from "./view";
-import type { Object3D } from "three";
+import { Vector3, type Camera, type Object3D } from "three";
 
 /** A model that was asked for. */
 interface Wanted {
@@ -45,6 +45,8 @@ export class Viewer {
   /** Why the newest model is not shown, in words. */
   failure = "";
   shading: Shading = "smooth";
+  /** How much of the bend of terrain is done: 1 is as drawn, 0 true 3D. */
+  bent = 1;
 
   constructor(private readonly state: State, host: Host, place: HTMLElement) {
     this.canvas.tabIndex = 0;
@@ -68,6 +70,7 @@ export class Viewer {
       (error, wanted) => this.failed(error, wanted),
     );
     this.stage.beforeFrame((seconds) => this.step(seconds));
+    this.stage.follow = (camera) => this.bend(camera);
     state.on(["current", "build", "link"], () => this.update());
     state.on("selection", () => this.mark("selected"));
     state.on("hover", () => this.mark("hovered"));
@@ -104,6 +107,19 @@ export class Viewer {
   setParallel(parallel: boolean): void {
     this.view.setParallel(parallel);
     this.tell("look");
+  }
+
+  setBent(amount: number): void {
+    this.bent = amount;
+    this.stage.invalidate();
+    this.tell("look");
+  }
+
+  /** Puts the camera where terrain looks as it is drawn. */
+  lookAsDrawn(): void {
+    this.setBent(1);
+    this.setParallel(true);
+    this.view.frame("drawn");
   }
 
   /** Colours that follow the page's. */
@@ -183,7 +199,7 @@ export class Viewer {
     this.pose.apply();
     this.stage.scene.add(model.root);
     this.ground.fit(model.box);
-    this.view.bound(model.box);
+    this.view.bound(model.box, model.bend.isEmpty ? null : (towards) => model.bend.points(towards, this.bent));
     if (first) this.view.frame("threeQuarter", false);
     this.markAll();
     this.canvas.dataset["revision"] = String(wanted.revision);
@@ -233,6 +249,16 @@ export class Viewer {
     if (this.model) this.highlight.set(mark, this.model, nodes);
     this.canvas.dataset[mark] = nodes.map(nodeName).join(" ");
     this.stage.invalidate();
+  }
+
+  /** Bends what bends with the view. */
+  private bend(camera: Camera): void {
+    const { model } = this;
+    if (!model || model.bend.isEmpty) return;
+    const towards = new Vector3(0, 0, 1).applyQuaternion(camera.quaternion);
+    if (!model.bend.follow(towards, this.bent)) return;
+    this.ground.bend(model.bend.inWorld());
+    this.stage.renderer.shadowMap.needsUpdate = true;
   }
 
   private step(seconds: number): boolean {

@@ -1,0 +1,118 @@
+//! The bend of the extension `OKOSHI_view_dependent` (docs/view-dependent.md): what it is for a viewer, and which nodes
+//! ask for it.
+
+use ::gltf::Node;
+use glam::{DMat3, DMat4, DVec3};
+
+use super::{ImportError, malformed};
+
+const EXTENSION: &str = "OKOSHI_view_dependent";
+/// Degrees above the ground from which the content is stretched most.
+const MOST: f64 = 45.0;
+
+/// Whether a node asks for the bend.
+///
+/// # Errors
+/// The extension, or the bend in it, is no object. Ways of following the viewer that are not known are passed over.
+pub(super) fn asked(node: &Node<'_>) -> Result<bool, ImportError> {
+    let Some(extension) = node.extension_value(EXTENSION) else {
+        return Ok(false);
+    };
+    match extension.as_object().map(|ways| ways.get("bend")) {
+        Some(None) => Ok(false),
+        Some(Some(bend)) if bend.is_object() => Ok(true),
+        _ => {
+            let index = node.index();
+            Err(malformed(format!(
+                "the {EXTENSION} of node {index} should be like {{ \"bend\": {{}} }}"
+            )))
+        }
+    }
+}
+
+/// The bend of a node that stands so in the world, in the node's own frame, for a viewer in a direction of the world.
+///
+/// What cannot be bent (a node that is flat, a viewer nowhere) is left as it is.
+pub(super) fn bend(global: DMat4, towards: DVec3) -> DMat4 {
+    let into = DMat3::from_mat4(global).inverse();
+    match (into * towards).try_normalize() {
+        Some(towards) => DMat4::from_mat3(of(towards)),
+        None => DMat4::IDENTITY,
+    }
+}
+
+/// The bend for the unit vector towards the viewer, +Y being up: a scale by R along u = (up − h)/√2, where h is the
+/// viewer's horizontal direction (Kitamura, equation 3.2 with the ranges for negative θ, which are swapped in print, put right).
+fn of(towards: DVec3) -> DMat3 {
+    let Some(horizontal) = DVec3::new(towards.x, 0.0, towards.z).try_normalize() else {
+        // From straight above R is 1.
+        return DMat3::IDENTITY;
+    };
+    let elevation = towards.y.clamp(-1.0, 1.0).asin().to_degrees().abs();
+    let more = (std::f64::consts::SQRT_2 - 1.0) * (1.0 - (elevation - MOST).abs() / MOST);
+    let along = (DVec3::Y - horizontal) * std::f64::consts::FRAC_1_SQRT_2;
+    DMat3::IDENTITY
+        + DMat3::from_cols(
+            along * along.x * more,
+            along * along.y * more,
+            along * along.z * more,
+        )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn towards(yaw: f64, pitch: f64) -> DVec3 {
+        let ((yaw_sin, yaw_cos), (sin, cos)) =
+            (yaw.to_radians().sin_cos(), pitch.to_radians().sin_cos());
+        DVec3::new(cos * yaw_sin, sin, cos * yaw_cos)
+    }
+
+    /// How much is stretched, and along what.
+    fn stretched(yaw: f64, pitch: f64) -> f64 {
+        of(towards(yaw, pitch)).determinant()
+    }
+
+    #[test]
+    fn the_ratio_is_that_of_the_thesis_with_the_elevation_taken_without_sign() {
+        let most = std::f64::consts::SQRT_2;
+        let near = |pitch: f64, ratio: f64| {
+            let found = stretched(30.0, pitch);
+            assert!((found - ratio).abs() < 1e-12, "{pitch}: {found}");
+        };
+        for sign in [1.0, -1.0] {
+            near(sign * 45.0, most);
+            near(sign * 22.5, (1.0 + most) / 2.0);
+            near(sign * 67.5, (1.0 + most) / 2.0);
+            near(sign * 0.0, 1.0);
+            near(sign * 90.0, 1.0);
+        }
+    }
+
+    #[test]
+    fn it_is_the_turn_the_scale_and_the_turn_back_of_the_thesis() {
+        for pitch in [10.0, 45.0, 80.0] {
+            let ratio = stretched(0.0, pitch);
+            let turn = DMat3::from_rotation_x(std::f64::consts::FRAC_PI_4);
+            let scale = DMat3::from_diagonal(DVec3::new(1.0, ratio, 1.0));
+            let of_thesis = turn.transpose() * scale * turn;
+            assert!(of(towards(0.0, pitch)).abs_diff_eq(of_thesis, 1e-12));
+            // From elsewhere it is the same, turned with the viewer.
+            let round = DMat3::from_rotation_y(2.0);
+            let turned = of(towards(2.0_f64.to_degrees(), pitch));
+            assert!(turned.abs_diff_eq(round * of_thesis * round.transpose(), 1e-12));
+        }
+    }
+
+    #[test]
+    fn the_viewer_is_seen_from_the_nodes_own_frame() {
+        // The node's up is the world's -Z, to which a viewer in front looks straight up.
+        let lying = DMat4::from_rotation_x(-std::f64::consts::FRAC_PI_2);
+        assert!(bend(lying, towards(0.0, 0.0)).abs_diff_eq(DMat4::IDENTITY, 1e-12));
+        let bent = bend(lying, towards(0.0, 45.0));
+        assert!((bent.determinant() - std::f64::consts::SQRT_2).abs() < 1e-12);
+        let flat = DMat4::from_scale(DVec3::new(1.0, 0.0, 1.0));
+        assert_eq!(bend(flat, DVec3::Z), DMat4::IDENTITY);
+    }
+}
