@@ -6,15 +6,16 @@ use glam::DVec2;
 use rayon::prelude::*;
 use rstar::primitives::GeomWithData;
 use rstar::{PointDistance, RTree};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::memory::Hangers;
-use super::sheet::{Part, PartKind, Sheet};
+use super::sheet::{Part, PartKind, Sheet, SheetString};
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::geometry::{Measure, measure_along};
-use crate::lang::ast::{Annotation, Name};
+use crate::lang::ast::{self, Annotation, Name};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Origin, ShapeKind, Value};
+use crate::source::Span;
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
 
@@ -35,6 +36,7 @@ pub(super) fn build(
     let mut names = names(drawing, sheet, diagnostics);
     automatic(drawing, sheet, &mut names, hangers, diagnostics);
     parents(drawing, sheet, &names, diagnostics);
+    layer_parents(drawing, sheet, &names, diagnostics);
     break_cycles(drawing, sheet, diagnostics);
     axes(drawing, sheet, diagnostics);
     let parts = 0..sheet.parts.len();
@@ -97,7 +99,36 @@ fn names(
             names.insert(part.name.clone(), index);
         }
     }
+    let mut layers: FxHashMap<&str, Span> = FxHashMap::default();
+    for layer in &sheet.layers {
+        let own = name_span(&sheet.strings[layer.string]);
+        let part = names.get(&layer.name).map(|part| span(*part));
+        let Some(first) = part.or_else(|| layers.get(layer.name.as_str()).copied()) else {
+            layers.insert(&layer.name, own);
+            continue;
+        };
+        let what = if part.is_some() { "a part" } else { "another tile layer" };
+        diagnostics.push(
+            Diagnostic::new(
+                Code::DuplicateName,
+                own,
+                format!("this tile layer and {what} are both named `{}`", layer.name),
+            )
+            .related(first, "the first one")
+            .help("rename one of them"),
+        );
+    }
     names
+}
+
+/// Where a string says a name; all of it, where it says none.
+fn name_span(string: &SheetString) -> Span {
+    match &string.annotation {
+        Annotation::Part(ast::Part {
+            name: Some(name), ..
+        }) => string.text.span(name.range.clone()),
+        _ => string.text.whole(),
+    }
 }
 
 /// Names the parts without a string, and hangs them on the nearest named main part (rule 5).
@@ -115,6 +146,7 @@ fn automatic(
     let center = |part: usize| sheet.parts[part].measure.center.to_array();
     let named = named.into_iter().map(|part| (center(part), part)).collect();
     let centers = waiting.iter().map(|part| center(*part)).collect();
+    let of_layers: FxHashSet<String> = sheet.layers.iter().map(|layer| layer.name.clone()).collect();
     let parents = hangers.get((named, centers), |(named, centers)| nearest(named, centers));
     let mut counter = 0;
     for (place, (index, parent)) in waiting
@@ -126,7 +158,7 @@ fn automatic(
         let name = loop {
             counter += 1;
             let name = format!("U-{counter}");
-            if !names.contains_key(&name) {
+            if !names.contains_key(&name) && !of_layers.contains(name.as_str()) {
                 break name;
             }
         };
@@ -201,56 +233,90 @@ fn parents(
             continue;
         }
         let Some(string) = part.string else { continue };
-        let Annotation::Part(annotation) = &sheet.strings[string].annotation else {
-            continue;
-        };
-        let Some(parent) = &annotation.parent else {
-            continue;
-        };
-        if let Some(parent) = names.get(&parent.text) {
-            sheet.parts[index].parent = Some(*parent);
-            continue;
+        let (own, string) = (part.name.as_str(), &sheet.strings[string]);
+        match parent(drawing, sheet, string, own, names) {
+            Ok(None) => {}
+            Ok(parent) => sheet.parts[index].parent = parent,
+            Err(finding) => diagnostics.push(*finding),
         }
-        // What `inspect` and the model call `Root` may be named like any part.
-        if parent.text == ROOT {
-            continue;
-        }
-        let text = &sheet.strings[string].text;
-        let span = text.span(parent.range.clone());
-        let mut diagnostic = Diagnostic::new(
-            Code::UnknownParent,
-            span,
-            format!("there is no part named `{}`", parent.text),
-        );
-        let left_out = sheet
-            .parts
-            .iter()
-            .find(|part| part.name == parent.text && part.kind != PartKind::Main);
-        if let Some(other) = left_out {
-            diagnostic = diagnostic
-                .related(
-                    drawing.shapes[other.shape].element.span,
-                    "this sub-part has the name, but is no joint",
-                )
-                .help("name the main part of its group instead");
-        } else {
-            let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
-            known.sort_unstable();
-            if let Some(near) = nearest_word(
-                &parent.text,
-                known.iter().copied().filter(|name| *name != part.name),
-            ) {
-                diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
-                    format!("Write `{near}`"),
-                    span,
-                    text.escape_at(parent.range.start, &quoted(near)),
-                );
-            }
-            diagnostic =
-                diagnostic.help("the name behind `@` must be that of a part, written alike");
-        }
-        diagnostics.push(diagnostic);
     }
+}
+
+/// Finds what tile layers hang on.
+fn layer_parents(
+    drawing: &Drawing,
+    sheet: &mut Sheet,
+    names: &FxHashMap<String, usize>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for index in 0..sheet.layers.len() {
+        let layer = &sheet.layers[index];
+        let string = &sheet.strings[layer.string];
+        match parent(drawing, sheet, string, &layer.name, names) {
+            Ok(parent) => sheet.layers[index].parent = parent,
+            Err(finding) => diagnostics.push(*finding),
+        }
+    }
+}
+
+/// The part that a string names behind `@`, if it names one; `own` is what the string itself names.
+fn parent(
+    drawing: &Drawing,
+    sheet: &Sheet,
+    string: &SheetString,
+    own: &str,
+    names: &FxHashMap<String, usize>,
+) -> Result<Option<usize>, Box<Diagnostic>> {
+    let Annotation::Part(annotation) = &string.annotation else {
+        return Ok(None);
+    };
+    let Some(parent) = &annotation.parent else {
+        return Ok(None);
+    };
+    if let Some(parent) = names.get(&parent.text) {
+        return Ok(Some(*parent));
+    }
+    // What `inspect` and the model call `Root` may be named like any part.
+    if parent.text == ROOT {
+        return Ok(None);
+    }
+    let text = &string.text;
+    let span = text.span(parent.range.clone());
+    let mut diagnostic = Diagnostic::new(
+        Code::UnknownParent,
+        span,
+        format!("there is no part named `{}`", parent.text),
+    );
+    let is_named = |part: &&Part| part.name == parent.text && part.kind != PartKind::Main;
+    let mut layers = sheet.layers.iter();
+    if let Some(other) = sheet.parts.iter().find(is_named) {
+        diagnostic = diagnostic
+            .related(
+                drawing.shapes[other.shape].element.span,
+                "this sub-part has the name, but is no joint",
+            )
+            .help("name the main part of its group instead");
+    } else if let Some(layer) = layers.find(|layer| layer.name == parent.text) {
+        diagnostic = diagnostic
+            .related(
+                sheet.strings[layer.string].text.whole(),
+                "this tile layer has the name, but is no joint",
+            )
+            .help("let both hang on the same part, or on none");
+    } else {
+        let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
+        known.sort_unstable();
+        let others = known.iter().copied().filter(|name| *name != own);
+        if let Some(near) = nearest_word(&parent.text, others) {
+            diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
+                format!("Write `{near}`"),
+                span,
+                text.escape_at(parent.range.start, &quoted(near)),
+            );
+        }
+        diagnostic = diagnostic.help("the name behind `@` must be that of a part, written alike");
+    }
+    Err(Box::new(diagnostic))
 }
 
 /// A name as it must be written in a string.

@@ -113,7 +113,12 @@ impl Reading {
     /// Reads a drawing, and tells what its links led to.
     fn of(source: &str, options: &Options, resolver: &dyn Resolver) -> (Self, Vec<Followed>) {
         let recorder = Recorder::new(resolver);
-        let (drawing, diagnostics) = svg::read(source, options.tolerance, &recorder);
+        let (drawing, diagnostics) = svg::read(
+            source,
+            options.tolerance,
+            &recorder,
+            &bind::in_tile_layers,
+        );
         let followed = recorder.followed();
         let reading = Self {
             drawing: Arc::new(drawing),

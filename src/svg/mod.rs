@@ -13,6 +13,7 @@ mod image;
 mod links;
 mod paint;
 mod paths;
+mod pictures;
 mod prepare;
 mod shapes;
 mod style;
@@ -25,6 +26,7 @@ use glam::DVec2;
 
 pub use again::Retyped;
 pub(crate) use links::broken_link;
+pub use image::PictureSource;
 pub use paths::StrokeSource;
 pub(crate) use prepare::character;
 pub use text::Label;
@@ -124,6 +126,9 @@ pub struct Shape {
     pub stroke: Option<Arc<StrokeSource>>,
     /// What a line leads from and to, if the shape is an unfilled open line.
     pub line: Option<Box<Line>>,
+    /// The file of an `<image>` whose pixels are read one by one: its outline is its whole rectangle, its paint has
+    /// no colour of its own. Other pictures have none.
+    pub picture: Option<Arc<PictureSource>>,
 }
 
 /// An unfilled open line.
@@ -135,14 +140,23 @@ pub struct Line {
     pub connects: [Option<String>; 2],
 }
 
+/// Tells of each shape whether it lies where pictures are read pixel by pixel: those are left as they are, for
+/// their borders and their use as textures take longer to make than all else about them.
+pub type AsTheyAre<'a> = &'a (dyn Fn(&Drawing) -> Vec<bool> + Sync);
+
 /// Reads a drawing. `tolerance` is how far a flattened curve may lie off, as a share of its shape's
-/// larger extent.
+/// larger extent; `as_they_are` is asked only where there are pictures.
 ///
 /// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing. Recurses as deep as the
 /// drawing is nested: the thread needs a stack of some 100 MiB, as [`crate::compile::compile`] gives it.
-pub fn read(source: &str, tolerance: f64, resolver: &dyn Resolver) -> (Drawing, Vec<Diagnostic>) {
+pub fn read(
+    source: &str,
+    tolerance: f64,
+    resolver: &dyn Resolver,
+    as_they_are: AsTheyAre<'_>,
+) -> (Drawing, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
-    let drawing = read_document(source, tolerance, resolver, &mut diagnostics);
+    let drawing = read_document(source, tolerance, resolver, as_they_are, &mut diagnostics);
     let drawing = drawing.unwrap_or_else(|diagnostic| {
         diagnostics.push(*diagnostic);
         Drawing::default()
@@ -154,6 +168,7 @@ fn read_document(
     source: &str,
     tolerance: f64,
     resolver: &dyn Resolver,
+    as_they_are: AsTheyAre<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Drawing, Box<Diagnostic>> {
     if source.trim_start_matches('\u{feff}').trim().is_empty() {
@@ -186,7 +201,12 @@ fn read_document(
             Diagnostic::new(Code::NotSvg, span, message).help("save the drawing as SVG"),
         ));
     }
-    shapes::read(&document, &prepared, tolerance, resolver, diagnostics)
+    let mut drawing = shapes::read(&document, &prepared, tolerance, resolver, diagnostics)?;
+    if drawing.shapes.iter().any(|shape| shape.picture.is_some()) {
+        let left = as_they_are(&drawing);
+        pictures::trace(&mut drawing, &left, diagnostics);
+    }
+    Ok(drawing)
 }
 
 /// What the XML parser says, at the byte of the original it says it of.
