@@ -4,7 +4,6 @@
 use rustc_hash::FxHashMap;
 
 use super::sheet::{PartKind, Sheet};
-use super::tiles::is_picture;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::{Holder, Keyword};
 use crate::lang::value::{Setting, Shape, ShapeKind, Value};
@@ -279,7 +278,7 @@ pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Ve
         }
     }
     let shapes = 0..drawing.shapes.len();
-    let mut pictures = shapes.filter(|shape| is_picture(drawing, sheet, *shape));
+    let mut pictures = shapes.filter(|shape| sheet.is_picture_of_tiles(drawing, *shape));
     let has_maps = pictures.next().is_some();
     for legend in &sheet.legends {
         // Pictures are looked through where they are read.
@@ -312,9 +311,14 @@ impl Legend {
         Diagnostic::new(
             Code::UnusedLegend,
             sheet.strings[self.string].text.whole(),
-            format!("no {what} is painted like this legend, {}", swatch.describe()),
+            format!(
+                "no {what} is painted like this legend, {}",
+                swatch.describe()
+            ),
         )
         .related(swatch.span, "the legend")
-        .help(format!("pick the swatch's colour from the {whence} with the dropper, or delete the legend"))
+        .help(format!(
+            "pick the swatch's colour from the {whence} with the dropper, or delete the legend"
+        ))
     }
 }

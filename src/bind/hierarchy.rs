@@ -107,7 +107,11 @@ fn names(
             layers.insert(&layer.name, own);
             continue;
         };
-        let what = if part.is_some() { "a part" } else { "another tile layer" };
+        let what = if part.is_some() {
+            "a part"
+        } else {
+            "another tile layer"
+        };
         diagnostics.push(
             Diagnostic::new(
                 Code::DuplicateName,
@@ -146,7 +150,11 @@ fn automatic(
     let center = |part: usize| sheet.parts[part].measure.center.to_array();
     let named = named.into_iter().map(|part| (center(part), part)).collect();
     let centers = waiting.iter().map(|part| center(*part)).collect();
-    let of_layers: FxHashSet<String> = sheet.layers.iter().map(|layer| layer.name.clone()).collect();
+    let of_layers: FxHashSet<String> = sheet
+        .layers
+        .iter()
+        .map(|layer| layer.name.clone())
+        .collect();
     let parents = hangers.get((named, centers), |(named, centers)| nearest(named, centers));
     let mut counter = 0;
     for (place, (index, parent)) in waiting

@@ -26,7 +26,7 @@ pub struct TileLayer {
     pub parent: Option<usize>,
 }
 
-/// Whether each shape lies in a tile layer.
+/// Whether each group is a tile layer's, or in one.
 pub fn in_tile_layers(drawing: &Drawing) -> Vec<bool> {
     let labels = drawing.labels.par_iter().with_min_len(GRAIN);
     let of_labels = labels.filter_map(|(label, group)| {
@@ -50,8 +50,7 @@ pub fn in_tile_layers(drawing: &Drawing) -> Vec<bool> {
         layer[group] = Some(0);
     }
     spread(drawing, &mut layer);
-    let shapes = drawing.shapes.iter();
-    shapes.map(|shape| layer[shape.group].is_some()).collect()
+    layer.iter().map(Option::is_some).collect()
 }
 
 /// Gives every group without a layer of its own that of the group it is in.
@@ -98,9 +97,14 @@ pub(super) fn find(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<D
                         element.describe()
                     ),
                 )
-                .related(sheet.strings[other.string].text.whole(), "the other string, which counts")
+                .related(
+                    sheet.strings[other.string].text.whole(),
+                    "the other string, which counts",
+                )
                 .related(element.span, "the group")
-                .help("delete one of them, or put each into the group or layer that holds its tiles"),
+                .help(
+                    "delete one of them, or put each into the group or layer that holds its tiles",
+                ),
             );
             continue;
         }
@@ -134,12 +138,11 @@ impl Sheet {
         self.layer_of_group.get(group).copied().flatten()
     }
 
-    /// The string that a description of a shape is.
-    pub fn description(&self, shape: usize) -> Option<usize> {
-        // Strings stand in the order of the file, and so not in that of shapes.
-        self.strings
-            .iter()
-            .position(|string| string.place == Place::Shape(shape))
+    /// Whether a shape is a picture in a tile layer, and so no part.
+    pub fn is_picture_of_tiles(&self, drawing: &Drawing, shape: usize) -> bool {
+        let shape = &drawing.shapes[shape];
+        let is_picture = matches!(shape.paint.key, PaintKey::Picture(_));
+        is_picture && self.layer_of_group(shape.group).is_some()
     }
 
     /// Whether a string takes a picture out of its tile layer: pictures are no parts there, to which it could belong.
@@ -148,10 +151,10 @@ impl Sheet {
         let Place::Shape(shape) = string.place else {
             return false;
         };
-        string.annotation == Annotation::Unused && is_picture(drawing, self, shape)
+        string.annotation == Annotation::Unused && self.is_picture_of_tiles(drawing, shape)
     }
 
-    /// What a tile layer's own string sets an attribute to.
+    /// The number that a tile layer's own string, or a `%` string, sets an attribute to.
     pub fn layer_number(&self, layer: usize, keyword: Keyword) -> Option<f64> {
         let own = self.strings[self.layers[layer].string].settings.iter();
         let own = own.filter(|setting| setting.keyword == keyword);
@@ -161,12 +164,6 @@ impl Sheet {
             _ => None,
         }
     }
-}
-
-/// Whether a shape is a picture in a tile layer.
-pub(super) fn is_picture(drawing: &Drawing, sheet: &Sheet, shape: usize) -> bool {
-    let shape = &drawing.shapes[shape];
-    matches!(shape.paint.key, PaintKey::Picture(_)) && sheet.layer_of_group(shape.group).is_some()
 }
 
 /// Makes tiles of what lies in tile layers and has no string.

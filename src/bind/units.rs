@@ -6,7 +6,6 @@
 use rustc_hash::FxHashMap;
 
 use super::sheet::{Place, Sheet};
-use super::tiles::is_picture;
 use crate::lang::keyword::Keyword;
 use crate::svg::{Drawing, GroupKind};
 
@@ -150,7 +149,7 @@ fn members(drawing: &Drawing, sheet: &Sheet) -> Vec<Member> {
         })
     };
     for (index, shape) in drawing.shapes.iter().enumerate() {
-        if is_picture(drawing, sheet, index) {
+        if sheet.is_picture_of_tiles(drawing, index) {
             continue;
         }
         let filled = !shape.outline.polygons.is_empty();

@@ -25,9 +25,10 @@ use std::sync::Arc;
 use glam::DVec2;
 
 pub use again::Retyped;
-pub(crate) use links::broken_link;
 pub use image::PictureSource;
+pub(crate) use links::broken_link;
 pub use paths::StrokeSource;
+pub(crate) use pictures::LARGE;
 pub(crate) use prepare::character;
 pub use text::Label;
 
@@ -48,6 +49,8 @@ pub struct Drawing {
     pub shapes: Vec<Shape>,
     /// The texts in document order, each with the index of its group.
     pub labels: Vec<(Label, usize)>,
+    /// Per group whether pictures in it were left as they are (see [`AsTheyAre`]); `None` if there were none.
+    pub as_they_are: Option<Vec<bool>>,
 }
 
 /// What groups can be.
@@ -140,8 +143,8 @@ pub struct Line {
     pub connects: [Option<String>; 2],
 }
 
-/// Tells of each shape whether it lies where pictures are read pixel by pixel: those are left as they are, for
-/// their borders and their use as textures take longer to make than all else about them.
+/// Tells of each group whether its pictures are read pixel by pixel: those are left as they are, for their borders
+/// and their use as textures take longer to make than all else about them.
 pub type AsTheyAre<'a> = &'a (dyn Fn(&Drawing) -> Vec<bool> + Sync);
 
 /// Reads a drawing. `tolerance` is how far a flattened curve may lie off, as a share of its shape's
@@ -205,6 +208,7 @@ fn read_document(
     if drawing.shapes.iter().any(|shape| shape.picture.is_some()) {
         let left = as_they_are(&drawing);
         pictures::trace(&mut drawing, &left, diagnostics);
+        drawing.as_they_are = Some(left);
     }
     Ok(drawing)
 }

@@ -8,13 +8,13 @@ use super::image::{PictureSource, Traced};
 use super::{Drawing, Paint, Shape};
 use crate::diagnostic::{Code, Diagnostic};
 
-/// Gives pictures their outlines and paints, apart from those that are `left` as they are. A picture that cannot be
+/// Gives pictures their outlines and paints, apart from those in groups where they are `left` as they are. A picture that cannot be
 /// read is taken out of the drawing, and said.
 pub(super) fn trace(drawing: &mut Drawing, left: &[bool], diagnostics: &mut Vec<Diagnostic>) {
-    let shapes = drawing.shapes.par_iter_mut().zip(left);
+    let shapes = drawing.shapes.par_iter_mut();
     let traced: Vec<(bool, Option<Diagnostic>)> = shapes
-        .map(|(shape, left)| match &shape.picture {
-            Some(_) if *left => (true, None),
+        .map(|shape| match &shape.picture {
+            Some(_) if left[shape.group] => (true, None),
             Some(picture) => one(&Arc::clone(picture), shape),
             None => (true, None),
         })

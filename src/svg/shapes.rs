@@ -115,6 +115,7 @@ pub(super) fn read(
         groups,
         shapes,
         labels,
+        as_they_are: None,
     })
 }
 
