@@ -210,8 +210,8 @@ pub(super) fn off_grid(
     let (_, first) = found.first()?;
     let name = &sheet.layers[layer].name;
     let message = match found.len() == count {
-        true if count == 1 => format!("the tile of `{name}` lies off the grid"),
-        true => format!("all {count} tiles of `{name}` lie off the grid"),
+        true if count == 1 => format!("the shape in `{name}` lies off the grid"),
+        true => format!("all {count} rectangles in `{name}` lie off the grid"),
         false => format!(
             "{} of {count} tiles of `{name}` lie off the grid",
             found.len()
