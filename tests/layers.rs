@@ -105,6 +105,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "render",
             "report",
             "source",
+            "terrain",
             "watch",
         ],
     ),

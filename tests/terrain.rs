@@ -31,7 +31,10 @@ fn landscapes_come_out_of_their_maps() {
     let sum = |at: usize| scores.iter().map(|score| score[at]).sum::<usize>() as f64;
     let exact = scores.iter().filter(|[right, all]| right == all).count();
     let right = sum(0) / sum(1);
-    eprintln!("{right:.4} of all cells are right, {exact} of {} maps", scores.len());
+    eprintln!(
+        "{right:.4} of all cells are right, {exact} of {} maps",
+        scores.len()
+    );
     assert!(right >= 0.95);
     assert!(exact * 2 >= scores.len());
 }
@@ -49,7 +52,12 @@ fn triangles(map: &Map, land: &Land, roof: f64) -> Vec<Shown> {
                 let place = piece.positions[corner as usize];
                 [0, 1, 2].map(|axis| f64::from(place[axis]) + middle[axis])
             };
-            shown.extend(piece.triangles.iter().map(|triangle| (look, triangle.map(place))));
+            shown.extend(
+                piece
+                    .triangles
+                    .iter()
+                    .map(|triangle| (look, triangle.map(place))),
+            );
         }
     }
     shown
@@ -88,7 +96,9 @@ fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
                     continue;
                 }
                 let near = |axis: usize| -> f64 {
-                    (0..3).map(|corner| weights[corner] * corners[corner][axis]).sum()
+                    (0..3)
+                        .map(|corner| weights[corner] * corners[corner][axis])
+                        .sum()
                 };
                 let near = near(1) + near(2);
                 let cell = &mut nearest[row * map.columns + column];
@@ -130,19 +140,24 @@ fn assert_closed(map: &Map, roof: f64, name: &str) {
         for side in 0..3 {
             let [from, to] = [corners[side], corners[(side + 1) % 3]];
             assert!(from != to, "{name}: a triangle without area");
-            *sides.entry([from.min(to), from.max(to)]).or_default() += if from < to { 1 } else { -1 };
+            *sides.entry([from.min(to), from.max(to)]).or_default() +=
+                if from < to { 1 } else { -1 };
         }
     }
     let open: Vec<_> = sides.iter().filter(|(_, count)| **count != 0).collect();
     let place = |side: &[[i64; 3]; 2]| side.map(|point| point.map(|value| value as f64 / 4096.0));
-    let open: Vec<_> = open.iter().map(|(side, count)| (place(side), **count)).take(8).collect();
+    let open: Vec<_> = open
+        .iter()
+        .map(|(side, count)| (place(side), **count))
+        .take(8)
+        .collect();
     assert!(open.is_empty(), "{name}: {open:?}\n{}", picture(map));
 }
 
 #[test]
 fn the_drawing_is_seen_again() {
     let mut tried = 0;
-    let all = std::env::var("N").map_or(1000,|n|n.parse().unwrap());
+    let all = std::env::var("N").map_or(1000, |n| n.parse().unwrap());
     let mut seen = 0;
     let mut why = BTreeMap::new();
     while seen < all {
@@ -152,7 +167,10 @@ fn the_drawing_is_seen_again() {
             assert_seen_as_drawn(&drawn.map, &format!("landscape {tried}"));
             seen += 1;
         }
-        for note in notes { *why.entry(format!("{:?}", std::mem::discriminant(&note.what))).or_insert(0) += 1; }
+        for note in notes {
+            *why.entry(format!("{:?}", std::mem::discriminant(&note.what)))
+                .or_insert(0) += 1;
+        }
         tried += 1;
     }
     eprintln!("{seen} of {tried} landscapes are open in nothing {why:?}");
@@ -160,7 +178,7 @@ fn the_drawing_is_seen_again() {
 
 #[test]
 fn surfaces_are_closed() {
-    let all = std::env::var("N").map_or(300,|n|n.parse().unwrap());
+    let all = std::env::var("N").map_or(300, |n| n.parse().unwrap());
     for seed in 0..all {
         let drawn = World::random(seed).draw();
         assert_closed(&drawn.map, 0.5, &format!("landscape {seed}"));

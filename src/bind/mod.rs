@@ -8,6 +8,7 @@ mod hierarchy;
 mod leaders;
 mod memory;
 mod nearest;
+mod parents;
 mod sheet;
 mod strings;
 mod tiles;

@@ -6,14 +6,8 @@ use super::Model;
 use super::assemble::Stage;
 use super::frame::{Frame, up};
 use super::materials::Grounds;
-use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene, Surface};
-use crate::terrain::{self, Layer};
-
-/// The surfaces of a landscape, each with the look that it has: tile units about the middle of the map at height 0,
-/// y up, z towards the viewer, texture coordinates in tiles.
-fn surfaces(layer: &Layer) -> Vec<(u8, Surface)> {
-    terrain::flat(&layer.map)
-}
+use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene};
+use crate::terrain::{Land, Layer};
 
 /// Adds a node for each landscape to a scene that has those of the figures. `node_of_part` tells of each part the
 /// node that shows it, if one does.
@@ -68,19 +62,22 @@ pub(super) fn add(
 /// The mesh of a landscape; `tile` is the side of a tile in metres.
 fn mesh(layer: &Layer, tile: f64, material_of: impl Fn(u8) -> Option<usize>) -> Option<Mesh> {
     let mut primitives: Vec<Primitive> = Vec::new();
-    for (look, mut surface) in surfaces(layer) {
-        let Some(material) = material_of(look).filter(|_| !surface.triangles.is_empty()) else {
+    for (look, mut surfaces) in Land::new(&layer.map).surface(layer.roof) {
+        let Some(material) = material_of(look) else {
             continue;
         };
-        for position in &mut surface.positions {
+        for position in surfaces
+            .iter_mut()
+            .flat_map(|surface| &mut surface.positions)
+        {
             *position = position.map(|at| (f64::from(at) * tile) as f32);
         }
-        let piece = Piece::Surface(surface);
+        let pieces = surfaces.into_iter().map(Piece::Surface);
         let mut same = primitives.iter_mut();
         match same.find(|primitive| primitive.material == material) {
-            Some(primitive) => primitive.pieces.push(piece),
+            Some(primitive) => primitive.pieces.extend(pieces),
             None => primitives.push(Primitive {
-                pieces: vec![piece],
+                pieces: pieces.collect(),
                 material,
             }),
         }

@@ -73,7 +73,8 @@ fn turned(table: &[u8], columns: usize, rows: usize) -> Vec<u8> {
             let left = band * SQUARE;
             for top in (0..rows).step_by(SQUARE) {
                 for row in top..(top + SQUARE).min(rows) {
-                    let line = &table[row * columns + left..row * columns + columns.min(left + SQUARE)];
+                    let line =
+                        &table[row * columns + left..row * columns + columns.min(left + SQUARE)];
                     for (column, look) in line.iter().enumerate() {
                         out[column * rows + row] = *look;
                     }

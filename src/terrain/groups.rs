@@ -114,9 +114,8 @@ fn components(grid: &Grid) -> (Vec<u32>, Vec<usize>) {
                 let row = cell % rows;
                 let above = row > 0 && grid.tile(cell - 1) == tile && !grid.edge_below(cell - 1);
                 parents[at] = if above { parents[at - 1] } else { at as u32 };
-                let left = at >= rows
-                    && grid.tile(cell - rows) == tile
-                    && !grid.edge_right(cell - rows);
+                let left =
+                    at >= rows && grid.tile(cell - rows) == tile && !grid.edge_right(cell - rows);
                 // The pair above has joined the two columns already, most of the time.
                 let known = above
                     && left
@@ -307,7 +306,10 @@ impl<'a> Joined<'a> {
             let mut row = 0;
             while row < rows {
                 let label = labels[row];
-                let run = labels[row..].iter().take_while(|next| **next == label).count();
+                let run = labels[row..]
+                    .iter()
+                    .take_while(|next| **next == label)
+                    .count();
                 areas[label as usize] += run;
                 if let Role::Surface(surface) = roles[label as usize] {
                     let surface = &mut surfaces[surface as usize];
@@ -317,7 +319,9 @@ impl<'a> Joined<'a> {
                 row += run;
             }
         }
-        let plain = plain.into_iter().map(|label: usize| (self.firsts[label], areas[label]));
+        let plain = plain
+            .into_iter()
+            .map(|label: usize| (self.firsts[label], areas[label]));
         let plain = plain.collect();
         Groups {
             labels: self.labels,

@@ -98,9 +98,7 @@ pub(super) fn measure(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<Hous
     let mut houses: FxHashMap<u32, House> = FxHashMap::default();
     for (number, part) in found.into_iter().flatten() {
         let known = houses.entry(number);
-        known
-            .and_modify(|known| known.join(&part))
-            .or_insert(part);
+        known.and_modify(|known| known.join(&part)).or_insert(part);
     }
     let all = 0..groups.houses as u32;
     // Each has at least one column: that of a roof over a wall.
@@ -138,11 +136,21 @@ fn in_column(
             true => None,
             false => column.foot(index),
         };
-        let base = foot.map_or(0, |(surface, fronts)| levels.level[surface as usize] + fronts);
+        let base = foot.map_or(0, |(surface, fronts)| {
+            levels.level[surface as usize] + fronts
+        });
         let look = grid.cells[number * grid.rows + segment.start as usize];
         let part = House {
-            walls: if is_roof { nowhere.clone() } else { here.clone() },
-            roof: if is_roof { here.clone() } else { nowhere.clone() },
+            walls: if is_roof {
+                nowhere.clone()
+            } else {
+                here.clone()
+            },
+            roof: if is_roof {
+                here.clone()
+            } else {
+                nowhere.clone()
+            },
             base,
             height: if is_roof { 0 } else { segment.rows() },
             depth: if is_roof { segment.rows() } else { 0 },

@@ -95,7 +95,9 @@ impl Levels {
                 };
             }
         }
-        let found: Vec<(u32, i32)> = (0..count as u32).map(|surface| sets.find(surface)).collect();
+        let found: Vec<(u32, i32)> = (0..count as u32)
+            .map(|surface| sets.find(surface))
+            .collect();
         let mut lowest = vec![i32::MAX; count];
         for (root, rise) in &found {
             let low = &mut lowest[*root as usize];

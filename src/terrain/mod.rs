@@ -19,4 +19,4 @@ mod ties;
 pub use land::{Built, Land, ROOF};
 pub use map::{EDGE_BELOW, EDGE_RIGHT, MOST_CELLS, Map, Tile};
 pub use notes::{Note, Open};
-pub use reading::{Layer, LookOf, Tiles, cells_named, flat, read};
+pub use reading::{Layer, LookOf, Tiles, cells_named, read};

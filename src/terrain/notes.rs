@@ -59,7 +59,11 @@ pub(super) fn notes(known: &Known<'_>, ties: &Ties) -> Vec<Note> {
         });
     }
     let mut solids = Solids::default();
-    notes.extend(houses.iter().filter_map(|house| hides(known, house, &mut solids)));
+    notes.extend(
+        houses
+            .iter()
+            .filter_map(|house| hides(known, house, &mut solids)),
+    );
     if let Some(pit) = ties.pit
         && grid.edges.iter().all(|edges| *edges == 0)
     {

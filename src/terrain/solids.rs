@@ -144,7 +144,9 @@ impl Hidden {
 
     /// The first row at which something at a height would be seen.
     fn level_seen(&self, views: &[View], height: i32, end: i32) -> i32 {
-        let at = self.bottoms.partition_point(|view| views[*view].bottom() < height);
+        let at = self
+            .bottoms
+            .partition_point(|view| views[*view].bottom() < height);
         match at.checked_sub(1) {
             Some(at) => views[self.bottoms[at]].sinks_below(height),
             None if height <= 0 => i32::MAX,
@@ -191,7 +193,9 @@ impl Solids {
                 Role::Roof(number) => Seen::Roof(house(number).eaves()),
                 Role::Wall(number) => Seen::Front(house(number).front),
                 Role::Front => {
-                    let above = index.checked_sub(1).map(|above| self.column.segments[above]);
+                    let above = index
+                        .checked_sub(1)
+                        .map(|above| self.column.segments[above]);
                     match above.map(|above| above.role) {
                         Some(Role::Surface(surface)) => Seen::Front(segment.start + level(surface)),
                         Some(Role::Wall(number)) => Seen::Front(house(number).front),
@@ -360,7 +364,8 @@ impl Solids {
         let Some(support) = known.levels.support[surface as usize] else {
             return;
         };
-        let [level, base] = [&known.levels.level, &known.levels.base].map(|of| of[support as usize]);
+        let [level, base] =
+            [&known.levels.level, &known.levels.base].map(|of| of[support as usize]);
         let follows = self.column.segments.get(next).map(|next| next.role);
         let follows = follows == Some(Role::Surface(support));
         if support == GROUND || base >= level || bottom != level || follows {
@@ -389,7 +394,9 @@ impl Solids {
 
     /// A front without anything above it is a block one tile deep (rule 9).
     fn lone_front(&mut self, known: &Known<'_>, number: usize, index: usize) {
-        let above = index.checked_sub(1).map(|above| self.column.segments[above].role);
+        let above = index
+            .checked_sub(1)
+            .map(|above| self.column.segments[above].role);
         if matches!(above, Some(Role::Surface(_) | Role::Wall(_))) {
             return;
         }
@@ -424,14 +431,7 @@ impl Solids {
     }
 
     /// What a house stands on where fronts are seen below its wall.
-    fn foundation(
-        &mut self,
-        known: &Known<'_>,
-        number: usize,
-        index: usize,
-        house: u32,
-        end: i32,
-    ) {
+    fn foundation(&mut self, known: &Known<'_>, number: usize, index: usize, house: u32, end: i32) {
         let house = &known.houses[house as usize];
         let (fronts, below, _) = self.column.below(index);
         if fronts == 0 {
@@ -525,24 +525,33 @@ pub(super) fn flush(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<Option
             if segment.role != Role::Front {
                 continue;
             }
-            let cells = number * rows + segment.start as usize..number * rows + segment.end as usize;
+            let cells =
+                number * rows + segment.start as usize..number * rows + segment.end as usize;
             let hangs = hangs(&column, levels, index);
             for cell in cells {
                 let label = groups.labels[cell] as usize;
                 if let Some(low) = &mut lowest[label] {
                     // What stands somewhere needs no filling.
-                    *low = if hangs && *low >= 0 { (*low).max((cell % rows) as i32) } else { -1 };
+                    *low = if hangs && *low >= 0 {
+                        (*low).max((cell % rows) as i32)
+                    } else {
+                        -1
+                    };
                 }
             }
         }
     }
-    lowest.iter_mut().for_each(|low| *low = low.filter(|low| *low >= 0));
+    lowest
+        .iter_mut()
+        .for_each(|low| *low = low.filter(|low| *low >= 0));
     lowest
 }
 
 /// Whether a front's foot is seen to be above what lies below it.
 fn hangs(column: &Column, levels: &Levels, front: usize) -> bool {
-    let above = front.checked_sub(1).map(|above| column.segments[above].role);
+    let above = front
+        .checked_sub(1)
+        .map(|above| column.segments[above].role);
     let Some(Role::Surface(surface)) = above else {
         return false;
     };

@@ -221,7 +221,10 @@ impl World {
     /// The map: edges stand wherever heights or faces of neighbours differ.
     pub(crate) fn draw(&self) -> Drawn {
         let heights = self.places.iter().flatten().map(|(height, _)| *height);
-        let (low, high) = (heights.clone().min().unwrap_or(0).min(0), heights.max().unwrap_or(0));
+        let (low, high) = (
+            heights.clone().min().unwrap_or(0).min(0),
+            heights.max().unwrap_or(0),
+        );
         let rows = self.depth + high;
         let sights: Vec<Option<Sight>> = (-high..self.depth)
             .flat_map(|row| (0..self.columns).map(move |x| (x, row)))
@@ -244,7 +247,10 @@ impl World {
         }
         Drawn {
             map,
-            heights: sights.iter().map(|sight| sight.map(|sight| sight.height)).collect(),
+            heights: sights
+                .iter()
+                .map(|sight| sight.map(|sight| sight.height))
+                .collect(),
         }
     }
 }
@@ -278,6 +284,7 @@ pub(crate) fn scribble(seed: u64) -> Map {
 pub(crate) fn picture(map: &Map) -> String {
     let letters = [' ', 'g', 'b', 'w', 'R', 'B'];
     let rows = map.cells.chunks(map.columns);
-    let line = |row: &[u8]| -> String { row.iter().map(|look| letters[usize::from(*look)]).collect() };
+    let line =
+        |row: &[u8]| -> String { row.iter().map(|look| letters[usize::from(*look)]).collect() };
     rows.map(|row| line(row) + "\n").collect()
 }

@@ -213,7 +213,7 @@ pub(super) fn off_grid(
         true if count == 1 => format!("the shape in `{name}` lies off the grid"),
         true => format!("all {count} rectangles in `{name}` lie off the grid"),
         false => format!(
-            "{} of {count} tiles of `{name}` lie off the grid",
+            "{} of {count} rectangles in `{name}` lie off the grid",
             found.len()
         ),
     };

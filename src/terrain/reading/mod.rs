@@ -7,7 +7,6 @@ mod colours;
 mod content;
 mod edges;
 mod findings;
-mod flat;
 mod grid;
 mod looks;
 mod raster;
@@ -15,15 +14,14 @@ mod survey;
 #[cfg(test)]
 mod tests;
 
-use std::f64::consts::FRAC_1_SQRT_2;
 use std::ops::Range;
 
 use glam::DVec2;
 
 pub use findings::cells_named;
-pub use flat::flat;
 pub use looks::LookOf;
 
+use super::land::ROOF;
 use super::map::{MOST_CELLS, Map};
 use crate::bind::Sheet;
 use crate::diagnostic::{Code, Diagnostic};
@@ -209,9 +207,7 @@ impl Reading<'_> {
             looks,
             origin: grid.origin,
             size: grid.size,
-            roof: sheet
-                .layer_number(index, Keyword::Roof)
-                .unwrap_or(FRAC_1_SQRT_2),
+            roof: sheet.layer_number(index, Keyword::Roof).unwrap_or(ROOF),
             bevel: sheet.layer_number(index, Keyword::Bevel).unwrap_or(0.0),
             parent: of_layer.parent,
             sources,

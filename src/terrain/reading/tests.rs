@@ -83,15 +83,9 @@ fn squares_rectangles_and_free_shapes_are_tiles() {
         <g transform="translate(30 40)"><g transform="scale(2)"><rect width="10" height="5" fill="#8d6e63"/></g></g>
         <path d="M56 36 L88 50 L56 66 Z" fill="#42a5f5"/>"##,
     ));
-    assert_eq!(
-        drawn(&layer),
-        ["gggg..g", "gbbgww.", "ggggww.", "ggggg.."].map(|row| row.replace("gggg..g", "ggggg.."))
-    );
+    assert_eq!(drawn(&layer), ["ggggg..", "gbbgww.", "ggggww.", "ggggg.."]);
     assert_eq!(layer.origin, DVec2::new(20.0, 30.0));
-    assert_eq!(
-        (layer.size, layer.roof, layer.bevel),
-        (10.0, FRAC_1_SQRT_2, 0.0)
-    );
+    assert_eq!((layer.size, layer.roof, layer.bevel), (10.0, ROOF, 0.0));
     assert_eq!((layer.name.as_str(), layer.parent), ("Island", None));
     assert_eq!(layer.sources[1].columns, 1..3);
     assert_eq!(layer.sources[1].rows, 1..2);
@@ -188,10 +182,7 @@ fn layers_without_tiles_and_huge_grids_are_told() {
         told.iter().map(|told| told[..4].to_owned()).collect()
     };
     assert_eq!(codes(&island("")), ["W313"]);
-    assert_eq!(
-        codes(&island(&rect(1.0, 1.0, 2.0, 2.0, GREEN))),
-        ["W313", "W312"][..1]
-    );
+    assert_eq!(codes(&island(&rect(1.0, 1.0, 2.0, 2.0, GREEN))), ["W313"]);
     let tiny =
         r#"<g><rect width="300" height="300" fill="green"/><text y="300">A$Tiles 0.001</text></g>"#;
     let (layers, told) = read_svg(tiny);
@@ -372,7 +363,7 @@ fn strokes_along_grid_lines_are_edges() {
     assert_eq!(line("M10 0V3M10 7V10"), [(0, 0, 'r')]);
     // What is drawn twice counts once.
     assert_eq!(line("M10 0V4M10 1V4M10 4V0"), []);
-    let border = [(0, 1, 'r'), (1, 0, 'b'), (1, 1, 'r'), (1, 1, 'b')];
+    let border = [(1, 0, 'b'), (0, 1, 'r'), (1, 1, 'r'), (1, 1, 'b')];
     assert_eq!(
         with(r#"<rect x="10" y="10" width="10" height="10"/>"#),
         border

@@ -146,7 +146,9 @@ impl Faces<'_> {
             z = end;
         }
         // The next plane's faces do not go on from these.
-        self.sides.iter_mut().for_each(|sweep| sweep.finish(&mut self.rects));
+        self.sides
+            .iter_mut()
+            .for_each(|sweep| sweep.finish(&mut self.rects));
     }
 }
 
@@ -182,13 +184,19 @@ fn before(
     strips: &mut Vec<Strip>,
 ) {
     let is = |seen| seen == Seen::Front(plane);
-    solids.looks(known, number, plane - y[1]..plane - y[0], is, |rows, look| {
-        strips.push(Strip {
-            plane,
-            look: look.unwrap_or(hidden),
-            along: [plane - rows.end, plane - rows.start],
-        });
-    });
+    solids.looks(
+        known,
+        number,
+        plane - y[1]..plane - y[0],
+        is,
+        |rows, look| {
+            strips.push(Strip {
+                plane,
+                look: look.unwrap_or(hidden),
+                along: [plane - rows.end, plane - rows.start],
+            });
+        },
+    );
 }
 
 /// What is in one list of spans and not in another, with the looks of its sides.

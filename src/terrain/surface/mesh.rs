@@ -32,7 +32,8 @@ impl Mesh {
     pub(super) fn finish(self) -> Vec<(u8, Surface)> {
         let all = self.looks.into_iter().enumerate();
         let made = all.filter(|(_, look)| !look.surface.triangles.is_empty());
-        made.map(|(index, look)| (index as u8, look.surface)).collect()
+        made.map(|(index, look)| (index as u8, look.surface))
+            .collect()
     }
 
     /// Adds a corner, once for all polygons that look the same way.
@@ -40,7 +41,13 @@ impl Mesh {
         let place = point.map(f64::from);
         let Look { surface, known } = &mut self.looks[usize::from(look)];
         *known.entry((point, facing)).or_insert_with(|| {
-            push(surface, self.middle, facing.normal(), uv(facing, place), place)
+            push(
+                surface,
+                self.middle,
+                facing.normal(),
+                uv(facing, place),
+                place,
+            )
         })
     }
 
@@ -48,7 +55,9 @@ impl Mesh {
     /// without its end, counter-clockwise seen from outside.
     pub(super) fn rectangle(&mut self, look: u8, facing: Facing, sides: &[Vec<[i32; 3]>; 4]) {
         let ids = sides.each_ref().map(|side| -> Vec<u32> {
-            side.iter().map(|point| self.corner(look, facing, *point)).collect()
+            side.iter()
+                .map(|point| self.corner(look, facing, *point))
+                .collect()
         });
         let plain = |side: usize| ids[side].len() == 1;
         if plain(1) && plain(3) {
@@ -60,10 +69,19 @@ impl Mesh {
             let [a, b] = [sides[0][0], sides[2][0]];
             let middle = [0, 1, 2].map(|axis| f64::from(a[axis] + b[axis]) / 2.0);
             let surface = &mut self.looks[usize::from(look)].surface;
-            let centre = push(surface, self.middle, facing.normal(), uv(facing, middle), middle);
+            let centre = push(
+                surface,
+                self.middle,
+                facing.normal(),
+                uv(facing, middle),
+                middle,
+            );
             let ring: Vec<u32> = ids.concat();
             let next = ring.iter().cycle().skip(1);
-            let fan = ring.iter().zip(next).map(|(one, other)| [centre, *one, *other]);
+            let fan = ring
+                .iter()
+                .zip(next)
+                .map(|(one, other)| [centre, *one, *other]);
             surface.triangles.extend(fan);
         }
     }
@@ -102,7 +120,9 @@ impl Mesh {
             .map(|(place, uv)| push(surface, self.middle, normal, *uv, *place))
             .collect();
         let pairs = ids[1..].windows(2);
-        surface.triangles.extend(pairs.map(|pair| [ids[0], pair[0], pair[1]]));
+        surface
+            .triangles
+            .extend(pairs.map(|pair| [ids[0], pair[0], pair[1]]));
     }
 }
 

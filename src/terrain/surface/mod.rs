@@ -30,7 +30,9 @@ pub(super) fn surface(known: &Known<'_>, factor: f64) -> Vec<(u8, Vec<Surface>)>
     }
     let columns = |stripe: usize| stripe * STRIPE..((stripe + 1) * STRIPE).min(grid.columns);
     let all = (0..stripes).into_par_iter();
-    let mut rects: Vec<Vec<Rect>> = all.map(|stripe| faces::faces(known, columns(stripe))).collect();
+    let mut rects: Vec<Vec<Rect>> = all
+        .map(|stripe| faces::faces(known, columns(stripe)))
+        .collect();
     let roofed = |house: &&House| house.depth > 0 && !house.roof.is_empty();
     let mut eaves = vec![];
     for house in known.houses.iter().filter(roofed) {

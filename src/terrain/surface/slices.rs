@@ -52,10 +52,12 @@ impl Slices {
     pub(super) fn build(&mut self, blocks: &[Block]) {
         self.clear();
         self.order.clear();
-        self.order.extend(blocks.iter().filter(|block| block.z[0] < block.z[1]));
+        self.order
+            .extend(blocks.iter().filter(|block| block.z[0] < block.z[1]));
         self.order.sort_unstable_by_key(|block| block.z[0]);
         self.bounds.clear();
-        self.bounds.extend(self.order.iter().flat_map(|block| block.z));
+        self.bounds
+            .extend(self.order.iter().flat_map(|block| block.z));
         self.bounds.sort_unstable();
         self.bounds.dedup();
         self.active.clear();
@@ -66,7 +68,9 @@ impl Slices {
             while let Some(block) = self.order.get(next)
                 && block.z[0] == z[0]
             {
-                let at = self.active.partition_point(|other| other.y[0] <= block.y[0]);
+                let at = self
+                    .active
+                    .partition_point(|other| other.y[0] <= block.y[0]);
                 self.active.insert(at, *block);
                 next += 1;
             }

@@ -120,8 +120,8 @@ impl Sweep {
         }
         strips.sort_unstable();
         strips.dedup_by(|next, last| {
-            let joins = (next.plane, next.look, next.along[0])
-                == (last.plane, last.look, last.along[1]);
+            let joins =
+                (next.plane, next.look, next.along[0]) == (last.plane, last.look, last.along[1]);
             if joins {
                 last.along[1] = next.along[1];
             }
