@@ -16,6 +16,13 @@ pub struct Legend {
     pub paint: PaintKey,
     /// What it says, each with the index of its string.
     pub settings: Vec<(usize, Setting)>,
+    /// Index of the shape beside which it stands.
+    pub swatch: usize,
+    /// Index of its string, the first one if there are several.
+    pub string: usize,
+    /// Whether something has the paint that may have use for it: a part or a drawn tile. What pictures show in
+    /// tile layers is not counted.
+    pub is_used: bool,
 }
 
 /// Who says what an attribute is.
@@ -219,7 +226,6 @@ impl Sheet {
 /// Merges the legends by paint and gives them to the parts of that paint.
 pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
     let mut by_paint: FxHashMap<&PaintKey, usize> = FxHashMap::default();
-    let mut swatches = Vec::new();
     for part in sheet
         .parts
         .iter()
@@ -232,14 +238,14 @@ pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Ve
             .iter()
             .map(|setting| (string, setting.clone()));
         if let Some(legend) = by_paint.get(paint) {
-            let (first, _): &(usize, usize) = &swatches[*legend];
+            let first = sheet.legends[*legend].string;
             diagnostics.push(
                 Diagnostic::new(
                     Code::TwoLegends,
                     sheet.strings[string].text.whole(),
                     "this legend's paint has a legend already; where both say something, this one wins",
                 )
-                .related(sheet.strings[*first].text.whole(), "the other legend")
+                .related(sheet.strings[first].text.whole(), "the other legend")
                 .help("give the swatch another colour, or put both strings into one"),
             );
             let legend: &mut Legend = &mut sheet.legends[*legend];
@@ -252,32 +258,67 @@ pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Ve
             continue;
         }
         by_paint.insert(paint, sheet.legends.len());
-        swatches.push((string, part.shape));
         sheet.legends.push(Legend {
             paint: paint.clone(),
             settings: settings.collect(),
+            swatch: part.shape,
+            string,
+            is_used: false,
         });
     }
-    let mut used = vec![false; sheet.legends.len()];
     for part in &mut sheet.parts {
-        if matches!(part.kind, PartKind::Main | PartKind::Sub)
-            && let Some(legend) = by_paint.get(&part.paint(drawing).key)
+        let is_tile = part.kind == PartKind::Tile;
+        if (is_tile || matches!(part.kind, PartKind::Main | PartKind::Sub))
+            && let Some(index) = by_paint.get(&part.paint(drawing).key)
         {
-            part.legend = Some(*legend);
-            used[*legend] = true;
+            part.legend = Some(*index);
+            let legend = &mut sheet.legends[*index];
+            // What a legend says of tiles is of no use to parts.
+            legend.is_used |= is_tile || legend.says(Keyword::Tile).is_none();
         }
     }
-    for ((string, shape), used) in swatches.into_iter().zip(used) {
-        if !used {
-            diagnostics.push(
-                Diagnostic::new(
-                    Code::UnusedLegend,
-                    sheet.strings[string].text.whole(),
-                    format!("no part is painted like this legend, {}", drawing.shapes[shape].element.describe()),
-                )
-                .related(drawing.shapes[shape].element.span, "the legend")
-                .help("pick the swatch's colour from the parts with the dropper, or delete the legend"),
-            );
+    let shapes = 0..drawing.shapes.len();
+    let mut pictures = shapes.filter(|shape| sheet.is_picture_of_tiles(drawing, *shape));
+    let has_maps = pictures.next().is_some();
+    for legend in &sheet.legends {
+        // Pictures are looked through where they are read.
+        let may_be_used = has_maps && matches!(legend.paint, PaintKey::Solid(_));
+        if !legend.is_used && !may_be_used {
+            diagnostics.push(legend.unused(drawing, sheet));
         }
+    }
+}
+
+impl Legend {
+    /// What it says of an attribute, with the index of the string that does.
+    pub fn says(&self, keyword: Keyword) -> Option<Source<'_>> {
+        let mut settings = self.settings.iter();
+        let (string, setting) = settings.find(|(_, setting)| setting.keyword == keyword)?;
+        Some(Source {
+            setting,
+            from: SetBy::Legend,
+            string: *string,
+        })
+    }
+
+    /// Says that nothing has the legend's paint.
+    pub fn unused(&self, drawing: &Drawing, sheet: &Sheet) -> Diagnostic {
+        let swatch = &drawing.shapes[self.swatch].element;
+        let (what, whence) = match self.says(Keyword::Tile) {
+            Some(_) => ("tile", "tiles"),
+            None => ("part", "parts"),
+        };
+        Diagnostic::new(
+            Code::UnusedLegend,
+            sheet.strings[self.string].text.whole(),
+            format!(
+                "no {what} is painted like this legend, {}",
+                swatch.describe()
+            ),
+        )
+        .related(swatch.span, "the legend")
+        .help(format!(
+            "pick the swatch's colour from the {whence} with the dropper, or delete the legend"
+        ))
     }
 }

@@ -6,20 +6,22 @@ use glam::DVec2;
 use rayon::prelude::*;
 use rstar::primitives::GeomWithData;
 use rstar::{PointDistance, RTree};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::memory::Hangers;
-use super::sheet::{Part, PartKind, Sheet};
-use crate::diagnostic::{Code, Diagnostic, nearest_word};
+use super::parents;
+use super::sheet::{Part, PartKind, Sheet, SheetString};
+use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Measure, measure_along};
-use crate::lang::ast::{Annotation, Name};
+use crate::lang::ast::{self, Annotation, Name};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Origin, ShapeKind, Value};
+use crate::source::Span;
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
 
 /// The name of the virtual node that parts without a parent hang on.
-const ROOT: &str = "Root";
+pub(super) const ROOT: &str = "Root";
 /// How much longer than wide a part must be for its turning about the middle to be worth a hint.
 const LONG: f64 = 2.0;
 /// How many parts that were named by themselves are spoken of one by one.
@@ -34,8 +36,9 @@ pub(super) fn build(
 ) {
     let mut names = names(drawing, sheet, diagnostics);
     automatic(drawing, sheet, &mut names, hangers, diagnostics);
-    parents(drawing, sheet, &names, diagnostics);
-    break_cycles(drawing, sheet, diagnostics);
+    parents::parents(drawing, sheet, &names, diagnostics);
+    parents::of_layers(drawing, sheet, &names, diagnostics);
+    parents::break_cycles(drawing, sheet, diagnostics);
     axes(drawing, sheet, diagnostics);
     let parts = 0..sheet.parts.len();
     let is_main = |part: &usize| sheet.parts[*part].kind == PartKind::Main;
@@ -97,7 +100,40 @@ fn names(
             names.insert(part.name.clone(), index);
         }
     }
+    let mut layers: FxHashMap<&str, Span> = FxHashMap::default();
+    for layer in &sheet.layers {
+        let own = name_span(&sheet.strings[layer.string]);
+        let part = names.get(&layer.name).map(|part| span(*part));
+        let Some(first) = part.or_else(|| layers.get(layer.name.as_str()).copied()) else {
+            layers.insert(&layer.name, own);
+            continue;
+        };
+        let what = if part.is_some() {
+            "a part"
+        } else {
+            "another tile layer"
+        };
+        diagnostics.push(
+            Diagnostic::new(
+                Code::DuplicateName,
+                own,
+                format!("this tile layer and {what} are both named `{}`", layer.name),
+            )
+            .related(first, "the first one")
+            .help("rename one of them"),
+        );
+    }
     names
+}
+
+/// Where a string says a name; all of it, where it says none.
+fn name_span(string: &SheetString) -> Span {
+    match &string.annotation {
+        Annotation::Part(ast::Part {
+            name: Some(name), ..
+        }) => string.text.span(name.range.clone()),
+        _ => string.text.whole(),
+    }
 }
 
 /// Names the parts without a string, and hangs them on the nearest named main part (rule 5).
@@ -115,6 +151,11 @@ fn automatic(
     let center = |part: usize| sheet.parts[part].measure.center.to_array();
     let named = named.into_iter().map(|part| (center(part), part)).collect();
     let centers = waiting.iter().map(|part| center(*part)).collect();
+    let of_layers: FxHashSet<String> = sheet
+        .layers
+        .iter()
+        .map(|layer| layer.name.clone())
+        .collect();
     let parents = hangers.get((named, centers), |(named, centers)| nearest(named, centers));
     let mut counter = 0;
     for (place, (index, parent)) in waiting
@@ -126,7 +167,7 @@ fn automatic(
         let name = loop {
             counter += 1;
             let name = format!("U-{counter}");
-            if !names.contains_key(&name) {
+            if !names.contains_key(&name) && !of_layers.contains(name.as_str()) {
                 break name;
             }
         };
@@ -186,145 +227,6 @@ fn named_by_itself(
     );
     Diagnostic::new(Code::AutomaticName, element.span, message)
         .help("write a name beside it, or `*` to leave it out")
-}
-
-/// Finds the parents that strings name.
-fn parents(
-    drawing: &Drawing,
-    sheet: &mut Sheet,
-    names: &FxHashMap<String, usize>,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
-    for index in 0..sheet.parts.len() {
-        let part = &sheet.parts[index];
-        if part.kind != PartKind::Main {
-            continue;
-        }
-        let Some(string) = part.string else { continue };
-        let Annotation::Part(annotation) = &sheet.strings[string].annotation else {
-            continue;
-        };
-        let Some(parent) = &annotation.parent else {
-            continue;
-        };
-        if let Some(parent) = names.get(&parent.text) {
-            sheet.parts[index].parent = Some(*parent);
-            continue;
-        }
-        // What `inspect` and the model call `Root` may be named like any part.
-        if parent.text == ROOT {
-            continue;
-        }
-        let text = &sheet.strings[string].text;
-        let span = text.span(parent.range.clone());
-        let mut diagnostic = Diagnostic::new(
-            Code::UnknownParent,
-            span,
-            format!("there is no part named `{}`", parent.text),
-        );
-        let left_out = sheet
-            .parts
-            .iter()
-            .find(|part| part.name == parent.text && part.kind != PartKind::Main);
-        if let Some(other) = left_out {
-            diagnostic = diagnostic
-                .related(
-                    drawing.shapes[other.shape].element.span,
-                    "this sub-part has the name, but is no joint",
-                )
-                .help("name the main part of its group instead");
-        } else {
-            let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
-            known.sort_unstable();
-            if let Some(near) = nearest_word(
-                &parent.text,
-                known.iter().copied().filter(|name| *name != part.name),
-            ) {
-                diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
-                    format!("Write `{near}`"),
-                    span,
-                    text.escape_at(parent.range.start, &quoted(near)),
-                );
-            }
-            diagnostic =
-                diagnostic.help("the name behind `@` must be that of a part, written alike");
-        }
-        diagnostics.push(diagnostic);
-    }
-}
-
-/// A name as it must be written in a string.
-fn quoted(name: &str) -> String {
-    if name.contains(|c: char| c.is_whitespace() || "@$\"()".contains(c)) {
-        format!("\"{name}\"")
-    } else {
-        name.to_owned()
-    }
-}
-
-/// Hangs one part of every cycle of parents on the root.
-fn break_cycles(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
-    // 0: not yet seen; otherwise the walk that saw it.
-    let mut seen = vec![0_usize; sheet.parts.len()];
-    for start in 0..sheet.parts.len() {
-        let mut part = start;
-        while seen[part] == 0 {
-            seen[part] = start + 1;
-            match sheet.parts[part].parent {
-                Some(parent) => part = parent,
-                None => break,
-            }
-        }
-        if seen[part] != start + 1 || sheet.parts[part].parent.is_none() {
-            continue;
-        }
-        let mut cycle = vec![part];
-        while let Some(parent) = cycle
-            .last()
-            .and_then(|last| sheet.parts[*last].parent)
-            .filter(|parent| *parent != part)
-        {
-            cycle.push(parent);
-        }
-        let span = |part: usize| {
-            let string = sheet.parts[part]
-                .string
-                .map(|string| &sheet.strings[string]);
-            match string.map(|string| (&string.annotation, &string.text)) {
-                Some((Annotation::Part(annotation), text)) => annotation
-                    .parent
-                    .as_ref()
-                    .map_or(text.whole(), |parent| text.span(parent.range.clone())),
-                _ => drawing.shapes[sheet.parts[part].shape].element.span,
-            }
-        };
-        let chain: Vec<String> = cycle
-            .iter()
-            .chain([&part])
-            .map(|part| format!("`{}`", sheet.parts[*part].name))
-            .collect();
-        let mut diagnostic = Diagnostic::new(
-            Code::ParentCycle,
-            span(part),
-            if cycle.len() == 1 {
-                format!("{} is its own parent", chain[0])
-            } else {
-                format!(
-                    "parts hang on each other in a circle: {}",
-                    chain.join(" on ")
-                )
-            },
-        )
-        .help("one of them must hang on a part outside the circle, or on none");
-        for other in &cycle[1..] {
-            diagnostic = diagnostic.related(
-                span(*other),
-                format!("`{}` hangs on this", sheet.parts[*other].name),
-            );
-        }
-        diagnostics.push(diagnostic);
-        sheet.parts[part].parent = None;
-    }
 }
 
 /// Turns the axis of parts whose strings say so.

@@ -8,13 +8,16 @@ mod hierarchy;
 mod leaders;
 mod memory;
 mod nearest;
+mod parents;
 mod sheet;
 mod strings;
+mod tiles;
 mod units;
 
-pub use attributes::{Look, Resolved, SetBy, Source};
+pub use attributes::{Legend, Look, Resolved, SetBy, Source};
 pub use memory::Memory;
 pub use sheet::{Binding, BoundBy, Part, PartKind, Place, Sheet, SheetString};
+pub use tiles::{TileLayer, in_tile_layers};
 
 use std::sync::Arc;
 
@@ -36,6 +39,8 @@ pub fn bind(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Sheet {
     let mut sheet = strings::read(drawing, diagnostics);
+    tiles::find(drawing, &mut sheet, diagnostics);
+    tiles::misplaced(&sheet, diagnostics);
     let units = Units::read(drawing, &sheet);
     sheet.parts = units
         .members
@@ -156,7 +161,7 @@ impl<'a> Binder<'a> {
                         self.bind(string, part, BoundBy::Group);
                     }
                 }
-                None => {}
+                None => self.sheet.strings[string].scope = self.units.scope_of_layer(group),
             }
         }
     }
@@ -198,8 +203,10 @@ impl<'a> Binder<'a> {
             .collect();
         self.bind_matches(found.into_iter().flatten());
         if free < waiting.len() {
+            // What lies in a tile layer is left to the strings that lie there.
+            let is_free = |part: &Part| part.is_candidate() && !self.units.is_in_layer(part.member);
             let candidates: Vec<usize> = (0..self.sheet.parts.len())
-                .filter(|part| self.sheet.parts[*part].is_candidate())
+                .filter(|part| is_free(&self.sheet.parts[*part]))
                 .collect();
             let found = self.matches(&waiting[free..], &candidates, mode, known);
             self.bind_matches(found.into_iter());
@@ -260,8 +267,9 @@ impl<'a> Binder<'a> {
 
     /// What no rule found a part for.
     fn left_over(&mut self) {
-        for string in &self.sheet.strings {
-            if string.wants_part() && string.binding.is_none() {
+        for (index, string) in self.sheet.strings.iter().enumerate() {
+            let unbound = string.wants_part() && string.binding.is_none();
+            if unbound && !self.sheet.leaves_picture_out(self.drawing, index) {
                 let what = match &string.annotation {
                     Annotation::Part(part) => part
                         .name
@@ -351,6 +359,7 @@ fn classify(drawing: &Drawing, sheet: &mut Sheet) {
             sheet.parts[index].kind = sheet.parts[main].kind;
         }
     }
+    tiles::classify(drawing, sheet);
 }
 
 /// The element whose description a part's string is: the shape, or a group around it.
@@ -368,7 +377,9 @@ fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
         return;
     }
     for string in &sheet.strings {
-        if let (Some(binding), Some(rival)) = (string.binding, string.rival) {
+        if let (Some(binding), Some(rival)) = (string.binding, string.rival)
+            && sheet.parts[rival].kind != PartKind::Tile
+        {
             let (bound, rival) = (
                 sheet.describe(drawing, binding.part),
                 sheet.describe(drawing, rival),

@@ -11,6 +11,7 @@ use crate::source::Text;
 use crate::svg::{Drawing, Element, Paint};
 
 use super::attributes::Legend;
+use super::tiles::TileLayer;
 use super::units::Member;
 
 /// Everything that the strings say of the parts.
@@ -28,6 +29,10 @@ pub struct Sheet {
     pub legends: Vec<Legend>,
     /// The variables that the `%` strings define.
     pub variables: Variables,
+    /// The tile layers, in the order of their strings.
+    pub layers: Vec<TileLayer>,
+    /// Per group the innermost tile layer that it is, or is in; empty if there are none.
+    pub(super) layer_of_group: Vec<Option<usize>>,
 }
 
 /// Where a string stands.
@@ -121,6 +126,8 @@ pub enum PartKind {
     Legend,
     /// Left out.
     Unused,
+    /// Drawn in a tile layer: it has no name, no joint and no solid of its own.
+    Tile,
 }
 
 impl PartKind {
@@ -131,6 +138,7 @@ impl PartKind {
             Self::Sub => "sub",
             Self::Legend => "legend",
             Self::Unused => "unused",
+            Self::Tile => "tile",
         }
     }
 }

@@ -39,6 +39,12 @@ pub(super) struct Units {
     unit: Vec<Option<usize>>,
     /// Per member: the nearest container around it.
     container: Vec<Option<usize>>,
+    /// Per group: the group of the tile layer that it is in.
+    layer: Vec<Option<usize>>,
+    /// Per member: whether it is in a tile layer.
+    in_layer: Vec<bool>,
+    /// Per group: whether it is a tile layer's and holds something that strings can belong to.
+    holds_parts: Vec<bool>,
 }
 
 impl Units {
@@ -51,16 +57,27 @@ impl Units {
             }
         }
         let members = members(drawing, sheet);
-        let roles = roles(drawing, &strings);
+        let groups = 0..drawing.groups.len();
+        let layer = groups.map(|group| Some(sheet.layers[sheet.layer_of_group(group)?].group));
+        let layer: Vec<Option<usize>> = layer.collect();
+        let roles = roles(drawing, &strings, &layer);
         let mut units = Self {
             unit: vec![None; members.len()],
             container: vec![None; members.len()],
+            in_layer: vec![false; members.len()],
+            holds_parts: vec![false; drawing.groups.len()],
             members,
             roles,
             parents,
+            layer,
         };
         for index in 0..units.members.len() {
             let group = drawing.shapes[units.members[index].shape].group;
+            if let Some(layer) = units.layer[group] {
+                units.in_layer[index] = true;
+                units.container[index] = Some(layer);
+                units.holds_parts[layer] = true;
+            }
             let chain: Vec<usize> = units.chain(group).collect();
             for group in chain {
                 match units.roles[group] {
@@ -76,14 +93,27 @@ impl Units {
         units
     }
 
-    /// A group and the groups around it, innermost first.
+    /// A group and the groups around it, innermost first. A tile layer is the last: it is as if the drawing ended
+    /// there.
     pub(super) fn chain(&self, group: usize) -> impl Iterator<Item = usize> + '_ {
         let mut next = self.parents.get(group).map(|_| group);
         std::iter::from_fn(move || {
             let group = next?;
-            next = (group != 0).then(|| self.parents[group]);
+            let last = group == 0 || self.layer[group] == Some(group);
+            next = (!last).then(|| self.parents[group]);
             Some(group)
         })
+    }
+
+    /// The group of the tile layer among whose shapes a string in a group is bound; `None` where strings are
+    /// bound among all shapes that are in none.
+    pub(super) fn scope_of_layer(&self, group: usize) -> Option<usize> {
+        self.layer[group].filter(|layer| self.holds_parts[*layer])
+    }
+
+    /// Whether a member is in a tile layer.
+    pub(super) fn is_in_layer(&self, member: usize) -> bool {
+        self.in_layer[member]
     }
 
     /// Whether the group is as if it were not there: a layer, a wrapper.
@@ -119,10 +149,16 @@ fn members(drawing: &Drawing, sheet: &Sheet) -> Vec<Member> {
         })
     };
     for (index, shape) in drawing.shapes.iter().enumerate() {
+        if sheet.is_picture_of_tiles(drawing, index) {
+            continue;
+        }
         let filled = !shape.outline.polygons.is_empty();
         if filled {
             add(index, false);
         }
+        // Strokes in a tile layer are edges.
+        let is_map = sheet.layer_of_group(shape.group).is_some();
+        let (lines, borders) = (lines && !is_map, borders && !is_map);
         if shape.stroke.is_some()
             && if filled {
                 borders
@@ -174,7 +210,7 @@ fn described_lines(drawing: &Drawing, sheet: &Sheet) -> Vec<bool> {
     described
 }
 
-fn roles(drawing: &Drawing, strings: &[usize]) -> Vec<Role> {
+fn roles(drawing: &Drawing, strings: &[usize], layer: &[Option<usize>]) -> Vec<Role> {
     let mut children = vec![0_usize; drawing.groups.len()];
     let mut drawn = vec![false; drawing.groups.len()];
     for shape in &drawing.shapes {
@@ -194,6 +230,7 @@ fn roles(drawing: &Drawing, strings: &[usize]) -> Vec<Role> {
         wraps[index] = group.kind == GroupKind::Root || (group.kind == GroupKind::Group && lone);
         roles.push(match group.kind {
             GroupKind::Root | GroupKind::Layer => Role::Transparent,
+            GroupKind::Group if layer[index] == Some(index) => Role::Transparent,
             GroupKind::Group if wraps[index] => Role::Transparent,
             GroupKind::Group if strings[index] > 1 => Role::Container,
             GroupKind::Group => Role::Unit,

@@ -11,6 +11,7 @@ use super::{Outcome, pretty, print_out, style};
 use crate::bind::{PartKind, SetBy};
 use crate::lang::keyword::Keyword;
 use crate::report::{Part, own_name, parts};
+use crate::terrain;
 
 /// Prints the hierarchy; findings go to stderr.
 pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
@@ -59,35 +60,46 @@ fn json(loaded: &Loaded) -> String {
 
 fn tree(loaded: &Loaded) -> String {
     let sheet = &loaded.compiled.sheet;
-    let mut children: BTreeMap<Option<usize>, Vec<usize>> = BTreeMap::new();
+    let mut children: BTreeMap<Option<usize>, Vec<Item>> = BTreeMap::new();
     for (index, part) in sheet
         .parts
         .iter()
         .enumerate()
         .filter(|(_, part)| part.kind == PartKind::Main)
     {
-        children.entry(part.parent).or_default().push(index);
+        let below = children.entry(part.parent).or_default();
+        below.push(Item::Part(index));
+    }
+    for (index, layer) in loaded.compiled.layers.iter().enumerate() {
+        let below = children.entry(layer.parent).or_default();
+        below.push(Item::Layer(index));
     }
     let mut rows: Vec<[String; 2]> = vec![["Root".to_owned(), String::new()]];
-    let mut stack: Vec<(usize, String, bool)> = Vec::new();
-    let push = |stack: &mut Vec<(usize, String, bool)>, parent: Option<usize>, indent: &str| {
+    let mut stack: Vec<(Item, String, bool)> = Vec::new();
+    let push = |stack: &mut Vec<(Item, String, bool)>, parent: Option<usize>, indent: &str| {
         let children = children.get(&parent).map_or(&[][..], Vec::as_slice);
         for (place, child) in children.iter().enumerate().rev() {
             stack.push((*child, indent.to_owned(), place + 1 == children.len()));
         }
     };
     push(&mut stack, None, "");
-    while let Some((part, indent, last)) = stack.pop() {
+    while let Some((item, indent, last)) = stack.pop() {
         let (branch, below) = if last {
             ("└─ ", "   ")
         } else {
             ("├─ ", "│  ")
         };
-        rows.push([
-            format!("{indent}{branch}{}", sheet.parts[part].name),
-            describe_part(loaded, part),
-        ]);
-        push(&mut stack, Some(part), &format!("{indent}{below}"));
+        let [name, what] = match item {
+            Item::Part(part) => [&sheet.parts[part].name, &describe_part(loaded, part)],
+            Item::Layer(layer) => {
+                let layer = &loaded.compiled.layers[layer];
+                [&layer.name, &describe_layer(layer)]
+            }
+        };
+        rows.push([format!("{indent}{branch}{name}"), what.clone()]);
+        if let Item::Part(part) = item {
+            push(&mut stack, Some(part), &format!("{indent}{below}"));
+        }
     }
     let mut out = columns(&rows);
     let left_out: Vec<[String; 2]> = sheet
@@ -109,6 +121,24 @@ fn tree(loaded: &Loaded) -> String {
         out.push_str(&columns(&left_out));
     }
     out
+}
+
+/// Something that hangs on the root or on a part.
+#[derive(Clone, Copy)]
+enum Item {
+    /// Index of a main part.
+    Part(usize),
+    /// Index of a tile map.
+    Layer(usize),
+}
+
+fn describe_layer(layer: &terrain::Layer) -> String {
+    let map = &layer.map;
+    let drawn = map.cells.iter().filter(|look| **look != 0).count();
+    format!(
+        "terrain of {} × {}, {drawn} tiles of {}",
+        map.columns, map.rows, layer.size
+    )
 }
 
 fn describe_part(loaded: &Loaded, index: usize) -> String {

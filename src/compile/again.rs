@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{Compiled, Followed, Memory, Options, Reading, given_up};
+use crate::bind;
 use crate::diagnostic::Diagnostic;
 use crate::resolver::Resolver;
 use crate::source::Change;
@@ -101,7 +102,11 @@ impl Last {
             return Some(self);
         }
         let retyped = Retyped::find(&self.drawing, &self.source, source, change)?;
-        retyped.apply(Arc::make_mut(&mut self.drawing));
+        let drawing = Arc::make_mut(&mut self.drawing);
+        retyped.apply(drawing);
+        if !pictures_stay(drawing) {
+            return None;
+        }
         for diagnostic in &mut self.diagnostics {
             retyped.apply_to_finding(diagnostic);
         }
@@ -118,4 +123,10 @@ impl Last {
             links: self.followed.iter().map(|(link, _)| link.clone()).collect(),
         }
     }
+}
+
+/// Whether every picture is read as its strings now say: pixel by pixel in tile layers, as a part elsewhere.
+fn pictures_stay(drawing: &Drawing) -> bool {
+    let known = drawing.as_they_are.as_ref();
+    known.is_none_or(|known| *known == bind::in_tile_layers(drawing))
 }

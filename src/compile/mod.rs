@@ -12,6 +12,7 @@ use crate::resolver::{LinkError, Resolver};
 use crate::scene::Scene;
 use crate::source::Span;
 use crate::svg::{self, Drawing};
+use crate::terrain;
 use crate::threads;
 
 pub use again::Compiler;
@@ -41,6 +42,8 @@ pub struct Compiled {
     pub scene: Scene,
     /// Who is bound to what.
     pub sheet: Sheet,
+    /// The tile maps.
+    pub layers: Vec<terrain::Layer>,
     /// The drawing. Its outlines and texts are shared with the sheet.
     pub drawing: Arc<Drawing>,
     /// What is wrong, in the order of the text.
@@ -113,7 +116,8 @@ impl Reading {
     /// Reads a drawing, and tells what its links led to.
     fn of(source: &str, options: &Options, resolver: &dyn Resolver) -> (Self, Vec<Followed>) {
         let recorder = Recorder::new(resolver);
-        let (drawing, diagnostics) = svg::read(source, options.tolerance, &recorder);
+        let (drawing, diagnostics) =
+            svg::read(source, options.tolerance, &recorder, &bind::in_tile_layers);
         let followed = recorder.followed();
         let reading = Self {
             drawing: Arc::new(drawing),
@@ -137,7 +141,15 @@ impl Reading {
             None => (None, &mut nothing),
         };
         let sheet = bind::bind(&drawing, areas, &mut diagnostics);
-        let scene = figure::build(&drawing, &sheet, &recorder, things, &mut diagnostics);
+        let layers = terrain::read(&drawing, &sheet, &mut diagnostics);
+        let scene = figure::build(
+            &drawing,
+            &sheet,
+            &layers,
+            &recorder,
+            things,
+            &mut diagnostics,
+        );
         diagnostic::sort(&mut diagnostics);
         dependencies.extend(recorder.followed().into_iter().map(|(link, _)| link));
         dependencies.sort();
@@ -145,6 +157,7 @@ impl Reading {
         Compiled {
             scene,
             sheet,
+            layers,
             drawing,
             diagnostics,
             dependencies,

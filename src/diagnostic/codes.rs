@@ -243,7 +243,8 @@ codes! {
     /// Delete the string, draw its part, or group the two (a filled shape; lines alone are no parts unless
     /// `Strokes` says so).
     NoPartLeft = "E201", "string with no part left";
-    /// Two strings belong to one part: both are in its group, or one is in its description.
+    /// Two strings belong to one part: both are in its group, or one is in its description. Or two strings with
+    /// `Tiles` make one group a tile layer.
     ///
     /// Delete one, or put it where it belongs. Attributes of both can stand in one string.
     TwoStrings = "E202", "two strings on one part";
@@ -271,6 +272,18 @@ codes! {
     ///
     /// Let one of them hang on something else, or on nothing.
     ParentCycle = "E205", "cycle of parents";
+
+    // Tiles
+    /// The colour of a tile could mean more than one thing, or nothing that tiles can be: it is neither the colour
+    /// of a legend nor near to one of the five colours of tiles.
+    ///
+    /// ```text
+    /// a purple square in a group with Island$Tiles 16
+    /// ```
+    ///
+    /// Draw a small square of that colour in the same layer, and beside it write what such tiles are: `$Tile green`
+    /// (ground), `brown` (cliff), `blue` (water), `red` (roof), `beige` (wall) or `none`.
+    UnclearTile = "E206", "tile of unclear colour";
 
     // Warnings
     /// An attribute stands twice in one string. The later one holds.
@@ -351,6 +364,44 @@ codes! {
     /// Make the pattern simpler, export it as a picture and use that as `Texture`, or set the part's colour with
     /// `Color`.
     PlainPaint = "W311", "paint shown as its mean colour";
+
+    /// A tile lies more than a tenth of a tile off the grid. Each cell of the grid becomes what is drawn at its
+    /// middle, so that such a tile may become larger or smaller than it was drawn, or vanish.
+    ///
+    /// ```text
+    /// squares of 18 in a group with Island$Tiles 16
+    /// ```
+    ///
+    /// Write the size that tiles are drawn with; or move them onto the grid: in Inkscape with a grid of that
+    /// spacing and snapping, from a multiple of the size on.
+    OffGrid = "W312", "tiles off the grid";
+    /// A tile layer holds no tile: nothing is painted in its group, or nothing that reaches the middle of a cell.
+    ///
+    /// ```text
+    /// Island$Tiles 16, alone in a group
+    /// ```
+    ///
+    /// Put the string into the group or layer that holds the tiles, beside them.
+    NoTiles = "W313", "tile layer without tiles";
+    /// `Tiles`, `Bevel` or `Roof` stands in a string that makes no tile layer, so that it has no effect.
+    ///
+    /// ```text
+    /// Hat@Head$Roof 0.5
+    /// ```
+    ///
+    /// Move it to the string that makes a layer or group a map: `Village$Tiles 16 Roof 0.5`.
+    NoTileLayer = "W314", "attribute of a tile layer elsewhere";
+    /// A tile map can be read in more than one way, or in none that the rules of terrain explain. It is built all the same: a
+    /// group whose height nothing tells lies on the ground, one with fewer brown tiles than it is high hangs, brown tiles
+    /// in the midst of green ones are pits, and a wall or a roof alone is ground of its colour.
+    ///
+    /// ```text
+    /// a brown tile in the midst of green ones, and no edge in the map
+    /// ```
+    ///
+    /// Draw what is missing: brown tiles below what stands, an edge (a stroke along the line between two tiles) where one
+    /// thing ends and another begins, roofs over walls.
+    OpenTerrain = "W315", "terrain with more than one reading";
 
     // Hints
     /// Another part lies almost as near to the string as the one it was given to.

@@ -10,6 +10,7 @@ use crate::lang::keyword::Keyword;
 use crate::lang::value::{Ground, Value};
 use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene};
 use crate::solid;
+use crate::terrain::Layer;
 use crate::threads::GRAIN;
 
 /// The rotation from the drawing's right, its up and the viewer's direction to the world (`Axes`), which is
@@ -26,15 +27,39 @@ fn axes(sheet: &Sheet) -> DQuat {
     DQuat::from_mat3(&DMat3::from_cols(right, up, front))
 }
 
-/// Puts nodes and meshes together.
+/// How the drawing lies in the world.
+pub(super) struct Stage {
+    /// The point of the drawing that lies at the world's origin.
+    ground: DVec2,
+    /// From the drawing's axes to the world's.
+    turn: DQuat,
+}
+
+impl Stage {
+    pub(super) fn of(model: &Model<'_>, layers: &[Layer]) -> Self {
+        Self {
+            ground: ground(model, layers),
+            turn: axes(model.sheet),
+        }
+    }
+
+    /// Where something stands that hangs on nothing and is turned by an angle about the viewer's axis; `place` in
+    /// drawing units, y up.
+    pub(super) fn set(&self, place: DVec3, angle: f64) -> (DVec3, DQuat) {
+        let place = place - DVec3::new(self.ground.x, -self.ground.y, 0.0);
+        let rotation = self.turn * DQuat::from_rotation_z(angle);
+        (self.turn * place, rotation)
+    }
+}
+
+/// Puts nodes and meshes together; with each part the node that shows it, the first one if there are copies.
 pub(super) fn assemble(
     model: &Model<'_>,
     tree: Tree,
     meshes: Vec<Option<Mesh>>,
+    stage: &Stage,
     mut scene: Scene,
-) -> Scene {
-    let ground = ground(model);
-    let turn = axes(model.sheet);
+) -> (Scene, Vec<Option<usize>>) {
     let links: Vec<(usize, Option<usize>, bool)> = tree
         .branches
         .iter()
@@ -43,10 +68,7 @@ pub(super) fn assemble(
     let node = |branch: Branch| {
         let (translation, rotation) = match branch.parent {
             Some(_) => (branch.place, DQuat::from_rotation_z(branch.angle)),
-            None => {
-                let place = branch.place - DVec3::new(ground.x, -ground.y, 0.0);
-                (turn * place, turn * DQuat::from_rotation_z(branch.angle))
-            }
+            None => stage.set(branch.place, branch.angle),
         };
         let part = &model.sheet.parts[branch.part];
         let string = part.string.map(|string| &model.sheet.strings[string].text);
@@ -73,14 +95,16 @@ pub(super) fn assemble(
         placed: vec![[None; 2]; meshes.len()],
         made: meshes,
     };
+    let mut node_of_part = vec![None; meshes.made.len()];
     for (index, (part, parent, mirrored)) in links.into_iter().enumerate() {
+        node_of_part[part].get_or_insert(index);
         match parent {
             Some(parent) => scene.nodes[parent].children.push(index),
             None => scene.roots.push(index),
         }
         scene.nodes[index].mesh = meshes.of(part, mirrored, &mut scene.meshes);
     }
-    scene
+    (scene, node_of_part)
 }
 
 /// The meshes of parts on their way into the scene.
@@ -125,7 +149,7 @@ fn mirrored(mesh: &Mesh) -> Mesh {
 }
 
 /// The point of the drawing that lies at the world's origin.
-fn ground(model: &Model<'_>) -> DVec2 {
+fn ground(model: &Model<'_>, layers: &[Layer]) -> DVec2 {
     match model.sheet.drawing_value(Keyword::Ground) {
         Some(Value::Ground(Ground::Page)) => model.drawing.page.0,
         Some(Value::Ground(Ground::Point([x, y]))) => DVec2::new(*x, *y),
@@ -138,7 +162,13 @@ fn ground(model: &Model<'_>) -> DVec2 {
                 .with_min_len(GRAIN)
                 .filter(is_built);
             let boxes = built.map(|part| part.measure.bounds);
-            let all = boxes.reduce_with(|one, other| (one.0.min(other.0), one.1.max(other.1)));
+            let both = |one: (DVec2, DVec2), other: (DVec2, DVec2)| {
+                (one.0.min(other.0), one.1.max(other.1))
+            };
+            let landscapes = layers.iter().map(Layer::bounds);
+            let landscapes = landscapes.map(|[low, high]| (low, high)).reduce(both);
+            let all = boxes.reduce_with(both);
+            let all = all.into_iter().chain(landscapes).reduce(both);
             all.map_or(DVec2::ZERO, |(low, high)| {
                 DVec2::new((low.x + high.x) / 2.0, high.y)
             })

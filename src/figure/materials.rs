@@ -12,6 +12,7 @@ use crate::lang::keyword::Keyword;
 use crate::lang::value::ShapeKind;
 use crate::resolver::Resolver;
 use crate::scene::{AlphaMode, Image, Material, Scene, Texture, TextureUse};
+use crate::terrain::{Layer, LookOf, Tile};
 use crate::texture::Alpha;
 
 /// Where holes begin in textures whose alpha is all or nothing.
@@ -24,6 +25,44 @@ pub(super) struct Materials {
     images: Vec<Image>,
     /// Per part its material, and the way from the drawing to texture coordinates.
     of_part: Vec<Option<(usize, Option<DAffine2>)>>,
+    /// Per tile layer and look its material.
+    of_looks: Vec<Vec<Option<usize>>>,
+}
+
+/// Materials on their way into the list, one for all that look alike.
+#[derive(Default)]
+struct Shared {
+    list: Vec<Material>,
+    known: FxHashMap<Key, usize>,
+}
+
+impl Shared {
+    /// The index of a material.
+    fn slot(
+        &mut self,
+        look: &Look,
+        double_sided: bool,
+        texture: Option<usize>,
+        textures: &Textures,
+    ) -> usize {
+        let list = &mut self.list;
+        let known = self.known.entry(key(look, double_sided, texture));
+        *known.or_insert_with(|| {
+            let mut material = material(look, double_sided);
+            if let Some(texture) = texture {
+                let (name, alpha) = textures.about(texture);
+                name.clone_into(&mut material.name);
+                material.base_color_texture = Some(TextureUse::new(texture));
+                material.alpha_mode = match (material.alpha_mode, alpha) {
+                    (AlphaMode::Opaque, Alpha::Opaque) => AlphaMode::Opaque,
+                    (AlphaMode::Opaque, Alpha::Holes) => AlphaMode::Mask { cutoff: CUTOFF },
+                    _ => AlphaMode::Blend,
+                };
+            }
+            list.push(material);
+            list.len() - 1
+        })
+    }
 }
 
 /// What two parts have in common that share a material.
@@ -38,14 +77,14 @@ impl Materials {
     pub(super) fn collect(
         model: &Model<'_>,
         models: &Models,
+        layers: &[Layer],
         resolver: &dyn Resolver,
         memory: &mut textures::Memory,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let (drawing, sheet) = (model.drawing, model.sheet);
-        let textures = Textures::collect(model, models, resolver, memory, diagnostics);
-        let mut list = Vec::new();
-        let mut known: FxHashMap<Key, usize> = FxHashMap::default();
+        let textures = Textures::collect(model, models, layers, resolver, memory, diagnostics);
+        let mut shared = Shared::default();
         let mut of_part = Vec::with_capacity(sheet.parts.len());
         for (index, part) in sheet.parts.iter().enumerate() {
             let kind = sheet.shape(index).kind;
@@ -66,43 +105,44 @@ impl Materials {
             }
             let double_sided = matches!(kind, ShapeKind::Flat(_));
             let texture = textured.map(|textured| textured.texture);
-            let slot = *known
-                .entry(key(&look, double_sided, texture))
-                .or_insert_with(|| {
-                    let mut material = material(&look, double_sided);
-                    if let Some(texture) = texture {
-                        let (name, alpha) = textures.about(texture);
-                        name.clone_into(&mut material.name);
-                        material.base_color_texture = Some(TextureUse::new(texture));
-                        material.alpha_mode = match (material.alpha_mode, alpha) {
-                            (AlphaMode::Opaque, Alpha::Opaque) => AlphaMode::Opaque,
-                            (AlphaMode::Opaque, Alpha::Holes) => AlphaMode::Mask { cutoff: CUTOFF },
-                            _ => AlphaMode::Blend,
-                        };
-                    }
-                    list.push(material);
-                    list.len() - 1
-                });
+            let slot = shared.slot(&look, double_sided, texture, &textures);
             of_part.push(Some((slot, textured.map(|textured| textured.map))));
         }
+        let mut of_look = |layer: usize, number: usize, found: &LookOf| {
+            let mut look = found.look.clone();
+            let texture = textures.of_look(layer, number);
+            if texture.is_some() && !found.is_tinted {
+                look.color[..3].fill(1.0);
+            }
+            let drawn = found.tile != Tile::None;
+            drawn.then(|| shared.slot(&look, false, texture, &textures))
+        };
+        let of_layer = |(index, layer): (usize, &Layer)| {
+            let looks = layer.looks.iter().enumerate();
+            looks
+                .map(|(number, look)| of_look(index, number, look))
+                .collect()
+        };
+        let of_looks = layers.iter().enumerate().map(of_layer).collect();
         let (textures, images) = textures.into_lists();
         Self {
-            list,
+            list: shared.list,
             textures,
             images,
             of_part,
+            of_looks,
         }
     }
 
     /// A scene that has them, and nothing else yet, and who is painted with what.
-    pub(super) fn into_scene(self) -> (Scene, Painted) {
+    pub(super) fn into_scene(self) -> (Scene, Painted, Grounds) {
         let scene = Scene {
             materials: self.list,
             textures: self.textures,
             images: self.images,
             ..Scene::default()
         };
-        (scene, Painted(self.of_part))
+        (scene, Painted(self.of_part), Grounds(self.of_looks))
     }
 }
 
@@ -113,6 +153,16 @@ impl Painted {
     /// The material of a part, if it has a solid, and the way from the drawing to its texture.
     pub(super) fn of(&self, part: usize) -> Option<(usize, Option<DAffine2>)> {
         self.0[part]
+    }
+}
+
+/// Per tile layer and look its material.
+pub(super) struct Grounds(Vec<Vec<Option<usize>>>);
+
+impl Grounds {
+    /// The material of a layer's look, if anything looks so.
+    pub(super) fn of(&self, layer: usize, look: u8) -> Option<usize> {
+        self.0[layer].get(usize::from(look)).copied().flatten()
     }
 }
 

@@ -6,6 +6,7 @@
 mod assemble;
 mod copies;
 mod frame;
+mod land;
 mod materials;
 mod models;
 mod relief;
@@ -26,8 +27,10 @@ use crate::resolver::Resolver;
 use crate::scene::{Mesh, Piece, Primitive, Scene};
 use crate::solid::{self, Placement, Sides, Solid};
 use crate::svg::Drawing;
+use crate::terrain::Layer;
 use crate::threads::GRAIN;
 
+use assemble::Stage;
 use frame::Frame;
 use materials::{Materials, Painted};
 use models::Models;
@@ -48,10 +51,11 @@ pub struct Memory {
     relief: relief::Memory,
 }
 
-/// Builds the figures of a drawing. What it makes does not depend on what it remembers.
+/// Builds the figures and landscapes of a drawing. What it makes does not depend on what it remembers.
 pub fn build(
     drawing: &Drawing,
     sheet: &Sheet,
+    layers: &[Layer],
     resolver: &dyn Resolver,
     memory: &mut Memory,
     diagnostics: &mut Vec<Diagnostic>,
@@ -64,7 +68,8 @@ pub fn build(
             let mut found = Vec::new();
             let models = Models::collect(&model, resolver, &mut memory.models, &mut found);
             let looks = &mut memory.textures;
-            let materials = Materials::collect(&model, &models, resolver, looks, &mut found);
+            let materials =
+                Materials::collect(&model, &models, layers, resolver, looks, &mut found);
             let frames: Vec<Frame> = sheet
                 .parts
                 .par_iter()
@@ -77,7 +82,7 @@ pub fn build(
     );
     diagnostics.extend(found);
     copies::check(&model, diagnostics);
-    let (mut scene, painted) = materials.into_scene();
+    let (mut scene, painted, grounds) = materials.into_scene();
     models.add_looks(&mut scene);
     let stock = Stock {
         frames,
@@ -91,7 +96,18 @@ pub fn build(
         .with_min_len(GRAIN)
         .map(|(main, parts)| model.mesh(main, parts, &stock))
         .collect();
-    assemble::assemble(&model, tree, meshes, scene)
+    let stage = Stage::of(&model, layers);
+    let (mut scene, nodes) = assemble::assemble(&model, tree, meshes, &stage, scene);
+    land::add(
+        &model,
+        layers,
+        &grounds,
+        &stage,
+        &stock.frames,
+        &nodes,
+        &mut scene,
+    );
+    scene
 }
 
 /// Per main part the parts whose solids are in its node.

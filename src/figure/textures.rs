@@ -2,18 +2,19 @@
 
 use std::sync::Arc;
 
-use glam::DAffine2;
+use glam::{DAffine2, DVec2};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Model;
 use super::models::Models;
-use crate::bind::{PartKind, Source as SettingSource};
+use crate::bind::{PartKind, SetBy, Source as SettingSource};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{ShapeKind, Value};
 use crate::resolver::{LinkError, Resolver};
-use crate::scene::{self, Image, Texture};
+use crate::scene::{self, Image, Texture, Wrap};
 use crate::svg::{PaintKey, broken_link};
+use crate::terrain::Layer;
 use crate::texture::{
     self, Alpha, Baked, Baker, Picture, PictureError, Plan, PlanKey, Server, Source,
 };
@@ -27,6 +28,8 @@ pub(super) struct Textures {
     images: Vec<Image>,
     alphas: Vec<Alpha>,
     of_part: FxHashMap<usize, Textured>,
+    /// By tile layer and look.
+    of_look: FxHashMap<(usize, usize), usize>,
 }
 
 /// How a part is textured.
@@ -49,9 +52,10 @@ struct Wish {
 }
 
 impl Textures {
-    pub(super) fn collect(
-        model: &Model<'_>,
+    pub(super) fn collect<'a>(
+        model: &'a Model<'a>,
         models: &Models,
+        layers: &'a [Layer],
         resolver: &dyn Resolver,
         memory: &mut Memory,
         diagnostics: &mut Vec<Diagnostic>,
@@ -68,12 +72,16 @@ impl Textures {
             names: Vec::new(),
             known: FxHashMap::default(),
             wishes: Vec::new(),
+            looks: Vec::new(),
             told: FxHashSet::default(),
         };
         for part in 0..model.sheet.parts.len() {
             if !models.has(part) {
                 collector.part(part, diagnostics);
             }
+        }
+        for (index, layer) in layers.iter().enumerate() {
+            collector.layer(index, layer, diagnostics);
         }
         texture::fit(&mut collector.plans);
         let baked = memory.baker.bake(&collector.plans);
@@ -89,9 +97,15 @@ impl Textures {
         self.of_part.get(&part).copied()
     }
 
+    /// The texture of a tile layer's look.
+    pub(super) fn of_look(&self, layer: usize, look: usize) -> Option<usize> {
+        self.of_look.get(&(layer, look)).copied()
+    }
+
     /// A texture's name, and where it can be seen through.
     pub(super) fn about(&self, texture: usize) -> (&str, Alpha) {
-        (&self.images[texture].name, self.alphas[texture])
+        let image = self.textures[texture].image;
+        (&self.images[image].name, self.alphas[image])
     }
 
     pub(super) fn into_lists(self) -> (Vec<Texture>, Vec<Image>) {
@@ -107,6 +121,8 @@ struct Collector<'a> {
     names: Vec<String>,
     known: FxHashMap<PlanKey, usize>,
     wishes: Vec<Wish>,
+    /// Tile layers' looks, each with the plan that is laid over each tile.
+    looks: Vec<((usize, usize), usize)>,
     /// Paints that were found not to be drawn.
     told: FxHashSet<&'a PaintKey>,
 }
@@ -131,8 +147,10 @@ impl<'a> Collector<'a> {
                 let (low, high) = extent;
                 let place = DAffine2::from_translation(low) * DAffine2::from_scale(high - low);
                 let source = Source::Picture(picture, scene::Filter::Linear);
-                let name = link.rsplit(['/', '\\']).next().unwrap_or(link);
-                (Arc::new(Server { source, place }), Some(name.to_owned()))
+                (
+                    Arc::new(Server { source, place }),
+                    Some(file_name(link).to_owned()),
+                )
             }
             (None, Some(server)) => {
                 let picture = matches!(paint.key, PaintKey::Picture(_));
@@ -149,21 +167,54 @@ impl<'a> Collector<'a> {
             Ok(plan) => plan,
             Err(why) => return diagnostics.extend(self.plain(index, why)),
         };
-        let next = self.plans.len();
-        let number = *self.known.entry(plan.key()).or_insert(next);
-        if number == next {
-            self.plans.push(plan);
-            self.names.push(name.unwrap_or_else(|| match &paint.key {
+        let number = self.number(plan, || {
+            name.unwrap_or_else(|| match &paint.key {
                 PaintKey::Server(id) => format!("#{id}"),
                 _ => drawing.shapes[part.shape].element.own_name().to_owned(),
-            }));
-        }
+            })
+        });
         self.wishes.push(Wish {
             part: index,
             server,
             plan: number,
             is_file,
         });
+    }
+
+    /// The looks of a tile layer.
+    fn layer(&mut self, index: usize, layer: &'a Layer, diagnostics: &mut Vec<Diagnostic>) {
+        for (number, look) in layer.looks.iter().enumerate() {
+            let Some((string, setting)) = &look.texture else {
+                continue;
+            };
+            let source = SettingSource {
+                setting,
+                from: SetBy::Legend,
+                string: *string,
+            };
+            let Some((link, picture)) = self.files.picture(self.model, &source, diagnostics) else {
+                continue;
+            };
+            let server = Server {
+                source: Source::Picture(picture, scene::Filter::Linear),
+                place: DAffine2::IDENTITY,
+            };
+            if let Ok(plan) = server.plan([DVec2::ZERO, DVec2::ONE], 1.0) {
+                let plan = self.number(plan, || file_name(link).to_owned());
+                self.looks.push(((index, number), plan));
+            }
+        }
+    }
+
+    /// The index of a plan, which is a new one if there is none like it.
+    fn number(&mut self, plan: Plan, name: impl FnOnce() -> String) -> usize {
+        let next = self.plans.len();
+        let number = *self.known.entry(plan.key()).or_insert(next);
+        if number == next {
+            self.plans.push(plan);
+            self.names.push(name());
+        }
+        number
     }
 
     /// Says, once a paint, that it appears in one colour.
@@ -193,11 +244,13 @@ impl<'a> Collector<'a> {
             images: Vec::new(),
             alphas: Vec::new(),
             of_part: FxHashMap::default(),
+            of_look: FxHashMap::default(),
         };
         let mut numbers = Vec::with_capacity(baked.len());
         for (baked, name) in baked.into_iter().zip(std::mem::take(&mut self.names)) {
             numbers.push(baked.map(|baked| {
                 let number = textures.textures.len();
+                // Nothing but these has been put in: images and textures go by the same numbers so far.
                 textures.textures.push(Texture {
                     image: number,
                     wrap: baked.wrap,
@@ -227,8 +280,28 @@ impl<'a> Collector<'a> {
                 Err(why) => diagnostics.extend(self.plain(wish.part, why)),
             }
         }
+        // On tiles a picture is seen again and again, so that it is another texture of the same image.
+        let mut repeated: FxHashMap<usize, usize> = FxHashMap::default();
+        for (look, plan) in std::mem::take(&mut self.looks) {
+            let Ok(image) = numbers[plan] else { continue };
+            let list = &mut textures.textures;
+            let texture = *repeated.entry(image).or_insert_with(|| {
+                list.push(Texture {
+                    image,
+                    wrap: [Wrap::Repeat; 2],
+                    filter: list[image].filter,
+                });
+                list.len() - 1
+            });
+            textures.of_look.insert(look, texture);
+        }
         textures
     }
+}
+
+/// The last part of a link.
+fn file_name(link: &str) -> &str {
+    link.rsplit(['/', '\\']).next().unwrap_or(link)
 }
 
 /// The files that `Texture` names.

@@ -184,6 +184,11 @@ impl Analysis {
             }
             PartKind::Legend => "**A legend's swatch**, left out of the model".to_owned(),
             PartKind::Unused => "**Left out of the model**".to_owned(),
+            PartKind::Tile => {
+                let layer = sheet.layer_of_group(self.drawing().shapes[part.shape].group);
+                let name = layer.map_or("", |layer| &sheet.layers[layer].name);
+                format!("**Tiles** of {}", escaped(name))
+            }
         };
         if part.kind == PartKind::Main {
             let _ = write!(out, "\n\n{}", self.lineage(index));

@@ -61,6 +61,7 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     let sheet = &compiled.sheet;
     let places = Places::new(text);
     let parts = sheet.parts.iter().enumerate();
+    let parts = parts.filter(|(_, part)| part.kind != PartKind::Tile);
     let report = |(index, part): (usize, &'a bind::Part)| Part {
         name: own_name(compiled, part),
         parent: match part.kind {

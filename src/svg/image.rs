@@ -1,97 +1,185 @@
-//! Pictures as parts: the border of what is opaque in an `<image>` (figure.md, Parts).
+//! The picture of an `<image>`: its pixels, and the border of what is opaque in it (figure.md, Parts).
 
 use std::sync::Arc;
 
-use glam::DVec2;
+use glam::{DAffine2, DVec2};
 use rustc_hash::FxHashMap;
 
+use super::clip::Clip;
 use crate::diagnostic::Code;
-use crate::geometry::Ring;
+use crate::geometry::{FillRule, Outline, Ring, clean};
 use crate::scene::Filter;
-use crate::texture::{self, Decoded, Picture, PictureError};
+use crate::texture::{self, Decoded, PictureError, Server, Source};
 
 /// Pixels along the longer side of a picture that is SVG itself.
 const SVG_SIDE: u32 = 1024;
 /// How far the border may lie off the pixels' edges, pixels: enough to smooth the steps of slanted borders.
 const BORDER_TOLERANCE: f64 = 0.75;
 
-/// The opaque area of a picture.
-pub(super) struct Opaque {
-    /// Its border in the picture's units, y down; areas by the even-odd rule.
-    pub(super) rings: Vec<Ring>,
+/// The file of an `<image>`, and where it lies.
+#[derive(Debug, Clone)]
+pub struct PictureSource {
+    file: File,
+    /// How large the picture is in its own units.
+    size: DVec2,
+    /// From its own units to the drawing.
+    transform: DAffine2,
+    /// What lies between its pixels.
+    filter: Filter,
+    clips: Option<Arc<Vec<Clip>>>,
+}
+
+#[derive(Debug, Clone)]
+enum File {
+    /// PNG, JPEG, GIF or WebP.
+    Pixels(Arc<Vec<u8>>),
+    /// SVG.
+    Drawing(Box<usvg::Tree>),
+}
+
+/// What a picture shows as a part.
+pub(super) struct Traced {
+    /// Its opaque area.
+    pub(super) outline: Outline,
     /// Its mean colour, sRGB.
     pub(super) color: [u8; 3],
     /// What is seen on it, if that can be told.
-    pub(super) picture: Option<Picture>,
-    /// How large the picture is.
-    pub(super) size: DVec2,
-    /// What lies between its pixels.
-    pub(super) filter: Filter,
+    pub(super) server: Option<Server>,
 }
 
-/// The opaque area of a picture: alpha over one half, the whole rectangle where it has no alpha.
-///
-/// # Errors
-/// What is wrong with it: it passes a limit, or cannot be read.
-pub(super) fn opaque(picture: &usvg::Image) -> Result<Opaque, (Code, String)> {
-    let (decoded, bytes) = match picture.kind() {
-        usvg::ImageKind::JPEG(bytes)
-        | usvg::ImageKind::PNG(bytes)
-        | usvg::ImageKind::GIF(bytes)
-        | usvg::ImageKind::WEBP(bytes) => {
-            let decoded = texture::decode(bytes).map_err(|error| {
-                let code = match error {
-                    PictureError::TooLarge => Code::LimitPassed,
-                    PictureError::Unreadable(_) => Code::MissingFile,
-                };
-                (code, format!("the picture {error}"))
-            })?;
-            (decoded, Arc::from(bytes.as_slice()))
+impl PictureSource {
+    pub(super) fn of(
+        picture: &usvg::Image,
+        transform: DAffine2,
+        clips: Option<Arc<Vec<Clip>>>,
+    ) -> Self {
+        let size = picture.size();
+        Self {
+            file: match picture.kind() {
+                usvg::ImageKind::JPEG(bytes)
+                | usvg::ImageKind::PNG(bytes)
+                | usvg::ImageKind::GIF(bytes)
+                | usvg::ImageKind::WEBP(bytes) => File::Pixels(Arc::clone(bytes)),
+                usvg::ImageKind::SVG(tree) => File::Drawing(Box::new(tree.clone())),
+            },
+            size: DVec2::new(size.width().into(), size.height().into()),
+            transform,
+            filter: match picture.rendering_mode() {
+                usvg::ImageRendering::CrispEdges | usvg::ImageRendering::Pixelated => {
+                    Filter::Nearest
+                }
+                _ => Filter::Linear,
+            },
+            clips,
         }
-        usvg::ImageKind::SVG(tree) => {
-            let pixels = texture::render_tree(tree, SVG_SIDE).map_err(|why| {
-                let message = format!("the picture cannot be drawn: {why}");
-                (Code::LimitPassed, message)
-            })?;
-            let media_type = None;
-            (Decoded { pixels, media_type }, Arc::from([]))
-        }
-    };
-    let rgba = &decoded.pixels;
-    let (width, height) = rgba.dimensions();
-    let solid = |x: i64, y: i64| {
-        x >= 0
-            && y >= 0
-            && x < i64::from(width)
-            && y < i64::from(height)
-            && rgba.get_pixel(x as u32, y as u32).0[3] > 127
-    };
-    let mut sum = [0_u64; 3];
-    let mut count = 0_u64;
-    for pixel in rgba.pixels().filter(|pixel| pixel.0[3] > 127) {
-        (0..3).for_each(|channel| sum[channel] += u64::from(pixel.0[channel]));
-        count += 1;
     }
-    let color = sum.map(|channel| (channel / count.max(1)) as u8);
-    let mut rings = if count == u64::from(width) * u64::from(height) {
-        vec![rectangle(width.into(), height.into())]
-    } else {
-        border(width.into(), height.into(), solid)
+
+    /// From the unit square, y down, to where the picture lies in the drawing.
+    pub fn place(&self) -> DAffine2 {
+        self.transform * DAffine2::from_scale(self.size)
+    }
+
+    /// Whether something cuts the picture's rectangle.
+    pub fn is_clipped(&self) -> bool {
+        self.clips.is_some()
+    }
+
+    /// The picture's pixels, the first row on top. A picture that is SVG itself has `side` of them along its longer
+    /// side.
+    ///
+    /// # Errors
+    /// What is wrong with it: it passes a limit, or cannot be read.
+    pub fn pixels(&self, side: u32) -> Result<image::DynamicImage, (Code, String)> {
+        match &self.file {
+            File::Pixels(bytes) => {
+                let (pixels, _) = texture::pixels(bytes).map_err(unreadable)?;
+                Ok(pixels)
+            }
+            File::Drawing(tree) => {
+                let pixels = texture::render_tree(tree, side).map_err(undrawn)?;
+                Ok(pixels.into())
+            }
+        }
+    }
+
+    /// The whole rectangle, as far as clips leave it.
+    pub(super) fn rectangle(&self) -> Outline {
+        self.outline(vec![rectangle(self.size.x, self.size.y)])
+    }
+
+    fn outline(&self, rings: Vec<Ring>) -> Outline {
+        let to_drawing = |ring: Ring| {
+            let points = ring.into_iter();
+            points.map(|p| self.transform.transform_point2(p)).collect()
+        };
+        let rings = rings.into_iter().map(to_drawing).collect();
+        let clips = self.clips.iter().flat_map(|clips| clips.iter());
+        clips.fold(clean(rings, FillRule::EvenOdd), |outline, clip| {
+            clip.cut(outline)
+        })
+    }
+
+    /// The picture as a part: its area is where alpha is over one half, the whole rectangle where it has no alpha.
+    ///
+    /// # Errors
+    /// What is wrong with it: it passes a limit, or cannot be read.
+    pub(super) fn trace(&self) -> Result<Traced, (Code, String)> {
+        let (decoded, bytes) = match &self.file {
+            File::Pixels(bytes) => {
+                let decoded = texture::decode(bytes).map_err(unreadable)?;
+                (decoded, Arc::from(bytes.as_slice()))
+            }
+            File::Drawing(tree) => {
+                let pixels = texture::render_tree(tree, SVG_SIDE).map_err(undrawn)?;
+                let media_type = None;
+                (Decoded { pixels, media_type }, Arc::from([]))
+            }
+        };
+        let rgba = &decoded.pixels;
+        let (width, height) = rgba.dimensions();
+        let solid = |x: i64, y: i64| {
+            x >= 0
+                && y >= 0
+                && x < i64::from(width)
+                && y < i64::from(height)
+                && rgba.get_pixel(x as u32, y as u32).0[3] > 127
+        };
+        let mut sum = [0_u64; 3];
+        let mut count = 0_u64;
+        for pixel in rgba.pixels().filter(|pixel| pixel.0[3] > 127) {
+            (0..3).for_each(|channel| sum[channel] += u64::from(pixel.0[channel]));
+            count += 1;
+        }
+        let mut rings = if count == u64::from(width) * u64::from(height) {
+            vec![rectangle(width.into(), height.into())]
+        } else {
+            border(width.into(), height.into(), solid)
+        };
+        let scale = self.size / DVec2::new(width.into(), height.into());
+        rings.iter_mut().flatten().for_each(|point| *point *= scale);
+        let picture = texture::picture(decoded, &bytes, true);
+        Ok(Traced {
+            outline: self.outline(rings),
+            color: sum.map(|channel| (channel / count.max(1)) as u8),
+            server: picture.map(|picture| Server {
+                source: Source::Picture(picture, self.filter),
+                place: self.place(),
+            }),
+        })
+    }
+}
+
+fn unreadable(error: PictureError) -> (Code, String) {
+    let code = match error {
+        PictureError::TooLarge => Code::LimitPassed,
+        PictureError::Unreadable(_) => Code::MissingFile,
     };
-    let size = picture.size();
-    let size = DVec2::new(size.width().into(), size.height().into());
-    let scale = size / DVec2::new(width.into(), height.into());
-    rings.iter_mut().flatten().for_each(|point| *point *= scale);
-    Ok(Opaque {
-        rings,
-        color,
-        picture: texture::picture(decoded, &bytes, true),
-        size,
-        filter: match picture.rendering_mode() {
-            usvg::ImageRendering::CrispEdges | usvg::ImageRendering::Pixelated => Filter::Nearest,
-            _ => Filter::Linear,
-        },
-    })
+    (code, format!("the picture {error}"))
+}
+
+fn undrawn(why: &str) -> (Code, String) {
+    let message = format!("the picture cannot be drawn: {why}");
+    (Code::LimitPassed, message)
 }
 
 fn rectangle(width: f64, height: f64) -> Ring {

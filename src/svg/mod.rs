@@ -13,6 +13,7 @@ mod image;
 mod links;
 mod paint;
 mod paths;
+mod pictures;
 mod prepare;
 mod shapes;
 mod style;
@@ -24,8 +25,10 @@ use std::sync::Arc;
 use glam::DVec2;
 
 pub use again::Retyped;
+pub use image::PictureSource;
 pub(crate) use links::broken_link;
 pub use paths::StrokeSource;
+pub(crate) use pictures::LARGE;
 pub(crate) use prepare::character;
 pub use text::Label;
 
@@ -46,6 +49,8 @@ pub struct Drawing {
     pub shapes: Vec<Shape>,
     /// The texts in document order, each with the index of its group.
     pub labels: Vec<(Label, usize)>,
+    /// Per group whether pictures in it were left as they are (see [`AsTheyAre`]); `None` if there were none.
+    pub as_they_are: Option<Vec<bool>>,
 }
 
 /// What groups can be.
@@ -124,6 +129,9 @@ pub struct Shape {
     pub stroke: Option<Arc<StrokeSource>>,
     /// What a line leads from and to, if the shape is an unfilled open line.
     pub line: Option<Box<Line>>,
+    /// The file of an `<image>` whose pixels are read one by one: its outline is its whole rectangle, its paint has
+    /// no colour of its own. Other pictures have none.
+    pub picture: Option<Arc<PictureSource>>,
 }
 
 /// An unfilled open line.
@@ -135,14 +143,23 @@ pub struct Line {
     pub connects: [Option<String>; 2],
 }
 
+/// Tells of each group whether its pictures are read pixel by pixel: those are left as they are, for their borders
+/// and their use as textures take longer to make than all else about them.
+pub type AsTheyAre<'a> = &'a (dyn Fn(&Drawing) -> Vec<bool> + Sync);
+
 /// Reads a drawing. `tolerance` is how far a flattened curve may lie off, as a share of its shape's
-/// larger extent.
+/// larger extent; `as_they_are` is asked only where there are pictures.
 ///
 /// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing. Recurses as deep as the
 /// drawing is nested: the thread needs a stack of some 100 MiB, as [`crate::compile::compile`] gives it.
-pub fn read(source: &str, tolerance: f64, resolver: &dyn Resolver) -> (Drawing, Vec<Diagnostic>) {
+pub fn read(
+    source: &str,
+    tolerance: f64,
+    resolver: &dyn Resolver,
+    as_they_are: AsTheyAre<'_>,
+) -> (Drawing, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
-    let drawing = read_document(source, tolerance, resolver, &mut diagnostics);
+    let drawing = read_document(source, tolerance, resolver, as_they_are, &mut diagnostics);
     let drawing = drawing.unwrap_or_else(|diagnostic| {
         diagnostics.push(*diagnostic);
         Drawing::default()
@@ -154,6 +171,7 @@ fn read_document(
     source: &str,
     tolerance: f64,
     resolver: &dyn Resolver,
+    as_they_are: AsTheyAre<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Drawing, Box<Diagnostic>> {
     if source.trim_start_matches('\u{feff}').trim().is_empty() {
@@ -186,7 +204,13 @@ fn read_document(
             Diagnostic::new(Code::NotSvg, span, message).help("save the drawing as SVG"),
         ));
     }
-    shapes::read(&document, &prepared, tolerance, resolver, diagnostics)
+    let mut drawing = shapes::read(&document, &prepared, tolerance, resolver, diagnostics)?;
+    if drawing.shapes.iter().any(|shape| shape.picture.is_some()) {
+        let left = as_they_are(&drawing);
+        pictures::trace(&mut drawing, &left, diagnostics);
+        drawing.as_they_are = Some(left);
+    }
+    Ok(drawing)
 }
 
 /// What the XML parser says, at the byte of the original it says it of.

@@ -8,6 +8,9 @@ use usvg::tiny_skia_path as skia;
 use super::{Line, Paint};
 use crate::geometry::{FillRule, Outline, Ring, clean, flatten};
 
+/// How far straight pieces may always lie off a curve, as a share of its path's extent: bounds their number.
+const FINEST: f64 = 1e-5;
+
 /// A stroke, from which an outline can be made when it is wanted.
 #[derive(Debug, Clone)]
 pub struct StrokeSource {
@@ -20,6 +23,35 @@ pub struct StrokeSource {
 }
 
 impl StrokeSource {
+    /// The middle line of the stroke as straight pieces that lie off by at most `tolerance`, drawing units, or by a
+    /// hundred thousandth of its extent. Gaps of dashes are not left out.
+    pub fn middle_line(&self, tolerance: f64, mut each: impl FnMut(DVec2, DVec2)) {
+        let path = bez_path(&self.path, self.transform);
+        let bounds = path.control_box();
+        let finest = FINEST * bounds.width().max(bounds.height());
+        if !finest.is_finite() {
+            return;
+        }
+        let (mut start, mut at) = (DVec2::ZERO, DVec2::ZERO);
+        kurbo::flatten(&path, tolerance.max(finest), |element| match element {
+            kurbo::PathEl::MoveTo(p) => {
+                at = DVec2::new(p.x, p.y);
+                start = at;
+            }
+            kurbo::PathEl::LineTo(p) => {
+                let to = DVec2::new(p.x, p.y);
+                each(at, to);
+                at = to;
+            }
+            kurbo::PathEl::ClosePath => {
+                each(at, start);
+                at = start;
+            }
+            // Curves were made straight.
+            kurbo::PathEl::QuadTo(..) | kurbo::PathEl::CurveTo(..) => {}
+        });
+    }
+
     /// The area that the stroke covers.
     pub fn outline(&self) -> Outline {
         let extent = self

@@ -12,11 +12,10 @@ use super::paths::{StrokeSource, affine, bez_path, open_line, rings};
 use super::prepare::Prepared;
 use super::style::Styles;
 use super::walk::{Leaf, Task, Walk};
-use super::{Drawing, Element, Paint, PaintKey, Shape, growth, image};
+use super::{Drawing, Element, Paint, PaintKey, PictureSource, Shape, growth};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{FillRule, Outline, clean};
 use crate::resolver::Resolver;
-use crate::texture::{Server, Source};
 
 /// Joins what usvg and the XML know.
 pub(super) fn read(
@@ -116,6 +115,7 @@ pub(super) fn read(
         groups,
         shapes,
         labels,
+        as_they_are: None,
     })
 }
 
@@ -152,7 +152,7 @@ impl Context<'_, '_> {
                     .and_then(|shape| self.clipped_away(shape, path, task));
                 (shape, finding.map(Box::new))
             }
-            Leaf::Image(image) => self.image(index, image, node, task),
+            Leaf::Image(image) => (Some(self.image(index, image, node, task)), None),
         }
     }
 
@@ -237,6 +237,7 @@ impl Context<'_, '_> {
             opacity,
             stroke,
             line,
+            picture: None,
         })
     }
 
@@ -246,60 +247,23 @@ impl Context<'_, '_> {
         picture: &usvg::Image,
         node: Node<'_, '_>,
         task: &Task<'_>,
-    ) -> (Option<Shape>, Option<Box<Diagnostic>>) {
+    ) -> Shape {
         let element = self.element(node);
         let transform = self.page * affine(picture.abs_transform());
-        let image::Opaque {
-            rings,
-            color,
-            picture,
-            size,
-            filter,
-        } = match image::opaque(picture) {
-            Ok(opaque) => opaque,
-            Err((code, message)) => {
-                let help = "link a smaller picture, or save it again as PNG";
-                let finding = Diagnostic::new(code, element.span, message).help(help);
-                return (None, Some(Box::new(finding)));
-            }
-        };
-        let rings = rings.into_iter().map(|ring| {
-            ring.into_iter()
-                .map(|p| transform.transform_point2(p))
-                .collect()
-        });
-        let mut outline = clean(rings.collect(), FillRule::EvenOdd);
-        outline = task.clip(outline);
-        let finding = outline.polygons.is_empty().then(|| {
-            let message = format!(
-                "nothing opaque is left of the picture {}",
-                element.describe()
-            );
-            let finding = Diagnostic::new(Code::Vanishes, element.span, message);
-            Box::new(finding.help("delete it, or show what its clip hides"))
-        });
-        let paint = Paint {
-            key: PaintKey::Picture(index),
-            color,
-            server: picture.map(|picture| {
-                Arc::new(Server {
-                    source: Source::Picture(picture, filter),
-                    place: transform * DAffine2::from_scale(size),
-                })
-            }),
-        };
-        let opacity = task.opacity;
-        (
-            Some(Shape {
-                group: task.group,
-                element,
-                outline: Arc::new(outline),
-                paint,
-                opacity,
-                stroke: None,
-                line: None,
-            }),
-            finding,
-        )
+        let source = PictureSource::of(picture, transform, task.clips.clone());
+        Shape {
+            group: task.group,
+            element,
+            outline: Arc::new(source.rectangle()),
+            paint: Paint {
+                key: PaintKey::Picture(index),
+                color: [0; 3],
+                server: None,
+            },
+            opacity: task.opacity,
+            stroke: None,
+            line: None,
+            picture: Some(Arc::new(source)),
+        }
     }
 }

@@ -20,7 +20,7 @@ use glam::{DAffine2, DMat2, DVec2};
 
 pub use baker::Baker;
 pub use gradient::{Focus, Gradient, Spread, Stop};
-pub use picture::{Decoded, PictureError, decode, picture};
+pub use picture::{Decoded, PictureError, decode, picture, pixels};
 
 use crate::scene::{Filter, MediaType, Wrap};
 

@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::sync::Arc;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder as _, RgbaImage};
+use image::{DynamicImage, ExtendedColorType, ImageEncoder as _, RgbaImage};
 
 use super::{Alpha, Picture};
 use crate::scene::MediaType;
@@ -52,6 +52,18 @@ impl From<image::ImageError> for PictureError {
 /// # Errors
 /// See [`PictureError`].
 pub fn decode(bytes: &[u8]) -> Result<Decoded, PictureError> {
+    let (pixels, media_type) = pixels(bytes)?;
+    Ok(Decoded {
+        pixels: pixels.into_rgba8(),
+        media_type,
+    })
+}
+
+/// Reads a picture as it is stored, and what the file is, if glTF can hold it as it stands.
+///
+/// # Errors
+/// See [`PictureError`].
+pub fn pixels(bytes: &[u8]) -> Result<(DynamicImage, Option<MediaType>), PictureError> {
     let mut reader = image::ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
         .map_err(image::ImageError::IoError)?;
@@ -64,10 +76,7 @@ pub fn decode(bytes: &[u8]) -> Result<Decoded, PictureError> {
         Some(image::ImageFormat::Jpeg) => Some(MediaType::Jpeg),
         _ => None,
     };
-    Ok(Decoded {
-        pixels: reader.decode()?.to_rgba8(),
-        media_type,
-    })
+    Ok((reader.decode()?, media_type))
 }
 
 /// The file that a picture becomes in the model: its own where nothing of it can be seen through.

@@ -41,7 +41,7 @@ static TILE_WORD: [Parameter; 1] = [Parameter {
 }];
 static RADIUS: [Parameter; 1] = [number(
     "r",
-    Bounds::NOT_NEGATIVE,
+    Bounds::new(0., 0.5, Grain::Any),
     "radius of the bevel, in tiles",
 )];
 static FACTOR: [Parameter; 1] = [number(
@@ -151,7 +151,7 @@ pub(super) static ROWS: [Row; 12] = [
                role-playing games, and becomes a landscape of blocks. `size` is the side of a tile \
                in drawing units.",
         example: "Island$Tiles 16",
-        status: Status::Planned,
+        status: Status::Built,
     },
     Row {
         keyword: Keyword::Tile,
@@ -164,7 +164,7 @@ pub(super) static ROWS: [Row; 12] = [
                ground (`green`), cliff (`brown`), water (`blue`), roof (`red`), wall (`beige`) or \
                `none`.",
         example: "$Tile green Color #88bb44",
-        status: Status::Planned,
+        status: Status::Built,
     },
     Row {
         keyword: Keyword::Bevel,
@@ -176,7 +176,7 @@ pub(super) static ROWS: [Row; 12] = [
         long: "The corners of a landscape's ground are cut by `r` tiles, so that it looks less like \
                boxes.",
         example: "Island$Tiles 16 Bevel 0.2",
-        status: Status::Planned,
+        status: Status::Built,
     },
     Row {
         keyword: Keyword::Roof,
@@ -188,7 +188,7 @@ pub(super) static ROWS: [Row; 12] = [
         long: "The height of the ridge over the depth of the roof. With 0.5 the model looks exactly \
                like the drawing when seen at 45°.",
         example: "Village$Tiles 16 Roof 0.5",
-        status: Status::Planned,
+        status: Status::Built,
     },
     Row {
         keyword: Keyword::View,

@@ -1,0 +1,186 @@
+//! What parts and tile layers hang on: the names behind `@` (figure.md, Hierarchy and local frames).
+
+use rustc_hash::FxHashMap;
+
+use super::hierarchy::ROOT;
+use super::sheet::{Part, PartKind, Sheet, SheetString};
+use crate::diagnostic::{Code, Diagnostic, nearest_word};
+use crate::lang::ast::Annotation;
+use crate::svg::Drawing;
+
+/// Finds the parents that strings name.
+pub(super) fn parents(
+    drawing: &Drawing,
+    sheet: &mut Sheet,
+    names: &FxHashMap<String, usize>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for index in 0..sheet.parts.len() {
+        let part = &sheet.parts[index];
+        if part.kind != PartKind::Main {
+            continue;
+        }
+        let Some(string) = part.string else { continue };
+        let (own, string) = (part.name.as_str(), &sheet.strings[string]);
+        match parent(drawing, sheet, string, own, names) {
+            Ok(None) => {}
+            Ok(parent) => sheet.parts[index].parent = parent,
+            Err(finding) => diagnostics.push(*finding),
+        }
+    }
+}
+
+/// Finds what tile layers hang on.
+pub(super) fn of_layers(
+    drawing: &Drawing,
+    sheet: &mut Sheet,
+    names: &FxHashMap<String, usize>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for index in 0..sheet.layers.len() {
+        let layer = &sheet.layers[index];
+        let string = &sheet.strings[layer.string];
+        match parent(drawing, sheet, string, &layer.name, names) {
+            Ok(parent) => sheet.layers[index].parent = parent,
+            Err(finding) => diagnostics.push(*finding),
+        }
+    }
+}
+
+/// The part that a string names behind `@`, if it names one; `own` is what the string itself names.
+fn parent(
+    drawing: &Drawing,
+    sheet: &Sheet,
+    string: &SheetString,
+    own: &str,
+    names: &FxHashMap<String, usize>,
+) -> Result<Option<usize>, Box<Diagnostic>> {
+    let Annotation::Part(annotation) = &string.annotation else {
+        return Ok(None);
+    };
+    let Some(parent) = &annotation.parent else {
+        return Ok(None);
+    };
+    if let Some(parent) = names.get(&parent.text) {
+        return Ok(Some(*parent));
+    }
+    // What `inspect` and the model call `Root` may be named like any part.
+    if parent.text == ROOT {
+        return Ok(None);
+    }
+    let text = &string.text;
+    let span = text.span(parent.range.clone());
+    let mut diagnostic = Diagnostic::new(
+        Code::UnknownParent,
+        span,
+        format!("there is no part named `{}`", parent.text),
+    );
+    let is_named = |part: &&Part| part.name == parent.text && part.kind != PartKind::Main;
+    let mut layers = sheet.layers.iter();
+    if let Some(other) = sheet.parts.iter().find(is_named) {
+        diagnostic = diagnostic
+            .related(
+                drawing.shapes[other.shape].element.span,
+                "this sub-part has the name, but is no joint",
+            )
+            .help("name the main part of its group instead");
+    } else if let Some(layer) = layers.find(|layer| layer.name == parent.text) {
+        diagnostic = diagnostic
+            .related(
+                sheet.strings[layer.string].text.whole(),
+                "this tile layer has the name, but is no joint",
+            )
+            .help("let both hang on the same part, or on none");
+    } else {
+        let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
+        known.sort_unstable();
+        let others = known.iter().copied().filter(|name| *name != own);
+        if let Some(near) = nearest_word(&parent.text, others) {
+            diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
+                format!("Write `{near}`"),
+                span,
+                text.escape_at(parent.range.start, &quoted(near)),
+            );
+        }
+        diagnostic = diagnostic.help("the name behind `@` must be that of a part, written alike");
+    }
+    Err(Box::new(diagnostic))
+}
+
+/// A name as it must be written in a string.
+fn quoted(name: &str) -> String {
+    if name.contains(|c: char| c.is_whitespace() || "@$\"()".contains(c)) {
+        format!("\"{name}\"")
+    } else {
+        name.to_owned()
+    }
+}
+
+/// Hangs one part of every cycle of parents on the root.
+pub(super) fn break_cycles(
+    drawing: &Drawing,
+    sheet: &mut Sheet,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    // 0: not yet seen; otherwise the walk that saw it.
+    let mut seen = vec![0_usize; sheet.parts.len()];
+    for start in 0..sheet.parts.len() {
+        let mut part = start;
+        while seen[part] == 0 {
+            seen[part] = start + 1;
+            match sheet.parts[part].parent {
+                Some(parent) => part = parent,
+                None => break,
+            }
+        }
+        if seen[part] != start + 1 || sheet.parts[part].parent.is_none() {
+            continue;
+        }
+        let mut cycle = vec![part];
+        while let Some(parent) = cycle
+            .last()
+            .and_then(|last| sheet.parts[*last].parent)
+            .filter(|parent| *parent != part)
+        {
+            cycle.push(parent);
+        }
+        let span = |part: usize| {
+            let string = sheet.parts[part]
+                .string
+                .map(|string| &sheet.strings[string]);
+            match string.map(|string| (&string.annotation, &string.text)) {
+                Some((Annotation::Part(annotation), text)) => annotation
+                    .parent
+                    .as_ref()
+                    .map_or(text.whole(), |parent| text.span(parent.range.clone())),
+                _ => drawing.shapes[sheet.parts[part].shape].element.span,
+            }
+        };
+        let chain: Vec<String> = cycle
+            .iter()
+            .chain([&part])
+            .map(|part| format!("`{}`", sheet.parts[*part].name))
+            .collect();
+        let mut diagnostic = Diagnostic::new(
+            Code::ParentCycle,
+            span(part),
+            if cycle.len() == 1 {
+                format!("{} is its own parent", chain[0])
+            } else {
+                format!(
+                    "parts hang on each other in a circle: {}",
+                    chain.join(" on ")
+                )
+            },
+        )
+        .help("one of them must hang on a part outside the circle, or on none");
+        for other in &cycle[1..] {
+            diagnostic = diagnostic.related(
+                span(*other),
+                format!("`{}` hangs on this", sheet.parts[*other].name),
+            );
+        }
+        diagnostics.push(diagnostic);
+        sheet.parts[part].parent = None;
+    }
+}

@@ -1,0 +1,57 @@
+//! Pictures become parts: the step that is spared where pixels are read one by one.
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::image::{PictureSource, Traced};
+use super::{Drawing, Paint, Shape};
+use crate::diagnostic::{Code, Diagnostic};
+
+/// Gives pictures their outlines and paints, apart from those in groups where they are `left` as they are. A picture that cannot be
+/// read is taken out of the drawing, and said.
+pub(super) fn trace(drawing: &mut Drawing, left: &[bool], diagnostics: &mut Vec<Diagnostic>) {
+    let shapes = drawing.shapes.par_iter_mut();
+    let traced: Vec<(bool, Option<Diagnostic>)> = shapes
+        .map(|shape| match &shape.picture {
+            Some(_) if left[shape.group] => (true, None),
+            Some(picture) => one(&Arc::clone(picture), shape),
+            None => (true, None),
+        })
+        .collect();
+    let mut keep = traced.iter().map(|(keep, _)| *keep);
+    drawing.shapes.retain(|_| keep.next().unwrap_or(true));
+    diagnostics.extend(traced.into_iter().filter_map(|(_, finding)| finding));
+}
+
+/// Makes a part of one picture: whether it can be one, and what there is to say.
+fn one(picture: &PictureSource, shape: &mut Shape) -> (bool, Option<Diagnostic>) {
+    let Traced {
+        outline,
+        color,
+        server,
+    } = match picture.trace() {
+        Ok(traced) => traced,
+        Err((code, message)) => {
+            let finding = Diagnostic::new(code, shape.element.span, message);
+            return (false, Some(finding.help(LARGE)));
+        }
+    };
+    let finding = outline.polygons.is_empty().then(|| {
+        let name = shape.element.describe();
+        let message = format!("nothing opaque is left of the picture {name}");
+        Diagnostic::new(Code::Vanishes, shape.element.span, message)
+            .help("delete it, or show what its clip hides")
+    });
+    shape.outline = Arc::new(outline);
+    shape.paint = Paint {
+        key: shape.paint.key.clone(),
+        color,
+        server: server.map(Arc::new),
+    };
+    shape.picture = None;
+    (true, finding)
+}
+
+/// What to do about a picture that cannot be read.
+pub(crate) const LARGE: &str = "link a smaller picture, or save it again as PNG";

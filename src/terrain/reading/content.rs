@@ -1,0 +1,166 @@
+//! What lies in a tile layer: painted areas, pictures, strokes.
+
+use glam::DVec2;
+use rustc_hash::FxHashSet;
+
+use super::grid::Grid;
+use super::looks::{Painted, Paints};
+use super::raster::{Item, MOST_PAINTS, Picture, paint_code};
+use crate::bind::{PartKind, Place, Sheet};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::bounds;
+use crate::lang::ast::Annotation;
+use crate::svg::{Drawing, LARGE, PictureSource, StrokeSource};
+
+/// The most pixels that the pictures of one layer may have.
+const MOST_PIXELS: usize = 1 << 28;
+/// The most cells that the boxes of a layer's shapes may reach over, all taken together.
+const MOST_PAINTED: usize = 1 << 34;
+/// Least and most pixels along the longer side of a picture that is SVG itself, and how many a tile at best: an odd
+/// number, so that one of them lies in the middle.
+const SVG_SIDE: [u32; 3] = [1024, 8192, 3];
+
+/// What lies in a tile layer, by index of the shape, hindmost first.
+#[derive(Debug, Default, Clone)]
+pub(super) struct Content {
+    /// Filled areas and pictures, each with its box, drawing units.
+    pub(super) fills: Vec<(usize, [DVec2; 2])>,
+    pub(super) strokes: Vec<usize>,
+}
+
+/// What each tile layer holds.
+pub(super) fn contents(drawing: &Drawing, sheet: &Sheet) -> Vec<Content> {
+    let mut contents = vec![Content::default(); sheet.layers.len()];
+    // What has a string of its own is no tile; but lines have seldom a part at all.
+    let mut is_tile = vec![true; drawing.shapes.len()];
+    for part in sheet
+        .parts
+        .iter()
+        .filter(|part| part.kind != PartKind::Tile)
+    {
+        is_tile[part.shape] = false;
+    }
+    let unused = sheet.strings.iter();
+    let unused = unused.filter(|string| string.annotation == Annotation::Unused);
+    let left_out: FxHashSet<usize> = unused
+        .filter_map(|string| match string.place {
+            Place::Shape(shape) => Some(shape),
+            _ => None,
+        })
+        .collect();
+    for (index, shape) in drawing.shapes.iter().enumerate() {
+        let Some(layer) = sheet.layer_of_group(shape.group) else {
+            continue;
+        };
+        if !is_tile[index] || left_out.contains(&index) {
+            continue;
+        }
+        if let Some((low, high)) = bounds(&shape.outline) {
+            contents[layer].fills.push((index, [low, high]));
+        }
+        if shape.stroke.is_some() {
+            contents[layer].strokes.push(index);
+        }
+    }
+    contents
+}
+
+impl Content {
+    /// The box of everything painted.
+    pub(super) fn bounds(&self) -> Option<[DVec2; 2]> {
+        let boxes = self.fills.iter().map(|(_, bounds)| *bounds);
+        boxes.reduce(|one, other| [one[0].min(other[0]), one[1].max(other[1])])
+    }
+
+    pub(super) fn strokes<'a>(&self, drawing: &'a Drawing) -> Vec<&'a StrokeSource> {
+        let strokes = self.strokes.iter();
+        strokes
+            .filter_map(|shape| drawing.shapes[*shape].stroke.as_deref())
+            .collect()
+    }
+
+    /// What is to be drawn, each with the index of its shape. Pictures that cannot be read are said and left out.
+    ///
+    /// # Errors
+    /// That it is too much.
+    pub(super) fn items<'a>(
+        &self,
+        drawing: &'a Drawing,
+        grid: &Grid,
+        paints: &mut Paints<'a>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Result<Vec<(usize, Item<'a>)>, Box<Diagnostic>> {
+        let mut items = Vec::with_capacity(self.fills.len());
+        let (mut pixels, mut painted) = (0_usize, 0_usize);
+        for (index, bounds) in &self.fills {
+            let shape = &drawing.shapes[*index];
+            let too_much = |what: String| {
+                let help = "take away what is hidden, or draw one picture with a pixel a tile";
+                Box::new(Diagnostic::new(Code::LimitPassed, shape.element.span, what).help(help))
+            };
+            let item = match &shape.picture {
+                None => {
+                    let paint = paints.index(Painted {
+                        key: &shape.paint.key,
+                        color: shape.paint.color,
+                        opacity: shape.opacity,
+                        shape: *index,
+                    });
+                    if paint >= MOST_PAINTS {
+                        return Err(too_much(format!(
+                            "a tile layer has more than {MOST_PAINTS} paints"
+                        )));
+                    }
+                    Item::area(grid, &shape.outline, *bounds, paint_code(paint))
+                }
+                Some(source) => match picture(grid, source) {
+                    Ok(mut picture) => {
+                        pixels +=
+                            picture.pixels.width() as usize * picture.pixels.height() as usize;
+                        if pixels > MOST_PIXELS {
+                            let what = format!(
+                                "the pictures of a tile layer have more than {MOST_PIXELS} pixels"
+                            );
+                            return Err(too_much(what));
+                        }
+                        picture.opacity = shape.opacity;
+                        picture.within = source.is_clipped().then_some(&*shape.outline);
+                        Item::picture(grid, *bounds, picture)
+                    }
+                    Err((code, message)) => {
+                        diagnostics
+                            .push(Diagnostic::new(code, shape.element.span, message).help(LARGE));
+                        continue;
+                    }
+                },
+            };
+            let [columns, rows] = item.reach(grid).map(|[from, to]| to - from);
+            painted = painted.saturating_add(columns * rows);
+            if painted > MOST_PAINTED {
+                let what = format!(
+                    "the shapes of a tile layer cover more than {MOST_PAINTED} cells, one over the other"
+                );
+                return Err(too_much(what));
+            }
+            items.push((*index, item));
+        }
+        Ok(items)
+    }
+}
+
+fn picture<'a>(grid: &Grid, source: &PictureSource) -> Result<Picture<'a>, (Code, String)> {
+    let [least, most, a_tile] = SVG_SIDE;
+    let longer = grid.columns.max(grid.rows) as u32;
+    let side = longer.saturating_mul(a_tile).clamp(least, most);
+    let pixels = source.pixels(side)?;
+    let (width, height) = (f64::from(pixels.width()), f64::from(pixels.height()));
+    let to_unit = source.place().inverse();
+    let to_drawing = glam::DAffine2::from_translation(grid.origin)
+        * glam::DAffine2::from_scale(DVec2::splat(grid.size));
+    Ok(Picture {
+        pixels,
+        to_pixels: glam::DAffine2::from_scale(DVec2::new(width, height)) * to_unit * to_drawing,
+        opacity: 1.0,
+        within: None,
+    })
+}

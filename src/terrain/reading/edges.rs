@@ -1,0 +1,116 @@
+//! Edges: strokes that run along grid lines (terrain.md, Input).
+
+use glam::DVec2;
+
+use super::grid::Grid;
+use crate::svg::StrokeSource;
+use crate::terrain::{EDGE_BELOW, EDGE_RIGHT};
+
+/// How far from its grid line a stroke may run, cells.
+const NEAR: f64 = 0.1;
+/// How much of a cell's side must be covered, in sixteenths.
+const COVERED: u32 = 8;
+/// In how many places a side is looked at.
+const PLACES: f64 = 16.0;
+
+/// Sets [`EDGE_RIGHT`] and [`EDGE_BELOW`] of the cells along whose sides strokes run for at least half of the side.
+pub(super) fn read(grid: &Grid, strokes: &[&StrokeSource], edges: &mut [u8]) {
+    if strokes.is_empty() || edges.is_empty() {
+        return;
+    }
+    // One direction at a time, which halves the memory.
+    for (swapped, edge) in [(false, EDGE_RIGHT), (true, EDGE_BELOW)] {
+        let mut sides = Sides {
+            covered: vec![0; edges.len()],
+            count: if swapped {
+                [grid.rows, grid.columns]
+            } else {
+                [grid.columns, grid.rows]
+            },
+            swapped,
+        };
+        let turned = |p: DVec2| if swapped { DVec2::new(p.y, p.x) } else { p };
+        for stroke in strokes {
+            stroke.middle_line(grid.size * NEAR / 4.0, |from, to| {
+                sides.add(turned(grid.cells(from)), turned(grid.cells(to)));
+            });
+        }
+        for (edges, covered) in edges.iter_mut().zip(sides.covered) {
+            if covered.count_ones() >= COVERED {
+                *edges |= edge;
+            }
+        }
+    }
+}
+
+/// The sides that cells share with those to their right; or, with columns and rows swapped, with those below.
+struct Sides {
+    /// Per cell of the map the places along the side that a stroke runs over, a bit each.
+    covered: Vec<u16>,
+    /// Columns and rows, swapped where columns are rows.
+    count: [usize; 2],
+    swapped: bool,
+}
+
+impl Sides {
+    /// Takes a straight piece of a stroke.
+    fn add(&mut self, from: DVec2, to: DVec2) {
+        let (from, to) = if from.y <= to.y {
+            (from, to)
+        } else {
+            (to, from)
+        };
+        let way = to - from;
+        // What runs more across than along follows no side for half of its length.
+        if !(way.y > 0.0 && way.y >= way.x.abs()) {
+            return;
+        }
+        let [columns, rows] = self.count.map(|count| count as f64);
+        let slope = way.x / way.y;
+        let x_at = |y: f64| from.x + slope * (y - from.y);
+        let (low, high) = (from.y.max(0.0), to.y.min(rows));
+        if low >= high {
+            return;
+        }
+        let (left, right) = (x_at(low).min(x_at(high)), x_at(low).max(x_at(high)));
+        // The outermost lines have no cells on both sides.
+        let first = (left - NEAR).ceil().max(1.0);
+        let last = (right + NEAR).floor().min(columns - 1.0);
+        let mut line = first;
+        while line <= last {
+            let span = match slope == 0.0 {
+                true => [low, high],
+                false => {
+                    let ends = [line - NEAR, line + NEAR].map(|x| from.y + (x - from.x) / slope);
+                    [
+                        ends[0].min(ends[1]).max(low),
+                        ends[0].max(ends[1]).min(high),
+                    ]
+                }
+            };
+            self.cover(line as usize - 1, span);
+            line += 1.0;
+        }
+    }
+
+    /// Covers a stretch of the line to the right of a column.
+    fn cover(&mut self, column: usize, [from, to]: [f64; 2]) {
+        // The middles of sixteenths that lie in it.
+        let first = (from * PLACES - 0.5).ceil().max(0.0) as usize;
+        let past = (to * PLACES - 0.5).ceil().max(0.0) as usize;
+        let [columns, rows] = self.count;
+        let mut at = first;
+        while at < past.min(rows * PLACES as usize) {
+            let row = at / PLACES as usize;
+            let end = past.min((row + 1) * PLACES as usize);
+            let (low, high) = (at % PLACES as usize, end - row * PLACES as usize);
+            let bits = (((1_u32 << high) - 1) & !((1_u32 << low) - 1)) as u16;
+            let cell = match self.swapped {
+                true => column * rows + row,
+                false => row * columns + column,
+            };
+            self.covered[cell] |= bits;
+            at = end;
+        }
+    }
+}

@@ -1,0 +1,302 @@
+//! What there is to say of a tile layer.
+
+use glam::DVec2;
+
+use super::Layer;
+use super::content::Content;
+use super::grid::{Grid, rectangle};
+use super::looks::Paints;
+use super::raster::Code as Painted;
+use super::survey::Tally;
+use crate::bind::Sheet;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lang::keyword::Keyword;
+use crate::source::Span;
+use crate::svg::{Drawing, PaintKey};
+use crate::terrain::{MOST_CELLS, Open, Tile};
+
+/// How far borders of tiles may lie off the grid, cells.
+const OFF: f64 = 0.1;
+/// How many colours are spoken of one by one.
+const MOST_TOLD: usize = 5;
+/// How many open questions of a map are asked one by one.
+const MOST_NOTES: usize = 12;
+/// How many places are shown.
+const MOST_SHOWN: usize = 3;
+
+/// Cells for people, `column 3, row 1`, columns and rows counted from the top left, which is 1: the ones that are
+/// given, and how many more there are.
+pub fn cells_named(columns: usize, first: &[usize], count: usize) -> String {
+    let cell = |cell: &usize| {
+        let (column, row) = (cell % columns.max(1), cell / columns.max(1));
+        format!("column {}, row {}", column + 1, row + 1)
+    };
+    let named: Vec<String> = first.iter().map(cell).collect();
+    match (named.as_slice(), count.saturating_sub(first.len())) {
+        ([all @ .., last], 0) if !all.is_empty() => format!("{} and {last}", all.join("; ")),
+        (all, 0) => all.join("; "),
+        (all, more) => format!("{} and {more} more", all.join("; ")),
+    }
+}
+
+/// Where a layer's string says how large tiles are.
+pub(super) fn size_span(sheet: &Sheet, layer: usize) -> Span {
+    let string = &sheet.strings[sheet.layers[layer].string];
+    let mut settings = string.settings.iter();
+    let size = settings.find(|setting| setting.keyword == Keyword::Tiles);
+    size.map_or(string.text.whole(), |size| {
+        string.text.span(size.range.clone())
+    })
+}
+
+/// A layer without tiles.
+pub(super) fn empty(drawing: &Drawing, sheet: &Sheet, layer: usize, holds: bool) -> Diagnostic {
+    let element = &drawing.groups[sheet.layers[layer].group].element;
+    let name = &sheet.layers[layer].name;
+    let (message, help) = match holds {
+        true => (
+            format!(
+                "nothing in the tile layer `{name}` is a tile: no shape reaches the middle of a cell, or legends say `none` of all that do"
+            ),
+            "is the size larger than the tiles are drawn?",
+        ),
+        false => (
+            format!(
+                "the tile layer `{name}` has no tiles: nothing is painted in {}",
+                element.describe()
+            ),
+            "put the string into the group or layer that holds the tiles",
+        ),
+    };
+    Diagnostic::new(Code::NoTiles, size_span(sheet, layer), message)
+        .related(element.span, "the group")
+        .help(help)
+}
+
+/// A grid over the limit.
+pub(super) fn too_large(
+    sheet: &Sheet,
+    layer: usize,
+    size: f64,
+    [columns, rows]: [f64; 2],
+) -> Diagnostic {
+    let message = format!(
+        "tiles of {size} make a grid of {columns:.0} × {rows:.0} = {:.0} cells, and more than {MOST_CELLS} are not built",
+        columns * rows
+    );
+    Diagnostic::new(Code::LimitPassed, size_span(sheet, layer), message)
+        .help("write the side of a tile in drawing units; or is there something drawn far off?")
+}
+
+/// What the map leaves open, and how it was decided.
+pub(super) fn open(drawing: &Drawing, layer: &Layer, diagnostics: &mut Vec<Diagnostic>) {
+    let notes = layer.land.notes();
+    for note in notes.iter().take(MOST_NOTES) {
+        let [column, row] = note.cell;
+        let shape = layer.source_at(column, row);
+        let span = shape.map_or(Span::at(0), |shape| drawing.shapes[shape].element.span);
+        let cell = layer.map.index(column, row);
+        let cells = cells_named(layer.map.columns, &[cell], note.cells);
+        let (message, help) = note.what.told();
+        let message = format!("`{}`: {message}: {cells}", layer.name);
+        diagnostics.push(Diagnostic::new(Code::OpenTerrain, span, message).help(help));
+    }
+    if notes.len() > MOST_NOTES {
+        let span = drawing.groups[layer.group].element.span;
+        let more = notes.len() - MOST_NOTES;
+        let message = format!(
+            "`{}`: {more} more places are open to more than one reading",
+            layer.name
+        );
+        let help = "mend the first ones: others often follow from them";
+        diagnostics.push(Diagnostic::new(Code::OpenTerrain, span, message).help(help));
+    }
+}
+
+impl Open {
+    /// What is open, and the way out.
+    fn told(self) -> (String, String) {
+        match self {
+            Self::Loose => (
+                "nothing says how high this group lies, and its lowest part was put on the ground".into(),
+                "draw brown tiles below it, down to what it stands on".into(),
+            ),
+            Self::Hangs { drawn, needed } => (
+                format!("this group hangs in the air: {drawn} brown tiles are drawn below it where its height is {needed}"),
+                "draw as many brown tiles as it is high, or draw an edge where another group begins".into(),
+            ),
+            Self::Plain(Tile::Red) => (
+                "a roof without a wall below it is read as ground of its colour".into(),
+                "draw beige tiles below the roof, or say what the colour means: `$Tile green`".into(),
+            ),
+            Self::Plain(_) => (
+                "a wall without a roof above it is read as ground of its colour".into(),
+                "draw red tiles above the wall; for a path, `$Tile green` on a swatch of its colour says so".into(),
+            ),
+            Self::House => (
+                "this house hides tiles that are drawn: its roof or its wall is no rectangle".into(),
+                "draw roof and wall as rectangles, or what stands before them high enough to hide the rest".into(),
+            ),
+            Self::Pits => (
+                "brown tiles in the midst of green ones are pits".into(),
+                "was a block meant, that stands on the ground? Draw edges around its top".into(),
+            ),
+        }
+    }
+}
+
+/// Colours that could mean more than one thing.
+pub(super) fn unclear(
+    drawing: &Drawing,
+    layer: &Layer,
+    paints: &Paints<'_>,
+    colors: &[(Painted, Tally)],
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for (code, tally) in colors.iter().take(MOST_TOLD) {
+        let shape = shape_of(drawing, layer, paints, *code, tally);
+        let ([r, g, b], _) = paints.appearance(*code);
+        let hex = format!("#{r:02x}{g:02x}{b:02x}");
+        let (what, swatch) = match &drawing.shapes[shape].paint.key {
+            PaintKey::Server(id) => (
+                format!("the gradient or pattern `#{id}`, whose mean is {hex},"),
+                "with that fill".to_owned(),
+            ),
+            _ => (format!("the colour {hex}"), format!("of the colour {hex}")),
+        };
+        let cells = cells_named(layer.map.columns, &tally.first, tally.count);
+        let message = format!(
+            "{what} is none that tiles of `{}` can have: {cells}",
+            layer.name
+        );
+        let help = format!(
+            "say what it means: draw a square {swatch} in the same layer, and beside it write `$Tile green`, or brown, blue, red, beige, none"
+        );
+        let span = drawing.shapes[shape].element.span;
+        diagnostics.push(Diagnostic::new(Code::UnclearTile, span, message).help(help));
+    }
+    let rest = colors.get(MOST_TOLD..).unwrap_or_default();
+    if let [(code, first), ..] = rest {
+        let shape = shape_of(drawing, layer, paints, *code, first);
+        let count: usize = rest.iter().map(|(_, tally)| tally.count).sum();
+        let cells = cells_named(layer.map.columns, &first.first[..1], count);
+        let message = format!(
+            "{} more colours are none that tiles of `{}` can have: {cells}",
+            rest.len(),
+            layer.name
+        );
+        let help = "paint maps with few plain colours, without shades between them: as PNG, and without smoothing";
+        let span = drawing.shapes[shape].element.span;
+        diagnostics.push(Diagnostic::new(Code::UnclearTile, span, message).help(help));
+    }
+}
+
+/// The shape in which a colour is seen.
+fn shape_of(
+    drawing: &Drawing,
+    layer: &Layer,
+    paints: &Paints<'_>,
+    code: Painted,
+    tally: &Tally,
+) -> usize {
+    if let Some(paint) = super::raster::paint_of(code) {
+        return paints.list[paint].shape;
+    }
+    let cell = tally.first.first().copied().unwrap_or(0);
+    let columns = layer.map.columns.max(1);
+    let (column, row) = (cell % columns, cell / columns);
+    let pictures = layer.sources.iter().rev();
+    let mut pictures = pictures.filter(|source| drawing.shapes[source.shape].picture.is_some());
+    let here =
+        pictures.find(|source| source.columns.contains(&column) && source.rows.contains(&row));
+    here.or(layer.sources.first())
+        .map_or(0, |source| source.shape)
+}
+
+/// Gradients and patterns that appear as colours.
+pub(super) fn plain(drawing: &Drawing, paints: &Paints<'_>, list: &[usize]) -> Vec<Diagnostic> {
+    let finding = |index: &usize| {
+        let paint = &paints.list[*index];
+        let PaintKey::Server(id) = paint.key else {
+            return None;
+        };
+        let message =
+            format!("the gradient or pattern `#{id}` appears on tiles as its mean colour");
+        let span = drawing.shapes[paint.shape].element.span;
+        Some(
+            Diagnostic::new(Code::PlainPaint, span, message)
+                .help("give its tiles a picture by a legend, as in `$Tile green Texture \"grass.png\"`, or a `Color`"),
+        )
+    };
+    list.iter().filter_map(finding).collect()
+}
+
+/// Tiles that lie off the grid.
+pub(super) fn off_grid(
+    drawing: &Drawing,
+    sheet: &Sheet,
+    layer: usize,
+    grid: &Grid,
+    content: &Content,
+) -> Option<Diagnostic> {
+    let off = |p: DVec2| {
+        let cells = grid.cells(p);
+        cells - cells.round()
+    };
+    let mut count = 0;
+    let mut found: Vec<(usize, DVec2)> = Vec::new();
+    // By how much all of them are off, if it is the same.
+    let mut common: Option<Option<DVec2>> = None;
+    for (shape, [low, high]) in &content.fills {
+        if rectangle(&drawing.shapes[*shape].outline).is_none() {
+            continue;
+        }
+        count += 1;
+        let [from, to] = [off(*low), off(*high)];
+        let alike = |one: DVec2, other: DVec2| {
+            // Half a cell to the left is half a cell to the right.
+            let apart = one - other;
+            (apart - apart.round()).abs().max_element() < OFF / 10.0
+        };
+        common = Some(match common {
+            None => Some(from).filter(|from| alike(*from, to)),
+            Some(known) => known.filter(|known| alike(*known, from) && alike(*known, to)),
+        });
+        if from.abs().max(to.abs()).max_element() > OFF {
+            found.push((*shape, from));
+        }
+    }
+    let (_, first) = found.first()?;
+    let name = &sheet.layers[layer].name;
+    let message = match found.len() == count {
+        true if count == 1 => format!("the shape in `{name}` lies off the grid"),
+        true => format!("all {count} rectangles in `{name}` lie off the grid"),
+        false => format!(
+            "{} of {count} rectangles in `{name}` lie off the grid",
+            found.len()
+        ),
+    };
+    let help = match (found.len() == count, common.flatten()) {
+        (true, Some(_)) => {
+            let [x, y] = (-*first * grid.size)
+                .to_array()
+                .map(|d| (d * 100.0).round() / 100.0 + 0.0);
+            format!(
+                "move the whole layer by {x} to the right and {y} down; the grid begins at a multiple of the size"
+            )
+        }
+        _ => format!(
+            "is {} the size that they are drawn with? a cell becomes what is drawn at its middle",
+            grid.size
+        ),
+    };
+    let mut finding = Diagnostic::new(Code::OffGrid, size_span(sheet, layer), message).help(help);
+    for (shape, _) in found.iter().take(MOST_SHOWN) {
+        let element = &drawing.shapes[*shape].element;
+        finding = finding.related(
+            element.span,
+            "this one is off by more than a tenth of a tile",
+        );
+    }
+    Some(finding)
+}

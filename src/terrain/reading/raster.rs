@@ -1,0 +1,312 @@
+//! What is painted at the middle of each cell: the layer drawn at one pixel a cell, without anti-aliasing.
+//!
+//! A band of rows is drawn at a time, on all cores, so that no picture of the whole layer is ever in memory.
+
+use glam::{DAffine2, DVec2};
+use image::{DynamicImage, GenericImageView as _};
+use rayon::prelude::*;
+use resvg::tiny_skia::{BlendMode, FillRule, Mask, Paint, Path, PathBuilder, PixmapMut, Transform};
+
+use super::grid::{Grid, rectangle};
+use crate::geometry::Outline;
+
+/// What is painted in a cell, as four bytes of a picture that nobody sees. The last byte says what the others are:
+/// 0 nothing, 255 the index of a paint, least byte first; 1 to 254 the colour of a picture's pixel, and how opaque
+/// that is.
+pub(super) type Code = [u8; 4];
+
+/// The code of a cell in which nothing is painted.
+pub(super) const NOTHING: Code = [0; 4];
+/// The most paints that there are codes for.
+pub(super) const MOST_PAINTS: usize = 1 << 24;
+
+/// Cells in a band.
+const BAND: usize = 1 << 20;
+/// Cells along a side of what is drawn at once: the rasteriser's numbers are exact so far.
+const PIECE: usize = 4096;
+
+/// The code of a paint.
+pub(super) fn paint_code(index: usize) -> Code {
+    let [a, b, c, _] = (index as u32).to_le_bytes();
+    [a, b, c, 255]
+}
+
+/// The index of a paint, if the code is that of one.
+pub(super) fn paint_of([a, b, c, kind]: Code) -> Option<usize> {
+    (kind == 255).then(|| u32::from_le_bytes([a, b, c, 0]) as usize)
+}
+
+/// The colour and opacity of a picture's pixel, if the code is that of one.
+pub(super) fn pixel_of([r, g, b, kind]: Code) -> Option<([u8; 3], f64)> {
+    let is_pixel = (1..=254).contains(&kind);
+    is_pixel.then(|| ([r, g, b], f64::from(kind - 1) / 253.0))
+}
+
+/// Something painted in a layer.
+pub(super) struct Item<'a> {
+    /// Its box, cells.
+    bounds: [DVec2; 2],
+    what: What<'a>,
+}
+
+enum What<'a> {
+    Rectangle(Code),
+    Area(&'a Outline, Code),
+    Picture(Box<Picture<'a>>),
+}
+
+/// A picture whose pixels are tiles.
+pub(super) struct Picture<'a> {
+    pub(super) pixels: DynamicImage,
+    /// From cells to pixels.
+    pub(super) to_pixels: DAffine2,
+    /// Opacity of the whole picture, 0 to 1.
+    pub(super) opacity: f64,
+    /// What clips leave of it.
+    pub(super) within: Option<&'a Outline>,
+}
+
+impl<'a> Item<'a> {
+    /// An area in one paint.
+    pub(super) fn area(grid: &Grid, outline: &'a Outline, bounds: [DVec2; 2], code: Code) -> Self {
+        Self {
+            bounds: bounds.map(|p| grid.cells(p)),
+            what: match rectangle(outline) {
+                Some(_) => What::Rectangle(code),
+                None => What::Area(outline, code),
+            },
+        }
+    }
+
+    /// A picture; `bounds` is its box, drawing units.
+    pub(super) fn picture(grid: &Grid, bounds: [DVec2; 2], picture: Picture<'a>) -> Self {
+        Self {
+            bounds: bounds.map(|p| grid.cells(p)),
+            what: What::Picture(Box::new(picture)),
+        }
+    }
+
+    /// The columns and rows whose middles lie in its box: the first ones, and those behind the last ones.
+    pub(super) fn reach(&self, grid: &Grid) -> [[usize; 2]; 2] {
+        let [low, high] = self
+            .bounds
+            .map(|p| (p - 0.5).ceil().clamp(DVec2::ZERO, grid.extent()));
+        [
+            [low.x as usize, high.x as usize],
+            [low.y as usize, high.y as usize],
+        ]
+    }
+}
+
+/// A layer that is to be drawn.
+pub(super) struct Canvas<'a> {
+    grid: Grid,
+    items: Vec<Item<'a>>,
+    /// Per band the items that reach into it, hindmost first.
+    bands: Vec<Vec<u32>>,
+    /// Rows in a band.
+    height: usize,
+}
+
+impl<'a> Canvas<'a> {
+    pub(super) fn new(grid: Grid, items: Vec<Item<'a>>) -> Self {
+        let height = (BAND / grid.columns.max(1)).clamp(1, PIECE);
+        let mut bands = vec![Vec::new(); grid.rows.div_ceil(height)];
+        for (index, item) in items.iter().enumerate() {
+            let [columns, rows] = item.reach(&grid);
+            if columns[0] < columns[1] && rows[0] < rows[1] {
+                for band in &mut bands[rows[0] / height..=(rows[1] - 1) / height] {
+                    band.push(index as u32);
+                }
+            }
+        }
+        Self {
+            grid,
+            items,
+            bands,
+            height,
+        }
+    }
+
+    /// Gives every band of `cells`, which has a byte for each cell, to `fill`, with what draws it; what it gives for
+    /// each band, from the top.
+    pub(super) fn bands<T: Send>(
+        &self,
+        cells: &mut [u8],
+        fill: impl Fn(Band<'_>, &mut [u8]) -> T + Sync,
+    ) -> Vec<T> {
+        let band = self.height * self.grid.columns.max(1);
+        let chunks = cells.par_chunks_mut(band).zip(&self.bands).enumerate();
+        chunks
+            .map(|(index, (cells, items))| {
+                let band = Band {
+                    canvas: self,
+                    items,
+                    first: index * self.height,
+                    rows: cells.len() / self.grid.columns,
+                };
+                fill(band, cells)
+            })
+            .collect()
+    }
+}
+
+impl Canvas<'_> {
+    /// Replaces every cell's byte by what its band's table has for it.
+    pub(super) fn remap(&self, cells: &mut [u8], tables: &[Vec<u8>]) {
+        let band = self.height * self.grid.columns.max(1);
+        let chunks = cells.par_chunks_mut(band).zip(tables);
+        chunks.for_each(|(cells, table)| {
+            for cell in cells {
+                *cell = table[usize::from(*cell)];
+            }
+        });
+    }
+}
+
+/// A band of rows.
+pub(super) struct Band<'a> {
+    canvas: &'a Canvas<'a>,
+    items: &'a [u32],
+    first: usize,
+    rows: usize,
+}
+
+impl Band<'_> {
+    /// Draws the band: gives each stretch of cells of a row, with the place of its first cell in the band and that
+    /// cell's index in the map.
+    pub(super) fn draw(&self, mut each: impl FnMut(usize, usize, &[Code])) {
+        let columns = self.canvas.grid.columns;
+        let mut codes = Vec::new();
+        for left in (0..columns).step_by(PIECE) {
+            let width = PIECE.min(columns - left);
+            codes.clear();
+            codes.resize(width * self.rows, NOTHING);
+            let mut piece = Piece {
+                codes: &mut codes,
+                corner: [left, self.first],
+                size: [width, self.rows],
+            };
+            for item in self.items {
+                piece.draw(&self.canvas.items[*item as usize], &self.canvas.grid);
+            }
+            for (row, codes) in codes.chunks(width).enumerate() {
+                let place = row * columns + left;
+                each(place, self.first * columns + place, codes);
+            }
+        }
+    }
+}
+
+/// A part of a band.
+struct Piece<'a> {
+    codes: &'a mut [Code],
+    corner: [usize; 2],
+    size: [usize; 2],
+}
+
+impl Piece<'_> {
+    fn draw(&mut self, item: &Item<'_>, grid: &Grid) {
+        let [left, top] = self.corner;
+        let [width, height] = self.size;
+        let [columns, rows] = item.reach(grid);
+        let within = |[from, to]: [usize; 2], first: usize, count: usize| {
+            let place = |at: usize| at.saturating_sub(first).min(count);
+            place(from)..place(to)
+        };
+        let columns = within(columns, left, width);
+        let rows = within(rows, top, height);
+        if columns.is_empty() || rows.is_empty() {
+            return;
+        }
+        match &item.what {
+            What::Rectangle(code) => {
+                for row in rows {
+                    self.codes[row * width..][columns.clone()].fill(*code);
+                }
+            }
+            What::Area(outline, code) => {
+                let [r, g, b, a] = *code;
+                let mut paint = Paint::default();
+                paint.set_color_rgba8(r, g, b, a);
+                paint.anti_alias = false;
+                paint.blend_mode = BlendMode::Source;
+                let path = self.path(outline, grid);
+                let pixels: &mut [u8] = bytemuck::cast_slice_mut(self.codes);
+                let pixels = PixmapMut::from_bytes(pixels, width as u32, height as u32);
+                if let (Some(mut pixels), Some(path)) = (pixels, path) {
+                    pixels.fill_path(
+                        &path,
+                        &paint,
+                        FillRule::EvenOdd,
+                        Transform::identity(),
+                        None,
+                    );
+                }
+            }
+            What::Picture(picture) => {
+                let mask = picture.within.map(|outline| {
+                    let mut mask = Mask::new(width as u32, height as u32)?;
+                    let path = self.path(outline, grid)?;
+                    mask.fill_path(&path, FillRule::EvenOdd, false, Transform::identity());
+                    Some(mask)
+                });
+                for row in rows {
+                    for column in columns.clone() {
+                        let at = row * width + column;
+                        let seen = match &mask {
+                            Some(Some(mask)) => mask.data()[at] != 0,
+                            Some(None) => false,
+                            None => true,
+                        };
+                        let middle = DVec2::new((left + column) as f64, (top + row) as f64) + 0.5;
+                        if seen && let Some(code) = picture.at(middle) {
+                            self.codes[at] = code;
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// An outline in pixels of the piece.
+    fn path(&self, outline: &Outline, grid: &Grid) -> Option<Path> {
+        let corner = self.corner.map(|at| at as f64);
+        let mut path = PathBuilder::new();
+        for ring in outline.polygons.iter().flat_map(|polygon| &polygon.rings) {
+            for (index, point) in ring.iter().enumerate() {
+                let p = grid.cells(*point) - DVec2::from(corner);
+                let (x, y) = (p.x as f32, p.y as f32);
+                match index {
+                    0 => path.move_to(x, y),
+                    _ => path.line_to(x, y),
+                }
+            }
+            path.close();
+        }
+        path.finish()
+    }
+}
+
+impl Picture<'_> {
+    /// What the picture shows at a place, in cells: the nearest pixel, if it is opaque.
+    fn at(&self, place: DVec2) -> Option<Code> {
+        let at = self.to_pixels.transform_point2(place).floor();
+        let (width, height) = self.pixels.dimensions();
+        let size = DVec2::new(width.into(), height.into());
+        if !(at.cmpge(DVec2::ZERO).all() && at.cmplt(size).all()) {
+            return None;
+        }
+        let (x, y) = (at.x as u32, at.y as u32);
+        let [r, g, b, alpha] = match &self.pixels {
+            DynamicImage::ImageRgb8(pixels) => {
+                let [r, g, b] = pixels.get_pixel(x, y).0;
+                [r, g, b, 255]
+            }
+            DynamicImage::ImageRgba8(pixels) => pixels.get_pixel(x, y).0,
+            pixels => pixels.get_pixel(x, y).0,
+        };
+        let opacity = 1 + (self.opacity.clamp(0.0, 1.0) * 253.0).round() as u8;
+        (alpha > 127).then_some([r, g, b, opacity])
+    }
+}
