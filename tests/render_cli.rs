@@ -324,7 +324,7 @@ fn bent() -> Vec<u8> {
 #[test]
 fn terrain_is_bent_with_the_view_unless_that_is_switched_off() {
     let room = room();
-    room.write("bent.glb", &bent());
+    room.write("bent.glb", bent());
     let ratio = |arguments: &str| {
         let arguments = format!("render bent.glb -o bent.png --size 200x200 {arguments}");
         ends(&room, &arguments, 0, "wrote bent.png");
