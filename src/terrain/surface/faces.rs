@@ -69,7 +69,7 @@ impl Faces<'_> {
             for span in spans {
                 let under = Strip {
                     plane: span.y[0],
-                    look: span.side,
+                    look: span.bottom,
                     along: slice.z,
                 };
                 down.push(under);
@@ -81,16 +81,20 @@ impl Faces<'_> {
             let next = slices.list.get(index + 1).filter(touches);
             let next = next.map_or(&[][..], |next| slices.spans(next));
             let z = slice.z[1];
-            difference(spans, next, |y, side| {
-                before(known, solids, number, z, y, side, front);
+            difference(spans, next, |y| {
+                slices.sides(slice, y, |y, side| {
+                    before(known, solids, number, z, y, side, front);
+                });
             });
             let touches = |last: &&Slice| last.z[1] == slice.z[0];
             let last = index.checked_sub(1).map(|last| &slices.list[last]);
             let last = last.filter(touches);
             let last = last.map_or(&[][..], |last| slices.spans(last));
-            difference(spans, last, |along, look| {
+            difference(spans, last, |y| {
                 let plane = slice.z[0];
-                back.push(Strip { plane, look, along });
+                slices.sides(slice, y, |along, look| {
+                    back.push(Strip { plane, look, along });
+                });
             });
         }
         let inner = slices.inner.iter().map(|(plane, along)| Strip {
@@ -124,14 +128,23 @@ impl Faces<'_> {
                 None => i32::MAX,
             };
             let end = bound(a).min(bound(b));
-            let spans_a = here(a).map_or(&[][..], |slice| one.spans(&slice));
-            let spans_b = here(b).map_or(&[][..], |slice| other.spans(&slice));
-            difference(&spans_a, &spans_b, |along, look| {
-                right.push(Strip { plane, look, along });
-            });
-            difference(&spans_b, &spans_a, |along, look| {
-                left.push(Strip { plane, look, along });
-            });
+            let [slice_a, slice_b] = [here(a), here(b)];
+            let spans_a = slice_a.as_ref().map_or(&[][..], |slice| one.spans(slice));
+            let spans_b = slice_b.as_ref().map_or(&[][..], |slice| other.spans(slice));
+            if let Some(slice) = &slice_a {
+                difference(spans_a, spans_b, |y| {
+                    one.sides(slice, y, |along, look| {
+                        right.push(Strip { plane, look, along });
+                    });
+                });
+            }
+            if let Some(slice) = &slice_b {
+                difference(spans_b, spans_a, |y| {
+                    other.sides(slice, y, |along, look| {
+                        left.push(Strip { plane, look, along });
+                    });
+                });
+            }
             self.sides[0].line([z, end], right, &mut self.rects);
             self.sides[1].line([z, end], left, &mut self.rects);
             right.clear();
@@ -199,8 +212,8 @@ fn before(
     );
 }
 
-/// What is in one list of spans and not in another, with the looks of its sides.
-fn difference(one: &[Span], other: &[Span], mut each: impl FnMut([i32; 2], u8)) {
+/// What is in one list of spans and not in another.
+fn difference(one: &[Span], other: &[Span], mut each: impl FnMut([i32; 2])) {
     let mut at = 0;
     for span in one {
         let mut from = span.y[0];
@@ -214,13 +227,13 @@ fn difference(one: &[Span], other: &[Span], mut each: impl FnMut([i32; 2], u8)) 
             && hole.y[0] < span.y[1]
         {
             if hole.y[0] > from {
-                each([from, hole.y[0]], span.side);
+                each([from, hole.y[0]]);
             }
             from = from.max(hole.y[1]);
             next += 1;
         }
         if from < span.y[1] {
-            each([from, span.y[1]], span.side);
+            each([from, span.y[1]]);
         }
     }
 }

@@ -11,8 +11,8 @@ pub(super) struct Span {
     pub(super) y: [i32; 2],
     /// The look of its top where nothing is drawn; `None` where something stands on it that is made elsewhere.
     pub(super) top: Option<u8>,
-    /// The look of its sides where nothing is drawn.
-    pub(super) side: u8,
+    /// The look of what is seen from below.
+    pub(super) bottom: u8,
 }
 
 /// Part of a column in which the same is solid everywhere.
@@ -20,8 +20,9 @@ pub(super) struct Span {
 pub(super) struct Slice {
     /// From back to front.
     pub(super) z: [i32; 2],
-    /// Where its spans stand in the list.
+    /// Where its spans stand in the list, and its sides.
     spans: [usize; 2],
+    sides: [usize; 2],
 }
 
 /// The solids of a column, from back to front. Slices without spans are left out. Used again.
@@ -29,6 +30,8 @@ pub(super) struct Slice {
 pub(super) struct Slices {
     pub(super) list: Vec<Slice>,
     spans: Vec<Span>,
+    /// Up to which height sides have a look where nothing is drawn, from below.
+    sides: Vec<(i32, u8)>,
     /// Heights of eaves that lie inside of something else, and from where to where.
     pub(super) inner: Vec<(i32, [i32; 2])>,
     bounds: Vec<i32>,
@@ -40,12 +43,30 @@ impl Slices {
     pub(super) fn clear(&mut self) {
         self.list.clear();
         self.spans.clear();
+        self.sides.clear();
         self.inner.clear();
     }
 
     /// The spans of a slice, from below, with gaps between them.
     pub(super) fn spans(&self, slice: &Slice) -> &[Span] {
         &self.spans[slice.spans[0]..slice.spans[1]]
+    }
+
+    /// The looks that a slice's sides have between two heights, from below.
+    pub(super) fn sides(
+        &self,
+        slice: &Slice,
+        y: [i32; 2],
+        mut each: impl FnMut([i32; 2], u8),
+    ) {
+        let mut from = y[0];
+        for (to, look) in &self.sides[slice.sides[0]..slice.sides[1]] {
+            let to = (*to).min(y[1]);
+            if to > from {
+                each([from, to], *look);
+                from = to;
+            }
+        }
     }
 
     /// Puts the blocks of a column together.
@@ -81,12 +102,17 @@ impl Slices {
     /// Adds the slice between two neighbouring bounds.
     fn slice(&mut self, z: [i32; 2]) {
         let start = self.spans.len();
+        let sides = self.sides.len();
         for block in &self.active {
             let span = Span {
                 y: block.y,
                 top: block.top,
-                side: block.side,
+                bottom: block.side,
             };
+            let known = self.sides[sides..].last().map_or(i32::MIN, |side| side.0);
+            if block.y[1] > known.max(block.y[0]) {
+                self.sides.push((block.y[1], block.side));
+            }
             match self.spans[start..].last_mut() {
                 Some(last) if last.y[1] >= span.y[0] => {
                     let order = span.y[1].cmp(&last.y[1]);
@@ -100,7 +126,7 @@ impl Slices {
                     };
                     self.inner.extend(roofed.map(|y| (y, z)));
                     if order.is_gt() || (order.is_eq() && span.top.is_none()) {
-                        (last.y[1], last.top, last.side) = (span.y[1], span.top, span.side);
+                        (last.y[1], last.top) = (span.y[1], span.top);
                     }
                 }
                 _ => self.spans.push(span),
@@ -112,14 +138,17 @@ impl Slices {
         if let Some(last) = self.list.last_mut()
             && last.z[1] == z[0]
             && self.spans[last.spans[0]..last.spans[1]] == self.spans[start..]
+            && self.sides[last.sides[0]..last.sides[1]] == self.sides[sides..]
         {
             last.z[1] = z[1];
             self.spans.truncate(start);
+            self.sides.truncate(sides);
             return;
         }
         self.list.push(Slice {
             z,
             spans: [start, self.spans.len()],
+            sides: [sides, self.sides.len()],
         });
     }
 }
