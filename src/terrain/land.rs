@@ -87,6 +87,19 @@ impl Land {
         heights.collect()
     }
 
+    /// How many columns the map has.
+    pub fn columns(&self) -> usize {
+        self.grid.columns
+    }
+
+    /// The blocks of a column that are solid, in no order: from back to front and from below to above. They may overlap, and
+    /// sheets have no height; roofs are not among them.
+    pub fn blocks(&self, column: usize) -> Vec<[[i32; 2]; 2]> {
+        let mut solids = Solids::default();
+        solids.build(&self.known(), column);
+        solids.blocks.iter().map(|block| [block.z, block.y]).collect()
+    }
+
     /// What the map leaves open.
     pub fn notes(&self) -> Vec<Note> {
         notes::notes(&self.known(), &self.ties)
