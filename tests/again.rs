@@ -147,6 +147,13 @@ const DRAWINGS: &[&str] = &[
 <circle cx=\"30\" cy=\"80\" r=\"9\"/><text x=\"30\" y=\"80\">🦀🦀@胴\r\n  $Offset 3\r\n</text>&t;&t;<rect x=\"3\" y=\"29\" width=\"4\" height=\"4\"/>\r\n\
 <image x=\"60\" y=\"60\" width=\"30\" height=\"30\" xlink:href=\"gull.png\"/><text x=\"70\" y=\"75\">bird$Texture gull.png</text>\
 <image x=\"0\" y=\"60\" width=\"9\" height=\"9\" xlink:href=\"missing.png\"/></svg>\r\n",
+    // Tiles: drawn, in a picture that can be read and in one that cannot.
+    r##"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="200" height="200">
+<g><rect width="40" height="30" fill="#4caf50"/><rect y="30" width="40" height="10" fill="#8d6e63"/><rect x="60" width="10" height="10" fill="#4caf50"/>
+<text x="65" y="4" font-size="5">$Tile green</text><text y="150">Land$Tiles 10</text></g>
+<g><image x="100" width="40" height="40" xlink:href="gull.png"/><text x="100" y="150">Picture$Tiles 10</text></g>
+<g><image x="100" y="60" width="40" height="40" xlink:href="nothing.png"/><text x="100" y="190">Nothing$Tiles 10</text></g>
+<rect x="10" y="100" width="9" height="30" fill="red"/><text x="12" y="110">Tower@Roof$Tile</text></svg>"##,
 ];
 
 static EXAMPLES: LazyLock<Vec<String>> = LazyLock::new(|| {

@@ -118,7 +118,6 @@ fn e102_unknown_word() {
         "$Tile pink",
         r#"
             $Tile pink
-             ^^^^ W310: `Tile` has no effect in this version (understood, but not built yet)
                   ^^^^ E102: `pink` is no word of `Tile`
               help: it is one of `green`, `brown`, `blue`, `red`, `beige`, `none`
         "#,
