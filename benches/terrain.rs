@@ -6,8 +6,10 @@
 //! block-mesh gets its voxels in chunks, only those that hold some, ready filled; what is timed is its meshing alone. It makes
 //! quads without normals, texture coordinates and looks, whose corners do not meet.
 
-#[path = "../tests/common/worlds.rs"]
-mod worlds;
+#![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
+
+#[path = "../tests/common/dice.rs"]
+mod dice;
 
 use std::collections::BTreeMap;
 use std::io::Cursor;
@@ -17,10 +19,10 @@ use std::time::{Duration, Instant};
 use block_mesh::{
     GreedyQuadsBuffer, MergeVoxel, RIGHT_HANDED_Y_UP_CONFIG, Voxel, VoxelVisibility, greedy_quads,
 };
+use dice::Dice;
 use ndshape::{ConstShape, ConstShape3u32};
 use okoshi::terrain::{Land, Map};
 use rayon::prelude::*;
-use worlds::Dice;
 
 /// Times that everything is done; the median is told.
 const ROUNDS: usize = 5;
@@ -35,9 +37,15 @@ fn main() {
     if let Ok(what) = std::env::var(MEASURED) {
         return measured(&what);
     }
-    let sides = std::env::args().skip(1).filter_map(|word| word.parse().ok());
+    let sides = std::env::args()
+        .skip(1)
+        .filter_map(|word| word.parse().ok());
     let sides: Vec<usize> = sides.collect();
-    let sides = if sides.is_empty() { vec![512, 2048, 4096] } else { sides };
+    let sides = if sides.is_empty() {
+        vec![512, 2048, 4096]
+    } else {
+        sides
+    };
     for side in sides {
         compare(side);
     }
@@ -71,7 +79,8 @@ fn map(side: usize) -> Map {
         let [width, depth, wall] = [dice.roll(3, 8), dice.roll(2, 4), dice.roll(1, 3)];
         let house = dice.chance(50);
         let rows = y..(y + depth + wall).min(last);
-        let cells = rows.flat_map(|row| (x..(x + width).min(last)).map(move |column| (column, row)));
+        let cells =
+            rows.flat_map(|row| (x..(x + width).min(last)).map(move |column| (column, row)));
         let cells: Vec<(usize, i32)> = cells
             .map(|(column, row)| (map.index(column as usize, row as usize), row))
             .collect();
@@ -98,7 +107,9 @@ fn png(map: &Map) -> Vec<u8> {
     });
     let picture = image::RgbImage::from_raw(map.columns as u32, map.rows as u32, pixels.collect());
     let mut bytes = Cursor::new(Vec::new());
-    let written = picture.expect("as many pixels as cells").write_to(&mut bytes, image::ImageFormat::Png);
+    let written = picture
+        .expect("as many pixels as cells")
+        .write_to(&mut bytes, image::ImageFormat::Png);
     written.expect("a PNG");
     bytes.into_inner()
 }
@@ -131,12 +142,20 @@ fn compare(side: usize) {
         drop((surface, land));
         let (one, count) = timed(|| {
             let mut buffer = GreedyQuadsBuffer::new(Shape::SIZE as usize);
-            chunks.iter().map(|chunk| greedy(chunk, &mut buffer)).sum::<usize>()
+            chunks
+                .iter()
+                .map(|chunk| greedy(chunk, &mut buffer))
+                .sum::<usize>()
         });
         times[3].push(one);
         quads = count;
         let new = || GreedyQuadsBuffer::new(Shape::SIZE as usize);
-        let all = || chunks.par_iter().map_init(new, |buffer, chunk| greedy(chunk, buffer)).sum::<usize>();
+        let all = || {
+            chunks
+                .par_iter()
+                .map_init(new, |buffer, chunk| greedy(chunk, buffer))
+                .sum::<usize>()
+        };
         times[4].push(timed(all).0);
     }
     let voxels: usize = chunks.iter().flatten().filter(|voxel| voxel.0).count();
@@ -151,7 +170,9 @@ fn compare(side: usize) {
     drop(chunks);
     let program = std::env::current_exe().expect("this program");
     let peak = |what: &str| -> f64 {
-        let run = Command::new(&program).env(MEASURED, format!("{what} {side}")).output();
+        let run = Command::new(&program)
+            .env(MEASURED, format!("{what} {side}"))
+            .output();
         let run = run.expect("this program again");
         let text = String::from_utf8_lossy(&run.stdout).into_owned();
         text.trim().parse().unwrap_or(f64::NAN)
@@ -219,7 +240,8 @@ fn chunks(land: &Land) -> Vec<Vec<Solid>> {
     let around = |value: i32| (value - 1).div_euclid(CHUNK)..=(value + 1).div_euclid(CHUNK);
     for x in 0..land.columns() as i32 {
         for [depths, heights] in land.blocks(x as usize) {
-            let voxels = (depths[0]..depths[1]).flat_map(|z| (heights[0]..heights[1]).map(move |y| (y, z)));
+            let voxels =
+                (depths[0]..depths[1]).flat_map(|z| (heights[0]..heights[1]).map(move |y| (y, z)));
             for (y, z) in voxels {
                 for (cx, cy, cz) in around(x).flat_map(|cx| {
                     around(y).flat_map(move |cy| around(z).map(move |cz| (cx, cy, cz)))

@@ -10,8 +10,8 @@ use super::progress::spinning;
 use super::{Outcome, pretty, print_out, style};
 use crate::bind::{PartKind, SetBy};
 use crate::lang::keyword::Keyword;
-use crate::report::{Part, own_name, parts};
-use crate::terrain;
+use crate::report::{Part, Terrain, own_name, parts, terrain};
+use crate::terrain::Layer;
 
 /// Prints the hierarchy; findings go to stderr.
 pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
@@ -42,17 +42,17 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
 struct Report<'a> {
     drawing: &'a str,
     parts: Vec<Part<'a>>,
-    terrain: [(); 0],
+    terrain: Vec<Terrain<'a>>,
     billboards: [(); 0],
     clips: [(); 0],
 }
 
 fn json(loaded: &Loaded) -> String {
-    let (terrain, billboards, clips) = ([], [], []);
+    let (billboards, clips) = ([], []);
     pretty(&Report {
         drawing: &loaded.path,
         parts: parts(&loaded.compiled, &loaded.text),
-        terrain,
+        terrain: terrain(&loaded.compiled),
         billboards,
         clips,
     })
@@ -97,6 +97,11 @@ fn tree(loaded: &Loaded) -> String {
             }
         };
         rows.push([format!("{indent}{branch}{name}"), what.clone()]);
+        if let Item::Layer(layer) = item {
+            let listed = contents(&loaded.compiled.layers[layer]);
+            let indented = listed.into_iter();
+            rows.extend(indented.map(|[name, what]| [format!("{indent}{below}  {name}"), what]));
+        }
         if let Item::Part(part) = item {
             push(&mut stack, Some(part), &format!("{indent}{below}"));
         }
@@ -132,13 +137,52 @@ enum Item {
     Layer(usize),
 }
 
-fn describe_layer(layer: &terrain::Layer) -> String {
+fn describe_layer(layer: &Layer) -> String {
     let map = &layer.map;
     let drawn = map.cells.iter().filter(|look| **look != 0).count();
     format!(
         "terrain of {} × {}, {drawn} tiles of {}",
         map.columns, map.rows, layer.size
     )
+}
+
+/// Most groups and houses of a landscape that are listed one by one.
+const MOST_LISTED: usize = 40;
+
+/// The groups of a landscape with their heights, its ponds and houses.
+fn contents(layer: &Layer) -> Vec<[String; 2]> {
+    let cells = |count: usize| match count {
+        1 => "1 tile".to_owned(),
+        count => format!("{count} tiles"),
+    };
+    let groups = layer.land.groups().map(|group| {
+        let kind = if group.water { "water" } else { "ground" };
+        let [column, row] = group.first.map(|at| at + 1);
+        let what = format!("{} from column {column}, row {row} on", cells(group.cells));
+        [format!("{kind} at {}", group.height), what]
+    });
+    let houses = layer.land.houses().map(|house| {
+        let ridge = f64::from(house.base + house.height) + layer.roof * f64::from(house.depth);
+        let what = format!(
+            "{} wide, {} deep, walls {} high, ridge at {ridge:.2}",
+            house.width, house.depth, house.height
+        );
+        [format!("house at {}", house.base), what]
+    });
+    let all = groups.chain(houses);
+    let mut listed: Vec<[String; 2]> = all.collect();
+    if let Some(more) = listed
+        .len()
+        .checked_sub(MOST_LISTED)
+        .filter(|more| *more > 0)
+    {
+        listed.truncate(MOST_LISTED);
+        listed.push([
+            format!("… and {more} more"),
+            "all of them with --json".to_owned(),
+        ]);
+    }
+    listed
 }
 
 fn describe_part(loaded: &Loaded, index: usize) -> String {

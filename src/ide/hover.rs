@@ -32,7 +32,10 @@ impl Analysis {
         let (span, markdown) = match self.at(offset)? {
             At::Tag { shape, part } => (
                 self.drawing().shapes[shape].element.span,
-                self.part_card(part?),
+                match self.tiles_card(shape) {
+                    Some(card) => card,
+                    None => self.part_card(part?),
+                },
             ),
             At::String {
                 string,
@@ -321,7 +324,7 @@ impl Analysis {
 }
 
 /// A name as Markdown shows it as it is.
-fn escaped(name: &str) -> String {
+pub(super) fn escaped(name: &str) -> String {
     let mut out = String::with_capacity(name.len());
     for c in name.chars() {
         if c.is_ascii_punctuation() {

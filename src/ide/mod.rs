@@ -20,6 +20,7 @@ mod samples;
 mod selection;
 mod signature;
 mod symbols;
+mod tiles;
 mod tokens;
 mod typed;
 mod uses;

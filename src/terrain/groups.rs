@@ -267,10 +267,10 @@ impl<'a> Joined<'a> {
         let mut roles = vec![Role::Nothing; count];
         let mut numbers = vec![u32::MAX; count];
         let (mut houses, mut plain) = (0_u32, vec![]);
-        for label in 1..count {
+        for (label, role) in roles.iter_mut().enumerate().skip(1) {
             let tile = self.tile(label);
             if tile == Tile::Brown {
-                roles[label] = Role::Front;
+                *role = Role::Front;
                 continue;
             }
             let lead = root(&mut self.parents, label as u32) as usize;
@@ -293,7 +293,7 @@ impl<'a> Joined<'a> {
                 plain.push(label);
             }
             let number = numbers[lead];
-            roles[label] = match tile {
+            *role = match tile {
                 _ if surface => Role::Surface(number),
                 Tile::Red => Role::Roof(number),
                 _ => Role::Wall(number),

@@ -49,11 +49,15 @@ impl House {
 
     fn join(&mut self, other: &Self) {
         let join = |one: &mut Range<i32>, other: &Range<i32>| {
-            *one = match (one.len() == 0, other.len() == 0) {
-                (true, _) => other.clone(),
-                (_, true) => one.clone(),
-                _ => one.start.min(other.start)..one.end.max(other.end),
-            };
+            if other.start < other.end {
+                let both = one.start < one.end;
+                let start = if both {
+                    one.start.min(other.start)
+                } else {
+                    other.start
+                };
+                *one = start..one.end.max(other.end);
+            }
         };
         self.uneven |= other.uneven;
         self.uneven |= self.stands && other.stands && self.base != other.base;
@@ -110,9 +114,10 @@ pub(super) fn by_stripe(houses: &[House], columns: usize) -> Vec<Vec<u32>> {
     let mut stripes = vec![vec![]; columns.div_ceil(STRIPE)];
     for (index, house) in houses.iter().enumerate() {
         let walls = house.walls.start as usize..house.walls.end as usize;
-        for stripe in walls.start / STRIPE..walls.end.div_ceil(STRIPE) {
-            stripes[stripe].push(index as u32);
-        }
+        let reached = walls.start / STRIPE..walls.end.div_ceil(STRIPE);
+        stripes[reached]
+            .iter_mut()
+            .for_each(|houses| houses.push(index as u32));
     }
     stripes
 }

@@ -27,6 +27,19 @@ pub struct Land {
     ties: Ties,
 }
 
+/// A group of ground or a body of water.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Group {
+    /// Whether it is water.
+    pub water: bool,
+    /// Its height.
+    pub height: i32,
+    /// How many cells it has.
+    pub cells: usize,
+    /// Column and row of its first cell.
+    pub first: [usize; 2],
+}
+
 /// A house.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Built {
@@ -97,12 +110,42 @@ impl Land {
     pub fn blocks(&self, column: usize) -> Vec<[[i32; 2]; 2]> {
         let mut solids = Solids::default();
         solids.build(&self.known(), column);
-        solids.blocks.iter().map(|block| [block.z, block.y]).collect()
+        solids
+            .blocks
+            .iter()
+            .map(|block| [block.z, block.y])
+            .collect()
     }
 
     /// What the map leaves open.
     pub fn notes(&self) -> Vec<Note> {
         notes::notes(&self.known(), &self.ties)
+    }
+
+    /// The group that a cell's top belongs to: its index among [`groups`](Self::groups).
+    pub fn group_at(&self, column: usize, row: usize) -> Option<usize> {
+        match self.groups.role(column * self.grid.rows + row) {
+            Role::Surface(surface) => Some(surface as usize - 1),
+            _ => None,
+        }
+    }
+
+    /// The groups of ground and the bodies of water, in the order of their first cells, column by column.
+    pub fn groups(&self) -> impl Iterator<Item = Group> + '_ {
+        // The first surface is the ground that is not drawn.
+        let surfaces = self.groups.surfaces.iter().zip(&self.levels.level).skip(1);
+        surfaces.map(|(surface, level)| Group {
+            water: surface.water,
+            height: *level,
+            cells: surface.area,
+            first: self.grid.place(surface.first),
+        })
+    }
+
+    /// The house that a cell's roof or wall belongs to: its index among [`houses`](Self::houses).
+    pub fn house_at(&self, column: usize, row: usize) -> Option<usize> {
+        let role = self.groups.role(column * self.grid.rows + row);
+        role.house().map(|house| house as usize)
     }
 
     /// The houses.

@@ -16,7 +16,7 @@ mod solids;
 mod surface;
 mod ties;
 
-pub use land::{Built, Land, ROOF};
+pub use land::{Built, Group, Land, ROOF};
 pub use map::{EDGE_BELOW, EDGE_RIGHT, MOST_CELLS, Map, Tile};
 pub use notes::{Note, Open};
 pub use reading::{Layer, LookOf, Tiles, cells_named, read};

@@ -53,12 +53,7 @@ impl Slices {
     }
 
     /// The looks that a slice's sides have between two heights, from below.
-    pub(super) fn sides(
-        &self,
-        slice: &Slice,
-        y: [i32; 2],
-        mut each: impl FnMut([i32; 2], u8),
-    ) {
+    pub(super) fn sides(&self, slice: &Slice, y: [i32; 2], mut each: impl FnMut([i32; 2], u8)) {
         let mut from = y[0];
         for (to, look) in &self.sides[slice.sides[0]..slice.sides[1]] {
             let to = (*to).min(y[1]);

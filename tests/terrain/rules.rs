@@ -1,10 +1,8 @@
 //! Each rule of terrain with heights that were worked out by hand, and what the thesis states of its figures.
 
-#[path = "common/drawn.rs"]
-mod drawn;
-
-use drawn::map;
 use okoshi::terrain::{Built, Land, Map, Open};
+
+use crate::letters::map;
 
 /// Heights of the tops, a line a row; a dot where there is none.
 fn tops(map: &Map) -> String {

@@ -1,0 +1,84 @@
+//! The landscapes of a drawing (frontends.md, `inspect --json`).
+
+use serde::Serialize;
+
+use crate::compile::Compiled;
+
+/// A landscape. All lengths are tiles.
+#[derive(Debug, Clone, Serialize)]
+pub struct Terrain<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Columns and rows of its map.
+    pub size: [usize; 2],
+    /// The side of a tile, drawing units.
+    pub tile: f64,
+    /// Per row and cell the height of the top that is drawn there, of ground or water.
+    pub tops: Vec<Vec<Option<i32>>>,
+    /// The groups of ground and the bodies of water.
+    pub groups: Vec<Group>,
+    /// The houses.
+    pub houses: Vec<House>,
+}
+
+/// A group of ground or a body of water.
+#[derive(Debug, Clone, Serialize)]
+pub struct Group {
+    /// `ground` or `water`.
+    pub kind: &'static str,
+    /// Its height.
+    pub height: i32,
+    /// How many cells it has.
+    pub cells: usize,
+    /// Column and row of one of its cells, counted from 1.
+    pub cell: [usize; 2],
+}
+
+/// A house.
+#[derive(Debug, Clone, Serialize)]
+pub struct House {
+    /// Height of its floor.
+    pub base: i32,
+    /// Of its walls.
+    pub width: i32,
+    /// From front to back.
+    pub depth: i32,
+    /// Of its walls.
+    pub height: i32,
+    /// Height of its ridge.
+    pub ridge: f64,
+}
+
+/// The landscapes of a drawing.
+pub fn terrain(compiled: &Compiled) -> Vec<Terrain<'_>> {
+    let layers = compiled.layers.iter();
+    let report = layers.map(|layer| {
+        let (map, land) = (&layer.map, &layer.land);
+        let tops = (0..map.rows).map(|row| {
+            let columns = 0..map.columns;
+            columns.map(|column| land.top(column, row)).collect()
+        });
+        let groups = land.groups().map(|group| Group {
+            kind: if group.water { "water" } else { "ground" },
+            height: group.height,
+            cells: group.cells,
+            cell: group.first.map(|at| at + 1),
+        });
+        let houses = land.houses().map(|house| House {
+            base: house.base,
+            width: house.width,
+            depth: house.depth,
+            height: house.height,
+            ridge: f64::from(house.base + house.height) + layer.roof * f64::from(house.depth),
+        });
+        Terrain {
+            name: &layer.name,
+            size: [map.columns, map.rows],
+            tile: layer.size,
+            tops: tops.collect(),
+            groups: groups.collect(),
+            houses: houses.collect(),
+        }
+    });
+    report.collect()
+}
