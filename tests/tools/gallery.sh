@@ -22,6 +22,7 @@ while IFS= read -r drawing; do
   case $name in
     # They lie on the ground.
     shapes/conev | shapes/coneh) view=25,38 ;;
+    island* | terrain/*) view=30,30 ;;
     *) view=30,15 ;;
   esac
   inkscape "$drawing" --export-type=png --export-width=1000 --export-background=white \
