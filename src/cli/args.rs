@@ -126,6 +126,8 @@ pub(super) enum Template {
     Human,
     /// A toy car, drawn from its side, with wheels on both
     Car,
+    /// A landscape, drawn as a map of tiles: a hill, a pond, a house in the sea
+    Island,
 }
 
 #[derive(Debug, Args)]

@@ -12,6 +12,7 @@ impl Template {
         match self {
             Self::Human => include_str!("templates/human.svg"),
             Self::Car => include_str!("templates/car.svg"),
+            Self::Island => include_str!("templates/island.svg"),
         }
     }
 }

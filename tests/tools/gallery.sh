@@ -2,9 +2,10 @@
 # Makes the gallery's pictures from all drawings in examples/: bash tests/tools/gallery.sh [NAME…]
 #
 # NAME is that of a drawing from examples/ on, without its ending: human, shapes/cone. Each drawing gets
-# gallery/NAME-drawing.png and gallery/NAME-model.png in docs/; human and clockwork-dragon get NAME.png there too, both side
-# by side, for the README. Takes Inkscape for the drawings, okoshi for the models, and Python's Pillow. OKOSHI names a binary
-# to use instead of building one, OUT another folder than docs/.
+# gallery/NAME-drawing.png and gallery/NAME-model.png in docs/; human, clockwork-dragon and island-textured get NAME.png there
+# too, both side by side, and island gets terrain-on.png and terrain-off.png, its drawn look and true 3D. Takes Inkscape for
+# the drawings, okoshi for the models, and Python's Pillow. OKOSHI names a binary to use instead of building one, OUT another
+# folder than docs/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 room=$(mktemp -d)
@@ -22,6 +23,7 @@ while IFS= read -r drawing; do
   case $name in
     # They lie on the ground.
     shapes/conev | shapes/coneh) view=25,38 ;;
+    island* | terrain/*) view=30,30 ;;
     *) view=30,15 ;;
   esac
   inkscape "$drawing" --export-type=png --export-width=1000 --export-background=white \
@@ -31,8 +33,14 @@ while IFS= read -r drawing; do
     python3 tests/tools/thumbnail.py "$room/$flat-$side.png" "$out/gallery/$flat-$side.png"
   done
   case $name in
-    human | clockwork-dragon)
+    human | clockwork-dragon | island-textured)
       python3 tests/tools/side_by_side.py "$room/$flat-drawing.png" "$room/$flat-model.png" "$out/$flat.png" ;;
+    island)
+      for bend in on off; do
+        "$okoshi" render --quiet "$drawing" -o "$room/bend-$bend.png" --size 1000x1000 --view 0,45 \
+          --projection orthographic --bend $bend --background "#ffffff"
+        python3 tests/tools/thumbnail.py "$room/bend-$bend.png" "$out/terrain-$bend.png"
+      done ;;
   esac
   echo "$name"
 done < <(find examples -name '*.svg' | sort)
