@@ -19,7 +19,7 @@ const BORDER_TOLERANCE: f64 = 0.75;
 /// The file of an `<image>`, and where it lies.
 #[derive(Debug, Clone)]
 pub struct PictureSource {
-    file: File,
+    file: Contents,
     /// How large the picture is in its own units.
     size: DVec2,
     /// From its own units to the drawing.
@@ -30,7 +30,7 @@ pub struct PictureSource {
 }
 
 #[derive(Debug, Clone)]
-enum File {
+enum Contents {
     /// PNG, JPEG, GIF or WebP.
     Pixels(Arc<Vec<u8>>),
     /// SVG.
@@ -59,8 +59,8 @@ impl PictureSource {
                 usvg::ImageKind::JPEG(bytes)
                 | usvg::ImageKind::PNG(bytes)
                 | usvg::ImageKind::GIF(bytes)
-                | usvg::ImageKind::WEBP(bytes) => File::Pixels(Arc::clone(bytes)),
-                usvg::ImageKind::SVG(tree) => File::Drawing(Box::new(tree.clone())),
+                | usvg::ImageKind::WEBP(bytes) => Contents::Pixels(Arc::clone(bytes)),
+                usvg::ImageKind::SVG(tree) => Contents::Drawing(Box::new(tree.clone())),
             },
             size: DVec2::new(size.width().into(), size.height().into()),
             transform,
@@ -91,11 +91,11 @@ impl PictureSource {
     /// What is wrong with it: it passes a limit, or cannot be read.
     pub fn pixels(&self, side: u32) -> Result<image::DynamicImage, (Code, String)> {
         match &self.file {
-            File::Pixels(bytes) => {
+            Contents::Pixels(bytes) => {
                 let (pixels, _) = texture::pixels(bytes).map_err(unreadable)?;
                 Ok(pixels)
             }
-            File::Drawing(tree) => {
+            Contents::Drawing(tree) => {
                 let pixels = texture::render_tree(tree, side).map_err(undrawn)?;
                 Ok(pixels.into())
             }
@@ -125,11 +125,11 @@ impl PictureSource {
     /// What is wrong with it: it passes a limit, or cannot be read.
     pub(super) fn trace(&self) -> Result<Traced, (Code, String)> {
         let (decoded, bytes) = match &self.file {
-            File::Pixels(bytes) => {
+            Contents::Pixels(bytes) => {
                 let decoded = texture::decode(bytes).map_err(unreadable)?;
                 (decoded, Arc::from(bytes.as_slice()))
             }
-            File::Drawing(tree) => {
+            Contents::Drawing(tree) => {
                 let pixels = texture::render_tree(tree, SVG_SIDE).map_err(undrawn)?;
                 let media_type = None;
                 (Decoded { pixels, media_type }, Arc::from([]))

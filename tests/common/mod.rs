@@ -161,12 +161,21 @@ fn describe_material(material: &gltf::Material<'_>) -> String {
     out
 }
 
-/// Whether the solids of a primitive are closed: after corners in one place are taken for one, every edge is
-/// walked as often one way as the other. (Solids that touch may share an edge, so once each way is not due.)
+/// Whether the solids of a primitive are closed.
 pub(crate) fn closed(primitive: &Primitive) -> Result<(), String> {
-    let key = |index: u32| primitive.positions[index as usize].map(|x| (x + 0.0).to_bits());
+    closed_together(&[primitive])
+}
+
+/// Whether the solids of primitives are closed, all taken together: after corners in one place are taken for one, every edge is
+/// walked as often one way as the other. (Solids that touch may share an edge, so once each way is not due.)
+fn closed_together(primitives: &[&Primitive]) -> Result<(), String> {
     let mut edges: HashMap<[[u32; 3]; 2], i64> = HashMap::new();
-    for triangle in &primitive.triangles {
+    let all = primitives.iter().flat_map(|primitive| {
+        let triangles = primitive.triangles.iter();
+        triangles.map(move |triangle| (primitive, triangle))
+    });
+    for (primitive, triangle) in all {
+        let key = |index: u32| primitive.positions[index as usize].map(|x| (x + 0.0).to_bits());
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             let (from, to) = (key(triangle[from]), key(triangle[to]));
             *edges.entry([from, to]).or_default() += 1;
@@ -196,11 +205,20 @@ fn extent(primitive: &Primitive) -> f64 {
 /// What every model must keep, whatever the drawing.
 pub(crate) fn check_laws(nodes: &[Node]) -> Result<(), String> {
     for node in nodes {
-        for primitive in node.primitives.iter().filter(|p| !p.double_sided) {
-            closed(primitive).map_err(|error| format!("`{}`: {error}", node.name))?;
-            let volume = volume(primitive);
+        let solid = |primitive: &&Primitive| !primitive.double_sided;
+        let (closed, open): (Vec<&Primitive>, Vec<&Primitive>) = node
+            .primitives
+            .iter()
+            .filter(solid)
+            .partition(|primitive| closed(primitive).is_ok());
+        // The looks of a landscape close each other.
+        closed_together(&open).map_err(|error| format!("`{}`: {error}", node.name))?;
+        let volumes = closed.iter().map(|one| (volume(one), extent(one)));
+        let together = open.iter().map(|one| volume(one)).sum();
+        let largest = open.iter().map(|one| extent(one)).fold(0.0, f64::max);
+        for (volume, extent) in volumes.chain([(together, largest)]) {
             // A speck far from its joint may fall together when it is written in single precision.
-            if volume < -1e-6 * extent(primitive).powi(3) {
+            if volume < -1e-6 * extent.powi(3) {
                 return Err(format!("`{}` has the volume {volume:e}", node.name));
             }
         }
