@@ -43,6 +43,13 @@ impl Stage {
         }
     }
 
+    /// Where a landscape lies whose middle is at a point of the drawing, y down: on the world's ground, so that all landscapes of
+    /// a drawing share it; what is lower on the page is nearer.
+    pub(super) fn lay(&self, middle: DVec2) -> (DVec3, DQuat) {
+        let place = middle - self.ground;
+        (self.turn * DVec3::new(place.x, 0.0, place.y), self.turn)
+    }
+
     /// Where something stands that hangs on nothing and is turned by an angle about the viewer's axis; `place` in
     /// drawing units, y up.
     pub(super) fn set(&self, place: DVec3, angle: f64) -> (DVec3, DQuat) {

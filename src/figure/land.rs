@@ -32,7 +32,7 @@ pub(super) fn add(
                 frames[part].to_local(middle).extend(0.0),
                 DQuat::from_rotation_z(-frames[part].angle),
             ),
-            None => stage.set(middle.extend(0.0), 0.0),
+            None => stage.lay((low + high) / 2.0),
         };
         let node = scene.nodes.len();
         scene.nodes.push(Node {

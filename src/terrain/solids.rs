@@ -172,7 +172,7 @@ impl Solids {
         for index in (0..self.views.len()).rev() {
             match self.column.segments[index].role {
                 Role::Surface(surface) => self.surface(known, number, index, surface, end),
-                Role::Front => self.lone_front(known, number, index),
+                Role::Front => self.front(known, number, index, end),
                 Role::Wall(house) => self.foundation(known, number, index, house, end),
                 Role::Roof(_) | Role::Nothing => {}
             }
@@ -282,14 +282,13 @@ impl Solids {
         let level = known.levels.level[surface as usize];
         let look = known.grid.cells[number * known.grid.rows + segment.start as usize];
         let side = self.side(known, number, index + 1, look);
-        let (fronts, _, next) = self.column.below(index);
+        let (fronts, _, _) = self.column.below(index);
         let [back, front] = [self.backs[index], segment.end + level];
-        // Down to its foot, and farther where that is hidden.
-        let seen = self.hidden.wall_seen(&self.views, front, end);
-        let base = known.levels.base[surface as usize];
-        let bottom = (level - fronts).min(base.max(level - (seen - segment.end)));
+        let bottom = self.bottom(known, index, surface, end);
         self.flush_below(known, number, index, [level, bottom], side);
-        self.support(known, index, surface, [bottom, front], next, end);
+        if fronts == 0 {
+            self.support(known, index, surface, index + 1, end);
+        }
         self.blocks.push(Block {
             z: [back, front],
             y: [bottom, level],
@@ -312,6 +311,16 @@ impl Solids {
                 side,
             });
         }
+    }
+
+    /// How far down the block of a top goes: to its foot, and farther where that is hidden.
+    fn bottom(&self, known: &Known<'_>, index: usize, surface: u32, end: i32) -> i32 {
+        let segment = self.column.segments[index];
+        let level = known.levels.level[surface as usize];
+        let (fronts, _, _) = self.column.below(index);
+        let seen = self.hidden.wall_seen(&self.views, segment.end + level, end);
+        let base = known.levels.base[surface as usize];
+        (level - fronts).min(base.max(level - (seen - segment.end)))
     }
 
     /// Fills below a front that hangs, so that it ends flush with what is behind it (rule 6).
@@ -351,16 +360,9 @@ impl Solids {
         }
     }
 
-    /// What a cliff stands on goes on below and before it where its foot is hidden.
-    fn support(
-        &mut self,
-        known: &Known<'_>,
-        index: usize,
-        surface: u32,
-        [bottom, plane]: [i32; 2],
-        next: usize,
-        end: i32,
-    ) {
+    /// What a cliff stands on goes on below and before it where its foot is hidden. To be called when all that is below the
+    /// cliff, and nothing of the cliff, is among what may hide something; `next` is what follows.
+    fn support(&mut self, known: &Known<'_>, index: usize, surface: u32, next: usize, end: i32) {
         let Some(support) = known.levels.support[surface as usize] else {
             return;
         };
@@ -368,9 +370,11 @@ impl Solids {
             [&known.levels.level, &known.levels.base].map(|of| of[support as usize]);
         let follows = self.column.segments.get(next).map(|next| next.role);
         let follows = follows == Some(Role::Surface(support));
+        let bottom = self.bottom(known, index, surface, end);
         if support == GROUND || base >= level || bottom != level || follows {
             return;
         }
+        let plane = self.column.segments[index].end + known.levels.level[surface as usize];
         let back = self.backs[index];
         let before = self.views.get(next).map_or(plane, View::back);
         let hidden = self.hidden.level_seen(&self.views, level, end);
@@ -392,13 +396,17 @@ impl Solids {
         }
     }
 
-    /// A front without anything above it is a block one tile deep (rule 9).
-    fn lone_front(&mut self, known: &Known<'_>, number: usize, index: usize) {
+    /// A front belongs to what is above it. One without anything above is a block one tile deep (rule 9).
+    fn front(&mut self, known: &Known<'_>, number: usize, index: usize, end: i32) {
         let above = index
             .checked_sub(1)
             .map(|above| self.column.segments[above].role);
-        if matches!(above, Some(Role::Surface(_) | Role::Wall(_))) {
-            return;
+        match above {
+            Some(Role::Surface(surface)) => {
+                return self.support(known, index - 1, surface, index + 1, end);
+            }
+            Some(Role::Wall(_)) => return,
+            _ => {}
         }
         let segment = self.column.segments[index];
         let Seen::Front(plane) = self.views[index].seen else {

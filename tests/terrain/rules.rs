@@ -206,6 +206,29 @@ fn a_ring_of_edges_lifts_a_block_onto_the_plate() {
     assert_eq!(notes(plate), []);
 }
 
+/// Rule 5: before a cliff whose foot a house hides, what both stand on goes on.
+#[test]
+fn the_ground_goes_on_behind_a_house_at_a_cliff() {
+    let map = map("
+        g g g g g
+        g g g g g
+        b b b b b
+        b b b b b
+        g R R R g
+        g R R R g
+        g B B B g
+        g B B B g
+        g g g g g
+        b b b b b");
+    // Ground of 7 rows, a cliff of two rows and two tiles, the house's block and roof.
+    let (volume, _) = measured(&map);
+    let expected = 5.0 * 7.0 + 5.0 * 4.0 + 3.0 * 4.0 + 3.0;
+    assert!(
+        (volume - expected).abs() < 1e-3,
+        "{volume} is not {expected}"
+    );
+}
+
 /// Rule 6, figure 3.8: without edges the tongue hangs, with edges it goes on to the front behind it.
 #[test]
 fn fronts_with_edges_end_flush_with_what_is_behind() {
