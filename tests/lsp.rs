@@ -109,6 +109,32 @@ fn drawings_without_strings_are_left_alone() {
 }
 
 #[test]
+fn tiles_say_what_they_are() {
+    let mut editor = Editor::new();
+    let text = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 50 60'><g id='g'>
+        <text x='0' y='5' font-size='5'>Hill$Tiles 10</text>
+        <rect id='top' x='0' y='10' width='30' height='20' fill='#4caf50'/>
+        <path id='cliff' d='M0 30h30v20h-30z' fill='#8d6e63'/></g></svg>";
+    assert_eq!(editor.opened(URI, text), Vec::<Value>::new());
+    for (tag, told) in [
+        (
+            "rect id='top'",
+            "6 tiles of ground at height 2, in a group of 6",
+        ),
+        (
+            "path id='cliff'",
+            "6 tiles of cliff, between the heights 0 and 2",
+        ),
+    ] {
+        let hover = editor.ask("textDocument/hover", place(text, tag));
+        let markdown = hover["contents"]["value"].as_str().expect("text");
+        assert!(markdown.contains("**Tiles** of Hill"), "{markdown}");
+        assert!(markdown.contains(told), "{markdown}");
+    }
+    assert!(editor.leave().success());
+}
+
+#[test]
 fn every_request_is_answered() {
     let mut editor = Editor::new();
     let text = DRAWING;
