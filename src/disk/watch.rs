@@ -15,7 +15,7 @@ use super::poll::Poll;
 /// programs write in pieces.
 const SETTLED: Duration = Duration::from_millis(60);
 /// How long nothing must happen to files that were closed, or renamed to their name: programs touch several in a row.
-const CLOSED: Duration = Duration::from_millis(5);
+const CLOSED: Duration = Duration::from_millis(3);
 /// After how long files are told of that never settle.
 const PATIENCE: Duration = Duration::from_secs(1);
 

@@ -1,6 +1,6 @@
 // A model that was read: which of its nodes are parts, how it is shaded, and what it takes on the graphics card.
 
-import { Box3, DoubleSide, Group, Mesh, MeshStandardMaterial, SkinnedMesh, Texture, TextureLoader, Vector3, type AnimationClip, type Material, type Object3D } from "three";
+import { Box3, BufferAttribute, DoubleSide, Group, Mesh, MeshStandardMaterial, SkinnedMesh, Texture, TextureLoader, Vector3, type AnimationClip, type BufferGeometry, type InterleavedBufferAttribute, type Material, type Object3D, type TypedArray } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Bend } from "./bend";
 
@@ -25,6 +25,8 @@ export class Model {
   private readonly made = new Map<string, Object3D[]>();
   private readonly materials = new Map<Material, { readonly flat: boolean }>();
   readonly meshes: Mesh[] = [];
+  /** What the next model has taken over. */
+  private readonly handedOn = new Set<BufferGeometry>();
   readonly box: Box3;
   readonly bend: Bend;
   readonly triangles: number;
@@ -97,8 +99,23 @@ export class Model {
     for (const material of this.materials.keys()) if (material instanceof MeshStandardMaterial) light(material);
   }
 
+  /** Takes over what did not change since another model: it is on the graphics card already. */
+  takeOver(before: Model): void {
+    const same = new Map<BufferGeometry, BufferGeometry>();
+    this.meshes.forEach((mesh, index) => {
+      const last = before.meshes[index]?.geometry;
+      if (last && !same.has(mesh.geometry) && isSame(mesh.geometry, last)) same.set(mesh.geometry, last);
+    });
+    for (const mesh of this.meshes) {
+      const last = same.get(mesh.geometry);
+      if (!last) continue;
+      mesh.geometry = last;
+      before.handedOn.add(last);
+    }
+  }
+
   dispose(): void {
-    for (const { geometry } of this.meshes) geometry.dispose();
+    for (const { geometry } of this.meshes) if (!this.handedOn.has(geometry)) geometry.dispose();
     for (const mesh of this.meshes) if (mesh instanceof SkinnedMesh) mesh.skeleton.dispose();
     for (const material of this.materials.keys()) {
       // What is mirrored belongs to the stage.
@@ -128,6 +145,27 @@ export function partNode(object: Object3D): Object3D | null {
   for (let at: Object3D | null = object; at; at = at.parent) if (elementOf(at) !== null) return at;
   return null;
 }
+
+/** Whether two geometries are made of the same numbers. */
+function isSame(one: BufferGeometry, other: BufferGeometry): boolean {
+  const names = Object.keys(one.attributes);
+  if (names.length !== Object.keys(other.attributes).length || Object.keys(one.morphAttributes).length > 0) return false;
+  return isSameList(one.index, other.index) && names.every((name) => isSameList(one.getAttribute(name), other.attributes[name] ?? null));
+}
+
+function isSameList(one: BufferAttribute | InterleavedBufferAttribute | null, other: BufferAttribute | InterleavedBufferAttribute | null): boolean {
+  if (!one || !other) return one === other;
+  if (!(one instanceof BufferAttribute && other instanceof BufferAttribute)) return false;
+  if (one.itemSize !== other.itemSize || one.normalized !== other.normalized || one.array.constructor !== other.array.constructor) return false;
+  if (one.array.byteLength !== other.array.byteLength) return false;
+  // glTF begins every number at a multiple of its size; four bytes at a time where that is four.
+  const [a, b] = one.array.BYTES_PER_ELEMENT === 4 ? [words(one.array), words(other.array)] : [one.array, other.array];
+  for (let at = 0; at < a.length; at++) if (a[at] !== b[at]) return false;
+  return true;
+}
+
+/** The bits of numbers of four bytes. */
+const words = ({ buffer, byteOffset, length }: TypedArray): Uint32Array => new Uint32Array(buffer, byteOffset, length);
 
 const materialsOf = ({ material }: Mesh): Material[] => (Array.isArray(material) ? material : [material]);
 

@@ -188,6 +188,7 @@ export class Viewer {
     this.stage.settle();
     const before = this.model;
     before?.root.removeFromParent();
+    if (before) model.takeOver(before);
     this.model = model;
     this.bytes = bytes;
     this.shown = wanted;
