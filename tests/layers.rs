@@ -128,10 +128,12 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "bind",
             "compile",
             "diagnostic",
+            "geometry",
             "lang",
             "report",
             "source",
             "svg",
+            "terrain",
         ],
     ),
     (
