@@ -22,17 +22,12 @@ const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" he
 
 /// A page of a drawing, and its port.
 fn served(folder: &Path, target: &str) -> (Live, u16) {
-    let port = free_port();
-    let live = Live::start(folder, &["preview", target, "--port", &port.to_string()]);
-    live.line("http://127.0.0.1:");
-    live.line("watching");
-    (live, port)
-}
-
-/// A port that nobody has at this moment.
-fn free_port() -> u16 {
-    let listener = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
-    listener.local_addr().expect("its address").port()
+    // On a port that it finds free by itself.
+    let live = Live::start(folder, &["preview", target]);
+    let [address, _] = live.lines(["http://127.0.0.1:", "watching"]);
+    let port = address.rsplit_once("127.0.0.1:").map(|(_, rest)| rest);
+    let port = port.and_then(|port| port.trim_end_matches('/').parse().ok());
+    (live, port.expect("a port"))
 }
 
 fn folder() -> tempfile::TempDir {

@@ -60,6 +60,25 @@ impl Live {
         panic!("nothing with `{wanted}` was said, but {said:#?}");
     }
 
+    /// The next lines that hold each of these, in whatever order they come: what is said on two streams has none.
+    #[track_caller]
+    pub(crate) fn lines<const COUNT: usize>(&self, wanted: [&str; COUNT]) -> [String; COUNT] {
+        let end = Instant::now() + PATIENCE;
+        let mut found = wanted.map(|_| None);
+        while found.iter().any(Option::is_none) {
+            let left = end.saturating_duration_since(Instant::now());
+            let Ok(line) = self.lines.recv_timeout(left) else {
+                panic!("of {wanted:?} only {found:?} were said");
+            };
+            for (found, wanted) in found.iter_mut().zip(wanted) {
+                if found.is_none() && line.contains(wanted) {
+                    *found = Some(line.clone());
+                }
+            }
+        }
+        found.map(Option::unwrap_or_default)
+    }
+
     /// All lines that come within a time.
     pub(crate) fn during(&self, time: Duration) -> Vec<String> {
         let end = Instant::now() + time;
