@@ -30,10 +30,6 @@ pub(super) struct House {
     pub(super) looks: [u8; 2],
     /// Whether its foot is seen somewhere: no other house hides it.
     stands: bool,
-    /// Whether its columns stand at different heights.
-    pub(super) uneven: bool,
-    /// Row and column of its first cell.
-    pub(super) first: [usize; 2],
 }
 
 impl House {
@@ -42,25 +38,19 @@ impl House {
         self.base + self.height
     }
 
+    /// The columns of its walls and its roof.
+    pub(super) fn columns(&self) -> Range<i32> {
+        let mut columns = self.walls.clone();
+        widen(&mut columns, &self.roof);
+        columns
+    }
+
     /// Where its back stands: z.
     pub(super) fn back(&self) -> i32 {
         self.front - self.depth
     }
 
     fn join(&mut self, other: &Self) {
-        let join = |one: &mut Range<i32>, other: &Range<i32>| {
-            if other.start < other.end {
-                let both = one.start < one.end;
-                let start = if both {
-                    one.start.min(other.start)
-                } else {
-                    other.start
-                };
-                *one = start..one.end.max(other.end);
-            }
-        };
-        self.uneven |= other.uneven;
-        self.uneven |= self.stands && other.stands && self.base != other.base;
         // Where most of the wall is seen nothing hides its foot; of such columns the highest counts.
         let foot = |house: &Self| {
             let walled = !house.walls.is_empty();
@@ -74,11 +64,19 @@ impl House {
         if self.roof.is_empty() {
             self.looks[0] = other.looks[0];
         }
-        join(&mut self.walls, &other.walls);
-        join(&mut self.roof, &other.roof);
+        widen(&mut self.walls, &other.walls);
+        widen(&mut self.roof, &other.roof);
         self.height = self.height.max(other.height);
         self.depth = self.depth.max(other.depth);
-        self.first = self.first.min(other.first);
+    }
+}
+
+/// Makes a range reach over another one, which may be empty.
+fn widen(range: &mut Range<i32>, other: &Range<i32>) {
+    if range.is_empty() {
+        *range = other.clone();
+    } else if !other.is_empty() {
+        *range = range.start.min(other.start)..range.end.max(other.end);
     }
 }
 
@@ -109,12 +107,12 @@ pub(super) fn measure(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<Hous
     all.filter_map(|number| houses.remove(&number)).collect()
 }
 
-/// Per stripe of columns the houses whose walls reach into it.
+/// Per stripe of columns the houses that reach into it.
 pub(super) fn by_stripe(houses: &[House], columns: usize) -> Vec<Vec<u32>> {
     let mut stripes = vec![vec![]; columns.div_ceil(STRIPE)];
     for (index, house) in houses.iter().enumerate() {
-        let walls = house.walls.start as usize..house.walls.end as usize;
-        let reached = walls.start / STRIPE..walls.end.div_ceil(STRIPE);
+        let columns = house.columns();
+        let reached = columns.start as usize / STRIPE..(columns.end as usize).div_ceil(STRIPE);
         stripes[reached]
             .iter_mut()
             .for_each(|houses| houses.push(index as u32));
@@ -162,8 +160,6 @@ fn in_column(
             front: segment.end + base,
             looks: [look; 2],
             stands: !is_roof && !matches!(column.below(index).1, Below::House(_)),
-            uneven: false,
-            first: [segment.start as usize, number],
         };
         found.push((house, part));
     }

@@ -1,12 +1,14 @@
 //! What a map leaves open, and how it was decided (terrain.md: one warning a group, with its cells).
 
+use rayon::prelude::*;
+
 use super::grid::Grid;
 use super::groups::{Groups, Role};
 use super::houses::House;
 use super::levels::Levels;
 use super::map::Tile;
 use super::solids::{Known, Seen, Solids};
-use super::ties::Ties;
+use super::ties::{STRIPE, Ties};
 
 /// Something that a map leaves open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,7 +47,6 @@ pub(super) fn notes(known: &Known<'_>, ties: &Ties) -> Vec<Note> {
         grid,
         groups,
         levels,
-        houses,
         ..
     } = *known;
     let mut notes = vec![];
@@ -58,12 +59,7 @@ pub(super) fn notes(known: &Known<'_>, ties: &Ties) -> Vec<Note> {
             cells: *cells,
         });
     }
-    let mut solids = Solids::default();
-    notes.extend(
-        houses
-            .iter()
-            .filter_map(|house| hides(known, house, &mut solids)),
-    );
+    hiding(known, &mut notes);
     if let Some(pit) = ties.pit
         && grid.edges.iter().all(|edges| *edges == 0)
     {
@@ -107,49 +103,91 @@ fn hanging(grid: &Grid, groups: &Groups, levels: &Levels, notes: &mut Vec<Note>)
     }
 }
 
-/// Whether a house hides tiles that are drawn.
-fn hides(known: &Known<'_>, house: &House, solids: &mut Solids) -> Option<Note> {
-    let all = house.roof.start.min(house.walls.start)..house.roof.end.max(house.walls.end);
+/// Houses that hide tiles that are drawn; one note a house.
+fn hiding(known: &Known<'_>, notes: &mut Vec<Note>) {
+    let stripes = known.houses_of.par_iter().enumerate();
+    let found = stripes.map(|(stripe, houses)| {
+        let mut found = vec![];
+        let mut solids = Solids::default();
+        let columns = stripe * STRIPE..((stripe + 1) * STRIPE).min(known.grid.columns);
+        for number in columns.filter(|_| !houses.is_empty()) {
+            let here = |house: &&u32| {
+                let columns = known.houses[**house as usize].columns();
+                columns.contains(&(number as i32))
+            };
+            let mut houses = houses.iter().filter(here).peekable();
+            if houses.peek().is_some() {
+                solids.look_at(known, number);
+            }
+            for index in houses {
+                let house = &known.houses[*index as usize];
+                let hidden = hidden_by(known, house, &solids, number);
+                found.extend(hidden.map(|(cells, row)| (*index, cells, [number, row])));
+            }
+        }
+        found
+    });
+    let mut found: Vec<(u32, usize, [usize; 2])> = found.flatten().collect();
+    found.sort_unstable();
+    for hidden in found.chunk_by(|one, other| one.0 == other.0) {
+        notes.push(Note {
+            what: Open::House,
+            cell: hidden[0].2,
+            cells: hidden.iter().map(|(_, cells, _)| cells).sum(),
+        });
+    }
+}
+
+/// How many drawn cells of a column a house hides, and the first one's row.
+fn hidden_by(
+    known: &Known<'_>,
+    house: &House,
+    solids: &Solids,
+    number: usize,
+) -> Option<(usize, usize)> {
     let [top, eaves, foot] = [
         house.back() - house.eaves(),
         house.front - house.eaves(),
         house.front - house.base,
     ];
+    let column = number as i32;
+    let from = if house.roof.contains(&column) {
+        top
+    } else {
+        eaves
+    };
+    let to = if house.walls.contains(&column) {
+        foot
+    } else {
+        eaves
+    };
     let (mut cells, mut first) = (0, None);
-    for column in all {
-        let number = column as usize;
-        solids.look_at(known, number);
-        let roofed = house.roof.contains(&column);
-        let walled = house.walls.contains(&column);
-        for view in &solids.views {
-            let from = view.start.max(if roofed { top } else { eaves });
-            let to = view.end.min(if walled { foot } else { eaves });
-            for row in from..to {
-                let cell = number * known.grid.rows + row as usize;
-                // How high the house is where it is seen in this row, with a roof that looks as it is drawn.
-                let own = if row < eaves {
-                    house.eaves() + (eaves - row).div_euclid(2)
-                } else {
-                    house.front - row - 1
-                };
-                let nearer = match (known.groups.role(cell), view.seen) {
-                    (Role::Roof(_) | Role::Wall(_), Seen::Roof(level)) => {
-                        level == house.eaves() || level > own
-                    }
-                    (_, Seen::Front(plane)) => plane >= house.front,
-                    (_, Seen::Top(level) | Seen::Roof(level)) => level > own,
-                    (_, Seen::Nothing) => true,
-                };
-                if !nearer {
-                    cells += 1;
-                    first.get_or_insert([number, row as usize]);
+    let start = solids.views.partition_point(|view| view.end <= from);
+    for view in solids.views[start..]
+        .iter()
+        .take_while(|view| view.start < to)
+    {
+        for row in view.start.max(from)..view.end.min(to) {
+            let cell = number * known.grid.rows + row as usize;
+            // How high the house is where it is seen in this row, with a roof that looks as it is drawn.
+            let own = if row < eaves {
+                house.eaves() + (eaves - row).div_euclid(2)
+            } else {
+                house.front - row - 1
+            };
+            let nearer = match (known.groups.role(cell), view.seen) {
+                (Role::Roof(_) | Role::Wall(_), Seen::Roof(level)) => {
+                    level == house.eaves() || level > own
                 }
+                (_, Seen::Front(plane)) => plane >= house.front,
+                (_, Seen::Top(level) | Seen::Roof(level)) => level > own,
+                (_, Seen::Nothing) => true,
+            };
+            if !nearer {
+                cells += 1;
+                first.get_or_insert(row as usize);
             }
         }
     }
-    first.map(|cell| Note {
-        what: Open::House,
-        cell,
-        cells,
-    })
+    first.map(|row| (cells, row))
 }

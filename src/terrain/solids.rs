@@ -13,6 +13,9 @@ use super::levels::Levels;
 use super::map::Tile;
 use super::ties::STRIPE;
 
+/// A row that is behind all others, and still leaves room to reckon with.
+const NEVER: i32 = i32::MAX / 2;
+
 /// A block in a column: z from back to front, y from below to above. A sheet has no height.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Block {
@@ -138,7 +141,7 @@ impl Hidden {
             Some(at) => views[self.backs[at]].start,
             // Below the border there is the ground.
             None if end < z => end,
-            None => i32::MAX,
+            None => NEVER,
         }
     }
 
@@ -149,7 +152,7 @@ impl Hidden {
             .partition_point(|view| views[*view].bottom() < height);
         match at.checked_sub(1) {
             Some(at) => views[self.bottoms[at]].sinks_below(height),
-            None if height <= 0 => i32::MAX,
+            None if height <= 0 => NEVER,
             None => end,
         }
     }
@@ -301,9 +304,9 @@ impl Solids {
             && let Seen::Top(top) | Seen::Roof(top) = nearer.seen
         {
             let seen = self.hidden.level_seen(&self.views, level, end);
-            let hidden = (top - level).min(seen.saturating_sub(segment.end));
+            let hidden = (top - level).min(seen - segment.end);
             let end = self.hidden.wall_seen(&self.views, front + hidden, end);
-            let bottom = bottom.max((front + hidden).saturating_sub(end)).min(level);
+            let bottom = bottom.max(front + hidden - end).min(level);
             self.blocks.push(Block {
                 z: [front, front + hidden],
                 y: [bottom, level],
@@ -347,16 +350,14 @@ impl Solids {
         let lowest = lowest.min(front.end - 1);
         let support = self.level_below(known, index + 1);
         let [back, plane] = [segment.start + level, segment.end + level];
-        for y in support..bottom {
-            let z = [back, plane.min(y + lowest + 1)];
-            if z[0] < z[1] {
-                self.blocks.push(Block {
-                    z,
-                    y: [y, y + 1],
-                    top: Some(side),
-                    side,
-                });
-            }
+        // Below the first of these levels nothing of the depth is left.
+        for y in support.max(back - lowest)..bottom {
+            self.blocks.push(Block {
+                z: [back, plane.min(y + lowest + 1)],
+                y: [y, y + 1],
+                top: Some(side),
+                side,
+            });
         }
     }
 
@@ -386,12 +387,13 @@ impl Solids {
         let seen = self.hidden.wall_seen(&self.views, front, end);
         let base = base.max(front - seen);
         if base < level {
-            let look = known.earth.unwrap_or(0);
+            let cell = known.groups.surfaces[support as usize].first;
+            let look = known.grid.cells[cell];
             self.blocks.push(Block {
                 z: [back, front],
                 y: [base, level],
                 top: Some(look),
-                side: look,
+                side: known.earth.unwrap_or(look),
             });
         }
     }

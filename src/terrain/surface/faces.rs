@@ -97,9 +97,9 @@ impl Faces<'_> {
                 });
             });
         }
-        let inner = slices.inner.iter().map(|(plane, along)| Strip {
+        let inner = slices.inner.iter().map(|(plane, along, look)| Strip {
             plane: *plane,
-            look: known.earth.unwrap_or(1),
+            look: *look,
             along: *along,
         });
         down.extend(inner);

@@ -32,8 +32,8 @@ pub(super) struct Slices {
     spans: Vec<Span>,
     /// Up to which height sides have a look where nothing is drawn, from below.
     sides: Vec<(i32, u8)>,
-    /// Heights of eaves that lie inside of something else, and from where to where.
-    pub(super) inner: Vec<(i32, [i32; 2])>,
+    /// Heights of eaves that lie inside of something else, from where to where, and the look of the walls.
+    pub(super) inner: Vec<(i32, [i32; 2], u8)>,
     bounds: Vec<i32>,
     order: Vec<Block>,
     active: Vec<Block>,
@@ -119,7 +119,7 @@ impl Slices {
                             (last.top.is_none() && span.top.is_none()).then_some(last.y[1])
                         }
                     };
-                    self.inner.extend(roofed.map(|y| (y, z)));
+                    self.inner.extend(roofed.map(|y| (y, z, span.bottom)));
                     if order.is_gt() || (order.is_eq() && span.top.is_none()) {
                         (last.y[1], last.top) = (span.y[1], span.top);
                     }
