@@ -73,7 +73,7 @@ impl House {
 
 /// Makes a range reach over another one, which may be empty.
 fn widen(range: &mut Range<i32>, other: &Range<i32>) {
-    if range.is_empty() {
+    if range.start >= range.end {
         *range = other.clone();
     } else if !other.is_empty() {
         *range = range.start.min(other.start)..range.end.max(other.end);
