@@ -166,7 +166,9 @@ impl Analysis {
             }
             Annotation::Part(_) => match self.part_of_string(string) {
                 Some(part) => Some(self.part_card(part)),
-                None => Some("This string is bound to no part.".to_owned()),
+                None => self
+                    .landscape_card(string)
+                    .or_else(|| Some("This string is bound to no part.".to_owned())),
             },
             Annotation::Empty
             | Annotation::Comment

@@ -27,6 +27,27 @@ enum Cells {
 }
 
 impl Analysis {
+    /// What the landscape is that a string names. `None` if it names none.
+    pub(super) fn landscape_card(&self, string: usize) -> Option<String> {
+        let mut layers = self.compiled().layers.iter();
+        let layer = layers.find(|layer| layer.string == string)?;
+        let group = self.drawing().groups[layer.group].element.describe();
+        let water = layer.land.groups().filter(|group| group.water).count();
+        let ground = layer.land.groups().count() - water;
+        let houses = layer.land.houses().count();
+        let heights = layer.land.groups().map(|group| group.height);
+        let (low, high) = heights.fold((0, 0), |(low, high), height| {
+            (height.min(low), height.max(high))
+        });
+        Some(format!(
+            "**{}**, the landscape that {group} shows\n\n{} columns and {} rows of tiles of {}, from height {low} to {high}\n\nGroups of ground: {ground}, bodies of water: {water}, houses: {houses}",
+            escaped(&layer.name),
+            layer.map.columns,
+            layer.map.rows,
+            layer.size
+        ))
+    }
+
     /// What the tiles are that a shape paints: their kinds, heights and groups. `None` if it paints none.
     pub(super) fn tiles_card(&self, shape: usize) -> Option<String> {
         let layers = self.compiled().layers.iter();
