@@ -1,6 +1,7 @@
 //! Ties: what the columns say about how much higher one surface is than another (terrain.md, rule 3).
 
 use std::cmp::{Ordering, Reverse};
+use std::hash::Hash;
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
@@ -67,31 +68,14 @@ impl Ties {
 }
 
 impl Found {
-    fn strong(&mut self, upper: u32, lower: u32, rise: i32, first: [usize; 2]) {
-        let tie = Tie {
-            upper,
-            lower,
-            rise,
-            columns: 1,
-            first,
-        };
-        let known = self.strong.entry((upper, lower));
-        known.and_modify(|known| known.join(&tie)).or_insert(tie);
+    fn strong(&mut self, tie: Tie) {
+        add(&mut self.strong, (tie.upper, tie.lower), tie);
     }
 
-    fn weak(&mut self, upper: u32, lower: u32, rise: i32, first: [usize; 2]) {
-        if upper == lower {
-            return;
+    fn weak(&mut self, tie: Tie) {
+        if tie.upper != tie.lower {
+            add(&mut self.weak, (tie.upper, tie.lower, tie.rise), tie);
         }
-        let tie = Tie {
-            upper,
-            lower,
-            rise,
-            columns: 1,
-            first,
-        };
-        let known = self.weak.entry((upper, lower, rise));
-        known.and_modify(|known| known.join(&tie)).or_insert(tie);
     }
 
     fn with(mut self, other: Self) -> Self {
@@ -101,14 +85,12 @@ impl Found {
         self.pit = self.pit.into_iter().chain(other.pit).min();
         // What is joined does not depend on the order in which it comes.
         #[expect(clippy::iter_over_hash_type, reason = "joining ties is commutative")]
-        for (key, tie) in other.strong {
-            let known = self.strong.entry(key);
-            known.and_modify(|known| known.join(&tie)).or_insert(tie);
+        for tie in other.strong.into_values() {
+            self.strong(tie);
         }
         #[expect(clippy::iter_over_hash_type, reason = "joining ties is commutative")]
-        for (key, tie) in other.weak {
-            let known = self.weak.entry(key);
-            known.and_modify(|known| known.join(&tie)).or_insert(tie);
+        for tie in other.weak.into_values() {
+            self.weak(tie);
         }
         self
     }
@@ -120,28 +102,35 @@ impl Found {
                 continue;
             };
             let first = [segment.start as usize, number];
+            let tie = |lower: u32, rise: i32| Tie {
+                upper,
+                lower,
+                rise,
+                columns: 1,
+                first,
+            };
             let (fronts, below, next) = column.below(index);
             match below {
                 Below::Surface(lower) if lower == upper => {
                     self.pit = self.pit.into_iter().chain([first]).min();
                 }
-                Below::Surface(GROUND) => self.strong(upper, GROUND, fronts, first),
+                Below::Surface(GROUND) => self.strong(tie(GROUND, fronts)),
                 Below::Surface(lower) if fronts > 0 || (!water(upper) && water(lower)) => {
-                    self.strong(upper, lower, fronts, first);
+                    self.strong(tie(lower, fronts));
                 }
                 // Water's near bank hides how deep the water lies.
                 Below::Surface(_) if water(upper) => {}
                 // (a) What is hidden behind something stands where that stands.
                 Below::Surface(_) => {
                     if let Some((lower, _)) = column.stands_on(groups, next) {
-                        self.weak(upper, lower, 0, first);
+                        self.weak(tie(lower, 0));
                     }
                 }
                 // (a) and (c): behind a house, and on its roof.
                 Below::House(_) => {
                     if let Some((lower, more)) = column.foot(next) {
                         let rise = if fronts > 0 { fronts + more } else { 0 };
-                        self.weak(upper, lower, rise, first);
+                        self.weak(tie(lower, rise));
                     }
                 }
             }
@@ -153,7 +142,7 @@ impl Found {
                 && bank != GROUND
                 && !water(bank)
             {
-                self.weak(upper, bank, 0, first);
+                self.weak(tie(bank, 0));
             }
         }
     }
@@ -186,6 +175,12 @@ impl Found {
             pit: self.pit,
         }
     }
+}
+
+/// Adds a tie to those that say the same.
+fn add<Key: Eq + Hash>(ties: &mut FxHashMap<Key, Tie>, key: Key, tie: Tie) {
+    let known = ties.entry(key);
+    known.and_modify(|known| known.join(&tie)).or_insert(tie);
 }
 
 impl Tie {
