@@ -84,11 +84,9 @@ impl Found {
         }
         self.pit = self.pit.into_iter().chain(other.pit).min();
         // What is joined does not depend on the order in which it comes.
-        #[expect(clippy::iter_over_hash_type, reason = "joining ties is commutative")]
         for tie in other.strong.into_values() {
             self.strong(tie);
         }
-        #[expect(clippy::iter_over_hash_type, reason = "joining ties is commutative")]
         for tie in other.weak.into_values() {
             self.weak(tie);
         }
