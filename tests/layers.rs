@@ -109,7 +109,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "watch",
         ],
     ),
-    ("report", &["bind", "compile"]),
+    ("report", &["bind", "compile", "terrain"]),
     ("watch", &["compile", "disk", "gltf", "resolver"]),
     (
         "preview",

@@ -125,6 +125,38 @@ fn a_panel_is_told_of_unsaved_texts() {
 }
 
 #[test]
+fn landscapes_are_listed_and_lead_to_their_strings() {
+    let mut editor = Editor::begun(json!({
+        "capabilities": {},
+        "initializationOptions": {"preview": true},
+    }));
+    let text = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 50 60"><g id="map">
+        <text x="0" y="5" font-size="5">Hill$Tiles 10</text>
+        <rect id="top" x="0" y="10" width="30" height="20" fill="#4caf50"/>
+        <rect id="cliff" x="0" y="30" width="30" height="20" fill="#8d6e63"/></g></svg>"##;
+    editor.opened(URI, text);
+    editor.ask("okoshi/preview/open", document());
+    let build = news(&mut editor, "build");
+    let parts = build["build"]["parts"].as_array().expect("parts");
+    assert_eq!(parts.len(), 1);
+    assert_eq!(
+        (&parts[0]["name"], &parts[0]["kind"], &parts[0]["element"]),
+        (&json!("Hill"), &json!("terrain"), &json!("map"))
+    );
+    let place = editor.ask(
+        "okoshi/preview/place",
+        json!({"textDocument": {"uri": URI}, "part": "Hill"}),
+    );
+    let string = text.find("Hill$").expect("there");
+    assert_eq!(place["range"]["start"], position(text, string));
+    let at = text.find("rect id=\"cliff\"").expect("there");
+    let cursor = json!({"textDocument": {"uri": URI}, "position": position(text, at)});
+    editor.tell("okoshi/preview/cursor", cursor);
+    assert_eq!(news(&mut editor, "light")["part"], "Hill");
+    assert!(editor.leave().success());
+}
+
+#[test]
 fn a_page_shows_texts_of_editors_without_panels() {
     let mut editor = Editor::with(json!({"window": {"showDocument": {"support": true}}}));
     let mut text = DRAWING.to_owned();

@@ -56,18 +56,31 @@ impl Analysis {
 
     /// The name of the part whose string, or whose shape's tag, is at byte `offset`.
     pub fn part_at(&self, offset: usize) -> Option<&str> {
-        let part = match self.at(offset)? {
+        let at = self.at(offset)?;
+        let mut layers = self.compiled.layers.iter();
+        let here = layers.find(|layer| match &at {
+            At::Tag { shape, .. } => layer.sources.iter().any(|tiles| tiles.shape == *shape),
+            At::String { string, .. } => layer.string == *string,
+        });
+        if let Some(layer) = here {
+            return Some(&layer.name);
+        }
+        let part = match at {
             At::Tag { part, .. } => part?,
             At::String { string, .. } => self.sheet().strings[string].binding?.part,
         };
         Some(own_name(&self.compiled, &self.sheet().parts[part]))
     }
 
-    /// Where the string of a part is, or its shape's tag if it has none.
+    /// Where the string of a part or a landscape is, or a part's tag if it has none.
     pub fn place_of(&self, name: &str) -> Option<Span> {
         let mut parts = self.sheet().parts.iter().enumerate();
-        let (part, _) = parts.find(|(_, part)| own_name(&self.compiled, part) == name)?;
-        Some(self.place_of_part(part))
+        if let Some((part, _)) = parts.find(|(_, part)| own_name(&self.compiled, part) == name) {
+            return Some(self.place_of_part(part));
+        }
+        let mut layers = self.compiled.layers.iter();
+        let layer = layers.find(|layer| layer.name == name)?;
+        Some(self.sheet().strings[layer.string].text.whole())
     }
 
     /// Where the symbol at byte `offset` is defined.

@@ -9,7 +9,7 @@ use tokio::sync::{Semaphore, watch};
 use super::message::{Build, Listed, ToPage, findings};
 use crate::compile::Compiled;
 use crate::render::{self, Options, Stage, write_png};
-use crate::report::parts;
+use crate::report::{landscapes, parts};
 use crate::resolver::MemoryResolver;
 use crate::watch::Steps;
 
@@ -143,7 +143,8 @@ impl Hub {
     pub fn publish(&self, id: &str, [folder, name]: [&str; 2], shown: &Shown<'_>) {
         // Put into words outside of the lock.
         let found = findings(&shown.compiled.diagnostics, shown.text);
-        let parts = parts(shown.compiled, shown.text);
+        let mut parts = parts(shown.compiled, shown.text);
+        parts.extend(landscapes(shown.compiled, shown.text));
         self.change(|state, now| {
             let number = state.models + 1;
             if !state.drawings.contains_key(id) {

@@ -4,6 +4,6 @@ mod parts;
 mod places;
 mod terrain;
 
-pub use parts::{AttributeReport, Part, StringReport, own_name, parts};
+pub use parts::{AttributeReport, Part, StringReport, landscapes, own_name, parts};
 pub use places::Places;
 pub use terrain::{Group, House, Terrain, terrain};

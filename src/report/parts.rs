@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::Places;
-use crate::bind::{self, PartKind};
+use crate::bind::{self, PartKind, SetBy, SheetString};
 use crate::compile::Compiled;
+use crate::terrain::Layer;
 
 /// A part. Coordinates are drawing units, y down.
 #[derive(Debug, Clone, Serialize)]
@@ -15,7 +16,7 @@ pub struct Part<'a> {
     pub name: &'a str,
     /// The name of what it hangs on; `None`: the root.
     pub parent: Option<&'a str>,
-    /// `main`, `sub`, `legend` or `unused`.
+    /// `main`, `sub`, `legend` or `unused`; of what [`landscapes`] tells `terrain`.
     pub kind: &'static str,
     /// The `id` of its element.
     pub element: Option<&'a str>,
@@ -72,13 +73,7 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
         element: compiled.drawing.shapes[part.shape].element.id.as_deref(),
         string: part.string.map(|string| {
             let string = &sheet.strings[string];
-            let (line, column) = places.line_column(string.text.whole().start);
-            StringReport {
-                line,
-                column,
-                text: string.text.as_str(),
-                bound_by: string.binding.map_or("none", |binding| binding.by.name()),
-            }
+            string_report(string, &places)
         }),
         center: part.measure.center.to_array(),
         ends: part.measure.ends.map(|end| end.to_array()),
@@ -87,6 +82,46 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
         attributes: attributes(compiled, index),
     };
     parts.map(report).collect()
+}
+
+/// The landscapes of a drawing as parts of their own kind, for lists of all that is in the model.
+pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
+    let (sheet, places) = (&compiled.sheet, Places::new(text));
+    let report = |layer: &'a Layer| {
+        let [low, high] = layer.bounds();
+        let (center, middle) = ((low + high) / 2.0, (low.y + high.y) / 2.0);
+        let string = &sheet.strings[layer.string];
+        let settings = string.settings.iter().map(|setting| {
+            let report = AttributeReport {
+                value: setting.words.clone(),
+                from: SetBy::Own.name(),
+            };
+            (setting.keyword.name(), report)
+        });
+        Part {
+            name: &layer.name,
+            parent: layer.parent.map(|part| sheet.parts[part].name.as_str()),
+            kind: "terrain",
+            element: compiled.drawing.groups[layer.group].element.id.as_deref(),
+            string: Some(string_report(string, &places)),
+            center: center.to_array(),
+            ends: [[low.x, middle], [high.x, middle]],
+            origin: center.to_array(),
+            axis: [1.0, 0.0],
+            attributes: settings.collect(),
+        }
+    };
+    compiled.layers.iter().map(report).collect()
+}
+
+fn string_report<'a>(string: &'a SheetString, places: &Places) -> StringReport<'a> {
+    let (line, column) = places.line_column(string.text.whole().start);
+    StringReport {
+        line,
+        column,
+        text: string.text.as_str(),
+        bound_by: string.binding.map_or("none", |binding| binding.by.name()),
+    }
 }
 
 /// A part's name; sub-parts, legends and unused parts without one go by their element.

@@ -8,7 +8,7 @@ export class Parts {
   private readonly below = new Map<string | null, Part[]>();
   /** Parts that are in no model: legends, and shapes that are left out. */
   readonly aside: readonly Part[];
-  /** How many parts the model has, and how many more shapes belong to them. */
+  /** How many parts and landscapes the model has, and how many more shapes belong to them. */
   readonly main: number;
   readonly shapes: number;
 
@@ -19,7 +19,7 @@ export class Parts {
       if (!this.byElement.has(part.element)) this.byElement.set(part.element, part);
     }
     this.aside = all.filter(isAside);
-    this.main = all.filter(({ kind }) => kind === "main").length;
+    this.main = all.filter(({ kind }) => kind === "main" || kind === "terrain").length;
     this.shapes = all.filter(({ kind }) => kind === "sub").length;
     for (const part of all) {
       if (isAside(part)) continue;

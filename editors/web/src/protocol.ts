@@ -23,7 +23,7 @@ export interface Finding {
   readonly to: number;
 }
 
-export type Kind = "main" | "sub" | "legend" | "unused";
+export type Kind = "main" | "sub" | "legend" | "unused" | "terrain";
 export type Source = "own" | "legend" | "default" | "builtin";
 
 export interface Part {
@@ -129,7 +129,7 @@ function readPart(value: unknown): Part {
   return {
     name: text(raw["name"]),
     parent: textOrNull(raw["parent"]),
-    kind: oneOf<Kind>(raw["kind"], ["main", "sub", "legend", "unused"], "main"),
+    kind: oneOf<Kind>(raw["kind"], ["main", "sub", "legend", "unused", "terrain"], "main"),
     element: text(raw["element"]),
     string: string && { line: number(string["line"]), column: number(string["column"]), text: text(string["text"]), boundBy: text(string["bound_by"]) },
     attributes: Object.entries(object(raw["attributes"])).map(([name, attribute]) => {

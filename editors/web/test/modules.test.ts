@@ -31,6 +31,8 @@ test("the hierarchy has every part of the model once", () => {
   assert.deepEqual([names(null), names("Body"), names("Head")], [["Body"], ["Head", "Arm"], ["eye"]]);
   assert.deepEqual(parts.aside.map(({ name }) => name), ["swatch", "old"]);
   assert.deepEqual([parts.main, parts.shapes], [3, 1]);
+  const land = new Parts([part("Hill", null, "terrain")]);
+  assert.deepEqual([land.main, land.carrier("Hill")?.name, land.aside.length], [1, "Hill", 0]);
   assert.deepEqual(parts.above("eye"), ["Head", "Body"]);
   assert.equal(parts.carrier("eye")?.name, "Head");
   assert.equal(parts.carrier("Arm")?.name, "Arm");

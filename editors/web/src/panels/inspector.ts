@@ -13,7 +13,7 @@ const BOUND: Readonly<Record<string, string>> = {
   none: "bound to no shape",
 };
 const FROM: Readonly<Record<Source, string>> = { own: "its string", legend: "a legend", default: "defaults", builtin: "built in" };
-const KIND: Readonly<Record<Part["kind"], string>> = { main: "part", sub: "shape of a part", legend: "legend", unused: "left out" };
+const KIND: Readonly<Record<Part["kind"], string>> = { main: "part", sub: "shape of a part", legend: "legend", unused: "left out", terrain: "landscape" };
 
 export class Inspector {
   readonly element = h("section", { class: "inspector", attributes: { "aria-label": "Selected part", "aria-live": "polite" } });

@@ -92,7 +92,7 @@ export class Tree {
   private item({ part, level, open, place, among }: Row): HTMLElement {
     const { name, kind } = part;
     const note =
-      kind === "legend" ? "legend" : kind === "unused" ? "left out" : kind === "sub" ? "shape" : isAutomatic(part) ? "automatic" : part.joint;
+      kind === "legend" ? "legend" : kind === "unused" ? "left out" : kind === "sub" ? "shape" : kind === "terrain" ? "landscape" : isAutomatic(part) ? "automatic" : part.joint;
     const item = h(
       "div",
       {
