@@ -162,7 +162,7 @@ fn contents(layer: &Layer) -> Vec<[String; 2]> {
         [format!("{kind} at {}", group.height), what]
     });
     let houses = layer.land.houses().map(|house| {
-        let ridge = f64::from(house.base + house.height) + layer.roof * f64::from(house.depth);
+        let ridge = house.ridge(layer.roof);
         let what = format!(
             "{} wide, {} deep, walls {} high, ridge at {ridge:.2}",
             house.width, house.depth, house.height

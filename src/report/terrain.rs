@@ -69,7 +69,7 @@ pub fn terrain(compiled: &Compiled) -> Vec<Terrain<'_>> {
             width: house.width,
             depth: house.depth,
             height: house.height,
-            ridge: f64::from(house.base + house.height) + layer.roof * f64::from(house.depth),
+            ridge: house.ridge(layer.roof),
         });
         Terrain {
             name: &layer.name,

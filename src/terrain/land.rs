@@ -53,6 +53,13 @@ pub struct Built {
     pub height: i32,
 }
 
+impl Built {
+    /// Height of its ridge; `roof` is the height of roofs over their depth.
+    pub fn ridge(&self, roof: f64) -> f64 {
+        f64::from(self.base + self.height) + roof * f64::from(self.depth)
+    }
+}
+
 impl Land {
     /// Works out how high everything on a map lies. Never fails: what is ambiguous is decided by the rules. Takes about as
     /// long as reading the map a few times.

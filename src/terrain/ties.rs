@@ -63,7 +63,7 @@ impl Ties {
                 found
             })
             .reduce(Found::default, Found::with);
-        found.sorted(groups)
+        found.border(grid, groups).sorted(groups)
     }
 }
 
@@ -143,6 +143,23 @@ impl Found {
                 self.weak(tie(bank, 0));
             }
         }
+    }
+
+    /// Water that runs to the border is open water at the ground (rule 7), if it is not seen to fall down there.
+    fn border(mut self, grid: &Grid, groups: &Groups) -> Self {
+        let surfaces = groups.surfaces.iter().enumerate().skip(1);
+        for (index, surface) in surfaces.filter(|(_, surface)| surface.water && surface.at_border) {
+            let [column, row] = grid.place(surface.first);
+            let upper = index as u32;
+            self.strong.entry((upper, GROUND)).or_insert(Tie {
+                upper,
+                lower: GROUND,
+                rise: 0,
+                columns: 1,
+                first: [row, column],
+            });
+        }
+        self
     }
 
     fn sorted(self, groups: &Groups) -> Ties {

@@ -323,6 +323,24 @@ fn open_water_lies_at_the_ground() {
     );
 }
 
+/// Rule 7: also water that leaves the map at its side or at its top.
+#[test]
+fn water_at_any_border_is_open() {
+    let side = "
+        g g g
+        w b b
+        w w g
+        g g g
+        b b b";
+    assert_eq!(Land::new(&map(side)).top(0, 1), Some(0));
+    let lines = "
+        w w w
+        R R R
+        B B B";
+    assert_eq!(Land::new(&map(lines)).top(1, 0), Some(0));
+    assert_eq!(notes(lines), []);
+}
+
 /// Rule 7: a sunken floor.
 #[test]
 fn a_green_floor_lies_below_its_wall() {
