@@ -21,6 +21,7 @@ pub mod import;
 mod kept;
 pub mod lang;
 pub mod lsp;
+pub mod motion;
 pub mod preview;
 pub mod render;
 pub mod report;

@@ -3,6 +3,7 @@
 //! Conventions, stated once: right-handed axes, +Y up, metres, counter-clockwise front faces seen
 //! from outside, quaternions `x y z w`, colours linear RGBA.
 
+mod animation;
 mod skin;
 
 use std::borrow::Cow;
@@ -12,6 +13,7 @@ use glam::{DQuat, DVec3};
 
 use crate::solid::Solid;
 
+pub use animation::{Animation, Interpolation, Timing, Track, Values};
 pub use skin::{MOST_JOINTS, Pose, Posed, Skin, TooManyJoints};
 
 /// A model.
@@ -31,6 +33,8 @@ pub struct Scene {
     pub images: Vec<Image>,
     /// The mesh that all nodes move together, if the nodes have no meshes of their own.
     pub skin: Option<Skin>,
+    /// The clips, each with a name of its own.
+    pub animations: Vec<Animation>,
 }
 
 /// A node of the hierarchy: a joint, with or without a solid.

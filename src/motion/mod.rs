@@ -1,0 +1,7 @@
+//! Motion capture: read, matched with figures, carried over, and cut like hand-drawn animation.
+//!
+//! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, chapter 5. Knows skeletons and abstract figures, no drawings
+//! and no files. Frames and joints count from 0; angles in files are degrees, lengths are in the file's unit.
+
+pub mod figure;
+pub mod skeleton;
