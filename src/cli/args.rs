@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::motion::limited::Camera;
+use crate::motion::resample::{Range, parse_range};
 use crate::render::{FRAME_LIMIT, PITCH_LIMIT, SIZE_LIMIT, View};
 
 const EXAMPLES: &str = "\
@@ -15,6 +17,7 @@ Examples:
   okoshi render human.svg                draws a picture of the model, human.png
   okoshi watch human.svg                 builds it again at every save
   okoshi preview human.svg --open        shows it in the browser, live
+  okoshi motion kick.bvh -o snappy.bvh   cuts a motion like hand-drawn animation
   okoshi inspect human.svg               shows who is bound to what, and why
   okoshi explain Shape                   the manual of a keyword
   okoshi explain E204                    the manual of a diagnostic
@@ -79,6 +82,8 @@ pub(super) enum Command {
     Watch(Watch),
     /// Show drawings on a live page in the browser
     Preview(Preview),
+    /// Edit a motion by itself: limited animation, other rates, charts
+    Motion(Motion),
     /// Language server on stdin and stdout, for editors
     ///
     /// Editors start it by themselves; docs/editors says how each is set up. Positions are counted in
@@ -202,6 +207,100 @@ pub(super) struct Preview {
     pub(super) noticing: Noticing,
     #[command(flatten)]
     pub(super) reading: Reading,
+}
+
+const MOTION_EXAMPLES: &str = "\
+Examples:
+  okoshi motion kick.bvh                          lists its joints, and what they are taken for
+  okoshi motion kick.bvh -o snappy.bvh            limited animation: 4 drawings omitted, a third of the frames held
+  okoshi motion kick.bvh -o snappy.bvh --omit 6 --hold 40
+  okoshi motion kick.bvh -o kick.svg              a chart of how fast it is, and of what is omitted and held
+  okoshi motion kick.bvh -o kick.glb              a model of its skeleton that plays it
+  okoshi motion kick.bvh -o shot.bvh --drawings 14   the best 14 drawings for it
+  okoshi motion kick.bvh -o twos.bvh --every 2    on twos
+  okoshi motion take.bvh -o part.bvh --full --range 25:72 --fps 30
+
+Motions are BVH files, as motion capture is exchanged in. First a T-pose at the beginning is left out, then the motion gets 24
+frames a second, then it is cut. Frames count from 1. A drawing links to a motion by `Motion \"kick.bvh\"`.";
+
+#[derive(Debug, Args)]
+#[command(after_help = MOTION_EXAMPLES)]
+pub(super) struct Motion {
+    /// The motion, a BVH file; `-` is stdin
+    #[arg(value_name = "IN.bvh")]
+    pub(super) motion: PathBuf,
+    /// Where to write: a .bvh, .glb, .gltf or .svg file, `-` for BVH on stdout [default: nowhere, the joints are listed]
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: Option<PathBuf>,
+    /// Drawings to omit where it is fastest [default: 4]
+    #[arg(long, value_name = "N")]
+    pub(super) omit: Option<usize>,
+    /// Frames to hold where it is slowest [default: a third]
+    #[arg(long, value_name = "N")]
+    pub(super) hold: Option<usize>,
+    /// Let the motion get shorter by what is omitted
+    #[arg(long)]
+    pub(super) shorten: bool,
+    /// Shoot on twos or threes: a drawing for every N frames
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=24), conflicts_with_all = ["omit", "hold", "shorten"])]
+    pub(super) every: Option<u32>,
+    /// The best N drawings for the motion
+    #[arg(long, value_name = "N", conflicts_with_all = ["omit", "hold", "shorten", "every"])]
+    pub(super) drawings: Option<usize>,
+    /// Cut nothing: every frame stays
+    #[arg(long, conflicts_with_all = ["omit", "hold", "shorten", "every", "drawings"])]
+    pub(super) full: bool,
+    /// Compare with other ways to cut it: on twos, on threes, the best drawings
+    #[arg(long)]
+    pub(super) compare: bool,
+    /// Frames a second
+    #[arg(long, value_name = "F", default_value_t = crate::motion::ready::FPS)]
+    pub(super) fps: f64,
+    /// Take a part of it: frames as they are shown, from 1, both ends within; `10:` and `:48` are open
+    #[arg(long, value_name = "A:B", value_parser = range)]
+    pub(super) range: Option<Range>,
+    /// Keep the T-pose that it begins with
+    #[arg(long)]
+    pub(super) keep_rest: bool,
+    /// Measure speed in the picture of a camera: degrees to the body's left, degrees up, and its distance in the
+    /// file's unit for perspective
+    #[arg(long, value_name = "YAW,PITCH[,DISTANCE]", value_parser = camera, allow_hyphen_values = true)]
+    pub(super) camera: Option<Camera>,
+    /// Write a chart of its speed beside the output, an SVG file
+    #[arg(long, value_name = "FILE.svg", value_parser = plot)]
+    pub(super) plot: Option<PathBuf>,
+    /// Go on with the frames before a damaged one
+    #[arg(long)]
+    pub(super) keep_going: bool,
+}
+
+fn range(text: &str) -> Result<Range, String> {
+    parse_range(text).map_err(|error| error.to_string())
+}
+
+fn plot(text: &str) -> Result<PathBuf, String> {
+    match text.to_lowercase().ends_with(".svg") {
+        true => Ok(PathBuf::from(text)),
+        false => Err("the chart must end in .svg".to_owned()),
+    }
+}
+
+fn camera(text: &str) -> Result<Camera, String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    let finite = numbers.filter(|numbers| numbers.iter().all(|number: &f64| number.is_finite()));
+    match finite.as_deref() {
+        Some([yaw, pitch]) => Ok(Camera {
+            yaw: *yaw,
+            pitch: *pitch,
+            distance: None,
+        }),
+        Some([yaw, pitch, distance]) if *distance > 0.0 => Ok(Camera {
+            yaw: *yaw,
+            pitch: *pitch,
+            distance: Some(*distance),
+        }),
+        _ => Err("two numbers are due, `30,15` for example, or three with the camera's distance".to_owned()),
+    }
 }
 
 /// How changes are noticed.

@@ -15,6 +15,7 @@ mod explain;
 mod inspect;
 pub mod json;
 mod loading;
+mod motion;
 mod new;
 mod parallel;
 mod preview;
@@ -80,6 +81,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Check(arguments) => check::run(arguments, cli.common),
         Command::Inspect(arguments) => inspect::run(arguments, cli.common),
         Command::Explain { topic } => explain::run(topic.as_deref(), cli.common),
+        Command::Motion(arguments) => motion::run(arguments, cli.common),
         Command::Watch(arguments) => watch::run(arguments, cli.common),
         Command::Preview(arguments) => preview::run(arguments, cli.common),
         Command::Lsp => lsp(),

@@ -44,6 +44,8 @@ pub struct Compiled {
     pub sheet: Sheet,
     /// The tile maps.
     pub layers: Vec<terrain::Layer>,
+    /// The clips that figures play.
+    pub shots: Vec<figure::Shot>,
     /// The drawing. Its outlines and texts are shared with the sheet.
     pub drawing: Arc<Drawing>,
     /// What is wrong, in the order of the text.
@@ -142,7 +144,7 @@ impl Reading {
         };
         let sheet = bind::bind(&drawing, areas, &mut diagnostics);
         let layers = terrain::read(&drawing, &sheet, &mut diagnostics);
-        let scene = figure::build(
+        let (scene, shots) = figure::build(
             &drawing,
             &sheet,
             &layers,
@@ -158,6 +160,7 @@ impl Reading {
             scene,
             sheet,
             layers,
+            shots,
             drawing,
             diagnostics,
             dependencies,

@@ -284,6 +284,15 @@ codes! {
     /// Draw a small square of that colour in the same layer, and beside it write what such tiles are: `$Tile green`
     /// (ground), `brown` (cliff), `blue` (water), `red` (roof), `beige` (wall) or `none`.
     UnclearTile = "E206", "tile of unclear colour";
+    /// A motion file is no BVH that can be read: a line is missing or damaged, or frames have too many numbers or too
+    /// few. The message tells the line and the column in that file. With `--keep-going` the whole frames before it are used.
+    ///
+    /// ```text
+    /// %Motion "kick.bvh", whose last line is cut off
+    /// ```
+    ///
+    /// Export the motion again, or delete the damaged frame and set `Frames:` to how many there are.
+    BrokenMotion = "E207", "motion file that cannot be read";
 
     // Warnings
     /// An attribute stands twice in one string. The later one holds.
@@ -402,6 +411,35 @@ codes! {
     /// Draw what is missing: brown tiles below what stands, an edge (a stroke along the line between two tiles) where one
     /// thing ends and another begins, roofs over walls.
     OpenTerrain = "W315", "terrain with more than one reading";
+    /// `Bone` names a joint that no motion of the figure has, or that several joints are called; or two joints of which the second
+    /// does not hang on the first. The part is matched by its name and place, or follows the first of the joints.
+    ///
+    /// ```text
+    /// Rarm@Ubody$Bone RightAm
+    /// ```
+    ///
+    /// Write the joint as the motion file does; editors complete it, and `okoshi motion FILE` lists them all. `Bone` takes a joint,
+    /// or two: where a chain begins and where it ends.
+    UnclearJoint = "W316", "unclear joint";
+    /// A motion that moves nothing, or `Limited` or `Bone` in a drawing without a motion.
+    ///
+    /// ```text
+    /// %Limited 4 30, and no Motion
+    /// ```
+    ///
+    /// Write `%Motion "file.bvh"` for all figures, or `Motion "file.bvh"` in the string of a figure's root. A figure needs parts
+    /// that are known as head, body, arms or legs by their names or places; `Bone` says which joint drives a part.
+    IdleMotion = "W317", "motion without effect";
+    /// Limited animation could not be made as asked, or tears the motion apart: no pose stands for more than three frames, so
+    /// that at most about two thirds of the frames can be held; and more than six drawings left out in one place look like a
+    /// mistake.
+    ///
+    /// ```text
+    /// %Motion "kick.bvh" Limited 12 90, and kick.bvh has 60 frames
+    /// ```
+    ///
+    /// Ask for less: 4 to 6 drawings to omit, and a third of the frames to hold.
+    TooLimited = "W318", "limited animation out of reach";
 
     // Hints
     /// Another part lies almost as near to the string as the one it was given to.
@@ -439,6 +477,15 @@ codes! {
     ///
     /// Delete it if it is a leftover; move it onto the page, or put an unused string (`*`) beside it.
     OffPage = "H406", "off the page";
+    /// A motion file was read in spite of a slip in it, or a part of it was left out because it is no motion: the T-pose
+    /// that many clips begin with.
+    ///
+    /// Nothing need be done. `okoshi motion IN.bvh --full -o OUT.bvh` writes the motion as it was understood.
+    MotionMended = "H407", "motion file read with care";
+    /// The motion has no joint for a limb of the figure. The part follows the one that it hangs on.
+    ///
+    /// Say which joint drives it with `Bone`, or leave it as it is.
+    NoJoint = "H408", "limb without a joint";
 }
 
 impl Code {

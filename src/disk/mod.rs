@@ -11,7 +11,7 @@ mod write;
 
 pub use cache::write_cached;
 pub use folder::{FolderResolver, LINK_LIMIT};
-pub use read::{DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, read_drawing};
+pub use read::{DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, open_stream, read_drawing};
 pub use search::{Below, Stamp, below, is_drawing, stamp};
 pub use text::{Decode, decode};
 pub use watch::{Changed, FolderWatch, Notice, WatchError, as_told, names_told};

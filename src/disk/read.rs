@@ -67,6 +67,18 @@ pub fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
     unpack(path, bytes)
 }
 
+/// The bytes of the file at `path`, as they are and one after the other; `-` is stdin.
+pub fn open_stream(path: &Path) -> Result<Box<dyn Read>, ReadError> {
+    if super::is_standard_stream(path) {
+        return Ok(Box::new(io::stdin().lock()));
+    }
+    let file = File::open(path).map_err(|source| failure(path, source))?;
+    match file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
+        true => Err(ReadError::Folder(path.to_owned())),
+        false => Ok(Box::new(file)),
+    }
+}
+
 fn open(path: &Path) -> Result<io::Result<Option<Vec<u8>>>, ReadError> {
     let file = File::open(path).map_err(|source| failure(path, source))?;
     let metadata = file.metadata();

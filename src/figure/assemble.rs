@@ -50,6 +50,11 @@ impl Stage {
         (self.turn * DVec3::new(place.x, 0.0, place.y), self.turn)
     }
 
+    /// A turn in the drawing's axes, in the world's.
+    pub(super) fn turned(&self, turn: DQuat) -> DQuat {
+        self.turn * turn
+    }
+
     /// Where something stands that hangs on nothing and is turned by an angle about the viewer's axis; `place` in
     /// drawing units, y up.
     pub(super) fn set(&self, place: DVec3, angle: f64) -> (DVec3, DQuat) {

@@ -9,6 +9,7 @@ mod frame;
 mod land;
 mod materials;
 mod models;
+mod motion;
 mod relief;
 mod textures;
 mod tree;
@@ -37,6 +38,8 @@ use models::Models;
 use relief::Relief;
 use tree::Tree;
 
+pub use motion::{Driven, Shot};
+
 /// Metres in a centimetre: one drawing unit is `Scale` centimetres.
 const CENTIMETRE: f64 = 0.01;
 /// How far the faces of `default` lie from the drawing plane, as a share of the page's diagonal.
@@ -49,9 +52,10 @@ pub struct Memory {
     models: models::Memory,
     textures: textures::Memory,
     relief: relief::Memory,
+    motion: motion::Memory,
 }
 
-/// Builds the figures and landscapes of a drawing. What it makes does not depend on what it remembers.
+/// Builds the figures and landscapes of a drawing, and tells of their clips. What it makes does not depend on what it remembers.
 pub fn build(
     drawing: &Drawing,
     sheet: &Sheet,
@@ -59,7 +63,7 @@ pub fn build(
     resolver: &dyn Resolver,
     memory: &mut Memory,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Scene {
+) -> (Scene, Vec<Shot>) {
     let model = Model::new(drawing, sheet);
     let known = &mut memory.relief;
     let (relief, (mut models, materials, frames, members, tree, found)) = rayon::join(
@@ -97,6 +101,12 @@ pub fn build(
         .map(|(main, parts)| model.mesh(main, parts, &stock))
         .collect();
     let stage = Stage::of(&model, layers);
+    let wishes = motion::wishes(&model);
+    // The hierarchy is used up where it becomes the scene's.
+    let puppets = match wishes.is_empty() {
+        true => None,
+        false => Some(motion::Nodes::new(&model, &stock.frames, &tree.branches)),
+    };
     let (mut scene, nodes) = assemble::assemble(&model, tree, meshes, &stage, scene);
     land::add(
         &model,
@@ -107,7 +117,23 @@ pub fn build(
         &nodes,
         &mut scene,
     );
-    scene
+    let shots = match &puppets {
+        Some(nodes) => {
+            let ground = motion::Ground {
+                stage: &stage,
+                nodes,
+                members: &members,
+            };
+            let known = &mut memory.motion;
+            motion::perform(&model, &wishes, &ground, resolver, known, &mut scene, diagnostics)
+        }
+        None => {
+            memory.motion = motion::Memory::default();
+            motion::without(&model, diagnostics);
+            Vec::new()
+        }
+    };
+    (scene, shots)
 }
 
 /// Per main part the parts whose solids are in its node.

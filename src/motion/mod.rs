@@ -3,5 +3,16 @@
 //! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, chapter 5. Knows skeletons and abstract figures, no drawings
 //! and no files. Frames and joints count from 0; angles in files are degrees, lengths are in the file's unit.
 
+pub mod bvh;
+pub mod carry;
+pub mod chart;
+pub mod edit;
 pub mod figure;
+pub mod labels;
+pub mod lead;
+pub mod limited;
+pub mod matching;
+pub mod ready;
+pub mod resample;
 pub mod skeleton;
+pub mod stick;

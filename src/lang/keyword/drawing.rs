@@ -189,7 +189,7 @@ pub(super) static ROWS: [Row; 13] = [
                parts. In the string of the figure's root part it is for that figure, in a `%` string for all. \
                Several add up to several clips; the second word names the clip.",
         example: "Lbody$Motion \"kick.bvh\" kick",
-        status: Status::Planned,
+        status: Status::Built,
     },
     Row {
         keyword: Keyword::Limited,
@@ -202,7 +202,7 @@ pub(super) static ROWS: [Row; 13] = [
                the number of frames to hold where it is slowest: the motion snaps and rests like a \
                drawn one.",
         example: "%Limited 4 30",
-        status: Status::Planned,
+        status: Status::Built,
     },
     Row {
         keyword: Keyword::Stand,

@@ -110,7 +110,7 @@ pub(super) static ROWS: [Row; 12] = [
                place. Where it is wrong, name the joint here. A name with signs in it stands in \
                quotes.",
         example: "Rarm@Ubody$Bone RightArm RightForeArm",
-        status: Status::Planned,
+        status: Status::Built,
     },
     Row {
         keyword: Keyword::Mark,

@@ -1,0 +1,190 @@
+//! Which parts are one figure: those that hang together, by strings or because they touch.
+
+use glam::DVec2;
+use rstar::{AABB, RTree, primitives::GeomWithData, primitives::Rectangle};
+
+use crate::bind::{Part, PartKind, Sheet};
+use crate::geometry::{area, distance_squared};
+
+use super::super::Model;
+
+/// How far apart parts of one figure may be that hang on nothing, as a share of the larger one's height with all that hangs on it.
+const GAP: f64 = 0.02;
+
+/// A figure.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Group {
+    /// Its parts, indices into the sheet's.
+    pub(super) parts: Vec<usize>,
+    /// Per part the one it hangs on, indices into `parts`: by its string, or because it touches it.
+    pub(super) parents: Vec<Option<usize>>,
+    /// The part that all others hang on.
+    pub(super) root: usize,
+    /// The parts that hang on nothing by their strings, with those that each touches; indices into `parts`.
+    touching: Vec<(usize, Vec<usize>)>,
+}
+
+impl Group {
+    /// Whether what a string says of motion is meant for it; `None` speaks to all.
+    pub(super) fn hears(&self, part: Option<usize>) -> bool {
+        part.is_none_or(|part| self.parts.contains(&part))
+    }
+
+    /// Whether a part, an index into `parts`, hangs on nothing by its string.
+    pub(super) fn is_rooted(&self, part: usize) -> bool {
+        self.touching.iter().any(|(rooted, _)| *rooted == part)
+    }
+
+    /// The same figure, hanging on another part. That part hangs on nothing by its string.
+    pub(super) fn rooted_at(mut self, part: usize) -> Self {
+        let Some(root) = self.parts.iter().position(|own| *own == part) else {
+            return self;
+        };
+        for (root, _) in &self.touching {
+            self.parents[*root] = None;
+        }
+        let mut reached = vec![false; self.parts.len()];
+        reached[root] = true;
+        let mut order = vec![root];
+        let mut next = 0;
+        while let Some(&at) = order.get(next) {
+            next += 1;
+            let touched = self.touching.iter().find(|(root, _)| *root == at);
+            for &other in touched.into_iter().flat_map(|(_, others)| others) {
+                if !std::mem::replace(&mut reached[other], true) {
+                    self.parents[other] = Some(at);
+                    order.push(other);
+                }
+            }
+        }
+        self.root = part;
+        self
+    }
+}
+
+/// The figures of a drawing, in drawing order of their first parts.
+pub(super) fn groups(model: &Model<'_>) -> Vec<Group> {
+    let sheet = model.sheet;
+    let trees = trees(sheet);
+    let near = touching(model, &trees);
+    let mut taken = vec![false; trees.len()];
+    let mut groups = Vec::new();
+    for first in 0..trees.len() {
+        if std::mem::replace(&mut taken[first], true) {
+            continue;
+        }
+        let mut members = vec![first];
+        let mut next = 0;
+        while let Some(&at) = members.get(next) {
+            next += 1;
+            for &other in &near[at] {
+                if !std::mem::replace(&mut taken[other], true) {
+                    members.push(other);
+                }
+            }
+        }
+        members.sort_unstable();
+        groups.push(group(sheet, &trees, &near, &members));
+    }
+    groups
+}
+
+/// What hangs on a part that hangs on nothing, itself first.
+struct Tree {
+    parts: Vec<usize>,
+    low: DVec2,
+    high: DVec2,
+}
+
+fn trees(sheet: &Sheet) -> Vec<Tree> {
+    let is_main = |part: &Part| part.kind == PartKind::Main;
+    let mut children = vec![Vec::new(); sheet.parts.len()];
+    let mut trees = Vec::new();
+    let mains = sheet.parts.iter().enumerate().filter(|(_, part)| is_main(part));
+    for (index, part) in mains {
+        match part.parent {
+            Some(parent) => children[parent].push(index),
+            None => trees.push(Tree {
+                parts: vec![index],
+                low: DVec2::INFINITY,
+                high: DVec2::NEG_INFINITY,
+            }),
+        }
+    }
+    for tree in &mut trees {
+        let mut next = 0;
+        while let Some(&part) = tree.parts.get(next) {
+            next += 1;
+            tree.parts.extend_from_slice(&children[part]);
+            let (low, high) = sheet.parts[part].measure.bounds;
+            tree.low = tree.low.min(low);
+            tree.high = tree.high.max(high);
+        }
+    }
+    trees
+}
+
+/// Per tree the trees whose first parts touch its own.
+fn touching(model: &Model<'_>, trees: &[Tree]) -> Vec<Vec<usize>> {
+    let first = |tree: &Tree| &model.sheet.parts[tree.parts[0]];
+    let boxes = trees.iter().enumerate().map(|(index, tree)| {
+        let (low, high) = first(tree).measure.bounds;
+        GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), index)
+    });
+    let boxes = RTree::bulk_load(boxes.collect());
+    let slack = |tree: &Tree| GAP * (tree.high.y - tree.low.y);
+    let near = |index: usize| -> Vec<usize> {
+        let (own, slack) = (first(&trees[index]), slack(&trees[index]));
+        let (low, high) = own.measure.bounds;
+        let reach = AABB::from_corners((low - slack).to_array(), (high + slack).to_array());
+        let found = boxes.locate_in_envelope_intersecting(reach);
+        let others = found.map(|found| found.data).filter(|other| *other != index);
+        let mut others: Vec<usize> = others.filter(|other| are_near(own, first(&trees[*other]), slack)).collect();
+        others.sort_unstable();
+        others
+    };
+    let mut all: Vec<Vec<usize>> = (0..trees.len()).map(near).collect();
+    // The larger one's height counts for both.
+    for index in 0..trees.len() {
+        for other in all[index].clone() {
+            if let Err(place) = all[other].binary_search(&index) {
+                all[other].insert(place, index);
+            }
+        }
+    }
+    all
+}
+
+/// Whether two areas come as near to each other as `gap`.
+fn are_near(a: &Part, b: &Part, gap: f64) -> bool {
+    let reaches = |from: &Part, to: &Part| {
+        let rings = from.outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+        let mut points = rings.flatten();
+        points.any(|point| distance_squared(&to.outline, *point) <= gap * gap)
+    };
+    reaches(a, b) || reaches(b, a)
+}
+
+fn group(sheet: &Sheet, trees: &[Tree], near: &[Vec<usize>], members: &[usize]) -> Group {
+    let parts: Vec<usize> = members.iter().flat_map(|tree| &trees[*tree].parts).copied().collect();
+    let place: std::collections::BTreeMap<usize, usize> = parts.iter().copied().zip(0..).collect();
+    let parents = parts.iter().map(|part| sheet.parts[*part].parent.map(|parent| place[&parent]));
+    let first = |tree: &usize| trees[*tree].parts[0];
+    let touching = members.iter().map(|tree| {
+        let others = near[*tree].iter().map(|other| place[&first(other)]);
+        (place[&first(tree)], others.collect())
+    });
+    let size = |part: &usize| area(&sheet.parts[*part].outline);
+    // The first of the largest, so that twins do not change places.
+    let largest = members.iter().map(first).rev().max_by(|a, b| size(a).total_cmp(&size(b)));
+    let group = Group {
+        parents: parents.collect(),
+        touching: touching.collect(),
+        root: parts[0],
+        parts,
+    };
+    match largest {
+        Some(root) => group.rooted_at(root),
+        None => group,
+    }
+}

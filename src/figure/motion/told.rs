@@ -1,0 +1,178 @@
+//! What is said of motions.
+
+use std::collections::BTreeMap;
+
+use crate::bind::Sheet;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lang::ast::Annotation;
+use crate::lang::keyword::Keyword;
+use crate::motion::bvh;
+use crate::motion::limited::{Cut, MOST_GATHERED};
+use crate::motion::matching::{Matching, Problem};
+use crate::motion::skeleton::Skeleton;
+use crate::source::Span;
+
+use super::super::Model;
+use super::MOST_KEYS;
+use super::cast::Group;
+
+/// A file that cannot be read, or not to its end.
+pub(super) fn broken_file(link: &str, error: &bvh::Error, span: Span) -> Diagnostic {
+    let message = format!(
+        "the motion `{link}` cannot be read: line {}, column {}: {}",
+        error.line, error.column, error.message
+    );
+    Diagnostic::new(Code::BrokenMotion, span, message).help(error.help.clone())
+}
+
+/// Something in a file that was read all the same, or left out.
+pub(super) fn note(link: &str, note: &str, span: Span) -> Diagnostic {
+    let message = format!("the motion `{link}`: {note}");
+    Diagnostic::new(Code::MotionMended, span, message)
+}
+
+/// A drawing whose clips are too long.
+pub(super) fn too_many_keys(span: Span) -> Diagnostic {
+    let message = format!("the clips have more than {MOST_KEYS} keys together, counted as frames times parts");
+    let help = "use shorter motions; `okoshi motion IN.bvh -o OUT.bvh --range 1:240` cuts a part out";
+    Diagnostic::new(Code::LimitPassed, span, message).help(help)
+}
+
+/// A motion that no figure plays.
+pub(super) fn nobody(span: Span, link: &str) -> Diagnostic {
+    let message = format!("the motion `{link}` moves nothing: no part is driven by a joint of it");
+    let help = "name parts after what they are (Head, Rarm, Lleg …), or say which joint drives a part: `Bone RightArm`";
+    Diagnostic::new(Code::IdleMotion, span, message).help(help)
+}
+
+/// `Limited` and `Bone` in a drawing without a motion, each said once.
+pub(super) fn without_motion(sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
+    for keyword in [Keyword::Limited, Keyword::Bone] {
+        let found = sheet.strings.iter().find_map(|string| {
+            let counts = !matches!(string.annotation, Annotation::Legend(_));
+            let mut settings = string.settings.iter().filter(|_| counts);
+            let setting = settings.find(|setting| setting.keyword == keyword)?;
+            Some(string.text.span(setting.range.clone()))
+        });
+        if let Some(span) = found {
+            let name = keyword.name();
+            let message = format!("`{name}` has no effect: the drawing has no motion");
+            let help = "write `Motion \"file.bvh\"` into a `%` string, or into the string of a figure's root";
+            diagnostics.push(Diagnostic::new(Code::IdleMotion, span, message).help(help));
+        }
+    }
+}
+
+/// What could not be omitted or held, and what was omitted too much in one place.
+pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mut Vec<Diagnostic>) {
+    let mut tell = |message: String, help: String| {
+        diagnostics.push(Diagnostic::new(Code::TooLimited, span, message).help(help));
+    };
+    let (omit, hold) = (cut.omissions, cut.holds);
+    if omit.shortfall() > 0 {
+        tell(
+            format!("only {} of {} drawings can be omitted from {frames} frames", omit.done, omit.asked),
+            format!("write `Limited {} {}`, or take a longer motion", omit.done.min(4), hold.done),
+        );
+    }
+    if hold.shortfall() > 0 {
+        tell(
+            format!(
+                "only {} of {} frames can be held: no pose may stand for more than three of the {frames} frames",
+                hold.done, hold.asked
+            ),
+            format!("a third of the frames looks right: `Limited {} {}`", omit.done, frames / 3),
+        );
+    }
+    if cut.gathered > MOST_GATHERED {
+        tell(
+            format!("{} drawings are omitted in one place, where the motion is fastest: it is torn apart", cut.gathered),
+            "4 to 6 look right; if the clip holds several actions, cut it into one clip each".to_owned(),
+        );
+    }
+}
+
+/// What stands in the way of matching parts with joints, gathered over all clips: what one clip of a figure has not, another may
+/// have.
+#[derive(Debug, Default)]
+pub(super) struct Gathered {
+    /// Per part, and the name that its string gives or none, how often that was a problem, and the last one.
+    problems: BTreeMap<(usize, String), (usize, Problem)>,
+    /// Per part how many clips its figure has.
+    clips: BTreeMap<usize, usize>,
+}
+
+impl Gathered {
+    pub(super) fn add(&mut self, group: &Group, matching: &Matching) {
+        for part in &group.parts {
+            *self.clips.entry(*part).or_default() += 1;
+        }
+        for problem in &matching.problems {
+            let keys: Vec<(usize, String)> = match problem {
+                Problem::UnknownBone { part, name, .. } | Problem::AmbiguousBone { part, name, .. } => {
+                    vec![(group.parts[*part], name.clone())]
+                }
+                Problem::NotAChain { part, .. } | Problem::TooManyBones { part } => {
+                    vec![(group.parts[*part], String::new())]
+                }
+                Problem::NoSuchLimb { parts, .. } => {
+                    parts.iter().map(|part| (group.parts[*part], String::new())).collect()
+                }
+                Problem::NothingMatched => Vec::new(),
+            };
+            for key in keys {
+                let entry = self.problems.entry(key).or_insert_with(|| (0, problem.clone()));
+                *entry = (entry.0 + 1, problem.clone());
+            }
+        }
+    }
+
+    /// Says what no clip of a figure has.
+    pub(super) fn tell(&self, model: &Model<'_>, skeleton: Option<&Skeleton>, diagnostics: &mut Vec<Diagnostic>) {
+        for ((part, _), (count, problem)) in &self.problems {
+            if self.clips.get(part).is_none_or(|clips| count >= clips) {
+                diagnostics.push(problem_of(model, *part, problem, skeleton));
+            }
+        }
+    }
+}
+
+fn problem_of(model: &Model<'_>, part: usize, problem: &Problem, skeleton: Option<&Skeleton>) -> Diagnostic {
+    let sheet = model.sheet;
+    let element = model.drawing.shapes[sheet.parts[part].shape].element.span;
+    let bone = sheet.setting(part, Keyword::Bone);
+    let span = bone.map_or(element, |source| {
+        sheet.strings[source.string].text.span(source.setting.range.clone())
+    });
+    let called = |joint: usize| {
+        let joint = skeleton.and_then(|skeleton| skeleton.joints.get(joint));
+        joint.map_or_else(String::new, |joint| format!("`{}`", joint.name))
+    };
+    let unclear = |message: String| Diagnostic::new(Code::UnclearJoint, span, message);
+    let name = sheet.describe(model.drawing, part);
+    match problem {
+        Problem::UnknownBone { name, nearest, .. } => {
+            let told = unclear(format!("the motion has no joint `{name}`"));
+            match nearest.as_slice() {
+                [] => told.help("`okoshi motion FILE` lists the joints of a motion"),
+                nearest => {
+                    let names: Vec<String> = nearest.iter().map(|name| format!("`{name}`")).collect();
+                    told.help(format!("perhaps {} was meant", names.join(" or ")))
+                }
+            }
+        }
+        Problem::AmbiguousBone { name, joints, .. } => unclear(format!("{} joints of the motion are called `{name}`", joints.len()))
+            .help("the first of them is taken; `Bone first second` names a chain"),
+        Problem::NotAChain { from, to, .. } => {
+            unclear(format!("the joint {} does not hang on {}", called(*to), called(*from)))
+                .help("name the joint where the chain begins first, then the one where it ends: `Bone RightArm RightHand`")
+        }
+        Problem::TooManyBones { .. } => unclear("`Bone` names more than two joints".to_owned())
+            .help("name the joint where the chain begins and the one where it ends: `Bone RightArm RightHand`"),
+        Problem::NoSuchLimb { class, side, .. } => {
+            let message = format!("the motion has no {} {} for {name}, which follows the part that it hangs on", side.name(), class.name());
+            Diagnostic::new(Code::NoJoint, element, message).help("`Bone` says which joint drives a part")
+        }
+        Problem::NothingMatched => unclear("no joint drives any part".to_owned()),
+    }
+}

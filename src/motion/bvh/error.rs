@@ -1,0 +1,116 @@
+//! What a file is refused with, and what was put right in it.
+
+use std::fmt;
+
+use crate::motion::skeleton::Clip;
+
+use super::MOST_NOTES;
+
+/// Why a file cannot be read, and where.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Error {
+    /// The line, from 1.
+    pub line: usize,
+    /// The place in the line, in characters from 1; behind the last one where something is missing.
+    pub column: usize,
+    /// What is wrong.
+    pub message: String,
+    /// What to do about it.
+    pub help: String,
+    /// The whole frames before that place, where there are any.
+    pub partial: Option<Box<Clip>>,
+}
+
+impl Error {
+    /// An error at a byte of a line.
+    pub(super) fn at(line: usize, text: &[u8], byte: usize, message: String, help: &str) -> Self {
+        Self {
+            line,
+            column: column(text, byte),
+            message,
+            help: help.to_owned(),
+            partial: None,
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "line {}, column {}: {}",
+            self.line, self.column, self.message
+        )
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// Something that was put right while a file was read.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Note {
+    /// The line, from 1.
+    pub line: usize,
+    /// What was found, and how it was taken.
+    pub message: String,
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "line {}: {}", self.line, self.message)
+    }
+}
+
+/// Notes, as many as anyone reads.
+#[derive(Debug, Default)]
+pub(super) struct Notes {
+    kept: Vec<Note>,
+    left_out: usize,
+}
+
+impl Notes {
+    /// Adds a note.
+    pub(super) fn add(&mut self, line: usize, message: impl Into<String>) {
+        if self.kept.len() < MOST_NOTES {
+            let message = message.into();
+            self.kept.push(Note { line, message });
+        } else {
+            self.left_out += 1;
+        }
+    }
+
+    /// The notes; a last one tells how many are not among them.
+    pub(super) fn done(mut self) -> Vec<Note> {
+        if let (1.., Some(last)) = (self.left_out, self.kept.last()) {
+            let (line, message) = (
+                last.line,
+                format!("{} more notes are left out", self.left_out),
+            );
+            self.kept.push(Note { line, message });
+        }
+        self.kept
+    }
+}
+
+/// The column of a byte of a line, from 1: in characters, or in bytes where the line is not UTF-8.
+pub(super) fn column(text: &[u8], byte: usize) -> usize {
+    let before = text.get(..byte).unwrap_or(text);
+    1 + std::str::from_utf8(before).map_or(before.len(), |before| before.chars().count())
+}
+
+/// A word of the file as messages quote it: with care for what is no text, and not at any length.
+pub(super) fn quoted(word: &[u8]) -> String {
+    /// Characters that are enough to know a word by.
+    const SHOWN: usize = 40;
+
+    let text = String::from_utf8_lossy(word.get(..4 * SHOWN).unwrap_or(word));
+    let mut shown: String = text
+        .chars()
+        .map(|c| if c.is_control() { '\u{FFFD}' } else { c })
+        .take(SHOWN)
+        .collect();
+    if text.chars().nth(SHOWN).is_some() {
+        shown.push('…');
+    }
+    format!("`{shown}`")
+}

@@ -1,0 +1,147 @@
+//! What stands within the braces of a joint: OFFSET and CHANNELS.
+
+use glam::DVec3;
+
+use crate::motion::skeleton::{Axis, Channel};
+
+use super::MOST_CHANNELS;
+use super::error::{Error, Notes, quoted};
+use super::header::{Header, Line, limit, unexpected};
+use super::number::{explain, whole};
+use super::words::{Word, Words};
+
+/// The channels, as they are written.
+pub(super) const CHANNELS: [(&str, Channel); 6] = [
+    ("Xposition", Channel::Position(Axis::X)),
+    ("Yposition", Channel::Position(Axis::Y)),
+    ("Zposition", Channel::Position(Axis::Z)),
+    ("Xrotation", Channel::Rotation(Axis::X)),
+    ("Yrotation", Channel::Rotation(Axis::Y)),
+    ("Zrotation", Channel::Rotation(Axis::Z)),
+];
+
+impl Header {
+    pub(super) fn offset(
+        &mut self,
+        line: Line<'_>,
+        keyword: Word<'_>,
+        words: &mut Words<'_>,
+        notes: &mut Notes,
+    ) -> Result<(), Error> {
+        let mut offset = DVec3::ZERO;
+        for axis in 0..3 {
+            let Some(word) = words
+                .peek()
+                .filter(|word| !matches!(word.text, b"{" | b"}"))
+            else {
+                let message = format!("OFFSET has {axis} numbers, but it takes 3");
+                return Err(line.error(words.at(), message, "Write OFFSET with x, y and z."));
+            };
+            words.next();
+            offset[axis] = whole(word.text).ok_or_else(|| {
+                let (message, help) = explain(word.text);
+                line.error(word.at, message, help)
+            })?;
+        }
+        let Some(open) = self.open.last_mut() else {
+            return Err(unexpected(line, keyword));
+        };
+        match open.offset {
+            None => open.offset = Some(offset),
+            Some(before) if before == offset => {
+                notes.add(line.number, "OFFSET stands here twice: taken once")
+            }
+            Some(_) => {
+                let help =
+                    "A joint has one OFFSET. Is the beginning of a joint missing before this one?";
+                return Err(line.error(
+                    keyword.at,
+                    "a second OFFSET, unlike the first".to_owned(),
+                    help,
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn channels(
+        &mut self,
+        line: Line<'_>,
+        keyword: Word<'_>,
+        words: &mut Words<'_>,
+        notes: &mut Notes,
+    ) -> Result<(), Error> {
+        let count = words
+            .next()
+            .filter(|word| !matches!(word.text, b"{" | b"}"));
+        let stated =
+            count.and_then(|word| std::str::from_utf8(word.text).ok()?.parse::<usize>().ok());
+        let Some(stated) = stated else {
+            let at = count.map_or(words.at(), |word| word.at);
+            let help = "Behind CHANNELS comes how many there are, and then their names.";
+            return Err(line.error(at, "CHANNELS has no count".to_owned(), help));
+        };
+        let mut channels = Vec::new();
+        while let Some(word) = words
+            .peek()
+            .filter(|word| !matches!(word.text, b"{" | b"}"))
+        {
+            words.next();
+            let known = CHANNELS.iter().find(|(name, _)| word.is(name));
+            let Some((_, channel)) = known else {
+                let message = format!("{} is no channel", quoted(word.text));
+                let help = "The channels are Xposition, Yposition, Zposition, Xrotation, Yrotation and Zrotation.";
+                return Err(line.error(word.at, message, help));
+            };
+            channels.push(*channel);
+        }
+        if channels.len() != stated {
+            let message = format!("CHANNELS says {stated}, but {} follow", channels.len());
+            let help =
+                "Put the count right, or the names back; a frame has one number for each of them.";
+            return Err(line.error(count.map_or(keyword.at, |word| word.at), message, help));
+        }
+        self.set_channels(line, keyword, channels, notes)
+    }
+
+    fn set_channels(
+        &mut self,
+        line: Line<'_>,
+        keyword: Word<'_>,
+        channels: Vec<Channel>,
+        notes: &mut Notes,
+    ) -> Result<(), Error> {
+        let Some(open) = self.open.last_mut() else {
+            return Err(unexpected(line, keyword));
+        };
+        let Some(joint) = self.skeleton.joints.get_mut(open.joint) else {
+            return Ok(());
+        };
+        if open.end {
+            if channels.is_empty() {
+                return Ok(());
+            }
+            let help = "Only joints have channels; make it a JOINT, or take the line out.";
+            return Err(line.error(keyword.at, "CHANNELS in an `End Site`".to_owned(), help));
+        }
+        if open.channels {
+            if joint.channels == channels {
+                notes.add(line.number, "CHANNELS stands here twice: taken once");
+                return Ok(());
+            }
+            let help = "A joint has one line of CHANNELS. Is the beginning of a joint missing before this one?";
+            return Err(line.error(
+                keyword.at,
+                "second CHANNELS, unlike the first".to_owned(),
+                help,
+            ));
+        }
+        self.width += channels.len();
+        if self.width > MOST_CHANNELS {
+            return Err(limit(line, keyword, "numbers in a frame", MOST_CHANNELS));
+        }
+        open.channels = true;
+        joint.channels = channels;
+        Ok(())
+    }
+}

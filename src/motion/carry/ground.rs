@@ -1,0 +1,315 @@
+//! Where a figure goes: travel scaled by leg length, and feet that stand where they stand.
+
+use glam::{DQuat, DVec3};
+
+use super::axes::{Landmarks, Axes};
+use super::turn::Turns;
+use super::{Drive, Poses, Puppet, reach};
+use crate::motion::skeleton::{Clip, Placed};
+
+/// A foot is in contact below this height over its lowest, in leg lengths …
+const CONTACT_HEIGHT: f64 = 0.08;
+/// … and slower than this, in leg lengths a second.
+const CONTACT_SPEED: f64 = 0.6;
+/// Its lowest height is the one that this share of the frames is below: single frames may be wrong.
+const LOWEST: f64 = 0.02;
+
+/// Where parts that hang on nothing go.
+pub(super) struct Travel {
+    /// Per part the places of its node; `None` where it stays.
+    pub(super) places: Vec<Option<Vec<DVec3>>>,
+    /// Per frame whether a foot stands on the ground.
+    pub(super) grounded: Vec<bool>,
+}
+
+pub(super) fn travel(
+    clip: &Clip,
+    puppet: &Puppet,
+    landmarks: &Landmarks,
+    axes: &Axes,
+    turns: &Turns,
+    order: &[usize],
+    poses: &mut Poses<'_>,
+) -> Travel {
+    let mut travel = Travel {
+        places: vec![None; puppet.parts.len()],
+        grounded: vec![false; clip.frames()],
+    };
+    let Some(&main) = order.first() else {
+        return travel;
+    };
+    let legs = leg_lengths(clip, puppet, landmarks, poses);
+    let walk = Walk::of(clip, puppet, landmarks, axes, legs[0], poses);
+    let scale = match legs[0] > 0.0 {
+        true => legs[1] / legs[0],
+        false => 0.0,
+    };
+    let start = puppet.parts[main].node.position;
+    let floor = walk.feet.iter().flat_map(|foot| &foot.soles);
+    let floor = floor.flat_map(|part| &puppet.parts[*part].sole);
+    let floor = floor.map(|point| point.y).reduce(f64::min);
+    let is_moving = |part: &usize| *part == main || puppet.parts[*part].is_rooted;
+    let moving: Vec<usize> = order.iter().copied().filter(is_moving).collect();
+    for part in &moving {
+        travel.places[*part] = Some(Vec::with_capacity(clip.frames()));
+    }
+    let mut skeleton = Standing::new(puppet);
+    let mut place = start;
+    let mut planted: Option<usize> = None;
+    let mut before: Vec<DVec3> = Vec::new();
+    for frame in 0..clip.frames() {
+        skeleton.pose(puppet, turns, order, frame);
+        let feet: Vec<DVec3> = walk.feet.iter().map(|foot| foot.reference(puppet, &skeleton)).collect();
+        planted = walk.planted(frame, planted);
+        travel.grounded[frame] = planted.is_some();
+        if frame > 0 {
+            let step = match planted {
+                // The foot stays where it was, so the root goes the other way.
+                Some(foot) => before[foot] - feet[foot],
+                None => (walk.hips[frame] - walk.hips[frame - 1]) * scale,
+            };
+            place += DVec3::new(step.x, 0.0, step.z);
+        }
+        place.y = match floor {
+            Some(floor) => {
+                let clearance = walk.feet.iter().map(|foot| foot.clearance[frame].max(0.0));
+                let clearance = clearance.fold(f64::INFINITY, f64::min);
+                let soles = walk.feet.iter().map(|foot| foot.lowest(puppet, &skeleton));
+                floor + clearance * scale - soles.fold(f64::INFINITY, f64::min)
+            }
+            None => start.y + (walk.hips[frame].y - walk.hips[0].y) * scale,
+        };
+        before = feet;
+        for part in &moving {
+            if let Some(places) = &mut travel.places[*part] {
+                places.push(place + skeleton.places[*part].position);
+            }
+        }
+    }
+    travel
+}
+
+/// Where parts are, with the node of the part that hangs on nothing at the origin.
+struct Standing {
+    places: Vec<Placed>,
+    /// Per part where its joint is, in its parent's frame and in its own.
+    joints: Vec<[DVec3; 2]>,
+}
+
+impl Standing {
+    fn new(puppet: &Puppet) -> Self {
+        let joints = puppet.parts.iter().map(|part| {
+            let above = part.parent.map(|parent| into(&puppet.parts[parent].node, part.joint));
+            [above.unwrap_or_default(), into(&part.node, part.joint)]
+        });
+        let nowhere = Placed {
+            rotation: DQuat::IDENTITY,
+            position: DVec3::ZERO,
+        };
+        Self {
+            places: vec![nowhere; puppet.parts.len()],
+            joints: joints.collect(),
+        }
+    }
+
+    fn pose(&mut self, puppet: &Puppet, turns: &Turns, order: &[usize], frame: usize) {
+        for part in order.iter().copied() {
+            let rotation = turns.at(part, frame);
+            let [above, own] = self.joints[part];
+            let position = match puppet.parts[part].parent {
+                Some(parent) => {
+                    let parent = self.places[parent];
+                    parent.rotation * above + parent.position - rotation * own
+                }
+                None => DVec3::ZERO,
+            };
+            self.places[part] = Placed { rotation, position };
+        }
+    }
+}
+
+/// A point in the frame of a node at rest.
+fn into(node: &Placed, point: DVec3) -> DVec3 {
+    node.rotation.inverse() * (point - node.position)
+}
+
+/// How a clip walks, in the drawing's axes and the clip's unit.
+struct Walk {
+    hips: Vec<DVec3>,
+    feet: Vec<Foot>,
+}
+
+/// A foot of the clip, and the parts of the figure that follow it.
+struct Foot {
+    drive: Drive,
+    soles: Vec<usize>,
+    /// Per frame its height over its lowest.
+    clearance: Vec<f64>,
+    /// Per frame whether it stood on the ground since the one before.
+    contact: Vec<bool>,
+    /// Per frame how fast it came there, the clip's unit a frame.
+    speed: Vec<f64>,
+}
+
+impl Walk {
+    fn of(
+        clip: &Clip,
+        puppet: &Puppet,
+        landmarks: &Landmarks,
+        axes: &Axes,
+        leg: f64,
+        poses: &mut Poses<'_>,
+    ) -> Self {
+        let mut feet: Vec<Foot> = Vec::new();
+        for (index, part) in puppet.parts.iter().enumerate() {
+            let Some(drive) = part.drive.filter(|drive| drive.is_leg) else {
+                continue;
+            };
+            if part.sole.is_empty() {
+                continue;
+            }
+            match feet.iter_mut().find(|foot| (foot.drive.joint, foot.drive.tip) == (drive.joint, drive.tip)) {
+                Some(foot) => foot.soles.push(index),
+                None => feet.push(Foot {
+                    drive,
+                    soles: vec![index],
+                    clearance: Vec::new(),
+                    contact: Vec::new(),
+                    speed: Vec::new(),
+                }),
+            }
+        }
+        let to_drawing = axes.first.inverse();
+        let mut hips = Vec::with_capacity(clip.frames());
+        let mut paths: Vec<Vec<DVec3>> = vec![Vec::with_capacity(clip.frames()); feet.len()];
+        for frame in 0..clip.frames() {
+            let pose = poses.at(frame);
+            hips.push(to_drawing * pose[landmarks.hips].position);
+            for (foot, path) in feet.iter().zip(&mut paths) {
+                path.push(to_drawing * foot_point(clip, pose, landmarks, &foot.drive));
+            }
+        }
+        for (foot, path) in feet.iter_mut().zip(&paths) {
+            foot.measure(path, clip.frame_time, leg);
+        }
+        Self { hips, feet }
+    }
+
+    /// The foot that stays where it is on the way to a frame: the same as before as long as it is in contact, else the slowest.
+    fn planted(&self, frame: usize, before: Option<usize>) -> Option<usize> {
+        let stays = before.filter(|foot| self.feet[*foot].contact[frame]);
+        let standing = self.feet.iter().enumerate().filter(|(_, foot)| foot.contact[frame]);
+        let slowest = standing.min_by(|(_, a), (_, b)| a.speed[frame].total_cmp(&b.speed[frame]));
+        stays.or(slowest.map(|(index, _)| index))
+    }
+}
+
+/// The point of a clip's foot that touches the ground: the middle of a foot, the end of a leg without one.
+fn foot_point(clip: &Clip, pose: &[Placed], landmarks: &Landmarks, drive: &Drive) -> DVec3 {
+    let joint = pose[drive.joint].position;
+    let tip = drive.tip.map_or(joint, |tip| reach(tip, clip, pose));
+    match is_foot(landmarks, drive) {
+        true => (joint + tip) / 2.0,
+        false => tip,
+    }
+}
+
+/// Whether a drive is that of a foot, and not of a leg as a whole or its lower half.
+fn is_foot(landmarks: &Landmarks, drive: &Drive) -> bool {
+    landmarks.feet.is_some_and(|feet| feet.contains(&drive.joint))
+}
+
+impl Foot {
+    fn measure(&mut self, path: &[DVec3], frame_time: f64, leg: f64) {
+        let mut heights: Vec<f64> = path.iter().map(|point| point.y).collect();
+        heights.sort_by(f64::total_cmp);
+        let lowest = match heights.len() {
+            0 => 0.0,
+            count => heights[((count - 1) as f64 * LOWEST) as usize],
+        };
+        self.clearance = path.iter().map(|point| point.y - lowest).collect();
+        let steps = path.windows(2).map(|step| (step[1] - step[0]).length());
+        self.speed = std::iter::once(0.0).chain(steps).take(path.len()).collect();
+        let low = |frame: usize| self.clearance[frame] < CONTACT_HEIGHT * leg;
+        let contact = (0..path.len()).map(|frame| {
+            let slow = self.speed[frame] < CONTACT_SPEED * leg * frame_time;
+            low(frame) && low(frame.saturating_sub(1)) && slow
+        });
+        self.contact = contact.collect();
+    }
+
+    /// The mean of the points of all soles that follow it.
+    fn reference(&self, puppet: &Puppet, standing: &Standing) -> DVec3 {
+        let points: Vec<DVec3> = self.points(puppet, standing).collect();
+        points.iter().sum::<DVec3>() / points.len().max(1) as f64
+    }
+
+    /// The height of the lowest point of its soles.
+    fn lowest(&self, puppet: &Puppet, standing: &Standing) -> f64 {
+        self.points(puppet, standing).map(|point| point.y).fold(f64::INFINITY, f64::min)
+    }
+
+    fn points(&self, puppet: &Puppet, standing: &Standing) -> impl Iterator<Item = DVec3> {
+        self.soles.iter().flat_map(|part| {
+            let placed = standing.places[*part];
+            let own = &puppet.parts[*part];
+            let point = move |point: &DVec3| placed.rotation * into(&own.node, *point) + placed.position;
+            own.sole.iter().map(point)
+        })
+    }
+}
+
+/// The length of a leg of the clip and of the figure, feet not counted; where one of them has no legs, their heights.
+fn leg_lengths(clip: &Clip, puppet: &Puppet, landmarks: &Landmarks, poses: &mut Poses<'_>) -> [f64; 2] {
+    let pose = match clip.frames() {
+        0 => clip.skeleton.offset_pose(),
+        _ => poses.at(0).to_vec(),
+    };
+    let mean = |lengths: Vec<f64>| match lengths.len() {
+        0 => None,
+        count => Some(lengths.iter().sum::<f64>() / count as f64).filter(|length| *length > 0.0),
+    };
+    let way = |from: usize, to: usize| (pose[to].position - pose[from].position).length();
+    let clip_legs = match (landmarks.thighs, landmarks.feet) {
+        (Some(thighs), Some(feet)) => [0, 1].map(|side| match landmarks.knees {
+            Some(knees) => way(thighs[side], knees[side]) + way(knees[side], feet[side]),
+            None => way(thighs[side], feet[side]),
+        }),
+        _ => [0.0; 2],
+    };
+    let stand_on = puppet.parts.iter().enumerate().filter(|(_, part)| !part.sole.is_empty());
+    let puppet_legs = stand_on.map(|(index, _)| leg_length(puppet, landmarks, index)).collect();
+    match (mean(clip_legs.to_vec()), mean(puppet_legs)) {
+        (Some(clip), Some(puppet)) => [clip, puppet],
+        _ => {
+            let extent = |points: &mut dyn Iterator<Item = DVec3>| {
+                let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+                for point in points {
+                    low = low.min(point);
+                    high = high.max(point);
+                }
+                (high - low).max_element().max(0.0)
+            };
+            let ends = |part: &super::PuppetPart| [part.joint, part.tip];
+            [
+                extent(&mut pose.iter().map(|placed| placed.position)),
+                extent(&mut puppet.parts.iter().flat_map(ends)),
+            ]
+        }
+    }
+}
+
+/// The length of the leg that ends with a part.
+fn leg_length(puppet: &Puppet, landmarks: &Landmarks, end: usize) -> f64 {
+    let above = |part: &usize| {
+        let parent = puppet.parts[*part].parent?;
+        puppet.parts[parent].drive.filter(|drive| drive.is_leg).map(|_| parent)
+    };
+    std::iter::successors(Some(end), above)
+        // Parents that form a ring have no top.
+        .take(puppet.parts.len())
+        .map(|part| &puppet.parts[part])
+        .filter(|part| part.drive.is_none_or(|drive| !is_foot(landmarks, &drive)))
+        .map(|part| (part.tip - part.joint).length())
+        .sum()
+}

@@ -1,0 +1,377 @@
+//! A chart of a cut motion (Kitamura, figures 5.3 and 5.10): how fast the source is, what was omitted and held, and the exposure
+//! sheet below.
+
+mod scale;
+#[cfg(test)]
+mod tests;
+
+use std::fmt::Write as _;
+
+use super::limited::Exposure;
+use scale::{BOTTOM, LEFT, RIGHT, Scale, TOP, columns, number, step};
+
+/// The picture's size, pixels.
+const SIZE: [f64; 2] = [960.0, 444.0];
+/// Where the exposure sheet stands: top and bottom.
+const SHEET: [f64; 2] = [328.0, 368.0];
+/// Frames are marked one by one where they are at least this wide.
+const APART: f64 = 4.0;
+/// The greatest speed that is told apart, so that the axis stays finite.
+const HIGHEST: f64 = 1e300;
+/// An axis has fewer ticks than this.
+const TICKS: usize = 32;
+/// The longest title, characters.
+const TITLE: usize = 80;
+
+const INK: &str = "#1f2328";
+const QUIET: &str = "#59636e";
+const CURVE: &str = "#41506b";
+const OMITTED: &str = "#cf222e";
+const LONGER: &str = "#1a7f37";
+const HELD: &str = "#9a6700";
+const DRAWING: &str = "#0969da";
+const SHOWN: &str = "#d6e6fa";
+
+/// What a chart shows. Numbers of frames that the source does not have are left out.
+#[derive(Debug, Clone, Copy)]
+pub struct Chart<'a> {
+    /// What stands above it.
+    pub title: &'a str,
+    /// Frames a second; where it is not a positive number, no seconds are shown.
+    pub fps: f64,
+    /// Per source frame its SSD to the frame before.
+    pub speeds: &'a [f64],
+    /// Source frames that were omitted.
+    pub omitted: &'a [u32],
+    /// Source frames that stand for one frame longer each in place of what was omitted.
+    pub duplicated: &'a [u32],
+    /// Source frames that the pose before covers.
+    pub held: &'a [u32],
+    /// What is shown when.
+    pub exposure: &'a Exposure,
+}
+
+/// The chart as an SVG. However long the motion is, it has few bytes, and no peak is lost.
+pub fn chart(chart: &Chart<'_>) -> String {
+    let frames = chart.speeds.len().max(chart.exposure.len()).max(1);
+    let finite = chart.speeds.iter().filter(|speed| speed.is_finite());
+    let top = finite
+        .fold(0.0_f64, |top, speed| top.max(*speed))
+        .min(HIGHEST);
+    let step = step(top / 5.0);
+    let scale = Scale {
+        wide: (RIGHT - LEFT) / frames as f64,
+        top: (top / step).ceil().max(1.0) * step,
+    };
+    let mut out = String::new();
+    open(&mut out, chart);
+    heights(&mut out, &scale, step);
+    curve(&mut out, chart.speeds, &scale);
+    marks(&mut out, chart, &scale);
+    sheet(&mut out, chart.exposure, &scale);
+    times(&mut out, frames, chart.fps, &scale);
+    legend(&mut out, chart, &scale);
+    out.push_str("</svg>\n");
+    out
+}
+
+fn escaped(text: &str) -> String {
+    let mut out = String::new();
+    for (index, letter) in text.chars().enumerate() {
+        match letter {
+            _ if index == TITLE => {
+                out.push('…');
+                break;
+            }
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            // What XML does not allow.
+            _ if letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}') => out.push(' '),
+            _ => out.push(letter),
+        }
+    }
+    out
+}
+
+fn open(out: &mut String, chart: &Chart<'_>) {
+    let [width, height] = SIZE;
+    let title = escaped(chart.title);
+    let _ = write!(
+        out,
+        r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" role="img" font-family="system-ui, sans-serif" font-size="12" fill="{QUIET}">
+<title>{title}</title>
+<rect x="0.5" y="0.5" width="{}" height="{}" rx="8" fill="#ffffff" stroke="#d1d9e0"/>
+<text x="24" y="32" font-size="17" font-weight="600" fill="{INK}">{title}</text>
+"##,
+        width - 1.0,
+        height - 1.0
+    );
+}
+
+fn heights(out: &mut String, scale: &Scale, step: f64) {
+    let mut lines = String::new();
+    let mut labels = String::new();
+    for index in (0..=(scale.top / step).round() as usize).take(TICKS) {
+        let y = scale.y(index as f64 * step);
+        let _ = write!(lines, "M{LEFT} {y:.1}H{RIGHT}");
+        let _ = write!(
+            labels,
+            r#"<text x="{}" y="{:.1}" text-anchor="end">{}</text>"#,
+            LEFT - 8.0,
+            y + 4.0,
+            number(index as f64 * step)
+        );
+    }
+    let _ = write!(
+        out,
+        r##"<path d="{lines}" stroke="#e6eaef" fill="none"/>
+{labels}
+<text transform="translate(26 {}) rotate(-90)" text-anchor="middle">SSD (unit²)</text>
+"##,
+        f64::midpoint(TOP, BOTTOM)
+    );
+}
+
+fn curve(out: &mut String, speeds: &[f64], scale: &Scale) {
+    // The first frame has none before it.
+    let Some((_, speeds)) = speeds.split_first() else {
+        return;
+    };
+    let mut line = String::new();
+    let mut area = String::new();
+    let mut last = LEFT;
+    for range in columns(speeds.len()) {
+        let column = &speeds[range.clone()];
+        let order = |a: &(usize, &f64), b: &(usize, &f64)| a.1.total_cmp(b.1);
+        let least = column.iter().enumerate().min_by(order);
+        let most = column.iter().enumerate().max_by(order);
+        let (Some(least), Some(most)) = (least, most) else {
+            continue;
+        };
+        let mut ends = [least.0, most.0];
+        ends.sort_unstable();
+        let begin = if line.is_empty() { "M" } else { "L" };
+        for (index, end) in ends
+            .iter()
+            .enumerate()
+            .take(1 + usize::from(ends[0] != ends[1]))
+        {
+            let begin = if index == 0 { begin } else { "L" };
+            let [x, y] = [scale.middle(1 + range.start + end), scale.y(column[*end])];
+            let _ = write!(line, "{begin}{x:.1} {y:.1}");
+        }
+        last = scale.middle(1 + range.start + most.0);
+        if area.is_empty() {
+            let _ = write!(area, "M{last:.1} {BOTTOM}");
+        }
+        let _ = write!(area, "L{last:.1} {:.1}", scale.y(*most.1));
+    }
+    let _ = write!(
+        out,
+        r##"<path d="{area}L{last:.1} {BOTTOM}Z" fill="#eef1f6"/>
+<path d="{line}" fill="none" stroke="{CURVE}" stroke-width="1.5" stroke-linejoin="round"/>
+"##
+    );
+}
+
+/// Frames that can be told apart in the picture; of those in one pixel the fastest.
+fn apart(frames: &[u32], speeds: &[f64], scale: &Scale) -> Vec<usize> {
+    let mut all: Vec<(i64, f64, usize)> = frames
+        .iter()
+        .map(|frame| *frame as usize)
+        .filter_map(|frame| Some((scale.middle(frame) as i64, *speeds.get(frame)?, frame)))
+        .collect();
+    all.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)).then(a.2.cmp(&b.2)));
+    all.dedup_by_key(|mark| mark.0);
+    all.into_iter().map(|mark| mark.2).collect()
+}
+
+/// Points, as subpaths without length.
+fn points(frames: &[usize], speeds: &[f64], scale: &Scale) -> String {
+    let mut points = String::new();
+    for frame in frames {
+        let _ = write!(
+            points,
+            "M{:.1} {:.1}h0",
+            scale.middle(*frame),
+            scale.y(speeds[*frame])
+        );
+    }
+    points
+}
+
+fn marks(out: &mut String, chart: &Chart<'_>, scale: &Scale) {
+    let speeds = chart.speeds;
+    if scale.wide >= APART {
+        let held = points(&apart(chart.held, speeds, scale), speeds, scale);
+        dots(out, &held, 6.5, HELD);
+        dots(out, &held, 3.5, "#ffffff");
+    }
+    let omitted = apart(chart.omitted, speeds, scale);
+    let mut lines = String::new();
+    for frame in &omitted {
+        let [x, y] = [scale.middle(*frame), scale.y(speeds[*frame])];
+        let _ = write!(lines, "M{x:.1} {y:.1}V{BOTTOM}");
+    }
+    let _ = writeln!(out, r#"<path d="{lines}" stroke="{OMITTED}" fill="none"/>"#);
+    dots(out, &points(&omitted, speeds, scale), 7.0, OMITTED);
+    let mut longer = String::new();
+    for frame in apart(chart.duplicated, speeds, scale) {
+        // The pose stands again where the next one would come.
+        let _ = write!(
+            longer,
+            "{}",
+            triangle(scale.x(frame as f64 + 1.0), BOTTOM + 12.0)
+        );
+    }
+    let _ = writeln!(out, r#"<path d="{longer}" fill="{LONGER}"/>"#);
+}
+
+fn dots(out: &mut String, points: &str, size: f64, color: &str) {
+    let _ = writeln!(
+        out,
+        r#"<path d="{points}" stroke="{color}" stroke-width="{size}" stroke-linecap="round" fill="none"/>"#
+    );
+}
+
+fn triangle(x: f64, y: f64) -> String {
+    format!("M{x:.1} {:.1}l4 8h-8Z", y - 8.0)
+}
+
+/// The exposure sheet: a bar for each drawing in its first frame; of columns of frames, as high as their share of drawings.
+fn sheet(out: &mut String, exposure: &Exposure, scale: &Scale) {
+    let [top, bottom] = SHEET;
+    let mut key = vec![false; exposure.len()];
+    for frame in exposure.keys() {
+        key[frame] = true;
+    }
+    let mut bars = String::new();
+    for range in columns(key.len()) {
+        let keys = key[range.clone()].iter().filter(|key| **key).count();
+        if keys == 0 {
+            continue;
+        }
+        let wide = scale.wide * range.len() as f64;
+        let gap = if wide >= APART { 1.0 } else { 0.0 };
+        let high = (bottom - top) * keys as f64 / range.len() as f64;
+        let x = scale.x(range.start as f64);
+        let _ = write!(
+            bars,
+            "M{x:.2} {bottom}v-{high:.1}h{:.2}v{high:.1}Z",
+            wide - gap
+        );
+    }
+    let _ = write!(
+        out,
+        r#"<rect x="{LEFT}" y="{top}" width="{:.1}" height="{}" fill="{SHOWN}"/>
+<path d="{bars}" fill="{DRAWING}"/>
+<text x="{}" y="{:.1}" text-anchor="end">drawings</text>
+"#,
+        scale.wide * exposure.len() as f64,
+        bottom - top,
+        LEFT - 8.0,
+        f64::midpoint(top, bottom) + 4.0
+    );
+}
+
+/// The axes of time: frames, and seconds.
+fn times(out: &mut String, frames: usize, fps: f64, scale: &Scale) {
+    let [_, sheet] = SHEET;
+    axis(
+        out,
+        "frame",
+        sheet + 6.0,
+        step(frames as f64 / 10.0).max(1.0),
+        frames,
+        |frame| scale.x(frame + 0.5),
+    );
+    if fps > 0.0 && fps.is_finite() {
+        let seconds = frames as f64 / fps;
+        let step = step(seconds / 10.0);
+        // Time 0 is where the first frame is.
+        let at = |second: f64| scale.x(second * fps + 0.5);
+        axis(
+            out,
+            "seconds",
+            sheet + 38.0,
+            step,
+            (seconds / step).ceil() as usize,
+            at,
+        );
+    }
+}
+
+fn axis(out: &mut String, name: &str, y: f64, step: f64, most: usize, at: impl Fn(f64) -> f64) {
+    let mut ticks = String::new();
+    let mut labels = String::new();
+    for value in (0..=most).take(TICKS).map(|index| index as f64 * step) {
+        let x = at(value);
+        if x > RIGHT {
+            break;
+        }
+        let _ = write!(ticks, "M{x:.1} {y}v5");
+        let _ = write!(
+            labels,
+            r#"<text x="{x:.1}" y="{}" text-anchor="middle">{}</text>"#,
+            y + 18.0,
+            number(value)
+        );
+    }
+    let _ = write!(
+        out,
+        r##"<path d="M{LEFT} {y}H{RIGHT}{ticks}" stroke="#9198a1" fill="none"/>
+{labels}
+<text x="{}" y="{}" text-anchor="end">{name}</text>
+"##,
+        LEFT - 8.0,
+        y + 14.0
+    );
+}
+
+fn legend(out: &mut String, chart: &Chart<'_>, scale: &Scale) {
+    let keys = chart.exposure.keys().count();
+    let y = 60.0;
+    let mut x = LEFT;
+    let mut entry = |mark: &str, text: String| {
+        let _ = writeln!(
+            out,
+            r#"<g transform="translate({x:.0} {y})">{mark}<text x="22" y="4">{text}</text></g>"#
+        );
+        // About as wide as the letters of most fonts.
+        x += 44.0 + 6.4 * text.chars().count() as f64;
+    };
+    let line = format!(r#"<path d="M0 0h16" stroke="{CURVE}" stroke-width="2"/>"#);
+    entry(&line, "SSD of the source".to_owned());
+    let dot = |size: f64, color: &str| {
+        format!(
+            r#"<path d="M8 0h0" stroke="{color}" stroke-width="{size}" stroke-linecap="round"/>"#
+        )
+    };
+    if !chart.omitted.is_empty() {
+        entry(
+            &dot(7.0, OMITTED),
+            format!("{} omitted", chart.omitted.len()),
+        );
+    }
+    if !chart.duplicated.is_empty() {
+        let mark = format!(r#"<path d="{}" fill="{LONGER}"/>"#, triangle(8.0, 4.0));
+        entry(
+            &mark,
+            format!("{} shown longer instead", chart.duplicated.len()),
+        );
+    }
+    if !chart.held.is_empty() {
+        // Where frames are too narrow for marks, the exposure sheet alone shows what is held.
+        let mark = match scale.wide >= APART {
+            true => dot(6.5, HELD) + &dot(3.5, "#ffffff"),
+            false => format!(r#"<path d="M2 -6h12v12h-12Z" fill="{SHOWN}"/>"#),
+        };
+        entry(&mark, format!("{} held", chart.held.len()));
+    }
+    let mark = format!(r#"<path d="M5 -6h6v12h-6Z" fill="{DRAWING}"/>"#);
+    entry(
+        &mark,
+        format!("{keys} drawings in {} frames", chart.exposure.len()),
+    );
+}

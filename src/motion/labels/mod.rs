@@ -1,0 +1,161 @@
+//! What the joints of a skeleton and the parts of a figure are: head, arm, leg, which side, which piece of it.
+//!
+//! Both are read by their names first, and where names say nothing by their shape: [`label_skeleton`] and [`label_figure`].
+//! Labels keep their reason. Every table of words is in `words`.
+
+mod figure;
+mod names;
+mod pieces;
+mod place;
+mod shape;
+mod roles;
+mod sides;
+mod skeleton;
+mod topology;
+mod tree;
+mod trunk;
+mod words;
+
+#[cfg(test)]
+pub(crate) mod tests;
+
+pub use figure::label_figure;
+pub use skeleton::{Anatomy, Limb, label_clip, label_skeleton};
+
+pub(crate) use skeleton::{bone_end, plain_names};
+
+/// What a joint or a part belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// The head.
+    Head,
+    /// The neck.
+    Neck,
+    /// The trunk above the hips, or all of it.
+    Body,
+    /// The hips: the trunk's lower end.
+    Hips,
+    /// An arm, a wing.
+    Arm,
+    /// A leg.
+    Leg,
+    /// A tail.
+    Tail,
+}
+
+impl Class {
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Head => "head",
+            Self::Neck => "neck",
+            Self::Body => "body",
+            Self::Hips => "hips",
+            Self::Arm => "arm",
+            Self::Leg => "leg",
+            Self::Tail => "tail",
+        }
+    }
+
+    /// Whether it is an arm or a leg.
+    pub fn is_limb(self) -> bool {
+        matches!(self, Self::Arm | Self::Leg)
+    }
+}
+
+/// A side as the figure or the actor has it, not as the viewer sees it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Side {
+    /// Left.
+    Left,
+    /// Right.
+    Right,
+}
+
+impl Side {
+    /// Both.
+    pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
+
+    /// The other one.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Left => Self::Right,
+            Self::Right => Self::Left,
+        }
+    }
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Left => "left",
+            Self::Right => "right",
+        }
+    }
+}
+
+/// Which piece of a limb.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Piece {
+    /// The limb in one, without its hand or foot if that is a piece of its own.
+    Whole,
+    /// The collar bone; only in skeletons.
+    Collar,
+    /// Upper arm, thigh.
+    Upper,
+    /// Forearm, shin.
+    Lower,
+    /// Hand, foot.
+    End,
+    /// What follows hand or foot: fingers, toes.
+    Beyond,
+}
+
+impl Piece {
+    /// What it is called in something of this class.
+    pub fn name(self, class: Class) -> &'static str {
+        match (self, class) {
+            (Self::Collar, Class::Arm) => "collar bone",
+            (Self::Upper, Class::Arm) => "upper arm",
+            (Self::Lower, Class::Arm) => "forearm",
+            (Self::End, Class::Arm) => "hand",
+            (Self::Beyond, Class::Arm) => "fingers",
+            (Self::Collar, Class::Leg) => "hip bone",
+            (Self::Upper, Class::Leg) => "thigh",
+            (Self::Lower, Class::Leg) => "shin",
+            (Self::End, Class::Leg) => "foot",
+            (Self::Beyond, Class::Leg) => "toes",
+            (_, class) => class.name(),
+        }
+    }
+}
+
+/// What a joint or a part is.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Label {
+    /// What it belongs to.
+    pub class: Class,
+    /// The side of a limb.
+    pub side: Option<Side>,
+    /// Which piece of a limb it is; [`Piece::Whole`] for all else.
+    pub piece: Piece,
+    /// Which of the limbs of its class and side: 0 is the hindmost or lowest. In a figure also which piece of the trunk, counted
+    /// from the hips, and of neck and tail, counted from the trunk.
+    pub pair: usize,
+    /// Why, for people to read: "`Rarm` is a right arm by its name".
+    pub why: String,
+}
+
+/// The far end of a chain of bones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Tip {
+    /// A joint.
+    Joint(usize),
+    /// An end that is no joint.
+    End {
+        /// The joint that has it.
+        joint: usize,
+        /// Its index in [`Joint::ends`](super::skeleton::Joint::ends).
+        end: usize,
+    },
+}

@@ -1,0 +1,208 @@
+//! Sides and pairs of a figure's limbs, by the place where they are drawn.
+
+use glam::DVec2;
+
+use super::figure::{Draft, is_trunk};
+use super::pieces::Limb;
+use super::shape::Shape;
+use super::words::Term;
+use super::{Class, Side};
+
+/// Which way a figure faces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Facing {
+    /// Toward the viewer.
+    Viewer {
+        /// The middle of its trunk.
+        axis: DVec2,
+    },
+    /// To a side of the drawing, the head lies more beside the trunk than above it.
+    Beside {
+        /// The middle of its trunk.
+        axis: DVec2,
+        /// -1 toward the drawing's left, 1 toward its right.
+        toward: f64,
+    },
+}
+
+impl Facing {
+    pub(super) fn of(shape: &Shape<'_>, drafts: &[Draft]) -> Self {
+        let all = |wanted: &dyn Fn(&Draft) -> bool| {
+            let parts = shape.order.iter().copied().filter(|part| wanted(&drafts[*part]));
+            let [low, high] = shape.around(parts);
+            low.midpoint(high)
+        };
+        let axis = all(&|draft| is_trunk(draft.class));
+        let head = |draft: &Draft| draft.class == Some(Class::Head);
+        let trunk = drafts.iter().any(|draft| is_trunk(draft.class));
+        let off = all(&head) - axis;
+        if trunk && drafts.iter().any(head) && off.x.abs() > off.y {
+            Self::Beside {
+                axis,
+                toward: off.x.signum(),
+            }
+        } else {
+            Self::Viewer { axis }
+        }
+    }
+
+    /// How far a limb is from the hind end of the figure: along the way to the head.
+    fn from_hind(self, shape: &Shape<'_>, part: usize) -> f64 {
+        match self {
+            Self::Viewer { .. } => shape.joint(part).y,
+            Self::Beside { toward, .. } => shape.joint(part).x * toward,
+        }
+    }
+}
+
+/// What its name says of a limb's place between hind and head.
+fn rank(draft: &Draft) -> u8 {
+    if draft.says(&[Term::Hind, Term::Back]) {
+        0
+    } else if draft.says(&[Term::Fore]) {
+        2
+    } else {
+        1
+    }
+}
+
+fn sorted_from_hind(shape: &Shape<'_>, facing: &Facing, drafts: &[Draft], roots: &mut [usize]) {
+    roots.sort_by(|a, b| {
+        let place = |part: usize| facing.from_hind(shape, part);
+        rank(&drafts[*a])
+            .cmp(&rank(&drafts[*b]))
+            .then(place(*a).total_cmp(&place(*b)))
+            .then(a.cmp(b))
+    });
+}
+
+/// Gives the limbs their sides: by the name of one of their parts, else by place.
+pub(super) fn sides(shape: &Shape<'_>, facing: &Facing, limbs: &[Limb], drafts: &mut [Draft]) {
+    for class in [Class::Arm, Class::Leg] {
+        let limbs: Vec<&Limb> = limbs.iter().filter(|limb| limb.class == class).collect();
+        let mut open = Vec::new();
+        for limb in &limbs {
+            let named = limb.parts.iter().find_map(|(part, _)| drafts[*part].side);
+            match named {
+                Some(side) => {
+                    let why = match drafts[limb.root()].named {
+                        true => format!(", and its side is {}", side.name()),
+                        false => format!("; it is the {} one by its name", side.name()),
+                    };
+                    give(drafts, limb, side, &why);
+                }
+                None => open.push(*limb),
+            }
+        }
+        let others: Vec<Side> = limbs.iter().filter_map(|limb| drafts[limb.root()].side).collect();
+        match (open.as_slice(), others.as_slice(), facing) {
+            ([limb], [side], _) => {
+                let side = side.other();
+                give(drafts, limb, side, &format!("; the other one is the {}, so it is the {}", side.other().name(), side.name()));
+            }
+            (_, _, Facing::Viewer { axis }) => from_front(shape, axis.x, &open, drafts),
+            (_, _, Facing::Beside { toward, .. }) => from_side(shape, facing, *toward, &open, drafts),
+        }
+    }
+}
+
+fn give(drafts: &mut [Draft], limb: &Limb, side: Side, why: &str) {
+    for (part, _) in &limb.parts {
+        drafts[*part].side = Some(side);
+        drafts[*part].why[1] = why.to_owned();
+    }
+}
+
+/// Drawn left is Right. Of two the one further left, wherever the middle is.
+fn from_front(shape: &Shape<'_>, axis: f64, open: &[&Limb], drafts: &mut [Draft]) {
+    let place = |limb: &Limb| shape.joint(limb.root()).midpoint(shape.tip(limb.root())).x;
+    let axis = match open {
+        [a, b] if place(a) != place(b) => f64::midpoint(place(a), place(b)),
+        _ => axis,
+    };
+    for limb in open {
+        let (drawn, side) = if place(limb) < axis {
+            ("left", Side::Right)
+        } else {
+            ("right", Side::Left)
+        };
+        let why = format!("; drawn on the {drawn}, so it is the {} one, since the figure faces us", side.name());
+        give(drafts, limb, side, &why);
+    }
+}
+
+/// Neighbours from the hind are pairs, and what was drawn later is on the near side: the left one of a figure that faces the
+/// drawing's left. An odd number without words for fore and hind is one side's legs alone.
+fn from_side(shape: &Shape<'_>, facing: &Facing, toward: f64, open: &[&Limb], drafts: &mut [Draft]) {
+    let near = if toward < 0.0 { Side::Left } else { Side::Right };
+    let way = if toward < 0.0 { "left" } else { "right" };
+    let mut roots: Vec<usize> = open.iter().map(|limb| limb.root()).collect();
+    sorted_from_hind(shape, facing, drafts, &mut roots);
+    let ranks: Vec<u8> = roots.iter().map(|root| rank(&drafts[*root])).collect();
+    let ranked = ranks.iter().any(|rank| *rank != 1);
+    let pair = if ranked || roots.len() % 2 == 0 { 2 } else { 1 };
+    let mut far = vec![false; drafts.len()];
+    let mut start = 0;
+    for group in ranks.chunk_by(|a, b| a == b) {
+        for pair in roots[start..start + group.len()].chunks(pair) {
+            if let [a, b] = pair {
+                let later = |part: usize| (shape.parts[part].drawn, part);
+                far[if later(*a) < later(*b) { *a } else { *b }] = true;
+            }
+        }
+        start += group.len();
+    }
+    for limb in open {
+        let (side, drawn) = if far[limb.root()] {
+            (near.other(), "first, so on the far side")
+        } else {
+            (near, "last, so on the near side")
+        };
+        let why = format!("; the figure faces the drawing's {way} and it was drawn {drawn}: the {} one", side.name());
+        give(drafts, limb, side, &why);
+    }
+}
+
+/// Counts the limbs of each class and side from the hind, the pieces of the trunk from the hips, of neck and tail from the trunk.
+pub(super) fn pairs(shape: &Shape<'_>, facing: &Facing, limbs: &[Limb], drafts: &mut [Draft]) {
+    let mut pieces: Vec<usize> = shape.order.clone();
+    let height = |draft: &Draft| match draft.class {
+        Some(Class::Body) if draft.says(&[Term::Belly]) => 0,
+        Some(Class::Body) if draft.says(&[Term::Chest]) => 2,
+        _ => 1,
+    };
+    let middle = |part: usize| match (drafts[part].class, facing) {
+        (Some(Class::Body), Facing::Viewer { .. }) => shape.middle(part).y,
+        (Some(Class::Body), Facing::Beside { toward, .. }) => shape.middle(part).x * toward,
+        // What hangs on the trunk stands in order behind it.
+        _ => 0.0,
+    };
+    pieces.sort_by(|a, b| {
+        let heights = height(&drafts[*a]).cmp(&height(&drafts[*b]));
+        heights.then(middle(*a).total_cmp(&middle(*b)))
+    });
+    for class in [Class::Body, Class::Neck, Class::Tail] {
+        let of_class = pieces.iter().filter(|part| drafts[**part].class == Some(class));
+        let found: Vec<usize> = of_class.copied().collect();
+        for (place, part) in found.into_iter().enumerate() {
+            drafts[part].pair = place;
+        }
+    }
+    for class in [Class::Arm, Class::Leg] {
+        for side in Side::BOTH {
+            let of_side = |limb: &&Limb| limb.class == class && drafts[limb.root()].side == Some(side);
+            let limbs: Vec<&Limb> = limbs.iter().filter(of_side).collect();
+            let mut roots: Vec<usize> = limbs.iter().map(|limb| limb.root()).collect();
+            sorted_from_hind(shape, facing, drafts, &mut roots);
+            let mut place = vec![0; drafts.len()];
+            for (pair, root) in roots.into_iter().enumerate() {
+                place[root] = pair;
+            }
+            for limb in limbs {
+                for (part, _) in &limb.parts {
+                    drafts[*part].pair = place[limb.root()];
+                }
+            }
+        }
+    }
+}

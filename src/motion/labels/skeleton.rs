@@ -1,0 +1,340 @@
+//! The joints of a skeleton, labelled: by their names, and where those fail by the skeleton's shape.
+
+use glam::DQuat;
+
+use super::roles::{self, Found, Named};
+use super::sides::Sides;
+use super::topology;
+use super::trunk;
+use super::tree::Tree;
+use super::{Class, Label, Piece, Side, Tip, names, words};
+use crate::motion::skeleton::{Clip, Joint, Placed, Skeleton};
+
+/// Frames of a clip that are looked at where the shape has to tell left from right.
+const FRAMES: usize = 32;
+
+/// What the joints of a skeleton are.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Anatomy {
+    /// Per joint what it is; nothing for helpers, fingers and faces.
+    pub labels: Vec<Option<Label>>,
+    /// The limbs: left arm, right arm, left leg, right leg, as far as there are.
+    pub limbs: Vec<Limb>,
+    /// The joint that carries the legs.
+    pub hips: Option<usize>,
+    /// The joints of the trunk from above the hips up to the chest, which carries the arms. Empty in a skeleton that has arms and
+    /// legs on one joint.
+    pub spine: Vec<usize>,
+    /// The joints of the neck, from below.
+    pub neck: Vec<usize>,
+    /// The head's joint.
+    pub head: Option<usize>,
+    /// The joints of the tail, from the trunk.
+    pub tail: Vec<usize>,
+}
+
+impl Anatomy {
+    /// The joint that carries the arms: the last of the spine, else the hips.
+    pub fn chest(&self) -> Option<usize> {
+        self.spine.last().copied().or(self.hips)
+    }
+
+    /// The limb of a class and a side.
+    pub fn limb(&self, class: Class, side: Side) -> Option<&Limb> {
+        self.limbs
+            .iter()
+            .find(|limb| limb.class == class && limb.side == side)
+    }
+}
+
+/// An arm or a leg of a skeleton.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limb {
+    /// Arm or leg.
+    pub class: Class,
+    /// Its side.
+    pub side: Side,
+    /// Where the collar bone begins, or what carries the thigh.
+    pub collar: Option<usize>,
+    /// The shoulder or hip: where upper arm or thigh begins.
+    pub upper: usize,
+    /// The elbow or knee.
+    pub lower: Option<usize>,
+    /// The wrist or ankle.
+    pub end: Option<usize>,
+    /// The joint of the toes.
+    pub toe: Option<usize>,
+    /// The far end of its last bone: of hand or foot, else of what there is.
+    pub tip: Option<Tip>,
+}
+
+/// Labels the joints of a skeleton. Where the names do not tell left from right, its offset pose has to.
+pub fn label_skeleton(skeleton: &Skeleton) -> Anatomy {
+    anatomy(skeleton, || vec![offset_pose(&Tree::new(skeleton), skeleton)])
+}
+
+/// Labels the joints of a clip's skeleton. Where the names do not tell left from right, its offset pose and frames have to, at
+/// most [`FRAMES`] of them evenly chosen.
+pub fn label_clip(clip: &Clip) -> Anatomy {
+    let skeleton = &*clip.skeleton;
+    let tree = Tree::new(skeleton);
+    anatomy(skeleton, || {
+        let mut poses = vec![offset_pose(&tree, skeleton)];
+        let count = clip.frames().min(FRAMES);
+        poses.extend((0..count).map(|index| frame_pose(&tree, clip, index * clip.frames() / count)));
+        poses
+    })
+}
+
+/// The joints' names without the prefixes that most of them share.
+pub(crate) fn plain_names(skeleton: &Skeleton) -> Vec<&str> {
+    let names: Vec<&str> = skeleton.joints.iter().map(|joint| joint.name.as_str()).collect();
+    names::without_prefixes(&names, |prefix| !words::terms(prefix).is_empty())
+}
+
+/// Where the bone of a joint ends: at the joint or the end that its longest chain leads to.
+pub(crate) fn bone_end(skeleton: &Skeleton, joint: usize) -> Option<Tip> {
+    Tree::new(skeleton).bone_end(joint)
+}
+
+fn offset_pose(tree: &Tree, skeleton: &Skeleton) -> Vec<Placed> {
+    let local = |joint: &Joint| Placed {
+        rotation: DQuat::IDENTITY,
+        position: joint.offset,
+    };
+    placed(tree, skeleton.joints.iter().map(local))
+}
+
+fn frame_pose(tree: &Tree, clip: &Clip, frame: usize) -> Vec<Placed> {
+    let mut numbers = clip.row(frame);
+    let locals = clip.skeleton.joints.iter().map(|joint| {
+        let (own, rest) = numbers.split_at(joint.channels.len());
+        numbers = rest;
+        Clip::local(joint, own)
+    });
+    placed(tree, locals)
+}
+
+/// Where joints are in the world that stand so in their parents' frames.
+fn placed(tree: &Tree, locals: impl Iterator<Item = Placed>) -> Vec<Placed> {
+    let mut pose: Vec<Placed> = Vec::with_capacity(tree.len());
+    for (local, parent) in locals.zip(&tree.parents) {
+        pose.push(match parent.map(|parent| pose[parent]) {
+            Some(parent) => Placed {
+                rotation: parent.rotation * local.rotation,
+                position: parent.rotation * local.position + parent.position,
+            },
+            None => local,
+        });
+    }
+    pose
+}
+
+fn anatomy(skeleton: &Skeleton, poses: impl FnOnce() -> Vec<Vec<Placed>>) -> Anatomy {
+    let tree = Tree::new(skeleton);
+    if tree.len() == 0 {
+        return Anatomy::default();
+    }
+    let named = roles::named(skeleton);
+    let limbs = limbs(skeleton, &tree, &named, poses);
+    let mut anatomy = Anatomy {
+        labels: vec![None; tree.len()],
+        limbs: limbs.iter().map(|(limb, _)| *limb).collect(),
+        ..Anatomy::default()
+    };
+    trunk::fill(&tree, &named, &mut anatomy);
+    anatomy.tail = (0..tree.len()).filter(|joint| named[*joint] == Some(Named::Tail)).collect();
+    write_labels(skeleton, &named, &limbs, &mut anatomy);
+    anatomy
+}
+
+/// How a limb was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Source {
+    Name,
+    Shape,
+}
+
+/// The limbs, by name; a class of which no name tells any, by shape.
+fn limbs(
+    skeleton: &Skeleton,
+    tree: &Tree,
+    named: &[Option<Named>],
+    poses: impl FnOnce() -> Vec<Vec<Placed>>,
+) -> Vec<(Limb, Source)> {
+    let names: Vec<&str> = skeleton.joints.iter().map(|joint| joint.name.as_str()).collect();
+    let by_name = |class: Class| Side::BOTH.map(|side| roles::limb(tree, &names, named, class, side));
+    let [arms, legs] = [Class::Arm, Class::Leg].map(by_name);
+    let has = |pair: &[Option<Found>; 2]| pair.iter().any(Option::is_some);
+    let mut found = vec![(Class::Arm, arms, Source::Name), (Class::Leg, legs, Source::Name)];
+    if !has(&arms) || !has(&legs) {
+        let shape = topology::limbs(tree);
+        let known: Vec<usize> = [arms, legs].into_iter().flatten().flatten().filter_map(|limb| limb.upper).collect();
+        // A pair that names have told already is not the other class as well.
+        let free = |pair: &[usize; 2]| {
+            !pair.iter().any(|start| {
+                known.iter().any(|known| tree.is_below(*known, *start) || tree.is_below(*start, *known))
+            })
+        };
+        let [arm_pair, leg_pair] = match (has(&arms), has(&legs)) {
+            (false, false) => [shape.arms, shape.legs],
+            (false, true) => [shape.arms.filter(free).or(shape.legs.filter(free)), None],
+            _ => [None, shape.legs.filter(free).or(shape.arms.filter(free))],
+        };
+        let pairs = sides_of_pairs(skeleton, tree, [arm_pair, leg_pair], &poses());
+        for (slot, pair) in found.iter_mut().zip(pairs) {
+            if let Some(pair) = pair {
+                (slot.1, slot.2) = (pair.map(Some), Source::Shape);
+            }
+        }
+    }
+    let mut limbs = Vec::new();
+    for (class, pair, source) in found {
+        for (side, found) in Side::BOTH.into_iter().zip(pair) {
+            if let Some(limb) = found.and_then(|found| completed(tree, named, class, side, found)) {
+                limbs.push((limb, source));
+            }
+        }
+    }
+    limbs
+}
+
+/// Pairs of chains as limbs, the left one first.
+fn sides_of_pairs(
+    skeleton: &Skeleton,
+    tree: &Tree,
+    pairs: [Option<[usize; 2]>; 2],
+    poses: &[Vec<Placed>],
+) -> [Option<[Found; 2]>; 2] {
+    let found = pairs.map(|pair| pair.map(|pair| pair.map(|start| topology::pieces(tree, start))));
+    let [arms, legs] = found.map(|pair| pair.map_or(Vec::new(), Vec::from));
+    let branch = |limbs: Option<[usize; 2]>| limbs.and_then(|[start, _]| tree.parents[start]);
+    let low = branch(pairs[1]).unwrap_or(0);
+    let high = branch(pairs[0]).unwrap_or_else(|| tree.chain(0).last().unwrap_or(0));
+    let sides = Sides {
+        skeleton,
+        tree,
+        arms: &arms,
+        legs: &legs,
+        trunk: [low, high],
+    };
+    let mut sorted = found;
+    for pair in sorted.iter_mut().flatten() {
+        let [Some(a), Some(b)] = [pair[0].upper, pair[1].upper] else {
+            continue;
+        };
+        if !sides.first_is_left([a, b], poses) {
+            pair.reverse();
+        }
+    }
+    sorted
+}
+
+/// A limb with all its joints: those that no name tells, by shape.
+fn completed(
+    tree: &Tree,
+    named: &[Option<Named>],
+    class: Class,
+    side: Side,
+    found: Found,
+) -> Option<Limb> {
+    let upper = found.upper?;
+    let useful = |joint: &usize| named[*joint] != Some(Named::Helper);
+    let (mut lower, mut end) = (found.lower, found.end);
+    if lower.is_none() {
+        match end {
+            Some(end) => {
+                lower = tree
+                    .upward(end)
+                    .skip(1)
+                    .take_while(|joint| *joint != upper)
+                    .filter(useful)
+                    .last();
+            }
+            None => {
+                let pieces = topology::pieces(tree, upper);
+                if pieces.upper == Some(upper) {
+                    lower = pieces.lower.filter(useful);
+                    end = pieces.end.filter(|end| useful(end) && lower.is_some());
+                }
+            }
+        }
+    } else if end.is_none() {
+        end = lower.and_then(|lower| tree.chain(lower).skip(1).find(useful));
+    }
+    let toe = match (class, end.map(|end| tree.bone_end(end))) {
+        (Class::Leg, Some(Some(Tip::Joint(joint)))) => found.toe.or(Some(joint).filter(useful)),
+        _ => found.toe,
+    };
+    Some(Limb {
+        class,
+        side,
+        collar: found.collar,
+        upper,
+        lower,
+        end,
+        toe,
+        tip: match toe {
+            Some(toe) => Some(Tip::Joint(toe)),
+            None => tree.bone_end(end.or(lower).unwrap_or(upper)),
+        },
+    })
+}
+
+fn write_labels(
+    skeleton: &Skeleton,
+    named: &[Option<Named>],
+    limbs: &[(Limb, Source)],
+    anatomy: &mut Anatomy,
+) {
+    let mut labels: Vec<Option<Label>> = vec![None; skeleton.joints.len()];
+    let mut put = |joint: usize, class: Class, side: Option<Side>, piece: Piece, why: &str| {
+        let name = &skeleton.joints[joint].name;
+        let side_name = side.map_or(String::new(), |side| format!("{} ", side.name()));
+        labels[joint] = Some(Label {
+            class,
+            side,
+            piece,
+            pair: 0,
+            why: format!("`{name}` is the {side_name}{} {why}", piece.name(class)),
+        });
+    };
+    let by = |joint: usize| match named[joint] {
+        Some(Named::Helper | Named::Limb(..)) | None => "by where it hangs",
+        Some(_) => "by its name",
+    };
+    for joint in &anatomy.tail {
+        put(*joint, Class::Tail, None, Piece::Whole, by(*joint));
+    }
+    for joint in &anatomy.spine {
+        put(*joint, Class::Body, None, Piece::Whole, by(*joint));
+    }
+    for joint in &anatomy.neck {
+        put(*joint, Class::Neck, None, Piece::Whole, by(*joint));
+    }
+    for (joint, class) in [(anatomy.head, Class::Head), (anatomy.hips, Class::Hips)] {
+        if let Some(joint) = joint {
+            put(joint, class, None, Piece::Whole, by(joint));
+        }
+    }
+    for (limb, source) in limbs {
+        let pieces = [
+            (limb.collar, Piece::Collar),
+            (Some(limb.upper), Piece::Upper),
+            (limb.lower, Piece::Lower),
+            (limb.end, Piece::End),
+            (limb.toe, Piece::Beyond),
+        ];
+        for (joint, piece) in pieces {
+            if let Some(joint) = joint {
+                let why = match (source, named[joint]) {
+                    (Source::Name, Some(Named::Limb(..))) => "by its name",
+                    (Source::Name, _) => "by where it hangs",
+                    (Source::Shape, _) => "by the skeleton's shape: its names do not tell",
+                };
+                put(joint, limb.class, Some(limb.side), piece, why);
+            }
+        }
+    }
+    anatomy.labels = labels;
+}

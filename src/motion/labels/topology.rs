@@ -1,0 +1,183 @@
+//! Limbs of a skeleton by its shape: the two longest mirrored pairs of chains.
+
+use super::roles::Found;
+use super::tree::Tree;
+
+/// Two chains are mirrored when the lengths of their bones differ by at most this share of the chain, all in all.
+const MIRRORED: f64 = 0.1;
+/// Bones of a chain that are compared, from the trunk: those beyond are fingers and toes, where the longest may differ by chance.
+const COMPARED: usize = 4;
+/// Chains of nearly one length that a chain is compared with; bounds the work at a joint with very many branches.
+const NEIGHBOURS: usize = 8;
+/// Joints of a chain that are looked at. No limb has so many; a thread of thousands is none.
+const MAX_CHAIN: usize = 64;
+/// Bones shorter than this share of their chain only move a joint elsewhere.
+const SHORT: f64 = 0.02;
+/// A single pair that branches at most so many joints below the root is the legs.
+const LEGS_DEPTH: usize = 1;
+
+/// Two mirrored chains.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pair {
+    /// The joint where they branch.
+    branch: usize,
+    /// The first joint of each.
+    starts: [usize; 2],
+    /// Length of the shorter.
+    length: f64,
+}
+
+/// The pairs of arms and legs.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Limbs {
+    pub(super) arms: Option<[usize; 2]>,
+    pub(super) legs: Option<[usize; 2]>,
+}
+
+/// The two longest mirrored pairs of chains; that which branches nearer the root is the legs, the longer one of two that branch
+/// equally near.
+pub(super) fn limbs(tree: &Tree) -> Limbs {
+    let mut pairs: Vec<Pair> = (0..tree.len())
+        .flat_map(|joint| pairs_at(tree, joint))
+        .collect();
+    pairs.sort_by(|a, b| b.length.total_cmp(&a.length).then(a.starts.cmp(&b.starts)));
+    let Some(first) = pairs.first().copied() else {
+        return Limbs::default();
+    };
+    let second = pairs[1..].iter().copied().find(|pair| apart(tree, &first, pair));
+    match second {
+        Some(second) => {
+            let [a, b] = [first, second].map(|pair| tree.depths[pair.branch]);
+            let (legs, arms) = if b < a { (second, first) } else { (first, second) };
+            Limbs {
+                arms: Some(arms.starts),
+                legs: Some(legs.starts),
+            }
+        }
+        None if tree.depths[first.branch] <= LEGS_DEPTH => Limbs {
+            arms: None,
+            legs: Some(first.starts),
+        },
+        None => Limbs {
+            arms: Some(first.starts),
+            legs: None,
+        },
+    }
+}
+
+/// The mirrored pairs that branch at a joint, each child in one at most; the two longest, since there are no more limbs.
+fn pairs_at(tree: &Tree, branch: usize) -> Vec<Pair> {
+    let mut children = tree.children[branch].clone();
+    children.retain(|child| tree.reaches[*child] > 0.0);
+    children.sort_by(|a, b| tree.reaches[*b].total_cmp(&tree.reaches[*a]).then(a.cmp(b)));
+    let mut taken = vec![false; children.len()];
+    let mut pairs = Vec::new();
+    for first in 0..children.len() {
+        let near = first + 1..children.len().min(first + 1 + NEIGHBOURS);
+        let second = near
+            .filter(|second| !taken[*second])
+            .find(|second| mirrored(tree, children[first], children[*second]));
+        if let Some(second) = second.filter(|_| !taken[first]) {
+            taken[second] = true;
+            let [a, b] = [children[first], children[second]];
+            pairs.push(Pair {
+                branch,
+                starts: [a.min(b), a.max(b)],
+                length: tree.reaches[a].min(tree.reaches[b]),
+            });
+            if pairs.len() == 2 {
+                break;
+            }
+        }
+    }
+    pairs
+}
+
+fn mirrored(tree: &Tree, a: usize, b: usize) -> bool {
+    let longer = tree.reaches[a].max(tree.reaches[b]);
+    let allowed = MIRRORED * longer;
+    let [small, large] = {
+        let (a, b) = (tree.sizes[a], tree.sizes[b]);
+        [a.min(b), a.max(b)]
+    };
+    if (tree.reaches[a] - tree.reaches[b]).abs() > allowed || small * 2 < large {
+        return false;
+    }
+    let [a, b] = [a, b].map(|start| bones(tree, start));
+    let (Some(a), Some(b)) = (a, b) else {
+        return false;
+    };
+    let differences = a.iter().zip(&b).take(COMPARED).map(|(a, b)| (a.length - b.length).abs());
+    a.len().min(COMPARED) == b.len().min(COMPARED) && differences.sum::<f64>() <= allowed
+}
+
+/// Whether no chain of a pair hangs on a chain of the other, so that both can be limbs.
+fn apart(tree: &Tree, a: &Pair, b: &Pair) -> bool {
+    let on = |inner: &Pair, outer: &Pair| {
+        outer.starts.iter().any(|start| {
+            tree.is_below(inner.branch, *start)
+                || inner.starts.iter().any(|inner| inner == start)
+        })
+    };
+    !on(a, b) && !on(b, a)
+}
+
+/// A bone of a chain: where it begins and how long it is.
+#[derive(Debug, Clone, Copy)]
+struct Bone {
+    joint: usize,
+    length: f64,
+}
+
+/// The bones of the longest chain that begins at a joint. Where a short bone stands before a long one they are one, that begins
+/// where the short one does; at the chain's start, where the long one does. Nothing for a chain of too many joints.
+fn bones(tree: &Tree, start: usize) -> Option<Vec<Bone>> {
+    let short = SHORT * tree.reaches[start];
+    let chain: Vec<usize> = tree.chain(start).take(MAX_CHAIN + 1).collect();
+    if chain.len() > MAX_CHAIN {
+        return None;
+    }
+    let mut bones: Vec<Bone> = Vec::new();
+    let mut first_short = None;
+    for (index, joint) in chain.iter().enumerate() {
+        let next = chain.get(index + 1).map(|next| tree.bones[*next]);
+        let length = next.unwrap_or(tree.reaches[*joint]);
+        if length > short {
+            let begins = first_short.take().filter(|_| !bones.is_empty());
+            bones.push(Bone {
+                joint: begins.unwrap_or(*joint),
+                length,
+            });
+        } else {
+            first_short = first_short.or(Some(*joint));
+        }
+    }
+    Some(bones)
+}
+
+/// Which bone is which on the chain that begins at a joint: upper and lower are the two neighbours that are longest together.
+/// What begins before them is a collar bone.
+pub(super) fn pieces(tree: &Tree, start: usize) -> Found {
+    let Some(bones) = bones(tree, start) else {
+        return Found::default();
+    };
+    let upper = (1..bones.len())
+        .max_by(|a, b| {
+            let sum = |index: usize| bones[index - 1].length + bones[index].length;
+            // Of equal ones the first.
+            sum(*a).total_cmp(&sum(*b)).then(b.cmp(a))
+        })
+        .map_or(0, |index| index - 1);
+    let joint = |index: usize| bones.get(index).map(|bone| bone.joint);
+    Found {
+        collar: (upper > 0).then(|| bones[upper - 1].joint),
+        upper: joint(upper),
+        lower: joint(upper + 1),
+        // A limb that ends in a joint without an end bone has its hand there.
+        end: joint(upper + 2).or_else(|| {
+            let last = tree.chain(start).take(MAX_CHAIN).last()?;
+            (joint(upper + 1)? != last).then_some(last)
+        }),
+        toe: None,
+    }
+}

@@ -1,0 +1,155 @@
+//! Hips, spine, neck and head of a skeleton whose limbs are known.
+
+use super::roles::Named;
+use super::skeleton::{Anatomy, Limb};
+use super::tree::Tree;
+use super::Class;
+
+/// Joints of a neck that no name tells; longer chains are hair or a trunk.
+const MAX_NECK: usize = 16;
+
+/// Finds hips, spine, neck and head.
+pub(super) fn fill(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy) {
+    let hips = hips(tree, named, anatomy);
+    anatomy.hips = Some(hips);
+    let head_by_name = first(tree, named, Named::Head);
+    let chest = chest(tree, named, anatomy, head_by_name);
+    if let Some(chest) = chest.filter(|chest| *chest != hips) {
+        let top = tree.common([hips, chest]);
+        anatomy.spine = tree
+            .upward(chest)
+            .take_while(|joint| Some(*joint) != top)
+            .filter(|joint| *joint == chest || named[*joint] != Some(Named::Helper))
+            .collect();
+        anatomy.spine.reverse();
+        // The chest is above the hips in the tree where the file hangs the hips on it.
+        if anatomy.spine.is_empty() {
+            anatomy.spine.push(chest);
+        }
+    }
+    match head_by_name {
+        Some(head) => {
+            let trunk = |joint: &usize| *joint == hips || anatomy.spine.contains(joint);
+            let below = tree.upward(head).skip(1).take_while(|joint| !trunk(joint));
+            let mut neck: Vec<usize> = below
+                .filter(|joint| !matches!(named[*joint], Some(Named::Helper | Named::Head)))
+                .take(MAX_NECK)
+                .collect();
+            neck.reverse();
+            let on_trunk = tree.upward(head).any(|joint| trunk(&joint));
+            neck.retain(|joint| on_trunk || named[*joint] == Some(Named::Neck));
+            anatomy.neck = neck;
+            anatomy.head = Some(head);
+        }
+        None => by_shape(tree, named, anatomy, hips),
+    }
+}
+
+/// The joint of a name that is nearest to the root.
+fn first(tree: &Tree, named: &[Option<Named>], wanted: Named) -> Option<usize> {
+    (0..tree.len())
+        .filter(|joint| named[*joint] == Some(wanted))
+        .min_by_key(|joint| (tree.depths[*joint], *joint))
+}
+
+fn roots<'a>(anatomy: &'a Anatomy, class: Class) -> impl Iterator<Item = usize> + 'a {
+    let root = |limb: &Limb| limb.collar.unwrap_or(limb.upper);
+    let limbs = anatomy.limbs.iter().filter(move |limb| limb.class == class);
+    limbs.map(root)
+}
+
+/// The joint that carries all limbs of a class.
+fn carrier(tree: &Tree, anatomy: &Anatomy, class: Class) -> Option<usize> {
+    tree.common(roots(anatomy, class).filter_map(|root| tree.parents[root]))
+}
+
+fn hips(tree: &Tree, named: &[Option<Named>], anatomy: &Anatomy) -> usize {
+    let carrier = carrier(tree, anatomy, Class::Leg);
+    let above_legs = carrier.and_then(|carrier| {
+        tree.upward(carrier)
+            .find(|joint| named[*joint] == Some(Named::Hips))
+    });
+    above_legs
+        .or(carrier)
+        .or_else(|| first(tree, named, Named::Hips))
+        .unwrap_or(0)
+}
+
+fn chest(
+    tree: &Tree,
+    named: &[Option<Named>],
+    anatomy: &Anatomy,
+    head: Option<usize>,
+) -> Option<usize> {
+    let last_spine = || {
+        (0..tree.len())
+            .filter(|joint| named[*joint] == Some(Named::Spine))
+            .max_by_key(|joint| (tree.depths[*joint], std::cmp::Reverse(*joint)))
+    };
+    let carrier = carrier(tree, anatomy, Class::Arm)
+        .or_else(|| tree.parents[head?])
+        .or_else(|| tree.parents[first(tree, named, Named::Neck)?])
+        .or_else(last_spine)?;
+    // Some files hang the collar bones on the neck, or on helpers.
+    tree.upward(carrier).find(|joint| {
+        !matches!(
+            named[*joint],
+            Some(Named::Neck | Named::Head | Named::Helper | Named::Limb(..))
+        )
+    })
+}
+
+/// Neck and head without a name for the head: the longest chain that the chest carries beside the limbs, up to where it branches
+/// or ends.
+fn by_shape(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy, hips: usize) {
+    let mut carries = vec![false; tree.len()];
+    for limb in &anatomy.limbs {
+        for joint in tree.upward(limb.upper) {
+            carries[joint] = true;
+        }
+    }
+    let neck_by_name = first(tree, named, Named::Neck);
+    let carrier = anatomy.spine.last().copied().unwrap_or(hips);
+    let start = neck_by_name.or_else(|| {
+        tree.children[carrier]
+            .iter()
+            .filter(|child| !carries[**child] && usable(named[**child]))
+            .copied()
+            .reduce(|best, child| {
+                let whole = |child: usize| tree.bones[child] + tree.reaches[child];
+                if whole(child) > whole(best) { child } else { best }
+            })
+    });
+    let Some(start) = start else {
+        return;
+    };
+    let mut chain = vec![start];
+    let mut last = start;
+    while chain.len() < MAX_NECK {
+        let mut next = tree.children[last].iter().filter(|child| usable(named[**child]) && !carries[**child]);
+        let (Some(next), None) = (next.next(), next.next()) else {
+            break;
+        };
+        // Where ends are written, a joint without is itself the end of the head.
+        let bare = tree.reaches[*next] <= 0.0 && tree.children[*next].is_empty();
+        if bare && named[*next].is_none() && tree.has_ends() {
+            break;
+        }
+        chain.push(*next);
+        last = *next;
+    }
+    if named[last] != Some(Named::Neck) {
+        chain.pop();
+        anatomy.head = Some(last);
+    }
+    if anatomy.spine.is_empty() && anatomy.limbs.iter().all(|limb| limb.class != Class::Arm) && neck_by_name.is_none() {
+        // Without arms nothing tells where the trunk ends.
+        anatomy.spine = chain;
+    } else {
+        anatomy.neck = chain;
+    }
+}
+
+fn usable(named: Option<Named>) -> bool {
+    !matches!(named, Some(Named::Helper | Named::Limb(..) | Named::Tail))
+}

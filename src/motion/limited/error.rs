@@ -1,0 +1,92 @@
+//! How far a cut motion is from its source.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::drawings::{LONGEST, drawings};
+use super::exposure::{Exposure, every};
+use super::ssd::Frames;
+
+/// Frames that are added up by themselves, so that the sum does not depend on the number of threads.
+const GRAIN: usize = 1024;
+
+/// How a motion was cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// As asked.
+    Asked,
+    /// On twos: each second frame.
+    Twos,
+    /// On threes: each third frame.
+    Threes,
+    /// The best drawings, as many as asked for.
+    Best,
+}
+
+/// How far a cut motion is from its source.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Error {
+    /// How many drawings there are.
+    pub drawings: usize,
+    /// The root of the mean square of the joints' distances, over all joints and frames, in the positions' unit.
+    pub rms: f64,
+    /// The same in percent of the figure's height; none where that is not a positive number.
+    pub percent: Option<f64>,
+}
+
+/// How far what is shown is from the source at the same time: each shown frame is compared with the source frame of the same
+/// number. `positions` are `frames × joints`; of a shortened clip only as many frames as it has are compared. What an exposure
+/// shows that the source does not have is left out. `height` is the figure's, in the positions' unit.
+pub fn error(positions: &[DVec3], joints: usize, height: f64, exposure: &Exposure) -> Error {
+    let frames = Frames::new(positions, joints);
+    let shown = exposure.sources();
+    let shown = &shown[..shown.len().min(frames.count())];
+    let sums: Vec<[f64; 2]> = shown
+        .par_chunks(GRAIN)
+        .enumerate()
+        .map(|(chunk, shown)| {
+            let sources = shown.iter().map(|source| *source as usize);
+            let pairs = sources
+                .enumerate()
+                .filter(|(_, source)| *source < frames.count());
+            pairs.fold([0.0; 2], |[sum, count], (offset, source)| {
+                let apart = match chunk * GRAIN + offset {
+                    frame if frame == source => 0.0,
+                    frame => frames.ssd(source, frame),
+                };
+                [sum + apart, count + 1.0]
+            })
+        })
+        .collect();
+    let [sum, count] = sums.iter().fold([0.0; 2], |[sum, count], [more, frames]| {
+        [sum + more, count + frames]
+    });
+    let rms = match count > 0.0 {
+        true => (sum / (count * frames.joints() as f64)).sqrt(),
+        false => 0.0,
+    };
+    Error {
+        drawings: exposure.drawings().count(),
+        rms,
+        percent: (height > 0.0).then(|| 100.0 * rms / height),
+    }
+}
+
+/// The error of an exposure beside those of other methods: on twos, on threes, and the best drawings of the same number (or the
+/// nearest possible), each for at most [`LONGEST`] frames.
+pub fn compare(
+    positions: &[DVec3],
+    joints: usize,
+    height: f64,
+    asked: &Exposure,
+) -> [(Method, Error); 4] {
+    let frames = Frames::new(positions, joints).count() as u32;
+    let best = drawings(positions, joints, asked.drawings().count(), LONGEST);
+    [
+        (Method::Asked, asked),
+        (Method::Twos, &every(frames, 2)),
+        (Method::Threes, &every(frames, 3)),
+        (Method::Best, &best.exposure),
+    ]
+    .map(|(method, exposure)| (method, error(positions, joints, height, exposure)))
+}

@@ -1,0 +1,69 @@
+//! A queue whose keys change: a tournament tree.
+
+/// Finds the least of many keys, O(log n) for each change.
+///
+/// Unlike a heap it changes a key in place, so that nothing stale piles up.
+pub(super) struct Queue {
+    keys: Vec<u64>,
+    /// The winner of each match: node i plays its children 2i and 2i + 1 against each other, the entries are the last `n` nodes.
+    winners: Vec<u32>,
+}
+
+impl Queue {
+    /// The key of what cannot be chosen.
+    pub(super) const OUT: u64 = u64::MAX;
+
+    pub(super) fn new(keys: Vec<u64>) -> Self {
+        let count = keys.len();
+        let mut queue = Self {
+            keys,
+            winners: vec![0; 2 * count],
+        };
+        for entry in 0..count {
+            queue.winners[count + entry] = entry as u32;
+        }
+        for node in (1..count).rev() {
+            queue.winners[node] = queue.winner(node);
+        }
+        queue
+    }
+
+    fn winner(&self, node: usize) -> u32 {
+        let [a, b] = [self.winners[2 * node], self.winners[2 * node + 1]];
+        let [key_a, key_b] = [a, b].map(|entry| self.keys[entry as usize]);
+        if (key_a, a) <= (key_b, b) { a } else { b }
+    }
+
+    /// The entry of the least key, of equal ones the first.
+    pub(super) fn first(&self) -> Option<usize> {
+        let first = *self.winners.get(1)? as usize;
+        (self.keys[first] != Self::OUT).then_some(first)
+    }
+
+    pub(super) fn set(&mut self, entry: usize, key: u64) {
+        if self.keys[entry] == key {
+            return;
+        }
+        self.keys[entry] = key;
+        let mut node = (self.keys.len() + entry) / 2;
+        while node > 0 {
+            let winner = self.winner(node);
+            // A match that another entry won before and wins now ends the matter: nothing above has seen the changed key.
+            if self.winners[node] == winner && winner as usize != entry {
+                return;
+            }
+            self.winners[node] = winner;
+            node /= 2;
+        }
+    }
+}
+
+/// A key by which the least comes first. `value` is at least 0 and no NaN, so its bits are ordered as it is.
+pub(super) fn rising(value: f64) -> u64 {
+    value.to_bits()
+}
+
+/// A key by which the greatest comes first; never [`Queue::OUT`].
+pub(super) fn falling(value: f64) -> u64 {
+    (1 << 63) - value.to_bits()
+}

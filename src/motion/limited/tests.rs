@@ -1,0 +1,217 @@
+use glam::DVec3;
+
+use super::queue::{Queue, falling, rising};
+use super::ssd::Frames;
+use super::stretches::{Stretches, drawing};
+use super::{drawings, every, exact};
+
+/// Numbers that look random and are the same everywhere.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self, below: u64) -> u64 {
+        self.0 = self
+            .0
+            .wrapping_mul(0x5851_f42d_4c95_7f2d)
+            .wrapping_add(0x1405_7b7e_f767_814f);
+        (self.0 >> 33) % below
+    }
+
+    /// A motion of one joint, of `frames` frames; some stand still.
+    fn motion(&mut self, frames: usize, places: u64) -> Vec<DVec3> {
+        let mut at = DVec3::ZERO;
+        let mut motion = Vec::new();
+        let mut still = 0;
+        for _ in 0..frames {
+            if still == 0 && self.next(6) == 0 {
+                still = self.next(9);
+            }
+            if still > 0 {
+                still -= 1;
+            } else {
+                at = DVec3::new(self.next(places) as f64, self.next(places) as f64, 0.0);
+            }
+            motion.push(at);
+        }
+        motion
+    }
+}
+
+#[test]
+fn a_queue_gives_the_least_of_many_keys() {
+    let mut numbers = Numbers(3);
+    for count in [0, 1, 2, 3, 5, 8, 13, 64, 100] {
+        let mut keys: Vec<u64> = (0..count).map(|_| numbers.next(9)).collect();
+        let mut queue = Queue::new(keys.clone());
+        for _ in 0..400 {
+            let least = (0..keys.len()).filter(|entry| keys[*entry] != Queue::OUT);
+            assert_eq!(
+                queue.first(),
+                least.min_by_key(|entry| (keys[*entry], *entry))
+            );
+            if count > 0 {
+                let entry = numbers.next(count) as usize;
+                keys[entry] = match numbers.next(4) {
+                    0 => Queue::OUT,
+                    _ => numbers.next(9),
+                };
+                queue.set(entry, keys[entry]);
+            }
+        }
+    }
+}
+
+#[test]
+fn keys_are_ordered_as_the_numbers_are() {
+    let numbers = [
+        0.0,
+        f64::MIN_POSITIVE / 4.0,
+        1e-300,
+        1.0,
+        1.5,
+        1e300,
+        f64::INFINITY,
+    ];
+    for pair in numbers.windows(2) {
+        assert!(rising(pair[0]) < rising(pair[1]));
+        assert!(falling(pair[0]) > falling(pair[1]));
+    }
+    let keys = numbers
+        .iter()
+        .flat_map(|number| [rising(*number), falling(*number)]);
+    assert!(keys.max() < Some(Queue::OUT));
+}
+
+/// What any choice of drawings costs at least, by their number: all stretches, all drawings of each, no shortcut.
+fn least(motion: &[DVec3], longest: usize) -> Vec<f64> {
+    let cost = |start: usize, end: usize| {
+        let all = start..end;
+        let of = |drawing: usize| -> f64 {
+            let apart = all
+                .clone()
+                .map(|frame| motion[frame].distance_squared(motion[drawing]));
+            apart.sum()
+        };
+        let least = all.clone().map(of).fold(f64::INFINITY, f64::min);
+        if end - start > longest && least > 0.0 {
+            return f64::INFINITY;
+        }
+        least
+    };
+    let frames = motion.len();
+    let mut table = vec![vec![f64::INFINITY; frames + 1]; frames + 1];
+    table[0][0] = 0.0;
+    for end in 1..=frames {
+        for start in 0..end {
+            let cost = cost(start, end);
+            for count in 1..=end {
+                table[end][count] = table[end][count].min(table[start][count - 1] + cost);
+            }
+        }
+    }
+    table.swap_remove(frames)
+}
+
+#[test]
+fn no_other_drawings_are_better() {
+    let mut numbers = Numbers(11);
+    for round in 0..400 {
+        let frames = 1 + numbers.next(30) as usize;
+        let longest = 1 + numbers.next(9) as usize;
+        let places = [2, 3, 10, 1_000_000][round % 4];
+        let motion = numbers.motion(frames, places);
+        let least = least(&motion, longest);
+        let fewest = least.iter().position(|cost| cost.is_finite()).unwrap_or(0);
+        let poses = motion.chunk_by(|a, b| a == b).count();
+        for asked in 0..frames + 3 {
+            let drawn = drawings(&motion, 1, asked, longest);
+            let count = asked.clamp(fewest, poses);
+            assert_eq!([drawn.fewest, drawn.most], [fewest, poses]);
+            assert_eq!([drawn.asked, drawn.drawings], [asked, count]);
+            assert_eq!(drawn.exposure.drawings().count(), count);
+            assert_eq!(drawn.exposure.len(), frames);
+            let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.max(1.0);
+            assert!(
+                near(drawn.cost, least[count]),
+                "{drawn:?}, {}",
+                least[count]
+            );
+            assert!(near(drawn.bound, drawn.cost));
+            let mut shown = 0.0;
+            for (frame, source) in drawn.exposure.sources().iter().enumerate() {
+                shown += motion[frame].distance_squared(motion[*source as usize]);
+            }
+            assert!(near(shown, drawn.cost));
+            for drawing in drawn.exposure.drawings() {
+                let frames = drawing.start..drawing.start + drawing.length;
+                assert!(frames.contains(&(drawing.source as usize)));
+                let still = motion[frames].windows(2).all(|pair| pair[0] == pair[1]);
+                assert!(drawing.length <= longest || still);
+            }
+        }
+    }
+}
+
+#[test]
+fn numbers_that_no_price_gives_are_found() {
+    // Two drawings are no better than one here, so no price on a drawing yields two.
+    let motion = [0.0, 1.0, 0.0].map(DVec3::splat);
+    let costs = [1, 2, 3].map(|count| drawings(&motion, 1, count, 8).cost);
+    assert_eq!(costs, [3.0, 3.0, 0.0]);
+    // The table has to find what splitting alone does not.
+    let mut numbers = Numbers(5);
+    let mut tables = 0;
+    for _ in 0..200 {
+        let motion = numbers.motion(24, 1000);
+        let frames = Frames::new(&motion, 1);
+        let stretches = Stretches::new(frames, 5);
+        let best: Vec<f64> = (5..20)
+            .map(|count| exact::find(&stretches, count).0.way.cost)
+            .collect();
+        let convex = |costs: &[f64]| costs[0] + costs[2] >= 2.0 * costs[1] * (1.0 - 1e-12);
+        tables += best.windows(3).filter(|costs| !convex(costs)).count();
+    }
+    assert!(tables > 20, "only {tables} numbers that no price gives");
+}
+
+#[test]
+fn odd_motions_have_drawings() {
+    assert!(drawings(&[], 0, 3, 8).exposure.is_empty());
+    assert!(drawings(&[DVec3::ONE], 2, 3, 8).exposure.is_empty());
+    let odd = [f64::NAN, f64::INFINITY, 1e300, -1e300, 0.0, f64::NAN, 2.0].map(DVec3::splat);
+    for (count, longest) in [(0, 0), (1, 3), (4, 8), (usize::MAX, usize::MAX)] {
+        let drawn = drawings(&odd, 1, count, longest);
+        assert_eq!(drawn.exposure.len(), odd.len());
+        assert!(drawn.cost.is_finite());
+    }
+    let still = vec![DVec3::ONE; 100];
+    assert_eq!(drawings(&still, 1, 7, 8).exposure.sources(), vec![0; 100]);
+}
+
+#[test]
+fn of_equally_good_drawings_the_first_is_taken() {
+    let motion = [0.0, 1.0].map(DVec3::splat);
+    assert_eq!(drawing(Frames::new(&motion, 1), 0, 2, 8), 0);
+}
+
+#[test]
+fn each_second_or_third_frame_is_a_drawing() {
+    assert_eq!(every(5, 2).sources(), [0, 0, 2, 2, 4]);
+    assert_eq!(every(5, 3).sources(), [0, 0, 0, 3, 3]);
+    assert_eq!(every(2, 0).sources(), [0, 1]);
+    assert!(every(0, 3).is_empty());
+}
+
+#[test]
+fn where_very_many_choices_are_equally_good_the_bound_says_how_good_they_are() {
+    // Prices yield each second number only, and what lies between is too much to look through.
+    let motion: Vec<DVec3> = (0..100_000)
+        .map(|frame| DVec3::X * f64::from(frame % 2))
+        .collect();
+    let drawn = drawings(&motion, 1, 50_001, 8);
+    assert_eq!(drawn.exposure.drawings().count(), 50_001);
+    assert_eq!([drawn.cost, drawn.bound], [25_000.0, 24_999.5]);
+    // Of even numbers a price yields the best at once.
+    let drawn = drawings(&motion, 1, 50_000, 8);
+    assert_eq!([drawn.cost, drawn.bound], [25_000.0; 2]);
+}

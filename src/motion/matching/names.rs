@@ -1,0 +1,143 @@
+//! Joints that a part's string names.
+
+use super::{Drive, Follow, Problem, bone};
+use crate::motion::labels::{Anatomy, Class, Piece, Tip, bone_end, plain_names};
+use crate::motion::skeleton::Skeleton;
+
+/// Names offered in place of an unknown one, at most.
+const MAX_OFFERED: usize = 3;
+/// Unknown names for which others are looked for; a figure with more has another fault.
+const MAX_UNKNOWN: usize = 32;
+/// Letters up to which names are compared with an unknown one: that takes the product of both lengths.
+const MAX_LETTERS: usize = 64;
+
+/// The joints' names, to look up those that `Bone` gives.
+pub(super) struct Names<'a> {
+    skeleton: &'a Skeleton,
+    /// Without the prefixes that most share.
+    plain: Vec<&'a str>,
+}
+
+impl<'a> Names<'a> {
+    pub(super) fn new(skeleton: &'a Skeleton) -> Self {
+        Self {
+            skeleton,
+            plain: plain_names(skeleton),
+        }
+    }
+
+    /// The joints of a name: compared exactly, else without regard to case, else without prefixes.
+    fn joints(&self, name: &str) -> Vec<usize> {
+        let lower = name.to_lowercase();
+        let own = |joint: usize| self.skeleton.joints[joint].name.as_str();
+        let ways: [&dyn Fn(usize) -> bool; 3] = [
+            &|joint| own(joint) == name,
+            &|joint| own(joint).to_lowercase() == lower,
+            &|joint| self.plain[joint].to_lowercase() == lower,
+        ];
+        ways.iter()
+            .map(|same| (0..self.plain.len()).filter(|joint| same(*joint)).collect())
+            .find(|joints: &Vec<usize>| !joints.is_empty())
+            .unwrap_or_default()
+    }
+
+    /// The drive that a part's string names; nothing where it names none that can be used.
+    pub(super) fn bones(
+        &self,
+        part: usize,
+        bones: &[String],
+        class: Option<Class>,
+        anatomy: &Anatomy,
+        problems: &mut Vec<Problem>,
+    ) -> Option<Drive> {
+        if bones.len() > 2 {
+            problems.push(Problem::TooManyBones { part });
+        }
+        let mut joints = Vec::new();
+        for name in bones.iter().take(2) {
+            let found = self.joints(name);
+            if found.len() > 1 {
+                problems.push(Problem::AmbiguousBone {
+                    part,
+                    name: name.clone(),
+                    joints: found.clone(),
+                });
+            }
+            match found.first() {
+                Some(joint) => joints.push(*joint),
+                None => problems.push(self.unknown(part, name, problems.len())),
+            }
+        }
+        if joints.len() < bones.len().min(2) {
+            return None;
+        }
+        let joint = *joints.first()?;
+        let tip = match joints.get(1) {
+            Some(to) if *to != joint => {
+                if !hangs_on(self.skeleton, *to, joint) {
+                    problems.push(Problem::NotAChain {
+                        part,
+                        from: joint,
+                        to: *to,
+                    });
+                    return None;
+                }
+                Some(Tip::Joint(*to))
+            }
+            _ if class.is_some_and(Class::is_limb) => self.own_bone(joint, anatomy),
+            _ => None,
+        };
+        let follow = if tip.is_some() { Follow::Direction } else { Follow::Change };
+        Some(Drive {
+            joint,
+            tip,
+            follow,
+            why: "its string names the joint with `Bone`".to_owned(),
+        })
+    }
+
+    /// Where the bone of a joint ends: as its limb has it, else where its longest chain goes on.
+    fn own_bone(&self, joint: usize, anatomy: &Anatomy) -> Option<Tip> {
+        let pieces = [Piece::Collar, Piece::Upper, Piece::Lower, Piece::End];
+        let of_limbs = anatomy.limbs.iter().flat_map(|limb| pieces.map(|piece| bone(limb, piece)));
+        of_limbs
+            .flatten()
+            .find(|(from, _)| *from == joint)
+            .map_or_else(|| bone_end(self.skeleton, joint), |(_, tip)| tip)
+    }
+
+    fn unknown(&self, part: usize, name: &str, before: usize) -> Problem {
+        let lower: String = name.to_lowercase();
+        let letters = lower.chars().count();
+        let allowed = (letters / 3).max(1);
+        let mut near: Vec<(usize, usize)> = Vec::new();
+        if before < MAX_UNKNOWN && letters <= MAX_LETTERS {
+            for (joint, plain) in self.plain.iter().enumerate() {
+                if plain.chars().count().abs_diff(letters) <= allowed {
+                    let distance = strsim::damerau_levenshtein(&lower, &plain.to_lowercase());
+                    if distance <= allowed && distance < letters {
+                        near.push((distance, joint));
+                    }
+                }
+            }
+        }
+        near.sort_unstable();
+        let mut nearest: Vec<String> = Vec::new();
+        for (_, joint) in near {
+            let name = &self.skeleton.joints[joint].name;
+            if nearest.len() < MAX_OFFERED && !nearest.contains(name) {
+                nearest.push(name.clone());
+            }
+        }
+        Problem::UnknownBone {
+            part,
+            name: name.to_owned(),
+            nearest,
+        }
+    }
+}
+
+fn hangs_on(skeleton: &Skeleton, joint: usize, above: usize) -> bool {
+    let parent = |joint: &usize| skeleton.joints[*joint].parent.filter(|parent| parent < joint);
+    std::iter::successors(Some(joint), parent).any(|joint| joint == above)
+}

@@ -1,0 +1,201 @@
+//! Rotations between frames, as the angles of a joint's own channels.
+
+use glam::{DMat3, DQuat};
+
+use crate::motion::skeleton::{Axis, Channel, Clip, Joint};
+
+/// Below this sine or cosine of the second angle the first and the third turn about one line, and only their sum is known: the
+/// first then stays as it was.
+const LOCKED: f64 = 1e-12;
+
+/// Three axes that express each rotation: R = R_i(α) · R_j(β) · R_l(γ), where l is i or the third axis k.
+#[derive(Debug, Clone, Copy)]
+struct Order {
+    i: usize,
+    j: usize,
+    k: usize,
+    /// Whether l = i (proper Euler angles, such as Z X Z); else Tait-Bryan angles.
+    proper: bool,
+    /// 1 where i, j, k are in cyclic order, else −1.
+    sign: f64,
+}
+
+impl Order {
+    fn of(axes: &[Axis]) -> Option<Self> {
+        let [i, j, l] = axes else {
+            return None;
+        };
+        if i == j || j == l {
+            return None;
+        }
+        let (i, j) = (i.index(), j.index());
+        Some(Self {
+            i,
+            j,
+            k: 3 - i - j,
+            proper: l.index() == i,
+            sign: if (i + 1) % 3 == j { 1.0 } else { -1.0 },
+        })
+    }
+
+    /// The angles of a rotation, degrees; `before` is the first angle where all that do are as good.
+    ///
+    /// The second and third are read from what is left after the first is undone, so that together they are exact however badly
+    /// the first is known near the pole.
+    fn angles(self, rotation: DQuat, before: f64) -> [f64; 3] {
+        let matrix = DMat3::from_quat(rotation);
+        let at = |row: usize, column: usize| matrix.col(column)[row];
+        let Self { i, j, k, sign, .. } = self;
+        let (y, x) = if self.proper {
+            (at(j, i), -sign * at(k, i))
+        } else {
+            (-sign * at(j, k), at(k, k))
+        };
+        let alpha = if y.hypot(x) < LOCKED {
+            before.to_radians()
+        } else {
+            y.atan2(x)
+        };
+        let (sin, cos) = alpha.sin_cos();
+        let row_j = |column: usize| cos * at(j, column) + sign * sin * at(k, column);
+        let row_k = |column: usize| cos * at(k, column) - sign * sin * at(j, column);
+        let (beta, gamma) = if self.proper {
+            (
+                (-sign * row_k(i)).atan2(at(i, i)),
+                (-sign * row_j(k)).atan2(row_j(j)),
+            )
+        } else {
+            (
+                (sign * at(i, k)).atan2(row_k(k)),
+                (sign * row_j(i)).atan2(row_j(j)),
+            )
+        };
+        [alpha, beta, gamma].map(f64::to_degrees)
+    }
+
+    /// The other angles within a turn that are the same rotation.
+    fn flipped(self, [a, b, c]: [f64; 3]) -> [f64; 3] {
+        [
+            a + 180.0,
+            if self.proper { -b } else { 180.0 - b },
+            c + 180.0,
+        ]
+    }
+}
+
+/// The rotations of a joint through time.
+pub(super) struct Track {
+    joint: Joint,
+    /// Places of the rotations among the joint's numbers.
+    places: Vec<usize>,
+    order: Option<Order>,
+    /// The angles given last.
+    angles: Vec<f64>,
+    /// Frames whose rotation is known: the two of the sample before.
+    known: [Option<(usize, DQuat)>; 2],
+}
+
+impl Track {
+    /// A track that begins with a joint's numbers in the first frame, as they are.
+    pub(super) fn new(channels: &[Channel], first: &[f64]) -> Self {
+        let rotations = channels
+            .iter()
+            .enumerate()
+            .filter_map(|(place, channel)| match channel {
+                Channel::Rotation(axis) => Some((place, *axis)),
+                Channel::Position(_) => None,
+            });
+        let (places, axes): (Vec<usize>, Vec<Axis>) = rotations.unzip();
+        let angles = places
+            .iter()
+            .map(|place| first.get(*place).copied().unwrap_or(0.0))
+            .collect();
+        Self {
+            joint: Joint {
+                channels: channels.to_vec(),
+                ..Joint::default()
+            },
+            order: Order::of(&axes),
+            places,
+            angles,
+            known: [None; 2],
+        }
+    }
+
+    /// The rotation of a frame, by its index and its numbers.
+    fn rotation(&self, (frame, numbers): (usize, &[f64])) -> DQuat {
+        let known = self
+            .known
+            .iter()
+            .flatten()
+            .find(|(known, _)| *known == frame);
+        known.map_or_else(
+            || Clip::local(&self.joint, numbers).rotation,
+            |(_, rotation)| *rotation,
+        )
+    }
+
+    /// Puts the rotation at `t` (0…1) of the way between two frames, each by its index and its numbers, into the numbers of a new
+    /// frame: the representation that is nearest to the one given last.
+    pub(super) fn rotations(&mut self, between: [(usize, &[f64]); 2], t: f64, out: &mut [f64]) {
+        let [(first, from), (second, to)] = between;
+        match (self.order, self.angles.as_slice()) {
+            (Some(order), &[a, b, c]) => {
+                let ends = between.map(|end| self.rotation(end));
+                self.known = [Some((first, ends[0])), Some((second, ends[1]))];
+                let before = [a, b, c];
+                let found = order.angles(slerp(ends[0], ends[1], t), a);
+                let one = near(found, before);
+                let other = near(order.flipped(found), before);
+                let nearer = if apart(one, before) <= apart(other, before) {
+                    one
+                } else {
+                    other
+                };
+                self.angles.copy_from_slice(&nearer);
+            }
+            _ => {
+                for (place, angle) in self.places.iter().zip(&mut self.angles) {
+                    if let (Some(from), Some(to)) = (from.get(*place), to.get(*place)) {
+                        *angle = nearest(from + turn(to - from) * t, *angle);
+                    }
+                }
+            }
+        }
+        for (place, angle) in self.places.iter().zip(&self.angles) {
+            if let Some(number) = out.get_mut(*place) {
+                *number = *angle;
+            }
+        }
+    }
+}
+
+/// Spherical interpolation by the shorter way, which keeps its precision for the smallest angles.
+fn slerp(from: DQuat, to: DQuat, t: f64) -> DQuat {
+    let to = if from.dot(to) < 0.0 { -to } else { to };
+    // Twice the arc tangent of half the chords: the arc cosine of the dot product loses half the digits near 1.
+    let angle = 2.0 * (to - from).length().atan2((to + from).length());
+    let sin = angle.sin();
+    if sin < 1e-9 {
+        return (from * (1.0 - t) + to * t).normalize();
+    }
+    (from * (((1.0 - t) * angle).sin() / sin) + to * ((t * angle).sin() / sin)).normalize()
+}
+
+/// A difference of angles by the shorter way, degrees: −180…180.
+fn turn(angle: f64) -> f64 {
+    angle - 360.0 * (angle / 360.0).round()
+}
+
+/// The angle that differs from `angle` by whole turns and is nearest to `to`.
+fn nearest(angle: f64, to: f64) -> f64 {
+    angle - 360.0 * ((angle - to) / 360.0).round()
+}
+
+fn near(angles: [f64; 3], to: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|place| nearest(angles[place], to[place]))
+}
+
+fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|place| (a[place] - b[place]).abs()).sum()
+}

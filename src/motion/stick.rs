@@ -1,0 +1,175 @@
+//! A clip as a model of its own: a bone for each joint that leads to another, so that viewers show what a motion file holds.
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3, Vec3};
+
+use super::limited::Exposure;
+use super::skeleton::{Channel, Clip, Placed};
+use crate::scene::{
+    Animation, Interpolation, Material, Mesh, Node, Piece, Primitive, Scene, Surface, Timing, Track,
+    Values,
+};
+
+/// How high the model is in the first frame, metres: files have any unit.
+const HEIGHT: f64 = 1.7;
+/// How thick a bone is, as a share of its length.
+const GIRTH: f64 = 0.1;
+/// Where a bone is thickest, as a share of its length from the joint.
+const WAIST: f64 = 0.2;
+/// How large an end without a bone is, as a share of the model's height.
+const KNOB: f64 = 0.01;
+
+/// The model of a clip and its animation: straight from frame to frame without an exposure sheet, else a drawing at a time.
+/// `to_model` turns the clip's world so that it stands upright and faces +z.
+pub fn stick_figure(clip: &Clip, exposure: Option<&Exposure>, name: &str, to_model: DQuat) -> Scene {
+    let skeleton = &clip.skeleton;
+    let first = match clip.frames() {
+        0 => skeleton.offset_pose(),
+        _ => clip.pose(0),
+    };
+    let scale = scale(&first, to_model);
+    let mut scene = Scene {
+        materials: vec![Material {
+            name: "bone".to_owned(),
+            base_color: [0.61, 0.55, 0.42, 1.0],
+            ..Material::default()
+        }],
+        ..Scene::default()
+    };
+    let children = skeleton.children();
+    for (index, joint) in skeleton.joints.iter().enumerate() {
+        let ways = children[index].iter().map(|child| skeleton.joints[*child].offset);
+        let ways: Vec<DVec3> = ways.chain(joint.ends.iter().copied()).map(|way| way * scale).collect();
+        scene.meshes.push(Mesh {
+            primitives: vec![Primitive {
+                pieces: vec![Piece::Surface(bones(&ways))],
+                material: 0,
+            }],
+        });
+        let at_root = joint.parent.is_none();
+        scene.nodes.push(Node {
+            name: joint.name.clone(),
+            children: children[index].clone(),
+            translation: match at_root {
+                true => to_model * joint.offset * scale,
+                false => joint.offset * scale,
+            },
+            rotation: if at_root { to_model } else { DQuat::IDENTITY },
+            mesh: Some(index),
+            ..Node::default()
+        });
+        if at_root {
+            scene.roots.push(index);
+        }
+    }
+    scene.animations.push(animation(clip, exposure, name, to_model, scale));
+    scene
+}
+
+/// Metres a unit of the file.
+fn scale(pose: &[Placed], to_model: DQuat) -> f64 {
+    let heights = pose.iter().map(|placed| (to_model * placed.position).y);
+    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
+        (low.min(height), high.max(height))
+    });
+    match high - low {
+        height if height > 0.0 && height.is_finite() => HEIGHT / height,
+        _ => 1.0,
+    }
+}
+
+fn animation(clip: &Clip, exposure: Option<&Exposure>, name: &str, to_model: DQuat, scale: f64) -> Animation {
+    let step = clip.frame_time;
+    let (keys, seconds): (Vec<[usize; 2]>, f64) = match exposure {
+        Some(sheet) => (
+            sheet.drawings().map(|drawing| [drawing.start, drawing.source as usize]).collect(),
+            sheet.len() as f64 * step,
+        ),
+        None => (
+            (0..clip.frames()).map(|frame| [frame; 2]).collect(),
+            clip.frames().saturating_sub(1) as f64 * step,
+        ),
+    };
+    let mut animation = Animation {
+        name: name.to_owned(),
+        seconds,
+        tracks: Vec::new(),
+    };
+    if keys.is_empty() {
+        return animation;
+    }
+    let timing = Arc::new(Timing {
+        times: keys.iter().map(|[at, _]| (*at as f64 * step) as f32).collect(),
+        interpolation: match exposure {
+            Some(_) => Interpolation::Step,
+            None => Interpolation::Linear,
+        },
+    });
+    let mut start = 0;
+    for (node, joint) in clip.skeleton.joints.iter().enumerate() {
+        let numbers = start..start + joint.channels.len();
+        start = numbers.end;
+        if joint.channels.is_empty() {
+            continue;
+        }
+        let turn = if joint.parent.is_none() { to_model } else { DQuat::IDENTITY };
+        let local = keys.iter().map(|[_, frame]| Clip::local(joint, &clip.row(*frame)[numbers.clone()]));
+        let (mut turns, mut places) = (Vec::new(), Vec::new());
+        for local in local {
+            let rotation = turn * local.rotation;
+            let back = turns.last().is_some_and(|before: &DQuat| before.dot(rotation) < 0.0);
+            turns.push(if back { -rotation } else { rotation });
+            places.push(turn * local.position * scale);
+        }
+        let moves = joint.channels.iter().any(|channel| matches!(channel, Channel::Position(_)));
+        let mut add = |values| {
+            animation.tracks.push(Track {
+                node,
+                timing: Arc::clone(&timing),
+                values,
+            });
+        };
+        if moves {
+            add(Values::Translations(places));
+        }
+        add(Values::Rotations(turns));
+    }
+    animation
+}
+
+/// Bones from a joint to the ends of these ways; a small one that points up where there are none.
+fn bones(ways: &[DVec3]) -> Surface {
+    let mut surface = Surface::default();
+    for way in ways {
+        surface.append(&bone(*way));
+    }
+    if surface.triangles.is_empty() {
+        surface.append(&bone(DVec3::Y * (HEIGHT * KNOB)));
+    }
+    surface
+}
+
+/// Two pyramids, base to base; nothing for a way without length.
+fn bone(way: DVec3) -> Surface {
+    let Some(along) = way.try_normalize() else {
+        return Surface::default();
+    };
+    let (across, over) = along.any_orthonormal_pair();
+    let girth = way.length() * GIRTH;
+    let waist = [across, over, -across, -over].map(|side| way * WAIST + side * girth);
+    let mut surface = Surface::default();
+    for side in 0..4 {
+        let [a, b] = [waist[side], waist[(side + 1) % 4]];
+        for corners in [[DVec3::ZERO, b, a], [way, a, b]] {
+            // Every triangle has corners of its own: a bone looks like one by its edges.
+            let corners = corners.map(DVec3::as_vec3);
+            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(Vec3::Y);
+            let base = surface.positions.len() as u32;
+            surface.positions.extend(corners.map(|corner| corner.to_array()));
+            surface.normals.extend([normal.to_array(); 3]);
+            surface.triangles.push([base, base + 1, base + 2]);
+        }
+    }
+    surface
+}
