@@ -1,16 +1,21 @@
 //! What a scene must keep to, seen before the first byte is written.
 
+use std::collections::BTreeSet;
 use std::io;
 
 use super::invalid;
-use crate::scene::{AlphaMode, MOST_JOINTS, MediaType, Scene};
+use crate::scene::{AlphaMode, Animation, MOST_JOINTS, MediaType, Scene, Track, Values};
 
-/// Refuses nodes and materials that would make a file that no reader takes.
+/// Refuses nodes, materials and animations that would make a file that no reader takes.
 pub(super) fn check(scene: &Scene) -> io::Result<()> {
     check_nodes(scene)?;
     check_skin(scene)?;
     check_images(scene)?;
-    check_materials(scene)
+    check_materials(scene)?;
+    scene
+        .animations
+        .iter()
+        .try_for_each(|animation| check_animation(animation, scene.nodes.len()))
 }
 
 fn check_nodes(scene: &Scene) -> io::Result<()> {
@@ -89,6 +94,53 @@ fn check_materials(scene: &Scene) -> io::Result<()> {
                 "material `{}` has a factor that is not a number",
                 material.name
             )));
+        }
+    }
+    Ok(())
+}
+
+fn check_animation(animation: &Animation, nodes: usize) -> io::Result<()> {
+    let name = &animation.name;
+    let wrong = |what: &str| Err(invalid(format!("animation `{name}` has {what}")));
+    if !(0.0..f64::INFINITY).contains(&animation.seconds) {
+        return wrong("a length that is no time");
+    }
+    let mut moved = BTreeSet::new();
+    for Track {
+        node,
+        timing,
+        values,
+    } in &animation.tracks
+    {
+        let (turns, count, sound) = match values {
+            // A unit quaternion that is none would be made one, whichever.
+            Values::Rotations(turns) => {
+                let unit = |turn: &glam::DQuat| (turn.length_squared() - 1.0).abs() < 1e-3;
+                (true, turns.len(), turns.iter().all(unit))
+            }
+            Values::Translations(places) => {
+                let sound = places.iter().all(|place| place.as_vec3().is_finite());
+                (false, places.len(), sound)
+            }
+        };
+        if *node >= nodes {
+            return wrong("a track of a node out of range");
+        }
+        if !moved.insert((*node, turns)) {
+            return wrong("two tracks of one kind for one node");
+        }
+        let times = &timing.times;
+        let ascending = times.windows(2).all(|pair| pair[0] < pair[1]);
+        let within = times.first().is_some_and(|first| *first >= 0.0)
+            && times.last().is_some_and(|last| last.is_finite());
+        if !ascending || !within {
+            return wrong("keys out of order in time, or none");
+        }
+        if count != times.len() {
+            return wrong("another number of keys than of moments");
+        }
+        if !sound {
+            return wrong("a key that is not a number, or no turn");
         }
     }
     Ok(())

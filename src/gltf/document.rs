@@ -4,6 +4,7 @@ use std::io::{self, Write};
 
 use serde::{Serialize, Serializer};
 
+use super::animations;
 use super::lists::list;
 use super::looks::{Images, Materials, Samplers, Textures};
 use super::packing::{Entry, IndexType, JointType, Kind, Packed, Run, View};
@@ -100,7 +101,10 @@ pub(super) fn write(
         out.write_all(b",")?;
         out.write_all(looks)?;
     }
-    if solid {
+    let first_key =
+        numbers[packed.entries.len()] as usize + usize::from(packed.bind_matrices.is_some());
+    animations::write(scene, packed, first_key, out)?;
+    if solid || packed.keys.accessors() > 0 {
         accessors(scene, packed, out)?;
     }
     if packed.length > 0 {
@@ -385,7 +389,7 @@ impl Primitive {
 }
 
 fn accessors(scene: &Scene, packed: &Packed, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
-    // Behind those of the primitives stands the one of the inverse bind matrices.
+    // Behind those of the primitives stand the one of the inverse bind matrices and those of keys.
     let matrices = packed.bind_matrices.map(|view| Accessor {
         buffer_view: view,
         component_type: FLOAT,
@@ -393,10 +397,14 @@ fn accessors(scene: &Scene, packed: &Packed, out: &mut (impl Write + ?Sized)) ->
         element: "MAT4",
         ..Accessor::default()
     });
-    let count = packed.entries.len() + 1;
+    let entries = packed.entries.len();
+    let count = entries + 1 + packed.keys.accessors();
     list(out, "accessors", count, |range, elements| {
         for index in range {
             match packed.entries.get(index) {
+                None if index > entries => {
+                    elements.push(&packed.keys.accessor(index - entries - 1))?
+                }
                 Some(entry) => {
                     for (entry, run) in entry.iter().flat_map(Entry::with_runs) {
                         elements.push(&Accessor::new(entry, run))?;
@@ -414,7 +422,7 @@ fn accessors(scene: &Scene, packed: &Packed, out: &mut (impl Write + ?Sized)) ->
 const UNSIGNED_BYTE: u16 = 5121;
 const UNSIGNED_SHORT: u16 = 5123;
 const UNSIGNED_INT: u16 = 5125;
-const FLOAT: u16 = 5126;
+pub(super) const FLOAT: u16 = 5126;
 
 #[derive(Serialize, Default)]
 #[serde(rename_all = "camelCase")]
@@ -429,9 +437,19 @@ pub(super) struct Accessor {
     #[serde(rename = "type")]
     pub(super) element: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) min: Option<[Number; 3]>,
+    pub(super) min: Option<Bounds>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) max: Option<[Number; 3]>,
+    pub(super) max: Option<Bounds>,
+}
+
+/// The least or the greatest of a list, component by component.
+#[derive(Serialize, Clone, Copy)]
+#[serde(untagged)]
+pub(super) enum Bounds {
+    /// Of moments.
+    Moment([Number; 1]),
+    /// Of corners.
+    Corner([Number; 3]),
 }
 
 impl Accessor {
@@ -453,8 +471,8 @@ impl Accessor {
             normalized: run.kind == Kind::Weights,
             count: run.count,
             element,
-            min: bounds.map(|[min, _]| min.map(Number)),
-            max: bounds.map(|[_, max]| max.map(Number)),
+            min: bounds.map(|[min, _]| Bounds::Corner(min.map(Number))),
+            max: bounds.map(|[_, max]| Bounds::Corner(max.map(Number))),
         }
     }
 }

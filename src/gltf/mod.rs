@@ -2,9 +2,11 @@
 //!
 //! The same scene gives the same bytes. What is written: one glTF scene with the virtual node `Root`,
 //! under it the scene's nodes (node `i` of the scene is node `i` of the file, `Root` comes last), one
-//! mesh a part with a primitive a material, and one buffer, which holds the images too. Solids are made while they are written, so
+//! mesh a part with a primitive a material, the animations with exactly the keys that they have, and one buffer, which holds
+//! images and keys too. Solids are made while they are written, so
 //! that a large model is never in memory as a whole.
 
+mod animations;
 mod check;
 mod document;
 mod lists;

@@ -10,6 +10,7 @@ use glam::DMat4;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
+use super::animations::{self, Keys};
 use super::memory::{Memory, Used};
 use super::{Again, invalid};
 use crate::scene::{Image, MediaType, Mesh, Pose, Primitive, Scene, Surface};
@@ -99,7 +100,7 @@ impl IndexType {
 /// A stretch of the buffer that holds data of one kind.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View {
-    /// None for an image's bytes.
+    /// None for what is no part of a primitive.
     pub(super) kind: Option<Kind>,
     pub(super) offset: u64,
     pub(super) length: u64,
@@ -153,6 +154,8 @@ pub(super) struct Packed {
     pub(super) entries: Vec<Option<Entry>>,
     /// Number of the view of the skin's inverse bind matrices.
     pub(super) bind_matrices: Option<usize>,
+    /// The keys of the animations.
+    pub(super) keys: Keys,
     /// The images, equal ones once.
     pub(super) images: Vec<StoredImage>,
     /// Per image of the scene its number in `images`.
@@ -235,6 +238,7 @@ pub(super) fn pack(
         std::mem::swap(&mut ready, &mut next);
     }
     packed.store_skin(scene, &mut write)?;
+    animations::store(scene, &mut packed, &mut write)?;
     packed.store_images(&scene.images, &mut write)?;
     Ok(packed)
 }
@@ -458,7 +462,7 @@ impl Batch {
 }
 
 /// Appends numbers as little-endian bytes.
-fn floats<const N: usize>(out: &mut Vec<u8>, rows: &[[f32; N]]) {
+pub(super) fn floats<const N: usize>(out: &mut Vec<u8>, rows: &[[f32; N]]) {
     if cfg!(target_endian = "little") {
         out.extend_from_slice(bytemuck::cast_slice(rows.as_flattened()));
     } else {

@@ -3,10 +3,11 @@
 use std::io;
 
 use super::document::{
-    Accessor, Attributes, BufferView, Extensions, Extras, Node, Number, Primitive, Provenance,
+    Accessor, Attributes, Bounds, BufferView, Extensions, Extras, Node, Number, Primitive,
+    Provenance,
 };
-use super::looks;
 use super::packing::{KINDS, RUNS, WINDOW};
+use super::{animations, looks};
 use crate::scene::{self, Scene};
 
 /// How many bytes a text takes, escaped.
@@ -34,7 +35,7 @@ pub(super) fn room(scene: &Scene) -> io::Result<u64> {
 
     let length = |element: serde_json::Result<Vec<u8>>| Ok::<_, io::Error>(element?.len() + 1);
     let primitives: usize = scene.meshes.iter().map(|mesh| mesh.primitives.len()).sum();
-    let views = KINDS * (primitives / WINDOW + 1) + scene.images.len() + 1;
+    let views = KINDS * (primitives / WINDOW + 1) + scene.images.len() + 1 + animations::VIEWS;
     let children = digits(scene.nodes.len()) + 1;
 
     let node = length(serde_json::to_vec(&Node {
@@ -78,7 +79,7 @@ pub(super) fn room(scene: &Scene) -> io::Result<u64> {
         indices: RUNS * primitives,
         material: scene.materials.len(),
     }))?;
-    let accessor = |element, bounds: Option<[Number; 3]>| {
+    let accessor = |element, bounds: Option<Bounds>| {
         length(serde_json::to_vec(&Accessor {
             buffer_view: views,
             byte_offset: u64::from(u32::MAX),
@@ -90,8 +91,9 @@ pub(super) fn room(scene: &Scene) -> io::Result<u64> {
             max: bounds,
         }))
     };
-    let accessors =
-        accessor("VEC3", Some([LONGEST; 3]))? + accessor("VEC3", None)? + accessor("SCALAR", None)?;
+    let accessors = accessor("VEC3", Some(Bounds::Corner([LONGEST; 3])))?
+        + accessor("VEC3", None)?
+        + accessor("SCALAR", None)?;
     let mut pieces = scene
         .meshes
         .iter()
@@ -114,6 +116,9 @@ pub(super) fn room(scene: &Scene) -> io::Result<u64> {
     } else {
         0
     };
+    // Moments and what is there then.
+    let moving = accessor("SCALAR", Some(Bounds::Moment([LONGEST])))? + accessor("VEC4", None)?;
+    let tracks: usize = scene.animations.iter().map(|a| a.tracks.len()).sum();
     let view = length(serde_json::to_vec(&BufferView {
         buffer: 0,
         byte_offset: u64::from(u32::MAX),
@@ -129,6 +134,8 @@ pub(super) fn room(scene: &Scene) -> io::Result<u64> {
         + primitives * (primitive + accessors + uvs + joints)
         + views * view
         + skin
+        + tracks * moving
+        + animations::room(scene)?
         + looks::room(scene);
     Ok(total as u64)
 }

@@ -10,6 +10,8 @@ use crate::scene::{
     Surface, Texture, TextureUse, ViewDependent, Wrap,
 };
 
+mod animated;
+
 mod textured;
 
 mod skinned;
