@@ -67,11 +67,11 @@ pub fn edit(
 ) -> Result<Edited, resample::Error> {
     let Ready {
         clip,
+        mut positions,
         anatomy,
         notes,
     } = ready::ready(clip, options)?;
     let to_model = carry::to_drawing(&clip, &Landmarks::of(&anatomy));
-    let mut positions = clip.positions();
     if camera.is_some() {
         // Sums of squares do not change by a turn, so it is left out where nobody looks.
         positions.iter_mut().for_each(|position| *position = to_model * *position);

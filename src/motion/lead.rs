@@ -50,8 +50,18 @@ pub struct Lead {
 /// begins) and the joint of its hand; with fewer than two a motion that was eased in is not looked for.
 pub fn lead(clip: &Clip, arms: &[[usize; 2]]) -> Lead {
     let joints = clip.skeleton.joints.len();
-    let positions = clip.positions();
-    if joints == 0 || clip.frames() < 3 {
+    lead_of_positions(&clip.positions(), joints, clip.frame_time, arms)
+}
+
+/// As [`lead`], for whoever has the positions already: those of [`Clip::positions`], `frames × joints`, with the seconds from a
+/// frame to the next.
+pub fn lead_of_positions(
+    positions: &[DVec3],
+    joints: usize,
+    frame_time: f64,
+    arms: &[[usize; 2]],
+) -> Lead {
+    if joints == 0 || positions.len() / joints < 3 {
         return Lead::default();
     }
     let steps: Vec<f64> = positions
@@ -66,7 +76,7 @@ pub fn lead(clip: &Clip, arms: &[[usize; 2]]) -> Lead {
     let (frames, kind) = if first > SINGLE_OVER_MEDIAN * median && first > SINGLE_OVER_NEXT * next {
         (1, Kind::Single)
     } else if is_t(&positions[..joints], arms) {
-        match eased(&steps, median, clip.frame_time) {
+        match eased(&steps, median, frame_time) {
             0 => (0, Kind::None),
             frames => (frames, Kind::Eased),
         }

@@ -1,5 +1,7 @@
 //! What happens to a clip before anything else: a lead-in is left out, it gets an even rate, a part of it is taken.
 
+use glam::DVec3;
+
 use super::labels::{Anatomy, Class, Side, label_clip};
 use super::lead::{self, Kind};
 use super::resample::{self, Error, Range};
@@ -44,6 +46,8 @@ impl Default for Options {
 pub struct Ready {
     /// The clip.
     pub clip: Clip,
+    /// Where its joints are: frames × joints, the file's unit.
+    pub positions: Vec<DVec3>,
     /// What its joints are.
     pub anatomy: Anatomy,
     /// What was done to it that people should know of.
@@ -56,41 +60,55 @@ pub struct Ready {
 /// A rate or a range that the clip cannot have.
 pub fn ready(clip: Clip, options: &Options) -> Result<Ready, Error> {
     let anatomy = label_clip(&clip);
+    let joints = clip.skeleton.joints.len();
+    let mut positions = clip.positions();
     let mut notes = Vec::new();
-    let mut clip = match options.lead_in {
-        LeadIn::Drop => without_lead_in(clip, &anatomy, &mut notes),
-        LeadIn::Keep => clip,
+    let first = match options.lead_in {
+        LeadIn::Drop => lead_in(&clip, &positions, &anatomy, &mut notes),
+        LeadIn::Keep => 0,
     };
-    clip = resample::resample(clip, options.fps)?;
+    let clip = match first {
+        0 => clip,
+        first => clip.picked(first..clip.frames()),
+    };
+    positions.drain(..first * joints);
+    let (frames, step) = (clip.frames(), clip.frame_time);
+    let mut clip = resample::resample(clip, options.fps)?;
+    // What stayed as it was has the positions that it had.
+    if (clip.frames(), clip.frame_time) != (frames, step) {
+        positions = clip.positions();
+    }
     if let Some(range) = options.range {
         clip = resample::range(&clip, range)?;
+        positions.drain(..(range.first - 1) * joints);
+        positions.truncate(clip.frames() * joints);
     }
     Ok(Ready {
         clip,
+        positions,
         anatomy,
         notes,
     })
 }
 
-fn without_lead_in(clip: Clip, anatomy: &Anatomy, notes: &mut Vec<String>) -> Clip {
+/// How many first frames are no motion.
+fn lead_in(clip: &Clip, positions: &[DVec3], anatomy: &Anatomy, notes: &mut Vec<String>) -> usize {
     let arm = |side| {
         let arm = anatomy.limb(Class::Arm, side)?;
         Some([arm.upper, arm.end.or(arm.lower)?])
     };
     let arms: Vec<[usize; 2]> = Side::BOTH.into_iter().filter_map(arm).collect();
-    let lead = lead::lead(&clip, &arms);
+    let joints = clip.skeleton.joints.len();
+    let lead = lead::lead_of_positions(positions, joints, clip.frame_time, &arms);
     match lead.kind {
-        Kind::None => clip,
-        Kind::Single => {
-            notes.push("frame 1 is a pose that the motion jumps out of, as files often begin: it is left out".to_owned());
-            clip.picked(1..clip.frames())
-        }
-        Kind::Eased => {
-            let frames = lead.frames;
-            notes.push(format!(
-                "frames 1 to {frames} lead out of a T-pose, as files often begin: they are left out"
-            ));
-            clip.picked(frames..clip.frames())
-        }
+        Kind::None => {}
+        Kind::Single => notes.push(
+            "frame 1 is a pose that the motion jumps out of, as files often begin: it is left out".to_owned(),
+        ),
+        Kind::Eased => notes.push(format!(
+            "frames 1 to {} lead out of a T-pose, as files often begin: they are left out",
+            lead.frames
+        )),
     }
+    lead.frames
 }

@@ -31,11 +31,10 @@ pub(super) struct Prepared {
 
 impl Prepared {
     fn new(ready: Ready) -> Self {
-        let positions = ready.clip.positions();
         let joints = ready.clip.skeleton.joints.len();
         Self {
-            speeds: limited::speeds(&positions, joints).into(),
-            positions,
+            speeds: limited::speeds(&ready.positions, joints).into(),
+            positions: ready.positions,
             anatomy: ready.anatomy,
             clip: ready.clip,
         }

@@ -8,7 +8,7 @@ use super::super::tree::Branch;
 use super::cast::Group;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
-use crate::motion::carry::{Drive, Facing, Puppet, PuppetPart};
+use crate::motion::carry::{Drive, Puppet, PuppetPart};
 use crate::motion::figure::{Figure, Part};
 use crate::motion::labels::Class;
 use crate::motion::matching::{Follow, Matching};
@@ -93,25 +93,7 @@ pub(super) fn puppet(figure: &Figure, group: &Group, matching: &Matching, nodes:
     };
     Puppet {
         parts: figure.parts.iter().enumerate().map(part).collect(),
-        facing: facing(figure, matching),
-    }
-}
-
-/// The way that a figure faces: to the side where its head is, if that lies more beside the trunk than above it.
-fn facing(figure: &Figure, matching: &Matching) -> Facing {
-    let middle = |wanted: &[Class]| {
-        let labels = figure.parts.iter().zip(&matching.labels);
-        let boxes = labels.filter_map(|(part, label)| wanted.contains(&label.as_ref()?.class).then_some(part.bounds));
-        let around = boxes.reduce(|[low, high], [from, to]| [low.min(from), high.max(to)])?;
-        Some(around[0].midpoint(around[1]))
-    };
-    match (middle(&[Class::Head]), middle(&[Class::Body, Class::Hips])) {
-        (Some(head), Some(trunk)) => match head - trunk {
-            off if off.x.abs() <= off.y => Facing::Viewer,
-            off if off.x < 0.0 => Facing::Left,
-            _ => Facing::Right,
-        },
-        _ => Facing::Viewer,
+        facing: matching.facing,
     }
 }
 

@@ -3,7 +3,7 @@
 use glam::{DMat3, DQuat, DVec3};
 
 use super::Poses;
-use crate::motion::labels::{Anatomy, Class, Limb, Side};
+use crate::motion::labels::{Anatomy, Class, Facing, Limb, Side};
 use crate::motion::skeleton::{Clip, Placed};
 
 /// Which joints say how a body stands. Pairs are left and right, as the body itself has them.
@@ -38,29 +38,6 @@ impl Landmarks {
             thighs: both(Class::Leg, |leg| Some(leg.upper)),
             knees: both(Class::Leg, |leg| leg.end.and(leg.lower)),
             feet: both(Class::Leg, |leg| leg.end.or(leg.lower)),
-        }
-    }
-}
-
-/// The way that a figure faces.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub enum Facing {
-    /// Towards the viewer.
-    #[default]
-    Viewer,
-    /// To the drawing's left.
-    Left,
-    /// To the drawing's right.
-    Right,
-}
-
-impl Facing {
-    /// From a body's own axes (its left, up, its front) to the drawing's.
-    pub fn turn(self) -> DQuat {
-        match self {
-            Self::Viewer => DQuat::IDENTITY,
-            Self::Left => DQuat::from_rotation_y(-std::f64::consts::FRAC_PI_2),
-            Self::Right => DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2),
         }
     }
 }

@@ -12,11 +12,11 @@ mod turn;
 
 use glam::{DQuat, DVec3};
 
-use super::labels::Tip;
+use super::labels::{Facing, Tip};
 use super::matching::Follow;
 use super::skeleton::{Clip, Placed};
 
-pub use axes::{Facing, Landmarks};
+pub use axes::Landmarks;
 pub use rest::Rest;
 
 /// A figure as motion moves it: its nodes at rest, and what drives them.

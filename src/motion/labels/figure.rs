@@ -1,9 +1,11 @@
 //! The parts of a figure, labelled: by their names, and where those say nothing by their shape.
 
-use super::place::{self, Facing};
+use glam::DVec2;
+
+use super::place::{self, Front};
 use super::shape::Shape;
 use super::words::{self, Term};
-use super::{Class, Label, Piece, Side, pieces};
+use super::{Class, Facing, Label, Piece, Side, pieces};
 use crate::motion::figure::Figure;
 
 /// An arm without a name reaches at least this share of the figure's height.
@@ -49,13 +51,18 @@ impl Draft {
 /// points outward an arm. Side by word, else by place: what is drawn left is Right, since the figure faces the viewer; if the
 /// head lies more beside the body than above it, what was drawn later is on the near side.
 pub fn label_figure(figure: &Figure) -> Vec<Option<Label>> {
+    label_facing(figure).0
+}
+
+/// The labels of a figure's parts, and the way that it faces.
+pub(crate) fn label_facing(figure: &Figure) -> (Vec<Option<Label>>, Facing) {
     let shape = Shape::new(figure);
     let mut drafts: Vec<Draft> = shape.parts.iter().map(|part| by_name(&part.name)).collect();
     trunk(&shape, &mut drafts);
     head(&shape, &mut drafts);
     by_shape(&shape, &mut drafts);
     hips(&shape, &mut drafts);
-    let facing = Facing::of(&shape, &drafts);
+    let facing = Front::of(&shape, &drafts);
     let limbs = pieces::limbs(&shape, &drafts);
     place::sides(&shape, &facing, &limbs, &mut drafts);
     place::pairs(&shape, &facing, &limbs, &mut drafts);
@@ -71,7 +78,7 @@ pub fn label_figure(figure: &Figure) -> Vec<Option<Label>> {
             why: class_why + &side_why,
         })
     };
-    drafts.into_iter().map(label).collect()
+    (drafts.into_iter().map(label).collect(), facing.facing())
 }
 
 fn by_name(name: &str) -> Draft {
@@ -105,7 +112,9 @@ fn by_name(name: &str) -> Draft {
         Some(Class::Neck)
     } else if draft.says(&[T::Tail]) {
         Some(Class::Tail)
-    } else if draft.says(&[T::Hips, T::Hip, T::Waist]) || draft.says(&[T::Lower]) && draft.says(&[T::Body]) {
+    } else if draft.says(&[T::Hips, T::Hip, T::Waist])
+        || draft.says(&[T::Lower]) && draft.says(&[T::Body])
+    {
         Some(Class::Hips)
     } else if draft.says(&[T::Body, T::Chest, T::Belly]) {
         Some(Class::Body)
@@ -131,16 +140,26 @@ fn trunk(shape: &Shape<'_>, drafts: &mut [Draft]) {
     let most = roots
         .iter()
         .copied()
-        .reduce(|best, root| if shape.carried[root] > shape.carried[best] { root } else { best })
+        .reduce(|best, root| {
+            if shape.carried[root] > shape.carried[best] {
+                root
+            } else {
+                best
+            }
+        })
         .filter(|_| !known);
     for root in roots {
         if Some(root) == most || shape.carried[root] > 0 {
-            let why = format!("`{}` carries the others, so it is a body", shape.parts[root].name);
+            let why = format!(
+                "`{}` carries the others, so it is a body",
+                shape.parts[root].name
+            );
             drafts[root].set(Class::Body, why);
         }
     }
     for part in 0..drafts.len() {
-        let on_head = shape.parents[part].is_some_and(|parent| drafts[parent].class == Some(Class::Head));
+        let on_head =
+            shape.parents[part].is_some_and(|parent| drafts[parent].class == Some(Class::Head));
         // A face on a head is a part of it.
         if on_head && drafts[part].says(&[Term::Face]) {
             drafts[part].class = None;
@@ -166,7 +185,13 @@ fn head(shape: &Shape<'_>, drafts: &mut [Draft]) {
     if drafts.iter().any(|draft| draft.class == Some(Class::Head)) {
         return;
     }
-    let trunk = shape.around(shape.order.iter().copied().filter(|part| is_trunk(drafts[*part].class)));
+    let trunk = shape.around(
+        shape
+            .order
+            .iter()
+            .copied()
+            .filter(|part| is_trunk(drafts[*part].class)),
+    );
     let axis = trunk[0].midpoint(trunk[1]);
     let mut heads: Vec<usize> = (0..drafts.len())
         .filter(|part| open(shape, drafts, *part) && !shape.stands(*part))
@@ -189,17 +214,34 @@ fn head(shape: &Shape<'_>, drafts: &mut [Draft]) {
             let other = shape.middle(**other) - axis;
             (other.x + off.x).abs() <= near && (other.y - off.y).abs() <= near
         };
-        off.x.abs() > near / 2.0 && heads.iter().filter(|other| **other != part).any(|other| mirrored(&other))
+        off.x.abs() > near / 2.0
+            && heads
+                .iter()
+                .filter(|other| **other != part)
+                .any(|other| mirrored(&other))
     };
-    let found = heads.iter().copied().take(MAX_HEADS).find(|part| !twin(*part));
+    let found = heads
+        .iter()
+        .copied()
+        .take(MAX_HEADS)
+        .find(|part| !twin(*part));
     if let Some(head) = found {
-        let why = format!("`{}` is the topmost part, so it is the head", shape.parts[head].name);
+        let why = format!(
+            "`{}` is the topmost part, so it is the head",
+            shape.parts[head].name
+        );
         drafts[head].set(Class::Head, why);
     }
 }
 
 fn by_shape(shape: &Shape<'_>, drafts: &mut [Draft]) {
-    let facing = Facing::of(shape, drafts);
+    let facing = Front::of(shape, drafts);
+    let trunk = shape
+        .order
+        .iter()
+        .copied()
+        .filter(|part| is_trunk(drafts[*part].class));
+    let trunk = shape.around(trunk);
     for part in shape.order.iter().copied() {
         let name = &shape.parts[part].name;
         if drafts[part].class.is_some() || drafts[part].detail {
@@ -207,22 +249,35 @@ fn by_shape(shape: &Shape<'_>, drafts: &mut [Draft]) {
         }
         let above = shape.parents[part];
         let class_above = above.and_then(|above| drafts[above].class);
-        if let (Some(above), Some(class @ (Class::Arm | Class::Leg | Class::Tail))) = (above, class_above) {
+        if let (Some(above), Some(class @ (Class::Arm | Class::Leg | Class::Tail))) =
+            (above, class_above)
+        {
             let above = &shape.parts[above].name;
-            let why = format!("`{name}` hangs on `{above}`, so it is the next piece of the same {}", class.name());
+            let why = format!(
+                "`{name}` hangs on `{above}`, so it is the next piece of the same {}",
+                class.name()
+            );
             drafts[part].set(class, why);
         } else if !open(shape, drafts, part) || drafts[part].says(&[Term::Skirt]) {
             continue;
         } else if shape.stands(part) {
             let legs = shape.children[part].iter().filter(|child| {
-                shape.stands(**child) && matches!(drafts[**child].class, None | Some(Class::Leg)) && !drafts[**child].detail
+                shape.stands(**child)
+                    && matches!(drafts[**child].class, None | Some(Class::Leg))
+                    && !drafts[**child].detail
             });
             if legs.count() > 1 {
-                drafts[part].set(Class::Hips, format!("`{name}` carries legs, so it is the hips"));
+                drafts[part].set(
+                    Class::Hips,
+                    format!("`{name}` carries legs, so it is the hips"),
+                );
             } else {
-                drafts[part].set(Class::Leg, format!("`{name}` stands on the ground, so it is a leg"));
+                drafts[part].set(
+                    Class::Leg,
+                    format!("`{name}` stands on the ground, so it is a leg"),
+                );
             }
-        } else if let Some(class) = outward(shape, &facing, drafts, part) {
+        } else if let Some(class) = outward(shape, &facing, drafts, trunk, part) {
             let why = match class {
                 Class::Tail => format!("`{name}` points away from the head, so it is a tail"),
                 _ => format!("`{name}` points outward, so it is an arm"),
@@ -233,13 +288,15 @@ fn by_shape(shape: &Shape<'_>, drafts: &mut [Draft]) {
 }
 
 /// An arm points away from the middle of the trunk; in a figure seen from the side, what points away behind is a tail.
-fn outward(shape: &Shape<'_>, facing: &Facing, drafts: &[Draft], part: usize) -> Option<Class> {
-    let trunk = |part: &usize| is_trunk(drafts[*part].class);
-    let body = shape.parents[part].filter(trunk);
-    let around = match body {
-        Some(body) => shape.around(std::iter::once(body)),
-        None => shape.around(shape.order.iter().copied().filter(trunk)),
-    };
+fn outward(
+    shape: &Shape<'_>,
+    facing: &Front,
+    drafts: &[Draft],
+    trunk: [DVec2; 2],
+    part: usize,
+) -> Option<Class> {
+    let body = shape.parents[part].filter(|parent| is_trunk(drafts[*parent].class));
+    let around = body.map_or(trunk, |body| shape.around(std::iter::once(body)));
     let axis = around[0].midpoint(around[1]).x;
     let (joint, tip) = (shape.joint(part), shape.tip(part));
     let reach = (tip.x - axis).abs();
@@ -249,7 +306,9 @@ fn outward(shape: &Shape<'_>, facing: &Facing, drafts: &[Draft], part: usize) ->
         return None;
     }
     match facing {
-        Facing::Beside { toward, .. } if (shape.middle(part).x - axis) * toward < 0.0 => Some(Class::Tail),
+        Front::Beside { toward, .. } if (shape.middle(part).x - axis) * toward < 0.0 => {
+            Some(Class::Tail)
+        }
         _ => Some(Class::Arm),
     }
 }
@@ -257,7 +316,9 @@ fn outward(shape: &Shape<'_>, facing: &Facing, drafts: &[Draft], part: usize) ->
 /// A trunk piece or a skirt that carries legs below a piece that carries head or arms is the hips.
 fn hips(shape: &Shape<'_>, drafts: &mut [Draft]) {
     let carries = |drafts: &[Draft], part: usize, classes: &[Class]| {
-        let mut carried = shape.children[part].iter().filter_map(|child| drafts[*child].class);
+        let mut carried = shape.children[part]
+            .iter()
+            .filter_map(|child| drafts[*child].class);
         carried.any(|class| classes.contains(&class))
     };
     let upper = [Class::Head, Class::Neck, Class::Arm];
@@ -267,8 +328,14 @@ fn hips(shape: &Shape<'_>, drafts: &mut [Draft]) {
         let draft = &drafts[part];
         let skirt = draft.class.is_none() && draft.says(&[Term::Skirt]);
         let unnamed = draft.class == Some(Class::Body) && !draft.named && has_upper;
-        if (skirt || unnamed) && carries(drafts, part, &[Class::Leg]) && !carries(drafts, part, &upper) {
-            let why = format!("`{}` carries the legs, so it is the hips", shape.parts[part].name);
+        if (skirt || unnamed)
+            && carries(drafts, part, &[Class::Leg])
+            && !carries(drafts, part, &upper)
+        {
+            let why = format!(
+                "`{}` carries the legs, so it is the hips",
+                shape.parts[part].name
+            );
             drafts[part].set(Class::Hips, why);
         }
     }

@@ -7,8 +7,8 @@ mod figure;
 mod names;
 mod pieces;
 mod place;
-mod shape;
 mod roles;
+mod shape;
 mod sides;
 mod skeleton;
 mod topology;
@@ -19,10 +19,12 @@ mod words;
 #[cfg(test)]
 pub(crate) mod tests;
 
+pub(crate) use figure::label_facing;
 pub use figure::label_figure;
 pub use skeleton::{Anatomy, Limb, label_clip, label_skeleton};
 
-pub(crate) use skeleton::{bone_end, plain_names};
+pub(crate) use skeleton::plain_names;
+pub(crate) use tree::Tree;
 
 /// What a joint or a part belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -90,6 +92,29 @@ impl Side {
         match self {
             Self::Left => "left",
             Self::Right => "right",
+        }
+    }
+}
+
+/// The way that a figure faces.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Facing {
+    /// Towards the viewer.
+    #[default]
+    Viewer,
+    /// To the drawing's left.
+    Left,
+    /// To the drawing's right.
+    Right,
+}
+
+impl Facing {
+    /// From a body's own axes (its left, up, its front) to the drawing's.
+    pub fn turn(self) -> glam::DQuat {
+        match self {
+            Self::Viewer => glam::DQuat::IDENTITY,
+            Self::Left => glam::DQuat::from_rotation_y(-std::f64::consts::FRAC_PI_2),
+            Self::Right => glam::DQuat::from_rotation_y(std::f64::consts::FRAC_PI_2),
         }
     }
 }

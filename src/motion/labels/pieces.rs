@@ -30,7 +30,8 @@ pub(super) fn limbs(shape: &Shape<'_>, drafts: &[Draft]) -> Vec<Limb> {
             continue;
         };
         let above = shape.parents[part].and_then(|parent| {
-            let same_side = drafts[part].side.is_none() || drafts[part].side == drafts[parent].side
+            let same_side = drafts[part].side.is_none()
+                || drafts[part].side == drafts[parent].side
                 || drafts[parent].side.is_none();
             places[parent].filter(|(limb, _)| limbs[*limb].class == class && same_side)
         });
@@ -58,9 +59,17 @@ pub(super) fn name(shape: &Shape<'_>, limbs: &[Limb], drafts: &mut [Draft]) {
         let arm = [Term::Arm, Term::UpperArm];
         let collar = drafts[root].says(&[Term::Shoulder, Term::Collar])
             && !drafts[root].says(&arm)
-            && limb.parts.iter().any(|(part, depth)| *depth == 1 && drafts[*part].says(&arm));
+            && limb
+                .parts
+                .iter()
+                .any(|(part, depth)| *depth == 1 && drafts[*part].says(&arm));
         let first = usize::from(collar);
-        let deepest = limb.parts.iter().map(|(_, depth)| *depth).max().unwrap_or(0);
+        let deepest = limb
+            .parts
+            .iter()
+            .map(|(_, depth)| *depth)
+            .max()
+            .unwrap_or(0);
         let end = limb
             .parts
             .iter()
@@ -93,7 +102,8 @@ fn is_end(shape: &Shape<'_>, drafts: &[Draft], part: usize) -> bool {
     let draft = &drafts[part];
     let on_a_leg = || {
         shape.parents[part].is_some_and(|parent| {
-            drafts[parent].says(&[Term::Leg, Term::Shin]) && !drafts[parent].says(&[Term::LegOrFoot])
+            drafts[parent].says(&[Term::Leg, Term::Shin])
+                && !drafts[parent].says(&[Term::LegOrFoot])
         })
     };
     draft.says(&[Term::Hand, Term::Foot]) || draft.says(&[Term::LegOrFoot]) && on_a_leg()

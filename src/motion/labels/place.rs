@@ -6,11 +6,11 @@ use super::figure::{Draft, is_trunk};
 use super::pieces::Limb;
 use super::shape::Shape;
 use super::words::Term;
-use super::{Class, Side};
+use super::{Class, Facing, Side};
 
-/// Which way a figure faces.
+/// Which way a figure faces, and the middle of its trunk.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Facing {
+pub(super) enum Front {
     /// Toward the viewer.
     Viewer {
         /// The middle of its trunk.
@@ -25,10 +25,22 @@ pub(super) enum Facing {
     },
 }
 
-impl Facing {
+impl Front {
+    pub(super) fn facing(self) -> Facing {
+        match self {
+            Self::Viewer { .. } => Facing::Viewer,
+            Self::Beside { toward, .. } if toward < 0.0 => Facing::Left,
+            Self::Beside { .. } => Facing::Right,
+        }
+    }
+
     pub(super) fn of(shape: &Shape<'_>, drafts: &[Draft]) -> Self {
         let all = |wanted: &dyn Fn(&Draft) -> bool| {
-            let parts = shape.order.iter().copied().filter(|part| wanted(&drafts[*part]));
+            let parts = shape
+                .order
+                .iter()
+                .copied()
+                .filter(|part| wanted(&drafts[*part]));
             let [low, high] = shape.around(parts);
             low.midpoint(high)
         };
@@ -47,7 +59,7 @@ impl Facing {
     }
 
     /// How far a limb is from the hind end of the figure: along the way to the head.
-    fn from_hind(self, shape: &Shape<'_>, part: usize) -> f64 {
+    fn place_of(self, shape: &Shape<'_>, part: usize) -> f64 {
         match self {
             Self::Viewer { .. } => shape.joint(part).y,
             Self::Beside { toward, .. } => shape.joint(part).x * toward,
@@ -66,9 +78,9 @@ fn rank(draft: &Draft) -> u8 {
     }
 }
 
-fn sorted_from_hind(shape: &Shape<'_>, facing: &Facing, drafts: &[Draft], roots: &mut [usize]) {
+fn sorted_from_hind(shape: &Shape<'_>, facing: &Front, drafts: &[Draft], roots: &mut [usize]) {
     roots.sort_by(|a, b| {
-        let place = |part: usize| facing.from_hind(shape, part);
+        let place = |part: usize| facing.place_of(shape, part);
         rank(&drafts[*a])
             .cmp(&rank(&drafts[*b]))
             .then(place(*a).total_cmp(&place(*b)))
@@ -77,7 +89,7 @@ fn sorted_from_hind(shape: &Shape<'_>, facing: &Facing, drafts: &[Draft], roots:
 }
 
 /// Gives the limbs their sides: by the name of one of their parts, else by place.
-pub(super) fn sides(shape: &Shape<'_>, facing: &Facing, limbs: &[Limb], drafts: &mut [Draft]) {
+pub(super) fn sides(shape: &Shape<'_>, facing: &Front, limbs: &[Limb], drafts: &mut [Draft]) {
     for class in [Class::Arm, Class::Leg] {
         let limbs: Vec<&Limb> = limbs.iter().filter(|limb| limb.class == class).collect();
         let mut open = Vec::new();
@@ -94,14 +106,28 @@ pub(super) fn sides(shape: &Shape<'_>, facing: &Facing, limbs: &[Limb], drafts: 
                 None => open.push(*limb),
             }
         }
-        let others: Vec<Side> = limbs.iter().filter_map(|limb| drafts[limb.root()].side).collect();
+        let others: Vec<Side> = limbs
+            .iter()
+            .filter_map(|limb| drafts[limb.root()].side)
+            .collect();
         match (open.as_slice(), others.as_slice(), facing) {
             ([limb], [side], _) => {
                 let side = side.other();
-                give(drafts, limb, side, &format!("; the other one is the {}, so it is the {}", side.other().name(), side.name()));
+                give(
+                    drafts,
+                    limb,
+                    side,
+                    &format!(
+                        "; the other one is the {}, so it is the {}",
+                        side.other().name(),
+                        side.name()
+                    ),
+                );
             }
-            (_, _, Facing::Viewer { axis }) => from_front(shape, axis.x, &open, drafts),
-            (_, _, Facing::Beside { toward, .. }) => from_side(shape, facing, *toward, &open, drafts),
+            (_, _, Front::Viewer { axis }) => from_front(shape, axis.x, &open, drafts),
+            (_, _, Front::Beside { toward, .. }) => {
+                from_side(shape, facing, *toward, &open, drafts)
+            }
         }
     }
 }
@@ -126,21 +152,38 @@ fn from_front(shape: &Shape<'_>, axis: f64, open: &[&Limb], drafts: &mut [Draft]
         } else {
             ("right", Side::Left)
         };
-        let why = format!("; drawn on the {drawn}, so it is the {} one, since the figure faces us", side.name());
+        let why = format!(
+            "; drawn on the {drawn}, so it is the {} one, since the figure faces us",
+            side.name()
+        );
         give(drafts, limb, side, &why);
     }
 }
 
 /// Neighbours from the hind are pairs, and what was drawn later is on the near side: the left one of a figure that faces the
 /// drawing's left. An odd number without words for fore and hind is one side's legs alone.
-fn from_side(shape: &Shape<'_>, facing: &Facing, toward: f64, open: &[&Limb], drafts: &mut [Draft]) {
-    let near = if toward < 0.0 { Side::Left } else { Side::Right };
+fn from_side(
+    shape: &Shape<'_>,
+    facing: &Front,
+    toward: f64,
+    open: &[&Limb],
+    drafts: &mut [Draft],
+) {
+    let near = if toward < 0.0 {
+        Side::Left
+    } else {
+        Side::Right
+    };
     let way = if toward < 0.0 { "left" } else { "right" };
     let mut roots: Vec<usize> = open.iter().map(|limb| limb.root()).collect();
     sorted_from_hind(shape, facing, drafts, &mut roots);
     let ranks: Vec<u8> = roots.iter().map(|root| rank(&drafts[*root])).collect();
     let ranked = ranks.iter().any(|rank| *rank != 1);
-    let pair = if ranked || roots.len() % 2 == 0 { 2 } else { 1 };
+    let pair = if ranked || roots.len().is_multiple_of(2) {
+        2
+    } else {
+        1
+    };
     let mut far = vec![false; drafts.len()];
     let mut start = 0;
     for group in ranks.chunk_by(|a, b| a == b) {
@@ -158,13 +201,16 @@ fn from_side(shape: &Shape<'_>, facing: &Facing, toward: f64, open: &[&Limb], dr
         } else {
             (near, "last, so on the near side")
         };
-        let why = format!("; the figure faces the drawing's {way} and it was drawn {drawn}: the {} one", side.name());
+        let why = format!(
+            "; the figure faces the drawing's {way} and it was drawn {drawn}: the {} one",
+            side.name()
+        );
         give(drafts, limb, side, &why);
     }
 }
 
 /// Counts the limbs of each class and side from the hind, the pieces of the trunk from the hips, of neck and tail from the trunk.
-pub(super) fn pairs(shape: &Shape<'_>, facing: &Facing, limbs: &[Limb], drafts: &mut [Draft]) {
+pub(super) fn pairs(shape: &Shape<'_>, facing: &Front, limbs: &[Limb], drafts: &mut [Draft]) {
     let mut pieces: Vec<usize> = shape.order.clone();
     let height = |draft: &Draft| match draft.class {
         Some(Class::Body) if draft.says(&[Term::Belly]) => 0,
@@ -172,8 +218,8 @@ pub(super) fn pairs(shape: &Shape<'_>, facing: &Facing, limbs: &[Limb], drafts: 
         _ => 1,
     };
     let middle = |part: usize| match (drafts[part].class, facing) {
-        (Some(Class::Body), Facing::Viewer { .. }) => shape.middle(part).y,
-        (Some(Class::Body), Facing::Beside { toward, .. }) => shape.middle(part).x * toward,
+        (Some(Class::Body), Front::Viewer { .. }) => shape.middle(part).y,
+        (Some(Class::Body), Front::Beside { toward, .. }) => shape.middle(part).x * toward,
         // What hangs on the trunk stands in order behind it.
         _ => 0.0,
     };
@@ -182,27 +228,60 @@ pub(super) fn pairs(shape: &Shape<'_>, facing: &Facing, limbs: &[Limb], drafts: 
         heights.then(middle(*a).total_cmp(&middle(*b)))
     });
     for class in [Class::Body, Class::Neck, Class::Tail] {
-        let of_class = pieces.iter().filter(|part| drafts[**part].class == Some(class));
+        let of_class = pieces
+            .iter()
+            .filter(|part| drafts[**part].class == Some(class));
         let found: Vec<usize> = of_class.copied().collect();
         for (place, part) in found.into_iter().enumerate() {
             drafts[part].pair = place;
         }
     }
     for class in [Class::Arm, Class::Leg] {
-        for side in Side::BOTH {
-            let of_side = |limb: &&Limb| limb.class == class && drafts[limb.root()].side == Some(side);
-            let limbs: Vec<&Limb> = limbs.iter().filter(of_side).collect();
-            let mut roots: Vec<usize> = limbs.iter().map(|limb| limb.root()).collect();
-            sorted_from_hind(shape, facing, drafts, &mut roots);
-            let mut place = vec![0; drafts.len()];
-            for (pair, root) in roots.into_iter().enumerate() {
-                place[root] = pair;
-            }
-            for limb in limbs {
-                for (part, _) in &limb.parts {
-                    drafts[*part].pair = place[limb.root()];
-                }
-            }
+        count_limbs(shape, facing, limbs, class, drafts);
+    }
+}
+
+/// Counts the limbs of a class from the hind. Where a side has fewer, its limbs are of the pairs that they are nearest to.
+fn count_limbs(
+    shape: &Shape<'_>,
+    facing: &Front,
+    limbs: &[Limb],
+    class: Class,
+    drafts: &mut [Draft],
+) {
+    let mut sides = Side::BOTH.map(|side| {
+        let of_side = |limb: &&Limb| limb.class == class && drafts[limb.root()].side == Some(side);
+        let mut roots: Vec<usize> = limbs.iter().filter(of_side).map(Limb::root).collect();
+        sorted_from_hind(shape, facing, drafts, &mut roots);
+        roots
+    });
+    sides.sort_by_key(|roots| std::cmp::Reverse(roots.len()));
+    let [more, fewer] = sides;
+    let mut pair_of = vec![0; drafts.len()];
+    for (pair, root) in more.iter().enumerate() {
+        pair_of[*root] = pair;
+    }
+    let place = |root: usize| facing.place_of(shape, root);
+    let mut by_place: Vec<(f64, usize)> = more
+        .iter()
+        .map(|root| (place(*root), pair_of[*root]))
+        .collect();
+    by_place.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (pair, root) in fewer.iter().enumerate() {
+        let here = place(*root);
+        let next = by_place.partition_point(|(place, _)| *place < here);
+        let around = &by_place[next.saturating_sub(1)..by_place.len().min(next + 1)];
+        let nearest = around
+            .iter()
+            .min_by(|a, b| (a.0 - here).abs().total_cmp(&(b.0 - here).abs()));
+        pair_of[*root] = match nearest {
+            Some((_, nearest)) if fewer.len() < more.len() => *nearest,
+            _ => pair,
+        };
+    }
+    for limb in limbs.iter().filter(|limb| limb.class == class) {
+        for (part, _) in &limb.parts {
+            drafts[*part].pair = pair_of[limb.root()];
         }
     }
 }

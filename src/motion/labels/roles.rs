@@ -153,7 +153,8 @@ pub(super) fn limb(
             let bones = |found: &Found| {
                 usize::from(found.lower.is_some()) + usize::from(found.end.is_some())
             };
-            let better = (bones(&other.1), tree.depths[best.0]) > (bones(&best.1), tree.depths[other.0]);
+            let better =
+                (bones(&other.1), tree.depths[best.0]) > (bones(&best.1), tree.depths[other.0]);
             if better { other } else { best }
         })?;
     Some(start.1)
@@ -167,7 +168,9 @@ fn continues(tree: &Tree, names: &[&str], joint: usize) -> bool {
         words
     };
     tree.parents[joint].is_some_and(|parent| {
-        names[parent] != names[joint] && !names[parent].starts_with("__") && plain(parent) == plain(joint)
+        names[parent] != names[joint]
+            && !names[parent].starts_with("__")
+            && plain(parent) == plain(joint)
     })
 }
 
@@ -181,7 +184,8 @@ fn roles(tree: &Tree, named: &[Option<Named>], class: Class, side: Side) -> Vec<
         let mut below = vec![false; tree.len()];
         for joint in (0..tree.len()).rev() {
             if let Some(parent) = tree.parents[joint] {
-                below[parent] |= below[joint] || word(joint).is_some_and(|word| wanted.contains(&word));
+                below[parent] |=
+                    below[joint] || word(joint).is_some_and(|word| wanted.contains(&word));
             }
         }
         below

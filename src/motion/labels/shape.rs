@@ -34,7 +34,9 @@ impl<'a> Shape<'a> {
                 children[*parent].push(index);
             }
         }
-        let mut order: Vec<usize> = (0..parts.len()).filter(|part| parents[*part].is_none()).collect();
+        let mut order: Vec<usize> = (0..parts.len())
+            .filter(|part| parents[*part].is_none())
+            .collect();
         let mut next = 0;
         while let Some(part) = order.get(next) {
             order.extend(&children[*part]);
@@ -48,8 +50,14 @@ impl<'a> Shape<'a> {
                 lowest[parent] = lowest[parent].min(lowest[*part]);
             }
         }
-        let ground = parts.iter().map(|part| corners(part)[0].y).fold(f64::INFINITY, f64::min);
-        let top = parts.iter().map(|part| corners(part)[1].y).fold(f64::NEG_INFINITY, f64::max);
+        let ground = parts
+            .iter()
+            .map(|part| corners(part)[0].y)
+            .fold(f64::INFINITY, f64::min);
+        let top = parts
+            .iter()
+            .map(|part| corners(part)[1].y)
+            .fold(f64::NEG_INFINITY, f64::max);
         Self {
             parts,
             parents,
@@ -102,7 +110,11 @@ fn finite(point: DVec2) -> DVec2 {
     /// Beyond all drawings; sums and products stay finite.
     const FAR: f64 = 1e100;
     DVec2::from_array(point.to_array().map(|number| {
-        if number.is_nan() { 0.0 } else { number.clamp(-FAR, FAR) }
+        if number.is_nan() {
+            0.0
+        } else {
+            number.clamp(-FAR, FAR)
+        }
     }))
 }
 

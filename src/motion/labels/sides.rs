@@ -7,8 +7,8 @@ use super::roles::Found;
 use super::tree::Tree;
 use crate::motion::skeleton::{Placed, Skeleton};
 
-/// Votes whose sum is less tell nothing.
-const UNDECIDED: f64 = 1e-6;
+/// A front shorter than this share of a leg tells nothing: so much comes from a trunk that is not quite upright.
+const UNDECIDED: f64 = 0.03;
 
 /// What tells front from behind.
 #[derive(Debug)]
@@ -33,11 +33,17 @@ impl Sides<'_> {
             .iter()
             .map(|pose| {
                 let up = self.up(pose);
-                up.cross(self.front(pose, up)).dot(across(pose).normalize_or_zero())
+                let front = self.front(pose, up);
+                let front = if front.length() < UNDECIDED {
+                    DVec3::ZERO
+                } else {
+                    front
+                };
+                up.cross(front).dot(across(pose).normalize_or_zero())
             })
             .filter(|vote| vote.is_finite())
             .sum();
-        if votes.abs() > UNDECIDED {
+        if votes != 0.0 {
             return votes > 0.0;
         }
         let to_the_left = poses.iter().map(|pose| across(pose).x);
@@ -69,15 +75,16 @@ impl Sides<'_> {
         front - up * front.dot(up)
     }
 
-    /// The foot as a vector, in lengths of its leg.
+    /// The foot up to the toes' end as a vector, in lengths of its leg.
     fn foot(&self, leg: &Found, pose: &[Placed]) -> Option<DVec3> {
         let [hip, ankle] = [leg.upper?, leg.end?];
-        let toes = match self.tree.bone_end(ankle)? {
-            Tip::Joint(joint) => pose[joint].position,
-            Tip::End { joint, end } => {
+        let last = self.tree.chain(ankle).last()?;
+        let toes = match self.tree.own_end(last) {
+            Some(Tip::End { joint, end }) => {
                 let placed = pose[joint];
                 placed.rotation * self.skeleton.joints[joint].ends[end] + placed.position
             }
+            _ => pose[last].position,
         };
         let length = pose[ankle].position.distance(pose[hip].position);
         let foot = (toes - pose[ankle].position) / length;

@@ -5,8 +5,9 @@ use glam::DQuat;
 use super::roles::{self, Found, Named};
 use super::sides::Sides;
 use super::topology;
-use super::trunk;
 use super::tree::Tree;
+use super::trunk;
+use super::words::Term;
 use super::{Class, Label, Piece, Side, Tip, names, words};
 use crate::motion::skeleton::{Clip, Joint, Placed, Skeleton};
 
@@ -70,31 +71,33 @@ pub struct Limb {
 
 /// Labels the joints of a skeleton. Where the names do not tell left from right, its offset pose has to.
 pub fn label_skeleton(skeleton: &Skeleton) -> Anatomy {
-    anatomy(skeleton, || vec![offset_pose(&Tree::new(skeleton), skeleton)])
+    anatomy(skeleton, || {
+        vec![offset_pose(&Tree::new(skeleton), skeleton)]
+    })
 }
 
 /// Labels the joints of a clip's skeleton. Where the names do not tell left from right, its offset pose and frames have to, at
-/// most [`FRAMES`] of them evenly chosen.
+/// most 32 of them evenly chosen.
 pub fn label_clip(clip: &Clip) -> Anatomy {
     let skeleton = &*clip.skeleton;
     let tree = Tree::new(skeleton);
     anatomy(skeleton, || {
         let mut poses = vec![offset_pose(&tree, skeleton)];
         let count = clip.frames().min(FRAMES);
-        poses.extend((0..count).map(|index| frame_pose(&tree, clip, index * clip.frames() / count)));
+        poses
+            .extend((0..count).map(|index| frame_pose(&tree, clip, index * clip.frames() / count)));
         poses
     })
 }
 
 /// The joints' names without the prefixes that most of them share.
 pub(crate) fn plain_names(skeleton: &Skeleton) -> Vec<&str> {
-    let names: Vec<&str> = skeleton.joints.iter().map(|joint| joint.name.as_str()).collect();
+    let names: Vec<&str> = skeleton
+        .joints
+        .iter()
+        .map(|joint| joint.name.as_str())
+        .collect();
     names::without_prefixes(&names, |prefix| !words::terms(prefix).is_empty())
-}
-
-/// Where the bone of a joint ends: at the joint or the end that its longest chain leads to.
-pub(crate) fn bone_end(skeleton: &Skeleton, joint: usize) -> Option<Tip> {
-    Tree::new(skeleton).bone_end(joint)
 }
 
 fn offset_pose(tree: &Tree, skeleton: &Skeleton) -> Vec<Placed> {
@@ -143,7 +146,9 @@ fn anatomy(skeleton: &Skeleton, poses: impl FnOnce() -> Vec<Vec<Placed>>) -> Ana
         ..Anatomy::default()
     };
     trunk::fill(&tree, &named, &mut anatomy);
-    anatomy.tail = (0..tree.len()).filter(|joint| named[*joint] == Some(Named::Tail)).collect();
+    anatomy.tail = (0..tree.len())
+        .filter(|joint| named[*joint] == Some(Named::Tail))
+        .collect();
     write_labels(skeleton, &named, &limbs, &mut anatomy);
     anatomy
 }
@@ -162,18 +167,33 @@ fn limbs(
     named: &[Option<Named>],
     poses: impl FnOnce() -> Vec<Vec<Placed>>,
 ) -> Vec<(Limb, Source)> {
-    let names: Vec<&str> = skeleton.joints.iter().map(|joint| joint.name.as_str()).collect();
-    let by_name = |class: Class| Side::BOTH.map(|side| roles::limb(tree, &names, named, class, side));
+    let names: Vec<&str> = skeleton
+        .joints
+        .iter()
+        .map(|joint| joint.name.as_str())
+        .collect();
+    let by_name =
+        |class: Class| Side::BOTH.map(|side| roles::limb(tree, &names, named, class, side));
     let [arms, legs] = [Class::Arm, Class::Leg].map(by_name);
     let has = |pair: &[Option<Found>; 2]| pair.iter().any(Option::is_some);
-    let mut found = vec![(Class::Arm, arms, Source::Name), (Class::Leg, legs, Source::Name)];
+    let mut found = vec![
+        (Class::Arm, arms, Source::Name),
+        (Class::Leg, legs, Source::Name),
+    ];
     if !has(&arms) || !has(&legs) {
         let shape = topology::limbs(tree);
-        let known: Vec<usize> = [arms, legs].into_iter().flatten().flatten().filter_map(|limb| limb.upper).collect();
+        let known: Vec<usize> = [arms, legs]
+            .into_iter()
+            .flatten()
+            .flatten()
+            .filter_map(|limb| limb.upper)
+            .collect();
         // A pair that names have told already is not the other class as well.
         let free = |pair: &[usize; 2]| {
             !pair.iter().any(|start| {
-                known.iter().any(|known| tree.is_below(*known, *start) || tree.is_below(*start, *known))
+                known
+                    .iter()
+                    .any(|known| tree.is_below(*known, *start) || tree.is_below(*start, *known))
             })
         };
         let [arm_pair, leg_pair] = match (has(&arms), has(&legs)) {
@@ -191,7 +211,9 @@ fn limbs(
     let mut limbs = Vec::new();
     for (class, pair, source) in found {
         for (side, found) in Side::BOTH.into_iter().zip(pair) {
-            if let Some(limb) = found.and_then(|found| completed(tree, named, class, side, found)) {
+            if let Some(limb) =
+                found.and_then(|found| completed(skeleton, tree, named, class, side, found))
+            {
                 limbs.push((limb, source));
             }
         }
@@ -232,6 +254,7 @@ fn sides_of_pairs(
 
 /// A limb with all its joints: those that no name tells, by shape.
 fn completed(
+    skeleton: &Skeleton,
     tree: &Tree,
     named: &[Option<Named>],
     class: Class,
@@ -274,11 +297,21 @@ fn completed(
         lower,
         end,
         toe,
-        tip: match toe {
-            Some(toe) => Some(Tip::Joint(toe)),
-            None => tree.bone_end(end.or(lower).unwrap_or(upper)),
-        },
+        tip: toe
+            .or_else(|| middle_finger(skeleton, tree, end?))
+            .map(Tip::Joint)
+            .or_else(|| tree.bone_end(end.or(lower).unwrap_or(upper))),
     })
+}
+
+/// The joint of the middle finger: a hand points to it.
+fn middle_finger(skeleton: &Skeleton, tree: &Tree, hand: usize) -> Option<usize> {
+    let name = |joint: usize| skeleton.joints[joint].name.as_str();
+    tree.children[hand]
+        .iter()
+        .copied()
+        .filter(|joint| tree.bones[*joint] > 0.0 && !name(*joint).starts_with("__"))
+        .find(|joint| words::terms(name(*joint)).contains(&Term::Middle))
 }
 
 fn write_labels(

@@ -44,11 +44,18 @@ pub(super) fn limbs(tree: &Tree) -> Limbs {
     let Some(first) = pairs.first().copied() else {
         return Limbs::default();
     };
-    let second = pairs[1..].iter().copied().find(|pair| apart(tree, &first, pair));
+    let second = pairs[1..]
+        .iter()
+        .copied()
+        .find(|pair| apart(tree, &first, pair));
     match second {
         Some(second) => {
             let [a, b] = [first, second].map(|pair| tree.depths[pair.branch]);
-            let (legs, arms) = if b < a { (second, first) } else { (first, second) };
+            let (legs, arms) = if b < a {
+                (second, first)
+            } else {
+                (first, second)
+            };
             Limbs {
                 arms: Some(arms.starts),
                 legs: Some(legs.starts),
@@ -107,7 +114,11 @@ fn mirrored(tree: &Tree, a: usize, b: usize) -> bool {
     let (Some(a), Some(b)) = (a, b) else {
         return false;
     };
-    let differences = a.iter().zip(&b).take(COMPARED).map(|(a, b)| (a.length - b.length).abs());
+    let differences = a
+        .iter()
+        .zip(&b)
+        .take(COMPARED)
+        .map(|(a, b)| (a.length - b.length).abs());
     a.len().min(COMPARED) == b.len().min(COMPARED) && differences.sum::<f64>() <= allowed
 }
 
@@ -115,8 +126,7 @@ fn mirrored(tree: &Tree, a: usize, b: usize) -> bool {
 fn apart(tree: &Tree, a: &Pair, b: &Pair) -> bool {
     let on = |inner: &Pair, outer: &Pair| {
         outer.starts.iter().any(|start| {
-            tree.is_below(inner.branch, *start)
-                || inner.starts.iter().any(|inner| inner == start)
+            tree.is_below(inner.branch, *start) || inner.starts.iter().any(|inner| inner == start)
         })
     };
     !on(a, b) && !on(b, a)

@@ -50,7 +50,10 @@ impl Tree {
         });
         let ends: Vec<Option<(usize, f64)>> = ends.collect();
         let mut sizes = vec![1; count];
-        let mut reaches: Vec<f64> = ends.iter().map(|end| end.map_or(0.0, |end| end.1)).collect();
+        let mut reaches: Vec<f64> = ends
+            .iter()
+            .map(|end| end.map_or(0.0, |end| end.1))
+            .collect();
         let mut next: Vec<Option<usize>> = vec![None; count];
         for index in (0..count).rev() {
             let Some(parent) = parents[index] else {
@@ -123,11 +126,16 @@ impl Tree {
         })?
     }
 
-    /// Where the bone of a joint ends: at the joint of its longest chain that is not in the same place, or at its end.
+    /// Where the bone of a joint ends: on its longest chain, at the first joint that is not almost in the same place, or at the
+    /// chain's end.
     pub(crate) fn bone_end(&self, joint: usize) -> Option<Tip> {
+        /// A joint nearer than this share of the chain is almost in the same place: the bones within a palm.
+        const NEAR: f64 = 0.1;
         let mut last = joint;
+        let mut away = 0.0;
         while let Some(next) = self.next[last] {
-            if self.bones[next] > self.reaches[joint] * 1e-9 {
+            away += self.bones[next];
+            if away > self.reaches[joint] * NEAR {
                 return Some(Tip::Joint(next));
             }
             last = next;

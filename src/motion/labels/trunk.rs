@@ -1,9 +1,9 @@
 //! Hips, spine, neck and head of a skeleton whose limbs are known.
 
+use super::Class;
 use super::roles::Named;
 use super::skeleton::{Anatomy, Limb};
 use super::tree::Tree;
-use super::Class;
 
 /// Joints of a neck that no name tells; longer chains are hair or a trunk.
 const MAX_NECK: usize = 16;
@@ -117,7 +117,11 @@ fn by_shape(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy, hips: u
             .copied()
             .reduce(|best, child| {
                 let whole = |child: usize| tree.bones[child] + tree.reaches[child];
-                if whole(child) > whole(best) { child } else { best }
+                if whole(child) > whole(best) {
+                    child
+                } else {
+                    best
+                }
             })
     });
     let Some(start) = start else {
@@ -126,7 +130,9 @@ fn by_shape(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy, hips: u
     let mut chain = vec![start];
     let mut last = start;
     while chain.len() < MAX_NECK {
-        let mut next = tree.children[last].iter().filter(|child| usable(named[**child]) && !carries[**child]);
+        let mut next = tree.children[last]
+            .iter()
+            .filter(|child| usable(named[**child]) && !carries[**child]);
         let (Some(next), None) = (next.next(), next.next()) else {
             break;
         };
@@ -142,7 +148,10 @@ fn by_shape(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy, hips: u
         chain.pop();
         anatomy.head = Some(last);
     }
-    if anatomy.spine.is_empty() && anatomy.limbs.iter().all(|limb| limb.class != Class::Arm) && neck_by_name.is_none() {
+    if anatomy.spine.is_empty()
+        && anatomy.limbs.iter().all(|limb| limb.class != Class::Arm)
+        && neck_by_name.is_none()
+    {
         // Without arms nothing tells where the trunk ends.
         anatomy.spine = chain;
     } else {

@@ -55,9 +55,9 @@ pub(crate) enum Term {
 }
 
 use Term::{
-    Arm, Back, Belly, Body, Chest, Collar, Detail, Face, Foot, Fore, Hand, Head, Helper, Hind, Hip, Hips,
-    Left, Leg, LegOrFoot, Lower, LowerArm, Middle, Neck, Right, Shin, Shoulder, Skirt, Tail, Thigh, Toe,
-    Upper, UpperArm, Waist,
+    Arm, Back, Belly, Body, Chest, Collar, Detail, Face, Foot, Fore, Hand, Head, Helper, Hind, Hip,
+    Hips, Left, Leg, LegOrFoot, Lower, LowerArm, Middle, Neck, Right, Shin, Shoulder, Skirt, Tail,
+    Thigh, Toe, Upper, UpperArm, Waist,
 };
 
 /// Words, and what they say.
@@ -124,7 +124,10 @@ const JAPANESE: Table = &[
     (&[Fore], "前 まえ"),
     (&[Middle], "中"),
     (&[Hind], "後 後ろ うしろ"),
-    (&[Body], "体 身体 からだ 胴 胴体 どう どうたい ぼでぃ ぼでぃー 上半身 背骨 上体"),
+    (
+        &[Body],
+        "体 身体 からだ 胴 胴体 どう どうたい ぼでぃ ぼでぃー 上半身 背骨 上体",
+    ),
     (&[Chest], "胸 むね 胸部"),
     (&[Belly], "腹 おなか お腹 はら 腹部"),
     (&[Back], "背中 せなか 背"),
@@ -203,10 +206,7 @@ fn word_terms(word: &str, found: &mut Vec<Term>) {
 
 fn lookup(word: &str) -> Option<&'static [Term]> {
     let singular = || word.strip_suffix('s').filter(|rest| rest.len() > 2);
-    TERMS
-        .get(word)
-        .or_else(|| TERMS.get(singular()?))
-        .copied()
+    TERMS.get(word).or_else(|| TERMS.get(singular()?)).copied()
 }
 
 /// The terms of words written together, the fewest words first; none unless words fill it wholly.
@@ -246,7 +246,8 @@ fn sided(letters: &[char]) -> Option<Vec<Term>> {
         'r' => Some(Right),
         _ => None,
     };
-    let limb = |rest: &[char]| together(rest).filter(|terms| terms.iter().any(|term| is_limb(*term)));
+    let limb =
+        |rest: &[char]| together(rest).filter(|terms| terms.iter().any(|term| is_limb(*term)));
     let ((first, behind), (last, before)) = (letters.split_first()?, letters.split_last()?);
     let side_before = side(*first).zip(limb(behind));
     let (side, mut terms) = side_before.or_else(|| side(*last).zip(limb(before)))?;
@@ -257,7 +258,18 @@ fn sided(letters: &[char]) -> Option<Vec<Term>> {
 fn is_limb(term: Term) -> bool {
     matches!(
         term,
-        Collar | Shoulder | Arm | UpperArm | LowerArm | Hand | Hip | Leg | Thigh | Shin | Foot | Toe
+        Collar
+            | Shoulder
+            | Arm
+            | UpperArm
+            | LowerArm
+            | Hand
+            | Hip
+            | Leg
+            | Thigh
+            | Shin
+            | Foot
+            | Toe
     )
 }
 
@@ -266,10 +278,12 @@ fn scan(letters: &[char], found: &mut Vec<Term>) {
     let mut start = 0;
     while start < letters.len() {
         let longest = (start + 1..=letters.len().min(start + LONGEST)).rev();
-        let hit = longest.filter(|end| letters[start..*end].iter().any(is_kanji)).find_map(|end| {
-            let word: String = letters[start..end].iter().collect();
-            TERMS.get(word.as_str()).map(|terms| (end, *terms))
-        });
+        let hit = longest
+            .filter(|end| letters[start..*end].iter().any(is_kanji))
+            .find_map(|end| {
+                let word: String = letters[start..end].iter().collect();
+                TERMS.get(word.as_str()).map(|terms| (end, *terms))
+            });
         match hit {
             Some((end, terms)) => {
                 found.extend(terms);

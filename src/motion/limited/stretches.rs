@@ -105,7 +105,7 @@ impl Stretches {
     }
 
     /// The stretches that begin with a frame, as end and cost.
-    fn starting(&self, start: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub(super) fn starting(&self, start: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let most = self.longest.min(self.frames - start);
         let costs = &self.costs[start * self.longest..][..most];
         let short = costs.iter().enumerate();

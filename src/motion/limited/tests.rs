@@ -215,3 +215,25 @@ fn where_very_many_choices_are_equally_good_the_bound_says_how_good_they_are() {
     let drawn = drawings(&motion, 1, 50_000, 8);
     assert_eq!([drawn.cost, drawn.bound], [25_000.0; 2]);
 }
+
+#[test]
+fn the_same_stretches_are_found_from_either_end() {
+    let mut numbers = Numbers(8);
+    for _ in 0..100 {
+        let motion = numbers.motion(40, 9);
+        let longest = 1 + numbers.next(5) as usize;
+        let stretches = Stretches::new(Frames::new(&motion, 1), longest);
+        let starting = (0..40).flat_map(|start| {
+            let ends = stretches.starting(start);
+            ends.map(move |(end, cost)| (start, end, cost.to_bits()))
+        });
+        let ending = (1..=40).flat_map(|end| {
+            let starts = stretches.ending(end);
+            starts.map(move |(start, cost)| (start, end, cost.to_bits()))
+        });
+        let [mut starting, mut ending] = [starting.collect::<Vec<_>>(), ending.collect()];
+        starting.sort_unstable();
+        ending.sort_unstable();
+        assert_eq!(starting, ending);
+    }
+}

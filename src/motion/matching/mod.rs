@@ -5,9 +5,7 @@ mod names;
 mod tests;
 
 use super::figure::Figure;
-use super::labels::{
-    Anatomy, Class, Label, Limb, Piece, Side, Tip, label_figure,
-};
+use super::labels::{Anatomy, Class, Facing, Label, Limb, Piece, Side, Tip, label_facing};
 use super::skeleton::Skeleton;
 use names::Names;
 
@@ -20,6 +18,8 @@ pub struct Matching {
     pub drives: Vec<Option<Drive>>,
     /// Per part that no joint drives why that is so; empty for the others.
     pub follows: Vec<String>,
+    /// The way that the figure faces.
+    pub facing: Facing,
     /// What stood in the way.
     pub problems: Vec<Problem>,
 }
@@ -101,11 +101,12 @@ pub enum Problem {
 /// chest, since head and arms hang there; several pieces are spread over the spine, the topmost on the chest; hips follow the
 /// hips. `anatomy` belongs to the skeleton.
 pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> Matching {
-    let labels = label_figure(figure);
+    let (labels, facing) = label_facing(figure);
     let mut problems = Vec::new();
     let names = Names::new(skeleton);
     let mut drives = Vec::with_capacity(labels.len());
     let mut follows = Vec::with_capacity(labels.len());
+    let mut lacking = Vec::new();
     let joining = Joining::new(skeleton, anatomy, &labels);
     for (part, label) in labels.iter().enumerate() {
         let bones = &figure.parts[part].bones;
@@ -113,8 +114,8 @@ pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> 
         let found = match names.bones(part, bones, class, anatomy, &mut problems) {
             Some(drive) => Ok(drive),
             None => match label {
-                Some(label) => joining.drive(part, label, &mut problems),
-                None => Err("neither its name nor its place tells what it is".to_owned()),
+                Some(label) => joining.drive(part, label, &mut lacking),
+                None => Err("no limb, head or trunk by its name or place".to_owned()),
             },
         };
         match found {
@@ -128,6 +129,7 @@ pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> 
             }
         }
     }
+    problems.append(&mut lacking);
     if drives.iter().all(Option::is_none) {
         problems.push(Problem::NothingMatched);
     }
@@ -135,6 +137,7 @@ pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> 
         labels,
         drives,
         follows,
+        facing,
         problems,
     }
 }
@@ -149,7 +152,13 @@ struct Joining<'a> {
 
 impl<'a> Joining<'a> {
     fn new(skeleton: &'a Skeleton, anatomy: &'a Anatomy, labels: &[Option<Label>]) -> Self {
-        let count = |class| labels.iter().flatten().filter(|label| label.class == class).count();
+        let count = |class| {
+            labels
+                .iter()
+                .flatten()
+                .filter(|label| label.class == class)
+                .count()
+        };
         Self {
             skeleton,
             anatomy,
@@ -157,11 +166,16 @@ impl<'a> Joining<'a> {
         }
     }
 
-    fn drive(&self, part: usize, label: &Label, problems: &mut Vec<Problem>) -> Result<Drive, String> {
+    fn drive(
+        &self,
+        part: usize,
+        label: &Label,
+        lacking: &mut Vec<Problem>,
+    ) -> Result<Drive, String> {
         let anatomy = self.anatomy;
         let [body, neck, tail] = self.pieces;
         let joint = match label.class {
-            Class::Arm | Class::Leg => return self.limb(part, label, problems),
+            Class::Arm | Class::Leg => return self.limb(part, label, lacking),
             Class::Head => anatomy.head.or(anatomy.neck.last().copied()),
             Class::Neck => spread(&anatomy.neck, label.pair, neck),
             Class::Tail => spread(&anatomy.tail, label.pair, tail),
@@ -179,14 +193,23 @@ impl<'a> Joining<'a> {
         })
     }
 
-    fn limb(&self, part: usize, label: &Label, problems: &mut Vec<Problem>) -> Result<Drive, String> {
+    fn limb(
+        &self,
+        part: usize,
+        label: &Label,
+        lacking: &mut Vec<Problem>,
+    ) -> Result<Drive, String> {
         let why = &label.why;
         let own = label.side.ok_or_else(|| why.clone())?;
         let crossed = label.class == Class::Leg && label.pair % 2 == 1;
         let side = if crossed { own.other() } else { own };
         let Some(limb) = self.anatomy.limb(label.class, side) else {
-            lacks(problems, label.class, side, part);
-            return Err(format!("{why}; the motion has no {} {}", side.name(), label.class.name()));
+            lacks(lacking, label.class, side, part);
+            return Err(format!(
+                "{why}; the motion has no {} {}",
+                side.name(),
+                label.class.name()
+            ));
         };
         let (joint, tip) = bone(limb, label.piece)
             .ok_or_else(|| format!("{why}; the motion has no {}", label.piece.name(label.class)))?;
@@ -195,8 +218,18 @@ impl<'a> Joining<'a> {
             why += "; an odd pair from the hind takes the other side's leg";
         }
         let (follow, way) = match tip {
-            Some(tip) => (Follow::Direction, format!("; it points from `{}` to {}", self.name(joint), self.tip(tip))),
-            None => (Follow::Change, format!("; it turns with `{}`", self.name(joint))),
+            Some(tip) => (
+                Follow::Direction,
+                format!(
+                    "; it points from `{}` to {}",
+                    self.name(joint),
+                    self.tip(tip)
+                ),
+            ),
+            None => (
+                Follow::Change,
+                format!("; it turns with `{}`", self.name(joint)),
+            ),
         };
         Ok(Drive {
             joint,

@@ -1,7 +1,9 @@
 //! Joints that a part's string names.
 
+use rustc_hash::FxHashMap;
+
 use super::{Drive, Follow, Problem, bone};
-use crate::motion::labels::{Anatomy, Class, Piece, Tip, bone_end, plain_names};
+use crate::motion::labels::{Anatomy, Class, Piece, Tip, Tree, plain_names};
 use crate::motion::skeleton::Skeleton;
 
 /// Names offered in place of an unknown one, at most.
@@ -14,31 +16,41 @@ const MAX_LETTERS: usize = 64;
 /// The joints' names, to look up those that `Bone` gives.
 pub(super) struct Names<'a> {
     skeleton: &'a Skeleton,
+    tree: Tree,
     /// Without the prefixes that most share.
     plain: Vec<&'a str>,
+    /// The joints of a name: as it is written, in lower case, and without prefixes in lower case.
+    joints: [FxHashMap<String, Vec<usize>>; 3],
 }
 
 impl<'a> Names<'a> {
     pub(super) fn new(skeleton: &'a Skeleton) -> Self {
+        let plain = plain_names(skeleton);
+        let mut joints: [FxHashMap<String, Vec<usize>>; 3] = Default::default();
+        for (joint, plain) in plain.iter().enumerate() {
+            let own = &skeleton.joints[joint].name;
+            let ways = [own.clone(), own.to_lowercase(), plain.to_lowercase()];
+            for (joints, name) in joints.iter_mut().zip(ways) {
+                joints.entry(name).or_default().push(joint);
+            }
+        }
         Self {
             skeleton,
-            plain: plain_names(skeleton),
+            tree: Tree::new(skeleton),
+            plain,
+            joints,
         }
     }
 
     /// The joints of a name: compared exactly, else without regard to case, else without prefixes.
-    fn joints(&self, name: &str) -> Vec<usize> {
-        let lower = name.to_lowercase();
-        let own = |joint: usize| self.skeleton.joints[joint].name.as_str();
-        let ways: [&dyn Fn(usize) -> bool; 3] = [
-            &|joint| own(joint) == name,
-            &|joint| own(joint).to_lowercase() == lower,
-            &|joint| self.plain[joint].to_lowercase() == lower,
-        ];
-        ways.iter()
-            .map(|same| (0..self.plain.len()).filter(|joint| same(*joint)).collect())
-            .find(|joints: &Vec<usize>| !joints.is_empty())
-            .unwrap_or_default()
+    fn joints(&self, name: &str) -> &[usize] {
+        let [exact, lower, plain] = &self.joints;
+        let in_lower = name.to_lowercase();
+        exact
+            .get(name)
+            .or_else(|| lower.get(&in_lower))
+            .or_else(|| plain.get(&in_lower))
+            .map_or(&[], Vec::as_slice)
     }
 
     /// The drive that a part's string names; nothing where it names none that can be used.
@@ -60,7 +72,7 @@ impl<'a> Names<'a> {
                 problems.push(Problem::AmbiguousBone {
                     part,
                     name: name.clone(),
-                    joints: found.clone(),
+                    joints: found.to_vec(),
                 });
             }
             match found.first() {
@@ -74,7 +86,7 @@ impl<'a> Names<'a> {
         let joint = *joints.first()?;
         let tip = match joints.get(1) {
             Some(to) if *to != joint => {
-                if !hangs_on(self.skeleton, *to, joint) {
+                if !self.tree.is_below(*to, joint) {
                     problems.push(Problem::NotAChain {
                         part,
                         from: joint,
@@ -87,7 +99,11 @@ impl<'a> Names<'a> {
             _ if class.is_some_and(Class::is_limb) => self.own_bone(joint, anatomy),
             _ => None,
         };
-        let follow = if tip.is_some() { Follow::Direction } else { Follow::Change };
+        let follow = if tip.is_some() {
+            Follow::Direction
+        } else {
+            Follow::Change
+        };
         Some(Drive {
             joint,
             tip,
@@ -99,11 +115,14 @@ impl<'a> Names<'a> {
     /// Where the bone of a joint ends: as its limb has it, else where its longest chain goes on.
     fn own_bone(&self, joint: usize, anatomy: &Anatomy) -> Option<Tip> {
         let pieces = [Piece::Collar, Piece::Upper, Piece::Lower, Piece::End];
-        let of_limbs = anatomy.limbs.iter().flat_map(|limb| pieces.map(|piece| bone(limb, piece)));
+        let of_limbs = anatomy
+            .limbs
+            .iter()
+            .flat_map(|limb| pieces.map(|piece| bone(limb, piece)));
         of_limbs
             .flatten()
             .find(|(from, _)| *from == joint)
-            .map_or_else(|| bone_end(self.skeleton, joint), |(_, tip)| tip)
+            .map_or_else(|| self.tree.bone_end(joint), |(_, tip)| tip)
     }
 
     fn unknown(&self, part: usize, name: &str, before: usize) -> Problem {
@@ -135,9 +154,4 @@ impl<'a> Names<'a> {
             nearest,
         }
     }
-}
-
-fn hangs_on(skeleton: &Skeleton, joint: usize, above: usize) -> bool {
-    let parent = |joint: &usize| skeleton.joints[*joint].parent.filter(|parent| parent < joint);
-    std::iter::successors(Some(joint), parent).any(|joint| joint == above)
 }

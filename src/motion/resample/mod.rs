@@ -26,8 +26,8 @@ const AS_IT_IS: f64 = 0.005;
 /// is 30 frames a second), and rates such as 29.97 are farther off.
 const WHOLE_WITHIN: f64 = 1e-4;
 
-/// The rates that can be asked for, frames a second.
-const RATES: std::ops::RangeInclusive<f64> = 1e-3..=1e5;
+/// The rates that can be asked for, frames a second: those whose frame times a file can hold.
+const RATES: std::ops::RangeInclusive<f64> = 0.1..=1e5;
 
 /// Why a clip cannot be brought to another rate, or cut.
 #[derive(Debug, Clone, PartialEq)]

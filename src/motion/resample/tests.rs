@@ -113,7 +113,7 @@ fn angles_are_continuous() {
     for axes in orders() {
         // Through the pole of all orders, and several turns about each axis.
         for turning in 0..3 {
-            let mut row = vec![10.0, 20.0, 30.0];
+            let mut row = [10.0, 20.0, 30.0];
             let rows: Vec<Vec<f64>> = (0..120)
                 .map(|frame| {
                     row[turning] = -180.0 + f64::from(frame) * 9.0;

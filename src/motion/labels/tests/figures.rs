@@ -10,20 +10,25 @@ type Row<'a> = (&'a str, &'a str, [f64; 2], [f64; 2], f64);
 
 /// A figure of rods that were drawn in this order.
 pub(crate) fn figure(rows: &[Row<'_>]) -> Figure {
-    let parts = rows.iter().enumerate().map(|(drawn, (name, parent, joint, tip, half))| {
-        let (joint, tip) = (DVec2::from_array(*joint), DVec2::from_array(*tip));
-        let across = (tip - joint).perp().normalize_or_zero().abs() * *half;
-        Part {
-            name: (*name).to_owned(),
-            parent: rows.iter().position(|row| row.0 == *parent),
-            joint,
-            tip,
-            bounds: [joint.min(tip) - across, joint.max(tip) + across],
-            drawn,
-            bones: Vec::new(),
-        }
-    });
-    Figure { parts: parts.collect() }
+    let parts = rows
+        .iter()
+        .enumerate()
+        .map(|(drawn, (name, parent, joint, tip, half))| {
+            let (joint, tip) = (DVec2::from_array(*joint), DVec2::from_array(*tip));
+            let across = (tip - joint).perp().normalize_or_zero().abs() * *half;
+            Part {
+                name: (*name).to_owned(),
+                parent: rows.iter().position(|row| row.0 == *parent),
+                joint,
+                tip,
+                bounds: [joint.min(tip) - across, joint.max(tip) + across],
+                drawn,
+                bones: Vec::new(),
+            }
+        });
+    Figure {
+        parts: parts.collect(),
+    }
 }
 
 /// A label in short: `right arm upper 0`.
@@ -53,8 +58,16 @@ fn check(rows: &[Row<'_>], expected: &[&str]) {
     let figure = figure(rows);
     let labels = label_figure(&figure);
     let found: Vec<String> = labels.iter().map(short).collect();
-    let named: Vec<String> = rows.iter().zip(&found).map(|(row, label)| format!("{}: {label}", row.0)).collect();
-    let wanted: Vec<String> = rows.iter().zip(expected).map(|(row, label)| format!("{}: {label}", row.0)).collect();
+    let named: Vec<String> = rows
+        .iter()
+        .zip(&found)
+        .map(|(row, label)| format!("{}: {label}", row.0))
+        .collect();
+    let wanted: Vec<String> = rows
+        .iter()
+        .zip(expected)
+        .map(|(row, label)| format!("{}: {label}", row.0))
+        .collect();
     assert_eq!(named, wanted);
     for label in labels.iter().flatten() {
         assert!(label.why.contains('`'), "no reason: {}", label.why);
@@ -76,7 +89,15 @@ const HUMAN: [Row<'static>; 7] = [
 fn human_of_the_thesis() {
     check(
         &HUMAN,
-        &["hips", "right leg", "left leg", "body", "head", "right arm", "left arm"],
+        &[
+            "hips",
+            "right leg",
+            "left leg",
+            "body",
+            "head",
+            "right arm",
+            "left arm",
+        ],
     );
 }
 
@@ -95,7 +116,15 @@ fn human_without_any_name_that_says_something() {
         .collect();
     check(
         &rows,
-        &["hips", "right leg", "left leg", "body", "head", "right arm", "left arm"],
+        &[
+            "hips",
+            "right leg",
+            "left leg",
+            "body",
+            "head",
+            "right arm",
+            "left arm",
+        ],
     );
 }
 
@@ -113,7 +142,14 @@ fn stick_figure_by_shape() {
             ("U-8", "U-7", [8.0, 25.0], [12.0, 0.0], 1.0),
         ],
         &[
-            "body", "head", "right arm", "left arm", "right leg upper", "right leg lower", "left leg upper", "left leg lower",
+            "body",
+            "head",
+            "right arm",
+            "left arm",
+            "right leg upper",
+            "right leg lower",
+            "left leg upper",
+            "left leg lower",
         ],
     );
 }
@@ -139,8 +175,21 @@ fn human_in_pieces_with_clothes() {
             ("LForearm", "LArm", [66.0, 66.0], [70.0, 50.0], 3.0),
         ],
         &[
-            "right leg upper", "right leg lower", "right leg end", "left leg upper", "left leg lower", "left leg end", "body", "-",
-            "neck", "head", "-", "right arm", "right arm end", "left arm upper", "left arm lower",
+            "right leg upper",
+            "right leg lower",
+            "right leg end",
+            "left leg upper",
+            "left leg lower",
+            "left leg end",
+            "body",
+            "-",
+            "neck",
+            "head",
+            "-",
+            "right arm",
+            "right arm end",
+            "left arm upper",
+            "left arm lower",
         ],
     );
 }
@@ -158,7 +207,16 @@ fn japanese() {
             ("右脚", "胴体", [44.0, 45.0], [42.0, 0.0], 4.0),
             ("左足", "胴体", [56.0, 45.0], [58.0, 0.0], 4.0),
         ],
-        &["body", "head", "-", "right arm", "right arm end", "left arm", "right leg", "left leg"],
+        &[
+            "body",
+            "head",
+            "-",
+            "right arm",
+            "right arm end",
+            "left arm",
+            "right leg",
+            "left leg",
+        ],
     );
 }
 
@@ -178,7 +236,16 @@ pub(crate) const ANT: [Row<'static>; 8] = [
 fn ant_with_four_arms() {
     check(
         &ANT,
-        &["body", "head", "right arm 1", "left arm 1", "right arm", "left arm", "right leg", "left leg"],
+        &[
+            "body",
+            "head",
+            "right arm 1",
+            "left arm 1",
+            "right arm",
+            "left arm",
+            "right leg",
+            "left leg",
+        ],
     );
 }
 
@@ -201,15 +268,40 @@ fn dog_in_profile() {
     check(
         &DOG,
         &[
-            "right leg 1", "right leg", "tail", "body", "head", "-", "left leg 1", "left leg end 1", "left leg upper", "left leg lower",
+            "right leg 1",
+            "right leg",
+            "tail",
+            "body",
+            "head",
+            "-",
+            "left leg 1",
+            "left leg end 1",
+            "left leg upper",
+            "left leg lower",
         ],
     );
     // Turned around, the same legs are near, but right ones.
-    let turned = DOG.map(|row| (row.0, row.1, [-row.2[0], row.2[1]], [-row.3[0], row.3[1]], row.4));
+    let turned = DOG.map(|row| {
+        (
+            row.0,
+            row.1,
+            [-row.2[0], row.2[1]],
+            [-row.3[0], row.3[1]],
+            row.4,
+        )
+    });
     check(
         &turned,
         &[
-            "left leg 1", "left leg", "tail", "body", "head", "-", "right leg 1", "right leg end 1", "right leg upper",
+            "left leg 1",
+            "left leg",
+            "tail",
+            "body",
+            "head",
+            "-",
+            "right leg 1",
+            "right leg end 1",
+            "right leg upper",
             "right leg lower",
         ],
     );
@@ -246,7 +338,16 @@ fn bug_with_six_legs() {
             leg("leg f", 62.0),
         ],
         &[
-            "right leg 2", "right leg 1", "right leg", "body", "body 1", "head", "-", "left leg 2", "left leg 1", "left leg",
+            "right leg 2",
+            "right leg 1",
+            "right leg",
+            "body",
+            "body 1",
+            "head",
+            "-",
+            "left leg 2",
+            "left leg 1",
+            "left leg",
         ],
     );
 }
@@ -283,7 +384,19 @@ fn names_of_sides() {
 
 #[test]
 fn words_inside_of_words_say_nothing() {
-    for name in ["alarm", "Swarm", "charm", "legend", "slegs", "chip", "headline", "Tailor", "Rally", "もうてん", "armchairs"] {
+    for name in [
+        "alarm",
+        "Swarm",
+        "charm",
+        "legend",
+        "slegs",
+        "chip",
+        "headline",
+        "Tailor",
+        "Rally",
+        "もうてん",
+        "armchairs",
+    ] {
         let label = &label_figure(&figure(&[
             ("Body", "", [50.0, 0.0], [50.0, 100.0], 10.0),
             ("Head", "Body", [50.0, 100.0], [50.0, 120.0], 10.0),
@@ -304,6 +417,27 @@ fn a_shoulder_that_carries_an_arm_is_the_collar_bone() {
             ("RHand", "RForearm", [28.0, 50.0], [27.0, 45.0], 3.0),
             ("RThumb", "RHand", [28.0, 50.0], [30.0, 45.0], 1.0),
         ],
-        &["body", "right arm collar", "right arm upper", "right arm lower", "right arm end", "-"],
+        &[
+            "body",
+            "right arm collar",
+            "right arm upper",
+            "right arm lower",
+            "right arm end",
+            "-",
+        ],
+    );
+}
+
+#[test]
+fn a_dog_with_one_hind_leg_hidden() {
+    check(
+        &[
+            ("Rleg", "Body", [84.0, 40.0], [84.0, 0.0], 4.0),
+            ("a", "Body", [32.0, 40.0], [32.0, 0.0], 4.0),
+            ("Body", "", [60.0, 50.0], [30.0, 50.0], 15.0),
+            ("Head", "Body", [25.0, 60.0], [5.0, 65.0], 10.0),
+            ("b", "Body", [36.0, 40.0], [36.0, 0.0], 4.0),
+        ],
+        &["right leg", "right leg 1", "body", "head", "left leg 1"],
     );
 }

@@ -6,35 +6,58 @@ use glam::DVec3;
 
 use super::limbs;
 use crate::motion::bvh;
-use crate::motion::labels::{Anatomy, Class, Side, label_clip, label_skeleton};
+use crate::motion::labels::{Anatomy, Class, Side, Tip, label_clip, label_skeleton};
 use crate::motion::skeleton::{Axis, Channel, Clip, Skeleton};
 
 const FILES: [(&str, &[u8], [&str; 4]); 4] = [
     (
         "boxing",
         include_bytes!("../../../../examples/motion/boxing.bvh"),
-        ["LeftShoulder LeftElbow LeftWrist", "LeftHip LeftKnee LeftAnkle", "Chest", "Head"],
+        [
+            "LeftShoulder LeftElbow LeftWrist",
+            "LeftHip LeftKnee LeftAnkle",
+            "Chest",
+            "Head",
+        ],
     ),
     (
         "zombie-walk",
         include_bytes!("../../../../examples/motion/zombie-walk.bvh"),
-        ["UpArm_L LoArm_L Hand_L", "UpLeg_L LoLeg_L Foot_L", "Spine3", "Head"],
+        [
+            "UpArm_L LoArm_L Hand_L",
+            "UpLeg_L LoLeg_L Foot_L",
+            "Spine3",
+            "Head",
+        ],
     ),
     (
         "mocapbank",
         include_bytes!("../../../../tests/motion/data/mocapbank.bvh"),
-        ["LeftShoulder LeftElbow LeftWrist", "LeftHip LeftKnee LeftAnkle", "Chest2", "Head"],
+        [
+            "LeftShoulder LeftElbow LeftWrist",
+            "LeftHip LeftKnee LeftAnkle",
+            "Chest2",
+            "Head",
+        ],
     ),
     (
         "mixed_orders",
         include_bytes!("../../../../tests/motion/data/mixed_orders.bvh"),
-        ["LeftArm LeftForeArm LeftHand", "LeftUpLeg LeftLeg LeftFoot", "Spine3", "Head"],
+        [
+            "LeftArm LeftForeArm LeftHand",
+            "LeftUpLeg LeftLeg LeftFoot",
+            "Spine3",
+            "Head",
+        ],
     ),
 ];
 
 fn clips() -> Vec<(&'static str, Clip)> {
     let read = |bytes| bvh::read_bytes(bytes).unwrap().clip;
-    FILES.iter().map(|(name, bytes, _)| (*name, read(bytes))).collect()
+    FILES
+        .iter()
+        .map(|(name, bytes, _)| (*name, read(bytes)))
+        .collect()
 }
 
 /// Upper, lower and end joint per limb, hips, chest and head.
@@ -63,12 +86,26 @@ fn by_words() {
         let skeleton = &*clip.skeleton;
         let right = |left: &str| left.replace("Left", "Right").replace("_L", "_R");
         let expected = [arm.to_owned(), right(arm), leg.to_owned(), right(leg)];
-        let found: Vec<String> = limbs(skeleton, &anatomy).iter().map(|limb| limb.join(" ")).collect();
+        let found: Vec<String> = limbs(skeleton, &anatomy)
+            .iter()
+            .map(|limb| limb.join(" "))
+            .collect();
         assert_eq!(found, expected, "{name}");
-        assert_eq!(skeleton.joints[anatomy.hips.unwrap()].name, "Hips", "{name}");
-        assert_eq!(skeleton.joints[anatomy.chest().unwrap()].name, chest, "{name}");
+        assert_eq!(
+            skeleton.joints[anatomy.hips.unwrap()].name,
+            "Hips",
+            "{name}"
+        );
+        assert_eq!(
+            skeleton.joints[anatomy.chest().unwrap()].name,
+            chest,
+            "{name}"
+        );
         assert_eq!(skeleton.joints[anatomy.head.unwrap()].name, head, "{name}");
-        assert!(anatomy.limbs.iter().all(|limb| limb.tip.is_some()), "{name}");
+        assert!(
+            anatomy.limbs.iter().all(|limb| limb.tip.is_some()),
+            "{name}"
+        );
     }
 }
 
@@ -90,7 +127,11 @@ fn by_shape_alone() {
         let expected = bones(&label_clip(&clip));
         let blank = blank(&clip);
         assert_eq!(bones(&label_clip(&blank)), expected, "{name}");
-        assert_eq!(bones(&label_skeleton(&blank.skeleton)), expected, "{name}, without frames");
+        assert_eq!(
+            bones(&label_skeleton(&blank.skeleton)),
+            expected,
+            "{name}, without frames"
+        );
     }
 }
 
@@ -98,7 +139,9 @@ fn by_shape_alone() {
 fn shuffled(clip: &Clip, mut seed: u64) -> (Clip, Vec<usize>) {
     let children = clip.skeleton.children();
     let mut next = move || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         (seed >> 33) as usize
     };
     let mut order = Vec::new();
@@ -119,7 +162,9 @@ fn shuffled(clip: &Clip, mut seed: u64) -> (Clip, Vec<usize>) {
         joint.parent = joint.parent.map(|parent| places[parent]);
         joint
     });
-    let skeleton = Skeleton { joints: joints.collect() };
+    let skeleton = Skeleton {
+        joints: joints.collect(),
+    };
     let mut starts = vec![0];
     for joint in &clip.skeleton.joints {
         starts.push(starts[starts.len() - 1] + joint.channels.len());
@@ -127,10 +172,16 @@ fn shuffled(clip: &Clip, mut seed: u64) -> (Clip, Vec<usize>) {
     let values = (0..clip.frames())
         .flat_map(|frame| {
             let row = clip.row(frame);
-            order.iter().flat_map(|joint| row[starts[*joint]..starts[*joint + 1]].to_vec()).collect::<Vec<f64>>()
+            order
+                .iter()
+                .flat_map(|joint| row[starts[*joint]..starts[*joint + 1]].to_vec())
+                .collect::<Vec<f64>>()
         })
         .collect();
-    (Clip::new(Arc::new(skeleton), clip.frame_time, values), places)
+    (
+        Clip::new(Arc::new(skeleton), clip.frame_time, values),
+        places,
+    )
 }
 
 #[test]
@@ -141,7 +192,10 @@ fn by_shape_whatever_the_order_of_siblings() {
         for seed in 0..20 {
             let (other, places) = shuffled(&blank, seed);
             let to = |joint: Option<usize>| joint.map(|joint| places[joint]);
-            let expected = (limbs.iter().map(|limb| limb.map(to)).collect(), trunk.map(to));
+            let expected = (
+                limbs.iter().map(|limb| limb.map(to)).collect(),
+                trunk.map(to),
+            );
             assert_eq!(bones(&label_clip(&other)), expected, "{name}, order {seed}");
         }
     }
@@ -165,7 +219,10 @@ fn mirrored(clip: &Clip) -> Clip {
         })
         .collect();
     let values = clip.values().chunks(signs.len()).flat_map(|row| {
-        row.iter().zip(&signs).map(|(number, sign)| number * sign).collect::<Vec<f64>>()
+        row.iter()
+            .zip(&signs)
+            .map(|(number, sign)| number * sign)
+            .collect::<Vec<f64>>()
     });
     Clip::new(Arc::new(skeleton), clip.frame_time, values.collect())
 }
@@ -177,5 +234,23 @@ fn a_mirrored_figure_has_its_sides_changed() {
         let expected = (vec![limbs[1], limbs[0], limbs[3], limbs[2]], trunk);
         let mirrored = mirrored(&blank(&clip));
         assert_eq!(bones(&label_clip(&mirrored)), expected, "{name}");
+    }
+}
+
+#[test]
+fn a_hand_points_to_its_middle_finger() {
+    for (name, clip) in clips() {
+        let anatomy = label_clip(&clip);
+        let hand = anatomy.limb(Class::Arm, Side::Right).unwrap();
+        let tip = match hand.tip.unwrap() {
+            Tip::Joint(joint) => clip.skeleton.joints[joint].name.clone(),
+            Tip::End { joint, .. } => format!("end of {}", clip.skeleton.joints[joint].name),
+        };
+        let expected = match name {
+            "zombie-walk" => "Middle1_R",
+            "mixed_orders" => "RightHandMiddle1",
+            _ => "end of RightWrist",
+        };
+        assert_eq!(tip, expected, "{name}");
     }
 }

@@ -3,6 +3,7 @@
 mod conventions;
 pub(crate) mod figures;
 mod files;
+mod programs;
 mod wild;
 
 use glam::DVec3;

@@ -12,8 +12,28 @@ use crate::motion::skeleton::{Joint, Skeleton};
 
 fn name() -> impl Strategy<Value = String> {
     let words = prop::sample::select(vec![
-        "", "Hips", "LeftArm", "LeftArm1", "rShldr", "L", "__UpLeg_L", "UpLeg_L", "Spine", "Neck", "Head", "Tail", "左足", "LeftFoot",
-        "RightLeg", "a:b:", ":", "_", "x_Left", "ﾋｼﾞ", "Skirt", "hat",
+        "",
+        "Hips",
+        "LeftArm",
+        "LeftArm1",
+        "rShldr",
+        "L",
+        "__UpLeg_L",
+        "UpLeg_L",
+        "Spine",
+        "Neck",
+        "Head",
+        "Tail",
+        "左足",
+        "LeftFoot",
+        "RightLeg",
+        "a:b:",
+        ":",
+        "_",
+        "x_Left",
+        "ﾋｼﾞ",
+        "Skirt",
+        "hat",
     ]);
     prop_oneof![words.prop_map(str::to_owned), "\\PC{0,12}"]
 }
@@ -23,40 +43,81 @@ fn number() -> impl Strategy<Value = f64> {
 }
 
 fn skeleton() -> impl Strategy<Value = Skeleton> {
-    let joint = (name(), any::<prop::sample::Index>(), any::<bool>(), [number(), number(), number()], 0..3_usize);
+    let joint = (
+        name(),
+        any::<prop::sample::Index>(),
+        any::<bool>(),
+        [number(), number(), number()],
+        0..3_usize,
+    );
     prop::collection::vec(joint, 0..60).prop_map(|joints| {
-        let joints = joints.into_iter().enumerate().map(|(index, (name, parent, root, offset, ends))| Joint {
-            name,
-            parent: (index > 0 && !root).then(|| parent.index(index)),
-            offset: DVec3::from_array(offset),
-            ends: vec![DVec3::from_array(offset); ends],
-            ..Joint::default()
-        });
-        Skeleton { joints: joints.collect() }
+        let joints =
+            joints
+                .into_iter()
+                .enumerate()
+                .map(|(index, (name, parent, root, offset, ends))| Joint {
+                    name,
+                    parent: (index > 0 && !root).then(|| parent.index(index)),
+                    offset: DVec3::from_array(offset),
+                    ends: vec![DVec3::from_array(offset); ends],
+                    ..Joint::default()
+                });
+        Skeleton {
+            joints: joints.collect(),
+        }
     })
 }
 
 fn figure() -> impl Strategy<Value = Figure> {
     let point = || [number(), number()].prop_map(DVec2::from_array);
-    let part = (name(), prop::option::of(0..40_usize), point(), point(), [point(), point()], prop::collection::vec(name(), 0..4));
+    let part = (
+        name(),
+        prop::option::of(0..40_usize),
+        point(),
+        point(),
+        [point(), point()],
+        prop::collection::vec(name(), 0..4),
+    );
     prop::collection::vec(part, 0..30).prop_map(|parts| {
-        let parts = parts.into_iter().enumerate().map(|(drawn, (name, parent, joint, tip, bounds, bones))| Part {
-            name,
-            parent,
-            joint,
-            tip,
-            bounds,
-            drawn: drawn / 2,
-            bones,
-        });
-        Figure { parts: parts.collect() }
+        let parts = parts.into_iter().enumerate().map(
+            |(drawn, (name, parent, joint, tip, bounds, bones))| Part {
+                name,
+                parent,
+                joint,
+                tip,
+                bounds,
+                drawn: drawn / 2,
+                bones,
+            },
+        );
+        Figure {
+            parts: parts.collect(),
+        }
     })
 }
 
 fn joints_are_there(anatomy: &Anatomy, joints: usize) {
-    let limbs = anatomy.limbs.iter().flat_map(|limb| [limb.collar, Some(limb.upper), limb.lower, limb.end, limb.toe]);
-    let trunk = [anatomy.hips, anatomy.head].into_iter().chain(limbs).flatten();
-    let all = trunk.chain(anatomy.spine.iter().chain(&anatomy.neck).chain(&anatomy.tail).copied());
+    let limbs = anatomy.limbs.iter().flat_map(|limb| {
+        [
+            limb.collar,
+            Some(limb.upper),
+            limb.lower,
+            limb.end,
+            limb.toe,
+        ]
+    });
+    let trunk = [anatomy.hips, anatomy.head]
+        .into_iter()
+        .chain(limbs)
+        .flatten();
+    let all = trunk.chain(
+        anatomy
+            .spine
+            .iter()
+            .chain(&anatomy.neck)
+            .chain(&anatomy.tail)
+            .copied(),
+    );
     assert!(all.into_iter().all(|joint| joint < joints));
 }
 
@@ -84,13 +145,19 @@ fn many(count: usize, name: impl Fn(usize) -> String, parent: impl Fn(usize) -> 
         offset: DVec3::ONE,
         ..Joint::default()
     });
-    Skeleton { joints: joints.collect() }
+    Skeleton {
+        joints: joints.collect(),
+    }
 }
 
 #[test]
 fn many_joints_in_any_shape() {
     const JOINTS: usize = 20_000;
-    let names: [fn(usize) -> String; 3] = [|_| String::new(), |_| "LeftArm".to_owned(), |index| format!("x_{index}")];
+    let names: [fn(usize) -> String; 3] = [
+        |_| String::new(),
+        |_| "LeftArm".to_owned(),
+        |index| format!("x_{index}"),
+    ];
     let parents: [fn(usize) -> usize; 5] = [
         |index| index - 1,
         |_| 0,
@@ -107,7 +174,11 @@ fn many_joints_in_any_shape() {
         }
     }
     // Far above what it takes, far below what work in the square of the joints would.
-    assert!(start.elapsed() < Duration::from_secs(60), "{:?}", start.elapsed());
+    assert!(
+        start.elapsed() < Duration::from_secs(60),
+        "{:?}",
+        start.elapsed()
+    );
 }
 
 #[test]
@@ -119,7 +190,14 @@ fn circles_and_parents_out_of_range() {
         ..Part::default()
     };
     let figure = Figure {
-        parts: vec![part("a", 1), part("Rarm", 2), part("b", 0), part("c", 3), part("d", 99), part("e", 0)],
+        parts: vec![
+            part("a", 1),
+            part("Rarm", 2),
+            part("b", 0),
+            part("c", 3),
+            part("d", 99),
+            part("e", 0),
+        ],
     };
     assert_eq!(label_figure(&figure).len(), 6);
     // What hangs on nothing and carries something is a trunk.

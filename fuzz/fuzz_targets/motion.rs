@@ -1,0 +1,52 @@
+//! Every file of motion is read or refused in one of its lines, and what was read can be resampled, written and read again.
+#![no_main]
+
+use libfuzzer_sys::fuzz_target;
+use okoshi::motion::bvh::{Decimals, LARGEST, Reading, read_bytes, write};
+use okoshi::motion::lead::lead;
+use okoshi::motion::resample::resample;
+use okoshi::motion::skeleton::Clip;
+
+/// Numbers of a clip that are worked on further: enough to meet every case, and done in time.
+const WORKED_ON: usize = 1 << 14;
+
+fuzz_target!(|text: &[u8]| {
+    let lines = 1 + text
+        .iter()
+        .filter(|byte| matches!(byte, b'\n' | b'\r'))
+        .count();
+    match read_bytes(text) {
+        Ok(Reading { clip, notes }) => {
+            assert!(
+                notes.iter().all(|note| (1..=lines).contains(&note.line)),
+                "{notes:?}"
+            );
+            sound(&clip);
+        }
+        Err(error) => {
+            assert!(
+                (1..=lines).contains(&error.line) && error.column > 0,
+                "{error}"
+            );
+            if let Some(clip) = error.partial {
+                sound(&clip);
+            }
+        }
+    }
+});
+
+fn sound(clip: &Clip) {
+    assert!(clip.values().iter().all(|value| value.abs() <= LARGEST));
+    let mut written = Vec::new();
+    write(clip, Decimals::All, &mut written).expect("all numbers are finite");
+    let again = read_bytes(&written).expect("what was written is BVH").clip;
+    assert_eq!(&again, clip);
+    let arms = [[0, 1], [1, 2]];
+    assert!(lead(clip, &arms).frames <= clip.frames());
+    if clip.values().len() < WORKED_ON && clip.frames() as f64 * clip.frame_time < 60.0 {
+        for fps in [5.0, 24.0, 100.0] {
+            let clip = resample(clip.clone(), fps).expect("so few frames can be resampled");
+            assert!(clip.values().iter().all(|value| value.is_finite()));
+        }
+    }
+}

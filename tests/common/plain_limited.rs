@@ -1,0 +1,138 @@
+//! Limited animation as it is defined, written plainly: all speeds are computed anew in each step. What the fast code is
+//! measured by.
+
+use glam::DVec3;
+
+/// For how many frames a pose may stand that is shown by copying.
+const LONGEST: usize = 3;
+
+/// What the plain algorithm made of a motion; numbers are source frames.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub(crate) struct Plain {
+    /// What is shown when.
+    pub(crate) shown: Vec<u32>,
+    pub(crate) omitted: Vec<u32>,
+    pub(crate) duplicated: Vec<u32>,
+    /// What was covered, and by what.
+    pub(crate) held: Vec<(u32, u32)>,
+}
+
+/// A motion that is cut.
+struct Motion<'a> {
+    positions: &'a [DVec3],
+    joints: usize,
+    shown: Vec<u32>,
+}
+
+/// Omits and holds; `positions` are frames × joints.
+pub(crate) fn plain(
+    positions: &[DVec3],
+    joints: usize,
+    [omit, hold]: [usize; 2],
+    kept: bool,
+) -> Plain {
+    let frames = positions.len().checked_div(joints).unwrap_or(0);
+    let mut motion = Motion {
+        positions,
+        joints,
+        shown: (0..frames as u32).collect(),
+    };
+    // Equal neighbours are one pose: its first frame stands for all.
+    for (frame, speed) in motion.speeds().iter().enumerate() {
+        if frame > 0 && *speed == 0.0 {
+            motion.shown[frame] = motion.shown[frame - 1];
+        }
+    }
+    let mut done = Plain::default();
+    for _ in 0..omit {
+        if !motion.omit(&mut done, kept) {
+            break;
+        }
+    }
+    for _ in 0..hold {
+        if !motion.hold(&mut done) {
+            break;
+        }
+    }
+    done.shown = motion.shown;
+    done
+}
+
+impl Motion<'_> {
+    fn pose(&self, source: u32) -> &[DVec3] {
+        &self.positions[source as usize * self.joints..][..self.joints]
+    }
+
+    /// The speed of each shown frame: equation 5.1. Infinite where it is no number.
+    fn speeds(&self) -> Vec<f64> {
+        let mut speeds = vec![0.0; self.shown.len().min(1)];
+        for pair in self.shown.windows(2) {
+            let mut sum = 0.0;
+            for (before, here) in self.pose(pair[0]).iter().zip(self.pose(pair[1])) {
+                let step = *here - *before;
+                sum += step.x * step.x + step.y * step.y + step.z * step.z;
+            }
+            speeds.push(if sum.is_nan() { f64::INFINITY } else { sum });
+        }
+        speeds
+    }
+
+    /// For how many frames the pose stands that frame `k` shows.
+    fn stands(&self, k: usize) -> usize {
+        let same = |other: &&u32| **other == self.shown[k];
+        let before = self.shown[..k].iter().rev().take_while(same).count();
+        before + self.shown[k..].iter().take_while(same).count()
+    }
+
+    fn begins(&self, k: usize) -> bool {
+        self.shown[k] != self.shown[k - 1]
+    }
+
+    /// The slowest of the frames that begin a pose after one that may stand longer, and for which `fit` holds.
+    fn slowest(&self, fit: impl Fn(usize) -> bool) -> Option<usize> {
+        let speeds = self.speeds();
+        let mut slowest = None;
+        for k in 1..self.shown.len() {
+            let may = self.begins(k) && self.stands(k - 1) < LONGEST && fit(k);
+            if may && slowest.is_none_or(|slowest: usize| speeds[k] < speeds[slowest]) {
+                slowest = Some(k);
+            }
+        }
+        slowest
+    }
+
+    fn omit(&mut self, done: &mut Plain, kept: bool) -> bool {
+        let speeds = self.speeds();
+        let mut fastest = None;
+        for k in 1..self.shown.len() {
+            let faster = fastest.is_none_or(|fastest: usize| speeds[k] > speeds[fastest]);
+            if self.stands(k) == 1 && faster {
+                fastest = Some(k);
+            }
+        }
+        let Some(fastest) = fastest else { return false };
+        let whole = self.shown.clone();
+        let omitted = self.shown.remove(fastest);
+        if kept {
+            let Some(slowest) = self.slowest(|_| true) else {
+                self.shown = whole;
+                return false;
+            };
+            let duplicated = self.shown[slowest - 1];
+            self.shown.insert(slowest, duplicated);
+            done.duplicated.push(duplicated);
+        }
+        done.omitted.push(omitted);
+        true
+    }
+
+    fn hold(&mut self, done: &mut Plain) -> bool {
+        let Some(slowest) = self.slowest(|k| self.stands(k) == 1) else {
+            return false;
+        };
+        done.held
+            .push((self.shown[slowest], self.shown[slowest - 1]));
+        self.shown[slowest] = self.shown[slowest - 1];
+        true
+    }
+}

@@ -1,0 +1,390 @@
+//! Limited animation: the fast code against the plain one, and what the thesis says of either.
+
+#[path = "../common/plain_limited.rs"]
+mod plain_limited;
+
+use glam::{DVec3, dvec3};
+use okoshi::motion::limited::{
+    Camera, Cut, Drawing, Exposure, Length, MOST_GATHERED, Method, Options, compare, error, every,
+    limit, speeds, ssd,
+};
+use plain_limited::{Plain, plain};
+
+/// Numbers that look random and are the same everywhere.
+struct Numbers(u64);
+
+impl Numbers {
+    fn below(&mut self, below: u64) -> u64 {
+        let step = self.0.wrapping_mul(0x5851_f42d_4c95_7f2d);
+        self.0 = step.wrapping_add(0x1405_7b7e_f767_814f);
+        (self.0 >> 33) % below
+    }
+
+    fn place(&mut self, places: u64) -> DVec3 {
+        let [x, y, z] = [(); 3].map(|()| self.below(places) as f64);
+        dvec3(x, y, z)
+    }
+}
+
+/// Motions of all kinds: a few poses over and over, still stretches, even walks, smooth ones and wild ones.
+fn motion(numbers: &mut Numbers, kind: u64, frames: usize, joints: usize) -> Vec<DVec3> {
+    let poses: Vec<Vec<DVec3>> = (0..3)
+        .map(|_| (0..joints).map(|_| numbers.place(3)).collect())
+        .collect();
+    let mut out = Vec::with_capacity(frames * joints);
+    let mut still = 0;
+    for frame in 0..frames {
+        if frame > 0 && still > 0 {
+            still -= 1;
+            out.extend_from_within((frame - 1) * joints..);
+            continue;
+        }
+        still = if numbers.below(8) == 0 {
+            numbers.below(6)
+        } else {
+            0
+        };
+        match kind {
+            0 => out.extend(&poses[numbers.below(3) as usize]),
+            1 => out.extend((0..joints).map(|_| numbers.place(3))),
+            2 => out.extend((0..joints).map(|joint| DVec3::splat((frame + joint) as f64))),
+            3 => {
+                let time = frame as f64 * 0.3;
+                let sway =
+                    |joint: usize| dvec3((time + joint as f64).sin(), time.cos(), 0.1 * time);
+                out.extend((0..joints).map(sway));
+            }
+            _ => out.extend((0..joints).map(|_| numbers.place(1 << 30))),
+        }
+    }
+    out
+}
+
+fn cut(positions: &[DVec3], joints: usize, [omit, hold]: [usize; 2], kept: bool) -> Cut {
+    let length = if kept {
+        Length::Kept
+    } else {
+        Length::Shortened
+    };
+    limit(positions, joints, &Options { omit, hold, length })
+}
+
+/// Compares frame for frame with the plain algorithm, and with what the definition promises.
+fn check(positions: &[DVec3], joints: usize, steps: [usize; 2], kept: bool) -> Cut {
+    let frames = positions.len() / joints.max(1);
+    let cut = cut(positions, joints, steps, kept);
+    let held = cut.held.iter().map(|held| (held.covered, held.by));
+    let fast = Plain {
+        shown: cut.exposure.sources().to_vec(),
+        omitted: cut.omitted.clone(),
+        duplicated: cut.duplicated.clone(),
+        held: held.collect(),
+    };
+    assert_eq!(
+        fast,
+        plain(positions, joints, steps, kept),
+        "{positions:?} {steps:?} {kept}"
+    );
+
+    let whole = self::cut(positions, joints, [0; 2], kept).exposure;
+    let [omitted, held] = [cut.omitted.len(), cut.held.len()];
+    let drawings: Vec<Drawing> = cut.exposure.drawings().collect();
+    assert_eq!(
+        drawings.len() + omitted + held,
+        whole.drawings().count(),
+        "each step saves a drawing"
+    );
+    assert_eq!(
+        cut.exposure.len(),
+        if kept { frames } else { frames - omitted }
+    );
+    assert_eq!(cut.duplicated.len(), if kept { omitted } else { 0 });
+    assert_eq!([cut.omissions.done, cut.holds.done], [omitted, held]);
+    assert_eq!(cut.omissions.shortfall() + omitted, steps[0]);
+    assert_eq!(cut.holds.shortfall() + held, steps[1]);
+    assert!(cut.exposure.sources().is_sorted());
+    assert_eq!(cut.exposure.sources().first(), (frames > 0).then_some(&0));
+    let stood = |source: u32| whole.drawings().find(|drawing| drawing.source == source);
+    for drawing in &drawings {
+        let before = stood(drawing.source).map_or(0, |drawing| drawing.length);
+        assert!(
+            drawing.length <= before.max(3),
+            "{drawing:?} stands for too long"
+        );
+    }
+    assert!(cut.gathered <= omitted);
+    cut
+}
+
+#[test]
+fn the_fast_code_does_what_the_plain_code_does() {
+    let mut numbers = Numbers(1);
+    for round in 0..4000 {
+        let frames = match round % 4 {
+            0 => numbers.below(5),
+            1 => numbers.below(16),
+            2 => numbers.below(40),
+            _ => numbers.below(90),
+        } as usize;
+        let joints = 1 + numbers.below(3) as usize;
+        let kind = numbers.below(5);
+        let positions = motion(&mut numbers, kind, frames, joints);
+        let mut steps = || match numbers.below(4) {
+            0 => 0,
+            1 => numbers.below(6) as usize,
+            2 => numbers.below(1 + frames as u64) as usize,
+            _ => usize::MAX,
+        };
+        let steps = [steps(), steps()];
+        check(&positions, joints, steps, true);
+        check(&positions, joints, steps, false);
+    }
+}
+
+#[test]
+fn the_shortest_motions_are_cut() {
+    let at = |places: &[f64]| -> Vec<DVec3> { places.iter().map(|x| DVec3::X * *x).collect() };
+    let most = [usize::MAX; 2];
+    assert!(check(&[], 0, most, true).exposure.is_empty());
+    assert!(check(&[], 1, most, true).exposure.is_empty());
+    assert_eq!(check(&at(&[1.0]), 1, most, true).exposure.sources(), [0]);
+    // Nothing could stand in for what is omitted.
+    let two = check(&at(&[1.0, 2.0]), 1, [1, 0], true);
+    assert_eq!(two.exposure.sources(), [0, 1]);
+    assert_eq!(two.omissions.shortfall(), 1);
+    assert_eq!(
+        check(&at(&[1.0, 2.0]), 1, [1, 0], false).exposure.sources(),
+        [0]
+    );
+    assert_eq!(
+        check(&at(&[1.0, 2.0]), 1, [0, 1], true).exposure.sources(),
+        [0, 0]
+    );
+    let three = check(&at(&[0.0, 1.0, 5.0]), 1, [1, 0], true);
+    assert_eq!(three.exposure.sources(), [0, 0, 1]);
+    assert_eq!([three.omitted, three.duplicated], [[2], [0]]);
+}
+
+#[test]
+fn frames_of_no_whole_pose_are_left_out() {
+    let positions = [0.0, 1.0, 2.0, 3.0, 4.0].map(DVec3::splat);
+    assert_eq!(cut(&positions, 2, [0; 2], true).exposure.len(), 2);
+    assert_eq!(speeds(&positions, 2), [0.0, 24.0]);
+}
+
+#[test]
+fn of_equally_fast_poses_the_first_is_taken() {
+    let walk: Vec<DVec3> = (0..8).map(|frame| DVec3::X * frame as f64).collect();
+    // Without the first step the second is the greatest, then the third.
+    assert_eq!(check(&walk, 1, [3, 0], false).omitted, [1, 2, 3]);
+    let held = check(&walk, 1, [0, 2], true).held;
+    assert_eq!([held[0].covered, held[0].by], [1, 0]);
+    assert_eq!([held[1].covered, held[1].by], [3, 2]);
+}
+
+#[test]
+fn what_stands_from_the_start_may_stand_longer_than_a_copy() {
+    let mut still = vec![DVec3::ZERO; 9];
+    still.extend([1.0, 3.0, 6.0, 10.0].map(DVec3::splat));
+    let cut = check(&still, 1, [0, usize::MAX], true);
+    assert_eq!(
+        cut.exposure.sources(),
+        [0, 0, 0, 0, 0, 0, 0, 0, 0, 9, 9, 11, 11]
+    );
+    assert_eq!(cut.exposure.keys().collect::<Vec<_>>(), [0, 9, 11]);
+    // Equal poses that only become neighbours are two.
+    let back = [0.0, 9.0, 0.0, 1.0].map(DVec3::splat);
+    let cut = check(&back, 1, [1, 0], true);
+    assert_eq!(cut.exposure.sources(), [0, 0, 2, 3]);
+    assert_eq!(cut.exposure.drawings().count(), 3);
+}
+
+#[test]
+fn omissions_gather_where_it_is_fast() {
+    // Even steps, and a swing in the middle that gets ever faster.
+    let mut at = 0.0;
+    let swing: Vec<DVec3> = (0..60)
+        .map(|frame| {
+            let step = if (24..40).contains(&frame) {
+                4.0
+            } else {
+                0.1 + 0.001 * f64::from(frame)
+            };
+            at += step;
+            DVec3::X * at
+        })
+        .collect();
+    let usual = check(&swing, 1, [4, 0], true);
+    assert_eq!(usual.gathered, 4);
+    let torn = check(&swing, 1, [8, 0], true);
+    assert_eq!(torn.gathered, 8);
+    assert!(torn.gathered > MOST_GATHERED);
+    // At the end nothing stands behind them.
+    let end = [0.0, 1.0, 2.1, 3.3, 4.6, 20.0, 40.0, 60.0].map(DVec3::splat);
+    assert_eq!(check(&end, 1, [3, 0], true).gathered, 3);
+    // Two swings far from each other.
+    let twice: Vec<DVec3> = (0..40)
+        .map(|frame| DVec3::new(f64::from(frame) * 0.01, 0.0, 0.0))
+        .enumerate()
+        .map(|(frame, at)| match frame {
+            10..20 => at + DVec3::Y * 10.0,
+            20..30 => at,
+            30.. => at + DVec3::Z * 9.0,
+            _ => at,
+        })
+        .collect();
+    assert!(check(&twice, 1, [3, 0], true).gathered < 4);
+}
+
+#[test]
+fn usual_options_are_those_of_the_thesis() {
+    let options = Options::usual(129);
+    assert_eq!([options.omit, options.hold], [4, 43]);
+    assert_eq!(options.length, Length::Kept);
+}
+
+#[test]
+fn holds_end_near_half_of_the_frames() {
+    let mut numbers = Numbers(9);
+    let positions = motion(&mut numbers, 4, 3000, 2);
+    let frames = cut(&positions, 2, [0; 2], true).exposure.drawings().count();
+    let done = cut(&positions, 2, [0, usize::MAX], true).holds.done;
+    let share = done as f64 / frames as f64;
+    assert!(
+        (0.4..0.6).contains(&share),
+        "{share} of the frames could be held"
+    );
+}
+
+#[test]
+fn positions_that_are_no_numbers_are_cut_too() {
+    let odd = [
+        0.0,
+        f64::NAN,
+        1.0,
+        f64::INFINITY,
+        f64::NEG_INFINITY,
+        1e200,
+        -1e200,
+        2.0,
+        2.5,
+    ];
+    let odd = odd.map(DVec3::splat);
+    for steps in [[0, 0], [1, 1], [4, 3], [usize::MAX; 2]] {
+        check(&odd, 1, steps, true);
+        check(&odd, 1, steps, false);
+    }
+    assert_eq!(ssd(&[DVec3::NAN], &[DVec3::ONE]), f64::INFINITY);
+    assert_eq!(ssd(&[DVec3::INFINITY], &[DVec3::INFINITY]), f64::INFINITY);
+}
+
+#[test]
+fn the_distance_of_two_poses_is_symmetric_and_bitwise_stable() {
+    let mut numbers = Numbers(4);
+    let mut pose = || -> Vec<DVec3> {
+        let places = (0..30).map(|_| numbers.place(1 << 30) / 7.3);
+        places.collect()
+    };
+    for _ in 0..100 {
+        let [a, b] = [pose(), pose()];
+        assert_eq!(ssd(&a, &b).to_bits(), ssd(&b, &a).to_bits());
+        assert_eq!(ssd(&a, &a), 0.0);
+        let both = [a.clone(), b.clone()].concat();
+        assert_eq!(speeds(&both, 30)[1].to_bits(), ssd(&a, &b).to_bits());
+    }
+    assert_eq!(
+        ssd(
+            &[DVec3::ZERO, DVec3::ONE],
+            &[dvec3(1.0, 2.0, 2.0), DVec3::ZERO]
+        ),
+        12.0
+    );
+}
+
+#[test]
+fn errors_are_measured_against_the_source_at_the_same_time() {
+    let walk: Vec<DVec3> = (0..6).map(|frame| DVec3::X * frame as f64).collect();
+    let twos = error(&walk, 1, 10.0, &every(6, 2));
+    assert_eq!(twos.drawings, 3);
+    assert!((twos.rms - 0.5_f64.sqrt()).abs() < 1e-15);
+    assert_eq!(twos.percent, Some(10.0 * twos.rms));
+    assert_eq!(error(&walk, 1, 0.0, &every(6, 2)).percent, None);
+    assert_eq!(error(&walk, 1, f64::NAN, &every(6, 1)).rms, 0.0);
+    // Beyond the source there is nothing to compare with.
+    assert_eq!(error(&walk, 1, 1.0, &Exposure::new(vec![0, 99])).rms, 0.0);
+    assert_eq!(error(&[], 0, 1.0, &Exposure::default()).rms, 0.0);
+    let all = compare(&walk, 1, 1.0, &every(6, 2));
+    assert_eq!(
+        all.map(|(method, _)| method),
+        [Method::Asked, Method::Twos, Method::Threes, Method::Best]
+    );
+    assert_eq!(all[0].1, all[1].1);
+    assert_eq!(all[3].1.drawings, 3);
+}
+
+#[test]
+fn the_best_drawings_are_never_worse_than_others_of_the_same_number() {
+    let mut numbers = Numbers(21);
+    for round in 0..60 {
+        let frames = 20 + numbers.below(100) as usize;
+        let positions = motion(&mut numbers, round % 5, frames, 2);
+        let asked = check(&positions, 2, [3, frames / 3], true).exposure;
+        for exposure in [asked, every(frames as u32, 2), every(frames as u32, 3)] {
+            let [asked, .., best] = compare(&positions, 2, 1.0, &exposure).map(|(_, error)| error);
+            // Other methods draw equal neighbours anew, or keep frames where they do not belong.
+            if best.drawings == asked.drawings {
+                assert!(best.rms <= asked.rms * (1.0 + 1e-9), "{best:?} {asked:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_camera_sees_what_turns_towards_it() {
+    let corners = [dvec3(-1.0, -2.0, -3.0), dvec3(1.0, 2.0, 3.0)];
+    let close = |a: DVec3, b: DVec3| assert!(a.distance(b) < 1e-12, "{a} is not {b}");
+    let see = |yaw: f64, pitch: f64, distance: Option<f64>| {
+        Camera {
+            yaw,
+            pitch,
+            distance,
+        }
+        .seen(&corners)[1]
+    };
+    close(see(0.0, 0.0, None), dvec3(1.0, 2.0, 0.0));
+    // From the side of +x, +z lies to the left.
+    close(see(90.0, 0.0, None), dvec3(-3.0, 2.0, 0.0));
+    // From above, what is nearer to the viewer lies lower.
+    close(see(0.0, 90.0, None), dvec3(1.0, -3.0, 0.0));
+    close(see(360_000_090.0, 0.0, None), dvec3(-3.0, 2.0, 0.0));
+    // Three nearer than the middle, of twelve.
+    close(see(0.0, 0.0, Some(12.0)), dvec3(1.0, 2.0, 0.0) * 12.0 / 9.0);
+    // In the camera's back: as near as can be.
+    close(see(0.0, 0.0, Some(1.0)), dvec3(1.0, 2.0, 0.0) * 100.0);
+    close(
+        see(f64::NAN, f64::INFINITY, Some(-1.0)),
+        dvec3(1.0, 2.0, 0.0),
+    );
+    assert!(Camera::default().seen(&[]).is_empty());
+    assert_eq!(Camera::default().seen(&[DVec3::NAN]).len(), 1);
+}
+
+#[test]
+fn motion_along_the_view_is_no_motion_to_a_camera() {
+    let far: Vec<DVec3> = (0..9).map(|frame| DVec3::Z * f64::from(frame)).collect();
+    let seen = Camera::default().seen(&far);
+    assert_eq!(
+        limit(&seen, 1, &Options::usual(9))
+            .exposure
+            .drawings()
+            .count(),
+        1
+    );
+    assert!(
+        limit(&far, 1, &Options::usual(9))
+            .exposure
+            .drawings()
+            .count()
+            > 1
+    );
+}
