@@ -138,8 +138,8 @@ test("a drawing keeps what is known of it when the list comes again", () => {
   const state = new State();
   const listed = [{ id: "a", name: "a.svg", folder: "" }];
   state.receive({ type: "drawings", drawings: listed });
-  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [part("A", null)] } });
-  state.receive({ type: "build", drawing: "nobody", build: { revision: 1, milliseconds: 1, model: null, picture: null, stale: false, triangles: 1, findings: [], parts: [] } });
+  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [part("A", null)], clips: [], originals: null } });
+  state.receive({ type: "build", drawing: "nobody", build: { revision: 1, milliseconds: 1, model: null, picture: null, stale: false, triangles: 1, findings: [], parts: [], clips: [], originals: null } });
   state.receive({ type: "drawings", drawings: [...listed, { id: "b", name: "b.svg", folder: "" }] });
   assert.deepEqual(state.list.map(({ id, build }) => [id, build?.revision]), [["a", 1], ["b", undefined]]);
   state.receive({ type: "gone", drawing: "a" });
@@ -149,7 +149,7 @@ test("a drawing keeps what is known of it when the list comes again", () => {
 test("a build belongs to the connection it came through, also when the host calls that open later", () => {
   const state = new State();
   const listed = { type: "drawings", drawings: [{ id: "a", name: "a.svg", folder: "" }] } as const;
-  const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [] } } as const;
+  const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [], clips: [], originals: null } } as const;
   const isOfNow = () => state.find("a")?.connection === state.connection;
   state.setLink("open");
   state.receive(listed);
