@@ -23,15 +23,15 @@ export class Captions {
     this.place();
   }
 
-  /** Under the middle of what each fills while the clip plays. */
+  /** Over the middle of what each fills while the clip plays. */
   private place(): void {
     const { beside, view } = this.viewer;
     beside.boxes?.forEach((box, at) => {
       const label = this.labels[at]!;
       const middle = box.getCenter(new Vector3());
-      const place = view.onScreen(middle.setY(box.min.y));
+      const place = view.onScreen(middle.setY(box.max.y));
       label.hidden = place === null;
-      if (place) label.style.transform = `translate(${place.x * this.element.clientWidth}px, ${place.y * this.element.clientHeight}px) translate(-50%, 14px)`;
+      if (place) label.style.transform = `translate(${place.x * this.element.clientWidth}px, max(4px, ${place.y * this.element.clientHeight}px - 100% - 10px)) translateX(-50%)`;
     });
   }
 }

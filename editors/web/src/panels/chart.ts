@@ -22,7 +22,7 @@ const APART = 56;
 export class Chart {
   readonly element = h("section", { class: "chart", hidden: true, attributes: { "aria-label": "Chart" } });
   private readonly summary = h("p", { class: "chart-summary" });
-  private readonly file = h("span", { class: "muted" });
+  private readonly file = h("span", { class: "chart-file muted" });
   private readonly picture = svg("svg", { class: "chart-picture", role: "img" });
   private readonly tip = h("p", { class: "chart-tip", hidden: true });
   private readonly head = svg("g", { class: "chart-head" });
@@ -42,7 +42,7 @@ export class Chart {
       h(
         "header",
         { class: "chart-title" },
-        h("h2", {}, "Movement per frame"),
+        h("h2", {}, "Movement per frame ", h("span", { class: "muted" }, "SSD, m²")),
         this.summary,
         this.file,
         h("span", { class: "chart-legend", attributes: { "aria-hidden": "true" } }, h("i", { class: "of-omitted" }), "omitted", h("i", { class: "of-held" }), "held", h("i", { class: "of-drawing" }), "drawing"),
@@ -205,8 +205,9 @@ export class Chart {
     else if (run) words.push(`drawing ${drawn.drawingFor(source) + 1}`, run.frames > 1 ? `stands for ${run.frames} frames` : "");
     this.tip.textContent = words.filter(Boolean).join(" · ");
     this.tip.hidden = false;
-    const half_ = this.tip.offsetWidth / 2;
-    this.tip.style.transform = `translateX(${Math.min(Math.max(x - half_, 2), this.size.width - 2 * half_ - 2)}px)`;
+    // Beside the line, on the side that has room.
+    const wide = this.tip.offsetWidth;
+    this.tip.style.transform = `translateX(${x + 10 + wide < this.size.width ? x + 10 : Math.max(x - 10 - wide, 0)}px)`;
   }
 
   private leave(): void {

@@ -42,8 +42,7 @@ export class Clips {
     this.chart = new Chart(viewer, () => this.follow());
     fill(
       this.element,
-      this.choice,
-      this.figure,
+      h("div", { class: "clip-names" }, this.choice, this.figure),
       h(
         "div",
         { class: "transport" },
@@ -80,10 +79,19 @@ export class Clips {
 
   /** To the drawing before or after, or to the key. */
   step(keys: 1 | -1): void {
-    if (!this.player.clip) return;
+    const { clip, time } = this.player;
     const { exposure } = this.viewer;
-    const times = exposure && exposure.runs.length > 0 ? exposure.runs.map(({ from }) => exposure.timeOf(from)) : undefined;
-    this.viewer.moved(() => this.player.step(keys, times));
+    if (!clip) return;
+    if (!exposure || exposure.runs.length === 0) return this.viewer.moved(() => this.player.step(keys));
+    const { runs } = exposure;
+    const frame = exposure.frameAt(time);
+    const at = exposure.drawingIn(frame);
+    // Back from within a drawing is to its own beginning.
+    const next = keys < 0 && frame > runs[at]!.start ? at : (at + keys + runs.length) % runs.length;
+    this.viewer.moved(() => {
+      this.player.play(false);
+      this.player.seek(exposure.timeOf(runs[next]!.from));
+    });
   }
 
   compare(): void {

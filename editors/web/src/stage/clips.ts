@@ -80,8 +80,9 @@ export class Player {
     this.set();
   }
 
-  /** Goes to the key before or after, or to one of other times in order. */
-  step(keys: 1 | -1, times: readonly number[] = this.keys.times): void {
+  /** Goes to the key before or after. */
+  step(keys: 1 | -1): void {
+    const { times } = this.keys;
     const next = keys > 0 ? times.find((time) => time > this.time + 1e-5) : times.findLast((time) => time < this.time - 1e-5);
     this.playing = false;
     this.seek(next ?? (keys > 0 ? times[0] : times.at(-1)) ?? 0);
