@@ -304,7 +304,7 @@ browse("the chart and two figures at any width, in the dark", kicking(), async (
   assert.ok(light(ink!) - light(paper!) > 90, `${ink} on ${paper}`);
 }, { colorScheme: "dark" });
 
-browse("in the light, as the manual shows it", kicking(), async (page) => {
+browse("the chart and two figures in the light", kicking(), async (page) => {
   await shown(page);
   for (const key of ["c", "o"]) await page.keyboard.press(key);
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);

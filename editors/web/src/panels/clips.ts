@@ -95,7 +95,7 @@ export class Clips {
   }
 
   compare(): void {
-    this.viewer.compare(!this.viewer.beside.wanted);
+    this.viewer.compare(!this.viewer.comparison.wanted);
   }
 
   private get player() {
@@ -124,7 +124,7 @@ export class Clips {
   private follow(): void {
     const { clip, keys, time, playing, loops } = this.player;
     if (!clip) return;
-    const { exposure, beside } = this.viewer;
+    const { exposure, comparison } = this.viewer;
     if (this.shown !== clip || this.exposure !== exposure) {
       this.shown = clip;
       this.exposure = exposure;
@@ -147,9 +147,9 @@ export class Clips {
     this.loop.setAttribute("aria-pressed", String(loops));
     this.charts.hidden = !this.chart.isPossible;
     this.charts.setAttribute("aria-pressed", String(this.chart.isOpen));
-    this.compares.hidden = !this.viewer.canCompare;
-    this.compares.setAttribute("aria-pressed", String(beside.wanted));
-    this.compares.setAttribute("aria-busy", String(beside.wanted && !beside.copy && beside.failure === ""));
+    this.compares.hidden = !comparison.isPossible;
+    this.compares.setAttribute("aria-pressed", String(comparison.wanted));
+    this.compares.setAttribute("aria-busy", String(comparison.isComing));
     if (this.play.dataset["playing"] !== String(playing)) {
       this.play.dataset["playing"] = String(playing);
       this.play.setAttribute("aria-label", playing ? "Pause" : "Play");

@@ -16,10 +16,6 @@ export interface Originals {
 }
 
 export class Beside {
-  /** Whether it is asked for. */
-  wanted = false;
-  /** Why it is not there though it is asked for, in words. */
-  failure = "";
   originals: Originals | null = null;
   copy: Model | null = null;
   /** What each of the two fills of the world while the clip plays. */

@@ -4,12 +4,13 @@ import type { Host } from "../host/host";
 import { count, wantsStillness } from "../dom";
 import type { State } from "../state";
 import type { Build } from "../protocol";
-import { Beside, type Originals } from "./beside";
+import { Beside } from "./beside";
+import { Comparison } from "./comparison";
 import { Exposure } from "./exposure";
 import { Ground } from "./ground";
 import { Highlight, type Mark } from "./highlight";
 import { Newest } from "./loading";
-import { elementOf, nodeName, readFile, readModel, type Model, type Shading } from "./model";
+import { elementOf, nodeName, readModel, type Model, type Shading } from "./model";
 import { drawingAt, Player } from "./clips";
 import { Pose } from "./pose";
 import { Stage } from "./stage";
@@ -41,17 +42,11 @@ export class Viewer {
   readonly pose = new Pose(() => this.model);
   readonly player = new Player();
   readonly beside: Beside;
+  readonly comparison: Comparison;
   private readonly ground: Ground;
   private readonly highlight = new Highlight();
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
   private readonly loading: Newest<Wanted, { model: Model; bytes: ArrayBuffer }>;
-  private readonly fetching: Newest<Wanted, Originals>;
-  /** The build whose original clips are there, or on their way. */
-  private fetched: Wanted | null = null;
-  /** Goes back to where the camera was before something stood beside the model. */
-  private back: (() => void) | null = null;
-  /** The clip for which the two were put beside each other. */
-  private arranged: unknown = null;
   private shown: Wanted | null = null;
   /** What was asked for last and is not shown yet. */
   private awaited: Wanted | null = null;
@@ -90,16 +85,17 @@ export class Viewer {
       ({ model, bytes }, wanted) => this.take(model, bytes, wanted),
       (error, wanted) => this.failed(error, wanted),
     );
-    this.fetching = new Newest<Wanted, Originals>(
-      async ({ originals }) => readFile(await host.model(originals ?? "")),
-      (originals, wanted) => this.compareWith(originals, wanted),
-      (error, wanted) => {
-        if (wanted !== this.fetched) return;
-        this.fetched = null;
-        this.beside.failure = error instanceof Error ? error.message : String(error);
+    this.comparison = new Comparison(this.beside, this, {
+      read: (address) => host.model(address),
+      mayAsk: (connection) => this.state.link === "open" && connection === this.state.connection,
+      changed: () => {
+        this.surround();
+        this.markAll();
+        this.drawEdges();
+        this.stage.moved();
         this.tell("beside");
       },
-    );
+    });
     this.stage.beforeFrame((seconds) => this.step(seconds));
     this.stage.follow = (camera) => this.bend(camera);
     state.on(["current", "build", "link"], () => this.update());
@@ -142,18 +138,9 @@ export class Viewer {
     this.tell("time");
   }
 
-  /** Whether clips are there as they were before they were limited. */
-  get canCompare(): boolean {
-    return this.shown !== null && this.shown.originals !== null && this.player.clips.length > 0;
-  }
-
   /** Shows the clip as it was before it was limited beside it as it is, or no longer. */
   compare(on: boolean): void {
-    if (on && !this.canCompare) return;
-    this.beside.wanted = on;
-    this.beside.failure = "";
-    if (on) this.besides();
-    else this.alone();
+    this.comparison.want(on);
     this.tell("beside");
   }
 
@@ -202,12 +189,8 @@ export class Viewer {
   moved(change: () => void): void {
     this.pose.release();
     change();
-    this.follow();
+    this.comparison.follow();
     this.pose.apply();
-    if (this.beside.copy && this.arranged !== this.player.clip) {
-      this.arrange();
-      this.view.frame();
-    }
     this.stage.moved();
     this.tell("time");
   }
@@ -269,7 +252,7 @@ export class Viewer {
     this.pose.apply();
     this.stage.scene.add(model.root);
     this.surround();
-    this.besides();
+    this.comparison.take(wanted);
     this.drawEdges();
     if (first) this.view.frame("threeQuarter", false);
     this.markAll();
@@ -296,11 +279,9 @@ export class Viewer {
   private remove(): void {
     for (const mark of ["hovered", "lit", "selected"] as const) this.highlight.clear(mark);
     this.highlight.edges([]);
-    this.beside.remove();
-    this.beside.wanted = false;
-    this.beside.failure = "";
-    this.beside.originals = this.fetched = this.back = this.figure = null;
+    this.comparison.clear();
     this.exposures = [];
+    this.figure = null;
     this.pose.reset();
     this.model?.dispose();
     this.model = null;
@@ -313,66 +294,6 @@ export class Viewer {
     this.canvas.setAttribute("aria-label", "No model yet");
     this.stage.moved();
     this.tell("model", "time", "pose", "beside");
-  }
-
-  /** Puts the original beside the model if that is asked for: with the clips of the last build until those of this one are there. */
-  private besides(): void {
-    const { shown, model } = this;
-    if (!this.beside.wanted || !shown || !model) return;
-    if (shown.originals === null) return this.alone();
-    this.put();
-    if (this.fetched?.originals === shown.originals && this.fetched.connection === shown.connection) return;
-    if (this.state.link !== "open" || shown.connection !== this.state.connection) return;
-    this.fetched = shown;
-    this.fetching.want(shown);
-  }
-
-  private compareWith(originals: Originals, wanted: Wanted): void {
-    if (wanted !== this.fetched) return;
-    this.beside.originals = originals;
-    if (!this.beside.wanted) return;
-    this.put();
-    this.tell("beside");
-  }
-
-  private put(): void {
-    const { model } = this;
-    const { originals } = this.beside;
-    if (!model || !originals) return;
-    const first = this.back === null;
-    this.back ??= this.view.remember();
-    this.pose.release();
-    this.beside.put(model, originals);
-    this.arrange();
-    this.markAll();
-    this.drawEdges();
-    if (first) this.view.frame();
-    this.stage.moved();
-  }
-
-  /** Gives the model and what stands beside it the room that the clip takes. */
-  private arrange(): void {
-    const { model, player } = this;
-    if (!model) return;
-    this.arranged = player.clip;
-    this.pose.release();
-    const { time } = player;
-    this.beside.choose(player.clip, (at) => player.seek(at), model);
-    player.seek(time);
-    this.follow();
-    this.pose.apply();
-    this.surround();
-  }
-
-  /** Takes away what stands beside the model. */
-  private alone(): void {
-    this.beside.remove();
-    this.surround();
-    this.markAll();
-    this.drawEdges();
-    this.back?.();
-    this.back = null;
-    this.stage.moved();
   }
 
   /** Lays the ground under all that is there, and tells the view of it. */
@@ -392,10 +313,6 @@ export class Viewer {
           },
     );
     this.canvas.dataset["beside"] = boxes ? String(offset) : "";
-  }
-
-  private follow(): void {
-    if (this.player.clip) this.beside.seek(this.player.time, this.player.clip.duration);
   }
 
   private drawEdges(): void {
@@ -435,7 +352,7 @@ export class Viewer {
     const { keys, time } = this.player;
     this.pose.release();
     const more = this.player.advance(seconds);
-    this.follow();
+    this.comparison.follow();
     this.pose.apply();
     // A drawing that is held is not drawn again.
     if (this.beside.copy || !keys.held || drawingAt(keys, time) !== drawingAt(keys, this.player.time)) this.stage.moved();
