@@ -177,6 +177,15 @@ browse("full and limited stand side by side, and each moves in its own way", kic
   await picture(page, "beside-selected");
   await page.mouse.move(5, 5);
 
+  // Another clip is beside itself too; one that is not limited is the same in both.
+  await page.locator(".clip-choice").selectOption({ index: 1 });
+  assert.deepEqual(await page.locator(".caption").allInnerTexts(), ["full", "full"]);
+  await page.locator(".slider").fill(String((OMITTED[1]! + 0.02) / FPS));
+  await still(page);
+  for (const to of [0, offset]) assertLike(await leg(page, OMITTED[1]!, to), LEG, `the leg ${to} m to the right`);
+  await page.locator(".clip-choice").selectOption({ index: 0 });
+  await page.locator(".slider").fill(String((OMITTED[1]! + 0.02) / FPS));
+
   // A save changes both, and the clips of the new build are fetched.
   host.built("kick.svg", kick(undefined, (colour) => (colour === LEG ? [0, 0, 220] : colour)));
   await shown(page, 2);
