@@ -185,6 +185,7 @@ browse("full and limited stand side by side, and each moves in its own way", kic
   for (const to of [0, offset]) assertLike(await leg(page, OMITTED[1]!, to), LEG, `the leg ${to} m to the right`);
   await page.locator(".clip-choice").selectOption({ index: 0 });
   await page.locator(".slider").fill(String((OMITTED[1]! + 0.02) / FPS));
+  await page.locator("canvas").focus();
 
   // A save changes both, and the clips of the new build are fetched.
   host.built("kick.svg", kick(undefined, (colour) => (colour === LEG ? [0, 0, 220] : colour)));
