@@ -13,10 +13,10 @@ const DRAWING = "file:///a/figure.svg";
 const textDocument = { uri: DRAWING };
 const arm: Place = { uri: DRAWING, range: { start: { line: 3, character: 8 }, end: { line: 3, character: 20 } } };
 const drawings: Message = { type: "drawings", drawings: [{ id: DRAWING, name: "figure.svg", folder: "" }] };
-const build = (revision: number): Message => ({ type: "build", drawing: DRAWING, build: { revision, model: `builds/${revision}.glb` } });
+const build = (revision: number): Message => ({ type: "build", drawing: DRAWING, build: { revision, model: `builds/${revision}.glb`, originals: `builds/${revision}.originals.glb`, clips: [{ name: "kick" }] } });
 const light = (part: string | null): Message => ({ type: "light", drawing: DRAWING, part });
 
-/** A server that knows one drawing with one part, Arm, and has the models 1 and 2. It notes what it is told. */
+/** A server that knows one drawing with one part, Arm, and has the models 1 and 2, and the full clips of both. It notes what it is told. */
 function fakeServer(t: TestContext, knowsPreviews = true) {
   const [there, back] = [new PassThrough(), new PassThrough()];
   const server = createMessageConnection(new StreamMessageReader(there), new StreamMessageWriter(back));
@@ -28,7 +28,7 @@ function fakeServer(t: TestContext, knowsPreviews = true) {
       return null;
     });
     server.onRequest("okoshi/preview/model", ({ address }: { address: string }) => {
-      const found = /^builds\/([12])\.glb$/.exec(address);
+      const found = /^builds\/([12](?:\.originals)?)\.glb$/.exec(address);
       return found ? { bytes: Buffer.from(`glTF ${found[1]}`).toString("base64") } : null;
     });
     server.onRequest("okoshi/preview/place", ({ part }: { part: string }) => (part === "Arm" ? arm : null));
@@ -119,6 +119,10 @@ test("models go to the page as bytes of their own, and where there is none it he
   assert.equal(bytes.constructor, Uint8Array);
   assert.equal(bytes.buffer.byteLength, bytes.byteLength);
   assert.equal(Buffer.from(bytes).toString(), "glTF 2");
+  // The clips as they were before they were limited are asked for in the same way.
+  await session.hear({ type: "model", address: "builds/2.originals.glb" });
+  const [full] = fresh();
+  assert.deepEqual([full?.["address"], Buffer.from(full?.["bytes"] as Uint8Array).toString()], ["builds/2.originals.glb", "glTF 2.originals"]);
   const none = { type: "modelBytes", address: "builds/9.glb", bytes: null };
   await session.hear({ type: "model", address: "builds/9.glb" });
   assert.deepEqual(fresh(), [none]);

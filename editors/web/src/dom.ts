@@ -30,18 +30,23 @@ export function fill(element: Element, ...children: Child[]): void {
   element.replaceChildren(...children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false && child !== ""));
 }
 
+const SVG = "http://www.w3.org/2000/svg";
+
+/** An element of a picture. */
+export function svg<Tag extends keyof SVGElementTagNameMap>(tag: Tag, attributes: Readonly<Record<string, string | number>>): SVGElementTagNameMap[Tag] {
+  const element = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+  return element;
+}
+
 export function icon(node: IconNode): SVGSVGElement {
-  const space = "http://www.w3.org/2000/svg";
-  const svg = document.createElementNS(space, "svg");
-  svg.setAttribute("viewBox", "0 0 24 24");
-  svg.setAttribute("class", "icon");
-  svg.setAttribute("aria-hidden", "true");
+  const picture = svg("svg", { viewBox: "0 0 24 24", class: "icon", "aria-hidden": "true" });
   for (const [tag, attributes] of node) {
-    const shape = document.createElementNS(space, tag);
+    const shape = document.createElementNS(SVG, tag);
     for (const [name, value] of Object.entries(attributes)) if (value !== undefined) shape.setAttribute(name, String(value));
-    svg.append(shape);
+    picture.append(shape);
   }
-  return svg;
+  return picture;
 }
 
 export interface ButtonOptions {

@@ -7,6 +7,7 @@ import { h } from "./dom";
 import { findHost } from "./host/host";
 import { Bar } from "./panels/bar";
 import { BendBar } from "./panels/bendbar";
+import { Captions } from "./panels/captions";
 import { Clips } from "./panels/clips";
 import { Findings } from "./panels/findings";
 import { Gallery } from "./panels/gallery";
@@ -44,7 +45,7 @@ function start(page: HTMLElement): void {
     if (state.current !== null) host.send({ type: "pick", drawing: state.current, part });
   };
   const tree = new Tree(state, picked);
-  const inspector = new Inspector(state, choose);
+  const inspector = new Inspector(state, viewer, choose);
   const findings = new Findings(state, ({ line, column }) => {
     const part = state.parts.all.find(({ string }) => string?.line === line);
     if (part) state.select(part.name);
@@ -57,8 +58,8 @@ function start(page: HTMLElement): void {
   const help = new Help();
   commands.help = () => help.toggle();
 
-  place.append(posebar.element, new Notes(state, viewer).element, findings.element);
-  const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, new BendBar(viewer, commands).element, clips.element, new Side(state, tree, inspector).element);
+  place.append(new Captions(viewer).element, posebar.element, new Notes(state, viewer).element, findings.element);
+  const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, new BendBar(viewer, commands).element, clips.panel, new Side(state, tree, inspector).element);
   page.append(new Bar(state, viewer).element, studio, new Gallery(state, host).element, help.element);
 
   const shows = (): boolean => state.current !== null;

@@ -37,6 +37,37 @@ export interface Part {
   readonly joint: string | null;
 }
 
+/** What is known of a figure's clip beyond the animation in the model, which has the same name. */
+export interface ClipFacts {
+  readonly name: string;
+  /** The name of the figure's root part. */
+  readonly figure: string;
+  /** The motion file's link. */
+  readonly file: string;
+  readonly seconds: number;
+  readonly fps: number;
+  /** As the clip is shown. */
+  readonly frames: number;
+  /** Distinct poses that are shown. */
+  readonly drawings: number;
+  /** Whether in-betweens were omitted or poses held. */
+  readonly limited: boolean;
+  /** Runs of drawings: the source's frame, and for how many frames it stands. */
+  readonly exposure: readonly (readonly [source: number, frames: number])[];
+  /** The source's frames that were left out. */
+  readonly omitted: readonly number[];
+  /** How many frames the pose before was copied over. */
+  readonly held: number;
+  /** Of each of the source's frames the sum of squared distances of the joints to the frame before, in square metres. */
+  readonly ssd: readonly number[];
+  /** How many of the source's frames an entry of `ssd` stands for, as the largest of them. */
+  readonly ssdStep: number;
+  /** Which joint drives a part, and why. */
+  readonly joints: ReadonlyMap<string, { readonly joint: string; readonly why: string }>;
+  /** Parts that no joint drives. */
+  readonly unmatched: readonly string[];
+}
+
 export interface Build {
   readonly revision: number;
   readonly milliseconds: number;
@@ -46,6 +77,9 @@ export interface Build {
   readonly triangles: number;
   readonly findings: readonly Finding[];
   readonly parts: readonly Part[];
+  readonly clips: readonly ClipFacts[];
+  /** Where the clips are as they were before they were limited; null if none is limited. */
+  readonly originals: string | null;
 }
 
 export type FromHost =
@@ -66,6 +100,9 @@ const list = (value: unknown): readonly unknown[] => (Array.isArray(value) ? val
 const text = (value: unknown): string => (typeof value === "string" ? value : typeof value === "number" ? String(value) : "");
 const textOrNull = (value: unknown): string | null => (typeof value === "string" ? value : null);
 const number = (value: unknown): number => (typeof value === "number" && Number.isFinite(value) ? value : 0);
+
+/** A number of things. */
+const whole = (value: unknown): number => Math.max(Math.floor(number(value)), 0);
 
 function oneOf<T extends string>(value: unknown, all: readonly T[], otherwise: T): T {
   return all.find((one) => one === value) ?? otherwise;
@@ -104,6 +141,34 @@ function readBuild(raw: Raw): Build {
     triangles: number(raw["triangles"]),
     findings: list(raw["findings"]).map(readFinding),
     parts: list(raw["parts"]).map(readPart),
+    clips: list(raw["clips"]).map(readClip),
+    originals: textOrNull(raw["originals"]),
+  };
+}
+
+function readClip(value: unknown): ClipFacts {
+  const raw = object(value);
+  return {
+    name: text(raw["name"]),
+    figure: text(raw["figure"]),
+    file: text(raw["file"]),
+    seconds: number(raw["seconds"]),
+    fps: number(raw["fps"]),
+    frames: whole(raw["frames"]),
+    drawings: whole(raw["drawings"]),
+    limited: raw["limited"] === true,
+    exposure: list(raw["exposure"]).map((run) => [whole(list(run)[0]), whole(list(run)[1])]),
+    omitted: list(raw["omitted"]).map(whole),
+    held: whole(raw["held"]),
+    ssd: list(raw["ssd"]).map(number),
+    ssdStep: Math.max(whole(raw["ssd_step"]), 1),
+    joints: new Map(
+      Object.entries(object(raw["joints"])).map(([part, driven]) => {
+        const { joint, why } = object(driven);
+        return [part, { joint: text(joint), why: text(why) }];
+      }),
+    ),
+    unmatched: list(raw["unmatched"]).map(text),
   };
 }
 

@@ -4,7 +4,7 @@ import type { Commands } from "./commands";
 import type { Viewer } from "./stage/viewer";
 
 export interface Places {
-  readonly clips: { toggle(): void; step(keys: 1 | -1): void };
+  readonly clips: { toggle(): void; step(keys: 1 | -1): void; compare(): void; readonly chart: { toggle(): void } };
   readonly findings: { flip(): void };
   readonly tree: { focus(): void };
   /** Shows all drawings, if there are several. */
@@ -101,6 +101,10 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
         return () => places.clips.step(-1);
       case "k":
         return () => places.clips.step(1);
+      case "c":
+        return () => places.clips.chart.toggle();
+      case "o":
+        return () => places.clips.compare();
       case " ":
         return () => places.clips.toggle();
       case "Escape":

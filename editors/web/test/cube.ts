@@ -1,6 +1,7 @@
 // A cube of terrain, made by hand: the drawing language is not asked.
 
 import type { Made } from "./drawings";
+import { glb } from "./glb";
 
 export const TOP = [0, 200, 0] as const;
 export const FRONT = [160, 80, 0] as const;
@@ -26,8 +27,8 @@ export function cube(bends: boolean): Buffer {
   const positions = Float32Array.from(FACES.flatMap(({ corners }) => corners.flat()));
   const indices = Uint16Array.of(0, 1, 2, 0, 2, 3);
   const bytes = Buffer.concat([Buffer.from(positions.buffer), Buffer.from(indices.buffer)]);
-  const text = Buffer.from(
-    JSON.stringify({
+  return glb(
+    {
       asset: { version: "2.0" },
       extensionsUsed: ["KHR_materials_unlit", ...(bends ? ["OKOSHI_view_dependent"] : [])],
       scene: 0,
@@ -54,12 +55,9 @@ export function cube(bends: boolean): Buffer {
         { buffer: 0, byteOffset: 0, byteLength: positions.byteLength },
         { buffer: 0, byteOffset: positions.byteLength, byteLength: indices.byteLength },
       ],
-      buffers: [{ byteLength: bytes.length }],
-    }),
+    },
+    bytes,
   );
-  const padded = Buffer.concat([text, Buffer.alloc((4 - (text.length % 4)) % 4, " ")]);
-  const word = (...words: number[]): Buffer => Buffer.from(Uint32Array.from(words).buffer);
-  return Buffer.concat([Buffer.from("glTF"), word(2, 28 + padded.length + bytes.length, padded.length), Buffer.from("JSON"), padded, word(bytes.length), Buffer.from("BIN\0"), bytes]);
 }
 
 /** The build of a drawing that makes the cube. */

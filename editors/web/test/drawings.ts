@@ -7,6 +7,8 @@ import { basename, dirname, join } from "node:path";
 
 export interface Made {
   readonly model: Buffer | null;
+  /** The clips as they were before they were limited. */
+  readonly originals?: Buffer | null;
   readonly picture: Buffer | null;
   readonly build: Record<string, unknown>;
 }

@@ -31,6 +31,8 @@ export class MockHost {
   readonly heard: Record<string, unknown>[] = [];
   /** Models are answered this much later, in milliseconds. */
   delay = 0;
+  /** Files whose bytes are none that one can read. */
+  readonly broken = new Set<string>();
   /** Addresses that were asked for. */
   readonly asked: string[] = [];
 
@@ -70,17 +72,19 @@ export class MockHost {
   }
 
   /** A drawing was built. One with errors keeps its last good model. */
-  built(id: string, { model, picture, build }: Made): void {
+  built(id: string, { model, originals, picture, build }: Made): void {
     const held = this.drawings.get(id)!;
     const number = ++this.builds;
     const before = held.build;
     if (model) this.files.set(`/builds/${number}.glb`, model);
+    if (originals) this.files.set(`/builds/${number}.originals.glb`, originals);
     if (picture) this.files.set(`/builds/${number}.png`, picture);
     held.gone = false;
     held.build = {
       ...build,
       revision: number,
       model: model ? `builds/${number}.glb` : (before?.["model"] ?? null),
+      originals: originals ? `builds/${number}.originals.glb` : null,
       picture: picture ? `builds/${number}.png` : (before?.["picture"] ?? null),
     };
     this.say({ type: "build", drawing: id, build: held.build, aFieldOfTheFuture: 1 });
@@ -114,7 +118,7 @@ export class MockHost {
     const { pathname } = new URL(url, this.address);
     this.asked.push(pathname);
     const page = pathname === "/" ? "page.html" : /^\/page\.(js|css)$/.test(pathname) ? pathname.slice(1) : null;
-    const body = page ? readFileSync(join(this.dist, page)) : this.files.get(pathname);
+    const body = page ? readFileSync(join(this.dist, page)) : this.broken.has(pathname) ? Buffer.from("no model") : this.files.get(pathname);
     const type = TYPES[(page ?? pathname).split(".").at(-1) ?? ""] ?? "application/octet-stream";
     const send = () =>
       response

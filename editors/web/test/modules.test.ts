@@ -1,12 +1,15 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { NumberKeyframeTrack, InterpolateDiscrete, Vector3 } from "three";
+import { AnimationClip, InterpolateDiscrete, NumberKeyframeTrack, Object3D, Vector3 } from "three";
 import { toBase64, toBuffer } from "../src/host/code";
-import { cssColor } from "../src/panels/inspector";
+import { figures, niceAbove } from "../src/panels/chart";
+import { cssColor, drivenBy } from "../src/panels/inspector";
 import { excerpt, sorted } from "../src/panels/findings";
 import { Parts } from "../src/parts";
-import { read, type Finding, type Part } from "../src/protocol";
+import { read, type ClipFacts, type Finding, type Part } from "../src/protocol";
 import { drawingAt, keysOf } from "../src/stage/clips";
+import { onNodes } from "../src/stage/beside";
+import { Exposure, inWords, peaks } from "../src/stage/exposure";
 import { Newest } from "../src/stage/loading";
 import { directionOf } from "../src/stage/view";
 import { State } from "../src/state";
@@ -138,8 +141,8 @@ test("a drawing keeps what is known of it when the list comes again", () => {
   const state = new State();
   const listed = [{ id: "a", name: "a.svg", folder: "" }];
   state.receive({ type: "drawings", drawings: listed });
-  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [part("A", null)] } });
-  state.receive({ type: "build", drawing: "nobody", build: { revision: 1, milliseconds: 1, model: null, picture: null, stale: false, triangles: 1, findings: [], parts: [] } });
+  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [part("A", null)], clips: [], originals: null } });
+  state.receive({ type: "build", drawing: "nobody", build: { revision: 1, milliseconds: 1, model: null, picture: null, stale: false, triangles: 1, findings: [], parts: [], clips: [], originals: null } });
   state.receive({ type: "drawings", drawings: [...listed, { id: "b", name: "b.svg", folder: "" }] });
   assert.deepEqual(state.list.map(({ id, build }) => [id, build?.revision]), [["a", 1], ["b", undefined]]);
   state.receive({ type: "gone", drawing: "a" });
@@ -149,7 +152,7 @@ test("a drawing keeps what is known of it when the list comes again", () => {
 test("a build belongs to the connection it came through, also when the host calls that open later", () => {
   const state = new State();
   const listed = { type: "drawings", drawings: [{ id: "a", name: "a.svg", folder: "" }] } as const;
-  const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [] } } as const;
+  const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [], clips: [], originals: null } } as const;
   const isOfNow = () => state.find("a")?.connection === state.connection;
   state.setLink("open");
   state.receive(listed);
@@ -162,4 +165,89 @@ test("a build belongs to the connection it came through, also when the host call
   state.receive(build);
   state.setLink("open");
   assert.ok(isOfNow() && state.connection !== first);
+});
+
+const facts = (more: Partial<ClipFacts>): ClipFacts => ({
+  name: "kick", figure: "Body", file: "kick.bvh", seconds: 0.5, fps: 24, frames: 12, drawings: 0, limited: true, exposure: [], omitted: [], held: 0,
+  ssd: Array.from({ length: 12 }, (_, at) => at), ssdStep: 1, joints: new Map(), unmatched: [], ...more,
+});
+
+test("what is known of clips is read, and what is missing is empty", () => {
+  const message = read({
+    type: "build",
+    drawing: "a",
+    build: { originals: "o.glb", clips: [{ name: "kick", figure: "Body", exposure: [[0, 2], [5, "x"], 7], omitted: [3, null], ssd: [0, "x", 0.5], joints: JSON.parse('{"__proto__": {"joint": "Hips", "why": "so"}, "Arm": 3}') as object }, 5] },
+  });
+  assert.ok(message?.type === "build");
+  const [clip, none] = message.build.clips;
+  assert.equal(message.build.originals, "o.glb");
+  assert.deepEqual([clip!.exposure, clip!.omitted, clip!.ssd, clip!.ssdStep, clip!.limited], [[[0, 2], [5, 0], [0, 0]], [3, 0], [0, 0, 0.5], 1, false]);
+  assert.deepEqual([...clip!.joints], [["__proto__", { joint: "Hips", why: "so" }], ["Arm", { joint: "", why: "" }]]);
+  assert.deepEqual([none!.name, none!.exposure, none!.fps], ["", [], 0]);
+});
+
+test("drawings stand for the source's frames up to the next, without the omitted ones", () => {
+  // Frames 5 and 6 are left out; 0 and 9 stand longer for them, and 2 for the frame after it.
+  const exposure = new Exposure(facts({ exposure: [[0, 2], [1, 1], [2, 2], [4, 1], [7, 1], [8, 1], [9, 2], [10, 2]], omitted: [5, 6] }));
+  assert.deepEqual(exposure.runs.map(({ start, from, to }) => [start, from, to]), [[0, 0, 1], [2, 1, 2], [3, 2, 4], [5, 4, 5], [6, 7, 8], [7, 8, 9], [8, 9, 10], [10, 10, 12]]);
+  assert.deepEqual([exposure.frames, exposure.sources], [12, 12]);
+  // Times as single precision has them are those of their own frames.
+  assert.deepEqual(Array.from({ length: 13 }, (_, at) => exposure.sourceAt(Math.fround(at / 24))), [0, 0, 1, 2, 3, 4, 7, 8, 9, 9, 10, 11, 11]);
+  const shows = Array.from({ length: 12 }, (_, source) => exposure.drawingIn(exposure.frameAt(exposure.timeOf(source))));
+  assert.deepEqual(shows, [0, 1, 2, 2, 3, 3, 3, 4, 5, 6, 7, 7]);
+  assert.deepEqual([5, 6, 3, 7].map((source) => exposure.drawingFor(source)), [-1, -1, 2, 4]);
+  assert.equal(inWords(exposure), "12 frames, 8 drawings, 2 in-betweens omitted");
+});
+
+test("where nothing is omitted, a drawing may be any frame of those that it stands for", () => {
+  const exposure = new Exposure(facts({ exposure: [[2, 4], [7, 5], [10, 3]], held: 9 }));
+  assert.deepEqual(exposure.runs.map(({ from, to }) => [from, to]), [[0, 4], [4, 9], [9, 12]]);
+  assert.deepEqual([0, 3, 4, 8, 9, 11].map((frame) => exposure.sourceAt((frame + 0.5) / 24)), [0, 3, 4, 8, 9, 11]);
+  assert.equal(exposure.drawingIn(exposure.frameAt(exposure.timeOf(8))), 1);
+  assert.equal(inWords(exposure), "12 frames, 3 drawings, 9 held");
+});
+
+test("a clip that is shorter for what was omitted, one that is not limited, and one of which nothing is known", () => {
+  const short = new Exposure(facts({ frames: 10, exposure: [[0, 1], [1, 1], [2, 2], [4, 1], [7, 1], [8, 1], [9, 1], [10, 2]], omitted: [5, 6] }));
+  assert.deepEqual([short.frames, short.sources, short.sourceAt(9 / 24)], [10, 12, 11]);
+  const full = new Exposure(facts({ limited: false, exposure: Array.from({ length: 12 }, (_, at) => [at, 1] as const) }));
+  assert.deepEqual([full.runs.length, full.frames, full.sources, full.drawingIn(4), full.sourceAt(5 / 24), full.ssd(5)], [0, 12, 12, -1, 5, 5]);
+  assert.equal(inWords(full), "12 frames, as in the motion file");
+  const none = new Exposure(facts({ frames: 0, fps: 0, ssd: [], limited: false }));
+  assert.deepEqual([none.frames, none.sources, none.sourceAt(3), none.timeOf(7) < 0.1, none.ssd(0)], [1, 1, 0, true, null]);
+  const thinned = new Exposure(facts({ frames: 22, limited: false, ssd: [1, 2, 3], ssdStep: 8 }));
+  assert.deepEqual([thinned.sources, thinned.ssd(7), thinned.ssd(8), thinned.ssd(21)], [22, 1, 2, 3]);
+});
+
+test("a curve is thinned to its peaks", () => {
+  const values = Array.from({ length: 1000 }, (_, at) => (at === 777 ? 5 : at % 7 === 0 ? 1 : 0));
+  const thin = peaks(values, 90);
+  assert.equal(thin.step, 12);
+  assert.equal(thin.values.length, 84);
+  assert.equal(thin.values.indexOf(5), Math.floor(777 / 12));
+  assert.deepEqual(peaks([3, 1], 90), { step: 1, values: [3, 1] });
+});
+
+test("the scale's numbers are short", () => {
+  assert.deepEqual([0.0561, 0.1, 0.11, 7, 9, 1234].map(niceAbove).map((value) => Number(value.toPrecision(3))), [0.06, 0.1, 0.2, 8, 10, 2000]);
+  assert.deepEqual([0, 0.0012345, 0.06, 1234.5, 0.0000123].map(figures), ["0", "0.00123", "0.06", "1,230", "1.2e−5"]);
+});
+
+test("what drives a part is said for the clip that is shown, else for the first that has it", () => {
+  const clip = (name: string, joint: string) => ({ name, joints: new Map([["Arm", { joint, why: "by its name" }]]), unmatched: ["Tail"] });
+  const clips = [clip("walk", "RightArm"), clip("kick", "RightForeArm")];
+  assert.equal(drivenBy("Arm", clips, "kick"), "RightForeArm — by its name");
+  assert.equal(drivenBy("Arm", clips, "other"), "RightArm — by its name");
+  assert.equal(drivenBy("Tail", clips), "no joint: it follows its parent");
+  assert.equal(drivenBy("Tree", clips), null);
+});
+
+test("a clip of one file moves the nodes of another by the files' own names", () => {
+  const node = (name: string, own: string) => Object.assign(new Object3D(), { name: own, userData: { name } });
+  const there = new Map([["Arm", [node("Arm", "Arm"), node("Arm", "Arm_1")]]]);
+  const here = new Map([["Arm", [node("Arm", "Arm_2"), node("Arm", "Arm_3")]]]);
+  const track = (name: string) => new NumberKeyframeTrack(name, [0, 1], [0, 1]);
+  const moved = onNodes(new AnimationClip("a", 7, [track("Arm.position"), track("Arm_1.position"), track("Gone.position")]), there, here);
+  assert.equal(moved.duration, 7);
+  assert.deepEqual(moved.tracks.map(({ name }) => name), here.get("Arm")!.map(({ uuid }) => `${uuid}.position`));
 });

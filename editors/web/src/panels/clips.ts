@@ -1,47 +1,67 @@
-// The clips' bar: which plays, where in it one is, how fast.
+// The clips' bar: which plays, where in it one is, how fast; and above it the chart.
 
-import { Pause, Play, Repeat, SkipBack, SkipForward } from "lucide";
-import { button, fill, h, icon } from "../dom";
-import { drawingAt } from "../stage/clips";
+import { ChartSpline, Columns2, Pause, Play, Repeat, SkipBack, SkipForward } from "lucide";
+import type { AnimationClip } from "three";
+import { button, fill, h, icon, svg } from "../dom";
+import { drawingAt, keysOf } from "../stage/clips";
+import type { Exposure } from "../stage/exposure";
 import type { Viewer } from "../stage/viewer";
+import { Chart } from "./chart";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 /** More ticks than this cannot be told apart. */
 const MOST_TICKS = 600;
-const SPACE = "http://www.w3.org/2000/svg";
+
+/** A stretch of the timeline in which nothing moves, in seconds. */
+interface Box {
+  readonly from: number;
+  readonly to: number;
+}
 
 export class Clips {
-  readonly element = h("section", { class: "clips", hidden: true, attributes: { "aria-label": "Clips" } });
-  private readonly choice = h("select", { class: "select", attributes: { "aria-label": "Clip" } });
+  readonly element = h("section", { class: "clips", attributes: { "aria-label": "Clips" } });
+  /** The bar, and the chart above it. */
+  readonly panel = h("div", { class: "motion", hidden: true });
+  readonly chart: Chart;
+  private readonly choice = h("select", { class: "select clip-choice", attributes: { "aria-label": "Clip" } });
+  private readonly figure = h("select", { class: "select figure-choice", title: "Whose drawings are counted", attributes: { "aria-label": "Figure" } });
   private readonly play = button({ icon: Play, label: "Play", key: "Space", press: () => this.toggle() });
   private readonly slider = h("input", { class: "slider", attributes: { type: "range", min: 0, step: 0.001, "aria-label": "Time" } });
-  private readonly ticks = document.createElementNS(SPACE, "svg");
+  private readonly ticks = svg("svg", { class: "ticks", viewBox: "0 0 1000 10", preserveAspectRatio: "none", "aria-hidden": "true" });
+  private readonly now = svg("path", { class: "now" });
   private readonly readout = h("output", { class: "readout" });
-  private readonly speed = h("select", { class: "select", attributes: { "aria-label": "Speed" } }, ...SPEEDS.map((speed) => h("option", { attributes: { value: speed } }, `${speed}×`)));
   private readonly loop = button({ icon: Repeat, label: "Play again and again", press: () => this.viewer.moved(() => (this.player.loops = !this.player.loops)) });
-  private shown: unknown = null;
+  private readonly charts = button({ icon: ChartSpline, label: "Chart", key: "C", press: () => this.chart.toggle() });
+  private readonly compares = button({ icon: Columns2, label: "Full and limited side by side", key: "O", press: () => this.compare() });
+  private readonly speed = h("select", { class: "select", attributes: { "aria-label": "Speed" } }, ...SPEEDS.map((speed) => h("option", { attributes: { value: speed } }, `${speed}×`)));
+  private shown: AnimationClip | null = null;
+  private exposure: Exposure | null = null;
+  private boxes: readonly Box[] = [];
 
   constructor(private readonly viewer: Viewer) {
-    this.ticks.setAttribute("class", "ticks");
-    this.ticks.setAttribute("viewBox", "0 0 1000 10");
-    this.ticks.setAttribute("preserveAspectRatio", "none");
-    this.ticks.setAttribute("aria-hidden", "true");
+    this.chart = new Chart(viewer, () => this.follow());
     fill(
       this.element,
-      this.choice,
-      button({ icon: SkipBack, label: "Key before", key: "J", press: () => this.step(-1) }),
-      this.play,
-      button({ icon: SkipForward, label: "Next key", key: "K", press: () => this.step(1) }),
+      h("div", { class: "clip-names" }, this.choice, this.figure),
+      h(
+        "div",
+        { class: "transport" },
+        button({ icon: SkipBack, label: "Key before", key: "J", press: () => this.step(-1) }),
+        this.play,
+        button({ icon: SkipForward, label: "Next key", key: "K", press: () => this.step(1) }),
+      ),
       h("div", { class: "timeline" }, this.ticks, this.slider),
       this.readout,
+      h("div", { class: "clip-looks" }, this.charts, this.compares, this.loop),
       this.speed,
-      this.loop,
     );
+    fill(this.panel, this.chart.element, this.element);
     this.speed.value = "1";
     this.choice.addEventListener("change", () => {
       const clip = this.player.clips[this.choice.selectedIndex];
       if (clip) viewer.moved(() => this.player.choose(clip));
     });
+    this.figure.addEventListener("change", () => viewer.chooseFigure(this.figure.value));
     this.speed.addEventListener("change", () => (this.player.speed = Number(this.speed.value)));
     this.slider.addEventListener("input", () =>
       viewer.moved(() => {
@@ -50,15 +70,32 @@ export class Clips {
       }),
     );
     viewer.on(["model"], () => this.list());
-    viewer.on(["time"], () => this.follow());
+    viewer.on(["time", "beside"], () => this.follow());
   }
 
   toggle(): void {
     this.viewer.moved(() => this.player.play(!this.player.playing));
   }
 
+  /** To the drawing before or after, or to the key. */
   step(keys: 1 | -1): void {
-    if (this.player.clip) this.viewer.moved(() => this.player.step(keys));
+    const { clip, time } = this.player;
+    const { exposure } = this.viewer;
+    if (!clip) return;
+    if (!exposure || exposure.runs.length === 0) return this.viewer.moved(() => this.player.step(keys));
+    const { runs } = exposure;
+    const frame = exposure.frameAt(time);
+    const at = exposure.drawingIn(frame);
+    // Back from within a drawing is to its own beginning.
+    const next = keys < 0 && frame > runs[at]!.start ? at : (at + keys + runs.length) % runs.length;
+    this.viewer.moved(() => {
+      this.player.play(false);
+      this.player.seek(exposure.timeOf(runs[next]!.from));
+    });
+  }
+
+  compare(): void {
+    this.viewer.compare(!this.viewer.comparison.wanted);
   }
 
   private get player() {
@@ -67,29 +104,52 @@ export class Clips {
 
   private list(): void {
     const { clips } = this.player;
-    this.element.hidden = clips.length === 0;
-    fill(this.choice, ...clips.map(({ name }, at) => h("option", {}, name || `clip ${at + 1}`)));
+    this.panel.hidden = clips.length === 0;
+    fill(this.choice, ...clips.map((clip, at) => h("option", {}, this.describe(clip, at))));
     this.shown = null;
     this.follow();
+  }
+
+  /** A clip in a few words. */
+  private describe(clip: AnimationClip, at: number): string {
+    const figures = this.viewer.exposuresOf(clip);
+    const keys = keysOf(clip);
+    const [only] = figures;
+    const words = [clip.name || `clip ${at + 1}`, `${clip.duration.toFixed(1)} s`];
+    if (figures.length > 1) words.push(`${figures.length} figures`);
+    else if (only?.facts.limited || (!only && keys.held)) words.push(drawings(only?.facts.drawings ?? keys.times.length));
+    return words.join(" · ");
   }
 
   private follow(): void {
     const { clip, keys, time, playing, loops } = this.player;
     if (!clip) return;
-    if (this.shown !== clip) {
+    const { exposure, comparison } = this.viewer;
+    if (this.shown !== clip || this.exposure !== exposure) {
       this.shown = clip;
+      this.exposure = exposure;
       this.choice.selectedIndex = this.player.clips.indexOf(clip);
       this.slider.max = String(clip.duration);
-      this.draw(keys.times, clip.duration, keys.held);
+      const figures = this.viewer.exposuresOf(clip).map(({ facts }) => facts.figure);
+      this.figure.hidden = figures.length < 2;
+      fill(this.figure, ...figures.map((name) => h("option", { attributes: { value: name } }, name)));
+      if (exposure) this.figure.value = exposure.facts.figure;
+      this.draw(clip, keys.times, keys.held);
     }
     this.slider.value = String(time);
-    const seconds = `${time.toFixed(2)} s of ${clip.duration.toFixed(2)} s`;
-    const words = keys.held ? `drawing ${drawingAt(keys, time)} of ${keys.times.length}` : seconds;
+    const words = this.words(time);
     this.readout.textContent = words;
-    this.readout.title = seconds;
+    this.readout.title = `${time.toFixed(2)} s of ${clip.duration.toFixed(2)} s`;
     this.slider.setAttribute("aria-valuetext", words);
+    const box = this.boxes[this.boxes.findLastIndex(({ from }) => from <= time + 1e-4)];
+    this.now.setAttribute("d", box ? outline(box, clip.duration) : "");
     this.element.dataset["playing"] = String(playing);
     this.loop.setAttribute("aria-pressed", String(loops));
+    this.charts.hidden = !this.chart.isPossible;
+    this.charts.setAttribute("aria-pressed", String(this.chart.isOpen));
+    this.compares.hidden = !comparison.isPossible;
+    this.compares.setAttribute("aria-pressed", String(comparison.wanted));
+    this.compares.setAttribute("aria-busy", String(comparison.isComing));
     if (this.play.dataset["playing"] !== String(playing)) {
       this.play.dataset["playing"] = String(playing);
       this.play.setAttribute("aria-label", playing ? "Pause" : "Play");
@@ -98,15 +158,42 @@ export class Clips {
     }
   }
 
-  /** A tick at each key; drawings that are held are boxes. */
-  private draw(times: readonly number[], duration: number, held: boolean): void {
-    const every = Math.ceil(times.length / MOST_TICKS);
-    const at = (time: number): number => (duration > 0 ? (time / duration) * 1000 : 0);
-    const path = document.createElementNS(SPACE, "path");
-    const starts = times.filter((_, index) => index % every === 0).map(at);
-    path.setAttribute("d", starts.map((x, index) => (held ? `M${x} 0H${Math.max((starts[index + 1] ?? 1000) - 2, x + 0.5)}V10H${x}Z` : `M${x} 0V10`)).join(""));
-    path.setAttribute("class", held ? "held" : "keys");
-    this.ticks.dataset["keys"] = String(times.length);
-    fill(this.ticks, path);
+  /** Where in the clip a time is. */
+  private words(time: number): string {
+    const { clip, keys } = this.player;
+    const { exposure } = this.viewer;
+    const seconds = `${time.toFixed(2)} s`;
+    if (exposure) {
+      const frame = exposure.frameAt(time);
+      const words = [`frame ${frame + 1} of ${exposure.frames}`, seconds];
+      return (exposure.runs.length > 0 ? [`drawing ${exposure.drawingIn(frame) + 1} of ${exposure.runs.length}`, ...words] : words).join(" · ");
+    }
+    return keys.held ? `drawing ${drawingAt(keys, time)} of ${keys.times.length} · ${seconds}` : `${time.toFixed(2)} of ${clip?.duration.toFixed(2)} s`;
   }
+
+  /** A tick at each key; drawings that are held are boxes. */
+  private draw(clip: AnimationClip, times: readonly number[], held: boolean): void {
+    const { exposure } = this.viewer;
+    const { duration } = clip;
+    if (exposure && exposure.runs.length > 0) this.boxes = exposure.runs.map(({ start, frames }) => ({ from: start / exposure.fps, to: Math.min((start + frames) / exposure.fps, duration) }));
+    else this.boxes = held ? times.map((from, at) => ({ from, to: times[at + 1] ?? duration })) : [];
+    const every = Math.ceil((this.boxes.length || times.length) / MOST_TICKS);
+    const drawn =
+      this.boxes.length > 0
+        ? this.boxes.filter((_, at) => at % every === 0).map((box) => outline(box, duration))
+        : times.filter((_, at) => at % every === 0).map((time) => `M${across(time, duration)} 2V8`);
+    this.ticks.dataset["keys"] = String(this.boxes.length || times.length);
+    fill(this.ticks, svg("path", { class: this.boxes.length > 0 ? "held" : "keys", d: drawn.join("") }), this.now);
+  }
+}
+
+const drawings = (number: number): string => `${number} ${number === 1 ? "drawing" : "drawings"}`;
+
+/** How far along the timeline a time is, in thousandths. */
+const across = (time: number, duration: number): number => (duration > 0 ? Math.round((time / duration) * 1e5) / 100 : 0);
+
+/** A box on the timeline, with room before the next. */
+function outline({ from, to }: Box, duration: number): string {
+  const left = across(from, duration);
+  return `M${left} 0H${Math.max(across(to, duration) - 2, left + 0.5)}V10H${left}Z`;
 }

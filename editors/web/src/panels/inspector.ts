@@ -2,8 +2,9 @@
 
 import { count, fill, h } from "../dom";
 import { isAside, isAutomatic } from "../parts";
-import type { Part, Source } from "../protocol";
+import type { ClipFacts, Part, Source } from "../protocol";
 import type { State } from "../state";
+import type { Viewer } from "../stage/viewer";
 
 const BOUND: Readonly<Record<string, string>> = {
   group: "in one group with its shape",
@@ -18,17 +19,25 @@ const KIND: Readonly<Record<Part["kind"], string>> = { main: "part", sub: "shape
 export class Inspector {
   readonly element = h("section", { class: "inspector", attributes: { "aria-label": "Selected part", "aria-live": "polite" } });
 
+  /** The name of the clip that was shown when this was drawn. */
+  private clip: string | undefined;
+
   /** `go` shows a part that was clicked here. */
-  constructor(private readonly state: State, private readonly go: (part: string) => void) {
+  constructor(private readonly state: State, private readonly viewer: Viewer, private readonly go: (part: string) => void) {
     state.on(["selection", "current"], () => this.draw());
     state.on("build", (drawing) => {
       if (drawing === state.current) this.draw();
+    });
+    // Which clip is shown changes with its time at most.
+    viewer.on(["model", "time"], () => {
+      if (viewer.player.clip?.name !== this.clip) this.draw();
     });
     this.draw();
   }
 
   private draw(): void {
     const { selected, parts } = this.state;
+    this.clip = this.viewer.player.clip?.name;
     this.element.dataset["empty"] = String(selected === null);
     if (selected === null) {
       return fill(this.element, h("h2", {}, "Part"), h("p", { class: "muted pad" }, "Click a part, in the model or in the list, to see its string and attributes."));
@@ -55,7 +64,9 @@ export class Inspector {
     const shapes = this.state.parts.children(part.name).length - children.length;
     if (children.length > 0) rows.push(["Carries", this.links(children)]);
     if (shapes > 0) rows.push(["Shapes", count(shapes, "more shape")]);
-    if (part.joint !== null) rows.push(["Joint", part.joint]);
+    const driven = drivenBy(part.name, this.state.drawing?.build?.clips ?? [], this.clip);
+    if (driven) rows.push(["Driven by", driven]);
+    else if (part.joint !== null) rows.push(["Joint", part.joint]);
     rows.push(["Element", `#${part.element}`]);
     return h("dl", { class: "facts" }, ...rows.flatMap(([term, value]) => [h("dt", {}, term), h("dd", {}, value)]));
   }
@@ -84,6 +95,19 @@ export class Inspector {
   private links(parts: readonly Part[]): HTMLElement {
     return h("span", { class: "links" }, ...parts.map(({ name }) => this.link(name)));
   }
+}
+
+/**
+ * What makes a part move, in words: the joint that drives it, and why; null for a part of no clip's figure. Where clips differ, the
+ * one that is shown is meant, else the first.
+ */
+export function drivenBy(part: string, clips: readonly Pick<ClipFacts, "name" | "joints" | "unmatched">[], shown?: string): string | null {
+  const those = clips.filter(({ joints, unmatched }) => joints.has(part) || unmatched.includes(part));
+  const clip = those.find(({ name }) => name === shown) ?? those[0];
+  if (!clip) return null;
+  const driven = clip.joints.get(part);
+  if (!driven) return "no joint: it follows its parent";
+  return driven.why ? `${driven.joint} — ${driven.why}` : driven.joint;
 }
 
 /** A colour's value as CSS has it: `r g b [a]` from 0 to 1 become one; names and `#rrggbb` are left; anything else is none. */

@@ -9,7 +9,7 @@ export class Notes {
 
   constructor(private readonly state: State, private readonly viewer: Viewer) {
     state.on(["current", "build", "drawings"], () => this.draw());
-    viewer.on(["model"], () => this.draw());
+    viewer.on(["model", "beside"], () => this.draw());
     this.draw();
   }
 
@@ -27,6 +27,7 @@ export class Notes {
     if (!drawing) return "";
     if (this.viewer.failure !== "") return `The model could not be shown: ${this.viewer.failure}`;
     if (drawing.gone) return this.viewer.model ? "The drawing's file is not there at present. This is its last model." : "The drawing's file is not there at present.";
+    if (this.viewer.comparison.failure !== "") return `The full clips could not be shown: ${this.viewer.comparison.failure}`;
     if (this.viewer.model) return "";
     if (!drawing.build) return "Building…";
     return drawing.build.model === null ? (drawing.build.stale || drawing.build.findings.some(({ severity }) => severity === "error") ? "There is no model yet: the drawing has errors." : "The drawing makes no model: it has no parts.") : "";

@@ -12,11 +12,10 @@ import {
   ReplaceStencilOp,
   ShaderMaterial,
   Vector2,
-  type Object3D,
   type WebGLRenderer,
 } from "three";
 import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
-import { overlay, type Model } from "./model";
+import { overlay } from "./model";
 
 /** Widths of outlines in pixels of the page, and how much lighter the surface is. */
 const LOOKS = {
@@ -54,11 +53,10 @@ export class Highlight {
     }
   }
 
-  /** Marks these nodes, and no others. */
-  set(mark: Mark, model: Model, nodes: readonly Object3D[]): void {
+  /** Marks these meshes, and no others. */
+  set(mark: Mark, meshes: readonly Mesh[]): void {
     this.clear(mark);
     const { tint, mask, outline } = this.looks[mark];
-    const meshes = nodes.flatMap((node) => model.meshesOf(node));
     for (const mesh of meshes) {
       if (tint.opacity > 0) this.add(mark, overlay(mesh, tint), 5);
       // Each mark covers all of its part before it is outlined, and marks come one after the other.
@@ -75,10 +73,10 @@ export class Highlight {
     this.marked[mark] = [];
   }
 
-  /** Draws the triangles' edges over a model, or takes them away. */
-  edges(model: Model | null, on: boolean): void {
+  /** Draws the triangles' edges over these meshes, and no others. */
+  edges(meshes: readonly Mesh[]): void {
     for (const mesh of this.lined) mesh.removeFromParent();
-    this.lined = on && model ? model.meshes.map((mesh) => overlay(mesh, this.lines)) : [];
+    this.lined = meshes.map((mesh) => overlay(mesh, this.lines));
     for (const mesh of this.lined) mesh.renderOrder = 2;
   }
 

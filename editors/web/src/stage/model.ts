@@ -8,6 +8,12 @@ export type Shading = "smooth" | "flat" | "wire" | "edges";
 
 /** Reads a GLB. Throws with a message for people when it is none. */
 export async function readModel(bytes: ArrayBuffer): Promise<Model> {
+  const { scene, animations } = await readFile(bytes);
+  return new Model(scene, animations);
+}
+
+/** What a GLB has. */
+export async function readFile(bytes: ArrayBuffer): Promise<{ readonly scene: Group; readonly animations: readonly AnimationClip[] }> {
   const loader = new GLTFLoader();
   loader.register((parser) => {
     // Textures are read as <img> elements: the other way fetches blobs, which the page's policy forbids.
@@ -15,7 +21,15 @@ export async function readModel(bytes: ArrayBuffer): Promise<Model> {
     return { name: "okoshi-images" };
   });
   const { scene, animations } = await loader.parseAsync(bytes, "");
-  return new Model(scene, animations);
+  for (const clip of animations) clip.duration = Math.max(clip.duration, secondsOf(clip));
+  return { scene, animations };
+}
+
+/** How long a clip says that it is: its last drawing stands until then. 0 if it says nothing. */
+function secondsOf(clip: AnimationClip): number {
+  const okoshi: unknown = (clip.userData as Readonly<Record<string, unknown>>)["okoshi"];
+  const seconds = typeof okoshi === "object" && okoshi !== null && "seconds" in okoshi ? okoshi.seconds : 0;
+  return typeof seconds === "number" && Number.isFinite(seconds) ? seconds : 0;
 }
 
 export class Model {
@@ -127,6 +141,10 @@ export class Model {
   }
 }
 
+/** Marks what lies over a model and is no part of it. */
+const OVER = "isOverlay";
+export const isOverlay = (object: Object3D): boolean => object.userData[OVER] === true;
+
 /** The name as the file has it; three.js takes some characters out of names that its animations use. */
 export function nodeName(object: Object3D): string {
   const name: unknown = object.userData["name"];
@@ -169,11 +187,12 @@ const words = ({ buffer, byteOffset, length }: TypedArray): Uint32Array => new U
 
 const materialsOf = ({ material }: Mesh): Material[] => (Array.isArray(material) ? material : [material]);
 
-/** Another mesh of the same shape and in the same place, to be drawn over it. The pointer does not meet it. */
+/** Another mesh of the same shape and in the same place, to be drawn over it. The pointer does not meet it, and copies leave it out. */
 export function overlay(mesh: Mesh, material: Material, geometry = mesh.geometry): Mesh {
   const copy = mesh instanceof SkinnedMesh ? new SkinnedMesh(geometry, material) : new Mesh(geometry, material);
   if (copy instanceof SkinnedMesh) copy.bind((mesh as SkinnedMesh).skeleton, (mesh as SkinnedMesh).bindMatrix);
   copy.raycast = () => {};
+  copy.userData[OVER] = true;
   mesh.add(copy);
   return copy;
 }

@@ -1,7 +1,7 @@
 // What is under the pointer.
 
-import { Raycaster, Vector2, type Object3D, type Vector3 } from "three";
-import { partNode, type Model } from "./model";
+import { Raycaster, Vector2, type Mesh, type Object3D, type Vector3 } from "three";
+import { partNode } from "./model";
 import type { View } from "./view";
 
 export interface Hit {
@@ -10,12 +10,12 @@ export interface Hit {
   readonly point: Vector3;
 }
 
-/** The nearest part at a place of the window, or null. */
-export function pick(model: Model, view: View, canvas: HTMLElement, x: number, y: number): Hit | null {
+/** The nearest part among these meshes at a place of the window, or null. */
+export function pick(meshes: readonly Mesh[], view: View, canvas: HTMLElement, x: number, y: number): Hit | null {
   const caster = new Raycaster();
   caster.setFromCamera(place(canvas, x, y), view.camera);
   // Surfaces are met from both sides, as they are seen.
-  for (const { object, point } of caster.intersectObjects(model.meshes, false)) {
+  for (const { object, point } of caster.intersectObjects([...meshes], false)) {
     const node = partNode(object);
     if (node) return { node, point };
   }

@@ -68,7 +68,7 @@ export class Pointer {
     }
     if (event.button !== 0) return;
     this.press = { x: event.clientX, y: event.clientY, id: event.pointerId };
-    const hit = this.poses ? this.hit(event.clientX, event.clientY) : null;
+    const hit = this.poses ? this.hit(event.clientX, event.clientY, true) : null;
     if (!hit) return;
     this.viewer.view.turns = false;
     this.viewer.canvas.setPointerCapture(event.pointerId);
@@ -118,8 +118,9 @@ export class Pointer {
     return false;
   }
 
-  private hit(x: number, y: number): Hit | null {
-    const { model, view, canvas } = this.viewer;
-    return model && pick(model, view, canvas, x, y);
+  /** Limbs are turned in the model itself; what is beside it for comparison only has names. */
+  private hit(x: number, y: number, toTurn = false): Hit | null {
+    const { model, beside, view, canvas } = this.viewer;
+    return model && pick(toTurn ? model.meshes : [...model.meshes, ...(beside.copy?.meshes ?? [])], view, canvas, x, y);
   }
 }

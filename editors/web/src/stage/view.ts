@@ -93,6 +93,19 @@ export class View {
     this.go(direction, centre, this.distanceFor(direction, centre, points), moves);
   }
 
+  /** Keeps what is looked at and from how far; what is returned goes back there, from where the camera is then. */
+  remember(): () => void {
+    const target = this.controls.target.clone();
+    const distance = this.distance();
+    return () => this.go(this.direction(), target, distance, true);
+  }
+
+  /** Where a place of the model is in the picture: in fractions of its width from the left and of its height from above. Null behind the camera. */
+  onScreen(place: Vector3): { readonly x: number; readonly y: number } | null {
+    const at = place.clone().project(this.camera);
+    return at.z > 1 ? null : { x: (at.x + 1) / 2, y: (1 - at.y) / 2 };
+  }
+
   /** Looks from the named side; distance and target stay. */
   look(name: ViewName): void {
     this.go(directionOf(VIEWS[name]), this.controls.target.clone(), this.distance(), true);

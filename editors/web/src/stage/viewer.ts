@@ -3,6 +3,10 @@
 import type { Host } from "../host/host";
 import { count, wantsStillness } from "../dom";
 import type { State } from "../state";
+import type { Build } from "../protocol";
+import { Beside } from "./beside";
+import { Comparison } from "./comparison";
+import { Exposure } from "./exposure";
 import { Ground } from "./ground";
 import { Highlight, type Mark } from "./highlight";
 import { Newest } from "./loading";
@@ -11,7 +15,7 @@ import { drawingAt, Player } from "./clips";
 import { Pose } from "./pose";
 import { Stage } from "./stage";
 import { View } from "./view";
-import { Vector3, type Camera, type Object3D } from "three";
+import { Box3, Vector3, type Camera, type Object3D } from "three";
 
 /** A model that was asked for. */
 interface Wanted {
@@ -19,12 +23,17 @@ interface Wanted {
   readonly connection: number;
   readonly revision: number;
   readonly address: string;
+  readonly clips: Build["clips"];
+  readonly originals: string | null;
 }
 
 const isSame = (a: Wanted, b: Wanted | null): boolean => b !== null && a.drawing === b.drawing && a.connection === b.connection && a.address === b.address;
 
-/** model: another is shown, or none · look: shading, projection or mode changed · time: the clip moved · pose: a limb did */
-export type ViewerTopic = "model" | "look" | "time" | "pose";
+/**
+ * model: another is shown, or none · look: shading, projection or mode changed · time: the clip moved · pose: a limb did ·
+ * beside: what stands beside the model changed
+ */
+export type ViewerTopic = "model" | "look" | "time" | "pose" | "beside";
 
 export class Viewer {
   readonly canvas = document.createElement("canvas");
@@ -32,6 +41,8 @@ export class Viewer {
   readonly stage: Stage;
   readonly pose = new Pose(() => this.model);
   readonly player = new Player();
+  readonly beside: Beside;
+  readonly comparison: Comparison;
   private readonly ground: Ground;
   private readonly highlight = new Highlight();
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
@@ -45,6 +56,10 @@ export class Viewer {
   /** Why the newest model is not shown, in words. */
   failure = "";
   shading: Shading = "smooth";
+  /** What is known of the shown model's clips. */
+  exposures: readonly Exposure[] = [];
+  /** The figure whose drawings are counted, where a clip moves several. */
+  figure: string | null = null;
   /** How much of the bend of terrain is done: 1 is as drawn, 0 true 3D. */
   bent = 1;
 
@@ -56,6 +71,7 @@ export class Viewer {
     this.view = new View(this.canvas);
     this.stage = new Stage(place, this.canvas, this.view);
     this.ground = new Ground(this.stage.scene);
+    this.beside = new Beside(this.stage.scene);
     this.loading = new Newest(
       async ({ address }) => {
         const bytes = await host.model(address);
@@ -69,6 +85,17 @@ export class Viewer {
       ({ model, bytes }, wanted) => this.take(model, bytes, wanted),
       (error, wanted) => this.failed(error, wanted),
     );
+    this.comparison = new Comparison(this.beside, this, {
+      read: (address) => host.model(address),
+      mayAsk: (connection) => this.state.link === "open" && connection === this.state.connection,
+      changed: () => {
+        this.surround();
+        this.markAll();
+        this.drawEdges();
+        this.stage.moved();
+        this.tell("beside");
+      },
+    });
     this.stage.beforeFrame((seconds) => this.step(seconds));
     this.stage.follow = (camera) => this.bend(camera);
     state.on(["current", "build", "link"], () => this.update());
@@ -88,17 +115,39 @@ export class Viewer {
     return part?.name ?? nodeName(node);
   }
 
-  nodesOf(name: string | null): readonly Object3D[] {
+  nodesOf(name: string | null, model = this.model): readonly Object3D[] {
     const part = name === null ? undefined : this.state.parts.carrier(name);
-    if (part && this.model) return this.model.nodesOf(part);
-    const node = name === null ? undefined : this.model?.node(name);
+    if (part && model) return model.nodesOf(part);
+    const node = name === null ? undefined : model?.node(name);
     return node ? [node] : [];
+  }
+
+  /** What is known of a clip, for each figure that it moves. */
+  exposuresOf(clip: { readonly name: string } | null): readonly Exposure[] {
+    return clip ? this.exposures.filter(({ facts }) => facts.name === clip.name) : [];
+  }
+
+  /** What is known of the clip that is shown: of the chosen figure, else of one whose clip is limited. */
+  get exposure(): Exposure | null {
+    const all = this.exposuresOf(this.player.clip);
+    return all.find(({ facts }) => facts.figure === this.figure) ?? all.find(({ facts }) => facts.limited) ?? all[0] ?? null;
+  }
+
+  chooseFigure(figure: string): void {
+    this.figure = figure;
+    this.tell("time");
+  }
+
+  /** Shows the clip as it was before it was limited beside it as it is, or no longer. */
+  compare(on: boolean): void {
+    this.comparison.want(on);
+    this.tell("beside");
   }
 
   setShading(shading: Shading): void {
     this.shading = shading;
     this.model?.shade(shading);
-    this.highlight.edges(this.model, shading === "edges");
+    this.drawEdges();
     this.stage.invalidate();
     this.canvas.dataset["shading"] = shading;
     this.tell("look");
@@ -140,6 +189,7 @@ export class Viewer {
   moved(change: () => void): void {
     this.pose.release();
     change();
+    this.comparison.follow();
     this.pose.apply();
     this.stage.moved();
     this.tell("time");
@@ -168,7 +218,8 @@ export class Viewer {
       if (before) this.remove();
       return;
     }
-    const wanted: Wanted = { drawing: drawing.id, connection: drawing.connection, revision: build.revision, address: build.model };
+    const { clips, originals } = build;
+    const wanted: Wanted = { drawing: drawing.id, connection: drawing.connection, revision: build.revision, address: build.model, clips, originals };
     // The same model; its parts may be bound by other strings now.
     if (isSame(wanted, this.awaited ?? this.shown)) return this.markAll();
     // Of a host that is away nothing is asked, and of the next one no model of the last: its addresses are others.
@@ -183,7 +234,8 @@ export class Viewer {
     const first = this.model === null;
     this.pose.release();
     for (const mark of ["hovered", "lit", "selected"] as const) this.highlight.clear(mark);
-    this.highlight.edges(null, false);
+    this.highlight.edges([]);
+    this.beside.remove();
     // The model before the last goes now, if no picture was made since.
     this.stage.settle();
     const before = this.model;
@@ -195,12 +247,13 @@ export class Viewer {
     this.failure = "";
     // The person may have changed it while the model was read.
     model.shade(this.shading);
-    this.highlight.edges(model, this.shading === "edges");
+    this.exposures = wanted.clips.map((facts) => new Exposure(facts));
     this.player.take(model, !wantsStillness());
     this.pose.apply();
     this.stage.scene.add(model.root);
-    this.ground.fit(model.box);
-    this.view.bound(model.box, model.bend.isEmpty ? null : (towards) => model.bend.points(towards, this.bent));
+    this.surround();
+    this.comparison.take(wanted);
+    this.drawEdges();
     if (first) this.view.frame("threeQuarter", false);
     this.markAll();
     this.canvas.dataset["revision"] = String(wanted.revision);
@@ -212,7 +265,7 @@ export class Viewer {
       this.stage.moved();
     });
     this.stage.drawNow();
-    this.tell("model", "time");
+    this.tell("model", "time", "beside");
   }
 
   private failed(error: unknown, wanted: Wanted): void {
@@ -225,7 +278,10 @@ export class Viewer {
 
   private remove(): void {
     for (const mark of ["hovered", "lit", "selected"] as const) this.highlight.clear(mark);
-    this.highlight.edges(null, false);
+    this.highlight.edges([]);
+    this.comparison.clear();
+    this.exposures = [];
+    this.figure = null;
     this.pose.reset();
     this.model?.dispose();
     this.model = null;
@@ -237,7 +293,30 @@ export class Viewer {
     delete this.canvas.dataset["revision"];
     this.canvas.setAttribute("aria-label", "No model yet");
     this.stage.moved();
-    this.tell("model", "time", "pose");
+    this.tell("model", "time", "pose", "beside");
+  }
+
+  /** Lays the ground under all that is there, and tells the view of it. */
+  private surround(): void {
+    const { model } = this;
+    const { boxes, offset } = this.beside;
+    if (!model) return;
+    const box = boxes ? new Box3().union(boxes[0]).union(boxes[1]) : model.box;
+    this.ground.fit(box);
+    this.view.bound(
+      box,
+      model.bend.isEmpty
+        ? null
+        : (towards) => {
+            const points = model.bend.points(towards, this.bent);
+            return boxes ? points.flatMap((point) => [point, point.clone().setX(point.x + offset)]) : points;
+          },
+    );
+    this.canvas.dataset["beside"] = boxes ? String(offset) : "";
+  }
+
+  private drawEdges(): void {
+    this.highlight.edges(this.shading === "edges" ? [...(this.model?.meshes ?? []), ...(this.beside.copy?.meshes ?? [])] : []);
   }
 
   private markAll(): void {
@@ -247,7 +326,11 @@ export class Viewer {
   private mark(mark: Mark): void {
     const name = { hovered: this.state.hovered, lit: this.state.lit, selected: this.state.selected }[mark];
     const nodes = this.nodesOf(name);
-    if (this.model) this.highlight.set(mark, this.model, nodes);
+    const { copy } = this.beside;
+    this.highlight.set(mark, [
+      ...nodes.flatMap((node) => this.model?.meshesOf(node) ?? []),
+      ...(copy ? this.nodesOf(name, copy).flatMap((node) => copy.meshesOf(node)) : []),
+    ]);
     this.canvas.dataset[mark] = nodes.map(nodeName).join(" ");
     this.stage.invalidate();
   }
@@ -257,7 +340,8 @@ export class Viewer {
     const { model } = this;
     if (!model || model.bend.isEmpty) return;
     const towards = new Vector3(0, 0, 1).applyQuaternion(camera.quaternion);
-    if (!model.bend.follow(towards, this.bent)) return;
+    const bends = [model, this.beside.copy].map((one) => one?.bend.follow(towards, this.bent));
+    if (!bends.includes(true)) return;
     this.ground.bend(model.bend.inWorld());
     this.stage.renderer.shadowMap.needsUpdate = true;
   }
@@ -268,9 +352,10 @@ export class Viewer {
     const { keys, time } = this.player;
     this.pose.release();
     const more = this.player.advance(seconds);
+    this.comparison.follow();
     this.pose.apply();
     // A drawing that is held is not drawn again.
-    if (!keys.held || drawingAt(keys, time) !== drawingAt(keys, this.player.time)) this.stage.moved();
+    if (this.beside.copy || !keys.held || drawingAt(keys, time) !== drawingAt(keys, this.player.time)) this.stage.moved();
     this.tell("time");
     return more;
   }

@@ -1,0 +1,265 @@
+// The chart of how much moves from frame to frame of a clip's source, which frames were left out, and how long drawings stand.
+
+import { fill, h, svg } from "../dom";
+import { inWords, peaks, type Exposure } from "../stage/exposure";
+import type { Viewer } from "../stage/viewer";
+
+/** Whether the chart was open when the page was last left. */
+const REMEMBERED = "okoshi.chart";
+/** Room around the curve, in pixels: for the numbers, and for the drawings below it. */
+const LEFT = 50;
+const RIGHT = 12;
+const TOP = 14;
+const BELOW = 38;
+/** How high a drawing's box is, and how far below the curve. */
+const BOX = 10;
+const GAP = 5;
+/** Boxes that are narrower have no room between them. */
+const NARROW = 4;
+/** Pixels from number to number along the frames, at least. */
+const APART = 56;
+
+export class Chart {
+  readonly element = h("section", { class: "chart", hidden: true, attributes: { "aria-label": "Chart" } });
+  private readonly summary = h("p", { class: "chart-summary" });
+  private readonly file = h("span", { class: "chart-file muted" });
+  private readonly picture = svg("svg", { class: "chart-picture", role: "img" });
+  private readonly tip = h("p", { class: "chart-tip", hidden: true });
+  private readonly head = svg("g", { class: "chart-head" });
+  private readonly dot = svg("circle", { class: "chart-dot", r: 4 });
+  private readonly stand = svg("path", { class: "chart-now" });
+  private readonly line = svg("path", { class: "chart-hover" });
+  private drawn: Exposure | null = null;
+  private size = { width: 0, height: 0 };
+  private scale = 1;
+  private drags = false;
+  private wanted = remembered();
+
+  /** `changed` hears when it is opened or closed. */
+  constructor(private readonly viewer: Viewer, private readonly changed: () => void) {
+    fill(
+      this.element,
+      h(
+        "header",
+        { class: "chart-title" },
+        h("h2", {}, "Movement per frame ", h("span", { class: "muted" }, "SSD, m²")),
+        this.summary,
+        this.file,
+        h("span", { class: "chart-legend", attributes: { "aria-hidden": "true" } }, h("i", { class: "of-omitted" }), "omitted", h("i", { class: "of-held" }), "held", h("i", { class: "of-drawing" }), "drawing"),
+      ),
+      h("div", { class: "chart-place" }, this.picture, this.tip),
+    );
+    new ResizeObserver(() => this.draw()).observe(this.picture);
+    this.picture.addEventListener("pointermove", (event) => this.over(event));
+    this.picture.addEventListener("pointerleave", () => this.leave());
+    this.picture.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      this.drags = true;
+      this.picture.setPointerCapture(event.pointerId);
+      this.over(event);
+      event.preventDefault();
+    });
+    for (const end of ["pointerup", "pointercancel"] as const) {
+      this.picture.addEventListener(end, (event) => {
+        this.drags = false;
+        if (event.pointerType !== "mouse") this.leave();
+      });
+    }
+    viewer.on(["model", "time"], () => this.follow());
+  }
+
+  /** Whether there is anything to draw. */
+  get isPossible(): boolean {
+    return (this.viewer.exposure?.facts.ssd.length ?? 0) > 0;
+  }
+
+  get isOpen(): boolean {
+    return this.wanted && this.isPossible;
+  }
+
+  toggle(): void {
+    if (!this.isPossible) return;
+    this.wanted = !this.wanted;
+    remember(this.wanted);
+    this.follow();
+    this.changed();
+  }
+
+  private follow(): void {
+    this.element.hidden = !this.isOpen;
+    if (!this.isOpen) return;
+    if (this.viewer.exposure !== this.drawn) this.draw();
+    this.move();
+  }
+
+  /** Where a frame of the source is, in pixels from the left. */
+  private at(source: number): number {
+    return LEFT + ((this.size.width - LEFT - RIGHT) * source) / (this.drawn?.sources ?? 1);
+  }
+
+  /** How high a movement is, in pixels from above. */
+  private up(ssd: number): number {
+    const bottom = this.size.height - BELOW;
+    return bottom - ((bottom - TOP) * ssd) / this.scale;
+  }
+
+  private draw(): void {
+    const { exposure } = this.viewer;
+    const { width, height } = this.picture.getBoundingClientRect();
+    if (!exposure || width <= LEFT + RIGHT || height <= TOP + BELOW) return;
+    this.drawn = exposure;
+    this.size = { width, height };
+    const { facts, runs, sources } = exposure;
+    const most = facts.ssd.reduce((top, value) => Math.max(top, value), 0);
+    this.scale = most > 0 ? niceAbove(most) : 1;
+    this.picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    const bottom = height - BELOW;
+    const right = width - RIGHT;
+
+    const grid = [0, 0.5, 1].map((part) => this.scale * part);
+    const lines = svg("path", { class: "chart-grid", d: grid.map((value) => `M${LEFT} ${half(this.up(value))}H${right}`).join("") });
+    const numbers = grid.map((value) => word(LEFT - 7, this.up(value) + 4, "end", figures(value)));
+    const step = niceStep((sources * APART) / (right - LEFT));
+    // The last number needs room; they count from 1, as the bar below does.
+    for (let frame = 0; frame < sources; frame = frame === 0 ? step - 1 || 1 : frame + step) {
+      const x = this.at(frame + 0.5);
+      if (x < right - 8 || frame === 0) numbers.push(word(x, height - 6, "middle", String(frame + 1)));
+    }
+
+    const thinned = peaks(facts.ssd, right - LEFT);
+    const points = thinned.values.map((value, at) => {
+      const from = at * thinned.step * facts.ssdStep;
+      const middle = Math.min(from + (thinned.step * facts.ssdStep) / 2, sources);
+      return `${round(this.at(middle))} ${round(this.up(value))}`;
+    });
+    const curve = `M${points.join("L")}`;
+    const ends = [points[0]!, points.at(-1)!].map((point) => point.split(" ")[0]!);
+
+    const omitted = [...exposure.omitted].map((source) => ({ x: round(this.at(source + 0.5)), y: round(this.up(exposure.ssd(source) ?? 0)) }));
+    const boxes = (held: boolean) => {
+      const wanted = runs.filter(({ frames }) => frames > 1 === held);
+      const d = wanted.map(({ from, to }) => {
+        const [left, end] = [this.at(from), this.at(to)];
+        const space = (right - LEFT) / runs.length < NARROW ? 0 : 1.5;
+        return `M${round(left)} ${bottom + GAP}H${round(Math.max(end - space, left + 0.5))}V${bottom + GAP + BOX}H${round(left)}Z`;
+      });
+      return svg("path", { class: held ? "chart-held" : "chart-single", d: d.join(""), "data-marks": wanted.length });
+    };
+    fill(
+      this.picture,
+      lines,
+      ...numbers,
+      svg("path", { class: "chart-area", d: `${curve}L${ends[1]} ${bottom}L${ends[0]} ${bottom}Z` }),
+      svg("path", { class: "chart-gone", d: omitted.map(({ x, y }) => `M${x} ${y}V${bottom}`).join(""), "data-marks": omitted.length }),
+      svg("path", { class: "chart-curve", d: curve, "data-marks": points.length }),
+      svg("path", { class: "chart-peak", d: omitted.map(({ x, y }) => `M${x - 3} ${y}a3 3 0 1 0 6 0a3 3 0 1 0 -6 0`).join("") }),
+      boxes(true),
+      boxes(false),
+      this.line,
+      this.stand,
+      this.head,
+    );
+    fill(this.head, svg("path", { d: `M0 ${TOP - 4}V${bottom + GAP + BOX + 2}` }), svg("path", { class: "chart-grip", d: `M-5 ${TOP - 10}H5V${TOP - 6}L0 ${TOP - 1}L-5 ${TOP - 6}Z` }), this.dot);
+    this.element.classList.toggle("limited", facts.limited);
+    const words = inWords(exposure);
+    this.summary.textContent = words;
+    this.file.textContent = facts.file;
+    this.file.hidden = facts.file === "";
+    const top = facts.ssd.indexOf(most) * facts.ssdStep;
+    this.picture.setAttribute("aria-label", `How much the joints of ${facts.name || "the clip"} move from frame to frame: ${words}. ${most > 0 ? `Most, ${figures(most)} square metres, in frame ${top + 1}.` : "Nothing moves."}`);
+    this.move();
+  }
+
+  /** Puts the playhead where the clip is. */
+  private move(): void {
+    const { drawn } = this;
+    if (!drawn) return;
+    const { time } = this.viewer.player;
+    const source = drawn.sourceAt(time);
+    this.head.setAttribute("transform", `translate(${round(this.at(source + 0.5))} 0)`);
+    this.dot.setAttribute("cy", String(round(this.up(drawn.ssd(source) ?? 0))));
+    this.picture.dataset["source"] = String(source + 1);
+    const run = drawn.runs[drawn.drawingIn(drawn.frameAt(time))];
+    const bottom = this.size.height - BELOW;
+    this.stand.setAttribute("d", run ? `M${round(this.at(run.from))} ${bottom + GAP}H${round(this.at(run.to) - 1)}V${bottom + GAP + BOX}H${round(this.at(run.from))}Z` : "");
+  }
+
+  private over(event: PointerEvent): void {
+    const { drawn } = this;
+    if (!drawn) return;
+    const { left } = this.picture.getBoundingClientRect();
+    const part = (event.clientX - left - LEFT) / (this.size.width - LEFT - RIGHT);
+    const source = Math.min(Math.max(Math.floor(part * drawn.sources), 0), drawn.sources - 1);
+    if (this.drags) {
+      this.viewer.moved(() => {
+        this.viewer.player.play(false);
+        this.viewer.player.seek(drawn.timeOf(source));
+      });
+    }
+    const x = this.at(source + 0.5);
+    this.line.setAttribute("d", `M${half(x)} ${TOP}V${this.size.height - BELOW}`);
+    const ssd = drawn.ssd(source);
+    const run = drawn.runs[drawn.drawingFor(source)];
+    const words = [`frame ${source + 1}`, ssd === null ? "" : `${figures(ssd)} m²`];
+    if (drawn.omitted.has(source)) words.push("omitted");
+    else if (run) words.push(`drawing ${drawn.drawingFor(source) + 1}`, run.frames > 1 ? `stands for ${run.frames} frames` : "");
+    this.tip.textContent = words.filter(Boolean).join(" · ");
+    this.tip.hidden = false;
+    // Beside the line, on the side that has room.
+    const wide = this.tip.offsetWidth;
+    this.tip.style.transform = `translateX(${x + 10 + wide < this.size.width ? x + 10 : Math.max(x - 10 - wide, 0)}px)`;
+  }
+
+  private leave(): void {
+    if (this.drags) return;
+    this.tip.hidden = true;
+    this.line.setAttribute("d", "");
+  }
+}
+
+const word = (x: number, y: number, anchor: string, text: string): SVGTextElement => {
+  const element = svg("text", { class: "chart-number", x: round(x), y: round(y), "text-anchor": anchor });
+  element.textContent = text;
+  return element;
+};
+
+const round = (value: number): number => Math.round(value * 100) / 100;
+/** A line of one pixel is sharp in the middle of one. */
+const half = (value: number): number => Math.floor(value) + 0.5;
+
+const NUMBERS = new Intl.NumberFormat("en", { maximumSignificantDigits: 3 });
+/** A number with three figures; very small ones with a power of ten. */
+export function figures(value: number): string {
+  return value !== 0 && Math.abs(value) < 1e-4 ? value.toExponential(1).replace("e-", "e−") : NUMBERS.format(value);
+}
+
+/** The least of 1, 2, 4, 5, 6 or 8 times a power of ten that is not below a number: its half is short too. */
+export function niceAbove(value: number): number {
+  const ten = 10 ** Math.floor(Math.log10(value));
+  for (const times of [1, 2, 4, 5, 6, 8]) if (value <= times * ten * (1 + 1e-9)) return times * ten;
+  return 10 * ten;
+}
+
+/** The least of 1, 2 or 5 times a power of ten that is not below a number, and no fraction. */
+function niceStep(value: number): number {
+  const ten = 10 ** Math.max(Math.floor(Math.log10(Math.max(value, 1))), 0);
+  for (const times of [1, 2, 5]) if (value <= times * ten) return times * ten;
+  return 10 * ten;
+}
+
+// A page may be forbidden to keep anything.
+function remembered(): boolean {
+  try {
+    return localStorage.getItem(REMEMBERED) === "open";
+  } catch {
+    return false;
+  }
+}
+
+function remember(open: boolean): void {
+  try {
+    localStorage.setItem(REMEMBERED, open ? "open" : "closed");
+  } catch {
+    // Then it is closed the next time.
+  }
+}

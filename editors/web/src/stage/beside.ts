@@ -1,0 +1,139 @@
+// The model a second time, beside itself: there a limited clip plays as it was before it was limited.
+
+import { AnimationClip, AnimationMixer, Box3, Group, LoopOnce, SkinnedMesh, Vector3, type AnimationAction, type KeyframeTrack, type Object3D } from "three";
+import { clone } from "three/addons/utils/SkeletonUtils.js";
+import { isOverlay, Model, nodeName } from "./model";
+
+/** What is left free between the two, in widths. */
+const GAP = 0.12;
+/** At so many times of a clip is looked how much room it takes. */
+const SAMPLES = 24;
+
+/** The clips of a file without meshes, and its nodes. */
+export interface Originals {
+  readonly scene: Object3D;
+  readonly animations: readonly AnimationClip[];
+}
+
+export class Beside {
+  originals: Originals | null = null;
+  copy: Model | null = null;
+  /** What each of the two fills of the world while the clip plays. */
+  boxes: readonly [Box3, Box3] | null = null;
+  private readonly place = new Group();
+  private mixer: AnimationMixer | null = null;
+  private action: AnimationAction | null = null;
+  private clip: AnimationClip | null = null;
+
+  constructor(scene: Object3D) {
+    scene.add(this.place);
+  }
+
+  /** How far to the right it stands, in metres. */
+  get offset(): number {
+    return this.place.position.x;
+  }
+
+  /** Puts the model there once more; what lies over it and how limbs are turned by hand are left out. */
+  put(model: Model, originals: Originals): void {
+    this.remove();
+    const root = clone(model.root) as Group;
+    const over: Object3D[] = [];
+    root.traverse((object) => {
+      if (isOverlay(object)) over.push(object);
+    });
+    for (const object of over) object.removeFromParent();
+    this.originals = originals;
+    this.place.position.x = 0;
+    this.copy = new Model(root, model.clips);
+    this.place.add(root);
+    this.mixer = new AnimationMixer(root);
+  }
+
+  /** It shares all but its bones with the model, which disposes of that. */
+  remove(): void {
+    this.mixer?.stopAllAction();
+    for (const mesh of this.copy?.meshes ?? []) if (mesh instanceof SkinnedMesh) mesh.skeleton.dispose();
+    this.copy?.root.removeFromParent();
+    this.copy = this.mixer = this.action = this.clip = this.boxes = null;
+  }
+
+  /** Plays what a clip was before it was limited, and stands so far away that neither gets in the other's way. */
+  choose(clip: AnimationClip | null, sample: (time: number) => void, model: Model): void {
+    const { copy, mixer, originals } = this;
+    if (!copy || !mixer || !originals) return;
+    mixer.stopAllAction();
+    const full = clip && (originals.animations.find(({ name }) => name === clip.name) ?? clip);
+    const nodes = nodesByName(full === clip ? model.root : originals.scene);
+    this.clip = full && onNodes(full, nodes, nodesByName(copy.root));
+    this.action = this.clip && mixer.clipAction(this.clip).setLoop(LoopOnce, 1);
+    if (this.action) {
+      this.action.clampWhenFinished = true;
+      this.action.play();
+    }
+    const [own, other] = [model.box.clone(), model.box.clone()];
+    for (let at = 0; clip && at <= SAMPLES; at++) {
+      const time = (clip.duration * at) / SAMPLES;
+      sample(time);
+      this.seek(time, clip.duration);
+      own.union(new Box3().setFromObject(model.root));
+      other.union(boxOf(copy.root, this.place));
+    }
+    this.place.position.x = (own.max.x - other.min.x) + Math.max(own.max.x - own.min.x, 1e-6) * GAP;
+    this.place.updateMatrixWorld(true);
+    this.boxes = [own, other.translate(new Vector3(this.offset, 0, 0))];
+  }
+
+  /** Goes to a time of a clip that lasts so long: both begin and end together. */
+  seek(time: number, duration: number): void {
+    if (!this.action || !this.mixer || !this.clip) return;
+    this.action.paused = false;
+    this.action.enabled = true;
+    this.action.time = duration > 0 ? Math.min(time / duration, 1) * this.clip.duration : 0;
+    this.mixer.update(0);
+  }
+}
+
+/** What a copy fills, as if it were not moved aside. */
+function boxOf(root: Object3D, place: Object3D): Box3 {
+  place.updateMatrixWorld(true);
+  return new Box3().setFromObject(root).translate(new Vector3(-place.position.x, 0, 0));
+}
+
+/** Nodes by the names that the file gives them; several may have the same. */
+function nodesByName(root: Object3D): Map<string, Object3D[]> {
+  const nodes = new Map<string, Object3D[]>();
+  root.traverse((object) => {
+    const name = nodeName(object);
+    const same = nodes.get(name);
+    if (same) same.push(object);
+    else nodes.set(name, [object]);
+  });
+  return nodes;
+}
+
+/**
+ * A clip of other nodes on those of the same names. three.js makes names unique within a file, so that the same node may be called
+ * otherwise in another file: the names that count are the files' own.
+ */
+export function onNodes(clip: AnimationClip, from: ReadonlyMap<string, readonly Object3D[]>, to: ReadonlyMap<string, readonly Object3D[]>): AnimationClip {
+  const targets = new Map<string, Object3D>();
+  for (const [name, nodes] of from) {
+    nodes.forEach((node, at) => {
+      const target = to.get(name)?.[at];
+      if (!target) return;
+      targets.set(node.uuid, target);
+      if (node.name !== "" && !targets.has(node.name)) targets.set(node.name, target);
+    });
+  }
+  const tracks: KeyframeTrack[] = [];
+  for (const track of clip.tracks) {
+    const dot = track.name.lastIndexOf(".");
+    const target = targets.get(track.name.slice(0, dot));
+    if (!target) continue;
+    const moved = track.clone();
+    moved.name = target.uuid + track.name.slice(dot);
+    tracks.push(moved);
+  }
+  return new AnimationClip(clip.name, clip.duration, tracks);
+}
