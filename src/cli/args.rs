@@ -6,7 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::motion::limited::Camera;
 use crate::motion::resample::{Range, parse_range};
-use crate::render::{FRAME_LIMIT, PITCH_LIMIT, SIZE_LIMIT, View};
+use crate::render::{CELL_LIMIT, FRAME_LIMIT, PITCH_LIMIT, SIZE_LIMIT, View};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -353,11 +353,17 @@ Examples:
   okoshi render human.svg --view=-60,30               from its right, and from above
   okoshi render human.svg -o turn.gif --turntable 36  the model turns, as a moving GIF
   okoshi render human.svg -o turn.png --turntable 8   turn-1.png to turn-8.png
+  okoshi render human.svg -o walk.gif --clip walk     the model moves; walk.png gives numbered frames
+  okoshi render human.svg -o step.png --clip walk --time 0.5
+                                                      as it stands half a second later
+  okoshi render human.svg -o walk.png --clip walk --strip 6
+                                                      six moments side by side
   okoshi render island.svg --view 0,45 --projection orthographic
                                                       terrain, tile for tile as it is drawn
   okoshi render human.glb --size 1920x1080 --background '#ffffff'
 
-The picture shows what `okoshi build` writes, framed by itself. Its background is transparent.";
+The picture shows what `okoshi build` writes, framed by itself. Its background is transparent. A clip is framed as a
+whole: who walks stays in the picture.";
 
 #[derive(Debug, Args)]
 #[command(after_help = RENDER_EXAMPLES)]
@@ -371,7 +377,7 @@ pub(super) struct Render {
     /// Where the camera stands: degrees to the model's left, degrees up
     #[arg(long, value_name = "YAW,PITCH", default_value = "30,15", value_parser = view, allow_hyphen_values = true)]
     pub(super) view: View,
-    /// Width and height in pixels, 1 to 8192 each
+    /// Width and height in pixels, 1 to 8192 each; of a strip, those of each moment
     #[arg(long, value_name = "WxH", default_value = "800x800", value_parser = size)]
     pub(super) size: [u32; 2],
     /// Smooth, or every triangle as it is
@@ -389,11 +395,39 @@ pub(super) struct Render {
     /// Turn the model once round in N pictures: one moving .gif or .apng, or numbered .png files
     #[arg(long, value_name = "N", value_parser = frames)]
     pub(super) turntable: Option<u32>,
+    /// Show a clip, by its name or its number from 1: a moving .gif or .apng, or numbered .png files
+    #[arg(long, value_name = "NAME")]
+    pub(super) clip: Option<String>,
+    /// Show one moment of the clip, seconds from its beginning
+    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with_all = ["fps", "strip", "from", "to"])]
+    pub(super) time: Option<f64>,
+    /// Show N moments of the clip side by side, evenly from its first to its last
+    #[arg(long, value_name = "N", value_parser = cells, conflicts_with_all = ["fps", "turntable"])]
+    pub(super) strip: Option<u32>,
+    /// Begin the clip at this moment, seconds
+    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "turntable")]
+    pub(super) from: Option<f64>,
+    /// End the clip at this moment, seconds
+    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "turntable")]
+    pub(super) to: Option<f64>,
+    /// Frames a second of the clip, 1 to 120, in a GIF to 50 [default: 24]
+    #[arg(long, value_name = "F", value_parser = clap::value_parser!(u32).range(1..=120), conflicts_with = "turntable")]
+    pub(super) fps: Option<u32>,
     /// Draw what can be made in spite of errors
     #[arg(long)]
     pub(super) keep_going: bool,
     #[command(flatten)]
     pub(super) reading: Reading,
+}
+
+impl Render {
+    /// Whether any option is about a clip.
+    pub(super) fn asks_for_clip(&self) -> bool {
+        let moments = [self.time, self.from, self.to];
+        self.clip.is_some()
+            || self.strip.or(self.fps).is_some()
+            || moments.iter().any(Option::is_some)
+    }
 }
 
 /// How surfaces are shaded.
@@ -482,6 +516,22 @@ fn frames(text: &str) -> Result<u32, String> {
         Ok(frames) if (2..=FRAME_LIMIT).contains(&frames) => Ok(frames),
         _ => Err(format!(
             "a whole number from 2 to {FRAME_LIMIT} is due, 36 for example"
+        )),
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.0..1e9).contains(&seconds) => Ok(seconds),
+        _ => Err("a number of seconds from 0 is due, 1.5 for example".to_owned()),
+    }
+}
+
+fn cells(text: &str) -> Result<u32, String> {
+    match text.parse::<u32>() {
+        Ok(cells) if (2..=CELL_LIMIT).contains(&cells) => Ok(cells),
+        _ => Err(format!(
+            "a whole number from 2 to {CELL_LIMIT} is due, 6 for example"
         )),
     }
 }
