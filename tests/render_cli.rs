@@ -3,11 +3,16 @@
 mod common;
 
 use std::fs;
+use std::sync::Arc;
 
 use common::program::{BAD, Room};
+use glam::DQuat;
 use image::{AnimationDecoder, ImageDecoder};
 use okoshi::gltf::{Container, write};
-use okoshi::scene::{Material, Mesh, Node, Piece, Primitive, Scene, Surface, ViewDependent};
+use okoshi::scene::{
+    Animation, Interpolation, Material, Mesh, Node, Piece, Primitive, Scene, Surface, Timing,
+    Track, Values, ViewDependent,
+};
 
 const GOOD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
   <rect x="20" y="20" width="60" height="40" fill="#cc0000" id="body"/>
@@ -291,8 +296,8 @@ fn errors_in_the_drawing() {
     assert!(files(&room).is_empty());
 }
 
-/// A model of one upright square, one metre wide, that bends with the view.
-fn bent() -> Vec<u8> {
+/// A model of one upright square, one metre wide, in one node.
+fn upright(node: Node, animations: Vec<Animation>) -> Vec<u8> {
     let square = Surface {
         positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
         normals: vec![[0.0, 0.0, 1.0]; 4],
@@ -301,10 +306,8 @@ fn bent() -> Vec<u8> {
     };
     let scene = Scene {
         nodes: vec![Node {
-            name: "Island".to_owned(),
             mesh: Some(0),
-            view_dependent: Some(ViewDependent::Bend),
-            ..Node::default()
+            ..node
         }],
         roots: vec![0],
         meshes: vec![Mesh {
@@ -313,12 +316,214 @@ fn bent() -> Vec<u8> {
                 material: 0,
             }],
         }],
-        materials: vec![Material::default()],
+        materials: vec![Material {
+            double_sided: true,
+            ..Material::default()
+        }],
+        animations,
         ..Scene::default()
     };
     let mut out = std::io::Cursor::new(Vec::new());
     write(&scene, Container::Glb, &mut out).expect("sound");
     out.into_inner()
+}
+
+/// A model that bends with the view.
+fn bent() -> Vec<u8> {
+    let node = Node {
+        name: "Island".to_owned(),
+        view_dependent: Some(ViewDependent::Bend),
+        ..Node::default()
+    };
+    upright(node, Vec::new())
+}
+
+/// A clip that turns the model about z by so many degrees a key.
+fn turning(name: &str, seconds: f64, times: &[f32], interpolation: Interpolation) -> Animation {
+    let turn = |key| DQuat::from_rotation_z(f64::from(key) * 0.4);
+    Animation {
+        name: name.to_owned(),
+        seconds,
+        tracks: vec![Track {
+            node: 0,
+            timing: Arc::new(Timing {
+                times: times.to_vec(),
+                interpolation,
+            }),
+            values: Values::Rotations((0..times.len() as u32).map(turn).collect()),
+        }],
+    }
+}
+
+/// A folder with a model of two clips and one of a single clip of three held drawings.
+fn moving_room() -> Room {
+    let held = [0.0, 1.0 / 3.0, 5.0 / 6.0];
+    let held = turning("held", 1.0, &held, Interpolation::Step);
+    let smooth = turning("wave hand", 0.5, &[0.0, 0.5], Interpolation::Linear);
+    let room = room();
+    let both = vec![smooth, held.clone()];
+    room.write("two.glb", upright(Node::default(), both));
+    room.write("one.glb", upright(Node::default(), vec![held]));
+    room
+}
+
+fn gif(room: &Room, name: &str) -> Vec<image::Frame> {
+    let file = std::io::BufReader::new(fs::File::open(room.path(name)).expect("a file"));
+    let gif = image::codecs::gif::GifDecoder::new(file).expect("a GIF");
+    gif.into_frames().collect_frames().expect("frames")
+}
+
+fn milliseconds(frames: &[image::Frame]) -> Vec<u32> {
+    let delays = frames.iter().map(|frame| frame.delay().numer_denom_ms());
+    delays.map(|(number, of)| number / of).collect()
+}
+
+#[test]
+fn a_clip_becomes_a_moving_picture_whose_drawings_stand_as_long_as_they_do() {
+    let room = moving_room();
+    ends(
+        &room,
+        "render one.glb -o a.gif --size 40x40 --clip held",
+        0,
+        "wrote a.gif: 3 pictures in 1 seconds, 40 × 40 pixels, 2 triangles each",
+    );
+    let frames = gif(&room, "a.gif");
+    assert_eq!(milliseconds(&frames), [330, 500, 170]);
+    ends(
+        &room,
+        "render one.glb -o a.apng --size 40x40 --clip 1",
+        0,
+        "wrote a.apng: 3 pictures in 1 seconds",
+    );
+    let file = std::io::BufReader::new(fs::File::open(room.path("a.apng")).expect("a file"));
+    let apng = image::codecs::png::PngDecoder::new(file).expect("a PNG");
+    let apng = apng.apng().expect("an animated one");
+    let drawn = apng.into_frames().collect_frames().expect("frames");
+    assert_eq!(milliseconds(&drawn), [333, 500, 167]);
+    ends(
+        &room,
+        "render one.glb -o a.png --size 40x40 --clip held",
+        0,
+        "wrote a-01.png to a-24.png: 40 × 40 pixels",
+    );
+    for frame in 0..24 {
+        let shown = [8, 20, 24]
+            .iter()
+            .position(|end| frame < *end)
+            .expect("one");
+        let image = picture(&room, &format!("a-{:02}.png", frame + 1));
+        assert!(image == *drawn[shown].buffer(), "{frame}");
+    }
+    // What moves all the time has all its frames, and the sum of their delays is the clip's length.
+    let smooth = "render two.glb -o b.gif --size 40x40 --clip wave_hand";
+    let run_smooth = |more: &str| {
+        let mut words: Vec<&str> = smooth.split(' ').collect();
+        words.pop();
+        words.push("wave hand");
+        words.extend(more.split_whitespace());
+        let output = room.command(&words).output().expect("it starts");
+        assert!(output.status.success(), "{output:?}");
+        milliseconds(&gif(&room, "b.gif"))
+    };
+    let delays = run_smooth("");
+    assert_eq!((delays.len(), delays.iter().sum()), (12, 500));
+    let delays = run_smooth("--fps 10 --from 0.25 --to 0.5");
+    assert_eq!(delays, [100, 100, 50]);
+    let (status, out, _) = run(&room, "render one.glb -o - --size 40x40 --clip held");
+    assert_eq!((status, Some(out)), (0, fs::read(room.path("a.apng")).ok()));
+}
+
+#[test]
+fn moments_and_strips_of_clips() {
+    let room = moving_room();
+    for (name, time) in [("early", "0.1"), ("same", "0.2"), ("late", "0.5")] {
+        let arguments =
+            format!("render one.glb -o {name}.png --size 40x40 --view 0,0 --time {time}");
+        ends(&room, &arguments, 0, &format!("wrote {name}.png: 40 × 40"));
+    }
+    assert!(picture(&room, "early.png") == picture(&room, "same.png"));
+    assert!(picture(&room, "early.png") != picture(&room, "late.png"));
+    // A moment can be seen from all sides.
+    ends(
+        &room,
+        "render one.glb -o t.gif --size 40x40 --clip held --time 0.5 --turntable 4",
+        0,
+        "wrote t.gif: 4 frames",
+    );
+    ends(
+        &room,
+        "render one.glb -o strip.png --size 40x30 --strip 5",
+        0,
+        "wrote strip.png: 5 moments, 40 × 30 pixels, 2 triangles each",
+    );
+    let strip = picture(&room, "strip.png");
+    assert_eq!(strip.dimensions(), (200, 30));
+    let cell = |index: u32| image::imageops::crop_imm(&strip, index * 40, 0, 40, 30).to_image();
+    // At 0 and 0.25 the first drawing stands, at 0.5 and 0.75 the second.
+    assert!(cell(0) == cell(1) && cell(2) == cell(3));
+    assert!(cell(1) != cell(2) && cell(3) != cell(4));
+    ends(
+        &room,
+        "render one.glb -o part.png --size 40x30 --strip 2 --from 0.4 --to 0.8",
+        0,
+        "wrote part.png: 2 moments",
+    );
+    let part = picture(&room, "part.png");
+    let cell = |index: u32| image::imageops::crop_imm(&part, index * 40, 0, 40, 30).to_image();
+    assert!(cell(0) == cell(1));
+}
+
+#[test]
+fn wrong_use_of_clips_is_told() {
+    let room = moving_room();
+    let told = [
+        (
+            "two.glb -o a.gif --clip kick",
+            "`two.glb` has no clip `kick`; there is 1 `wave hand` (0.5 s), 2 `held` (1 s)",
+        ),
+        ("two.glb -o a.gif --clip 3", "has no clip `3`; there is 1"),
+        ("two.glb -o a.gif --clip 0", "has no clip `0`; there is 1"),
+        (
+            "two.glb --time 0",
+            "has several clips: name one with --clip, 1 `wave hand` (0.5 s), 2",
+        ),
+        (
+            "a.svg --time 0",
+            "`a.svg` has no clips: nothing in it moves",
+        ),
+        (
+            "one.glb --time 1.2",
+            "has a clip of 1 seconds: --time 1.2 lies behind its end",
+        ),
+        ("one.glb -o a.gif --to 7", "--to 7 lies behind its end"),
+        (
+            "one.glb -o a.gif --from 0.5 --to 0.5",
+            "cannot be shown from 0.5 to 0.5 seconds: --to must lie behind --from",
+        ),
+        ("one.glb --time=-1", "a number of seconds from 0 is due"),
+        ("one.glb --time 1 --fps 3", "cannot be used with"),
+        ("one.glb --strip 1", "a whole number from 2 to 1000 is due"),
+        (
+            "one.glb --strip 100 --size 4000x4000",
+            "`one.glb` cannot be drawn as a strip of 400000 by 4000 pixels",
+        ),
+        (
+            "one.glb -o a.gif --strip 3",
+            "but --time and --strip make one",
+        ),
+        (
+            "one.glb -o a.gif --clip held --fps 60",
+            "GIFs show at most 50 frames a second",
+        ),
+        (
+            "one.glb -o a.gif --clip held --turntable 4",
+            "--turntable turns one moment of a clip: say which with --time",
+        ),
+    ];
+    for (arguments, message) in told {
+        ends(&room, &format!("render {arguments}"), 2, message);
+    }
+    assert_eq!(files(&room), ["one.glb", "two.glb"]);
 }
 
 #[test]

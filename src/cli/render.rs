@@ -10,29 +10,47 @@ use super::progress::{counting, spinning};
 use super::{Outcome, fail, style};
 use crate::disk::{FolderResolver, read_drawing, write_atomic};
 use crate::gltf::{self, Container};
-use crate::render::{self, Animation, Options, Palette, Stage, write_png};
+use crate::render::{self, Animation, Clip, Model, Options, Palette, Stage, TURN, write_png};
+
+mod clips;
 
 /// The side of the pictures that a GIF's colours are chosen from, pixels, and the most that there are: flat sides change
 /// their shade with every frame.
 const SKETCH: u32 = 160;
 const SKETCHES: u32 = 36;
 
-/// What is to be written.
+/// The files that pictures are put into.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
-    Picture,
-    Numbered(u32),
-    Gif(u32),
-    Apng(u32),
+enum Form {
+    /// One picture, or numbered ones.
+    Png,
+    Gif,
+    Apng,
+}
+
+/// What is to be drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Subject {
+    /// The model at rest, or at a moment of a clip.
+    Still,
+    /// The same from so many sides.
+    Turning(u32),
+    /// A clip.
+    Moving,
+    /// So many moments of a clip.
+    Strip(u32),
 }
 
 /// Draws a drawing's model, or a model.
 pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
-    let (output, kind) =
-        match output(arguments).and_then(|output| Ok((kind(&output, arguments)?, output))) {
-            Ok((kind, output)) => (output, kind),
-            Err(message) => return fail(&message),
-        };
+    let asked = output(arguments).and_then(|output| {
+        let subject = subject(arguments)?;
+        Ok((form(&output, subject, arguments)?, subject, output))
+    });
+    let (form, subject, output) = match asked {
+        Ok(asked) => asked,
+        Err(message) => return fail(&message),
+    };
     let (bytes, loaded) = match model(arguments, common) {
         Ok(found) => found,
         Err(outcome) => return outcome,
@@ -44,23 +62,56 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
         Err(error) => return fail(&format!("`{name}` {error}")),
     };
     drop(bytes);
-    let stage = match spinning("posing", || Stage::new(&model, &model.rest())) {
-        Ok(stage) => stage,
-        // What is wrong is the drawing's, not the call's.
-        Err(error) => {
-            fail(&format!("`{name}` {error}"));
-            return Outcome::Errors;
+    let clip = match clip(&model, arguments) {
+        Ok(clip) => clip,
+        Err(message) => return fail(&format!("`{name}` {message}")),
+    };
+    let written = match (subject, clip) {
+        (Subject::Moving | Subject::Strip(_), Some((clip, _))) => {
+            let film = match clips::film(&model, clip, arguments) {
+                Ok(film) => film,
+                Err(message) => return fail(&format!("`{name}` {message}")),
+            };
+            match subject {
+                Subject::Strip(cells) => clips::strip(&film, arguments, cells, &output),
+                _ => clips::moving(&film, arguments, form, &output),
+            }
+        }
+        (_, clip) => {
+            let pose = match clip {
+                Some((clip, time)) => model.pose_at(clip, time),
+                None => model.rest(),
+            };
+            let stage = match spinning("posing", || Stage::new(&model, &pose)) {
+                Ok(stage) => stage,
+                // What is wrong is the drawing's, not the call's.
+                Err(error) => {
+                    fail(&format!("`{name}` {error}"));
+                    return Outcome::Errors;
+                }
+            };
+            draw(&stage, arguments, &output, (form, subject))
         }
     };
-    match draw(&stage, arguments, &output, kind) {
+    match written {
         Ok(written) => {
             if !common.quiet {
                 eprintln!("wrote {written}");
             }
             loaded
         }
-        Err(message) => fail(&message),
+        Err(Failure(message)) => fail(&message),
     }
+}
+
+/// The clip that is asked for, if one is, and the moment of it.
+fn clip<'a>(model: &'a Model, arguments: &Render) -> Result<Option<(&'a Clip, f64)>, String> {
+    if !arguments.asks_for_clip() {
+        return Ok(None);
+    }
+    let clip = clips::chosen(model, arguments.clip.as_deref())?;
+    let time = clips::within(clip, "--time", arguments.time.unwrap_or(0.0))?;
+    Ok(Some((clip, time)))
 }
 
 /// Where the picture goes.
@@ -81,29 +132,54 @@ fn output(arguments: &Render) -> Result<PathBuf, String> {
     }
 }
 
+/// What the options ask for.
+fn subject(arguments: &Render) -> Result<Subject, String> {
+    match (arguments.strip, arguments.turntable) {
+        (Some(cells), _) => Ok(Subject::Strip(cells)),
+        (None, Some(_)) if arguments.clip.is_some() && arguments.time.is_none() => Err(
+            "--turntable turns one moment of a clip: say which with --time, in seconds".to_owned(),
+        ),
+        (None, Some(frames)) => Ok(Subject::Turning(frames)),
+        (None, None) if arguments.asks_for_clip() && arguments.time.is_none() => {
+            Ok(Subject::Moving)
+        }
+        (None, None) => Ok(Subject::Still),
+    }
+}
+
 /// What a file's ending asks for.
-fn kind(output: &Path, arguments: &Render) -> Result<Kind, String> {
+fn form(output: &Path, subject: Subject, arguments: &Render) -> Result<Form, String> {
     let ending = output
         .extension()
         .map(|ending| ending.to_string_lossy().to_lowercase());
-    let stdout = output.as_os_str() == "-";
-    match (ending.as_deref(), arguments.turntable) {
+    let one = matches!(subject, Subject::Still | Subject::Strip(_));
+    let form = match ending.as_deref() {
         // A file of frames where there can be but one file.
-        (_, Some(frames)) if stdout => Ok(Kind::Apng(frames)),
-        (_, None) if stdout => Ok(Kind::Picture),
-        (Some("png"), None) => Ok(Kind::Picture),
-        (Some("png"), Some(frames)) => Ok(Kind::Numbered(frames)),
-        (Some("gif"), Some(frames)) => Ok(Kind::Gif(frames)),
-        (Some("apng"), Some(frames)) => Ok(Kind::Apng(frames)),
-        (Some("gif" | "apng"), None) => Err(format!(
-            "`{}` would be a moving picture: say in how many frames the model turns, --turntable 36 for example, or end the output in .png",
-            output.display()
-        )),
-        _ => Err(format!(
-            "the output `{}` must end in .png, .gif or .apng",
-            output.display()
-        )),
+        _ if output.as_os_str() == "-" && !one => Form::Apng,
+        _ if output.as_os_str() == "-" => Form::Png,
+        Some("png") => Form::Png,
+        Some("gif") => Form::Gif,
+        Some("apng") => Form::Apng,
+        _ => {
+            return Err(format!(
+                "the output `{}` must end in .png, .gif or .apng",
+                output.display()
+            ));
+        }
+    };
+    if one && form != Form::Png {
+        let name = output.display();
+        return Err(match arguments.asks_for_clip() {
+            true => format!(
+                "`{name}` would be a moving picture, but --time and --strip make one that stands still: end the output in .png"
+            ),
+            false => format!(
+                "`{name}` would be a moving picture: say in how many frames the model turns, --turntable 36 for example, or which clip it shows, --clip NAME, or end the output in .png"
+            ),
+        });
     }
+    clips::check_fps(arguments, form)?;
+    Ok(form)
 }
 
 /// The model's bytes, and how the reading of the drawing ended; findings are printed.
@@ -140,26 +216,23 @@ fn model(arguments: &Render, common: Common) -> Result<(Vec<u8>, Outcome), Outco
     }
 }
 
+/// The size of pictures, and how much there is in them.
+fn same_look([width, height]: [u32; 2], triangles: usize) -> String {
+    format!("{width} × {height} pixels, {triangles} triangles")
+}
+
 /// Draws and writes; says what was written.
 fn draw(
     stage: &Stage<'_>,
     arguments: &Render,
     output: &Path,
-    kind: Kind,
-) -> Result<String, String> {
+    what: (Form, Subject),
+) -> Result<String, Failure> {
     let options = options(arguments);
-    let [width, height] = options.size;
-    let size = format!("{width} × {height} pixels, {} triangles", stage.triangles());
+    let look = same_look(options.size, stage.triangles());
     let name = output.display();
-    match kind {
-        Kind::Picture => {
-            let image = spinning("drawing", || stage.picture(&options))
-                .map_err(|error| error.to_string())?;
-            write_atomic(output, |out| write_png(&image, out))
-                .map_err(|error| error.to_string())?;
-            Ok(format!("{name}: {size}"))
-        }
-        Kind::Numbered(frames) => {
+    match what {
+        (Form::Png, Subject::Turning(frames)) => {
             let mut number = 0;
             counting("drawing", frames, |done| {
                 stage.turntable(&options, frames, |image| {
@@ -167,37 +240,28 @@ fn draw(
                     write_atomic(&numbered(output, number, frames), |out| {
                         write_png(&image, out)
                     })
-                    .map_err(|error| Failure(error.to_string()))?;
+                    .map_err(Failure::written)?;
                     done(number);
-                    Ok(())
+                    Ok::<(), Failure>(())
                 })
-            })
-            .map_err(|Failure(message)| message)?;
-            let (first, last) = (
-                numbered(output, 1, frames),
-                numbered(output, frames, frames),
-            );
-            Ok(format!(
-                "{} to {}: {size} each",
-                first.display(),
-                last.display()
-            ))
+            })?;
+            let [first, last] = [1, frames].map(|number| numbered(output, number, frames));
+            let (first, last) = (first.display(), last.display());
+            Ok(format!("{first} to {last}: {look} each"))
         }
-        Kind::Gif(frames) | Kind::Apng(frames) => {
+        (form, Subject::Turning(frames)) => {
             counting("drawing", frames, |done| {
                 write_atomic(output, |out| {
-                    let mut animation = match kind {
-                        Kind::Gif(_) => Animation::gif(
-                            out,
-                            options.size,
-                            frames,
-                            palette(stage, &options, frames)?,
-                        )?,
-                        _ => Animation::apng(out, options.size, frames)?,
+                    let mut animation = match form {
+                        Form::Gif => {
+                            let palette = palette(stage, &options, frames)?;
+                            Animation::gif(out, options.size, palette)?
+                        }
+                        Form::Png | Form::Apng => Animation::apng(out, options.size, frames)?,
                     };
                     let mut number = 0;
                     stage.turntable(&options, frames, |image| -> io::Result<()> {
-                        animation.push(&image)?;
+                        animation.push(&image, TURN / f64::from(frames))?;
                         number += 1;
                         done(number);
                         Ok(())
@@ -205,14 +269,30 @@ fn draw(
                     animation.finish()
                 })
             })
-            .map_err(|error| error.to_string())?;
-            Ok(format!("{name}: {frames} frames, {size} each"))
+            .map_err(Failure::written)?;
+            Ok(format!("{name}: {frames} frames, {look} each"))
+        }
+        _ => {
+            let image = spinning("drawing", || stage.picture(&options))?;
+            write_atomic(output, |out| write_png(&image, out)).map_err(Failure::written)?;
+            Ok(format!("{name}: {look}"))
         }
     }
 }
 
-/// Why frames could not be drawn or written.
+/// Why pictures could not be drawn or written.
 struct Failure(String);
+
+impl Failure {
+    /// What is wrong with the model.
+    fn of(arguments: &Render, error: &render::RenderError) -> Self {
+        Self(format!("`{}` {error}", arguments.drawing.display()))
+    }
+
+    fn written(error: impl std::fmt::Display) -> Self {
+        Self(error.to_string())
+    }
+}
 
 impl From<render::RenderError> for Failure {
     fn from(error: render::RenderError) -> Self {
@@ -237,10 +317,15 @@ fn options(arguments: &Render) -> Options {
     }
 }
 
+/// A size, made so small that drawing it is quick.
+fn sketched(size: [u32; 2]) -> [u32; 2] {
+    let longest = size[0].max(size[1]).max(SKETCH);
+    size.map(|side| (side * SKETCH / longest).max(1))
+}
+
 /// The colours of a GIF, from a few small pictures of what it will show.
 fn palette(stage: &Stage<'_>, options: &Options, frames: u32) -> io::Result<Palette> {
-    let longest = options.size[0].max(options.size[1]).max(SKETCH);
-    let size = options.size.map(|side| (side * SKETCH / longest).max(1));
+    let size = sketched(options.size);
     let mut sketches = Vec::new();
     stage.turntable(
         &Options { size, ..*options },

@@ -10,7 +10,9 @@ use super::{ImportError, malformed};
 use crate::resolver::Resolver;
 
 pub(super) const F32: DataType = DataType::F32;
+pub(super) const I8: DataType = DataType::I8;
 pub(super) const U8: DataType = DataType::U8;
+pub(super) const I16: DataType = DataType::I16;
 pub(super) const U16: DataType = DataType::U16;
 pub(super) const U32: DataType = DataType::U32;
 pub(super) const SCALAR: Dimensions = Dimensions::Scalar;

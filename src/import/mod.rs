@@ -1,8 +1,10 @@
 //! glTF 2.0 that others made, taken apart: for pictures of it, and for models that drawings link to.
 //!
 //! Read are the hierarchy, triangles (lists, strips, fans), normals, one set of texture coordinates, vertex colours
-//! and skins, and which nodes bend with the view; materials and images are left to whoever wants them. Morph targets and animations are not read.
+//! and skins, which nodes bend with the view, and clips; materials and images are left to whoever wants them. Morph targets are
+//! not read.
 
+mod animations;
 mod asset;
 mod bend;
 mod data;
@@ -14,6 +16,8 @@ use glam::DMat4;
 
 use crate::resolver::{LinkError, Resolver};
 
+pub(crate) use animations::read as read_clips;
+pub use animations::{Clip, KEY_LIMIT};
 pub use asset::{Asset, read_asset};
 pub(crate) use data::{Buffers, fetch};
 pub use pose::Pose;
@@ -49,6 +53,9 @@ pub enum ImportError {
     /// More than [`TRIANGLE_LIMIT`] triangles.
     #[error("has {0} triangles, more than the limit of {TRIANGLE_LIMIT}")]
     TooManyTriangles(usize),
+    /// More than [`KEY_LIMIT`] keys.
+    #[error("has clips with {0} keys, more than the limit of {KEY_LIMIT}")]
+    TooManyKeys(usize),
 }
 
 /// A file, taken apart.

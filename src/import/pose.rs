@@ -63,9 +63,9 @@ pub(super) struct Primitive {
 }
 
 /// Where every node stands in its parent's frame, and from where it is seen.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Pose {
-    locals: Vec<DMat4>,
+    pub(super) locals: Vec<DMat4>,
     /// Towards the viewer, in the world; without one, nothing follows the viewer.
     towards: Option<DVec3>,
 }

@@ -99,13 +99,13 @@ pub(super) struct Framing {
 }
 
 impl Framing {
-    /// Has all points in the picture from each of the views, with a margin, as large as they can be. `points` tells what
-    /// is to be seen from a view, and may fail.
-    pub(super) fn new<'p, E>(
-        views: &[View],
+    /// Has all points in the picture at each of the sights, with a margin, as large as they can be. A sight is a view and
+    /// something that tells the sights of one view apart; `points` tells what is to be seen there, and may fail.
+    pub(super) fn new<'p, S: Copy, E>(
+        sights: &[(View, S)],
         projection: Projection,
         size: [u32; 2],
-        points: impl Fn(View) -> Result<Cow<'p, [Vec3]>, E>,
+        points: impl Fn(View, S) -> Result<Cow<'p, [Vec3]>, E>,
     ) -> Result<Self, E> {
         let size_of = Vec2::new(size[0] as f32, size[1] as f32);
         let aspect = size_of / size_of.max_element();
@@ -118,9 +118,9 @@ impl Framing {
         let mut high = Vec2::NEG_INFINITY;
         let mut low = Vec2::NEG_INFINITY;
         let mut nearest = f32::INFINITY;
-        for view in views {
+        for (view, sight) in sights {
             let axes = Axes::new(*view);
-            for point in &*points(*view)? {
+            for point in &*points(*view, *sight)? {
                 let seen = axes.of(*point);
                 let slope = tangents * seen.z;
                 high = high.max(seen.truncate() - slope);
@@ -146,23 +146,23 @@ impl Framing {
         };
         if projection == Projection::Perspective {
             for _ in 0..CENTRINGS {
-                framing.centre(views, &points)?;
+                framing.centre(sights, &points)?;
             }
         }
         Ok(framing)
     }
 
     /// Moves the eye sideways, so that the border is as wide on the left as on the right, and above as below.
-    fn centre<'p, E>(
+    fn centre<'p, S: Copy, E>(
         &mut self,
-        views: &[View],
-        points: impl Fn(View) -> Result<Cow<'p, [Vec3]>, E>,
+        sights: &[(View, S)],
+        points: impl Fn(View, S) -> Result<Cow<'p, [Vec3]>, E>,
     ) -> Result<(), E> {
         let mut high = Vec2::NEG_INFINITY;
         let mut low = Vec2::NEG_INFINITY;
-        for view in views {
+        for (view, sight) in sights {
             let axes = Axes::new(*view);
-            for point in &*points(*view)? {
+            for point in &*points(*view, *sight)? {
                 let seen = axes.of(*point);
                 let place = (seen.truncate() - self.middle) / (seen.z - self.depth);
                 high = high.max(place);

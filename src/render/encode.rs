@@ -7,8 +7,8 @@ use rustc_hash::FxHashMap;
 
 use super::stage::Image;
 
-/// How long a turn takes, seconds.
-const TURN: u16 = 4;
+/// The most frames a second that viewers of GIFs show.
+pub const GIF_FPS_LIMIT: u32 = 50;
 /// The shortest delay that viewers of GIFs keep, hundredths of a second.
 const SHORTEST: u16 = 2;
 /// The colours of a GIF, the clear one not counted.
@@ -74,15 +74,22 @@ impl Palette {
 }
 
 /// A moving picture that is being written, one frame after the other. It runs for ever.
-pub enum Animation<W: Write> {
+pub struct Animation<W: Write> {
+    file: File<W>,
+    /// When the last frame ends, seconds.
+    until: f64,
+    /// The sum of the delays so far, in the file's own unit.
+    told: f64,
+}
+
+/// How it is written.
+enum File<W: Write> {
     /// 256 colours; a pixel is there or clear. Half-clear ones are scattered.
     Gif {
         /// What writes it.
         encoder: gif::Encoder<W>,
         /// Its colours.
         palette: Palette,
-        /// Of each frame, hundredths of a second.
-        delay: u16,
         /// Colours that were looked up before.
         known: FxHashMap<[u8; 3], u8>,
     },
@@ -91,24 +98,22 @@ pub enum Animation<W: Write> {
 }
 
 impl<W: Write> Animation<W> {
-    /// A GIF of `frames` frames.
+    /// A GIF.
     ///
     /// # Errors
     /// What `out` answers.
-    pub fn gif(out: W, size: [u32; 2], frames: u32, palette: Palette) -> io::Result<Self> {
+    pub fn gif(out: W, size: [u32; 2], palette: Palette) -> io::Result<Self> {
         let sides = size.map(|side| u16::try_from(side).unwrap_or(u16::MAX));
         let mut encoder = gif::Encoder::new(out, sides[0], sides[1], &palette.table())
             .map_err(io::Error::other)?;
         encoder
             .set_repeat(gif::Repeat::Infinite)
             .map_err(io::Error::other)?;
-        let delay = (100 * u32::from(TURN) / frames.max(1)) as u16;
-        Ok(Self::Gif {
+        Ok(Self::new(File::Gif {
             encoder,
             palette,
-            delay: delay.max(SHORTEST),
             known: FxHashMap::default(),
-        })
+        }))
     }
 
     /// An animated PNG of `frames` frames.
@@ -119,22 +124,46 @@ impl<W: Write> Animation<W> {
         let mut encoder = png::Encoder::new(out, width, height);
         encoder.set_color(png::ColorType::Rgba);
         encoder.set_animated(frames, 0)?;
-        encoder.set_frame_delay(TURN, u16::try_from(frames).unwrap_or(u16::MAX))?;
         encoder.set_blend_op(png::BlendOp::Source)?;
-        Ok(Self::Apng(encoder.write_header()?))
+        Ok(Self::new(File::Apng(encoder.write_header()?)))
     }
 
-    /// Appends a frame.
+    fn new(file: File<W>) -> Self {
+        Self {
+            file,
+            until: 0.0,
+            told: 0.0,
+        }
+    }
+
+    /// How long a frame stands that is to stand so many seconds, in units of which a second has `units`: what is lost by
+    /// rounding one frame the next ones make up for.
+    fn delay(&mut self, seconds: f64, units: f64, least: u16) -> u16 {
+        self.until += seconds;
+        let delay = (self.until * units).round() - self.told;
+        let delay = delay.clamp(f64::from(least), f64::from(u16::MAX)) as u16;
+        self.told += f64::from(delay);
+        delay
+    }
+
+    /// Appends a frame that stands for some seconds, in a GIF to the hundredth and for two of them at least, else to the
+    /// thousandth.
     ///
     /// # Errors
     /// What the output answers.
-    pub fn push(&mut self, image: &Image) -> io::Result<()> {
-        match self {
-            Self::Apng(writer) => Ok(writer.write_image_data(image.as_raw())?),
-            Self::Gif {
+    pub fn push(&mut self, image: &Image, seconds: f64) -> io::Result<()> {
+        let delay = match self.file {
+            File::Apng(_) => self.delay(seconds, 1000.0, 0),
+            File::Gif { .. } => self.delay(seconds, 100.0, SHORTEST),
+        };
+        match &mut self.file {
+            File::Apng(writer) => {
+                writer.set_frame_delay(delay, 1000)?;
+                Ok(writer.write_image_data(image.as_raw())?)
+            }
+            File::Gif {
                 encoder,
                 palette,
-                delay,
                 known,
             } => {
                 let clear = COLOURS as u8;
@@ -153,7 +182,7 @@ impl<W: Write> Animation<W> {
                     .map(|side| u16::try_from(side).unwrap_or(u16::MAX));
                 let mut frame =
                     gif::Frame::from_indexed_pixels(size[0], size[1], pixels, Some(clear));
-                frame.delay = *delay;
+                frame.delay = delay;
                 frame.dispose = gif::DisposalMethod::Background;
                 encoder.write_frame(&frame).map_err(io::Error::other)
             }
@@ -165,9 +194,9 @@ impl<W: Write> Animation<W> {
     /// # Errors
     /// What the output answers, or that frames are missing.
     pub fn finish(self) -> io::Result<()> {
-        match self {
-            Self::Apng(writer) => Ok(writer.finish()?),
-            Self::Gif { encoder, .. } => encoder.into_inner().map(drop).map_err(io::Error::other),
+        match self.file {
+            File::Apng(writer) => Ok(writer.finish()?),
+            File::Gif { encoder, .. } => encoder.into_inner().map(drop).map_err(io::Error::other),
         }
     }
 }

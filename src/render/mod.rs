@@ -1,7 +1,7 @@
 //! Pictures of a model: glTF in, pixels out. Knows no drawing, opens no file, prints nothing.
 //!
 //! [`read`] takes a file's bytes apart, [`Model::rest`] and [`Stage::new`] pose it, [`Stage::picture`] draws it;
-//! [`Stage::seen`] tells what is seen where, without light:
+//! [`Stage::seen`] tells what is seen where, without light. A [`Film`] is a clip that is drawn from one place:
 //!
 //! ```text
 //!  bytes ─► Model ─► (Pose) ─► Stage ─► Image ─► encode
@@ -22,6 +22,7 @@
 mod camera;
 mod encode;
 mod error;
+mod film;
 mod fragment;
 mod light;
 mod materials;
@@ -36,10 +37,11 @@ mod texture;
 mod tile;
 mod trace;
 
-pub use crate::import::{Pose, TRIANGLE_LIMIT};
+pub use crate::import::{Clip, Pose, TRIANGLE_LIMIT};
 pub use camera::{PITCH_LIMIT, Projection, View};
-pub use encode::{Animation, Palette, write_png};
+pub use encode::{Animation, GIF_FPS_LIMIT, Palette, write_png};
 pub use error::RenderError;
+pub use film::{Film, Shot};
 pub use model::{Model, read};
 pub use seen::{Seen, Window};
 pub use stage::{Image, Stage};
@@ -48,6 +50,14 @@ pub use stage::{Image, Stage};
 pub const SIZE_LIMIT: u32 = 8192;
 /// The most frames of a turntable.
 pub const FRAME_LIMIT: u32 = 1000;
+/// How long a turn of a turntable takes, seconds.
+pub const TURN: f64 = 4.0;
+/// The most frames of a clip: seven minutes at 24 frames a second.
+pub const CLIP_FRAME_LIMIT: u32 = 10_000;
+/// The most moments of a strip.
+pub const CELL_LIMIT: u32 = 1000;
+/// The most pixels of a strip: those of the largest picture.
+pub const STRIP_LIMIT: u64 = SIZE_LIMIT as u64 * SIZE_LIMIT as u64;
 
 /// How surfaces are shaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -4,13 +4,14 @@ use super::RenderError;
 use super::materials;
 use super::surface::{Frame, Material, Surface};
 use super::texture::Texture;
-use crate::import::{self, Geometry, Pose};
+use crate::import::{self, Clip, Geometry, Pose};
 use crate::resolver::Resolver;
 
 /// A model as a file has it, not yet posed.
 #[derive(Debug)]
 pub struct Model {
     geometry: Geometry,
+    clips: Vec<Clip>,
     /// The last is the one of what has none.
     pub(super) materials: Vec<Material>,
     pub(super) textures: Vec<Option<Texture>>,
@@ -26,6 +27,7 @@ pub fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<Model, RenderError>
     Ok(Model {
         materials: materials::read(&file.document),
         textures: materials::textures(&file.document, &file.buffers, resolver)?,
+        clips: import::read_clips(&file.document, &file.buffers)?,
         geometry: file.geometry,
     })
 }
@@ -34,6 +36,16 @@ impl Model {
     /// The pose that the file is in.
     pub fn rest(&self) -> Pose {
         self.geometry.rest()
+    }
+
+    /// Its clips, in the file's order.
+    pub fn clips(&self) -> &[Clip] {
+        &self.clips
+    }
+
+    /// The pose at a moment of one of its clips, seconds from the beginning.
+    pub fn pose_at(&self, clip: &Clip, time: f64) -> Pose {
+        clip.pose_at(&self.rest(), time)
     }
 
     /// Whether anything looks otherwise from elsewhere.

@@ -38,7 +38,7 @@ pub(super) struct Posed<'a> {
 }
 
 impl<'a> Posed<'a> {
-    fn new(model: &'a Model, surface: Surface, rays: Rays) -> Self {
+    pub(super) fn new(model: &'a Model, surface: Surface, rays: Rays) -> Self {
         let points = surface.used();
         Self {
             tracer: Tracer::new(surface, &model.materials, &model.textures, rays),
@@ -136,16 +136,13 @@ impl<'a> Stage<'a> {
     }
 
     fn framing(&self, options: &Options, views: &[View]) -> Result<Framing, RenderError> {
-        let [width, height] = options.size;
-        let fits = |side: u32| (1..=SIZE_LIMIT).contains(&side);
-        if !fits(width) || !fits(height) {
-            return Err(RenderError::Size(width, height));
-        }
-        let points = |view: View| match &self.settled {
+        check_size(options.size)?;
+        let sights: Vec<(View, ())> = views.iter().map(|view| (*view, ())).collect();
+        let points = |view: View, ()| match &self.settled {
             Some(posed) => Ok(Cow::Borrowed(&*posed.points)),
             None => Ok(Cow::Owned(self.surface(view, options.bend)?.used())),
         };
-        let framing = || Framing::new(views, options.projection, options.size, points);
+        let framing = || Framing::new(&sights, options.projection, options.size, points);
         threads::run(framing).unwrap_or(Err(RenderError::Broken))
     }
 
@@ -168,8 +165,22 @@ impl<'a> Stage<'a> {
     }
 }
 
+/// Refuses pictures without pixels and those with too many.
+pub(super) fn check_size([width, height]: [u32; 2]) -> Result<(), RenderError> {
+    let fits = |side: u32| (1..=SIZE_LIMIT).contains(&side);
+    match fits(width) && fits(height) {
+        true => Ok(()),
+        false => Err(RenderError::Size(width, height)),
+    }
+}
+
 /// The pixels of a picture, four bytes each, rows from the top.
-fn pixels(posed: &Posed<'_>, options: &Options, framing: &Framing, view: View) -> Vec<u8> {
+pub(super) fn pixels(
+    posed: &Posed<'_>,
+    options: &Options,
+    framing: &Framing,
+    view: View,
+) -> Vec<u8> {
     let [width, height] = options.size;
     let camera = framing.camera(view);
     let rig = Rig::new(camera.yaw);

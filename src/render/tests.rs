@@ -12,6 +12,7 @@ use crate::resolver::MemoryResolver;
 
 mod bend;
 mod files;
+mod film;
 
 /// A mesh on a node of its own.
 struct Shape {

@@ -1,0 +1,198 @@
+//! What `okoshi render` takes.
+
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+
+use super::Reading;
+use crate::render::{CELL_LIMIT, FRAME_LIMIT, PITCH_LIMIT, SIZE_LIMIT, View};
+
+const EXAMPLES: &str = "\
+Examples:
+  okoshi render human.svg                             writes human.png beside the drawing
+  okoshi render human.svg -o front.png --view 0,0     from the front
+  okoshi render human.svg --view=-60,30               from its right, and from above
+  okoshi render human.svg -o turn.gif --turntable 36  the model turns, as a moving GIF
+  okoshi render human.svg -o turn.png --turntable 8   turn-1.png to turn-8.png
+  okoshi render human.svg -o walk.gif --clip walk     the model moves; walk.png gives numbered frames
+  okoshi render human.svg -o step.png --clip walk --time 0.5
+                                                      as it stands half a second later
+  okoshi render human.svg -o walk.png --clip walk --strip 6
+                                                      six moments side by side
+  okoshi render island.svg --view 0,45 --projection orthographic
+                                                      terrain, tile for tile as it is drawn
+  okoshi render human.glb --size 1920x1080 --background '#ffffff'
+
+The picture shows what `okoshi build` writes, framed by itself. Its background is transparent. A clip is framed as a
+whole: who walks stays in the picture.";
+
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLES)]
+pub(in crate::cli) struct Render {
+    /// The drawing, an SVG file, `-` for stdin; or a model, a .glb or .gltf file
+    #[arg(value_name = "DRAWING")]
+    pub(in crate::cli) drawing: PathBuf,
+    /// Where to write: a .png, .gif or .apng file, `-` for stdout, or a folder [default: beside the drawing]
+    #[arg(short, long, value_name = "FILE")]
+    pub(in crate::cli) output: Option<PathBuf>,
+    /// Where the camera stands: degrees to the model's left, degrees up
+    #[arg(long, value_name = "YAW,PITCH", default_value = "30,15", value_parser = view, allow_hyphen_values = true)]
+    pub(in crate::cli) view: View,
+    /// Width and height in pixels, 1 to 8192 each; of a strip, those of each moment
+    #[arg(long, value_name = "WxH", default_value = "800x800", value_parser = size)]
+    pub(in crate::cli) size: [u32; 2],
+    /// Smooth, or every triangle as it is
+    #[arg(long, default_value = "smooth")]
+    pub(in crate::cli) shading: Shading,
+    /// With what is farther away smaller, or with parallels parallel
+    #[arg(long, default_value = "perspective")]
+    pub(in crate::cli) projection: Projection,
+    /// Bend terrain with the view, so that from 45° above tops and fronts are as large as drawn; off shows it as it is
+    #[arg(long, value_name = "WHEN", default_value = "on")]
+    pub(in crate::cli) bend: Bend,
+    /// What lies behind the model [default: nothing, transparent]
+    #[arg(long, value_name = "#RRGGBB", value_parser = background)]
+    pub(in crate::cli) background: Option<[u8; 3]>,
+    /// Turn the model once round in N pictures: one moving .gif or .apng, or numbered .png files
+    #[arg(long, value_name = "N", value_parser = frames)]
+    pub(in crate::cli) turntable: Option<u32>,
+    /// Show a clip, by its name or its number from 1: a moving .gif or .apng, or numbered .png files
+    #[arg(long, value_name = "NAME")]
+    pub(in crate::cli) clip: Option<String>,
+    /// Show one moment of the clip, seconds from its beginning
+    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with_all = ["fps", "strip", "from", "to"])]
+    pub(in crate::cli) time: Option<f64>,
+    /// Show N moments of the clip side by side, evenly from its first to its last
+    #[arg(long, value_name = "N", value_parser = cells, conflicts_with_all = ["fps", "turntable"])]
+    pub(in crate::cli) strip: Option<u32>,
+    /// Begin the clip at this moment, seconds
+    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "turntable")]
+    pub(in crate::cli) from: Option<f64>,
+    /// End the clip at this moment, seconds
+    #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "turntable")]
+    pub(in crate::cli) to: Option<f64>,
+    /// Frames a second of the clip, 1 to 120, in a GIF to 50 [default: 24]
+    #[arg(long, value_name = "F", value_parser = clap::value_parser!(u32).range(1..=120), conflicts_with = "turntable")]
+    pub(in crate::cli) fps: Option<u32>,
+    /// Draw what can be made in spite of errors
+    #[arg(long)]
+    pub(in crate::cli) keep_going: bool,
+    #[command(flatten)]
+    pub(in crate::cli) reading: Reading,
+}
+
+impl Render {
+    /// Whether any option is about a clip.
+    pub(in crate::cli) fn asks_for_clip(&self) -> bool {
+        let moments = [self.time, self.from, self.to];
+        self.clip.is_some()
+            || self.strip.or(self.fps).is_some()
+            || moments.iter().any(Option::is_some)
+    }
+}
+
+/// How surfaces are shaded.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Shading {
+    /// Every triangle as it is
+    Flat,
+    /// As the model says
+    Smooth,
+}
+
+/// How space becomes a plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Projection {
+    /// What is farther away is smaller
+    Perspective,
+    /// Parallels stay parallel
+    Orthographic,
+}
+
+/// Whether what follows the viewer is bent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum Bend {
+    /// As the model asks for it: the drawn look
+    On,
+    /// Not at all: true 3D
+    Off,
+}
+
+fn view(text: &str) -> Result<View, String> {
+    let numbers = text.split_once(',').and_then(|(yaw, pitch)| {
+        let number = |text: &str| {
+            text.trim()
+                .parse::<f64>()
+                .ok()
+                .filter(|number| number.is_finite())
+        };
+        Some((number(yaw)?, number(pitch)?))
+    });
+    match numbers {
+        // Whole turns are no news, and would cost digits.
+        Some((yaw, pitch)) if pitch.abs() <= PITCH_LIMIT => Ok(View {
+            yaw: yaw % 360.0,
+            pitch,
+        }),
+        Some(_) => Err(format!(
+            "the camera is lifted by at most {PITCH_LIMIT} degrees, up or down"
+        )),
+        None => Err("two numbers with a comma between them are due, 30,15 for example".to_owned()),
+    }
+}
+
+fn size(text: &str) -> Result<[u32; 2], String> {
+    let sides = text
+        .split_once(['x', 'X', '×'])
+        .and_then(|(width, height)| {
+            Some([
+                width.trim().parse::<u32>().ok()?,
+                height.trim().parse::<u32>().ok()?,
+            ])
+        });
+    match sides {
+        Some(sides) if sides.iter().all(|side| (1..=SIZE_LIMIT).contains(side)) => Ok(sides),
+        Some(_) => Err(format!("each side may have 1 to {SIZE_LIMIT} pixels")),
+        None => {
+            Err("two whole numbers with an x between them are due, 800x800 for example".to_owned())
+        }
+    }
+}
+
+fn background(text: &str) -> Result<[u8; 3], String> {
+    let digits = text.strip_prefix('#').unwrap_or(text);
+    let sound = digits.len() == 6 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let number = u32::from_str_radix(digits, 16).ok().filter(|_| sound);
+    match number {
+        Some(number) => {
+            let [_, colour @ ..] = number.to_be_bytes();
+            Ok(colour)
+        }
+        None => Err("a colour of six digits is due, '#ffffff' for white".to_owned()),
+    }
+}
+
+fn frames(text: &str) -> Result<u32, String> {
+    match text.parse::<u32>() {
+        Ok(frames) if (2..=FRAME_LIMIT).contains(&frames) => Ok(frames),
+        _ => Err(format!(
+            "a whole number from 2 to {FRAME_LIMIT} is due, 36 for example"
+        )),
+    }
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.0..1e9).contains(&seconds) => Ok(seconds),
+        _ => Err("a number of seconds from 0 is due, 1.5 for example".to_owned()),
+    }
+}
+
+fn cells(text: &str) -> Result<u32, String> {
+    match text.parse::<u32>() {
+        Ok(cells) if (2..=CELL_LIMIT).contains(&cells) => Ok(cells),
+        _ => Err(format!(
+            "a whole number from 2 to {CELL_LIMIT} is due, 6 for example"
+        )),
+    }
+}
