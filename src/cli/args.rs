@@ -289,7 +289,10 @@ fn plot(text: &str) -> Result<PathBuf, String> {
 }
 
 fn camera(text: &str) -> Result<Camera, String> {
-    let numbers: Option<Vec<f64>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|number| number.trim().parse().ok())
+        .collect();
     let finite = numbers.filter(|numbers| numbers.iter().all(|number: &f64| number.is_finite()));
     match finite.as_deref() {
         Some([yaw, pitch]) => Ok(Camera {
@@ -302,7 +305,10 @@ fn camera(text: &str) -> Result<Camera, String> {
             pitch: *pitch,
             distance: Some(*distance),
         }),
-        _ => Err("two numbers are due, `30,15` for example, or three with the camera's distance".to_owned()),
+        _ => Err(
+            "two numbers are due, `30,15` for example, or three with the camera's distance"
+                .to_owned(),
+        ),
     }
 }
 

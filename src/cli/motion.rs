@@ -27,7 +27,12 @@ enum Kind {
 
 /// Edits a motion by itself, or says what is in it.
 pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
-    let kind = match arguments.output.as_deref().map(|output| kind(output, &arguments.motion)).transpose() {
+    let kind = match arguments
+        .output
+        .as_deref()
+        .map(|output| kind(output, &arguments.motion))
+        .transpose()
+    {
         Ok(kind) => kind,
         Err(message) => return fail(&message),
     };
@@ -51,7 +56,10 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
                     }
                 }
                 Some(clip) => {
-                    eprintln!("  help: --keep-going goes on with the {} before it", frames(clip.frames()));
+                    eprintln!(
+                        "  help: --keep-going goes on with the {} before it",
+                        frames(clip.frames())
+                    );
                     return Outcome::Failed;
                 }
                 None => return Outcome::Failed,
@@ -65,11 +73,17 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
     let opening = describe(&reading.clip);
     let options = ready::Options {
         fps: arguments.fps,
-        lead_in: if arguments.keep_rest { LeadIn::Keep } else { LeadIn::Drop },
+        lead_in: if arguments.keep_rest {
+            LeadIn::Keep
+        } else {
+            LeadIn::Drop
+        },
         range: arguments.range,
     };
     let how = how(arguments);
-    let edited = spinning("cutting", || edit(reading.clip, &options, how, arguments.camera));
+    let edited = spinning("cutting", || {
+        edit(reading.clip, &options, how, arguments.camera)
+    });
     let edited = match edited {
         Ok(edited) => edited,
         Err(error) => return fail(&format!("`{name}`: {error}")),
@@ -79,7 +93,14 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
     }
     let (Some(output), Some(kind)) = (&arguments.output, kind) else {
         if let Some(plot) = &arguments.plot {
-            return written(&edited, plot, Kind::Chart, arguments, common, &format!("{name}: {opening}\n{told}"));
+            return written(
+                &edited,
+                plot,
+                Kind::Chart,
+                arguments,
+                common,
+                &format!("{name}: {opening}\n{told}"),
+            );
         }
         if !common.quiet {
             eprint!("{name}: {opening}\n{told}");
@@ -87,17 +108,36 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
         return print_out(&joints(&edited.clip, &edited.anatomy));
     };
     if let Some(plot) = &arguments.plot {
-        let outcome = written(&edited, plot, Kind::Chart, arguments, Common { quiet: true, ..common }, "");
+        let outcome = written(
+            &edited,
+            plot,
+            Kind::Chart,
+            arguments,
+            Common {
+                quiet: true,
+                ..common
+            },
+            "",
+        );
         if outcome != Outcome::Done {
             return outcome;
         }
     }
-    written(&edited, output, kind, arguments, common, &format!("{name}: {opening}\n{told}"))
+    written(
+        &edited,
+        output,
+        kind,
+        arguments,
+        common,
+        &format!("{name}: {opening}\n{told}"),
+    )
 }
 
 /// What a file's ending asks for.
 fn kind(output: &Path, input: &Path) -> Result<Kind, String> {
-    let ending = output.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    let ending = output
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_lowercase());
     if output.as_os_str() != "-" && output == input {
         return Err(format!(
             "`{}` is the motion itself: name another file, so that nothing is lost",
@@ -126,7 +166,11 @@ fn how(arguments: &Motion) -> How {
         (None, None) => How::Limited {
             omit: arguments.omit,
             hold: arguments.hold,
-            length: if arguments.shorten { Length::Shortened } else { Length::Kept },
+            length: if arguments.shorten {
+                Length::Shortened
+            } else {
+                Length::Kept
+            },
         },
     }
 }
@@ -140,13 +184,23 @@ fn written(
     common: Common,
     opening: &str,
 ) -> Outcome {
-    let stem = arguments.motion.file_stem().map_or_else(|| "motion".to_owned(), |stem| stem.to_string_lossy().into_owned());
+    let stem = arguments.motion.file_stem().map_or_else(
+        || "motion".to_owned(),
+        |stem| stem.to_string_lossy().into_owned(),
+    );
     let result = spinning("writing", || match kind {
-        Kind::Bvh => write_atomic(output, |mut out| edited.write_bvh(&mut out)),
+        Kind::Bvh => write_atomic(output, |out| edited.write_bvh(out)),
         Kind::Chart => write_atomic(output, |out| out.write_all(edited.chart(&stem).as_bytes())),
         Kind::Model(container) => {
-            let scene = stick_figure(&edited.clip, edited.exposure.as_ref(), &stem, edited.to_model);
-            write_atomic(output, |out| gltf::write(&scene, container, out).map(|_| ()))
+            let scene = stick_figure(
+                &edited.clip,
+                edited.exposure.as_ref(),
+                &stem,
+                edited.to_model,
+            );
+            write_atomic(output, |out| {
+                gltf::write(&scene, container, out).map(|_| ())
+            })
         }
     });
     if let Err(error) = result {
@@ -203,13 +257,27 @@ fn report(edited: &Edited, arguments: &Motion) -> String {
             true => String::new(),
             false => format!(" ({})", ranges(&omitted)),
         };
-        let _ = writeln!(out, "  omitted {}{which}, held {}", cut.omitted.len(), cut.held.len());
+        let _ = writeln!(
+            out,
+            "  omitted {}{which}, held {}",
+            cut.omitted.len(),
+            cut.held.len()
+        );
         let (omit, hold) = (cut.omissions, cut.holds);
         if omit.shortfall() > 0 {
-            let _ = writeln!(out, "  warning: {} were to be omitted: no more can be, with the length kept", omit.asked);
+            let _ = writeln!(
+                out,
+                "  warning: {} were to be omitted: no more can be, with the length kept",
+                omit.asked
+            );
         }
         if hold.shortfall() > 0 {
-            let _ = writeln!(out, "  warning: {} were to be held: no pose may stand for more than {} frames", hold.asked, limited::LONGEST_COPIED);
+            let _ = writeln!(
+                out,
+                "  warning: {} were to be held: no pose may stand for more than {} frames",
+                hold.asked,
+                limited::LONGEST_COPIED
+            );
         }
         if cut.gathered > limited::MOST_GATHERED {
             let _ = writeln!(
@@ -219,15 +287,27 @@ fn report(edited: &Edited, arguments: &Motion) -> String {
             );
         }
     }
-    if let Some(drawn) = edited.drawn.as_ref().filter(|drawn| drawn.asked != drawn.drawings) {
+    if let Some(drawn) = edited
+        .drawn
+        .as_ref()
+        .filter(|drawn| drawn.asked != drawn.drawings)
+    {
         let _ = writeln!(
             out,
             "  warning: {} drawings were asked for: {} to {} are possible, for one stands for {} frames at most",
-            drawn.asked, drawn.fewest, drawn.most, limited::LONGEST
+            drawn.asked,
+            drawn.fewest,
+            drawn.most,
+            limited::LONGEST
         );
     }
     let shown = sheet.len();
-    let _ = writeln!(out, "  {} drawings for {}", sheet.drawings().count(), frames(shown));
+    let _ = writeln!(
+        out,
+        "  {} drawings for {}",
+        sheet.drawings().count(),
+        frames(shown)
+    );
     let compares = arguments.compare || arguments.every.is_some() || arguments.drawings.is_some();
     match edited.compared().filter(|_| compares) {
         Some(methods) => {
@@ -238,7 +318,12 @@ fn report(edited: &Edited, arguments: &Motion) -> String {
                     Method::Threes => "on threes",
                     Method::Best => "best drawings",
                 };
-                let _ = writeln!(out, "  {name:>13}: {:>5} drawings, joints off by {}", error.drawings, off(&error));
+                let _ = writeln!(
+                    out,
+                    "  {name:>13}: {:>5} drawings, joints off by {}",
+                    error.drawings,
+                    off(&error)
+                );
             }
         }
         None => {
@@ -276,21 +361,31 @@ fn joints(clip: &Clip, anatomy: &Anatomy) -> String {
         depth.push(joint.parent.map_or(0, |parent| depth[parent] + 1));
         // Deep chains would run off any page.
         let indent = "  ".repeat(depth[index].min(40));
-        let what = anatomy.labels.get(index).and_then(Option::as_ref).map(|label| {
-            let side = label.side.map_or(String::new(), |side| format!("{} ", side.name()));
-            let piece = match label.piece {
-                Piece::Whole => "",
-                Piece::Collar => ", collar",
-                Piece::Upper => ", upper",
-                Piece::Lower => ", lower",
-                Piece::End => ", end",
-                Piece::Beyond => ", beyond",
-            };
-            format!("{side}{}{piece}", label.class.name())
-        });
+        let what = anatomy
+            .labels
+            .get(index)
+            .and_then(Option::as_ref)
+            .map(|label| {
+                let side = label
+                    .side
+                    .map_or(String::new(), |side| format!("{} ", side.name()));
+                let piece = match label.piece {
+                    Piece::Whole => "",
+                    Piece::Collar => ", collar",
+                    Piece::Upper => ", upper",
+                    Piece::Lower => ", lower",
+                    Piece::End => ", end",
+                    Piece::Beyond => ", beyond",
+                };
+                format!("{side}{}{piece}", label.class.name())
+            });
         rows.push([format!("{indent}{}", joint.name), what.unwrap_or_default()]);
     }
-    let width = rows.iter().map(|[name, _]| name.chars().count()).max().unwrap_or(0);
+    let width = rows
+        .iter()
+        .map(|[name, _]| name.chars().count())
+        .max()
+        .unwrap_or(0);
     rows.iter().fold(String::new(), |mut out, [name, what]| {
         let line = format!("{name:width$}  {what}");
         let _ = writeln!(out, "{}", line.trim_end());

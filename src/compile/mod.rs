@@ -64,6 +64,11 @@ impl Compiled {
         }
     }
 
+    /// The nodes of the model with the clips of limited animation as they were before they were cut; `None` if none was.
+    pub fn originals(&self) -> Option<Scene> {
+        figure::originals(&self.scene, &self.shots)
+    }
+
     /// Whether there are errors, which keep the model from being written.
     pub fn has_errors(&self) -> bool {
         self.diagnostics

@@ -38,7 +38,7 @@ use models::Models;
 use relief::Relief;
 use tree::Tree;
 
-pub use motion::{Driven, Shot};
+pub use motion::{Driven, Shot, originals};
 
 /// Metres in a centimetre: one drawing unit is `Scale` centimetres.
 const CENTIMETRE: f64 = 0.01;
@@ -125,7 +125,15 @@ pub fn build(
                 members: &members,
             };
             let known = &mut memory.motion;
-            motion::perform(&model, &wishes, &ground, resolver, known, &mut scene, diagnostics)
+            motion::perform(
+                &model,
+                &wishes,
+                &ground,
+                resolver,
+                known,
+                &mut scene,
+                diagnostics,
+            )
         }
         None => {
             memory.motion = motion::Memory::default();

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::bvh;
+use super::bvh::{self, Decimals};
 use super::carry::{self, Landmarks};
 use super::chart::{Chart, chart};
 use super::labels::Anatomy;
@@ -74,7 +74,9 @@ pub fn edit(
     let to_model = carry::to_drawing(&clip, &Landmarks::of(&anatomy));
     if camera.is_some() {
         // Sums of squares do not change by a turn, so it is left out where nobody looks.
-        positions.iter_mut().for_each(|position| *position = to_model * *position);
+        positions
+            .iter_mut()
+            .for_each(|position| *position = to_model * *position);
     }
     let seen = camera.map(|camera| camera.seen(&positions));
     let mut edited = Edited {
@@ -125,26 +127,28 @@ impl Edited {
         self.seen.as_deref().unwrap_or(&self.positions)
     }
 
-    /// The clip as it is shown.
-    pub fn shown(&self) -> Clip {
-        match &self.exposure {
-            Some(sheet) => self.clip.picked(sheet.sources().iter().map(|frame| *frame as usize)),
-            None => self.clip.clone(),
-        }
-    }
-
     /// How far what is shown is from the source, beside other ways to cut it.
     pub fn compared(&self) -> Option<[(Method, Error); 4]> {
         let joints = self.clip.skeleton.joints.len();
         let sheet = self.exposure.as_ref()?;
-        Some(limited::compare(&self.positions, joints, self.height(), sheet))
+        Some(limited::compare(
+            &self.positions,
+            joints,
+            self.height(),
+            sheet,
+        ))
     }
 
     /// How far what is shown is from the source.
     pub fn error(&self) -> Option<Error> {
         let joints = self.clip.skeleton.joints.len();
         let sheet = self.exposure.as_ref()?;
-        Some(limited::error(&self.positions, joints, self.height(), sheet))
+        Some(limited::error(
+            &self.positions,
+            joints,
+            self.height(),
+            sheet,
+        ))
     }
 
     /// How high the body is in the first frame, the file's unit.
@@ -155,9 +159,10 @@ impl Edited {
             None => (self.to_model * *position).y,
         };
         let heights = self.positions.iter().take(joints).map(upright);
-        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
-            (low.min(height), high.max(height))
-        });
+        let (low, high) = heights
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
+                (low.min(height), high.max(height))
+            });
         (high - low).max(0.0)
     }
 
@@ -192,7 +197,13 @@ impl Edited {
     ///
     /// # Errors
     /// What the output answers.
-    pub fn write_bvh(&self, out: &mut impl std::io::Write) -> std::io::Result<()> {
-        bvh::write(&self.shown(), bvh::Decimals::Six, out)
+    pub fn write_bvh(
+        &self,
+        out: &mut (impl std::io::Write + Send + ?Sized),
+    ) -> std::io::Result<()> {
+        match &self.exposure {
+            Some(sheet) => bvh::write_shown(&self.clip, sheet.sources(), Decimals::Six, out),
+            None => bvh::write(&self.clip, Decimals::Six, out),
+        }
     }
 }

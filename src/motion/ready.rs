@@ -103,7 +103,8 @@ fn lead_in(clip: &Clip, positions: &[DVec3], anatomy: &Anatomy, notes: &mut Vec<
     match lead.kind {
         Kind::None => {}
         Kind::Single => notes.push(
-            "frame 1 is a pose that the motion jumps out of, as files often begin: it is left out".to_owned(),
+            "frame 1 is a pose that the motion jumps out of, as files often begin: it is left out"
+                .to_owned(),
         ),
         Kind::Eased => notes.push(format!(
             "frames 1 to {} lead out of a T-pose, as files often begin: they are left out",

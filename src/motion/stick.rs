@@ -7,8 +7,8 @@ use glam::{DQuat, DVec3, Vec3};
 use super::limited::Exposure;
 use super::skeleton::{Channel, Clip, Placed};
 use crate::scene::{
-    Animation, Interpolation, Material, Mesh, Node, Piece, Primitive, Scene, Surface, Timing, Track,
-    Values,
+    Animation, Interpolation, Material, Mesh, Node, Piece, Primitive, Scene, Surface, Timing,
+    Track, Values,
 };
 
 /// How high the model is in the first frame, metres: files have any unit.
@@ -22,7 +22,12 @@ const KNOB: f64 = 0.01;
 
 /// The model of a clip and its animation: straight from frame to frame without an exposure sheet, else a drawing at a time.
 /// `to_model` turns the clip's world so that it stands upright and faces +z.
-pub fn stick_figure(clip: &Clip, exposure: Option<&Exposure>, name: &str, to_model: DQuat) -> Scene {
+pub fn stick_figure(
+    clip: &Clip,
+    exposure: Option<&Exposure>,
+    name: &str,
+    to_model: DQuat,
+) -> Scene {
     let skeleton = &clip.skeleton;
     let first = match clip.frames() {
         0 => skeleton.offset_pose(),
@@ -39,8 +44,13 @@ pub fn stick_figure(clip: &Clip, exposure: Option<&Exposure>, name: &str, to_mod
     };
     let children = skeleton.children();
     for (index, joint) in skeleton.joints.iter().enumerate() {
-        let ways = children[index].iter().map(|child| skeleton.joints[*child].offset);
-        let ways: Vec<DVec3> = ways.chain(joint.ends.iter().copied()).map(|way| way * scale).collect();
+        let ways = children[index]
+            .iter()
+            .map(|child| skeleton.joints[*child].offset);
+        let ways: Vec<DVec3> = ways
+            .chain(joint.ends.iter().copied())
+            .map(|way| way * scale)
+            .collect();
         scene.meshes.push(Mesh {
             primitives: vec![Primitive {
                 pieces: vec![Piece::Surface(bones(&ways))],
@@ -63,7 +73,9 @@ pub fn stick_figure(clip: &Clip, exposure: Option<&Exposure>, name: &str, to_mod
             scene.roots.push(index);
         }
     }
-    scene.animations.push(animation(clip, exposure, name, to_model, scale));
+    scene
+        .animations
+        .push(animation(clip, exposure, name, to_model, scale));
     scene
 }
 
@@ -79,11 +91,20 @@ fn scale(pose: &[Placed], to_model: DQuat) -> f64 {
     }
 }
 
-fn animation(clip: &Clip, exposure: Option<&Exposure>, name: &str, to_model: DQuat, scale: f64) -> Animation {
+fn animation(
+    clip: &Clip,
+    exposure: Option<&Exposure>,
+    name: &str,
+    to_model: DQuat,
+    scale: f64,
+) -> Animation {
     let step = clip.frame_time;
     let (keys, seconds): (Vec<[usize; 2]>, f64) = match exposure {
         Some(sheet) => (
-            sheet.drawings().map(|drawing| [drawing.start, drawing.source as usize]).collect(),
+            sheet
+                .drawings()
+                .map(|drawing| [drawing.start, drawing.source as usize])
+                .collect(),
             sheet.len() as f64 * step,
         ),
         None => (
@@ -100,7 +121,10 @@ fn animation(clip: &Clip, exposure: Option<&Exposure>, name: &str, to_model: DQu
         return animation;
     }
     let timing = Arc::new(Timing {
-        times: keys.iter().map(|[at, _]| (*at as f64 * step) as f32).collect(),
+        times: keys
+            .iter()
+            .map(|[at, _]| (*at as f64 * step) as f32)
+            .collect(),
         interpolation: match exposure {
             Some(_) => Interpolation::Step,
             None => Interpolation::Linear,
@@ -113,16 +137,27 @@ fn animation(clip: &Clip, exposure: Option<&Exposure>, name: &str, to_model: DQu
         if joint.channels.is_empty() {
             continue;
         }
-        let turn = if joint.parent.is_none() { to_model } else { DQuat::IDENTITY };
-        let local = keys.iter().map(|[_, frame]| Clip::local(joint, &clip.row(*frame)[numbers.clone()]));
+        let turn = if joint.parent.is_none() {
+            to_model
+        } else {
+            DQuat::IDENTITY
+        };
+        let local = keys
+            .iter()
+            .map(|[_, frame]| Clip::local(joint, &clip.row(*frame)[numbers.clone()]));
         let (mut turns, mut places) = (Vec::new(), Vec::new());
         for local in local {
             let rotation = turn * local.rotation;
-            let back = turns.last().is_some_and(|before: &DQuat| before.dot(rotation) < 0.0);
+            let back = turns
+                .last()
+                .is_some_and(|before: &DQuat| before.dot(rotation) < 0.0);
             turns.push(if back { -rotation } else { rotation });
             places.push(turn * local.position * scale);
         }
-        let moves = joint.channels.iter().any(|channel| matches!(channel, Channel::Position(_)));
+        let moves = joint
+            .channels
+            .iter()
+            .any(|channel| matches!(channel, Channel::Position(_)));
         let mut add = |values| {
             animation.tracks.push(Track {
                 node,
@@ -164,9 +199,13 @@ fn bone(way: DVec3) -> Surface {
         for corners in [[DVec3::ZERO, b, a], [way, a, b]] {
             // Every triangle has corners of its own: a bone looks like one by its edges.
             let corners = corners.map(DVec3::as_vec3);
-            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or(Vec3::Y);
+            let normal = (corners[1] - corners[0])
+                .cross(corners[2] - corners[0])
+                .normalize_or(Vec3::Y);
             let base = surface.positions.len() as u32;
-            surface.positions.extend(corners.map(|corner| corner.to_array()));
+            surface
+                .positions
+                .extend(corners.map(|corner| corner.to_array()));
             surface.normals.extend([normal.to_array(); 3]);
             surface.triangles.push([base, base + 1, base + 2]);
         }

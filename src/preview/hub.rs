@@ -1,15 +1,18 @@
 //! What there is to show, and the news of it.
 
 use std::collections::BTreeMap;
+use std::io::Cursor;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
 
 use axum::body::Bytes;
+use serde_json::value::{RawValue, to_raw_value};
 use tokio::sync::{Semaphore, watch};
 
 use super::message::{Build, Listed, ToPage, findings};
 use crate::compile::Compiled;
+use crate::gltf::{self, Container};
 use crate::render::{self, Options, Stage, write_png};
-use crate::report::{landscapes, parts};
+use crate::report::{clips, landscapes, parts};
 use crate::resolver::MemoryResolver;
 use crate::watch::Steps;
 
@@ -77,6 +80,10 @@ struct Entry {
 pub(super) struct Kept {
     pub(super) number: u64,
     pub(super) bytes: Bytes,
+    /// Its clips as they were before they were cut, binary glTF without anything to see.
+    pub(super) originals: Option<Bytes>,
+    /// What there is to say of its clips.
+    clips: Box<RawValue>,
     triangles: usize,
     picture: OnceLock<Option<Bytes>>,
 }
@@ -145,6 +152,8 @@ impl Hub {
         let found = findings(&shown.compiled.diagnostics, shown.text);
         let mut parts = parts(shown.compiled, shown.text);
         parts.extend(landscapes(shown.compiled, shown.text));
+        let told = to_raw_value(&clips(shown.compiled)).unwrap_or_default();
+        let originals = shown.model.and_then(|_| originals(shown.compiled));
         self.change(|state, now| {
             let number = state.models + 1;
             if !state.drawings.contains_key(id) {
@@ -156,12 +165,18 @@ impl Hub {
             entry.revision += 1;
             entry.gone = None;
             if let Some((bytes, triangles)) = shown.model {
-                let same = entry.models.last().is_some_and(|last| last.bytes == *bytes);
+                let as_before = |last: &Arc<Kept>| {
+                    let same = last.bytes == *bytes && last.originals == originals;
+                    same && last.clips.get() == told.get()
+                };
+                let same = entry.models.last().is_some_and(as_before);
                 if !same {
                     state.models = number;
                     entry.models.push(Arc::new(Kept {
                         number,
                         bytes: bytes.clone(),
+                        originals,
+                        clips: told,
                         triangles,
                         picture: OnceLock::new(),
                     }));
@@ -179,6 +194,10 @@ impl Hub {
                 triangles: model.map_or(0, |model| model.triangles),
                 findings: found,
                 parts,
+                clips: model.map_or(RawValue::NULL, |model| &model.clips),
+                originals: model
+                    .filter(|model| model.originals.is_some())
+                    .map(|model| format!("originals/{}.glb", model.number)),
                 steps: shown.steps.into(),
             };
             let message = ToPage::Build { drawing: id, build };
@@ -234,8 +253,13 @@ impl Hub {
 
     /// The bytes of a model, by the address that messages name.
     pub fn bytes(&self, address: &str) -> Option<Bytes> {
-        let number = address.strip_prefix("builds/")?.strip_suffix(".glb")?;
-        Some(self.model(number.parse().ok()?)?.bytes.clone())
+        let (kind, file) = address.split_once('/')?;
+        let model = self.model(file.strip_suffix(".glb")?.parse().ok()?)?;
+        match kind {
+            "builds" => Some(model.bytes.clone()),
+            "originals" => model.originals.clone(),
+            _ => None,
+        }
     }
 
     /// Tells when there is news.
@@ -285,6 +309,13 @@ impl Hub {
             (self.on_pick)(drawing, picked);
         }
     }
+}
+
+/// The clips of a drawing before they were cut, as a file; `None` if none was cut.
+fn originals(compiled: &Compiled) -> Option<Bytes> {
+    let mut out = Cursor::new(Vec::new());
+    gltf::write(&compiled.originals()?, Container::Glb, &mut out).ok()?;
+    Some(out.into_inner().into())
 }
 
 /// Messages hold texts and numbers only, so writing them does not fail.

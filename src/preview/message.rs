@@ -3,6 +3,7 @@
 use std::time::SystemTime;
 
 use serde::{Deserialize, Serialize};
+use serde_json::value::RawValue;
 
 use crate::diagnostic::Diagnostic;
 use crate::report::{Part, Places};
@@ -47,6 +48,10 @@ pub(super) struct Build<'a> {
     pub(super) triangles: usize,
     pub(super) findings: Vec<Finding<'a>>,
     pub(super) parts: Vec<Part<'a>>,
+    /// The clips of the model.
+    pub(super) clips: &'a RawValue,
+    /// The address of its clips as they were before they were cut.
+    pub(super) originals: Option<String>,
     pub(super) steps: Moments,
 }
 

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use axum::Router;
+use axum::body::Bytes;
 use axum::extract::{Path, State};
 use axum::http::{StatusCode, header};
 use axum::middleware::from_fn_with_state;
@@ -118,6 +119,7 @@ fn router(hub: Arc<Hub>, names: Names) -> Router {
     let mut router = Router::new()
         .route("/live", get(socket::open))
         .route("/builds/{file}", get(build))
+        .route("/originals/{file}", get(originals))
         .route("/pictures/{file}", get(picture));
     for (path, kind, bytes) in page::ASSETS {
         router = router.route(
@@ -133,12 +135,17 @@ fn router(hub: Arc<Hub>, names: Names) -> Router {
 
 async fn build(State(shared): State<Shared>, Path(file): Path<String>) -> Response {
     let model = number(&file, ".glb").and_then(|number| shared.hub.model(number));
+    binary(model.map(|model| model.bytes.clone()))
+}
+
+async fn originals(State(shared): State<Shared>, Path(file): Path<String>) -> Response {
+    let model = number(&file, ".glb").and_then(|number| shared.hub.model(number));
+    binary(model.and_then(|model| model.originals.clone()))
+}
+
+fn binary(model: Option<Bytes>) -> Response {
     match model {
-        Some(model) => (
-            [(header::CONTENT_TYPE, "model/gltf-binary")],
-            model.bytes.clone(),
-        )
-            .into_response(),
+        Some(bytes) => ([(header::CONTENT_TYPE, "model/gltf-binary")], bytes).into_response(),
         None => StatusCode::NOT_FOUND.into_response(),
     }
 }

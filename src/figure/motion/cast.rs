@@ -100,7 +100,11 @@ fn trees(sheet: &Sheet) -> Vec<Tree> {
     let is_main = |part: &Part| part.kind == PartKind::Main;
     let mut children = vec![Vec::new(); sheet.parts.len()];
     let mut trees = Vec::new();
-    let mains = sheet.parts.iter().enumerate().filter(|(_, part)| is_main(part));
+    let mains = sheet
+        .parts
+        .iter()
+        .enumerate()
+        .filter(|(_, part)| is_main(part));
     for (index, part) in mains {
         match part.parent {
             Some(parent) => children[parent].push(index),
@@ -129,7 +133,10 @@ fn touching(model: &Model<'_>, trees: &[Tree]) -> Vec<Vec<usize>> {
     let first = |tree: &Tree| &model.sheet.parts[tree.parts[0]];
     let boxes = trees.iter().enumerate().map(|(index, tree)| {
         let (low, high) = first(tree).measure.bounds;
-        GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), index)
+        GeomWithData::new(
+            Rectangle::from_corners(low.to_array(), high.to_array()),
+            index,
+        )
     });
     let boxes = RTree::bulk_load(boxes.collect());
     let slack = |tree: &Tree| GAP * (tree.high.y - tree.low.y);
@@ -138,8 +145,12 @@ fn touching(model: &Model<'_>, trees: &[Tree]) -> Vec<Vec<usize>> {
         let (low, high) = own.measure.bounds;
         let reach = AABB::from_corners((low - slack).to_array(), (high + slack).to_array());
         let found = boxes.locate_in_envelope_intersecting(reach);
-        let others = found.map(|found| found.data).filter(|other| *other != index);
-        let mut others: Vec<usize> = others.filter(|other| are_near(own, first(&trees[*other]), slack)).collect();
+        let others = found
+            .map(|found| found.data)
+            .filter(|other| *other != index);
+        let mut others: Vec<usize> = others
+            .filter(|other| are_near(own, first(&trees[*other]), slack))
+            .collect();
         others.sort_unstable();
         others
     };
@@ -158,7 +169,11 @@ fn touching(model: &Model<'_>, trees: &[Tree]) -> Vec<Vec<usize>> {
 /// Whether two areas come as near to each other as `gap`.
 fn are_near(a: &Part, b: &Part, gap: f64) -> bool {
     let reaches = |from: &Part, to: &Part| {
-        let rings = from.outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+        let rings = from
+            .outline
+            .polygons
+            .iter()
+            .flat_map(|polygon| &polygon.rings);
         let mut points = rings.flatten();
         points.any(|point| distance_squared(&to.outline, *point) <= gap * gap)
     };
@@ -166,9 +181,15 @@ fn are_near(a: &Part, b: &Part, gap: f64) -> bool {
 }
 
 fn group(sheet: &Sheet, trees: &[Tree], near: &[Vec<usize>], members: &[usize]) -> Group {
-    let parts: Vec<usize> = members.iter().flat_map(|tree| &trees[*tree].parts).copied().collect();
+    let parts: Vec<usize> = members
+        .iter()
+        .flat_map(|tree| &trees[*tree].parts)
+        .copied()
+        .collect();
     let place: std::collections::BTreeMap<usize, usize> = parts.iter().copied().zip(0..).collect();
-    let parents = parts.iter().map(|part| sheet.parts[*part].parent.map(|parent| place[&parent]));
+    let parents = parts
+        .iter()
+        .map(|part| sheet.parts[*part].parent.map(|parent| place[&parent]));
     let first = |tree: &usize| trees[*tree].parts[0];
     let touching = members.iter().map(|tree| {
         let others = near[*tree].iter().map(|other| place[&first(other)]);
@@ -176,7 +197,11 @@ fn group(sheet: &Sheet, trees: &[Tree], near: &[Vec<usize>], members: &[usize]) 
     });
     let size = |part: &usize| area(&sheet.parts[*part].outline);
     // The first of the largest, so that twins do not change places.
-    let largest = members.iter().map(first).rev().max_by(|a, b| size(a).total_cmp(&size(b)));
+    let largest = members
+        .iter()
+        .map(first)
+        .rev()
+        .max_by(|a, b| size(a).total_cmp(&size(b)));
     let group = Group {
         parents: parents.collect(),
         touching: touching.collect(),

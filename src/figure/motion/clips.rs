@@ -83,10 +83,12 @@ impl Stock {
     ) -> Option<Arc<Prepared>> {
         let first = !self.now.contains_key(link);
         if first {
-            let read = resolver.read(link).map(|bytes| match self.before.remove(link) {
-                Some(known) if known.bytes == bytes => known,
-                _ => Known::read(bytes),
-            });
+            let read = resolver
+                .read(link)
+                .map(|bytes| match self.before.remove(link) {
+                    Some(known) if known.bytes == bytes => known,
+                    _ => Known::read(bytes),
+                });
             self.now.insert(link.to_owned(), read);
         }
         match self.now.get(link)? {
@@ -110,7 +112,8 @@ impl Stock {
     /// Remembers what was read, for the next time.
     pub(super) fn into_memory(self) -> Memory {
         let read = self.now.into_iter();
-        read.filter_map(|(link, known)| Some((link, known.ok()?))).collect()
+        read.filter_map(|(link, known)| Some((link, known.ok()?)))
+            .collect()
     }
 }
 
@@ -132,7 +135,10 @@ impl Known {
                     Some(Arc::new(Prepared::new(ready)))
                 }
                 Err(error) => {
-                    notes.push(format!("it cannot be shown at {} frames a second: {error}", ready::FPS));
+                    notes.push(format!(
+                        "it cannot be shown at {} frames a second: {error}",
+                        ready::FPS
+                    ));
                     None
                 }
             }

@@ -30,7 +30,7 @@ use crate::source::Span;
 use cast::Group;
 use clips::{Prepared, Stock};
 pub(super) use puppet::Nodes;
-pub use shot::{Driven, Shot};
+pub use shot::{Driven, Shot, originals};
 use tracks::Shown;
 
 /// The most keys of all clips of a drawing: frames × parts.
@@ -59,17 +59,22 @@ pub(super) fn wishes<'a>(model: &Model<'a>) -> Vec<Wish<'a>> {
     let wishes = strings.flat_map(|string| {
         let part = match string.annotation {
             Annotation::Defaults(_) => Some(None),
-            _ => string.binding.map(|binding| Some(model.sheet.parts[binding.part].main)),
+            _ => string
+                .binding
+                .map(|binding| Some(model.sheet.parts[binding.part].main)),
         };
-        string.settings.iter().filter_map(move |setting| match &setting.value {
-            Value::Motion { file, clip } => Some(Wish {
-                part: part?,
-                file,
-                name: clip.as_deref(),
-                span: string.text.span(setting.range.clone()),
-            }),
-            _ => None,
-        })
+        string
+            .settings
+            .iter()
+            .filter_map(move |setting| match &setting.value {
+                Value::Motion { file, clip } => Some(Wish {
+                    part: part?,
+                    file,
+                    name: clip.as_deref(),
+                    span: string.text.span(setting.range.clone()),
+                }),
+                _ => None,
+            })
     });
     wishes.collect()
 }
@@ -151,7 +156,11 @@ struct Theatre<'a> {
 
 impl Theatre<'_> {
     /// Matches a figure with a clip; `None` if no joint drives any part.
-    fn cast(&mut self, group: &Group, clip: &Prepared) -> Option<(Group, crate::motion::figure::Figure, Matching)> {
+    fn cast(
+        &mut self,
+        group: &Group,
+        clip: &Prepared,
+    ) -> Option<(Group, crate::motion::figure::Figure, Matching)> {
         let matched = |group: &Group| {
             let figure = puppet::figure(self.model, group, self.ground.members);
             let matching = match_figure(&figure, &clip.clip.skeleton, &clip.anatomy);
@@ -163,7 +172,9 @@ impl Theatre<'_> {
             label.is_some_and(|label| label.class == Class::Hips) && group.is_rooted(*part)
         };
         // The hips carry the rest, if no string says otherwise: their travel is the figure's.
-        let hips = (0..group.parts.len()).find(is_hips).map(|part| group.parts[part]);
+        let hips = (0..group.parts.len())
+            .find(is_hips)
+            .map(|part| group.parts[part]);
         let (group, figure, matching) = match hips.filter(|hips| *hips != group.root) {
             Some(hips) => {
                 let group = group.clone().rooted_at(hips);
@@ -179,7 +190,10 @@ impl Theatre<'_> {
         is_driven.then_some((group, figure, matching))
     }
 
-    #[expect(clippy::too_many_arguments, reason = "a clip, a figure, and where they meet")]
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "a clip, a figure, and where they meet"
+    )]
     fn play(
         &mut self,
         wish: &Wish<'_>,
@@ -215,11 +229,25 @@ impl Theatre<'_> {
         let name = shot::free_name(&self.shots, group.root, wanted);
         let step = clip.clip.frame_time;
         let full = Shown::full(clip.clip.frames(), step);
-        let full = tracks::animation(self.ground, self.model.scale, &name, &group.parts, &carried, &full);
+        let full = tracks::animation(
+            self.ground,
+            self.model.scale,
+            &name,
+            &group.parts,
+            &carried,
+            &full,
+        );
         let full = match &cut {
             Some(cut) => {
                 let held = Shown::held(&cut.exposure, step);
-                let held = tracks::animation(self.ground, self.model.scale, &name, &group.parts, &carried, &held);
+                let held = tracks::animation(
+                    self.ground,
+                    self.model.scale,
+                    &name,
+                    &group.parts,
+                    &carried,
+                    &held,
+                );
                 tracks::add(&mut scene.animations, held);
                 Some(full)
             }
@@ -249,11 +277,15 @@ impl Theatre<'_> {
             let Value::Pair(amounts) = source.setting.value else {
                 return None;
             };
-            let span = sheet.strings[source.string].text.span(source.setting.range.clone());
+            let span = sheet.strings[source.string]
+                .text
+                .span(source.setting.range.clone());
             Some((amounts.map(|amount| amount as usize), span, source.from))
         };
         // What the string of any part of the figure says counts more than what is said to all.
-        let all = std::iter::once(group.root).chain(group.parts.iter().copied()).filter_map(said);
+        let all = std::iter::once(group.root)
+            .chain(group.parts.iter().copied())
+            .filter_map(said);
         let (amounts, span, _) = all.min_by_key(|(_, _, from)| *from as usize)?;
         Some((amounts, span))
     }

@@ -36,12 +36,20 @@ pub(super) fn figure(model: &Model<'_>, group: &Group, members: &[Vec<usize>]) -
                 false => [other, one],
             },
         };
-        let own = members[index].iter().map(|member| sheet.parts[*member].measure.bounds);
-        let bounds = own.fold([joint.min(tip), joint.max(tip)], |[low, high], (from, to)| {
-            let (a, b) = (up(from), up(to));
-            [low.min(a.min(b)), high.max(a.max(b))]
-        });
-        let bones = match sheet.setting(index, Keyword::Bone).map(|source| &source.setting.value) {
+        let own = members[index]
+            .iter()
+            .map(|member| sheet.parts[*member].measure.bounds);
+        let bounds = own.fold(
+            [joint.min(tip), joint.max(tip)],
+            |[low, high], (from, to)| {
+                let (a, b) = (up(from), up(to));
+                [low.min(a.min(b)), high.max(a.max(b))]
+            },
+        );
+        let bones = match sheet
+            .setting(index, Keyword::Bone)
+            .map(|source| &source.setting.value)
+        {
             Some(Value::Names(names)) => names.clone(),
             _ => Vec::new(),
         };
@@ -63,8 +71,13 @@ pub(super) fn figure(model: &Model<'_>, group: &Group, members: &[Vec<usize>]) -
 /// The figure as it is moved, in the order of the group. `branches` are those of the drawing.
 pub(super) fn puppet(figure: &Figure, group: &Group, matching: &Matching, nodes: &Nodes) -> Puppet {
     let is_leg = |part: usize| {
-        let is_driven = matching.drives[part].as_ref().is_some_and(|drive| drive.follow == Follow::Direction);
-        is_driven && matching.labels[part].as_ref().is_some_and(|label| label.class == Class::Leg)
+        let is_driven = matching.drives[part]
+            .as_ref()
+            .is_some_and(|drive| drive.follow == Follow::Direction);
+        is_driven
+            && matching.labels[part]
+                .as_ref()
+                .is_some_and(|label| label.class == Class::Leg)
     };
     let mut goes_on = vec![false; group.parts.len()];
     for (index, part) in figure.parts.iter().enumerate() {
@@ -82,7 +95,11 @@ pub(super) fn puppet(figure: &Figure, group: &Group, matching: &Matching, nodes:
             node,
             joint: part.joint.extend(depth),
             tip: part.tip.extend(depth),
-            sole: if stands { sole(part, depth) } else { Vec::new() },
+            sole: if stands {
+                sole(part, depth)
+            } else {
+                Vec::new()
+            },
             drive: matching.drives[index].as_ref().map(|drive| Drive {
                 joint: drive.joint,
                 tip: drive.tip,

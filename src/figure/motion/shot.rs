@@ -5,7 +5,9 @@ use std::sync::Arc;
 use crate::motion::limited::Cut;
 use crate::motion::matching::Matching;
 use crate::motion::skeleton::Skeleton;
-use crate::scene::Animation;
+use crate::scene::{Animation, Node, Scene};
+
+use super::tracks;
 
 /// A clip that a figure plays.
 #[derive(Debug)]
@@ -68,6 +70,29 @@ impl Shot {
     }
 }
 
+/// The nodes of a scene without what they show, and the clips of limited animation as they were before they were cut, under the
+/// names that they have in the scene. `None` if no clip was cut.
+pub fn originals(scene: &Scene, shots: &[Shot]) -> Option<Scene> {
+    let mut animations = Vec::new();
+    for full in shots.iter().filter_map(|shot| shot.full.as_ref()) {
+        tracks::add(&mut animations, full.clone());
+    }
+    if animations.is_empty() {
+        return None;
+    }
+    let bare = |node: &Node| Node {
+        mesh: None,
+        provenance: None,
+        ..node.clone()
+    };
+    Some(Scene {
+        nodes: scene.nodes.iter().map(bare).collect(),
+        roots: scene.roots.clone(),
+        animations,
+        ..Scene::default()
+    })
+}
+
 /// What drives these parts of the drawing, which are those of the figure that was matched.
 pub(super) fn driven(parts: &[usize], matching: &Matching) -> Vec<Driven> {
     let driven = parts.iter().enumerate().map(|(index, part)| {
@@ -75,7 +100,10 @@ pub(super) fn driven(parts: &[usize], matching: &Matching) -> Vec<Driven> {
         Driven {
             part: *part,
             joint: drive.map(|drive| drive.joint),
-            why: drive.map_or_else(|| matching.follows[index].clone(), |drive| drive.why.clone()),
+            why: drive.map_or_else(
+                || matching.follows[index].clone(),
+                |drive| drive.why.clone(),
+            ),
         }
     });
     let mut driven: Vec<Driven> = driven.collect();
@@ -94,7 +122,11 @@ pub(super) fn stem(file: &str) -> &str {
 
 /// A name that no clip of the figure has yet: the wanted one, with a number behind it if need be.
 pub(super) fn free_name(shots: &[Shot], root: usize, wanted: &str) -> String {
-    let is_free = |name: &str| !shots.iter().any(|shot| shot.root == root && shot.name == name);
+    let is_free = |name: &str| {
+        !shots
+            .iter()
+            .any(|shot| shot.root == root && shot.name == name)
+    };
     if is_free(wanted) {
         return wanted.to_owned();
     }

@@ -33,8 +33,11 @@ pub(super) fn note(link: &str, note: &str, span: Span) -> Diagnostic {
 
 /// A drawing whose clips are too long.
 pub(super) fn too_many_keys(span: Span) -> Diagnostic {
-    let message = format!("the clips have more than {MOST_KEYS} keys together, counted as frames times parts");
-    let help = "use shorter motions; `okoshi motion IN.bvh -o OUT.bvh --range 1:240` cuts a part out";
+    let message = format!(
+        "the clips have more than {MOST_KEYS} keys together, counted as frames times parts"
+    );
+    let help =
+        "use shorter motions; `okoshi motion IN.bvh -o OUT.bvh --range 1:240` cuts a part out";
     Diagnostic::new(Code::LimitPassed, span, message).help(help)
 }
 
@@ -71,8 +74,15 @@ pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mu
     let (omit, hold) = (cut.omissions, cut.holds);
     if omit.shortfall() > 0 {
         tell(
-            format!("only {} of {} drawings can be omitted from {frames} frames", omit.done, omit.asked),
-            format!("write `Limited {} {}`, or take a longer motion", omit.done.min(4), hold.done),
+            format!(
+                "only {} of {} drawings can be omitted from {frames} frames",
+                omit.done, omit.asked
+            ),
+            format!(
+                "write `Limited {} {}`, or take a longer motion",
+                omit.done.min(4),
+                hold.done
+            ),
         );
     }
     if hold.shortfall() > 0 {
@@ -81,13 +91,21 @@ pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mu
                 "only {} of {} frames can be held: no pose may stand for more than three of the {frames} frames",
                 hold.done, hold.asked
             ),
-            format!("a third of the frames looks right: `Limited {} {}`", omit.done, frames / 3),
+            format!(
+                "a third of the frames looks right: `Limited {} {}`",
+                omit.done,
+                frames / 3
+            ),
         );
     }
     if cut.gathered > MOST_GATHERED {
         tell(
-            format!("{} drawings are omitted in one place, where the motion is fastest: it is torn apart", cut.gathered),
-            "4 to 6 look right; if the clip holds several actions, cut it into one clip each".to_owned(),
+            format!(
+                "{} drawings are omitted in one place, where the motion is fastest: it is torn apart",
+                cut.gathered
+            ),
+            "4 to 6 look right; if the clip holds several actions, cut it into one clip each"
+                .to_owned(),
         );
     }
 }
@@ -109,26 +127,36 @@ impl Gathered {
         }
         for problem in &matching.problems {
             let keys: Vec<(usize, String)> = match problem {
-                Problem::UnknownBone { part, name, .. } | Problem::AmbiguousBone { part, name, .. } => {
+                Problem::UnknownBone { part, name, .. }
+                | Problem::AmbiguousBone { part, name, .. } => {
                     vec![(group.parts[*part], name.clone())]
                 }
                 Problem::NotAChain { part, .. } | Problem::TooManyBones { part } => {
                     vec![(group.parts[*part], String::new())]
                 }
-                Problem::NoSuchLimb { parts, .. } => {
-                    parts.iter().map(|part| (group.parts[*part], String::new())).collect()
-                }
+                Problem::NoSuchLimb { parts, .. } => parts
+                    .iter()
+                    .map(|part| (group.parts[*part], String::new()))
+                    .collect(),
                 Problem::NothingMatched => Vec::new(),
             };
             for key in keys {
-                let entry = self.problems.entry(key).or_insert_with(|| (0, problem.clone()));
+                let entry = self
+                    .problems
+                    .entry(key)
+                    .or_insert_with(|| (0, problem.clone()));
                 *entry = (entry.0 + 1, problem.clone());
             }
         }
     }
 
     /// Says what no clip of a figure has.
-    pub(super) fn tell(&self, model: &Model<'_>, skeleton: Option<&Skeleton>, diagnostics: &mut Vec<Diagnostic>) {
+    pub(super) fn tell(
+        &self,
+        model: &Model<'_>,
+        skeleton: Option<&Skeleton>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
         for ((part, _), (count, problem)) in &self.problems {
             if self.clips.get(part).is_none_or(|clips| count >= clips) {
                 diagnostics.push(problem_of(model, *part, problem, skeleton));
@@ -137,12 +165,19 @@ impl Gathered {
     }
 }
 
-fn problem_of(model: &Model<'_>, part: usize, problem: &Problem, skeleton: Option<&Skeleton>) -> Diagnostic {
+fn problem_of(
+    model: &Model<'_>,
+    part: usize,
+    problem: &Problem,
+    skeleton: Option<&Skeleton>,
+) -> Diagnostic {
     let sheet = model.sheet;
     let element = model.drawing.shapes[sheet.parts[part].shape].element.span;
     let bone = sheet.setting(part, Keyword::Bone);
     let span = bone.map_or(element, |source| {
-        sheet.strings[source.string].text.span(source.setting.range.clone())
+        sheet.strings[source.string]
+            .text
+            .span(source.setting.range.clone())
     });
     let called = |joint: usize| {
         let joint = skeleton.and_then(|skeleton| skeleton.joints.get(joint));

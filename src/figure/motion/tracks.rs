@@ -24,7 +24,9 @@ impl Shown {
     pub(super) fn full(frames: usize, frame_time: f64) -> Self {
         Self {
             timing: Arc::new(Timing {
-                times: (0..frames).map(|frame| (frame as f64 * frame_time) as f32).collect(),
+                times: (0..frames)
+                    .map(|frame| (frame as f64 * frame_time) as f32)
+                    .collect(),
                 interpolation: Interpolation::Linear,
             }),
             frames: (0..frames).collect(),
@@ -35,7 +37,12 @@ impl Shown {
     /// The drawings of an exposure sheet, each held until the next.
     pub(super) fn held(exposure: &Exposure, frame_time: f64) -> Self {
         let drawings = exposure.drawings();
-        let keys = drawings.map(|drawing| ((drawing.start as f64 * frame_time) as f32, drawing.source as usize));
+        let keys = drawings.map(|drawing| {
+            (
+                (drawing.start as f64 * frame_time) as f32,
+                drawing.source as usize,
+            )
+        });
         let (times, frames) = keys.unzip();
         Self {
             timing: Arc::new(Timing {
@@ -75,7 +82,11 @@ pub(super) fn animation(
         if let Some(places) = carried.moves[index].as_ref().filter(|_| link.is_rooted) {
             let places = shown.frames.iter().map(|frame| {
                 let place = places[*frame];
-                let place = if link.is_mirrored { place * MIRROR } else { place };
+                let place = if link.is_mirrored {
+                    place * MIRROR
+                } else {
+                    place
+                };
                 ground.stage.set(place, 0.0).0 * scale
             });
             add(Values::Translations(places.collect()));
@@ -83,8 +94,16 @@ pub(super) fn animation(
         if let Some(turns) = &carried.turns[index] {
             let turns = shown.frames.iter().map(|frame| {
                 let turn = turns[*frame];
-                let turn = if link.is_mirrored { mirrored(turn) } else { turn };
-                if link.is_rooted { ground.stage.turned(turn) } else { turn }
+                let turn = if link.is_mirrored {
+                    mirrored(turn)
+                } else {
+                    turn
+                };
+                if link.is_rooted {
+                    ground.stage.turned(turn)
+                } else {
+                    turn
+                }
             });
             add(Values::Rotations(continuous(turns.collect())));
         }
@@ -106,7 +125,10 @@ fn mirrored(turn: DQuat) -> DQuat {
 
 /// Adds an animation to others: what moves under one name is one.
 pub(super) fn add(animations: &mut Vec<Animation>, animation: Animation) {
-    match animations.iter_mut().find(|other| other.name == animation.name) {
+    match animations
+        .iter_mut()
+        .find(|other| other.name == animation.name)
+    {
         Some(other) => {
             other.seconds = other.seconds.max(animation.seconds);
             other.tracks.extend(animation.tracks);

@@ -26,7 +26,7 @@ mod written;
 pub use error::{Error, Note};
 pub use read::{Reading, read, read_bytes};
 pub use timing::DEFAULT_FRAME_TIME;
-pub use write::{Decimals, write};
+pub use write::{Decimals, write, write_shown};
 
 /// How many joints a skeleton may have; bones' ends are counted by themselves, to the same limit.
 pub const MOST_JOINTS: usize = 1 << 16;

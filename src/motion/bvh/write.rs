@@ -38,34 +38,69 @@ pub enum Decimals {
 ///
 /// # Errors
 /// Where the output fails, and `InvalidData` for a number that is not finite.
-pub fn write(clip: &Clip, decimals: Decimals, out: &mut impl Write) -> io::Result<()> {
+pub fn write(
+    clip: &Clip,
+    decimals: Decimals,
+    out: &mut (impl Write + Send + ?Sized),
+) -> io::Result<()> {
+    let frames: Vec<u32> = (0..clip.frames() as u32).collect();
+    write_shown(clip, &frames, decimals, out)
+}
+
+/// Writes frames of a clip, in this order, as [`write()`] writes all of them. A frame that stands for several is made once.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_shown(
+    clip: &Clip,
+    frames: &[u32],
+    decimals: Decimals,
+    out: &mut (impl Write + Send + ?Sized),
+) -> io::Result<()> {
     let order = Order::of(&clip.skeleton);
     let mut head = Vec::new();
     hierarchy(&clip.skeleton, &order, decimals, &mut head)?;
-    head.extend_from_slice(format!("MOTION\nFrames: {}\nFrame Time: ", clip.frames()).as_bytes());
+    head.extend_from_slice(format!("MOTION\nFrames: {}\nFrame Time: ", frames.len()).as_bytes());
     number(clip.frame_time, Decimals::All, &mut head)?;
     head.push(b'\n');
-    out.write_all(&head)?;
 
     let width = clip.skeleton.width().max(1);
     let rows = (PORTION / width).max(1);
     let columns = order.columns(&clip.skeleton);
-    for batch in clip.values().chunks(rows * width * PORTIONS) {
-        let texts: Vec<io::Result<Vec<u8>>> = batch
-            .par_chunks(rows * width)
-            .map(|portion| {
-                let mut text = Vec::with_capacity(portion.len() * 11);
-                for row in portion.chunks(width) {
-                    frame(row, columns.as_deref(), decimals, &mut text)?;
-                }
-                Ok(text)
-            })
-            .collect();
-        for text in texts {
-            out.write_all(&text?)?;
+    let portion = |frames: &[u32]| {
+        let mut text = Vec::with_capacity(frames.len() * width * 11);
+        for same in frames.chunk_by(|a, b| a == b) {
+            let start = text.len();
+            frame(
+                clip.row(same[0] as usize),
+                columns.as_deref(),
+                decimals,
+                &mut text,
+            )?;
+            let end = text.len();
+            for _ in 1..same.len() {
+                text.extend_from_within(start..end);
+            }
+        }
+        Ok(text)
+    };
+    let mut done = vec![Ok(head)];
+    let mut batches = frames.chunks(rows * PORTIONS);
+    loop {
+        let batch = batches.next();
+        let next = || batch.map(|batch| batch.par_chunks(rows).map(portion).collect());
+        // The system takes one batch while the next is made.
+        let (written, next) = rayon::join(|| put(done, out), next);
+        written?;
+        match next {
+            Some(next) => done = next,
+            None => return Ok(()),
         }
     }
-    Ok(())
+}
+
+fn put(texts: Vec<io::Result<Vec<u8>>>, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
+    texts.into_iter().try_for_each(|text| out.write_all(&text?))
 }
 
 fn frame(

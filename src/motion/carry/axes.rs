@@ -33,7 +33,10 @@ impl Landmarks {
         };
         Self {
             hips: anatomy.hips.unwrap_or(0),
-            head: anatomy.head.or(anatomy.neck.last().copied()).or(anatomy.chest()),
+            head: anatomy
+                .head
+                .or(anatomy.neck.last().copied())
+                .or(anatomy.chest()),
             shoulders: both(Class::Arm, |arm| Some(arm.upper)),
             thighs: both(Class::Leg, |leg| Some(leg.upper)),
             knees: both(Class::Leg, |leg| leg.end.and(leg.lower)),
@@ -105,7 +108,9 @@ fn up(clip: &Clip, landmarks: &Landmarks) -> DVec3 {
             Some([left, right]) => (pose[left].position + pose[right].position) / 2.0,
             None => pose[landmarks.hips].position,
         };
-        landmarks.head.map_or(DVec3::ZERO, |head| pose[head].position - low)
+        landmarks
+            .head
+            .map_or(DVec3::ZERO, |head| pose[head].position - low)
     };
     let step = clip.frames().div_ceil(MOST_POSES).max(1);
     let frames = (0..clip.frames()).step_by(step);

@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::axes::{Landmarks, Axes};
+use super::axes::{Axes, Landmarks};
 use super::turn::Turns;
 use super::{Drive, Poses, Puppet, reach};
 use crate::motion::skeleton::{Clip, Placed};
@@ -59,7 +59,11 @@ pub(super) fn travel(
     let mut before: Vec<DVec3> = Vec::new();
     for frame in 0..clip.frames() {
         skeleton.pose(puppet, turns, order, frame);
-        let feet: Vec<DVec3> = walk.feet.iter().map(|foot| foot.reference(puppet, &skeleton)).collect();
+        let feet: Vec<DVec3> = walk
+            .feet
+            .iter()
+            .map(|foot| foot.reference(puppet, &skeleton))
+            .collect();
         planted = walk.planted(frame, planted);
         travel.grounded[frame] = planted.is_some();
         if frame > 0 {
@@ -99,7 +103,9 @@ struct Standing {
 impl Standing {
     fn new(puppet: &Puppet) -> Self {
         let joints = puppet.parts.iter().map(|part| {
-            let above = part.parent.map(|parent| into(&puppet.parts[parent].node, part.joint));
+            let above = part
+                .parent
+                .map(|parent| into(&puppet.parts[parent].node, part.joint));
             [above.unwrap_or_default(), into(&part.node, part.joint)]
         });
         let nowhere = Placed {
@@ -168,7 +174,10 @@ impl Walk {
             if part.sole.is_empty() {
                 continue;
             }
-            match feet.iter_mut().find(|foot| (foot.drive.joint, foot.drive.tip) == (drive.joint, drive.tip)) {
+            match feet
+                .iter_mut()
+                .find(|foot| (foot.drive.joint, foot.drive.tip) == (drive.joint, drive.tip))
+            {
                 Some(foot) => foot.soles.push(index),
                 None => feet.push(Foot {
                     drive,
@@ -198,7 +207,11 @@ impl Walk {
     /// The foot that stays where it is on the way to a frame: the same as before as long as it is in contact, else the slowest.
     fn planted(&self, frame: usize, before: Option<usize>) -> Option<usize> {
         let stays = before.filter(|foot| self.feet[*foot].contact[frame]);
-        let standing = self.feet.iter().enumerate().filter(|(_, foot)| foot.contact[frame]);
+        let standing = self
+            .feet
+            .iter()
+            .enumerate()
+            .filter(|(_, foot)| foot.contact[frame]);
         let slowest = standing.min_by(|(_, a), (_, b)| a.speed[frame].total_cmp(&b.speed[frame]));
         stays.or(slowest.map(|(index, _)| index))
     }
@@ -216,7 +229,9 @@ fn foot_point(clip: &Clip, pose: &[Placed], landmarks: &Landmarks, drive: &Drive
 
 /// Whether a drive is that of a foot, and not of a leg as a whole or its lower half.
 fn is_foot(landmarks: &Landmarks, drive: &Drive) -> bool {
-    landmarks.feet.is_some_and(|feet| feet.contains(&drive.joint))
+    landmarks
+        .feet
+        .is_some_and(|feet| feet.contains(&drive.joint))
 }
 
 impl Foot {
@@ -246,21 +261,29 @@ impl Foot {
 
     /// The height of the lowest point of its soles.
     fn lowest(&self, puppet: &Puppet, standing: &Standing) -> f64 {
-        self.points(puppet, standing).map(|point| point.y).fold(f64::INFINITY, f64::min)
+        self.points(puppet, standing)
+            .map(|point| point.y)
+            .fold(f64::INFINITY, f64::min)
     }
 
     fn points(&self, puppet: &Puppet, standing: &Standing) -> impl Iterator<Item = DVec3> {
         self.soles.iter().flat_map(|part| {
             let placed = standing.places[*part];
             let own = &puppet.parts[*part];
-            let point = move |point: &DVec3| placed.rotation * into(&own.node, *point) + placed.position;
+            let point =
+                move |point: &DVec3| placed.rotation * into(&own.node, *point) + placed.position;
             own.sole.iter().map(point)
         })
     }
 }
 
 /// The length of a leg of the clip and of the figure, feet not counted; where one of them has no legs, their heights.
-fn leg_lengths(clip: &Clip, puppet: &Puppet, landmarks: &Landmarks, poses: &mut Poses<'_>) -> [f64; 2] {
+fn leg_lengths(
+    clip: &Clip,
+    puppet: &Puppet,
+    landmarks: &Landmarks,
+    poses: &mut Poses<'_>,
+) -> [f64; 2] {
     let pose = match clip.frames() {
         0 => clip.skeleton.offset_pose(),
         _ => poses.at(0).to_vec(),
@@ -277,8 +300,14 @@ fn leg_lengths(clip: &Clip, puppet: &Puppet, landmarks: &Landmarks, poses: &mut 
         }),
         _ => [0.0; 2],
     };
-    let stand_on = puppet.parts.iter().enumerate().filter(|(_, part)| !part.sole.is_empty());
-    let puppet_legs = stand_on.map(|(index, _)| leg_length(puppet, landmarks, index)).collect();
+    let stand_on = puppet
+        .parts
+        .iter()
+        .enumerate()
+        .filter(|(_, part)| !part.sole.is_empty());
+    let puppet_legs = stand_on
+        .map(|(index, _)| leg_length(puppet, landmarks, index))
+        .collect();
     match (mean(clip_legs.to_vec()), mean(puppet_legs)) {
         (Some(clip), Some(puppet)) => [clip, puppet],
         _ => {
@@ -303,7 +332,10 @@ fn leg_lengths(clip: &Clip, puppet: &Puppet, landmarks: &Landmarks, poses: &mut 
 fn leg_length(puppet: &Puppet, landmarks: &Landmarks, end: usize) -> f64 {
     let above = |part: &usize| {
         let parent = puppet.parts[*part].parent?;
-        puppet.parts[parent].drive.filter(|drive| drive.is_leg).map(|_| parent)
+        puppet.parts[parent]
+            .drive
+            .filter(|drive| drive.is_leg)
+            .map(|_| parent)
     };
     std::iter::successors(Some(end), above)
         // Parents that form a ring have no top.

@@ -108,10 +108,15 @@ pub fn carry(clip: &Clip, puppet: &Puppet, landmarks: &Landmarks) -> Carried {
     for part in &order {
         let own = &puppet.parts[*part];
         let turned: Vec<DQuat> = match (own.is_rooted, own.parent) {
-            (true, _) | (false, None) => frames.clone().map(|frame| turns.at(*part, frame)).collect(),
+            (true, _) | (false, None) => {
+                frames.clone().map(|frame| turns.at(*part, frame)).collect()
+            }
             (false, Some(parent)) if turns.is_own(*part) => {
                 let inner = |frame| turns.at(parent, frame).inverse() * turns.at(*part, frame);
-                frames.clone().map(|frame| inner(frame).normalize()).collect()
+                frames
+                    .clone()
+                    .map(|frame| inner(frame).normalize())
+                    .collect()
             }
             _ => continue,
         };
@@ -128,7 +133,9 @@ pub fn carry(clip: &Clip, puppet: &Puppet, landmarks: &Landmarks) -> Carried {
 /// From a clip's world to the axes of a drawing whose figure faces the viewer: y up, and z the front of the body in the first
 /// frame.
 pub fn to_drawing(clip: &Clip, landmarks: &Landmarks) -> DQuat {
-    axes::Axes::of(clip, landmarks, Facing::Viewer).first.inverse()
+    axes::Axes::of(clip, landmarks, Facing::Viewer)
+        .first
+        .inverse()
 }
 
 /// The same rotations, each written with the sign that lies nearer to the one before.

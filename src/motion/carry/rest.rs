@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::axes::{Landmarks, Axes};
+use super::axes::{Axes, Landmarks};
 use super::{Poses, Puppet, reach};
 use crate::motion::matching::Follow;
 use crate::motion::skeleton::{Clip, Placed};
@@ -56,19 +56,36 @@ pub(super) fn choose(
 /// Whether a pose stands: legs down, hips and shoulders level.
 fn stands(pose: &[Placed], landmarks: &Landmarks, up: DVec3) -> bool {
     let way = |from: usize, to: usize| pose[to].position - pose[from].position;
-    let down = |leg: DVec3| leg.try_normalize().is_some_and(|leg| leg.dot(-up) >= LEGS.to_radians().cos());
-    let level = |line: DVec3| line.try_normalize().is_some_and(|line| line.dot(up).abs() <= LEVEL.to_radians().sin());
+    let down = |leg: DVec3| {
+        leg.try_normalize()
+            .is_some_and(|leg| leg.dot(-up) >= LEGS.to_radians().cos())
+    };
+    let level = |line: DVec3| {
+        line.try_normalize()
+            .is_some_and(|line| line.dot(up).abs() <= LEVEL.to_radians().sin())
+    };
     let legs = match (landmarks.thighs, landmarks.feet) {
         (Some(thighs), Some(feet)) => (0..2).all(|side| down(way(thighs[side], feet[side]))),
         _ => true,
     };
     let lines = [landmarks.thighs, landmarks.shoulders];
     let known = lines.iter().flatten().count() > 0;
-    known && legs && lines.into_iter().flatten().all(|[left, right]| level(way(right, left)))
+    known
+        && legs
+        && lines
+            .into_iter()
+            .flatten()
+            .all(|[left, right]| level(way(right, left)))
 }
 
 /// The frame in which limbs point most nearly as they are drawn: least sum of squared angles, the first of equals.
-fn nearest(clip: &Clip, puppet: &Puppet, landmarks: &Landmarks, axes: &Axes, poses: &mut Poses<'_>) -> usize {
+fn nearest(
+    clip: &Clip,
+    puppet: &Puppet,
+    landmarks: &Landmarks,
+    axes: &Axes,
+    poses: &mut Poses<'_>,
+) -> usize {
     let mut best = (0, f64::INFINITY);
     for frame in 0..clip.frames() {
         let pose = poses.at(frame);

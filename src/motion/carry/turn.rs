@@ -85,7 +85,13 @@ struct Turner {
 }
 
 impl Turner {
-    fn new(clip: &Clip, puppet: &Puppet, part: usize, axes: &Axes, rest: &RestPose) -> Option<Self> {
+    fn new(
+        clip: &Clip,
+        puppet: &Puppet,
+        part: usize,
+        axes: &Axes,
+        rest: &RestPose,
+    ) -> Option<Self> {
         let part = &puppet.parts[part];
         let drive = part.drive?;
         let axis = (part.tip - part.joint).try_normalize();

@@ -162,13 +162,7 @@ fn from_front(shape: &Shape<'_>, axis: f64, open: &[&Limb], drafts: &mut [Draft]
 
 /// Neighbours from the hind are pairs, and what was drawn later is on the near side: the left one of a figure that faces the
 /// drawing's left. An odd number without words for fore and hind is one side's legs alone.
-fn from_side(
-    shape: &Shape<'_>,
-    facing: &Front,
-    toward: f64,
-    open: &[&Limb],
-    drafts: &mut [Draft],
-) {
+fn from_side(shape: &Shape<'_>, facing: &Front, toward: f64, open: &[&Limb], drafts: &mut [Draft]) {
     let near = if toward < 0.0 {
         Side::Left
     } else {
