@@ -183,12 +183,17 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
 }
 
 fn summary(loaded: &Loaded, written: Written) -> String {
-    let nodes = loaded.compiled.scene.nodes.len();
-    format!(
-        "{nodes} node{}, {} triangles",
-        if nodes == 1 { "" } else { "s" },
-        written.triangles
-    )
+    let scene = &loaded.compiled.scene;
+    let counted = |count: usize, what: &str| match count {
+        1 => format!("1 {what}"),
+        count => format!("{count} {what}s"),
+    };
+    let nodes = counted(scene.nodes.len(), "node");
+    let clips = match scene.animations.len() {
+        0 => String::new(),
+        count => format!(", {}", counted(count, "clip")),
+    };
+    format!("{nodes}, {} triangles{clips}", written.triangles)
 }
 
 /// What was built and how long it took, a line a figure.
@@ -202,6 +207,7 @@ fn stats(loaded: &Loaded, output: &Path, written: Written, times: [Duration; 2])
         ("nodes", scene.nodes.len().to_string()),
         ("meshes", scene.meshes.len().to_string()),
         ("materials", scene.materials.len().to_string()),
+        ("clips", scene.animations.len().to_string()),
         ("triangles", written.triangles.to_string()),
         ("corners", written.corners.to_string()),
         ("data bytes", written.bytes.to_string()),

@@ -110,7 +110,7 @@ browse("the chart has a point a frame, the omitted and the drawings; its playhea
   const drawing = EXPOSURE.findIndex(([source]) => source === after);
   const place = await inChart(page, after);
   await page.mouse.move(place.x, place.y);
-  assert.match(await page.locator(".chart-tip").innerText(), new RegExp(`^frame ${after + 1} · [\\d.]+ m² · drawing ${drawing + 1}`));
+  assert.match(await page.locator(".chart-tip").innerText(), new RegExp(`^frame ${after + 1} · SSD [\\d.]+ · drawing ${drawing + 1}`));
   await page.mouse.click(place.x, place.y);
   await still(page);
   assert.match(await readout(page), new RegExp(`^drawing ${drawing + 1} of .* frame ${begins(drawing) + 1} of`));
@@ -121,7 +121,7 @@ browse("the chart has a point a frame, the omitted and the drawings; its playhea
   await page.mouse.move(place.x, place.y);
   await page.mouse.down();
   await page.mouse.move(gone.x, gone.y, { steps: 3 });
-  assert.match(await page.locator(".chart-tip").innerText(), /^frame 30 · [\d.]+ m² · omitted$/);
+  assert.match(await page.locator(".chart-tip").innerText(), /^frame 30 · SSD [\d.]+ · omitted$/);
   assert.match(await readout(page), new RegExp(`^drawing ${drawing} of `));
   await page.mouse.up();
   await page.mouse.move(5, 5);

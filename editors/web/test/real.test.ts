@@ -27,7 +27,11 @@ function real(name: string, target: string, run: (page: Page, folder: string) =>
     copyFileSync(FIGURE, join(folder, "figure.svg"));
     mkdirSync(join(folder, "more"));
     copyFileSync(example("human"), join(folder, "more", "human.svg"));
-    const program = spawn(okoshi, ["preview", target, "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+    if (target === "moving") {
+      mkdirSync(join(folder, "moving"));
+      for (const file of ["kick.svg", "kick.bvh"]) copyFileSync(join("..", "..", "examples", "motion", file), join(folder, "moving", file));
+    }
+    const program = spawn(okoshi, ["preview", target === "moving" ? join(target, "kick.svg") : target, "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
     try {
       const address = await new Promise<string>((found) => createInterface(program.stdout).once("line", found));
       browser ??= launch();
@@ -106,4 +110,20 @@ real("a folder is a gallery with pictures; a drawing that comes into it is shown
   await page.locator(".card", { hasText: "human.svg" }).click();
   await shown(page);
   assert.equal(await page.locator("[data-part=Ubody]").count(), 1);
+});
+
+real("a clip plays, its drawings are marked, and the motion as it was stands beside it", "moving", async (page, folder) => {
+  await shown(page, 1);
+  assert.match(await page.locator(".clips").innerText(), /kick · 2\.8 s · 34 drawings/);
+  await page.keyboard.press("c");
+  assert.equal(await page.locator(".chart-gone").getAttribute("data-marks"), "4");
+  assert.match(await page.locator(".chart").innerText(), /68 frames, 34 drawings, 4 in-betweens omitted, 30 held/);
+  await page.keyboard.press("o");
+  await page.waitForFunction(() => [...document.querySelectorAll<HTMLElement>(".captions > *")].map((caption) => caption.innerText).sort().join() === "full,limited");
+  await page.locator("[data-part=Rshin]").click();
+  assert.match(await page.locator(".inspector").innerText(), /RightLeg/);
+  const drawing = join(folder, "moving", "kick.svg");
+  writeFileSync(drawing, source(drawing).replace("Limited 4 30", ""));
+  await page.waitForFunction(() => /kick · 2\.8 s$/.test(document.querySelector<HTMLSelectElement>(".clips select")?.selectedOptions[0]?.text ?? ""));
+  assert.equal(await page.locator(".captions").isVisible(), false);
 });

@@ -6,8 +6,6 @@
 mod axes;
 mod ground;
 mod rest;
-#[cfg(test)]
-mod tests;
 mod turn;
 
 use glam::{DQuat, DVec3};

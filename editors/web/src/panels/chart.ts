@@ -42,7 +42,7 @@ export class Chart {
       h(
         "header",
         { class: "chart-title" },
-        h("h2", {}, "Movement per frame ", h("span", { class: "muted" }, "SSD, m²")),
+        h("h2", {}, "Movement per frame ", h("span", { class: "muted", title: "Sum of the squared distances of all joints to the frame before, in the motion file's unit" }, "SSD, unit²")),
         this.summary,
         this.file,
         h("span", { class: "chart-legend", attributes: { "aria-hidden": "true" } }, h("i", { class: "of-omitted" }), "omitted", h("i", { class: "of-held" }), "held", h("i", { class: "of-drawing" }), "drawing"),
@@ -200,7 +200,7 @@ export class Chart {
     this.line.setAttribute("d", `M${half(x)} ${TOP}V${this.size.height - BELOW}`);
     const ssd = drawn.ssd(source);
     const run = drawn.runs[drawn.drawingFor(source)];
-    const words = [`frame ${source + 1}`, ssd === null ? "" : `${figures(ssd)} m²`];
+    const words = [`frame ${source + 1}`, ssd === null ? "" : `SSD ${figures(ssd)}`];
     if (drawn.omitted.has(source)) words.push("omitted");
     else if (run) words.push(`drawing ${drawn.drawingFor(source) + 1}`, run.frames > 1 ? `stands for ${run.frames} frames` : "");
     this.tip.textContent = words.filter(Boolean).join(" · ");
