@@ -109,7 +109,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "watch",
         ],
     ),
-    ("report", &["bind", "compile", "terrain"]),
+    ("report", &["bind", "compile", "figure", "terrain"]),
     ("watch", &["compile", "disk", "gltf", "resolver"]),
     (
         "preview",
@@ -128,6 +128,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "bind",
             "compile",
             "diagnostic",
+            "figure",
             "geometry",
             "lang",
             "report",

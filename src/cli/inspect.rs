@@ -1,5 +1,7 @@
 //! `okoshi inspect`: the hierarchy, who is bound to what, and why.
 
+mod clips;
+
 use std::collections::BTreeMap;
 
 use serde::Serialize;
@@ -10,7 +12,7 @@ use super::progress::spinning;
 use super::{Outcome, pretty, print_out, style};
 use crate::bind::{PartKind, SetBy};
 use crate::lang::keyword::Keyword;
-use crate::report::{Part, Terrain, own_name, parts, terrain};
+use crate::report::{ClipReport, Part, Terrain, clip_reports, own_name, parts, terrain};
 use crate::terrain::Layer;
 
 /// Prints the hierarchy; findings go to stderr.
@@ -44,17 +46,16 @@ struct Report<'a> {
     parts: Vec<Part<'a>>,
     terrain: Vec<Terrain<'a>>,
     billboards: [(); 0],
-    clips: [(); 0],
+    clips: Vec<ClipReport<'a>>,
 }
 
 fn json(loaded: &Loaded) -> String {
-    let (billboards, clips) = ([], []);
     pretty(&Report {
         drawing: &loaded.path,
         parts: parts(&loaded.compiled, &loaded.text),
         terrain: terrain(&loaded.compiled),
-        billboards,
-        clips,
+        billboards: [],
+        clips: clip_reports(&loaded.compiled),
     })
 }
 
@@ -125,6 +126,7 @@ fn tree(loaded: &Loaded) -> String {
         out.push_str("left out\n");
         out.push_str(&columns(&left_out));
     }
+    out.push_str(&clips::clips(&loaded.compiled));
     out
 }
 
@@ -221,17 +223,18 @@ fn string(loaded: &Loaded, part: usize) -> String {
     }
 }
 
-/// Two columns, the second one aligned.
-fn columns(rows: &[[String; 2]]) -> String {
+/// Columns, all but the last as wide as their widest cell.
+fn columns<const COUNT: usize>(rows: &[[String; COUNT]]) -> String {
     use unicode_width::UnicodeWidthStr;
-    let width = rows
-        .iter()
-        .map(|[first, _]| first.width())
-        .max()
-        .unwrap_or(0);
-    rows.iter().fold(String::new(), |mut out, [first, second]| {
-        let padding = " ".repeat(width - first.width() + 2);
-        out.push_str(format!("{first}{padding}{second}").trim_end());
+    let width = |column: usize| rows.iter().map(|row| row[column].width()).max();
+    let widths: [usize; COUNT] = std::array::from_fn(|column| width(column).unwrap_or(0));
+    rows.iter().fold(String::new(), |mut out, row| {
+        let mut line = String::new();
+        for (cell, width) in row.iter().zip(widths) {
+            line.push_str(cell);
+            line.push_str(&" ".repeat(width - cell.width() + 2));
+        }
+        out.push_str(line.trim_end());
         out.push('\n');
         out
     })

@@ -10,12 +10,13 @@ use crate::disk::{open_stream, write_atomic};
 use crate::gltf::{self, Container};
 use crate::motion::bvh::{self, Reading};
 use crate::motion::edit::{Edited, How, edit};
-use crate::motion::labels::{Anatomy, Piece};
+use crate::motion::labels::{Anatomy, Label};
 use crate::motion::limited::{self, Error, Length, Method};
 use crate::motion::ready::{self, LeadIn};
 use crate::motion::resample::rate;
 use crate::motion::skeleton::Clip;
 use crate::motion::stick::stick_figure;
+use crate::report::ranges;
 
 /// What is to be written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -255,7 +256,7 @@ fn report(edited: &Edited, arguments: &Motion) -> String {
         omitted.sort_unstable();
         let which = match omitted.is_empty() {
             true => String::new(),
-            false => format!(" ({})", ranges(&omitted)),
+            false => format!(" ({})", ranges(&omitted, usize::MAX)),
         };
         let _ = writeln!(
             out,
@@ -343,16 +344,6 @@ fn off(error: &Error) -> String {
     }
 }
 
-/// Numbers in order, neighbours drawn together: `3-6, 9`.
-fn ranges(numbers: &[u32]) -> String {
-    let runs = numbers.chunk_by(|a, b| a + 1 == *b);
-    let texts = runs.map(|run| match run {
-        [one] => one.to_string(),
-        run => format!("{}-{}", run[0], run[run.len() - 1]),
-    });
-    texts.collect::<Vec<_>>().join(", ")
-}
-
 /// The joints as a tree, each with what it is.
 fn joints(clip: &Clip, anatomy: &Anatomy) -> String {
     let mut depth: Vec<usize> = Vec::new();
@@ -365,20 +356,7 @@ fn joints(clip: &Clip, anatomy: &Anatomy) -> String {
             .labels
             .get(index)
             .and_then(Option::as_ref)
-            .map(|label| {
-                let side = label
-                    .side
-                    .map_or(String::new(), |side| format!("{} ", side.name()));
-                let piece = match label.piece {
-                    Piece::Whole => "",
-                    Piece::Collar => ", collar",
-                    Piece::Upper => ", upper",
-                    Piece::Lower => ", lower",
-                    Piece::End => ", end",
-                    Piece::Beyond => ", beyond",
-                };
-                format!("{side}{}{piece}", label.class.name())
-            });
+            .map(Label::describe);
         rows.push([format!("{indent}{}", joint.name), what.unwrap_or_default()]);
     }
     let width = rows
@@ -391,15 +369,4 @@ fn joints(clip: &Clip, anatomy: &Anatomy) -> String {
         let _ = writeln!(out, "{}", line.trim_end());
         out
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn neighbours_are_drawn_together() {
-        assert_eq!(ranges(&[3, 4, 5, 9, 11, 12]), "3-5, 9, 11-12");
-        assert_eq!(ranges(&[]), "");
-    }
 }

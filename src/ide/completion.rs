@@ -1,5 +1,6 @@
 //! What can be written at a place.
 
+mod joints;
 mod snippets;
 #[cfg(test)]
 mod tests;
@@ -71,6 +72,8 @@ pub enum ProposalKind {
     Flag,
     /// A part's name.
     Part,
+    /// A joint of a motion.
+    Joint,
     /// A variable.
     Variable,
     /// A function of calculations.
@@ -382,6 +385,9 @@ impl Cursor<'_> {
                         text: self.escape(&written(&part.label, Role::Argument)),
                         ..part
                     }));
+                }
+                Takes::Names if attribute.keyword == Keyword::Bone => {
+                    proposals.extend(self.joints(attribute));
                 }
                 Takes::Names | Takes::Text | Takes::Variable | Takes::Hex => {}
             }

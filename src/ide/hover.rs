@@ -71,7 +71,13 @@ impl Analysis {
                 }
             }
             Item::Feature => Some("A point on the outline of a billboard's region.".to_owned()),
-            Item::Keyword(index) => Some(explain::keyword(attribute(index).keyword)),
+            Item::Keyword(index) => {
+                let manual = explain::keyword(attribute(index).keyword);
+                Some(match self.motion_card(string, index) {
+                    Some(card) => format!("{card}\n{manual}"),
+                    None => manual,
+                })
+            }
             Item::Flag(index, flag) => {
                 let (letter, _) = attribute(index).flags[flag];
                 let flags = attribute(index).keyword.row().flags.iter();
@@ -82,7 +88,18 @@ impl Analysis {
             }
             Item::Argument(index, argument) => {
                 let slot = slot(attribute(index), argument, &|name| self.is_variable(name))?;
-                self.argument_card(string, (index, argument), slot, offset)
+                if let Some(name) = self.bone_name(string, index, argument)
+                    && let Some(card) = self.joint_card(string, name)
+                {
+                    return Some(card);
+                }
+                let card = self.argument_card(string, (index, argument), slot, offset)?;
+                let is_cut = matches!(attribute(index).keyword, Keyword::Motion | Keyword::Limited);
+                let motion = is_cut.then(|| self.motion_card(string, index)).flatten();
+                Some(match motion {
+                    Some(motion) => format!("{motion}\n{card}"),
+                    None => card,
+                })
             }
         }
     }
@@ -111,7 +128,9 @@ impl Analysis {
                     .find(|known| known.name.eq_ignore_ascii_case(word))?;
                 format!("`{}`: {}", word.name, word.summary)
             }
-            (Takes::Names, ArgumentKind::Word(name) | ArgumentKind::Quoted(name)) => {
+            (Takes::Names, ArgumentKind::Word(name) | ArgumentKind::Quoted(name))
+                if slot.taker == Keyword::Follow.name() =>
+            {
                 let part = self.part_named(name);
                 return part.map(|part| self.part_card(part));
             }
@@ -231,6 +250,9 @@ impl Analysis {
                     false => writeln!(out, "- {name} `{value}`, from {from}"),
                 };
             }
+        }
+        if let Some(driven) = self.driven_card(index) {
+            let _ = write!(out, "\n{driven}");
         }
         if part.kind == PartKind::Main {
             let children = (0..sheet.parts.len()).filter(|child| {

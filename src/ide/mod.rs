@@ -13,6 +13,7 @@ mod format;
 mod goto;
 mod hover;
 mod inlay;
+mod motion;
 mod quoting;
 mod rename;
 #[cfg(test)]

@@ -6,10 +6,70 @@ use crate::resolver::MemoryResolver;
 
 /// A drawing's analysis, with the place of `¦` in it, which is taken out.
 pub(super) fn analysis(source: &str) -> (Analysis, usize) {
+    analysis_among(source, &MemoryResolver::default())
+}
+
+/// The same, of a drawing that can link to [`motion`] as `kick.bvh`.
+pub(super) fn moving(source: &str) -> (Analysis, usize) {
+    let files = MemoryResolver::default().with("kick.bvh", motion().into_bytes());
+    analysis_among(source, &files)
+}
+
+fn analysis_among(source: &str, files: &MemoryResolver) -> (Analysis, usize) {
     let at = source.find('¦').unwrap_or(0);
     let source = source.replacen('¦', "", 1);
-    let compiled = compile(&source, &Options::default(), &MemoryResolver::default());
+    let compiled = compile(&source, &Options::default(), files);
     (Analysis::new(source, compiled), at)
+}
+
+/// A motion of an upright figure that turns its right arm: 13 frames at 24 a second.
+fn motion() -> String {
+    let joints = [
+        (0, "Hips", [0, 0, 0]),
+        (1, "Spine", [0, 20, 0]),
+        (2, "Head", [0, 30, 0]),
+        (2, "LeftArm", [15, 20, 0]),
+        (3, "LeftForeArm", [25, 0, 0]),
+        (4, "LeftHand", [25, 0, 0]),
+        (2, "RightArm", [-15, 20, 0]),
+        (3, "RightForeArm", [-25, 0, 0]),
+        (4, "RightHand", [-25, 0, 0]),
+        (5, "Grip:1", [-5, 0, 0]),
+        (1, "LeftUpLeg", [10, 0, 0]),
+        (2, "LeftLeg", [0, -40, 0]),
+        (1, "RightUpLeg", [-10, 0, 0]),
+        (2, "RightLeg", [0, -40, 0]),
+    ];
+    let mut out = "HIERARCHY\n".to_owned();
+    for (place, (depth, name, [x, y, z])) in joints.iter().enumerate() {
+        let (word, channels) = match depth {
+            0 => (
+                "ROOT",
+                "6 Xposition Yposition Zposition Zrotation Xrotation Yrotation",
+            ),
+            _ => ("JOINT", "3 Zrotation Xrotation Yrotation"),
+        };
+        out += &format!("{word} {name} {{ OFFSET {x} {y} {z} CHANNELS {channels}\n");
+        let next = joints.get(place + 1).map_or(0, |(depth, ..)| *depth);
+        if next <= *depth {
+            out += &format!("End Site {{ OFFSET {x} {y} {z} }}\n");
+            out += &"}\n".repeat(depth + 1 - next);
+        }
+    }
+    out += "MOTION\nFrames: 13\nFrame Time: 0.041666667\n";
+    for frame in 0..13 {
+        for (_, name, _) in joints {
+            let turn = if name == "RightArm" { frame * 5 } else { 0 };
+            let own = format!("{turn} 0 0 ");
+            out += &if name == "Hips" {
+                format!("0 90 0 {own}")
+            } else {
+                own
+            };
+        }
+        out += "\n";
+    }
+    out
 }
 
 /// A drawing of a body, two arms and a swatch, with these strings beside them: body, right arm, left arm, swatch, and

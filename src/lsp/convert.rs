@@ -202,6 +202,7 @@ pub(super) fn proposal(
         ProposalKind::Word => CompletionItemKind::ENUM_MEMBER,
         ProposalKind::Flag => CompletionItemKind::OPERATOR,
         ProposalKind::Part => CompletionItemKind::CLASS,
+        ProposalKind::Joint => CompletionItemKind::REFERENCE,
         ProposalKind::Variable => CompletionItemKind::VARIABLE,
         ProposalKind::Function => CompletionItemKind::FUNCTION,
         ProposalKind::Colour => CompletionItemKind::COLOR,

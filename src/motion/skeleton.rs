@@ -75,6 +75,20 @@ impl Skeleton {
         children
     }
 
+    /// Per joint whether it hangs on `joint`, however far down; not on itself.
+    pub fn below(&self, joint: usize) -> Vec<bool> {
+        let mut below: Vec<bool> = Vec::with_capacity(self.joints.len());
+        for other in &self.joints {
+            // Parents stand before their children.
+            below.push(
+                other
+                    .parent
+                    .is_some_and(|parent| parent == joint || below[parent]),
+            );
+        }
+        below
+    }
+
     /// Where the joints stand in the world while all channels are 0 and positions are the offsets.
     pub fn offset_pose(&self) -> Vec<Placed> {
         let mut pose: Vec<Placed> = Vec::with_capacity(self.joints.len());

@@ -1,11 +1,13 @@
 //! What a compiled drawing says of itself, as data for programs: `inspect --json`, the preview's page.
 
 mod clips;
+mod joints;
 mod parts;
 mod places;
 mod terrain;
 
 pub use clips::{Clip, Joint, clips};
+pub use joints::{ClipReport, Driver, clip_reports, cut_frames, drivers, ranges, undriven};
 pub use parts::{AttributeReport, Part, StringReport, landscapes, own_name, parts};
 pub use places::Places;
 pub use terrain::{Group, House, Terrain, terrain};

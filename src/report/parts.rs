@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::Places;
+use super::{Places, drivers};
 use crate::bind::{self, PartKind, SetBy, SheetString};
 use crate::compile::Compiled;
 use crate::terrain::Layer;
@@ -33,6 +33,10 @@ pub struct Part<'a> {
     pub axis: [f64; 2],
     /// Every attribute that is set, and the ones that every solid has.
     pub attributes: BTreeMap<&'static str, AttributeReport>,
+    /// The joint that drives it, in the first clip of its figure that drives it.
+    pub joint: Option<&'a str>,
+    /// Why that joint, or why none; `None` for what no clip moves.
+    pub joint_why: Option<&'a str>,
 }
 
 /// A string. Lines and columns count from 1, columns in characters.
@@ -61,6 +65,7 @@ pub struct AttributeReport {
 pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     let sheet = &compiled.sheet;
     let places = Places::new(text);
+    let drivers = drivers(compiled);
     let parts = sheet.parts.iter().enumerate();
     let parts = parts.filter(|(_, part)| part.kind != PartKind::Tile);
     let report = |(index, part): (usize, &'a bind::Part)| Part {
@@ -80,6 +85,8 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
         origin: part.origin.to_array(),
         axis: part.measure.axis.to_array(),
         attributes: attributes(compiled, index),
+        joint: drivers[index].and_then(|driver| driver.joint),
+        joint_why: drivers[index].map(|driver| driver.why),
     };
     parts.map(report).collect()
 }
@@ -109,6 +116,8 @@ pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
             origin: center.to_array(),
             axis: [1.0, 0.0],
             attributes: settings.collect(),
+            joint: None,
+            joint_why: None,
         }
     };
     compiled.layers.iter().map(report).collect()

@@ -22,7 +22,7 @@ use super::told;
 pub(super) struct Prepared {
     /// At 24 frames a second, without a lead-in.
     pub(super) clip: Clip,
-    pub(super) anatomy: Anatomy,
+    pub(super) anatomy: Arc<Anatomy>,
     /// Where the joints are: frames × joints, the file's unit.
     positions: Vec<DVec3>,
     /// Per frame how fast it is: the sum of the squares of the joints' steps from the frame before.
@@ -35,7 +35,7 @@ impl Prepared {
         Self {
             speeds: limited::speeds(&ready.positions, joints).into(),
             positions: ready.positions,
-            anatomy: ready.anatomy,
+            anatomy: Arc::new(ready.anatomy),
             clip: ready.clip,
         }
     }

@@ -211,7 +211,8 @@ impl Theatre<'_> {
             Arc::new(carry::carry(&clip.0.clip, puppet, &landmarks))
         });
         self.now.carried.push(kept);
-        let cut = self.limits(group).map(|(amounts, span)| {
+        let limits = self.limits(group);
+        let cut = limits.map(|(amounts, span)| {
             let mut kept = self.cuts.next().unwrap_or_default();
             let cut = kept.get((amounts, Same(Arc::clone(clip))), |([omit, hold], clip)| {
                 let options = limited::Options {
@@ -259,12 +260,15 @@ impl Theatre<'_> {
         self.shots.push(Shot {
             name,
             file: wish.file.to_owned(),
+            asked: wish.span,
             root: group.root,
             parts: shot::driven(&group.parts, matching),
             skeleton: Arc::clone(&clip.clip.skeleton),
+            anatomy: Arc::clone(&clip.anatomy),
             frame_time: step,
             speeds: Arc::clone(&clip.speeds),
             cut,
+            limited: limits.map(|(_, span)| span),
             full,
         });
     }

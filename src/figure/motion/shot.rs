@@ -2,10 +2,12 @@
 
 use std::sync::Arc;
 
+use crate::motion::labels::{Anatomy, Label};
 use crate::motion::limited::Cut;
-use crate::motion::matching::Matching;
+use crate::motion::matching::{Matching, joints_named};
 use crate::motion::skeleton::Skeleton;
 use crate::scene::{Animation, Node, Scene};
+use crate::source::Span;
 
 use super::tracks;
 
@@ -16,12 +18,16 @@ pub struct Shot {
     pub name: String,
     /// The file, as the string names it.
     pub file: String,
+    /// Where a string asks for it.
+    pub asked: Span,
     /// The part that all others of the figure hang on, an index into the sheet's parts.
     pub root: usize,
     /// What drives which part; all parts of the figure that are in the hierarchy, in drawing order.
     pub parts: Vec<Driven>,
     /// What the file moves.
     pub skeleton: Arc<Skeleton>,
+    /// What its joints are.
+    pub anatomy: Arc<Anatomy>,
     /// Seconds from a frame to the next.
     pub frame_time: f64,
     /// Per frame of the clip, before anything was cut, how fast it is: the sum of the squares of the joints' steps from the
@@ -29,6 +35,8 @@ pub struct Shot {
     pub speeds: Arc<[f64]>,
     /// How it was cut; `None` for full animation.
     pub cut: Option<Arc<Cut>>,
+    /// Where a string says how it is cut; `None` for full animation.
+    pub limited: Option<Span>,
     /// The animation as it was before it was cut.
     pub full: Option<Animation>,
 }
@@ -67,6 +75,27 @@ impl Shot {
             Some(cut) => cut.exposure.len() as f64 * self.frame_time,
             None => self.speeds.len().saturating_sub(1) as f64 * self.frame_time,
         }
+    }
+
+    /// What drives a part of the figure, or why nothing does; `None` for parts that are not of it.
+    pub fn driven(&self, part: usize) -> Option<&Driven> {
+        let place = self.parts.binary_search_by_key(&part, |driven| driven.part);
+        place.ok().map(|place| &self.parts[place])
+    }
+
+    /// The name of a joint.
+    pub fn joint_name(&self, joint: usize) -> &str {
+        &self.skeleton.joints[joint].name
+    }
+
+    /// What a joint is; `None` for helpers, fingers and faces.
+    pub fn label(&self, joint: usize) -> Option<&Label> {
+        self.anatomy.labels.get(joint)?.as_ref()
+    }
+
+    /// The joint that `Bone` means by a name; of several the first.
+    pub fn joint_named(&self, name: &str) -> Option<usize> {
+        joints_named(&self.skeleton, name).first().copied()
     }
 }
 

@@ -1,4 +1,4 @@
-use super::super::samples::{analysis, figure};
+use super::super::samples::{analysis, figure, moving};
 use super::snippets::example_arguments;
 use super::*;
 
@@ -136,4 +136,61 @@ fn every_example_fills_its_keyword() {
         );
     }
     assert_eq!(example_arguments(Keyword::Color), ["1", "0.8", "0.6"]);
+}
+
+/// What is proposed in the string of the right arm of a figure that moves: labels, details, texts.
+fn joints(right: &str) -> Vec<[String; 3]> {
+    let source = figure(["Body", right, "Larm@Body", "", "%Motion \"kick.bvh\""]);
+    let (analysis, at) = moving(&source);
+    let context = Context {
+        source: &analysis.source().clone(),
+        analysis: &analysis,
+        files: &Vec::new,
+    };
+    let found = completion(&context, at).unwrap();
+    let joints = found
+        .proposals
+        .into_iter()
+        .filter(|proposal| proposal.kind == ProposalKind::Joint);
+    joints
+        .map(|joint| [joint.label, joint.detail, joint.text])
+        .collect()
+}
+
+#[test]
+fn joints_are_those_of_the_motion() {
+    let found = joints("Rarm@Body$Bone ¦");
+    assert_eq!(found.len(), 14);
+    assert_eq!(found[0], ["Hips", "hips", "Hips"]);
+    let arm = ["RightArm", "right arm, upper", "RightArm"].map(str::to_owned);
+    assert!(found.contains(&arm), "{found:?}");
+    // What is no limb comes last; a name with signs stands in quotes.
+    assert_eq!(found[13], ["Grip:1", "on RightHand", "\"Grip:1\""]);
+    assert_eq!(joints("Rarm@Body$Bone \"¦").len(), 14);
+    assert_eq!(joints("Rarm@Body$Offset 2 ¦"), Vec::<[String; 3]>::new());
+}
+
+#[test]
+fn a_chain_of_joints_goes_downward() {
+    let labels = |right: &str| -> Vec<String> {
+        joints(right).into_iter().map(|[label, ..]| label).collect()
+    };
+    assert_eq!(
+        labels("Rarm@Body$Bone RightArm ¦"),
+        ["RightForeArm", "RightHand", "Grip:1"]
+    );
+    // Names are found as `Bone` finds them.
+    assert_eq!(
+        labels("Rarm@Body$Bone rightforearm ¦"),
+        ["RightHand", "Grip:1"]
+    );
+    assert_eq!(
+        labels("Rarm@Body$Bone RightArm Right¦"),
+        ["RightForeArm", "RightHand", "Grip:1"]
+    );
+    assert_eq!(labels("Rarm@Body$Bone Nobody ¦"), Vec::<String>::new());
+    assert_eq!(
+        labels("Rarm@Body$Bone RightArm RightHand ¦"),
+        Vec::<String>::new()
+    );
 }

@@ -171,6 +171,23 @@ pub struct Label {
     pub why: String,
 }
 
+impl Label {
+    /// What it is, in short: `right arm, upper`.
+    pub fn describe(&self) -> String {
+        let side = self.side.map_or("", Side::name);
+        let space = if side.is_empty() { "" } else { " " };
+        let piece = match self.piece {
+            Piece::Whole => "",
+            Piece::Collar => ", collar",
+            Piece::Upper => ", upper",
+            Piece::Lower => ", lower",
+            Piece::End => ", end",
+            Piece::Beyond => ", beyond",
+        };
+        format!("{side}{space}{}{piece}", self.class.name())
+    }
+}
+
 /// The far end of a chain of bones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tip {

@@ -142,6 +142,12 @@ pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> 
     }
 }
 
+/// The joints that `Bone` can mean by a name: compared exactly, else without regard to case, else without the prefixes that most
+/// joints share.
+pub fn joints_named(skeleton: &Skeleton, name: &str) -> Vec<usize> {
+    Names::new(skeleton).joints(name).to_vec()
+}
+
 /// Both sides of the join.
 struct Joining<'a> {
     skeleton: &'a Skeleton,

@@ -43,7 +43,7 @@ impl<'a> Names<'a> {
     }
 
     /// The joints of a name: compared exactly, else without regard to case, else without prefixes.
-    fn joints(&self, name: &str) -> &[usize] {
+    pub(super) fn joints(&self, name: &str) -> &[usize] {
         let [exact, lower, plain] = &self.joints;
         let in_lower = name.to_lowercase();
         exact

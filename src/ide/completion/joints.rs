@@ -1,0 +1,63 @@
+//! The joints that `Bone` can name.
+
+use super::{Cursor, Proposal, ProposalKind, own_name_of, simple};
+use crate::figure::Shot;
+use crate::ide::quoting::{Role, written};
+use crate::lang::ast::{ArgumentKind, Attribute};
+
+impl Cursor<'_> {
+    /// The joints of the drawing's motions, those of the part's figure first; as a second name the joints that hang on the first
+    /// one, for a chain goes downward. Limbs, head and trunk come before fingers, faces and helpers.
+    pub(super) fn joints(&self, attribute: &Attribute) -> Vec<Proposal> {
+        let first = match attribute.arguments.as_slice() {
+            [] => None,
+            [first] => match &first.kind {
+                ArgumentKind::Word(name) | ArgumentKind::Quoted(name) => Some(name),
+                _ => return vec![],
+            },
+            _ => return vec![],
+        };
+        let analysis = self.context.analysis;
+        let typed = || analysis.part_named(&own_name_of(self.text, self.in_desc)?);
+        let own = self
+            .string
+            .and_then(|string| analysis.part_of_string(string));
+        let mut proposals = vec![];
+        for shot in analysis.clips_for(own.or_else(typed)) {
+            let below = match first {
+                None => vec![true; shot.skeleton.joints.len()],
+                Some(name) => match shot.joint_named(name) {
+                    Some(joint) => shot.skeleton.below(joint),
+                    None => continue,
+                },
+            };
+            let joints = (0..below.len()).filter(|joint| below[*joint]);
+            let (known, others): (Vec<usize>, Vec<usize>) =
+                joints.partition(|joint| shot.label(*joint).is_some());
+            proposals.extend(
+                known
+                    .into_iter()
+                    .chain(others)
+                    .filter_map(|joint| self.joint(shot, joint)),
+            );
+        }
+        proposals
+    }
+
+    fn joint(&self, shot: &Shot, joint: usize) -> Option<Proposal> {
+        let name = shot.joint_name(joint);
+        // No string can hold quotes or lines within a name.
+        if name.is_empty() || name.contains(['"', '＂']) || name.contains(char::is_control) {
+            return None;
+        }
+        let detail = match (shot.label(joint), shot.skeleton.joints[joint].parent) {
+            (Some(label), _) => label.describe(),
+            (None, Some(parent)) => format!("on {}", shot.joint_name(parent)),
+            (None, None) => "a root".to_owned(),
+        };
+        Some(Proposal {
+            text: self.escape(&written(name, Role::Argument)),
+            ..simple(name, ProposalKind::Joint, &detail)
+        })
+    }
+}

@@ -1,0 +1,391 @@
+//! What is told about clips: which joint drives a part, what a clip is, how it was cut, what a joint is.
+
+use std::fmt::Write as _;
+
+use super::Analysis;
+use super::at::attributes;
+use super::hover::escaped;
+use crate::bind::PartKind;
+use crate::figure::Shot;
+use crate::lang::ast::ArgumentKind;
+use crate::lang::keyword::Keyword;
+use crate::report::{cut_frames, ranges, undriven};
+use crate::source::Span;
+
+/// How many clips are told of one by one.
+const MOST_CLIPS: usize = 8;
+/// How many stretches of frames are told one by one.
+const MOST_RANGES: usize = 12;
+/// How many joints that hang on another are named.
+const MOST_JOINTS: usize = 8;
+
+impl Analysis {
+    /// The clips of the drawing, those of a part's figure first.
+    pub(super) fn clips_for(&self, part: Option<usize>) -> Vec<&Shot> {
+        let main = part.map(|part| self.sheet().parts[part].main);
+        let mut shots: Vec<&Shot> = self.compiled.shots.iter().collect();
+        shots.sort_by_key(|shot| main.is_none_or(|main| shot.driven(main).is_none()));
+        shots
+    }
+
+    /// Which joint drives a part, and why, in each clip of its figure: one paragraph for clips that agree. Nothing for
+    /// parts of figures that do not move.
+    pub(super) fn driven_card(&self, part: usize) -> Option<String> {
+        if self.sheet().parts[part].kind != PartKind::Main {
+            return None;
+        }
+        let mut lines: Vec<(String, Vec<&str>)> = vec![];
+        for shot in &self.compiled.shots {
+            let Some(driven) = shot.driven(part) else {
+                continue;
+            };
+            let line = match driven.joint {
+                Some(joint) => {
+                    format!("driven by {}: {}", code(shot.joint_name(joint)), driven.why)
+                }
+                None => undriven(shot, driven),
+            };
+            match lines.iter_mut().find(|(known, _)| *known == line) {
+                Some((_, names)) => names.push(&shot.name),
+                None => lines.push((line, vec![&shot.name])),
+            }
+        }
+        let mut out = String::new();
+        for (line, names) in lines.iter().take(MOST_CLIPS) {
+            let shown = names.iter().take(MOST_CLIPS).map(|name| code(name));
+            let shown: Vec<String> = shown.collect();
+            let clips = if names.len() == 1 { "clip" } else { "clips" };
+            let more = match names.len().saturating_sub(MOST_CLIPS) {
+                0 => String::new(),
+                more => format!(" and {more} more"),
+            };
+            let _ = writeln!(out, "In {clips} {}{more}: {line}.\n", shown.join(", "));
+        }
+        let others = lines.iter().skip(MOST_CLIPS);
+        match others.map(|(_, names)| names.len()).sum() {
+            0 => {}
+            1 => out.push_str("And in 1 clip more.\n"),
+            more => {
+                let _ = writeln!(out, "And in {more} clips more.");
+            }
+        }
+        let out = out.trim_end();
+        (!out.is_empty()).then(|| format!("{out}\n"))
+    }
+
+    /// What the clips are that attribute `index` of a string asks for or cuts, or which joint drives its part.
+    pub(super) fn motion_card(&self, string: usize, index: usize) -> Option<String> {
+        let string_of = &self.sheet().strings[string];
+        let attribute = &attributes(&string_of.annotation)[index];
+        let span = string_of.text.span(attribute.range.clone());
+        match attribute.keyword {
+            Keyword::Motion => Some(self.asked_card(span)),
+            Keyword::Limited => self.limited_card(span),
+            Keyword::Bone => self.driven_card(self.part_of_string(string)?),
+            _ => None,
+        }
+    }
+
+    fn asked_card(&self, span: Span) -> String {
+        let shots = self.compiled.shots.iter().filter(|shot| shot.asked == span);
+        let lines = shots.map(|shot| {
+            let driven = shot
+                .parts
+                .iter()
+                .filter(|driven| driven.joint.is_some())
+                .count();
+            format!(
+                "clip {} of {}: {:.2} s, {}, {}; {} of {} are driven by the {} of {}",
+                code(&shot.name),
+                self.figure_of(shot),
+                shot.seconds(),
+                counted(shot.frames(), "frame"),
+                counted(shot.drawings(), "drawing"),
+                driven,
+                counted(shot.parts.len(), "part"),
+                counted(shot.skeleton.joints.len(), "joint"),
+                code(&shot.file),
+            )
+        });
+        list(lines.collect()).unwrap_or_else(|| "No figure plays it.\n".to_owned())
+    }
+
+    fn limited_card(&self, span: Span) -> Option<String> {
+        let shots = self
+            .compiled
+            .shots
+            .iter()
+            .filter(|shot| shot.limited == Some(span));
+        let lines = shots.map(|shot| {
+            let (omitted, held) = cut_frames(shot);
+            let what = |frames: &[u32]| match frames.is_empty() {
+                true => String::new(),
+                false => format!(" ({})", ranges(frames, MOST_RANGES)),
+            };
+            format!(
+                "clip {} of {}: of {} {} omitted{} and {} held{}; {}",
+                code(&shot.name),
+                self.figure_of(shot),
+                counted(shot.speeds.len(), "frame"),
+                are(omitted.len()),
+                what(&omitted),
+                are(held.len()),
+                what(&held),
+                counted(shot.drawings(), "drawing"),
+            )
+        });
+        list(lines.collect())
+    }
+
+    /// What the joint is that argument `argument` of a `Bone` names, in each motion of the part's figure; in those of the whole
+    /// drawing where its part has none.
+    pub(super) fn joint_card(&self, string: usize, name: &str) -> Option<String> {
+        let part = self.part_of_string(string);
+        let shots = self.clips_for(part);
+        let is_own = |shot: &&&Shot| {
+            part.is_some_and(|part| shot.driven(self.sheet().parts[part].main).is_some())
+        };
+        let own = shots.iter().filter(is_own).count();
+        let shots = if own > 0 { &shots[..own] } else { &shots[..] };
+        let mut files: Vec<&str> = vec![];
+        let mut cards: Vec<String> = vec![];
+        for shot in shots {
+            if files.contains(&shot.file.as_str()) {
+                continue;
+            }
+            files.push(&shot.file);
+            if files.len() <= MOST_CLIPS {
+                cards.push(match shot.joint_named(name) {
+                    Some(joint) => joint_of(shot, joint),
+                    None => format!(
+                        "The motion {} has no joint {}.",
+                        code(&shot.file),
+                        code(name)
+                    ),
+                });
+            }
+        }
+        (!cards.is_empty()).then(|| cards.join("\n\n"))
+    }
+
+    fn figure_of(&self, shot: &Shot) -> String {
+        code(&self.sheet().parts[shot.root].name)
+    }
+
+    /// The name that an argument of `Bone` gives.
+    pub(super) fn bone_name(&self, string: usize, index: usize, argument: usize) -> Option<&str> {
+        let attribute = &attributes(&self.sheet().strings[string].annotation)[index];
+        match &attribute.arguments.get(argument)?.kind {
+            ArgumentKind::Word(name) | ArgumentKind::Quoted(name)
+                if attribute.keyword == Keyword::Bone =>
+            {
+                Some(name)
+            }
+            _ => None,
+        }
+    }
+}
+
+/// A joint: what it is, why, and what it hangs on.
+fn joint_of(shot: &Shot, joint: usize) -> String {
+    let joints = &shot.skeleton.joints;
+    let mut out = format!(
+        "**{}**, a joint of {}",
+        escaped(&joints[joint].name),
+        code(&shot.file)
+    );
+    match shot.label(joint) {
+        Some(label) => {
+            let _ = write!(out, ": {}\n\n{}.", label.describe(), label.why);
+        }
+        None => out.push_str("\n\nNo limb, head or trunk by its name or place."),
+    }
+    match joints[joint].parent {
+        Some(parent) => {
+            let _ = write!(out, " It hangs on {}", code(&joints[parent].name));
+        }
+        None => out.push_str(" It hangs on nothing"),
+    }
+    let carried: Vec<&str> = joints
+        .iter()
+        .filter(|other| other.parent == Some(joint))
+        .map(|other| other.name.as_str())
+        .collect();
+    let names: Vec<String> = carried
+        .iter()
+        .take(MOST_JOINTS)
+        .map(|name| code(name))
+        .collect();
+    if !names.is_empty() {
+        let _ = write!(out, " and carries {}", names.join(", "));
+    }
+    match carried.len().saturating_sub(MOST_JOINTS) {
+        0 => out.push('.'),
+        more => {
+            let _ = write!(out, " and {more} more.");
+        }
+    }
+    out
+}
+
+/// A list in Markdown; what is too much is counted.
+fn list(lines: Vec<String>) -> Option<String> {
+    let mut out = String::new();
+    for line in lines.iter().take(MOST_CLIPS) {
+        let _ = writeln!(out, "- {line}");
+    }
+    if lines.len() > MOST_CLIPS {
+        let _ = writeln!(out, "- and {} more", lines.len() - MOST_CLIPS);
+    }
+    (!out.is_empty()).then_some(out)
+}
+
+/// A name as code in Markdown.
+fn code(name: &str) -> String {
+    format!("`{}`", name.replace('`', "'"))
+}
+
+fn are(count: usize) -> String {
+    match count {
+        0 => "none is".to_owned(),
+        1 => "1 is".to_owned(),
+        count => format!("{count} are"),
+    }
+}
+
+fn counted(count: usize, thing: &str) -> String {
+    match count {
+        1 => format!("1 {thing}"),
+        count => format!("{count} {thing}s"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{figure, moving};
+
+    /// Tells of the place marked in the right arm's string or in the one for the whole drawing.
+    fn hover(right: &str, defaults: &str) -> String {
+        let (analysis, at) = moving(&figure(["Body", right, "Larm@Body", "", defaults]));
+        analysis
+            .hover(at)
+            .map_or(String::new(), |hover| hover.markdown)
+    }
+
+    #[test]
+    fn parts_tell_what_drives_them() {
+        let card = hover("Rar¦m@Body", "%Motion \"kick.bvh\"");
+        assert!(
+            card.contains("In clip `kick`: driven by `RightArm`: `Rarm` is an arm by its name, and its side is right; it points"),
+            "{card}"
+        );
+        // Clips that agree are told in one line.
+        let card = hover(
+            "Rar¦m@Body",
+            "%Motion \"kick.bvh\" Motion \"kick.bvh\" again",
+        );
+        assert!(
+            card.contains("In clips `kick`, `again`: driven by `RightArm`: "),
+            "{card}"
+        );
+        let card = hover("Swo¦rd@Body$Bone RightHand", "%Motion \"kick.bvh\"");
+        assert!(
+            card.contains("driven by `RightHand`: its string names the joint with `Bone`"),
+            "{card}"
+        );
+        assert!(!hover("Rar¦m@Body", "").contains("driven"));
+    }
+
+    #[test]
+    fn shapes_tell_what_drives_them() {
+        let source = figure(["Body", "Rarm@Body", "Larm@Body", "", "%Motion \"kick.bvh\""]);
+        let (analysis, at) = moving(&source.replace("<rect id=\"left\"", "<re¦ct id=\"left\""));
+        let card = analysis
+            .hover(at)
+            .map_or(String::new(), |hover| hover.markdown);
+        assert!(card.contains("driven by `LeftArm`"), "{card}");
+    }
+
+    #[test]
+    fn what_no_joint_drives_follows() {
+        // A button in the middle of the body.
+        let swatch =
+            "<rect id=\"swatch\" x=\"2\" y=\"2\" width=\"5\" height=\"5\" fill=\"#ffcc99\"/>";
+        let button = "<rect id=\"pin\" x=\"97\" y=\"45\" width=\"6\" height=\"6\"><desc>Pi¦n@Body</desc></rect>";
+        let source = figure(["Body", "Rarm@Body", "Larm@Body", "", "%Motion \"kick.bvh\""]);
+        let source = source.replace(swatch, button);
+        let (analysis, at) = moving(&source);
+        let card = analysis
+            .hover(at)
+            .map_or(String::new(), |hover| hover.markdown);
+        assert!(
+            card.contains("In clip `kick`: follows its parent: "),
+            "{card}"
+        );
+    }
+
+    #[test]
+    fn clips_tell_what_they_are() {
+        for defaults in [
+            "%Mo¦tion \"kick.bvh\" high Limited 0 3",
+            "%Motion \"kick¦.bvh\" high Limited 0 3",
+        ] {
+            let card = hover("Rarm@Body", defaults);
+            let told = "- clip `high` of `Body`: 0.54 s, 13 frames, 10 drawings; 4 of 4 parts are driven by the 14 joints of `kick.bvh`";
+            assert!(card.contains(told), "{card}");
+        }
+        assert!(hover("Rarm@Body", "%Mo¦tion \"none.bvh\"").starts_with("No figure plays it."));
+    }
+
+    #[test]
+    fn cuts_tell_their_frames() {
+        for defaults in [
+            "%Motion \"kick.bvh\" Limi¦ted 2 3",
+            "%Motion \"kick.bvh\" Limited ¦2 3",
+        ] {
+            let card = hover("Rarm@Body", defaults);
+            assert!(
+                card.contains("- clip `kick` of `Body`: of 13 frames 2 are omitted ("),
+                "{card}"
+            );
+            assert!(card.contains(") and 3 are held ("), "{card}");
+        }
+    }
+
+    #[test]
+    fn joints_tell_what_they_are() {
+        let card = hover("Rarm@Body$Bone Right¦Arm", "%Motion \"kick.bvh\"");
+        for told in [
+            "**RightArm**, a joint of `kick.bvh`: right arm, upper",
+            "It hangs on `Spine` and carries `RightForeArm`.",
+        ] {
+            assert!(card.contains(told), "{card}");
+        }
+        let card = hover("Rarm@Body$Bone Right¦Am", "%Motion \"kick.bvh\"");
+        assert_eq!(card, "The motion `kick.bvh` has no joint `RightAm`.");
+        // A joint's name is no part's name, even if a part is called so.
+        let card = hover("Rarm@Body$Bone Bo¦dy", "");
+        assert!(!card.contains("**Body**"), "{card}");
+    }
+
+    #[test]
+    fn joints_are_not_renamed_with_parts() {
+        let (analysis, at) = moving(&figure([
+            "Spi¦ne",
+            "Rarm@Spine$Bone Spine RightArm",
+            "",
+            "",
+            "%Motion \"kick.bvh\"",
+        ]));
+        let edits = analysis.rename(at, "Trunk").unwrap();
+        let (arm, _) = analysis
+            .source()
+            .match_indices("Spine RightArm")
+            .next()
+            .unwrap();
+        assert_eq!(edits.len(), 2);
+        assert!(edits.iter().all(|edit| edit.span.start != arm));
+        let found = analysis.prepare_rename(arm + 1);
+        assert!(found.is_err(), "{found:?}");
+    }
+}
