@@ -1,0 +1,4 @@
+//! Motion capture from file to figure.
+
+mod carry;
+mod limited;
