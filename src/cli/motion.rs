@@ -6,7 +6,7 @@ use std::path::Path;
 use super::args::{Common, Motion};
 use super::progress::spinning;
 use super::{Outcome, fail, print_out};
-use crate::disk::{open_stream, write_atomic};
+use crate::disk::{as_told, open_stream, write_atomic};
 use crate::gltf::{self, Container};
 use crate::motion::bvh::{self, Reading};
 use crate::motion::edit::{Edited, How, edit};
@@ -139,7 +139,7 @@ fn kind(output: &Path, input: &Path) -> Result<Kind, String> {
     let ending = output
         .extension()
         .map(|ending| ending.to_string_lossy().to_lowercase());
-    if output.as_os_str() != "-" && output == input {
+    if output.as_os_str() != "-" && as_told(output) == as_told(input) {
         return Err(format!(
             "`{}` is the motion itself: name another file, so that nothing is lost",
             output.display()
@@ -185,10 +185,8 @@ fn written(
     common: Common,
     opening: &str,
 ) -> Outcome {
-    let stem = arguments.motion.file_stem().map_or_else(
-        || "motion".to_owned(),
-        |stem| stem.to_string_lossy().into_owned(),
-    );
+    let stem = arguments.motion.file_stem().filter(|stem| *stem != "-");
+    let stem = stem.map_or("motion".into(), |stem| stem.to_string_lossy());
     let result = spinning("writing", || match kind {
         Kind::Bvh => write_atomic(output, |out| edited.write_bvh(out)),
         Kind::Chart => write_atomic(output, |out| out.write_all(edited.chart(&stem).as_bytes())),

@@ -123,6 +123,7 @@ pub fn build(
                 stage: &stage,
                 nodes,
                 members: &members,
+                scale: model.scale,
             };
             let known = &mut memory.motion;
             motion::perform(

@@ -20,6 +20,7 @@ use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
 use crate::motion::carry::{self, Carried, Landmarks, Puppet};
+use crate::motion::figure::Figure;
 use crate::motion::labels::Class;
 use crate::motion::limited::{self, Cut, Length};
 use crate::motion::matching::{Matching, match_figure};
@@ -36,12 +37,17 @@ use tracks::Shown;
 /// The most keys of all clips of a drawing: frames × parts.
 const MOST_KEYS: usize = 1 << 26;
 
+/// A clip carried over, with the figure and the clip.
+type KeptCarried = Kept<(Puppet, Same<Prepared>), Arc<Carried>>;
+/// A clip cut, with how many drawings were to be omitted and how many frames held.
+type KeptCut = Kept<([usize; 2], Same<Prepared>), Arc<Cut>>;
+
 /// What the next drawing may have use for.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
     clips: clips::Memory,
-    carried: Vec<Kept<(Puppet, Same<Prepared>), Arc<Carried>>>,
-    cuts: Vec<Kept<([usize; 2], Same<Prepared>), Arc<Cut>>>,
+    carried: Vec<KeptCarried>,
+    cuts: Vec<KeptCut>,
 }
 
 /// A clip that somebody asks for.
@@ -85,6 +91,15 @@ pub(super) struct Ground<'a> {
     pub(super) nodes: &'a Nodes,
     /// Per main part the parts whose solids are in its node.
     pub(super) members: &'a [Vec<usize>],
+    /// Metres a drawing unit.
+    pub(super) scale: f64,
+}
+
+/// A figure cast for a clip.
+struct Role {
+    group: Group,
+    figure: Figure,
+    matching: Matching,
 }
 
 /// Adds the clips that strings ask for to the scene, and tells of each what it is.
@@ -116,7 +131,7 @@ pub(super) fn perform(
         };
         let mut is_played = false;
         for group in groups.iter().filter(|group| group.hears(wish.part)) {
-            let Some((group, figure, matching)) = theatre.cast(group, &clip) else {
+            let Some(role) = theatre.cast(group, &clip) else {
                 continue;
             };
             is_played = true;
@@ -125,7 +140,7 @@ pub(super) fn perform(
                 diagnostics.push(told::too_many_keys(wish.span));
                 break;
             }
-            theatre.play(wish, &group, &figure, &matching, &clip, scene, diagnostics);
+            theatre.play(wish, &role, &clip, scene, diagnostics);
         }
         if !is_played {
             diagnostics.push(told::nobody(wish.span, wish.file));
@@ -147,8 +162,8 @@ pub(super) fn without(model: &Model<'_>, diagnostics: &mut Vec<Diagnostic>) {
 struct Theatre<'a> {
     model: &'a Model<'a>,
     ground: &'a Ground<'a>,
-    carried: std::vec::IntoIter<Kept<(Puppet, Same<Prepared>), Arc<Carried>>>,
-    cuts: std::vec::IntoIter<Kept<([usize; 2], Same<Prepared>), Arc<Cut>>>,
+    carried: std::vec::IntoIter<KeptCarried>,
+    cuts: std::vec::IntoIter<KeptCut>,
     now: Memory,
     gathered: told::Gathered,
     shots: Vec<Shot>,
@@ -156,113 +171,68 @@ struct Theatre<'a> {
 
 impl Theatre<'_> {
     /// Matches a figure with a clip; `None` if no joint drives any part.
-    fn cast(
-        &mut self,
-        group: &Group,
-        clip: &Prepared,
-    ) -> Option<(Group, crate::motion::figure::Figure, Matching)> {
-        let matched = |group: &Group| {
-            let figure = puppet::figure(self.model, group, self.ground.members);
+    fn cast(&mut self, group: &Group, clip: &Prepared) -> Option<Role> {
+        let matched = |group: Group| {
+            let figure = puppet::figure(self.model, &group, self.ground.members);
             let matching = match_figure(&figure, &clip.clip.skeleton, &clip.anatomy);
-            (figure, matching)
+            Role {
+                group,
+                figure,
+                matching,
+            }
         };
-        let (figure, matching) = matched(group);
+        let mut role = matched(group.clone());
         let is_hips = |part: &usize| {
-            let label = matching.labels[*part].as_ref();
+            let label = role.matching.labels[*part].as_ref();
             label.is_some_and(|label| label.class == Class::Hips) && group.is_rooted(*part)
         };
         // The hips carry the rest, if no string says otherwise: their travel is the figure's.
-        let hips = (0..group.parts.len())
-            .find(is_hips)
-            .map(|part| group.parts[part]);
-        let (group, figure, matching) = match hips.filter(|hips| *hips != group.root) {
-            Some(hips) => {
-                let group = group.clone().rooted_at(hips);
-                let (figure, matching) = matched(&group);
-                (group, figure, matching)
-            }
-            None => (group.clone(), figure, matching),
-        };
-        let is_driven = matching.drives.iter().any(Option::is_some);
-        if is_driven {
-            self.gathered.add(&group, &matching);
+        let hips = (0..group.parts.len()).find(is_hips);
+        let hips = hips.map(|part| group.parts[part]);
+        if let Some(hips) = hips.filter(|hips| *hips != group.root) {
+            role = matched(group.clone().rooted_at(hips));
         }
-        is_driven.then_some((group, figure, matching))
+        if role.matching.drives.iter().all(Option::is_none) {
+            return None;
+        }
+        self.gathered.add(&role.group, &role.matching);
+        Some(role)
     }
 
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "a clip, a figure, and where they meet"
-    )]
     fn play(
         &mut self,
         wish: &Wish<'_>,
-        group: &Group,
-        figure: &crate::motion::figure::Figure,
-        matching: &Matching,
+        role: &Role,
         clip: &Arc<Prepared>,
         scene: &mut Scene,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
-        let puppet = puppet::puppet(figure, group, matching, self.ground.nodes);
-        let mut kept = self.carried.next().unwrap_or_default();
-        let carried = kept.get((puppet, Same(Arc::clone(clip))), |(puppet, clip)| {
-            let landmarks = Landmarks::of(&clip.0.anatomy);
-            Arc::new(carry::carry(&clip.0.clip, puppet, &landmarks))
-        });
-        self.now.carried.push(kept);
+        let group = &role.group;
+        let carried = self.carried(role, clip);
         let limits = self.limits(group);
         let cut = limits.map(|(amounts, span)| {
-            let mut kept = self.cuts.next().unwrap_or_default();
-            let cut = kept.get((amounts, Same(Arc::clone(clip))), |([omit, hold], clip)| {
-                let options = limited::Options {
-                    omit: *omit,
-                    hold: *hold,
-                    length: Length::Kept,
-                };
-                Arc::new(clip.0.cut(&options))
-            });
-            self.now.cuts.push(kept);
+            let cut = self.cut(amounts, clip);
             told::too_limited(&cut, clip.clip.frames(), span, diagnostics);
             cut
         });
         let wanted = wish.name.unwrap_or_else(|| shot::stem(wish.file));
         let name = shot::free_name(&self.shots, group.root, wanted);
         let step = clip.clip.frame_time;
-        let full = Shown::full(clip.clip.frames(), step);
-        let full = tracks::animation(
-            self.ground,
-            self.model.scale,
-            &name,
-            &group.parts,
-            &carried,
-            &full,
-        );
-        let full = match &cut {
-            Some(cut) => {
-                let held = Shown::held(&cut.exposure, step);
-                let held = tracks::animation(
-                    self.ground,
-                    self.model.scale,
-                    &name,
-                    &group.parts,
-                    &carried,
-                    &held,
-                );
-                tracks::add(&mut scene.animations, held);
-                Some(full)
-            }
-            None => {
-                tracks::add(&mut scene.animations, full);
-                None
-            }
+        let ground = self.ground;
+        let animation =
+            |shown: &Shown| tracks::animation(ground, &name, &group.parts, &carried, shown);
+        let full = animation(&Shown::full(clip.clip.frames(), step));
+        let (shown, full) = match &cut {
+            Some(cut) => (animation(&Shown::held(&cut.exposure, step)), Some(full)),
+            None => (full, None),
         };
+        tracks::add(&mut scene.animations, shown);
         self.shots.push(Shot {
             name,
             file: wish.file.to_owned(),
             asked: wish.span,
             root: group.root,
-            parts: shot::driven(&group.parts, matching),
+            parts: shot::driven(&group.parts, &role.matching),
             skeleton: Arc::clone(&clip.clip.skeleton),
             anatomy: Arc::clone(&clip.anatomy),
             frame_time: step,
@@ -271,6 +241,31 @@ impl Theatre<'_> {
             limited: limits.map(|(_, span)| span),
             full,
         });
+    }
+
+    fn carried(&mut self, role: &Role, clip: &Arc<Prepared>) -> Arc<Carried> {
+        let puppet = puppet::puppet(&role.figure, &role.group, &role.matching, self.ground.nodes);
+        let mut kept = self.carried.next().unwrap_or_default();
+        let carried = kept.get((puppet, Same(Arc::clone(clip))), |(puppet, clip)| {
+            let landmarks = Landmarks::of(&clip.0.anatomy);
+            Arc::new(carry::carry(&clip.0.clip, puppet, &landmarks))
+        });
+        self.now.carried.push(kept);
+        carried
+    }
+
+    fn cut(&mut self, amounts: [usize; 2], clip: &Arc<Prepared>) -> Arc<Cut> {
+        let mut kept = self.cuts.next().unwrap_or_default();
+        let cut = kept.get((amounts, Same(Arc::clone(clip))), |([omit, hold], clip)| {
+            let options = limited::Options {
+                omit: *omit,
+                hold: *hold,
+                length: Length::Kept,
+            };
+            Arc::new(clip.0.cut(&options))
+        });
+        self.now.cuts.push(kept);
+        cut
     }
 
     /// How many drawings of a figure's clips are omitted and how many frames held, and where that is said.

@@ -55,11 +55,9 @@ impl Shown {
     }
 }
 
-/// The animation of the figure whose parts, in the order of `carried`, are these parts of the drawing. `scale` is metres a drawing
-/// unit.
+/// The animation of the figure whose parts, in the order of `carried`, are these parts of the drawing.
 pub(super) fn animation(
     ground: &Ground<'_>,
-    scale: f64,
     name: &str,
     parts: &[usize],
     carried: &Carried,
@@ -87,7 +85,7 @@ pub(super) fn animation(
                 } else {
                     place
                 };
-                ground.stage.set(place, 0.0).0 * scale
+                ground.stage.set(place, 0.0).0 * ground.scale
             });
             add(Values::Translations(places.collect()));
         }
