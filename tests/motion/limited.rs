@@ -3,7 +3,11 @@
 #[path = "../common/plain_limited.rs"]
 mod plain_limited;
 
+use std::fs::File;
+use std::path::Path;
+
 use glam::{DVec3, dvec3};
+use okoshi::motion::bvh;
 use okoshi::motion::limited::{
     Camera, Cut, Drawing, Exposure, Length, MOST_GATHERED, Method, Options, compare, error, every,
     limit, speeds, ssd,
@@ -138,6 +142,34 @@ fn the_fast_code_does_what_the_plain_code_does() {
         let steps = [steps(), steps()];
         check(&positions, joints, steps, true);
         check(&positions, joints, steps, false);
+    }
+}
+
+#[test]
+fn real_motions_are_cut_as_the_plain_code_does() {
+    let files = [
+        "examples/motion/boxing.bvh",
+        "examples/motion/kick.bvh",
+        "examples/motion/walk.bvh",
+        "examples/motion/zombie-walk.bvh",
+        "tests/motion/data/mixed_orders.bvh",
+        "tests/motion/data/mocapbank.bvh",
+        "tests/motion/data/rotation_first.bvh",
+    ];
+    for file in files {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+        let clip = bvh::read(File::open(path).expect("a file"))
+            .expect("a motion")
+            .clip;
+        let joints = clip.skeleton.joints.len();
+        let positions = clip.positions();
+        let third = clip.frames() / 3;
+        for steps in [[4, third], [0, third], [12, 5], [6, usize::MAX]] {
+            for kept in [true, false] {
+                let cut = check(&positions, joints, steps, kept);
+                assert!(cut.exposure.len() <= clip.frames(), "{file}");
+            }
+        }
     }
 }
 
