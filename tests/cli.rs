@@ -495,6 +495,7 @@ fn inspect_as_json() {
             "Metallic": { "value": "1", "from": "legend" },
             "Shape": { "value": "roundv", "from": "own" },
         },
+        "joint": null, "joint_why": null,
     });
     assert_eq!(parts[1], expected);
     room.write("bad.svg", BAD);

@@ -14,7 +14,7 @@ use crate::source::Span;
 pub enum Paint {
     /// A sign of the language, or of a calculation.
     Sign,
-    /// A part's name.
+    /// A part's name, or a joint's.
     Part,
     /// A feature point's name.
     Feature,

@@ -23,7 +23,12 @@ impl Cursor<'_> {
             .string
             .and_then(|string| analysis.part_of_string(string));
         let mut proposals = vec![];
+        let mut files: Vec<&str> = vec![];
         for shot in analysis.clips_for(own.or_else(typed)) {
+            if files.contains(&shot.file.as_str()) {
+                continue;
+            }
+            files.push(&shot.file);
             let below = match first {
                 None => vec![true; shot.skeleton.joints.len()],
                 Some(name) => match shot.joint_named(name) {
