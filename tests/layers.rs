@@ -113,13 +113,14 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "watch",
         ],
     ),
-    ("report", &["bind", "compile", "terrain"]),
+    ("report", &["bind", "compile", "figure", "terrain"]),
     ("watch", &["compile", "disk", "gltf", "resolver"]),
     (
         "preview",
         &[
             "compile",
             "diagnostic",
+            "gltf",
             "render",
             "report",
             "resolver",
