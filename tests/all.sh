@@ -115,6 +115,7 @@ blender_import() {
   plain | xargs blender -b --factory-startup --python-exit-code 1 --python $tools/blender_tree.py -- \
     -o "$target/trees.json"
   node $tools/same_tree.mjs "$target/trees.json"
+  built_models | xargs blender -b --factory-startup --python-exit-code 1 --python $tools/blender_clips.py --
   local model
   for model in $(plain); do
     echo "skin of $model"

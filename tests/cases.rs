@@ -60,8 +60,12 @@ fn outcome(case: &Path) -> Result<String, String> {
         .current_dir(case)
         .output()
         .map_err(|error| error.to_string())?;
+    let clips = match common::clips(&glb)? {
+        clips if clips.is_empty() => clips,
+        clips => format!("\n==== clips\n{clips}"),
+    };
     Ok(format!(
-        "{findings}==== inspect\n{}\n==== nodes\n{}",
+        "{findings}==== inspect\n{}\n==== nodes\n{}{clips}",
         String::from_utf8_lossy(&inspected.stdout),
         common::tree(&nodes)
     ))

@@ -120,6 +120,7 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
         &[
             "compile",
             "diagnostic",
+            "gltf",
             "render",
             "report",
             "resolver",

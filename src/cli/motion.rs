@@ -6,7 +6,7 @@ use std::path::Path;
 use super::args::{Common, Motion};
 use super::progress::spinning;
 use super::{Outcome, fail, print_out};
-use crate::disk::{as_told, open_stream, write_atomic};
+use crate::disk::{is_same_file, open_stream, write_atomic};
 use crate::gltf::{self, Container};
 use crate::motion::bvh::{self, Reading};
 use crate::motion::edit::{Edited, How, edit};
@@ -139,7 +139,7 @@ fn kind(output: &Path, input: &Path) -> Result<Kind, String> {
     let ending = output
         .extension()
         .map(|ending| ending.to_string_lossy().to_lowercase());
-    if output.as_os_str() != "-" && as_told(output) == as_told(input) {
+    if output.as_os_str() != "-" && is_same_file(output, input) {
         return Err(format!(
             "`{}` is the motion itself: name another file, so that nothing is lost",
             output.display()

@@ -22,6 +22,12 @@ use std::path::Path;
 /// The path that stands for stdin and stdout.
 const STANDARD_STREAM: &str = "-";
 
+/// Whether two paths lead to one file that is there, however they are written.
+pub fn is_same_file(one: &Path, other: &Path) -> bool {
+    let place = |path: &Path| std::fs::canonicalize(path).ok();
+    one == other || place(one).is_some_and(|one| place(other) == Some(one))
+}
+
 fn is_standard_stream(path: &Path) -> bool {
     path.as_os_str() == STANDARD_STREAM
 }

@@ -75,7 +75,7 @@ impl Palette {
 
 /// A moving picture that is being written, one frame after the other. It runs for ever.
 pub struct Animation<W: Write> {
-    file: File<W>,
+    file: Format<W>,
     /// When the last frame ends, seconds.
     until: f64,
     /// The sum of the delays so far, in the file's own unit.
@@ -83,7 +83,7 @@ pub struct Animation<W: Write> {
 }
 
 /// How it is written.
-enum File<W: Write> {
+enum Format<W: Write> {
     /// 256 colours; a pixel is there or clear. Half-clear ones are scattered.
     Gif {
         /// What writes it.
@@ -109,7 +109,7 @@ impl<W: Write> Animation<W> {
         encoder
             .set_repeat(gif::Repeat::Infinite)
             .map_err(io::Error::other)?;
-        Ok(Self::new(File::Gif {
+        Ok(Self::new(Format::Gif {
             encoder,
             palette,
             known: FxHashMap::default(),
@@ -125,10 +125,10 @@ impl<W: Write> Animation<W> {
         encoder.set_color(png::ColorType::Rgba);
         encoder.set_animated(frames, 0)?;
         encoder.set_blend_op(png::BlendOp::Source)?;
-        Ok(Self::new(File::Apng(encoder.write_header()?)))
+        Ok(Self::new(Format::Apng(encoder.write_header()?)))
     }
 
-    fn new(file: File<W>) -> Self {
+    fn new(file: Format<W>) -> Self {
         Self {
             file,
             until: 0.0,
@@ -153,15 +153,15 @@ impl<W: Write> Animation<W> {
     /// What the output answers.
     pub fn push(&mut self, image: &Image, seconds: f64) -> io::Result<()> {
         let delay = match self.file {
-            File::Apng(_) => self.delay(seconds, 1000.0, 0),
-            File::Gif { .. } => self.delay(seconds, 100.0, SHORTEST),
+            Format::Apng(_) => self.delay(seconds, 1000.0, 0),
+            Format::Gif { .. } => self.delay(seconds, 100.0, SHORTEST),
         };
         match &mut self.file {
-            File::Apng(writer) => {
+            Format::Apng(writer) => {
                 writer.set_frame_delay(delay, 1000)?;
                 Ok(writer.write_image_data(image.as_raw())?)
             }
-            File::Gif {
+            Format::Gif {
                 encoder,
                 palette,
                 known,
@@ -195,8 +195,8 @@ impl<W: Write> Animation<W> {
     /// What the output answers, or that frames are missing.
     pub fn finish(self) -> io::Result<()> {
         match self.file {
-            File::Apng(writer) => Ok(writer.finish()?),
-            File::Gif { encoder, .. } => encoder.into_inner().map(drop).map_err(io::Error::other),
+            Format::Apng(writer) => Ok(writer.finish()?),
+            Format::Gif { encoder, .. } => encoder.into_inner().map(drop).map_err(io::Error::other),
         }
     }
 }

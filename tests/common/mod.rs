@@ -14,6 +14,7 @@ use std::fs;
 use std::io::Cursor;
 use std::path::Path;
 
+use gltf::animation::util::ReadOutputs;
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::gltf::{Container, write};
 use okoshi::resolver::Resolver;
@@ -267,6 +268,47 @@ pub(crate) fn tree(nodes: &[Node]) -> String {
         }
     }
     out
+}
+
+/// The clips of a GLB as text: what moves, its keys, the first and the last of them.
+pub(crate) fn clips(glb: &[u8]) -> Result<String, String> {
+    let gltf::Gltf { document, blob } =
+        gltf::Gltf::from_slice(glb).map_err(|error| error.to_string())?;
+    let blob = blob.unwrap_or_default();
+    let mut out = String::new();
+    for clip in document.animations() {
+        let _ = writeln!(out, "{}", clip.name().unwrap_or_default());
+        for channel in clip.channels() {
+            let reader = channel.reader(|buffer| (buffer.index() == 0).then_some(&*blob));
+            let times: Vec<f32> = reader.read_inputs().ok_or("no times")?.collect();
+            let (what, values): (&str, Vec<Vec<f32>>) = match reader.read_outputs() {
+                Some(ReadOutputs::Translations(places)) => {
+                    ("moves", places.map(Vec::from).collect())
+                }
+                Some(ReadOutputs::Rotations(turns)) => {
+                    ("turns", turns.into_f32().map(Vec::from).collect())
+                }
+                _ => return Err("a channel of another kind".to_owned()),
+            };
+            let (Some(first), Some(last)) = (values.first(), values.last()) else {
+                return Err("a channel without keys".to_owned());
+            };
+            if times.len() != values.len() || !times.is_sorted_by(|a, b| a < b) {
+                return Err("keys out of order".to_owned());
+            }
+            let _ = writeln!(
+                out,
+                "  {} {what}, {:?}, {} keys at {}: {} … {}",
+                channel.target().node().name().unwrap_or_default(),
+                channel.sampler().interpolation(),
+                times.len(),
+                numbers(&times[..times.len().min(4)]),
+                numbers(first),
+                numbers(last)
+            );
+        }
+    }
+    Ok(out)
 }
 
 fn numbers(list: &[f32]) -> String {

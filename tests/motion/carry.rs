@@ -1,7 +1,7 @@
 //! What is carried over, against what the clip's own poses say: the laws of motions on figures.
 
 mod again;
-mod clips;
+pub(crate) mod clips;
 mod puppets;
 mod random;
 mod walks;

@@ -1,0 +1,279 @@
+//! Drawings that play motions, through the whole compiler: nodes of the model point where bones do.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use glam::{DQuat, DVec2, DVec3};
+use okoshi::compile::{Compiled, Options, compile};
+use okoshi::disk::FolderResolver;
+use okoshi::figure::Shot;
+use okoshi::motion::carry::Landmarks;
+use okoshi::motion::labels::Facing;
+use okoshi::motion::skeleton::{Clip, Placed};
+use okoshi::scene::{Animation, Interpolation, Scene, Values};
+
+use crate::carry::clips::clip;
+use crate::carry::{Body, angle};
+
+/// The drawings of the examples, and the way each faces.
+const DRAWINGS: [(&str, Facing); 7] = [
+    ("ant", Facing::Viewer),
+    ("beetle", Facing::Right),
+    ("boxer", Facing::Viewer),
+    ("dog", Facing::Right),
+    ("kick", Facing::Viewer),
+    ("robot-ja", Facing::Viewer),
+    ("stick", Facing::Viewer),
+];
+
+/// How far directions may be off, degrees; keys are rounded when they are written.
+const OFF: f64 = 0.05;
+
+fn text(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("examples/motion/{name}.svg"));
+    std::fs::read_to_string(path).expect("the example")
+}
+
+fn compiled(text: &str) -> Compiled {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/motion");
+    compile(text, &Options::default(), &FolderResolver::new(&folder))
+}
+
+/// How nodes are turned in the world, and where they are, at a key of a clip.
+fn world(scene: &Scene, clip: &Animation, key: usize) -> Vec<Placed> {
+    let mut local: Vec<Placed> = scene
+        .nodes
+        .iter()
+        .map(|node| Placed {
+            rotation: node.rotation,
+            position: node.translation,
+        })
+        .collect();
+    for track in &clip.tracks {
+        match &track.values {
+            Values::Rotations(turns) => local[track.node].rotation = turns[key],
+            Values::Translations(places) => local[track.node].position = places[key],
+        }
+    }
+    let mut world = local.clone();
+    let mut stack = scene.roots.clone();
+    while let Some(node) = stack.pop() {
+        for &child in &scene.nodes[node].children {
+            let above = world[node];
+            world[child] = Placed {
+                rotation: above.rotation * local[child].rotation,
+                position: above.position + above.rotation * local[child].position,
+            };
+            stack.push(child);
+        }
+    }
+    world
+}
+
+/// Joints by their names.
+fn joint(clip: &Clip, name: &str) -> usize {
+    let mut joints = clip.skeleton.joints.iter();
+    joints
+        .position(|joint| joint.name == name)
+        .unwrap_or_else(|| panic!("no joint `{name}`"))
+}
+
+/// The direction of the chain that a part follows by the reason that is told.
+fn chain(clip: &Clip, pose: &[Placed], why: &str) -> Option<DVec3> {
+    let (_, way) = why.split_once("it points from `")?;
+    let (from, to) = way.split_once("` to ")?;
+    let from = pose[joint(clip, from)].position;
+    let to = match to.strip_prefix("the end of `") {
+        Some(of) => {
+            let of = joint(clip, of.trim_end_matches('`'));
+            pose[of].position + pose[of].rotation * clip.skeleton.joints[of].ends[0]
+        }
+        None => pose[joint(clip, to.trim_matches('`'))].position,
+    };
+    Some(to - from)
+}
+
+/// The axis of a part in the drawing's axes: from where it turns to its far end.
+fn axis(compiled: &Compiled, part: usize) -> DVec3 {
+    let part = &compiled.sheet.parts[part];
+    let flip = |point: DVec2| DVec2::new(point.x, -point.y);
+    let origin = flip(part.origin);
+    let [a, b] = part.measure.ends.map(flip);
+    let far = if a.distance(origin) > b.distance(origin) {
+        a
+    } else {
+        b
+    };
+    (far - origin).extend(0.0)
+}
+
+/// The worst angle between what parts of a drawing point at and their bones; `turn` takes drawings' axes to the world's.
+fn worst(compiled: &Compiled, shot: &Shot, facing: Facing, turn: DQuat) -> f64 {
+    let ready = clip(&format!("examples/motion/{}", shot.file));
+    let clip = &ready.clip;
+    let body = Body::of(clip, &Landmarks::of(&ready.anatomy), facing);
+    let first = clip.pose(0);
+    let full = match &shot.full {
+        Some(full) => full,
+        None => compiled
+            .scene
+            .animations
+            .iter()
+            .find(|one| one.name == shot.name)
+            .expect("the clip"),
+    };
+    let names: BTreeMap<&str, usize> = compiled
+        .scene
+        .nodes
+        .iter()
+        .enumerate()
+        .map(|(index, node)| (&*node.name, index))
+        .collect();
+    let rest = {
+        let still = Animation::default();
+        world(&compiled.scene, &still, 0)
+    };
+    let mut worst = 0.0_f64;
+    let mut looked_at = 0;
+    for frame in 0..clip.frames() {
+        let pose = clip.pose(frame);
+        let now = world(&compiled.scene, full, frame);
+        for driven in &shot.parts {
+            let name = &*compiled.sheet.parts[driven.part].name;
+            let Some(way) = chain(clip, &pose, &driven.why) else {
+                continue;
+            };
+            let node = names[name];
+            // What the axis is in the node's own frame, by how the node stands while nothing plays.
+            let own = rest[node].rotation.inverse() * (turn * axis(compiled, driven.part));
+            worst = worst.max(angle(
+                now[node].rotation * own,
+                turn * body.drawn(&first, way),
+            ));
+            looked_at += 1;
+            if let Some(copy) = names.get(&*format!("{name}.back")) {
+                // A copy is the original in a mirror that stands in the drawing's plane.
+                let mirrored = |way: DVec3| way * DVec3::new(1.0, 1.0, -1.0);
+                let own = rest[*copy].rotation.inverse() * (turn * axis(compiled, driven.part));
+                let due = turn * mirrored(body.drawn(&first, way));
+                worst = worst.max(angle(now[*copy].rotation * own, due));
+            }
+        }
+    }
+    assert!(
+        looked_at >= 4 * clip.frames(),
+        "only {looked_at} directions"
+    );
+    worst
+}
+
+#[test]
+fn nodes_point_where_bones_do() {
+    for (name, facing) in DRAWINGS {
+        let compiled = compiled(&text(name));
+        assert!(
+            !compiled.shots.is_empty(),
+            "{name}: {:?}",
+            compiled.diagnostics
+        );
+        for shot in &compiled.shots {
+            let off = worst(&compiled, shot, facing, DQuat::IDENTITY);
+            eprintln!("{name}, {}: {off:.2e}°", shot.name);
+            assert!(off < OFF, "{name}, {}: {off}°", shot.name);
+        }
+    }
+}
+
+/// A drawing that faces another way, in another unit, with doubled parts.
+#[test]
+fn however_the_drawing_stands() {
+    // Right, up and front of the drawing, as the model's world has them.
+    let turn = |right, up, front| DQuat::from_mat3(&glam::DMat3::from_cols(right, up, front));
+    let turns = [
+        ("+x +z -y", turn(DVec3::X, DVec3::Z, DVec3::NEG_Y)),
+        ("-z +y +x", turn(DVec3::NEG_Z, DVec3::Y, DVec3::X)),
+    ];
+    for (name, facing) in DRAWINGS {
+        for (axes, turn) in &turns {
+            let text = text(name);
+            let changed = text.replacen("Scale 0.", &format!("Axes {axes} Scale 7."), 1);
+            assert!(changed != text, "{name} has no scale");
+            let compiled = compiled(&changed);
+            assert!(!compiled.has_errors(), "{name}: {:?}", compiled.diagnostics);
+            for shot in &compiled.shots {
+                let off = worst(&compiled, shot, facing, *turn);
+                eprintln!("{name}, {}, {axes}: {off:.2e}°", shot.name);
+                assert!(off < OFF, "{name}, {}, {axes}: {off}°", shot.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn doubled_limbs_are_mirrored() {
+    let text = text("kick").replace("Lleg@Hips", "Lleg@Hips$Shape -d default 5 9");
+    let text = text.replace("Larm@Body", "Larm@Body$Shape -d roundv Offset 12");
+    let compiled = compiled(&text);
+    let copies = compiled
+        .scene
+        .nodes
+        .iter()
+        .filter(|node| node.name.ends_with(".back"));
+    // With what hangs on them: shin and foot, forearm.
+    assert_eq!(copies.count(), 5, "{:?}", compiled.diagnostics);
+    for shot in &compiled.shots {
+        let off = worst(&compiled, shot, Facing::Viewer, DQuat::IDENTITY);
+        assert!(off < OFF, "{}: {off}°", shot.name);
+    }
+}
+
+/// Limited clips have a key for each drawing, and each shows a frame of the full clip.
+#[test]
+fn a_key_for_each_drawing() {
+    let mut limited = 0;
+    for (name, _) in DRAWINGS {
+        let compiled = compiled(&text(name));
+        for shot in &compiled.shots {
+            let shown = compiled
+                .scene
+                .animations
+                .iter()
+                .find(|one| one.name == shot.name)
+                .expect("the clip");
+            let Some((full, cut)) = shot.full.as_ref().zip(shot.cut.as_ref()) else {
+                let is_linear = |track: &okoshi::scene::Track| {
+                    track.timing.interpolation == Interpolation::Linear
+                };
+                assert!(shown.tracks.iter().all(is_linear), "{name}");
+                continue;
+            };
+            limited += 1;
+            assert_eq!(shown.tracks.len(), full.tracks.len());
+            for (track, whole) in shown.tracks.iter().zip(&full.tracks) {
+                assert_eq!(
+                    (track.node, track.timing.interpolation),
+                    (whole.node, Interpolation::Step)
+                );
+                let drawings: Vec<_> = cut.exposure.drawings().collect();
+                assert_eq!(track.timing.times.len(), drawings.len(), "{name}");
+                for (key, drawing) in drawings.iter().enumerate() {
+                    let time = (drawing.start as f64 * shot.frame_time) as f32;
+                    assert_eq!(track.timing.times[key], time);
+                    let source = drawing.source as usize;
+                    match (&track.values, &whole.values) {
+                        (Values::Rotations(a), Values::Rotations(b)) => {
+                            assert!(a[key].dot(b[source]).abs() > 1.0 - 1e-12, "{name} {key}");
+                        }
+                        (Values::Translations(a), Values::Translations(b)) => {
+                            assert_eq!(a[key], b[source])
+                        }
+                        _ => panic!("tracks of two kinds"),
+                    }
+                }
+            }
+            let seconds = cut.exposure.len() as f64 * shot.frame_time;
+            assert!((shown.seconds - seconds).abs() < 1e-9, "{name}");
+        }
+    }
+    assert!(limited >= 2, "only {limited} limited clips");
+}

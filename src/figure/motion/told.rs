@@ -72,17 +72,18 @@ pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mu
         diagnostics.push(Diagnostic::new(Code::TooLimited, span, message).help(help));
     };
     let (omit, hold) = (cut.omissions, cut.holds);
+    // What looks right in most motions and is within reach in all but the shortest.
+    let [less, shorter] = [
+        omit.asked.min(4).min(frames / 4),
+        hold.asked.min(frames / 3),
+    ];
     if omit.shortfall() > 0 {
         tell(
             format!(
                 "only {} of {} drawings can be omitted from {frames} frames",
                 omit.done, omit.asked
             ),
-            format!(
-                "write `Limited {} {}`, or take a longer motion",
-                omit.done.min(4),
-                hold.done
-            ),
+            format!("4 to 6 look right: write `Limited {less} {shorter}`, or take a longer motion"),
         );
     }
     if hold.shortfall() > 0 {
@@ -91,11 +92,7 @@ pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mu
                 "only {} of {} frames can be held: no pose may stand for more than three of the {frames} frames",
                 hold.done, hold.asked
             ),
-            format!(
-                "a third of the frames looks right: `Limited {} {}`",
-                omit.done,
-                frames / 3
-            ),
+            format!("up to a third of the frames looks right: write `Limited {less} {shorter}`"),
         );
     }
     if cut.gathered > MOST_GATHERED {

@@ -188,7 +188,6 @@ fn e103_argument_count() {
         r##"Lbody$Motion "walk.bvh" walk"##,
         r#"
             Lbody$Motion "walk.bvh" walk
-                  ^^^^^^ W310: `Motion` has no effect in this version (understood, but not built yet)
                                     ^^^^ E103: `Walk` stands here without arguments
               help: write `Walk speed`; if it is a name for `Motion`, put it in quotes
               fix: Put it in quotes -> Lbody$Motion "walk.bvh" "walk"

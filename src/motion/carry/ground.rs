@@ -79,7 +79,7 @@ pub(super) fn travel(
                 let clearance = walk.feet.iter().map(|foot| foot.clearance[frame].max(0.0));
                 let clearance = clearance.fold(f64::INFINITY, f64::min);
                 let soles = walk.feet.iter().map(|foot| foot.lowest(puppet, &skeleton));
-                floor + clearance * scale - soles.fold(f64::INFINITY, f64::min)
+                floor + lifted(clearance, legs[0]) * scale - soles.fold(f64::INFINITY, f64::min)
             }
             None => start.y + (walk.hips[frame].y - walk.hips[0].y) * scale,
         };
@@ -91,6 +91,13 @@ pub(super) fn travel(
         }
     }
     travel
+}
+
+/// How high a foot is shown that is this high in the clip: one low enough to stand is on the ground, since a heel that rises takes
+/// the end of a leg with it; from twice that height on it is as high as it is.
+fn lifted(clearance: f64, leg: f64) -> f64 {
+    let low = CONTACT_HEIGHT * leg;
+    (2.0 * (clearance - low)).max(0.0).min(clearance)
 }
 
 /// Where parts are, with the node of the part that hangs on nothing at the origin.

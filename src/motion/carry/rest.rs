@@ -12,6 +12,9 @@ const LEGS: f64 = 35.0;
 /// How far hips and shoulders may be from level in a pose that stands, degrees.
 const LEVEL: f64 = 25.0;
 
+/// Sums of squared angles that differ by a smaller share are the same.
+const SAME: f64 = 1e-9;
+
 /// The pose that a clip's rotations are measured from.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Rest {
@@ -104,7 +107,8 @@ fn nearest(
             };
             sum += angle * angle;
         }
-        if sum < best.1 {
+        // Of frames that differ by rounding alone the first, so that another way to write the same motion has the same rest.
+        if sum < best.1 * (1.0 - SAME) {
             best = (frame, sum);
         }
     }

@@ -7,7 +7,7 @@ use okoshi::motion::skeleton::{Clip, Placed};
 
 use super::clips::{FILES, clip};
 use super::puppets::{Limbs, biped, dog};
-use super::{Body, angle, carried_to, end, placed};
+use super::{Body, angle, carried_to, direction, end, placed};
 
 /// The figure's leg is about this long, drawing units.
 const LEG: f64 = 97.0;
@@ -26,7 +26,8 @@ fn thighs_face_forward_in_walks() {
         for pieces in 1..=3 {
             let puppet = biped(&ready.anatomy, Limbs::Bound, pieces);
             let carried = carry(&ready.clip, &puppet, &landmarks);
-            let mut worst = 0.0_f64;
+            // As they are, and seen from above: a leg that swings tips its front up or down.
+            let mut worst = [0.0_f64; 2];
             for frame in 0..ready.clip.frames() {
                 let pose = ready.clip.pose(frame);
                 let [_, front] = body.left_and_front(&pose);
@@ -34,18 +35,25 @@ fn thighs_face_forward_in_walks() {
                 let placed = placed(&puppet, &carried, frame);
                 for (index, part) in puppet.parts.iter().enumerate() {
                     let drive = part.drive.filter(|drive| drive.is_leg);
-                    let is_thigh = drive.is_some_and(|drive| {
-                        landmarks.thighs.expect("legs").contains(&drive.joint)
-                    });
-                    if is_thigh {
+                    let thighs = landmarks.thighs.expect("legs");
+                    let Some(drive) = drive.filter(|drive| thighs.contains(&drive.joint)) else {
+                        continue;
+                    };
+                    // Nobody who walks lifts a thigh so high: that clip holds other actions, too.
+                    let way = direction(&ready.clip, &pose, &drive).expect("a bone");
+                    if angle(way, -body.up) < 60.0 {
                         let own =
                             placed[index].rotation * (part.node.rotation.inverse() * DVec3::Z);
-                        worst = worst.max(angle(own, front));
+                        let above = angle(own * dvec3(1.0, 0.0, 1.0), front);
+                        worst = [worst[0].max(angle(own, front)), worst[1].max(above)];
                     }
                 }
             }
-            eprintln!("{file} {pieces}: thighs {worst:.1}° from the front");
-            assert!(worst < 45.0, "{file}, {pieces} pieces: {worst}°");
+            eprintln!("{file} {pieces}: thighs {worst:.1?}° from the front");
+            assert!(worst[1] < 45.0, "{file}, {pieces} pieces: {worst:?}°");
+            if file.starts_with("examples") {
+                assert!(worst[0] < 45.0, "{file}, {pieces} pieces: {worst:?}°");
+            }
         }
     }
 }
@@ -74,8 +82,20 @@ fn soles(puppet: &Puppet, placed: &[Placed], foot: &[usize]) -> Vec<DVec3> {
     points.collect()
 }
 
+/// How long a leg of the clip is, foot not counted.
+fn leg(clip: &Clip, landmarks: &Landmarks) -> f64 {
+    let [thighs, knees, feet] =
+        [landmarks.thighs, landmarks.knees, landmarks.feet].map(|pair| pair.expect("legs"));
+    let pose = clip.pose(0);
+    let length = |a: usize, b: usize| pose[a].position.distance(pose[b].position);
+    let legs =
+        [0, 1].map(|side| length(thighs[side], knees[side]) + length(knees[side], feet[side]));
+    (legs[0] + legs[1]) / 2.0
+}
+
 /// Per frame the worst: how far the standing foot slid, and how far the lowest is off the ground; drawing units.
-fn standing(clip: &Clip, puppet: &Puppet, carried: &Carried) -> [f64; 2] {
+fn standing(clip: &Clip, puppet: &Puppet, landmarks: &Landmarks, carried: &Carried) -> [f64; 2] {
+    let leg = leg(clip, landmarks);
     let feet = feet(puppet);
     let mean = |points: Vec<DVec3>| points.iter().sum::<DVec3>() / points.len() as f64;
     let ground = puppet
@@ -117,16 +137,18 @@ fn standing(clip: &Clip, puppet: &Puppet, carried: &Carried) -> [f64; 2] {
         let drive = puppet.parts[feet[still][0]]
             .drive
             .expect("a foot is driven");
-        let point = |frame: usize| end(clip, &clip.pose(frame), drive.tip.expect("it points"));
-        let size = clip
-            .pose(0)
-            .iter()
-            .map(|placed| placed.position.y)
-            .fold(0.0, f64::max);
-        let speed = point(frame).distance(point(frame - 1)) / clip.frame_time / size;
+        let point = |frame: usize| {
+            let pose = clip.pose(frame);
+            let far = end(clip, &pose, drive.tip.expect("it points"));
+            match landmarks.feet.expect("feet").contains(&drive.joint) {
+                true => (far + pose[drive.joint].position) / 2.0,
+                false => far,
+            }
+        };
+        let speed = point(frame).distance(point(frame - 1)) / clip.frame_time / leg;
         assert!(
-            speed < 0.8,
-            "frame {frame}: the standing foot moves at {speed} heights a second"
+            speed < 0.6,
+            "frame {frame}: the standing foot moves at {speed} legs a second"
         );
     }
     worst
@@ -149,7 +171,7 @@ fn standing_feet_stay() {
                 .iter()
                 .filter(|grounded| **grounded)
                 .count();
-            let [slide, height] = standing(&ready.clip, puppet, &carried);
+            let [slide, height] = standing(&ready.clip, puppet, &landmarks, &carried);
             eprintln!(
                 "{file} {number}: {grounded} of {} grounded, slides {slide:.1e}, {:.2} % of the leg off the ground",
                 ready.clip.frames(),
@@ -159,8 +181,7 @@ fn standing_feet_stay() {
                 slide < 1e-9 * LEG,
                 "{file}, figure {number}: slides {slide}"
             );
-            // A foot that stands may still be lifted by 8 % of the leg.
-            assert!(height < 0.08 * LEG, "{file}, figure {number}: {height}");
+            assert!(height < 1e-9 * LEG, "{file}, figure {number}: {height}");
         }
     }
 }
@@ -177,11 +198,7 @@ fn walks_get_ahead() {
     let pose = |frame: usize| ready.clip.pose(frame)[landmarks.hips].position;
     let body = Body::of(&ready.clip, &landmarks, Facing::Viewer);
     let clip_way = body.drawn(&ready.clip.pose(0), pose(ready.clip.frames() - 1) - pose(0));
-    let [thighs, knees, feet] =
-        [landmarks.thighs, landmarks.knees, landmarks.feet].map(|pair| pair.expect("legs")[0]);
-    let first = ready.clip.pose(0);
-    let length = |a: usize, b: usize| first[a].position.distance(first[b].position);
-    let due = clip_way * LEG / (length(thighs, knees) + length(knees, feet));
+    let due = clip_way * LEG / leg(&ready.clip, &landmarks);
     eprintln!("walked {way}, the clip {due}");
     assert!(
         angle(way * dvec3(1.0, 0.0, 1.0), due * dvec3(1.0, 0.0, 1.0)) < 15.0,

@@ -1,0 +1,77 @@
+"""Imports glTF files into Blender and compares the clips that it finds with those in the files.
+
+    blender -b --factory-startup --python-exit-code 1 --python blender_clips.py -- FILE.glb...
+
+Every channel of every clip must be there: a curve for each number, with a key for each of the file's, held (CONSTANT) where the
+file steps and straight (LINEAR) where it does not. A file without clips must have none in Blender.
+"""
+
+import json
+import struct
+import sys
+
+import bpy
+import numpy
+
+# Blender 3.4 reads glTF by a name that NumPy has given up since.
+if "bool" not in vars(numpy):
+    numpy.bool = bool
+
+CURVES = {"rotation": ("rotation_quaternion", 4), "translation": ("location", 3)}
+INTERPOLATION = {"STEP": "CONSTANT", "LINEAR": "LINEAR"}
+
+
+def clips_of_file(file):
+    """(clip, node, curve, index) to (keys, interpolation), as the JSON of a GLB has them."""
+    with open(file, "rb") as stream:
+        _, _, _, length, _ = struct.unpack("<5I", stream.read(20))
+        model = json.loads(stream.read(length))
+    found = {}
+    for clip in model.get("animations", []):
+        for channel in clip["channels"]:
+            sampler = clip["samplers"][channel["sampler"]]
+            target = channel["target"]
+            curve, numbers = CURVES[target["path"]]
+            keys = model["accessors"][sampler["input"]]["count"]
+            way = INTERPOLATION[sampler.get("interpolation", "LINEAR")]
+            for index in range(numbers):
+                found[clip["name"], model["nodes"][target["node"]]["name"], curve, index] = (keys, way)
+    return found
+
+
+def clips_of_blender(file):
+    """The same, as Blender has it after an import; keys of several ways are told by all of them."""
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=file)
+    found = {}
+    for thing in bpy.data.objects:
+        for track in thing.animation_data.nla_tracks if thing.animation_data else []:
+            for strip in track.strips:
+                for curve in strip.action.fcurves:
+                    ways = sorted({point.interpolation for point in curve.keyframe_points})
+                    key = (track.name, thing.name, curve.data_path, curve.array_index)
+                    found[key] = (len(curve.keyframe_points), " ".join(ways))
+    return found
+
+
+def main(files):
+    """Compares all files; the status tells whether any differs."""
+    bad = 0
+    for file in files:
+        due, found = clips_of_file(file), clips_of_blender(file)
+        differences = [
+            f"{key}: {due.get(key)} in the file, {found.get(key)} in Blender"
+            for key in sorted(due.keys() | found.keys())
+            if due.get(key) != found.get(key)
+        ]
+        clips = {key[0]: (keys, way) for key, (keys, way) in sorted(due.items())}
+        told = ", ".join(f"{name}: {keys} keys {way}" for name, (keys, way) in clips.items())
+        print(f"{'BAD' if differences else 'ok '} {file}: {len(due)} curves; {told or 'no clips'}")
+        for difference in differences[:20]:
+            print(f"    {difference}")
+        bad += bool(differences)
+    print(f"{len(files)} models, {bad} differ in their clips")
+    sys.exit(1 if bad or not files else 0)
+
+
+main(sys.argv[sys.argv.index("--") + 1 :])
