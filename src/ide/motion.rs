@@ -262,7 +262,9 @@ fn counted(count: usize, thing: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Paint;
     use super::super::samples::{figure, moving};
+    use super::*;
 
     /// Tells of the place marked in the right arm's string or in the one for the whole drawing.
     fn hover(right: &str, defaults: &str) -> String {
@@ -387,5 +389,27 @@ mod tests {
         assert!(edits.iter().all(|edit| edit.span.start != arm));
         let found = analysis.prepare_rename(arm + 1);
         assert!(found.is_err(), "{found:?}");
+    }
+
+    #[test]
+    fn joints_have_the_colour_of_names() {
+        let string = "Rarm@Body$Bone RightArm \"Grip:1\" Offset 2";
+        let (analysis, _) = moving(&figure(["Body", string, "", "", "%Motion \"kick.bvh\""]));
+        let (at, _) = analysis.source().match_indices(string).next().unwrap();
+        let painted = analysis.colouring(Span::new(at, at + string.len()));
+        let names = painted.iter().filter(|one| one.paint == Paint::Part);
+        let names = names.map(|one| {
+            (
+                &analysis.source()[one.span.start..one.span.end],
+                one.defines,
+            )
+        });
+        let expected = [
+            ("Rarm", true),
+            ("Body", false),
+            ("RightArm", false),
+            ("\"Grip:1\"", false),
+        ];
+        assert_eq!(names.collect::<Vec<_>>(), expected);
     }
 }
