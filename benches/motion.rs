@@ -52,7 +52,13 @@ fn text(frames: usize) -> Vec<u8> {
     let places = [Axis::X, Axis::Y, Axis::Z].map(Channel::Position);
     let joint = |index: usize| Joint {
         name: format!("J{index}"),
-        parent: (index > 0).then(|| if index.is_multiple_of(5) { 0 } else { index - 1 }),
+        parent: (index > 0).then(|| {
+            if index.is_multiple_of(5) {
+                0
+            } else {
+                index - 1
+            }
+        }),
         offset: DVec3::new(0.0, 12.5, 0.25),
         channels: match index {
             0 => [places, turns].concat(),

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::args::{Common, Motion};
 use super::progress::spinning;
 use super::{Outcome, fail, print_out};
-use crate::disk::{is_same_file, open_stream, write_atomic};
+use crate::disk::{WriteError, is_same_file, open_stream, write_atomic};
 use crate::gltf::{self, Container};
 use crate::motion::bvh::{self, Reading};
 use crate::motion::edit::{Edited, How, edit};
@@ -92,46 +92,34 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
     for note in &edited.notes {
         let _ = writeln!(told, "  {note}");
     }
-    let (Some(output), Some(kind)) = (&arguments.output, kind) else {
-        if let Some(plot) = &arguments.plot {
-            return written(
-                &edited,
-                plot,
-                Kind::Chart,
-                arguments,
-                common,
-                &format!("{name}: {opening}\n{told}"),
-            );
+    let plot = arguments.plot.as_ref().map(|plot| (plot, Kind::Chart));
+    let outputs = arguments.output.as_ref().zip(kind).into_iter().chain(plot);
+    let mut wrote = String::new();
+    let mut count = 0;
+    for (output, kind) in outputs {
+        if let Err(error) = spinning("writing", || write(&edited, output, kind, arguments)) {
+            return fail(&error.to_string());
         }
-        if !common.quiet {
-            eprint!("{name}: {opening}\n{told}");
+        if output.as_os_str() != "-" {
+            let _ = writeln!(wrote, "wrote {}", output.display());
         }
-        return print_out(&joints(&edited.clip, &edited.anatomy));
-    };
-    if let Some(plot) = &arguments.plot {
-        let outcome = written(
-            &edited,
-            plot,
-            Kind::Chart,
-            arguments,
-            Common {
-                quiet: true,
-                ..common
-            },
-            "",
-        );
-        if outcome != Outcome::Done {
-            return outcome;
-        }
+        count += 1;
     }
-    written(
-        &edited,
-        output,
-        kind,
-        arguments,
-        common,
-        &format!("{name}: {opening}\n{told}"),
-    )
+    let cuts = arguments.compare
+        || arguments.omit.is_some()
+        || arguments.hold.is_some()
+        || arguments.every.is_some()
+        || arguments.drawings.is_some();
+    if count > 0 || cuts {
+        told.push_str(&report(&edited, arguments));
+    }
+    if !common.quiet {
+        eprint!("{name}: {opening}\n{told}{wrote}");
+    }
+    match count {
+        0 => print_out(&joints(&edited.clip, &edited.anatomy)),
+        _ => Outcome::Done,
+    }
 }
 
 /// What a file's ending asks for.
@@ -176,45 +164,21 @@ fn how(arguments: &Motion) -> How {
     }
 }
 
-/// Writes a file; what there is to say of the motion stands above what was written.
-fn written(
-    edited: &Edited,
-    output: &Path,
-    kind: Kind,
-    arguments: &Motion,
-    common: Common,
-    opening: &str,
-) -> Outcome {
+/// Writes a file.
+fn write(edited: &Edited, output: &Path, kind: Kind, arguments: &Motion) -> Result<(), WriteError> {
     let stem = arguments.motion.file_stem().filter(|stem| *stem != "-");
     let stem = stem.map_or("motion".into(), |stem| stem.to_string_lossy());
-    let result = spinning("writing", || match kind {
+    match kind {
         Kind::Bvh => write_atomic(output, |out| edited.write_bvh(out)),
         Kind::Chart => write_atomic(output, |out| out.write_all(edited.chart(&stem).as_bytes())),
         Kind::Model(container) => {
-            let scene = stick_figure(
-                &edited.clip,
-                edited.exposure.as_ref(),
-                &stem,
-                edited.to_model,
-            );
+            let exposure = edited.exposure.as_ref();
+            let scene = stick_figure(&edited.clip, exposure, &stem, edited.to_model);
             write_atomic(output, |out| {
                 gltf::write(&scene, container, out).map(|_| ())
             })
         }
-    });
-    if let Err(error) = result {
-        return fail(&error.to_string());
     }
-    if common.quiet {
-        return Outcome::Done;
-    }
-    let mut told = opening.to_owned();
-    told.push_str(&report(edited, arguments));
-    if output.as_os_str() != "-" {
-        let _ = writeln!(told, "wrote {}", output.display());
-    }
-    eprint!("{told}");
-    Outcome::Done
 }
 
 /// A clip in a line.

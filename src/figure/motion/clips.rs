@@ -54,8 +54,8 @@ pub(super) type Memory = BTreeMap<String, Known>;
 pub(super) struct Known {
     bytes: Arc<[u8]>,
     clip: Option<Arc<Prepared>>,
-    /// What there is to say of it.
-    error: Option<Arc<bvh::Error>>,
+    /// What is wrong with it, and how many frames were read before that.
+    error: Option<(Arc<bvh::Error>, usize)>,
     notes: Arc<[String]>,
 }
 
@@ -97,8 +97,8 @@ impl Stock {
                 None
             }
             Ok(known) => {
-                if let Some(error) = &known.error {
-                    diagnostics.push(told::broken_file(link, error, span));
+                if let Some((error, frames)) = &known.error {
+                    diagnostics.push(told::broken_file(link, error, *frames, span));
                 }
                 if first {
                     let notes = known.notes.iter();
@@ -122,8 +122,9 @@ impl Known {
         let (clip, mut notes, error) = match bvh::read_bytes(&bytes) {
             Ok(reading) => (Some(reading.clip), reading.notes, None),
             Err(mut error) => {
-                let partial = error.partial.take();
-                (partial.map(|clip| *clip), Vec::new(), Some(error))
+                let partial = error.partial.take().map(|clip| *clip);
+                let frames = partial.as_ref().map_or(0, Clip::frames);
+                (partial, Vec::new(), Some((Arc::new(error), frames)))
             }
         };
         let notes = notes.drain(..).map(|note| note.to_string());
@@ -146,7 +147,7 @@ impl Known {
         Self {
             bytes,
             clip,
-            error: error.map(Arc::new),
+            error,
             notes: notes.into(),
         }
     }

@@ -85,20 +85,36 @@ pub(super) fn puppet(figure: &Figure, group: &Group, matching: &Matching, nodes:
             goes_on[parent] = true;
         }
     }
+    // A shoe that nothing drives goes along with its leg, and is what it stands on.
+    let around = |index: usize| {
+        let parts = figure.parts.iter().zip(&matching.drives);
+        let worn = parts.filter(|(part, drive)| part.parent == Some(index) && drive.is_none());
+        worn.fold(figure.parts[index].bounds, |[low, high], (part, _)| {
+            [low.min(part.bounds[0]), high.max(part.bounds[1])]
+        })
+    };
     let part = |(index, part): (usize, &Part)| {
         let (node, is_rooted) = nodes.of(group.parts[index]);
         let depth = node.position.z;
         let stands = is_leg(index) && !goes_on[index];
+        let joint = part.joint.extend(depth);
+        let way = part.tip.extend(depth) - joint;
+        // A joint beside the axis does not change which way the part points.
+        let axis = node.rotation * DVec3::Y;
+        let way = if is_rooted {
+            way
+        } else {
+            axis * way.dot(axis).abs()
+        };
         PuppetPart {
             parent: part.parent,
             is_rooted,
             node,
-            joint: part.joint.extend(depth),
-            tip: part.tip.extend(depth),
-            sole: if stands {
-                sole(part, depth)
-            } else {
-                Vec::new()
+            joint,
+            tip: joint + way,
+            sole: match stands {
+                true => sole(part, around(index), depth),
+                false => Vec::new(),
             },
             drive: matching.drives[index].as_ref().map(|drive| Drive {
                 joint: drive.joint,
@@ -114,10 +130,10 @@ pub(super) fn puppet(figure: &Figure, group: &Group, matching: &Matching, nodes:
     }
 }
 
-/// Where a part that a leg ends with touches the ground: below its tip; what is wider than high, a shoe, at both ends.
-fn sole(part: &Part, depth: f64) -> Vec<DVec3> {
-    let [low, high] = part.bounds;
-    let size = high - low;
+/// Where a part that a leg ends with touches the ground, in the box of what hangs on it: below its tip; what is wider than high, a
+/// foot, at both ends.
+fn sole(part: &Part, [low, high]: [DVec2; 2], depth: f64) -> Vec<DVec3> {
+    let size = part.bounds[1] - part.bounds[0];
     match size.x > size.y {
         true => vec![low.extend(depth), DVec3::new(high.x, low.y, depth)],
         false => vec![DVec3::new(part.tip.x, low.y, depth)],

@@ -16,13 +16,20 @@ use super::super::Model;
 use super::MOST_KEYS;
 use super::cast::Group;
 
-/// A file that cannot be read, or not to its end.
-pub(super) fn broken_file(link: &str, error: &bvh::Error, span: Span) -> Diagnostic {
+/// A file that cannot be read, or not to its end: so many frames were.
+pub(super) fn broken_file(link: &str, error: &bvh::Error, frames: usize, span: Span) -> Diagnostic {
     let message = format!(
         "the motion `{link}` cannot be read: line {}, column {}: {}",
         error.line, error.column, error.message
     );
-    Diagnostic::new(Code::BrokenMotion, span, message).help(error.help.clone())
+    let help = match frames {
+        0 => error.help.clone(),
+        frames => format!(
+            "{}; --keep-going uses the {frames} whole frames before it",
+            error.help
+        ),
+    };
+    Diagnostic::new(Code::BrokenMotion, span, message).help(help)
 }
 
 /// Something in a file that was read all the same, or left out.

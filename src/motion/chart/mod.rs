@@ -282,9 +282,10 @@ fn times(out: &mut String, frames: usize, fps: f64, scale: &Scale) {
         out,
         "frame",
         sheet + 6.0,
-        step(frames as f64 / 10.0).max(1.0),
+        [1.0, step(frames as f64 / 10.0).max(1.0)],
         frames,
-        |frame| scale.x(frame + 0.5),
+        // People count them from 1.
+        |frame| scale.x(frame - 0.5),
     );
     if fps > 0.0 && fps.is_finite() {
         let seconds = frames as f64 / fps;
@@ -295,17 +296,28 @@ fn times(out: &mut String, frames: usize, fps: f64, scale: &Scale) {
             out,
             "seconds",
             sheet + 38.0,
-            step,
+            [0.0, step],
             (seconds / step).ceil() as usize,
             at,
         );
     }
 }
 
-fn axis(out: &mut String, name: &str, y: f64, step: f64, most: usize, at: impl Fn(f64) -> f64) {
+/// An axis with a mark at its first value and at each multiple of the step.
+fn axis(
+    out: &mut String,
+    name: &str,
+    y: f64,
+    [first, step]: [f64; 2],
+    most: usize,
+    at: impl Fn(f64) -> f64,
+) {
     let mut ticks = String::new();
     let mut labels = String::new();
-    for value in (0..=most).take(TICKS).map(|index| index as f64 * step) {
+    let multiples = (1..=most).take(TICKS).map(|index| index as f64 * step);
+    // Two marks need room for their numbers.
+    let multiples = multiples.filter(|value| value - first >= step / 2.0);
+    for value in std::iter::once(first).chain(multiples) {
         let x = at(value);
         if x > RIGHT {
             break;

@@ -4,6 +4,8 @@ mod names;
 #[cfg(test)]
 mod tests;
 
+use std::collections::BTreeSet;
+
 use super::figure::Figure;
 use super::labels::{Anatomy, Class, Facing, Label, Limb, Piece, Side, Tip, label_facing};
 use super::skeleton::Skeleton;
@@ -96,8 +98,8 @@ pub enum Problem {
 
 /// Joins a figure with a skeleton on their labels; `Bone` overrides.
 ///
-/// A limb of one piece follows the whole chain, shoulder to wrist or hip to ankle; of two, upper and lower bone; a third is hand
-/// or foot. Legs of odd pairs, counted from the hind, take the other side's leg; arms never swap. A single trunk follows the
+/// A limb of one piece follows the whole chain, shoulder to wrist or hip to ankle, and takes a hand or foot along; of two, upper and
+/// lower bone; a third is hand or foot. Legs of odd pairs, counted from the hind, take the other side's leg; arms never swap. A single trunk follows the
 /// chest, since head and arms hang there; several pieces are spread over the spine, the topmost on the chest; hips follow the
 /// hips. `anatomy` belongs to the skeleton.
 pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> Matching {
@@ -154,6 +156,8 @@ struct Joining<'a> {
     anatomy: &'a Anatomy,
     /// How many pieces trunk, neck and tail of the figure have.
     pieces: [usize; 3],
+    /// The limbs of one piece: class, side and pair.
+    whole: BTreeSet<(Class, Option<Side>, usize)>,
 }
 
 impl<'a> Joining<'a> {
@@ -169,6 +173,12 @@ impl<'a> Joining<'a> {
             skeleton,
             anatomy,
             pieces: [Class::Body, Class::Neck, Class::Tail].map(count),
+            whole: labels
+                .iter()
+                .flatten()
+                .filter(|label| label.class.is_limb() && label.piece == Piece::Whole)
+                .map(|label| (label.class, label.side, label.pair))
+                .collect(),
         }
     }
 
@@ -207,6 +217,10 @@ impl<'a> Joining<'a> {
     ) -> Result<Drive, String> {
         let why = &label.why;
         let own = label.side.ok_or_else(|| why.clone())?;
+        let is_last = matches!(label.piece, Piece::End | Piece::Beyond);
+        if is_last && self.whole.contains(&(label.class, label.side, label.pair)) {
+            return Err(format!("{why}; a limb of one piece takes it along"));
+        }
         let crossed = label.class == Class::Leg && label.pair % 2 == 1;
         let side = if crossed { own.other() } else { own };
         let Some(limb) = self.anatomy.limb(label.class, side) else {
