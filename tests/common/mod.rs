@@ -282,8 +282,12 @@ pub(crate) fn clips(glb: &[u8]) -> Result<String, String> {
             let reader = channel.reader(|buffer| (buffer.index() == 0).then_some(&*blob));
             let times: Vec<f32> = reader.read_inputs().ok_or("no times")?.collect();
             let (what, values): (&str, Vec<Vec<f32>>) = match reader.read_outputs() {
-                Some(ReadOutputs::Translations(places)) => ("moves", places.map(Vec::from).collect()),
-                Some(ReadOutputs::Rotations(turns)) => ("turns", turns.into_f32().map(Vec::from).collect()),
+                Some(ReadOutputs::Translations(places)) => {
+                    ("moves", places.map(Vec::from).collect())
+                }
+                Some(ReadOutputs::Rotations(turns)) => {
+                    ("turns", turns.into_f32().map(Vec::from).collect())
+                }
                 _ => return Err("a channel of another kind".to_owned()),
             };
             let (Some(first), Some(last)) = (values.first(), values.last()) else {

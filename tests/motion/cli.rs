@@ -27,14 +27,20 @@ fn written(room: &Room, name: &str) -> Clip {
 
 /// The rows of a clip that are not as the one before.
 fn drawings(clip: &Clip) -> usize {
-    1 + (1..clip.frames()).filter(|frame| clip.row(*frame) != clip.row(frame - 1)).count()
+    1 + (1..clip.frames())
+        .filter(|frame| clip.row(*frame) != clip.row(frame - 1))
+        .count()
 }
 
 /// How the library cuts the kick as usual.
 fn usual() -> (Clip, Cut) {
     let ready = clip("examples/motion/kick.bvh");
     let joints = ready.clip.skeleton.joints.len();
-    let cut = limit(&ready.positions, joints, &Options::usual(ready.clip.frames()));
+    let cut = limit(
+        &ready.positions,
+        joints,
+        &Options::usual(ready.clip.frames()),
+    );
     (ready.clip, cut)
 }
 
@@ -58,15 +64,23 @@ fn joints_are_listed() {
 #[test]
 fn a_limited_motion_is_what_the_library_makes() {
     let room = room();
-    room.run(&["motion", "kick.bvh", "-o", "out.bvh"]).ends(0, "", "wrote out.bvh");
+    room.run(&["motion", "kick.bvh", "-o", "out.bvh"])
+        .ends(0, "", "wrote out.bvh");
     let (full, cut) = usual();
     let out = written(&room, "out.bvh");
     assert_eq!(out.frames(), FRAMES);
-    assert!((out.frame_time * 24.0 - 1.0).abs() < 1e-4, "{}", out.frame_time);
+    assert!(
+        (out.frame_time * 24.0 - 1.0).abs() < 1e-4,
+        "{}",
+        out.frame_time
+    );
     assert_eq!(drawings(&out), cut.exposure.drawings().count());
     for (frame, source) in cut.exposure.sources().iter().enumerate() {
         for (is, due) in out.row(frame).iter().zip(full.row(*source as usize)) {
-            assert!((is - due).abs() <= 0.5e-6 + 1e-12, "frame {frame}: {is} {due}");
+            assert!(
+                (is - due).abs() <= 0.5e-6 + 1e-12,
+                "frame {frame}: {is} {due}"
+            );
         }
     }
 }
@@ -77,7 +91,11 @@ fn how_many_frames_and_drawings() {
     for (arguments, frames, shown) in [
         (&["--full"] as &[&str], FRAMES, FRAMES),
         (&["--omit", "2", "--hold", "5"], FRAMES, FRAMES - 7),
-        (&["--omit", "2", "--hold", "0", "--shorten"], FRAMES - 2, FRAMES - 2),
+        (
+            &["--omit", "2", "--hold", "0", "--shorten"],
+            FRAMES - 2,
+            FRAMES - 2,
+        ),
         (&["--every", "2"], FRAMES, 34),
         (&["--every", "3"], FRAMES, 23),
         (&["--drawings", "20"], FRAMES, 20),
@@ -90,7 +108,11 @@ fn how_many_frames_and_drawings() {
         let all = [&["motion", "kick.bvh", "-q", "-o", "out.bvh"], arguments].concat();
         room.run(&all).ends(0, "", "");
         let out = written(&room, "out.bvh");
-        assert_eq!((out.frames(), drawings(&out)), (frames, shown), "{arguments:?}");
+        assert_eq!(
+            (out.frames(), drawings(&out)),
+            (frames, shown),
+            "{arguments:?}"
+        );
     }
 }
 
@@ -103,13 +125,26 @@ fn a_lead_in_goes_unless_it_is_kept() {
     // A pose far away from all others.
     let rest = format!("0 300 900{}", " 0".repeat(width - 3));
     let head = head.replace("Frames: 169", "Frames: 170");
-    room.write("lead.bvh", format!("{head}Frame Time: 0.0166667\n{rest}{rows}"));
+    room.write(
+        "lead.bvh",
+        format!("{head}Frame Time: 0.0166667\n{rest}{rows}"),
+    );
     let run = room.run(&["motion", "lead.bvh", "--full", "-o", "out.bvh"]);
     run.ends(0, "", "frame 1 is a pose that the motion jumps out of");
     let without = written(&room, "out.bvh");
-    room.run(&["motion", "kick.bvh", "-q", "--full", "-o", "plain.bvh"]).ends(0, "", "");
+    room.run(&["motion", "kick.bvh", "-q", "--full", "-o", "plain.bvh"])
+        .ends(0, "", "");
     assert_eq!(without, written(&room, "plain.bvh"));
-    room.run(&["motion", "lead.bvh", "-q", "--keep-rest", "--full", "-o", "kept.bvh"]).ends(0, "", "");
+    room.run(&[
+        "motion",
+        "lead.bvh",
+        "-q",
+        "--keep-rest",
+        "--full",
+        "-o",
+        "kept.bvh",
+    ])
+    .ends(0, "", "");
     let kept = written(&room, "kept.bvh");
     assert_eq!(kept.row(0)[2], 900.0);
 }
@@ -117,15 +152,25 @@ fn a_lead_in_goes_unless_it_is_kept() {
 #[test]
 fn a_model_has_a_key_for_each_drawing() {
     let room = room();
-    room.run(&["motion", "kick.bvh", "-o", "out.glb"]).ends(0, "", "wrote out.glb");
+    room.run(&["motion", "kick.bvh", "-o", "out.glb"])
+        .ends(0, "", "wrote out.glb");
     let (full, cut) = usual();
     let model = gltf::Gltf::from_slice(&room.read("out.glb")).expect("a model");
     let blob = model.blob.as_deref().expect("data");
-    assert_eq!(model.nodes().filter(|node| node.name() == Some("LeftHand")).count(), 1);
+    assert_eq!(
+        model
+            .nodes()
+            .filter(|node| node.name() == Some("LeftHand"))
+            .count(),
+        1
+    );
     let clips: Vec<_> = model.animations().collect();
     assert_eq!(clips.len(), 1);
     assert_eq!(clips[0].name(), Some("kick"));
-    let starts = cut.exposure.drawings().map(|drawing| (drawing.start as f64 * full.frame_time) as f32);
+    let starts = cut
+        .exposure
+        .drawings()
+        .map(|drawing| (drawing.start as f64 * full.frame_time) as f32);
     let starts: Vec<f32> = starts.collect();
     assert!(starts.len() < FRAMES);
     let mut turning = 0;
@@ -146,7 +191,8 @@ fn a_model_has_a_key_for_each_drawing() {
     }
     assert_eq!(turning, full.skeleton.joints.len());
 
-    room.run(&["motion", "kick.bvh", "-q", "--full", "-o", "full.glb"]).ends(0, "", "");
+    room.run(&["motion", "kick.bvh", "-q", "--full", "-o", "full.glb"])
+        .ends(0, "", "");
     let model = gltf::Gltf::from_slice(&room.read("full.glb")).expect("a model");
     let blob = model.blob.as_deref().expect("data");
     for channel in model.animations().next().expect("a clip").channels() {
@@ -154,16 +200,22 @@ fn a_model_has_a_key_for_each_drawing() {
         let times = channel.reader(|_| Some(blob)).read_inputs().expect("times");
         assert_eq!(times.count(), FRAMES);
     }
-    room.run(&["motion", "kick.bvh", "-q", "-o", "out.gltf"]).ends(0, "", "");
+    room.run(&["motion", "kick.bvh", "-q", "-o", "out.gltf"])
+        .ends(0, "", "");
     gltf::Gltf::from_slice(&room.read("out.gltf")).expect("a model in text");
 }
 
 #[test]
 fn charts_are_drawn() {
     let room = room();
-    room.run(&["motion", "kick.bvh", "-o", "chart.svg"]).ends(0, "", "wrote chart.svg");
-    room.run(&["motion", "kick.bvh", "-q", "--plot", "plot.svg", "-o", "out.bvh"]).ends(0, "", "");
-    room.run(&["motion", "kick.bvh", "--plot", "alone.svg"]).ends(0, "", "wrote alone.svg");
+    room.run(&["motion", "kick.bvh", "-o", "chart.svg"])
+        .ends(0, "", "wrote chart.svg");
+    room.run(&[
+        "motion", "kick.bvh", "-q", "--plot", "plot.svg", "-o", "out.bvh",
+    ])
+    .ends(0, "", "");
+    room.run(&["motion", "kick.bvh", "--plot", "alone.svg"])
+        .ends(0, "", "wrote alone.svg");
     let chart = String::from_utf8(room.read("chart.svg")).expect("text");
     for name in ["plot.svg", "alone.svg"] {
         assert_eq!(chart.as_bytes(), room.read(name), "{name}");
@@ -171,19 +223,33 @@ fn charts_are_drawn() {
     let tree = usvg::Tree::from_str(&chart, &usvg::Options::default()).expect("an SVG");
     assert!(tree.size().width() > 100.0);
     let document = roxmltree::Document::parse(&chart).expect("XML");
-    let paths = document.descendants().filter_map(|node| node.attribute("d").or(node.attribute("points")));
-    let numbers = |path: &str| path.split(|c: char| !(c.is_ascii_digit() || c == '.')).filter(|n| !n.is_empty()).count();
+    let paths = document
+        .descendants()
+        .filter_map(|node| node.attribute("d").or(node.attribute("points")));
+    let numbers = |path: &str| {
+        path.split(|c: char| !(c.is_ascii_digit() || c == '.'))
+            .filter(|n| !n.is_empty())
+            .count()
+    };
     let most = paths.map(numbers).max().expect("lines");
     assert!(most >= 2 * (FRAMES - 1), "a point for each step: {most}");
     assert!(chart.contains("kick"), "its title");
-    assert_eq!(room.files(), ["alone.svg", "chart.svg", "kick.bvh", "out.bvh", "plot.svg"]);
+    assert_eq!(
+        room.files(),
+        ["alone.svg", "chart.svg", "kick.bvh", "out.bvh", "plot.svg"]
+    );
 }
 
 #[test]
 fn ways_to_cut_are_compared() {
     let room = room();
     let run = room.run(&["motion", "kick.bvh", "--compare", "-o", "out.bvh"]);
-    for line in ["as asked:", "on twos:    34 drawings", "on threes:    23 drawings", "best drawings:"] {
+    for line in [
+        "as asked:",
+        "on twos:    34 drawings",
+        "on threes:    23 drawings",
+        "best drawings:",
+    ] {
         assert!(run.err.contains(line), "{line}: {}", run.err);
     }
     run.ends(0, "", "% of the height (RMS)");
@@ -193,7 +259,11 @@ fn ways_to_cut_are_compared() {
 fn a_camera_sees_another_motion() {
     let room = room();
     let shot = |name: &str, camera: &[&str]| {
-        let arguments = [&["motion", "kick.bvh", "-q", "--omit", "4", "-o", name], camera].concat();
+        let arguments = [
+            &["motion", "kick.bvh", "-q", "--omit", "4", "-o", name],
+            camera,
+        ]
+        .concat();
         room.run(&arguments).ends(0, "", "");
         written(&room, name)
     };
@@ -213,7 +283,10 @@ fn through_pipes() {
     let room = room();
     let kick = room.read("kick.bvh");
     let run = Run::of(room.pipe(&["motion", "-", "-o", "-", "--full"], &kick));
-    assert_eq!(read_bytes(run.out.as_bytes()).expect("BVH").clip.frames(), FRAMES);
+    assert_eq!(
+        read_bytes(run.out.as_bytes()).expect("BVH").clip.frames(),
+        FRAMES
+    );
     assert!(!run.err.contains("wrote"), "{}", run.err);
     run.ends(0, "HIERARCHY", "-: 21 joints");
     Run::of(room.pipe(&["motion", "-q", "-", "-o", "out.glb"], &kick)).ends(0, "", "");
@@ -228,7 +301,10 @@ fn wrong_use_is_refused() {
         (&["-o", "out"], "must end in .bvh"),
         (&["-o", "kick.bvh"], "is the motion itself"),
         (&["-o", "./kick.bvh"], "is the motion itself"),
-        (&["--range", "60:90"], "there is no frame 90: the clip has 68"),
+        (
+            &["--range", "60:90"],
+            "there is no frame 90: the clip has 68",
+        ),
         (&["--range", "9:3"], "ends before it begins"),
         (&["--range", "0:3"], "frame 0"),
         (&["--range", "all"], "--range"),
@@ -246,7 +322,8 @@ fn wrong_use_is_refused() {
         assert_eq!(run.status, 2, "{arguments:?}: {}", run.err);
         run.ends(2, "", told);
     }
-    room.run(&["motion", "none.bvh"]).ends(2, "", "`none.bvh` is not there");
+    room.run(&["motion", "none.bvh"])
+        .ends(2, "", "`none.bvh` is not there");
     assert_eq!(room.files(), ["kick.bvh"], "nothing is written");
 }
 
@@ -254,9 +331,17 @@ fn wrong_use_is_refused() {
 fn what_cannot_be_done_is_told() {
     let room = room();
     let run = room.run(&["motion", "kick.bvh", "--hold", "500", "-o", "out.bvh"]);
-    run.ends(0, "", "warning: 500 were to be held: no pose may stand for more than 3 frames");
+    run.ends(
+        0,
+        "",
+        "warning: 500 were to be held: no pose may stand for more than 3 frames",
+    );
     let run = room.run(&["motion", "kick.bvh", "--drawings", "2", "-o", "out.bvh"]);
-    run.ends(0, "", "warning: 2 drawings were asked for: 9 to 68 are possible");
+    run.ends(
+        0,
+        "",
+        "warning: 2 drawings were asked for: 9 to 68 are possible",
+    );
 }
 
 #[test]
@@ -264,20 +349,39 @@ fn a_damaged_file() {
     let room = room();
     let text = String::from_utf8(room.read("kick.bvh")).expect("text");
     let mut lines: Vec<&str> = text.lines().collect();
-    let first = lines.iter().position(|line| line.starts_with("Frame Time")).expect("frames") + 1;
+    let first = lines
+        .iter()
+        .position(|line| line.starts_with("Frame Time"))
+        .expect("frames")
+        + 1;
     lines[first + 100] = "1 2 three";
     room.write("bad.bvh", lines.join("\n"));
-    let place = format!("bad.bvh: line {}, column 5: `three` is not a number", first + 101);
-    let run = room.run(&["motion", "bad.bvh", "--full", "--fps", "60", "-o", "out.bvh"]);
+    let place = format!(
+        "bad.bvh: line {}, column 5: `three` is not a number",
+        first + 101
+    );
+    let run = room.run(&[
+        "motion", "bad.bvh", "--full", "--fps", "60", "-o", "out.bvh",
+    ]);
     assert!(run.err.contains(&place), "{}", run.err);
     run.ends(2, "", "--keep-going goes on with the 100 frames before it");
     assert_eq!(room.files(), ["bad.bvh", "kick.bvh"]);
 
-    let run = room.run(&["motion", "bad.bvh", "--keep-going", "--full", "--fps", "60", "-o", "out.bvh"]);
+    let run = room.run(&[
+        "motion",
+        "bad.bvh",
+        "--keep-going",
+        "--full",
+        "--fps",
+        "60",
+        "-o",
+        "out.bvh",
+    ]);
     assert!(run.err.contains(&place), "{}", run.err);
     run.ends(0, "", "going on with the 100 frames before it");
     assert_eq!(written(&room, "out.bvh").frames(), 100);
 
     room.write("empty.bvh", "");
-    room.run(&["motion", "empty.bvh", "--keep-going"]).ends(2, "", "empty.bvh: line 1, column 1");
+    room.run(&["motion", "empty.bvh", "--keep-going"])
+        .ends(2, "", "empty.bvh: line 1, column 1");
 }

@@ -73,7 +73,9 @@ fn world(scene: &Scene, clip: &Animation, key: usize) -> Vec<Placed> {
 /// Joints by their names.
 fn joint(clip: &Clip, name: &str) -> usize {
     let mut joints = clip.skeleton.joints.iter();
-    joints.position(|joint| joint.name == name).unwrap_or_else(|| panic!("no joint `{name}`"))
+    joints
+        .position(|joint| joint.name == name)
+        .unwrap_or_else(|| panic!("no joint `{name}`"))
 }
 
 /// The direction of the chain that a part follows by the reason that is told.
@@ -97,7 +99,11 @@ fn axis(compiled: &Compiled, part: usize) -> DVec3 {
     let flip = |point: DVec2| DVec2::new(point.x, -point.y);
     let origin = flip(part.origin);
     let [a, b] = part.measure.ends.map(flip);
-    let far = if a.distance(origin) > b.distance(origin) { a } else { b };
+    let far = if a.distance(origin) > b.distance(origin) {
+        a
+    } else {
+        b
+    };
     (far - origin).extend(0.0)
 }
 
@@ -109,10 +115,24 @@ fn worst(compiled: &Compiled, shot: &Shot, facing: Facing, turn: DQuat) -> f64 {
     let first = clip.pose(0);
     let full = match &shot.full {
         Some(full) => full,
-        None => compiled.scene.animations.iter().find(|one| one.name == shot.name).expect("the clip"),
+        None => compiled
+            .scene
+            .animations
+            .iter()
+            .find(|one| one.name == shot.name)
+            .expect("the clip"),
     };
-    let names: BTreeMap<&str, usize> =
-        compiled.scene.nodes.iter().enumerate().map(|(index, node)| (&*node.name, index)).collect();
+    let names: BTreeMap<&str, usize> = compiled
+        .scene
+        .nodes
+        .iter()
+        .enumerate()
+        .map(|(index, node)| (&*node.name, index))
+        .collect();
+    let nodes = compiled.scene.nodes.iter().enumerate();
+    let parents: BTreeMap<usize, usize> = nodes
+        .flat_map(|(index, node)| node.children.iter().map(move |child| (*child, index)))
+        .collect();
     let rest = {
         let still = Animation::default();
         world(&compiled.scene, &still, 0)
@@ -130,18 +150,29 @@ fn worst(compiled: &Compiled, shot: &Shot, facing: Facing, turn: DQuat) -> f64 {
             let node = names[name];
             // What the axis is in the node's own frame, by how the node stands while nothing plays.
             let own = rest[node].rotation.inverse() * (turn * axis(compiled, driven.part));
-            worst = worst.max(angle(now[node].rotation * own, turn * body.drawn(&first, way)));
+            worst = worst.max(angle(
+                now[node].rotation * own,
+                turn * body.drawn(&first, way),
+            ));
             looked_at += 1;
             if let Some(copy) = names.get(&*format!("{name}.back")) {
-                // A copy is the original in a mirror that stands in the drawing's plane.
-                let mirrored = |way: DVec3| way * DVec3::new(1.0, 1.0, -1.0);
+                // A copy is the original in a mirror: the plane of what both hang on.
+                let mut above = parents[copy];
+                while compiled.scene.nodes[above].name.ends_with(".back") {
+                    above = parents[&above];
+                }
+                let frame = now[above].rotation;
+                let mirrored =
+                    frame.inverse() * (now[node].rotation * own) * DVec3::new(1.0, 1.0, -1.0);
                 let own = rest[*copy].rotation.inverse() * (turn * axis(compiled, driven.part));
-                let due = turn * mirrored(body.drawn(&first, way));
-                worst = worst.max(angle(now[*copy].rotation * own, due));
+                worst = worst.max(angle(now[*copy].rotation * own, frame * mirrored));
             }
         }
     }
-    assert!(looked_at >= 4 * clip.frames(), "only {looked_at} directions");
+    assert!(
+        looked_at >= 4 * clip.frames(),
+        "only {looked_at} directions"
+    );
     worst
 }
 
@@ -149,7 +180,11 @@ fn worst(compiled: &Compiled, shot: &Shot, facing: Facing, turn: DQuat) -> f64 {
 fn nodes_point_where_bones_do() {
     for (name, facing) in DRAWINGS {
         let compiled = compiled(&text(name));
-        assert!(!compiled.shots.is_empty(), "{name}: {:?}", compiled.diagnostics);
+        assert!(
+            !compiled.shots.is_empty(),
+            "{name}: {:?}",
+            compiled.diagnostics
+        );
         for shot in &compiled.shots {
             let off = worst(&compiled, shot, facing, DQuat::IDENTITY);
             eprintln!("{name}, {}: {off:.2e}°", shot.name);
@@ -188,7 +223,11 @@ fn doubled_limbs_are_mirrored() {
     let text = text("kick").replace("Lleg@Hips", "Lleg@Hips$Shape -d default 5 9");
     let text = text.replace("Larm@Body", "Larm@Body$Shape -d roundv Offset 12");
     let compiled = compiled(&text);
-    let copies = compiled.scene.nodes.iter().filter(|node| node.name.ends_with(".back"));
+    let copies = compiled
+        .scene
+        .nodes
+        .iter()
+        .filter(|node| node.name.ends_with(".back"));
     // With what hangs on them: shin and foot, forearm.
     assert_eq!(copies.count(), 5, "{:?}", compiled.diagnostics);
     for shot in &compiled.shots {
@@ -204,16 +243,26 @@ fn a_key_for_each_drawing() {
     for (name, _) in DRAWINGS {
         let compiled = compiled(&text(name));
         for shot in &compiled.shots {
-            let shown = compiled.scene.animations.iter().find(|one| one.name == shot.name).expect("the clip");
+            let shown = compiled
+                .scene
+                .animations
+                .iter()
+                .find(|one| one.name == shot.name)
+                .expect("the clip");
             let Some((full, cut)) = shot.full.as_ref().zip(shot.cut.as_ref()) else {
-                let is_linear = |track: &okoshi::scene::Track| track.timing.interpolation == Interpolation::Linear;
+                let is_linear = |track: &okoshi::scene::Track| {
+                    track.timing.interpolation == Interpolation::Linear
+                };
                 assert!(shown.tracks.iter().all(is_linear), "{name}");
                 continue;
             };
             limited += 1;
             assert_eq!(shown.tracks.len(), full.tracks.len());
             for (track, whole) in shown.tracks.iter().zip(&full.tracks) {
-                assert_eq!((track.node, track.timing.interpolation), (whole.node, Interpolation::Step));
+                assert_eq!(
+                    (track.node, track.timing.interpolation),
+                    (whole.node, Interpolation::Step)
+                );
                 let drawings: Vec<_> = cut.exposure.drawings().collect();
                 assert_eq!(track.timing.times.len(), drawings.len(), "{name}");
                 for (key, drawing) in drawings.iter().enumerate() {
@@ -224,7 +273,9 @@ fn a_key_for_each_drawing() {
                         (Values::Rotations(a), Values::Rotations(b)) => {
                             assert!(a[key].dot(b[source]).abs() > 1.0 - 1e-12, "{name} {key}");
                         }
-                        (Values::Translations(a), Values::Translations(b)) => assert_eq!(a[key], b[source]),
+                        (Values::Translations(a), Values::Translations(b)) => {
+                            assert_eq!(a[key], b[source])
+                        }
                         _ => panic!("tracks of two kinds"),
                     }
                 }

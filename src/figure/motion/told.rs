@@ -73,7 +73,10 @@ pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mu
     };
     let (omit, hold) = (cut.omissions, cut.holds);
     // What looks right in most motions and is within reach in all but the shortest.
-    let [less, shorter] = [omit.asked.min(4).min(frames / 4), hold.asked.min(frames / 3)];
+    let [less, shorter] = [
+        omit.asked.min(4).min(frames / 4),
+        hold.asked.min(frames / 3),
+    ];
     if omit.shortfall() > 0 {
         tell(
             format!(

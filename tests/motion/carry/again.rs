@@ -104,7 +104,12 @@ fn wherever_the_actor_faces() {
         let clip = clip(file).clip;
         for yaw in [37.0_f64, 90.0, 180.0, -101.0] {
             let turn = DQuat::from_axis_angle(up(&clip), yaw.to_radians());
-            same(file, "yaw", &clip, &Moving::of(&clip).turned(turn).written(1));
+            same(
+                file,
+                "yaw",
+                &clip,
+                &Moving::of(&clip).turned(turn).written(1),
+            );
         }
     }
 }

@@ -42,7 +42,8 @@ fn thighs_face_forward_in_walks() {
                     // Nobody who walks lifts a thigh so high: that clip holds other actions, too.
                     let way = direction(&ready.clip, &pose, &drive).expect("a bone");
                     if angle(way, -body.up) < 60.0 {
-                        let own = placed[index].rotation * (part.node.rotation.inverse() * DVec3::Z);
+                        let own =
+                            placed[index].rotation * (part.node.rotation.inverse() * DVec3::Z);
                         let above = angle(own * dvec3(1.0, 0.0, 1.0), front);
                         worst = [worst[0].max(angle(own, front)), worst[1].max(above)];
                     }
@@ -83,10 +84,12 @@ fn soles(puppet: &Puppet, placed: &[Placed], foot: &[usize]) -> Vec<DVec3> {
 
 /// How long a leg of the clip is, foot not counted.
 fn leg(clip: &Clip, landmarks: &Landmarks) -> f64 {
-    let [thighs, knees, feet] = [landmarks.thighs, landmarks.knees, landmarks.feet].map(|pair| pair.expect("legs"));
+    let [thighs, knees, feet] =
+        [landmarks.thighs, landmarks.knees, landmarks.feet].map(|pair| pair.expect("legs"));
     let pose = clip.pose(0);
     let length = |a: usize, b: usize| pose[a].position.distance(pose[b].position);
-    let legs = [0, 1].map(|side| length(thighs[side], knees[side]) + length(knees[side], feet[side]));
+    let legs =
+        [0, 1].map(|side| length(thighs[side], knees[side]) + length(knees[side], feet[side]));
     (legs[0] + legs[1]) / 2.0
 }
 
@@ -131,7 +134,9 @@ fn standing(clip: &Clip, puppet: &Puppet, landmarks: &Landmarks, carried: &Carri
                 });
         worst[0] = worst[0].max(slide);
         // The one that stands is low and slow in the clip, too.
-        let drive = puppet.parts[feet[still][0]].drive.expect("a foot is driven");
+        let drive = puppet.parts[feet[still][0]]
+            .drive
+            .expect("a foot is driven");
         let point = |frame: usize| {
             let pose = clip.pose(frame);
             let far = end(clip, &pose, drive.tip.expect("it points"));
@@ -141,7 +146,10 @@ fn standing(clip: &Clip, puppet: &Puppet, landmarks: &Landmarks, carried: &Carri
             }
         };
         let speed = point(frame).distance(point(frame - 1)) / clip.frame_time / leg;
-        assert!(speed < 0.6, "frame {frame}: the standing foot moves at {speed} legs a second");
+        assert!(
+            speed < 0.6,
+            "frame {frame}: the standing foot moves at {speed} legs a second"
+        );
     }
     worst
 }
