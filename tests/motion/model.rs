@@ -129,6 +129,10 @@ fn worst(compiled: &Compiled, shot: &Shot, facing: Facing, turn: DQuat) -> f64 {
         .enumerate()
         .map(|(index, node)| (&*node.name, index))
         .collect();
+    let nodes = compiled.scene.nodes.iter().enumerate();
+    let parents: BTreeMap<usize, usize> = nodes
+        .flat_map(|(index, node)| node.children.iter().map(move |child| (*child, index)))
+        .collect();
     let rest = {
         let still = Animation::default();
         world(&compiled.scene, &still, 0)
@@ -152,11 +156,16 @@ fn worst(compiled: &Compiled, shot: &Shot, facing: Facing, turn: DQuat) -> f64 {
             ));
             looked_at += 1;
             if let Some(copy) = names.get(&*format!("{name}.back")) {
-                // A copy is the original in a mirror that stands in the drawing's plane.
-                let mirrored = |way: DVec3| way * DVec3::new(1.0, 1.0, -1.0);
+                // A copy is the original in a mirror: the plane of what both hang on.
+                let mut above = parents[copy];
+                while compiled.scene.nodes[above].name.ends_with(".back") {
+                    above = parents[&above];
+                }
+                let frame = now[above].rotation;
+                let mirrored =
+                    frame.inverse() * (now[node].rotation * own) * DVec3::new(1.0, 1.0, -1.0);
                 let own = rest[*copy].rotation.inverse() * (turn * axis(compiled, driven.part));
-                let due = turn * mirrored(body.drawn(&first, way));
-                worst = worst.max(angle(now[*copy].rotation * own, due));
+                worst = worst.max(angle(now[*copy].rotation * own, frame * mirrored));
             }
         }
     }

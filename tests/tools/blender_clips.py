@@ -7,6 +7,7 @@ file steps and straight (LINEAR) where it does not. A file without clips must ha
 """
 
 import json
+import re
 import struct
 import sys
 
@@ -18,6 +19,8 @@ if "bool" not in vars(numpy):
     numpy.bool = bool
 
 CURVES = {"rotation": ("rotation_quaternion", 4), "translation": ("location", 3)}
+# In a skinned model nodes are bones of one armature.
+BONE = re.compile(r'pose\.bones\["(.*)"\]\.(\w+)')
 INTERPOLATION = {"STEP": "CONSTANT", "LINEAR": "LINEAR"}
 
 
@@ -49,7 +52,9 @@ def clips_of_blender(file):
             for strip in track.strips:
                 for curve in strip.action.fcurves:
                     ways = sorted({point.interpolation for point in curve.keyframe_points})
-                    key = (track.name, thing.name, curve.data_path, curve.array_index)
+                    bone = BONE.fullmatch(curve.data_path)
+                    node, path = bone.groups() if bone else (thing.name, curve.data_path)
+                    key = (track.name, node, path, curve.array_index)
                     found[key] = (len(curve.keyframe_points), " ".join(ways))
     return found
 
