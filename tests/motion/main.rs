@@ -1,4 +1,7 @@
 //! Motion capture from file to figure.
+//!
+//! `cargo test --test motion -- --nocapture` tells how well its laws hold.
+#![allow(clippy::print_stderr, reason = "what was measured is told")]
 
 #[path = "../common/mod.rs"]
 mod common;
