@@ -11,6 +11,12 @@ use super::super::Model;
 /// How far apart parts of one figure may be that hang on nothing, as a share of the larger one's height with all that hangs on it.
 const GAP: f64 = 0.02;
 
+/// How many distances of points from edges are reckoned to see which parts touch. After that their boxes decide.
+const MOST_DISTANCES: usize = 1 << 28;
+
+/// How many parts that touch a part are told; a heap of shapes is no figure.
+const MOST_TOUCHED: usize = 256;
+
 /// A figure.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Group {
@@ -140,21 +146,21 @@ fn touching(model: &Model<'_>, trees: &[Tree]) -> Vec<Vec<usize>> {
     });
     let boxes = RTree::bulk_load(boxes.collect());
     let slack = |tree: &Tree| GAP * (tree.high.y - tree.low.y);
-    let near = |index: usize| -> Vec<usize> {
+    let mut left = MOST_DISTANCES;
+    let mut near = |index: usize| -> Vec<usize> {
         let (own, slack) = (first(&trees[index]), slack(&trees[index]));
         let (low, high) = own.measure.bounds;
         let reach = AABB::from_corners((low - slack).to_array(), (high + slack).to_array());
         let found = boxes.locate_in_envelope_intersecting(reach);
-        let others = found
-            .map(|found| found.data)
-            .filter(|other| *other != index);
-        let mut others: Vec<usize> = others
-            .filter(|other| are_near(own, first(&trees[*other]), slack))
-            .collect();
+        let others = found.map(|found| found.data);
+        let others = others.filter(|other| {
+            *other != index && are_near(own, first(&trees[*other]), slack, &mut left)
+        });
+        let mut others: Vec<usize> = others.take(MOST_TOUCHED).collect();
         others.sort_unstable();
         others
     };
-    let mut all: Vec<Vec<usize>> = (0..trees.len()).map(near).collect();
+    let mut all: Vec<Vec<usize>> = (0..trees.len()).map(&mut near).collect();
     // The larger one's height counts for both.
     for index in 0..trees.len() {
         for other in all[index].clone() {
@@ -166,18 +172,26 @@ fn touching(model: &Model<'_>, trees: &[Tree]) -> Vec<Vec<usize>> {
     all
 }
 
-/// Whether two areas come as near to each other as `gap`.
-fn are_near(a: &Part, b: &Part, gap: f64) -> bool {
+/// Whether two areas come as near to each other as `gap`, if so many distances are left to see that.
+fn are_near(a: &Part, b: &Part, gap: f64, left: &mut usize) -> bool {
+    let count = |part: &Part| -> usize { rings(part).map(<[DVec2]>::len).sum() };
+    let work = count(a).saturating_mul(count(b)).saturating_mul(2);
+    let Some(rest) = left.checked_sub(work) else {
+        return true;
+    };
+    *left = rest;
     let reaches = |from: &Part, to: &Part| {
-        let rings = from
-            .outline
-            .polygons
-            .iter()
-            .flat_map(|polygon| &polygon.rings);
-        let mut points = rings.flatten();
+        let mut points = rings(from).flatten();
         points.any(|point| distance_squared(&to.outline, *point) <= gap * gap)
     };
     reaches(a, b) || reaches(b, a)
+}
+
+fn rings(part: &Part) -> impl Iterator<Item = &[DVec2]> {
+    let polygons = part.outline.polygons.iter();
+    polygons
+        .flat_map(|polygon| &polygon.rings)
+        .map(Vec::as_slice)
 }
 
 fn group(sheet: &Sheet, trees: &[Tree], near: &[Vec<usize>], members: &[usize]) -> Group {

@@ -37,6 +37,9 @@ use tracks::Shown;
 /// The most keys of all clips of a drawing: frames × parts.
 const MOST_KEYS: usize = 1 << 26;
 
+/// The most figures that are looked at, once for each motion that is meant for them.
+const MOST_CASTS: usize = 1 << 18;
+
 /// A clip carried over, with the figure and the clip.
 type KeptCarried = Kept<(Puppet, Same<Prepared>), Arc<Carried>>;
 /// A clip cut, with how many drawings were to be omitted and how many frames held.
@@ -124,13 +127,19 @@ pub(super) fn perform(
         shots: Vec::new(),
     };
     let mut stock = Stock::new(before.clips);
-    let mut keys = 0_usize;
+    let (mut keys, mut casts) = (0_usize, 0_usize);
     for wish in wishes {
         let Some(clip) = stock.get(wish.file, wish.span, resolver, diagnostics) else {
             continue;
         };
         let mut is_played = false;
         for group in groups.iter().filter(|group| group.hears(wish.part)) {
+            casts += 1;
+            if casts > MOST_CASTS {
+                diagnostics.push(told::too_many_casts(wish.span));
+                is_played = true;
+                break;
+            }
             let Some(role) = theatre.cast(group, &clip) else {
                 continue;
             };

@@ -13,8 +13,8 @@ use crate::motion::skeleton::Skeleton;
 use crate::source::Span;
 
 use super::super::Model;
-use super::MOST_KEYS;
 use super::cast::Group;
+use super::{MOST_CASTS, MOST_KEYS};
 
 /// A file that cannot be read, or not to its end: so many frames were.
 pub(super) fn broken_file(link: &str, error: &bvh::Error, frames: usize, span: Span) -> Diagnostic {
@@ -45,6 +45,13 @@ pub(super) fn too_many_keys(span: Span) -> Diagnostic {
     );
     let help =
         "use shorter motions; `okoshi motion IN.bvh -o OUT.bvh --range 1:240` cuts a part out";
+    Diagnostic::new(Code::LimitPassed, span, message).help(help)
+}
+
+/// A drawing with too many figures and motions.
+pub(super) fn too_many_casts(span: Span) -> Diagnostic {
+    let message = format!("motions meet figures more than {MOST_CASTS} times");
+    let help = "write `Motion` into the strings of those figures that are to move, and not into a `%` string";
     Diagnostic::new(Code::LimitPassed, span, message).help(help)
 }
 
