@@ -1,0 +1,51 @@
+#!/usr/bin/env bash
+# Makes the pictures of docs/motion.md from the drawings in examples/motion/: bash tests/tools/motion_pictures.sh [NAME…]
+#
+# NAME is that of a drawing there, without its ending. Strips are of the clip as it is drawn (NAME-limited.png) and in full
+# (NAME-full.png); some drawings have one of the two only, NAME.png. Takes okoshi and Python's Pillow. OKOSHI names a binary to use
+# instead of building one.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+room=$(mktemp -d)
+trap 'rm -rf "$room"' EXIT
+okoshi=${OKOSHI:-target/release/okoshi}
+[ -n "${OKOSHI:-}" ] || cargo build --release --quiet
+okoshi=$(realpath "$okoshi")
+cp examples/motion/* "$room"
+mkdir "$room/full"
+cp "$room"/*.bvh "$room/full"
+for drawing in "$room"/*.svg; do
+  sed -E 's/ ?Limited [0-9]+ [0-9]+//' "$drawing" > "$room/full/$(basename "$drawing")"
+done
+wanted="$*"
+want() { [ -z "$wanted" ] || [[ " $wanted " == *" $1 "* ]]; }
+# strip DRAWING OUT VIEW FROM TO SIZE CELLS
+strip() {
+  "$okoshi" render --quiet "$1" -o "$2" --clip 1 --view="$3" --from "$4" --to "$5" --size "$6" --strip "$7" --background '#ffffff'
+  python3 -c "
+import sys
+from PIL import Image
+Image.open(sys.argv[1]).convert('RGB').quantize(128).save(sys.argv[1], optimize=True)" "$2"
+}
+pair() {
+  want "$1" || return 0
+  strip "$room/full/$1.svg" "docs/motion/$1-full.png" "${@:2}"
+  strip "$room/$1.svg" "docs/motion/$1-limited.png" "${@:2}"
+}
+single() {
+  want "$1" || return 0
+  strip "$room/$1.svg" "docs/motion/$2.png" "${@:3}"
+}
+# A walk has no fast part to leave out.
+sed -i 's/Motion "walk.bvh" "walk"/& Limited 0 24/' "$room/dog.svg"
+pair kick -75,8 1.01 1.594 200x240 8
+pair boxer 0,8 1.25 1.6 200x240 8
+pair ant 40,8 2.0 2.35 200x240 8
+pair dog 8,8 0 1.25 220x160 8
+single beetle beetle 8,12 0 1.25 200x130 8
+single robot-ja robot 40,8 2.0 2.35 200x240 8
+single stick stick -75,8 1.01 1.594 200x240 8
+if want kick; then
+  "$okoshi" render --quiet "$room/kick.svg" -o docs/motion/kick.gif --clip kick --view=-60,8 --size 260x240 --background '#ffffff'
+  "$okoshi" motion --quiet "$room/kick.bvh" -o docs/motion/kick.svg
+fi
