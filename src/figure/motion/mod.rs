@@ -35,7 +35,7 @@ pub use shot::{Driven, Shot, originals};
 use tracks::Shown;
 
 /// The most keys of all clips of a drawing: frames × parts.
-const MOST_KEYS: usize = 1 << 26;
+const MOST_KEYS: usize = 1 << 24;
 
 /// The most figures that are looked at, once for each motion that is meant for them.
 const MOST_CASTS: usize = 1 << 18;

@@ -35,7 +35,7 @@ impl Header {
                 .filter(|word| !matches!(word.text, b"{" | b"}"))
             else {
                 let message = format!("OFFSET has {axis} numbers, but it takes 3");
-                return Err(line.error(words.at(), message, "Write OFFSET with x, y and z."));
+                return Err(line.error(words.at(), message, "write OFFSET with x, y and z"));
             };
             words.next();
             offset[axis] = whole(word.text).ok_or_else(|| {
@@ -78,7 +78,7 @@ impl Header {
             count.and_then(|word| std::str::from_utf8(word.text).ok()?.parse::<usize>().ok());
         let Some(stated) = stated else {
             let at = count.map_or(words.at(), |word| word.at);
-            let help = "Behind CHANNELS comes how many there are, and then their names.";
+            let help = "behind CHANNELS comes how many there are, and then their names";
             return Err(line.error(at, "CHANNELS has no count".to_owned(), help));
         };
         let mut channels = Vec::new();
@@ -90,7 +90,7 @@ impl Header {
             let known = CHANNELS.iter().find(|(name, _)| word.is(name));
             let Some((_, channel)) = known else {
                 let message = format!("{} is no channel", quoted(word.text));
-                let help = "The channels are Xposition, Yposition, Zposition, Xrotation, Yrotation and Zrotation.";
+                let help = "the channels are Xposition, Yposition, Zposition, Xrotation, Yrotation and Zrotation";
                 return Err(line.error(word.at, message, help));
             };
             channels.push(*channel);
@@ -98,7 +98,7 @@ impl Header {
         if channels.len() != stated {
             let message = format!("CHANNELS says {stated}, but {} follow", channels.len());
             let help =
-                "Put the count right, or the names back; a frame has one number for each of them.";
+                "put the count right, or the names back; a frame has one number for each of them";
             return Err(line.error(count.map_or(keyword.at, |word| word.at), message, help));
         }
         self.set_channels(line, keyword, channels, notes)
@@ -121,7 +121,7 @@ impl Header {
             if channels.is_empty() {
                 return Ok(());
             }
-            let help = "Only joints have channels; make it a JOINT, or take the line out.";
+            let help = "only joints have channels; make it a JOINT, or take the line out";
             return Err(line.error(keyword.at, "CHANNELS in an `End Site`".to_owned(), help));
         }
         if open.channels {

@@ -100,7 +100,7 @@ impl Header {
             } else if word.is("end") {
                 words.until_brace();
                 if self.open.last().is_none_or(|open| open.end) {
-                    let help = "`End Site` stands in the braces of the joint that it ends.";
+                    let help = "`End Site` stands in the braces of the joint that it ends";
                     return Err(line.error(
                         word.at,
                         "`End Site` is not within a joint".to_owned(),
@@ -147,7 +147,7 @@ impl Header {
             quoted(word.text)
         );
         Err(if wide {
-            let help = "Save the file as UTF-8, or plain ASCII.";
+            let help = "save the file as UTF-8, or plain ASCII";
             line.error(
                 word.at,
                 "the text is UTF-16, which BVH is not written in".to_owned(),
@@ -157,7 +157,7 @@ impl Header {
             line.error(
                 word.at,
                 message,
-                "Is this a BVH file, and is its beginning there?",
+                "look whether this is a BVH file, and whether its beginning is there",
             )
         })
     }
@@ -207,7 +207,7 @@ impl Header {
                 "`{{` is missing behind {what}, before {}",
                 quoted(word.text)
             );
-            return Err(line.error(word.at, message, "Put the `{` back on a line of its own."));
+            return Err(line.error(word.at, message, "put the `{` back on a line of its own"));
         }
         words.next();
         let above = self.open.last().map(|open| open.joint);
@@ -257,7 +257,7 @@ impl Header {
 
     fn close(&mut self, line: Line<'_>, word: Word<'_>, notes: &mut Notes) -> Result<(), Error> {
         let Some(open) = self.open.pop() else {
-            let help = "There are more `}` than `{` before this place: one of them is doubled, or a `{` or a joint is missing.";
+            let help = "there are more `}` than `{` before this place: one of them is doubled, or a `{` or a joint is missing";
             return Err(line.error(word.at, "`}` closes nothing".to_owned(), help));
         };
         let Some(joint) = self.skeleton.joints.get_mut(open.joint) else {
@@ -298,11 +298,11 @@ impl Header {
                 .map_or("", |joint| &joint.name);
             let name = quoted(name.as_bytes());
             let message = format!("MOTION, but {name} of line {} is still open", open.line);
-            let help = "A `}` is missing somewhere before this place; which joint hangs on which cannot be told without it.";
+            let help = "a `}` is missing somewhere before this place; which joint hangs on which cannot be told without it";
             return Err(line.error(word.at, message, help));
         }
         if self.skeleton.joints.is_empty() {
-            let help = "Look whether the hierarchy is in the file.";
+            let help = "look whether the hierarchy is in the file";
             return Err(line.error(word.at, "MOTION, but there is no joint".to_owned(), help));
         }
         Ok(())
@@ -314,13 +314,13 @@ pub(super) fn limit(line: Line<'_>, word: Word<'_>, what: &str, most: usize) -> 
     line.error(
         word.at,
         message,
-        "No figure needs so many: look whether the file is damaged.",
+        "no figure needs so many: look whether the file is damaged",
     )
 }
 
 pub(super) fn unexpected(line: Line<'_>, word: Word<'_>) -> Error {
     let message = format!("{} is not expected here", quoted(word.text));
-    let help = "A hierarchy is made of ROOT, JOINT and End Site, each with `{`, OFFSET, CHANNELS and `}`, and ends with MOTION.";
+    let help = "a hierarchy is made of ROOT, JOINT and End Site, each with `{`, OFFSET, CHANNELS and `}`, and ends with MOTION";
     line.error(word.at, message, help)
 }
 
@@ -328,7 +328,7 @@ fn joint_name(line: Line<'_>, word: Word<'_>, notes: &mut Notes) -> Result<Strin
     if word.text.len() > LONGEST_NAME {
         let message =
             format!("the joint's name is longer than {LONGEST_NAME} bytes, which is the limit");
-        return Err(line.error(word.at, message, "Look whether a line end is missing."));
+        return Err(line.error(word.at, message, "look whether a line end is missing"));
     }
     let name: String = match std::str::from_utf8(word.text) {
         Ok(name) => name.to_owned(),

@@ -76,21 +76,21 @@ pub(super) fn explain(word: &[u8]) -> (String, &'static str) {
         .or(lower.strip_prefix(b"+"))
         .unwrap_or(&lower);
     if bare.starts_with(b"nan") || bare.starts_with(b"inf") || bare.starts_with(b"1.#") {
-        let help = "The program that wrote the file lost this joint here: mend the frame there, or cut the frames with `nan` and `inf` out.";
+        let help = "the program that wrote the file lost this joint here: mend the frame there, or cut the frames with `nan` and `inf` out";
         return (format!("{shown} is no finite number"), help);
     }
     if word.contains(&b',') {
-        let help = "Decimals are marked by a point and numbers are separated by spaces: set the program that wrote the file to such numbers, or replace its commas.";
+        let help = "decimals are marked by a point and numbers are separated by spaces: set the program that wrote the file to such numbers, or replace its commas";
         return (format!("{shown} has a comma"), help);
     }
     if std::str::from_utf8(word).is_ok_and(|word| word.parse::<f64>().is_ok()) {
-        let help = "No joint is so far away or turns so often: the number is damaged.";
+        let help = "no joint is so far away or turns so often: the number is damaged";
         return (
             format!("{shown} is too large: the limit is {LARGEST:e}"),
             help,
         );
     }
-    let help = "A number was expected here. Look whether a line is cut, or doubled into another.";
+    let help = "a number was expected here; look whether a line is cut, or doubled into another";
     (format!("{shown} is not a number"), help)
 }
 

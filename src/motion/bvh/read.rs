@@ -65,7 +65,7 @@ pub fn read(input: impl Read) -> Result<Reading, Error> {
             line: last[0],
             column: last[1],
             message: format!("the file ends before the first of {stated} frames"),
-            help: "The file was cut off here.".to_owned(),
+            help: "the file was cut off here".to_owned(),
             partial: None,
         }),
         Some(stated) if stated != rows.frames() => {
@@ -113,7 +113,7 @@ fn hierarchy<R: Read>(
         line: last[0],
         column: last[1],
         message: "the file ends before MOTION".to_owned(),
-        help: "The file was cut off here, or is empty.".to_owned(),
+        help: "the file was cut off here, or is empty".to_owned(),
         partial: None,
     })
 }

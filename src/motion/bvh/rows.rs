@@ -110,7 +110,7 @@ impl Rows {
             if self.values.len() > MOST_NUMBERS {
                 let message =
                     format!("the clip has more than {MOST_NUMBERS} numbers, which is the limit");
-                return Err(self.error(before, b"", 0, message, "Cut the clip into shorter ones."));
+                return Err(self.error(before, b"", 0, message, "cut the clip into shorter ones"));
             }
             if let Some(bad) = &piece.bad {
                 let line = before + bad.line;
@@ -283,12 +283,12 @@ impl Rows {
                 let more = if self.breaks.len() > 8 { ", …" } else { "" };
                 let breaks = breaks.join(", ");
                 format!(
-                    "The first frame is broken into lines of {breaks}{more} numbers, so the others have to be too; best is one line a frame."
+                    "the first frame is broken into lines of {breaks}{more} numbers, so the others have to be too; best is one line a frame"
                 )
             }
             (false, true) => CUT.to_owned(),
             (false, false) => {
-                "Look whether the ends of two lines were lost, or a joint of the hierarchy."
+                "look whether the ends of two lines were lost, or a joint of the hierarchy"
                     .to_owned()
             }
         };
@@ -303,7 +303,7 @@ impl Rows {
 
 /// What to do about a frame that is too short.
 const CUT: &str =
-    "The file was cut off here, or a line was broken. The frames before this one are whole.";
+    "the file was cut off here, or a line was broken; the frames before this one are whole";
 
 /// What is wrong with a line.
 enum Wrong {

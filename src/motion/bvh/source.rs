@@ -67,7 +67,7 @@ impl<R: Read> Source<R> {
                         b"",
                         0,
                         message,
-                        "Look whether the disk or the connection is there.",
+                        "look whether the disk or the connection is there",
                     ));
                 }
             }

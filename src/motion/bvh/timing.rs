@@ -58,7 +58,7 @@ impl Timing {
                 return Ok(Next::Frames);
             } else {
                 let message = format!("{} is not expected here", quoted(word.text));
-                let help = "After MOTION come `Frames:`, `Frame Time:`, and then the frames, each on a line of its own.";
+                let help = "after MOTION come `Frames:`, `Frame Time:`, and then the frames, each on a line of its own";
                 return Err(Error::at(number, text, word.at, message, help));
             }
             first = false;
