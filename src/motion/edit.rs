@@ -49,7 +49,8 @@ pub struct Edited {
     pub drawn: Option<Drawn>,
     /// The clip's world, turned so that it stands upright and faces +z.
     pub to_model: DQuat,
-    /// Where the joints are: frames × joints, the file's unit, upright.
+    is_resampled: bool,
+    /// Where the joints are: frames × joints, the file's unit; upright where a camera looks.
     positions: Vec<DVec3>,
     /// The same as it counts for what is fast and slow.
     seen: Option<Vec<DVec3>>,
@@ -68,6 +69,7 @@ pub fn edit(
     let Ready {
         clip,
         mut positions,
+        is_resampled,
         anatomy,
         notes,
     } = ready::ready(clip, options)?;
@@ -87,6 +89,7 @@ pub fn edit(
         anatomy,
         notes,
         to_model,
+        is_resampled,
         positions,
         seen,
     };
@@ -193,7 +196,7 @@ impl Edited {
         })
     }
 
-    /// Writes the clip as it is shown, as BVH.
+    /// Writes the clip as it is shown, as BVH: frames that were not resampled with the very numbers that were read.
     ///
     /// # Errors
     /// What the output answers.
@@ -201,9 +204,13 @@ impl Edited {
         &self,
         out: &mut (impl std::io::Write + Send + ?Sized),
     ) -> std::io::Result<()> {
+        let decimals = match self.is_resampled {
+            true => Decimals::Six,
+            false => Decimals::All,
+        };
         match &self.exposure {
-            Some(sheet) => bvh::write_shown(&self.clip, sheet.sources(), Decimals::Six, out),
-            None => bvh::write(&self.clip, Decimals::Six, out),
+            Some(sheet) => bvh::write_shown(&self.clip, sheet.sources(), decimals, out),
+            None => bvh::write(&self.clip, decimals, out),
         }
     }
 }

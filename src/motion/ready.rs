@@ -48,6 +48,8 @@ pub struct Ready {
     pub clip: Clip,
     /// Where its joints are: frames × joints, the file's unit.
     pub positions: Vec<DVec3>,
+    /// Whether its numbers are others than in the file, since its rate was.
+    pub is_resampled: bool,
     /// What its joints are.
     pub anatomy: Anatomy,
     /// What was done to it that people should know of.
@@ -74,8 +76,9 @@ pub fn ready(clip: Clip, options: &Options) -> Result<Ready, Error> {
     positions.drain(..first * joints);
     let (frames, step) = (clip.frames(), clip.frame_time);
     let mut clip = resample::resample(clip, options.fps)?;
+    let is_resampled = (clip.frames(), clip.frame_time) != (frames, step);
     // What stayed as it was has the positions that it had.
-    if (clip.frames(), clip.frame_time) != (frames, step) {
+    if is_resampled {
         positions = clip.positions();
     }
     if let Some(range) = options.range {
@@ -86,6 +89,7 @@ pub fn ready(clip: Clip, options: &Options) -> Result<Ready, Error> {
     Ok(Ready {
         clip,
         positions,
+        is_resampled,
         anatomy,
         notes,
     })

@@ -8,10 +8,12 @@ use std::path::Path;
 
 use glam::{DVec3, dvec3};
 use okoshi::motion::bvh;
+use okoshi::motion::edit::{How, edit};
 use okoshi::motion::limited::{
     Camera, Cut, Drawing, Exposure, Length, MOST_GATHERED, Method, Options, compare, error, every,
     limit, speeds, ssd,
 };
+use okoshi::motion::ready;
 use plain_limited::{Plain, plain};
 
 /// Numbers that look random and are the same everywhere.
@@ -170,6 +172,30 @@ fn real_motions_are_cut_as_the_plain_code_does() {
                 assert!(cut.exposure.len() <= clip.frames(), "{file}");
             }
         }
+    }
+}
+
+#[test]
+fn frames_that_are_shown_keep_their_numbers() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/motion/zombie-walk.bvh");
+    let clip = bvh::read(File::open(path).expect("a file"))
+        .expect("a motion")
+        .clip;
+    let how = How::Limited {
+        omit: Some(3),
+        hold: Some(8),
+        length: Length::Kept,
+    };
+    let edited = edit(clip.clone(), &ready::Options::default(), how, None).expect("a rate");
+    let mut text = Vec::new();
+    edited
+        .write_bvh(&mut text)
+        .expect("memory takes everything");
+    let again = bvh::read_bytes(&text).expect("a motion").clip;
+    let sheet = edited.exposure.expect("it was cut");
+    assert_eq!(again.frames(), clip.frames());
+    for (frame, source) in sheet.sources().iter().enumerate() {
+        assert_eq!(again.row(frame), clip.row(*source as usize), "{frame}");
     }
 }
 
