@@ -50,6 +50,8 @@ step() { # NAME FUNCTION
 
 formatting() { cargo fmt --check; }
 lints() { cargo clippy --locked --all-targets -- -D warnings; }
+# With the tests, for what is built alone has other features of some libraries, and all would be built once more.
+program() { cargo build --locked --bins --tests; }
 tests() { cargo test --locked; }
 manual() { RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps; }
 
@@ -62,7 +64,7 @@ licences() {
 }
 
 examples() {
-  cargo build --locked
+  program
   rm -rf "$models"
   mkdir -p "$models"
   local drawing name
@@ -134,19 +136,19 @@ gallery() {
 
 readme() {
   [ -f README.md ] || skip "there is no README.md"
-  cargo build --locked
+  program
   bash tests/readme.sh "$(realpath "$okoshi")"
 }
 
 extension() {
   need npm
-  cargo build --locked
+  program
   OKOSHI=$(realpath "$okoshi") npm test --prefix editors/vscode
 }
 
 page() {
   need npm
-  cargo build --locked
+  program
   OKOSHI=$(realpath "$okoshi") npm test --prefix editors/web
 }
 
@@ -159,7 +161,7 @@ editors() {
     install "Neovim, Emacs or its Eglot" neovim emacs-nox python3-venv
     has_eglot || install "Emacs' Eglot" elpa-eglot
   fi
-  cargo build --locked
+  program
   OKOSHI=$(realpath "$okoshi") SCRATCH=$target/editors bash $tools/editors.sh
 }
 
@@ -170,7 +172,7 @@ inkscape_extension() {
     install "Inkscape or the tools that drive it" inkscape python3-cssselect python3-lxml python3-numpy xvfb openbox xdotool \
       imagemagick curl
   fi
-  cargo build --locked
+  program
   local status=0
   OKOSHI=$(realpath "$okoshi") SCRATCH=$target/inkscape bash $tools/inkscape.sh || status=$?
   [ $status != 77 ] || skip "Inkscape cannot run its extensions here"
