@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3, Vec3};
 
+use super::carry::continuous;
 use super::limited::Exposure;
 use super::skeleton::{Channel, Clip, Placed};
 use crate::scene::{
@@ -145,15 +146,9 @@ fn animation(
         let local = keys
             .iter()
             .map(|[_, frame]| Clip::local(joint, &clip.row(*frame)[numbers.clone()]));
-        let (mut turns, mut places) = (Vec::new(), Vec::new());
-        for local in local {
-            let rotation = turn * local.rotation;
-            let back = turns
-                .last()
-                .is_some_and(|before: &DQuat| before.dot(rotation) < 0.0);
-            turns.push(if back { -rotation } else { rotation });
-            places.push(turn * local.position * scale);
-        }
+        let (turns, places): (Vec<DQuat>, Vec<DVec3>) = local
+            .map(|local| (turn * local.rotation, turn * local.position * scale))
+            .unzip();
         let moves = joint
             .channels
             .iter()
@@ -168,7 +163,7 @@ fn animation(
         if moves {
             add(Values::Translations(places));
         }
-        add(Values::Rotations(turns));
+        add(Values::Rotations(continuous(turns)));
     }
     animation
 }
