@@ -110,7 +110,7 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
         || arguments.hold.is_some()
         || arguments.every.is_some()
         || arguments.drawings.is_some();
-    if count > 0 || cuts {
+    if !common.quiet && (count > 0 || cuts) {
         told.push_str(&report(&edited, arguments));
     }
     if !common.quiet {
@@ -272,7 +272,8 @@ fn report(edited: &Edited, arguments: &Motion) -> String {
         frames(shown)
     );
     let compares = arguments.compare || arguments.every.is_some() || arguments.drawings.is_some();
-    match edited.compared().filter(|_| compares) {
+    let methods = if compares { edited.compared() } else { None };
+    match methods {
         Some(methods) => {
             for (method, error) in methods {
                 let name = match method {

@@ -9,7 +9,7 @@ use super::labels::Anatomy;
 use super::limited::{self, Camera, Cut, Drawn, Error, Exposure, Length, Method};
 use super::ready::{self, Ready};
 use super::resample;
-use super::skeleton::Clip;
+use super::skeleton::{Clip, height};
 
 /// How a motion is cut.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -158,15 +158,10 @@ impl Edited {
     fn height(&self) -> f64 {
         let joints = self.clip.skeleton.joints.len();
         let upright = |position: &DVec3| match self.seen {
-            Some(_) => position.y,
-            None => (self.to_model * *position).y,
+            Some(_) => *position,
+            None => self.to_model * *position,
         };
-        let heights = self.positions.iter().take(joints).map(upright);
-        let (low, high) = heights
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
-                (low.min(height), high.max(height))
-            });
-        (high - low).max(0.0)
+        height(self.positions.iter().take(joints).map(upright))
     }
 
     /// A chart of how fast the motion is, and of what was omitted and held.

@@ -51,11 +51,6 @@ impl Axis {
     pub fn index(self) -> usize {
         self as usize
     }
-
-    /// The unit vector along it.
-    pub fn vector(self) -> DVec3 {
-        DVec3::AXES[self.index()]
-    }
 }
 
 impl Skeleton {
@@ -112,6 +107,15 @@ pub struct Placed {
     pub rotation: DQuat,
     /// Where it stands, in the file's unit.
     pub position: DVec3,
+}
+
+/// How far points reach from the lowest to the highest, along y; 0 without points.
+pub(super) fn height(points: impl Iterator<Item = DVec3>) -> f64 {
+    let none = (f64::INFINITY, f64::NEG_INFINITY);
+    let (low, high) = points.fold(none, |(low, high), point| {
+        (low.min(point.y), high.max(point.y))
+    });
+    (high - low).max(0.0)
 }
 
 /// A motion: frames of a skeleton at even steps of time.

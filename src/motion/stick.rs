@@ -6,7 +6,7 @@ use glam::{DQuat, DVec3, Vec3};
 
 use super::carry::continuous;
 use super::limited::Exposure;
-use super::skeleton::{Channel, Clip, Placed};
+use super::skeleton::{Channel, Clip, Placed, height};
 use crate::scene::{
     Animation, Interpolation, Material, Mesh, Node, Piece, Primitive, Scene, Surface, Timing,
     Track, Values,
@@ -82,11 +82,7 @@ pub fn stick_figure(
 
 /// Metres a unit of the file.
 fn scale(pose: &[Placed], to_model: DQuat) -> f64 {
-    let heights = pose.iter().map(|placed| (to_model * placed.position).y);
-    let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
-        (low.min(height), high.max(height))
-    });
-    match high - low {
+    match height(pose.iter().map(|placed| to_model * placed.position)) {
         height if height > 0.0 && height.is_finite() => HEIGHT / height,
         _ => 1.0,
     }

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::axes::{Axes, Landmarks};
 use super::turn::Turns;
-use super::{Drive, Poses, Puppet, reach};
+use super::{Drive, Poses, Puppet};
 use crate::motion::skeleton::{Clip, Placed};
 
 /// A foot is in contact below this height over its lowest, in leg lengths …
@@ -227,7 +227,9 @@ impl Walk {
 /// The point of a clip's foot that touches the ground: the middle of a foot, the end of a leg without one.
 fn foot_point(clip: &Clip, pose: &[Placed], landmarks: &Landmarks, drive: &Drive) -> DVec3 {
     let joint = pose[drive.joint].position;
-    let tip = drive.tip.map_or(joint, |tip| reach(tip, clip, pose));
+    let tip = drive
+        .tip
+        .map_or(joint, |tip| tip.place(&clip.skeleton, pose));
     match is_foot(landmarks, drive) {
         true => (joint + tip) / 2.0,
         false => tip,

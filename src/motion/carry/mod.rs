@@ -58,17 +58,6 @@ pub struct Drive {
     pub is_leg: bool,
 }
 
-/// Where the far end of a chain is in a pose.
-fn reach(tip: Tip, clip: &Clip, pose: &[Placed]) -> DVec3 {
-    match tip {
-        Tip::Joint(joint) => pose[joint].position,
-        Tip::End { joint, end } => {
-            let placed = pose[joint];
-            placed.rotation * clip.skeleton.joints[joint].ends[end] + placed.position
-        }
-    }
-}
-
 /// A motion of a puppet, frame by frame.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Carried {

@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::axes::{Axes, Landmarks};
-use super::{Poses, Puppet, reach};
+use super::{Poses, Puppet};
 use crate::motion::matching::Follow;
 use crate::motion::skeleton::{Clip, Placed};
 
@@ -99,7 +99,7 @@ fn nearest(
                 continue;
             };
             let Some(tip) = drive.tip else { continue };
-            let bone = reach(tip, clip, pose) - pose[drive.joint].position;
+            let bone = tip.place(&clip.skeleton, pose) - pose[drive.joint].position;
             let drawn = part.tip - part.joint;
             let angle = match bone.length_squared() > 0.0 && drawn.length_squared() > 0.0 {
                 true => (to_drawing * bone).angle_between(drawn),

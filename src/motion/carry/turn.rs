@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::axes::Axes;
 use super::rest::RestPose;
-use super::{Drive, Poses, Puppet, reach};
+use super::{Drive, Poses, Puppet};
 use crate::motion::matching::Follow;
 use crate::motion::skeleton::{Clip, Placed};
 
@@ -126,7 +126,7 @@ impl Turner {
 
 /// The direction of a chain in a pose; `None` where it has no length.
 fn direction(clip: &Clip, drive: &Drive, pose: &[Placed]) -> Option<DVec3> {
-    let tip = reach(drive.tip?, clip, pose);
+    let tip = drive.tip?.place(&clip.skeleton, pose);
     (tip - pose[drive.joint].position).try_normalize()
 }
 

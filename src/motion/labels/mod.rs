@@ -19,6 +19,10 @@ mod words;
 #[cfg(test)]
 pub(crate) mod tests;
 
+use glam::DVec3;
+
+use super::skeleton::{Placed, Skeleton};
+
 pub(crate) use figure::label_facing;
 pub use figure::label_figure;
 pub use skeleton::{Anatomy, Limb, label_clip, label_skeleton};
@@ -200,4 +204,17 @@ pub enum Tip {
         /// Its index in [`Joint::ends`](super::skeleton::Joint::ends).
         end: usize,
     },
+}
+
+impl Tip {
+    /// Where it is in a pose of the skeleton.
+    pub(crate) fn place(self, skeleton: &Skeleton, pose: &[Placed]) -> DVec3 {
+        match self {
+            Self::Joint(joint) => pose[joint].position,
+            Self::End { joint, end } => {
+                let placed = pose[joint];
+                placed.rotation * skeleton.joints[joint].ends[end] + placed.position
+            }
+        }
+    }
 }

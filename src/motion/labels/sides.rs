@@ -79,13 +79,8 @@ impl Sides<'_> {
     fn foot(&self, leg: &Found, pose: &[Placed]) -> Option<DVec3> {
         let [hip, ankle] = [leg.upper?, leg.end?];
         let last = self.tree.chain(ankle).last()?;
-        let toes = match self.tree.own_end(last) {
-            Some(Tip::End { joint, end }) => {
-                let placed = pose[joint];
-                placed.rotation * self.skeleton.joints[joint].ends[end] + placed.position
-            }
-            _ => pose[last].position,
-        };
+        let toes = self.tree.own_end(last).unwrap_or(Tip::Joint(last));
+        let toes = toes.place(self.skeleton, pose);
         let length = pose[ankle].position.distance(pose[hip].position);
         let foot = (toes - pose[ankle].position) / length;
         foot.is_finite().then(|| foot.clamp_length_max(1.0))
