@@ -73,7 +73,7 @@ fn measure(parts: usize) {
     });
     let compiled = compile(&drawing, &Options::default(), &MemoryResolver::default());
     let found_area: f64 = compiled
-        .sheet
+        .bindings
         .parts
         .iter()
         .map(|part| area(&part.outline))

@@ -288,14 +288,14 @@ fn told(compiled: &Compiled) -> String {
         "{:#?}\n{:#?}\n{:#?}\n{:#?}",
         compiled.diagnostics,
         compiled.dependencies,
-        compiled.sheet.strings,
+        compiled.bindings.strings,
         compiled.drawing.labels
     )
 }
 
 /// All of a compiled drawing, in one line.
 fn all(compiled: &Compiled) -> String {
-    format!("{:?}\n{:?}", compiled.sheet, compiled.drawing)
+    format!("{:?}\n{:?}", compiled.bindings, compiled.drawing)
 }
 
 /// The model, with what is remembered of the ones before.

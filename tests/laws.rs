@@ -617,7 +617,7 @@ fn thousands_of_strings_at_one_point() {
     let compiled = survived(&svg(&format!("{shapes}{texts}")));
     assert!(
         compiled
-            .sheet
+            .bindings
             .parts
             .iter()
             .all(|part| part.string.is_some())

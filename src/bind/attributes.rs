@@ -3,7 +3,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::sheet::{PartKind, Sheet};
+use super::bindings::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::{Holder, Keyword};
 use crate::lang::value::{Setting, Shape, ShapeKind, Value};
@@ -87,7 +87,7 @@ pub struct Look {
     pub emissive: [f64; 3],
 }
 
-impl Sheet {
+impl Bindings {
     /// What a part's attribute is set to, and by whom; `None` leaves the built-in default.
     pub fn setting(&self, index: usize, keyword: Keyword) -> Option<Source<'_>> {
         let part = &self.parts[index];
@@ -224,31 +224,35 @@ impl Sheet {
 }
 
 /// Merges the legends by paint and gives them to the parts of that paint.
-pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
+pub(super) fn legends(
+    drawing: &Drawing,
+    bindings: &mut Bindings,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
     let mut by_paint: FxHashMap<&PaintKey, usize> = FxHashMap::default();
-    for part in sheet
+    for part in bindings
         .parts
         .iter()
         .filter(|part| part.kind == PartKind::Legend && part.is_candidate())
     {
         let Some(string) = part.string else { continue };
         let paint = &part.paint(drawing).key;
-        let settings = sheet.strings[string]
+        let settings = bindings.strings[string]
             .settings
             .iter()
             .map(|setting| (string, setting.clone()));
         if let Some(legend) = by_paint.get(paint) {
-            let first = sheet.legends[*legend].string;
+            let first = bindings.legends[*legend].string;
             diagnostics.push(
                 Diagnostic::new(
                     Code::TwoLegends,
-                    sheet.strings[string].text.whole(),
+                    bindings.strings[string].text.whole(),
                     "this legend's paint has a legend already; where both say something, this one wins",
                 )
-                .related(sheet.strings[first].text.whole(), "the other legend")
+                .related(bindings.strings[first].text.whole(), "the other legend")
                 .help("give the swatch another colour, or put both strings into one"),
             );
-            let legend: &mut Legend = &mut sheet.legends[*legend];
+            let legend: &mut Legend = &mut bindings.legends[*legend];
             for (string, setting) in settings {
                 legend
                     .settings
@@ -257,8 +261,8 @@ pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Ve
             }
             continue;
         }
-        by_paint.insert(paint, sheet.legends.len());
-        sheet.legends.push(Legend {
+        by_paint.insert(paint, bindings.legends.len());
+        bindings.legends.push(Legend {
             paint: paint.clone(),
             settings: settings.collect(),
             swatch: part.shape,
@@ -266,25 +270,25 @@ pub(super) fn legends(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Ve
             is_used: false,
         });
     }
-    for part in &mut sheet.parts {
+    for part in &mut bindings.parts {
         let is_tile = part.kind == PartKind::Tile;
         if (is_tile || matches!(part.kind, PartKind::Main | PartKind::Sub))
             && let Some(index) = by_paint.get(&part.paint(drawing).key)
         {
             part.legend = Some(*index);
-            let legend = &mut sheet.legends[*index];
+            let legend = &mut bindings.legends[*index];
             // What a legend says of tiles is of no use to parts.
             legend.is_used |= is_tile || legend.says(Keyword::Tile).is_none();
         }
     }
     let shapes = 0..drawing.shapes.len();
-    let mut pictures = shapes.filter(|shape| sheet.is_picture_of_tiles(drawing, *shape));
+    let mut pictures = shapes.filter(|shape| bindings.is_picture_of_tiles(drawing, *shape));
     let has_maps = pictures.next().is_some();
-    for legend in &sheet.legends {
+    for legend in &bindings.legends {
         // Pictures are looked through where they are read.
         let may_be_used = has_maps && matches!(legend.paint, PaintKey::Solid(_));
         if !legend.is_used && !may_be_used {
-            diagnostics.push(legend.unused(drawing, sheet));
+            diagnostics.push(legend.unused(drawing, bindings));
         }
     }
 }
@@ -302,7 +306,7 @@ impl Legend {
     }
 
     /// Says that nothing has the legend's paint.
-    pub fn unused(&self, drawing: &Drawing, sheet: &Sheet) -> Diagnostic {
+    pub fn unused(&self, drawing: &Drawing, bindings: &Bindings) -> Diagnostic {
         let swatch = &drawing.shapes[self.swatch].element;
         let (what, whence) = match self.says(Keyword::Tile) {
             Some(_) => ("tile", "tiles"),
@@ -310,7 +314,7 @@ impl Legend {
         };
         Diagnostic::new(
             Code::UnusedLegend,
-            sheet.strings[self.string].text.whole(),
+            bindings.strings[self.string].text.whole(),
             format!(
                 "no {what} is painted like this legend, {}",
                 swatch.describe()

@@ -8,9 +8,9 @@ use rstar::primitives::GeomWithData;
 use rstar::{PointDistance, RTree};
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::bindings::{Bindings, DrawingString, Part, PartKind};
 use super::memory::Hangers;
 use super::parents;
-use super::sheet::{Part, PartKind, Sheet, SheetString};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Measure, measure_along};
 use crate::lang::ast::{self, Annotation, Name};
@@ -30,39 +30,39 @@ const MOST_NAMED: usize = 200;
 /// Names every main part, finds its parent, its axis and its joint.
 pub(super) fn build(
     drawing: &Drawing,
-    sheet: &mut Sheet,
+    bindings: &mut Bindings,
     hangers: &mut Hangers,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let mut names = names(drawing, sheet, diagnostics);
-    automatic(drawing, sheet, &mut names, hangers, diagnostics);
-    parents::parents(drawing, sheet, &names, diagnostics);
-    parents::of_layers(drawing, sheet, &names, diagnostics);
-    parents::break_cycles(drawing, sheet, diagnostics);
-    axes(drawing, sheet, diagnostics);
-    let parts = 0..sheet.parts.len();
-    let is_main = |part: &usize| sheet.parts[*part].kind == PartKind::Main;
+    let mut names = names(drawing, bindings, diagnostics);
+    automatic(drawing, bindings, &mut names, hangers, diagnostics);
+    parents::parents(drawing, bindings, &names, diagnostics);
+    parents::of_layers(drawing, bindings, &names, diagnostics);
+    parents::break_cycles(drawing, bindings, diagnostics);
+    axes(drawing, bindings, diagnostics);
+    let parts = 0..bindings.parts.len();
+    let is_main = |part: &usize| bindings.parts[*part].kind == PartKind::Main;
     let joints: Vec<(usize, DVec2, Option<Diagnostic>)> = parts
         .into_par_iter()
         .with_min_len(GRAIN)
         .filter(is_main)
         .map(|part| {
-            let origin = origin(sheet, part);
+            let origin = origin(bindings, part);
             (
                 part,
                 origin,
-                turns_about_middle(drawing, sheet, part, origin),
+                turns_about_middle(drawing, bindings, part, origin),
             )
         })
         .collect();
     for (part, origin, finding) in joints {
-        sheet.parts[part].origin = origin;
+        bindings.parts[part].origin = origin;
         diagnostics.extend(finding);
     }
 }
 
-fn part_name(sheet: &Sheet, part: usize) -> Option<&Name> {
-    match &sheet.strings[sheet.parts[part].string?].annotation {
+fn part_name(bindings: &Bindings, part: usize) -> Option<&Name> {
+    match &bindings.strings[bindings.parts[part].string?].annotation {
         Annotation::Part(part) => part.name.as_ref(),
         _ => None,
     }
@@ -71,17 +71,17 @@ fn part_name(sheet: &Sheet, part: usize) -> Option<&Name> {
 /// The main parts by name; of several parts of a name the first.
 fn names(
     drawing: &Drawing,
-    sheet: &Sheet,
+    bindings: &Bindings,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> FxHashMap<String, usize> {
     let mut names: FxHashMap<String, usize> = FxHashMap::default();
-    names.reserve(sheet.parts.len());
-    let span = |part: usize| match (part_name(sheet, part), sheet.parts[part].string) {
-        (Some(name), Some(string)) => sheet.strings[string].text.span(name.range.clone()),
-        (None, Some(string)) => sheet.strings[string].text.whole(),
-        _ => drawing.shapes[sheet.parts[part].shape].element.span,
+    names.reserve(bindings.parts.len());
+    let span = |part: usize| match (part_name(bindings, part), bindings.parts[part].string) {
+        (Some(name), Some(string)) => bindings.strings[string].text.span(name.range.clone()),
+        (None, Some(string)) => bindings.strings[string].text.whole(),
+        _ => drawing.shapes[bindings.parts[part].shape].element.span,
     };
-    for (index, part) in sheet.parts.iter().enumerate() {
+    for (index, part) in bindings.parts.iter().enumerate() {
         if part.kind != PartKind::Main || part.name.is_empty() {
             continue;
         }
@@ -101,8 +101,8 @@ fn names(
         }
     }
     let mut layers: FxHashMap<&str, Span> = FxHashMap::default();
-    for layer in &sheet.layers {
-        let own = name_span(&sheet.strings[layer.string]);
+    for layer in &bindings.layers {
+        let own = name_span(&bindings.strings[layer.string]);
         let part = names.get(&layer.name).map(|part| span(*part));
         let Some(first) = part.or_else(|| layers.get(layer.name.as_str()).copied()) else {
             layers.insert(&layer.name, own);
@@ -127,7 +127,7 @@ fn names(
 }
 
 /// Where a string says a name; all of it, where it says none.
-fn name_span(string: &SheetString) -> Span {
+fn name_span(string: &DrawingString) -> Span {
     match &string.annotation {
         Annotation::Part(ast::Part {
             name: Some(name), ..
@@ -139,19 +139,19 @@ fn name_span(string: &SheetString) -> Span {
 /// Names the parts without a string, and hangs them on the nearest named main part (rule 5).
 fn automatic(
     drawing: &Drawing,
-    sheet: &mut Sheet,
+    bindings: &mut Bindings,
     names: &mut FxHashMap<String, usize>,
     hangers: &mut Hangers,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let main = |part: &usize| sheet.parts[*part].kind == PartKind::Main;
-    let (named, waiting): (Vec<usize>, Vec<usize>) = (0..sheet.parts.len())
+    let main = |part: &usize| bindings.parts[*part].kind == PartKind::Main;
+    let (named, waiting): (Vec<usize>, Vec<usize>) = (0..bindings.parts.len())
         .filter(main)
-        .partition(|part| !sheet.parts[*part].name.is_empty());
-    let center = |part: usize| sheet.parts[part].measure.center.to_array();
+        .partition(|part| !bindings.parts[*part].name.is_empty());
+    let center = |part: usize| bindings.parts[part].measure.center.to_array();
     let named = named.into_iter().map(|part| (center(part), part)).collect();
     let centers = waiting.iter().map(|part| center(*part)).collect();
-    let of_layers: FxHashSet<String> = sheet
+    let of_layers: FxHashSet<String> = bindings
         .layers
         .iter()
         .map(|layer| layer.name.clone())
@@ -171,24 +171,24 @@ fn automatic(
                 break name;
             }
         };
-        if sheet.annotated && place < MOST_NAMED {
-            diagnostics.push(named_by_itself(drawing, sheet, index, &name, parent));
+        if bindings.annotated && place < MOST_NAMED {
+            diagnostics.push(named_by_itself(drawing, bindings, index, &name, parent));
         }
         names.insert(name.clone(), index);
-        let part = &mut sheet.parts[index];
+        let part = &mut bindings.parts[index];
         part.name = name;
         part.automatic = true;
         part.parent = parent;
     }
     if let (true, [first, .., last]) = (
-        sheet.annotated,
+        bindings.annotated,
         waiting.get(MOST_NAMED..).unwrap_or_default(),
     ) {
-        let [from, to] = [first, last].map(|part| &sheet.parts[*part].name);
+        let [from, to] = [first, last].map(|part| &bindings.parts[*part].name);
         let count = waiting.len() - MOST_NAMED;
         let message =
             format!("{count} more parts have no string: they are named `{from}` to `{to}`");
-        let span = drawing.shapes[sheet.parts[*first].shape].element.span;
+        let span = drawing.shapes[bindings.parts[*first].shape].element.span;
         let help = "`okoshi inspect` lists them all, each with the part that it hangs on";
         diagnostics.push(Diagnostic::new(Code::AutomaticName, span, message).help(help));
     }
@@ -212,15 +212,15 @@ fn nearest(parts: &[([f64; 2], usize)], centers: &[[f64; 2]]) -> Arc<[Option<usi
 /// Says how a part without a string is called.
 fn named_by_itself(
     drawing: &Drawing,
-    sheet: &Sheet,
+    bindings: &Bindings,
     part: usize,
     name: &str,
     parent: Option<usize>,
 ) -> Diagnostic {
     let on = parent.map_or(String::new(), |parent| {
-        format!(" and hangs on `{}`", sheet.parts[parent].name)
+        format!(" and hangs on `{}`", bindings.parts[parent].name)
     });
-    let element = &drawing.shapes[sheet.parts[part].shape].element;
+    let element = &drawing.shapes[bindings.parts[part].shape].element;
     let message = format!(
         "{} has no string: it is named `{name}`{on}",
         element.describe()
@@ -230,15 +230,15 @@ fn named_by_itself(
 }
 
 /// Turns the axis of parts whose strings say so.
-fn axes(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
-    let found: Vec<(usize, Axis)> = (0..sheet.parts.len())
+fn axes(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
+    let found: Vec<(usize, Axis)> = (0..bindings.parts.len())
         .into_par_iter()
         .with_min_len(GRAIN)
-        .filter_map(|part| Some((part, axis(drawing, sheet, part)?)))
+        .filter_map(|part| Some((part, axis(drawing, bindings, part)?)))
         .collect();
     for (part, axis) in found {
         match axis {
-            Axis::Turned(measure) => sheet.parts[part].measure = measure,
+            Axis::Turned(measure) => bindings.parts[part].measure = measure,
             Axis::Guessed(finding) => diagnostics.push(finding),
         }
     }
@@ -252,12 +252,12 @@ enum Axis {
     Guessed(Diagnostic),
 }
 
-fn axis(drawing: &Drawing, sheet: &Sheet, index: usize) -> Option<Axis> {
-    let part = &sheet.parts[index];
+fn axis(drawing: &Drawing, bindings: &Bindings, index: usize) -> Option<Axis> {
+    let part = &bindings.parts[index];
     if !matches!(part.kind, PartKind::Main | PartKind::Sub) {
         return None;
     }
-    if let Some(degrees) = sheet.number(index, Keyword::Axis) {
+    if let Some(degrees) = bindings.number(index, Keyword::Axis) {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let measure = measure_along(&part.outline, DVec2::new(cos, -sin))?;
         return Some(Axis::Turned(Measure {
@@ -267,7 +267,7 @@ fn axis(drawing: &Drawing, sheet: &Sheet, index: usize) -> Option<Axis> {
     }
     let turns = !part.measure.certain
         && matches!(
-            sheet.shape(index).kind,
+            bindings.shape(index).kind,
             ShapeKind::RoundV(_)
                 | ShapeKind::RoundH(_)
                 | ShapeKind::ConeV(_)
@@ -275,11 +275,11 @@ fn axis(drawing: &Drawing, sheet: &Sheet, index: usize) -> Option<Axis> {
                 | ShapeKind::Lathe(_)
         );
     turns.then(|| {
-        let name = sheet.describe(drawing, index);
+        let name = bindings.describe(drawing, index);
         let place = part
             .string
             .map_or(drawing.shapes[part.shape].element.span, |string| {
-                sheet.strings[string].text.whole()
+                bindings.strings[string].text.whole()
             });
         Axis::Guessed(
             Diagnostic::new(
@@ -293,15 +293,17 @@ fn axis(drawing: &Drawing, sheet: &Sheet, index: usize) -> Option<Axis> {
 }
 
 /// The joint of a main part (paper, section 3.5).
-fn origin(sheet: &Sheet, index: usize) -> DVec2 {
-    let part = &sheet.parts[index];
-    let parent = part.parent.map(|parent| sheet.parts[parent].measure.center);
-    let set = match sheet
+fn origin(bindings: &Bindings, index: usize) -> DVec2 {
+    let part = &bindings.parts[index];
+    let parent = part
+        .parent
+        .map(|parent| bindings.parts[parent].measure.center);
+    let set = match bindings
         .setting(index, Keyword::Origin)
         .map(|source| &source.setting.value)
     {
         Some(Value::Origin(origin)) => Some(*origin),
-        _ => sheet.shape(index).centered.then_some(Origin::Center),
+        _ => bindings.shape(index).centered.then_some(Origin::Center),
     };
     let [start, end] = sorted_ends(part, parent);
     match set {
@@ -337,22 +339,23 @@ fn sorted_ends(part: &Part, parent: Option<DVec2>) -> [DVec2; 2] {
 /// Says that a long part beside its parent turns about its middle, which is seldom meant.
 fn turns_about_middle(
     drawing: &Drawing,
-    sheet: &Sheet,
+    bindings: &Bindings,
     index: usize,
     origin: DVec2,
 ) -> Option<Diagnostic> {
-    let part = &sheet.parts[index];
+    let part = &bindings.parts[index];
     let long = part.measure.half_along > LONG * part.measure.half_across;
     let (parent, string) = (part.parent?, part.string?);
-    let chosen = || sheet.setting(index, Keyword::Origin).is_some() || sheet.shape(index).centered;
-    let beside = &sheet.parts[parent].measure;
+    let chosen =
+        || bindings.setting(index, Keyword::Origin).is_some() || bindings.shape(index).centered;
+    let beside = &bindings.parts[parent].measure;
     // A hat or a foot lies across the end of what it hangs on, and is meant to turn about its middle.
     let alike = !beside.certain
         || beside.axis.dot(part.measure.axis).abs() > std::f64::consts::FRAC_1_SQRT_2;
     if !long || !alike || origin != part.measure.center || chosen() {
         return None;
     }
-    let string = &sheet.strings[string];
+    let string = &bindings.strings[string];
     let text = &string.text;
     let has_attributes = match &string.annotation {
         Annotation::Part(annotation) => {
@@ -362,7 +365,7 @@ fn turns_about_middle(
     };
     let end = text.as_str().trim_end().len();
     let place = text.span(end..end);
-    let [start, far] = sorted_ends(part, Some(sheet.parts[parent].measure.center));
+    let [start, far] = sorted_ends(part, Some(bindings.parts[parent].measure.center));
     let way = far - start;
     let side = match (way.y.abs() >= way.x.abs(), way.x >= 0.0, way.y >= 0.0) {
         (true, _, true) => "upper",
@@ -376,13 +379,13 @@ fn turns_about_middle(
         text.whole(),
         format!(
             "`{}` lies beside `{}`, so it turns about its middle",
-            part.name, sheet.parts[parent].name
+            part.name, bindings.parts[parent].name
         ),
     )
     .related(drawing.shapes[part.shape].element.span, "the part")
     .help(format!(
         "for an arm or a leg write `Origin start`, the end nearer to the middle of `{}` (here the {side} one), or `Origin end`",
-        sheet.parts[parent].name
+        bindings.parts[parent].name
     ));
     for word in ["start", "end"] {
         diagnostic = diagnostic.fix(

@@ -5,7 +5,7 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 use rustc_hash::FxHashMap;
 
-use super::sheet::{Place, Sheet};
+use super::bindings::{Bindings, Place};
 use crate::geometry::contains;
 use crate::lang::ast::Annotation;
 use crate::svg::{Drawing, Line};
@@ -15,7 +15,7 @@ type Box2 = GeomWithData<Rectangle<[f64; 2]>, usize>;
 /// The strings that lines lead from, each with its part.
 pub(super) fn find(
     drawing: &Drawing,
-    sheet: &Sheet,
+    bindings: &Bindings,
     part_of_shape: &[Option<usize>],
 ) -> Vec<(usize, usize)> {
     let lines: Vec<&Line> = drawing
@@ -23,10 +23,10 @@ pub(super) fn find(
         .iter()
         .filter_map(|shape| shape.line.as_deref())
         .collect();
-    if lines.is_empty() || sheet.strings.is_empty() {
+    if lines.is_empty() || bindings.strings.is_empty() {
         return vec![];
     }
-    let context = Context::new(drawing, sheet, part_of_shape);
+    let context = Context::new(drawing, bindings, part_of_shape);
     let mut bound: FxHashMap<usize, usize> = FxHashMap::default();
     let mut found = Vec::new();
     for line in lines {
@@ -45,7 +45,7 @@ pub(super) fn find(
 
 struct Context<'a> {
     drawing: &'a Drawing,
-    sheet: &'a Sheet,
+    bindings: &'a Bindings,
     part_of_shape: &'a [Option<usize>],
     strings: RTree<Box2>,
     parts: RTree<Box2>,
@@ -53,10 +53,14 @@ struct Context<'a> {
 }
 
 impl<'a> Context<'a> {
-    fn new(drawing: &'a Drawing, sheet: &'a Sheet, part_of_shape: &'a [Option<usize>]) -> Self {
+    fn new(
+        drawing: &'a Drawing,
+        bindings: &'a Bindings,
+        part_of_shape: &'a [Option<usize>],
+    ) -> Self {
         let mut reach = 0.0_f64;
         let mut boxes = Vec::new();
-        for (index, string) in sheet.strings.iter().enumerate() {
+        for (index, string) in bindings.strings.iter().enumerate() {
             if let Place::Label(label) = string.place
                 && string.wants_part()
                 && string.binding.is_none()
@@ -66,11 +70,11 @@ impl<'a> Context<'a> {
                 boxes.push(rectangle(label.bounds, index));
             }
         }
-        let parts = sheet.parts.iter().enumerate();
+        let parts = bindings.parts.iter().enumerate();
         let parts = parts.map(|(index, part)| rectangle(part.measure.bounds, index));
         Self {
             drawing,
-            sheet,
+            bindings,
             part_of_shape,
             strings: RTree::bulk_load(boxes),
             parts: RTree::bulk_load(parts.collect()),
@@ -84,7 +88,7 @@ impl<'a> Context<'a> {
             return None;
         };
         let string = |id: &str| {
-            self.sheet
+            self.bindings
                 .strings
                 .iter()
                 .position(|string| match string.place {
@@ -122,7 +126,7 @@ impl<'a> Context<'a> {
         self.strings
             .locate_in_envelope_intersecting(near)
             .filter_map(|found| {
-                let Place::Label(label) = self.sheet.strings[found.data].place else {
+                let Place::Label(label) = self.bindings.strings[found.data].place else {
                     return None;
                 };
                 let label = &self.drawing.labels[label].0;
@@ -140,11 +144,11 @@ impl<'a> Context<'a> {
             .parts
             .locate_all_at_point([point.x, point.y])
             .map(|found| found.data)
-            .filter(|part| contains(&self.sheet.parts[*part].outline, point))
+            .filter(|part| contains(&self.bindings.parts[*part].outline, point))
             .max()?;
-        match self.sheet.strings[string].annotation {
+        match self.bindings.strings[string].annotation {
             Annotation::Legend(_) => Some(part),
-            _ => Some(self.sheet.parts[part].main),
+            _ => Some(self.bindings.parts[part].main),
         }
     }
 }

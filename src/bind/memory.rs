@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
+use super::bindings::Part;
 use super::nearest::{Found, Question};
-use super::sheet::Part;
 use super::units::Member;
 use crate::geometry::{Measure, Outline, measure};
 use crate::kept::Kept;

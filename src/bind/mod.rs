@@ -1,22 +1,22 @@
 //! Who is described by what: strings bound to parts, attributes and their sources, the hierarchy.
 //!
 //! This module knows both the drawing and the language. [`bind`] follows figure.md's order of rules; the
-//! result, a [`Sheet`], holds everything that the model is built from and that editors ask about.
+//! result, a [`Bindings`], holds everything that the model is built from and that editors ask about.
 
 mod attributes;
+mod bindings;
 mod hierarchy;
 mod leaders;
 mod memory;
 mod nearest;
 mod parents;
-mod sheet;
 mod strings;
 mod tiles;
 mod units;
 
 pub use attributes::{Legend, Look, Resolved, SetBy, Source};
+pub use bindings::{Binding, Bindings, BoundBy, DrawingString, Part, PartKind, Place};
 pub use memory::Memory;
-pub use sheet::{Binding, BoundBy, Part, PartKind, Place, Sheet, SheetString};
 pub use tiles::{TileLayer, in_tile_layers};
 
 use std::sync::Arc;
@@ -32,17 +32,17 @@ use crate::threads::GRAIN;
 use memory::Area;
 use units::Units;
 
-/// Binds the strings of a drawing to its parts. The sheet does not depend on what is remembered.
+/// Binds the strings of a drawing to its parts. The bindings do not depend on what is remembered.
 pub fn bind(
     drawing: &Drawing,
     mut memory: Option<&mut Memory>,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Sheet {
-    let mut sheet = strings::read(drawing, diagnostics);
-    tiles::find(drawing, &mut sheet, diagnostics);
-    tiles::misplaced(&sheet, diagnostics);
-    let units = Units::read(drawing, &sheet);
-    sheet.parts = units
+) -> Bindings {
+    let mut bindings = strings::read(drawing, diagnostics);
+    tiles::find(drawing, &mut bindings, diagnostics);
+    tiles::misplaced(&bindings, diagnostics);
+    let units = Units::read(drawing, &bindings);
+    bindings.parts = units
         .members
         .par_iter()
         .with_min_len(GRAIN)
@@ -56,21 +56,21 @@ pub fn bind(
         })
         .collect();
     if let Some(memory) = &mut memory {
-        memory.keep(drawing, &sheet.parts);
+        memory.keep(drawing, &bindings.parts);
     }
     let mut nothing = Memory::default();
     let memory = memory.unwrap_or(&mut nothing);
-    let mut binder = Binder::new(drawing, &units, &mut sheet, diagnostics);
+    let mut binder = Binder::new(drawing, &units, &mut bindings, diagnostics);
     binder.descriptions();
     binder.groups();
     binder.leaders();
     binder.nearest(&mut memory.nearest);
     binder.left_over();
-    classify(drawing, &mut sheet);
-    attributes::legends(drawing, &mut sheet, diagnostics);
-    hierarchy::build(drawing, &mut sheet, &mut memory.hangers, diagnostics);
-    hints(drawing, &sheet, diagnostics);
-    sheet
+    classify(drawing, &mut bindings);
+    attributes::legends(drawing, &mut bindings, diagnostics);
+    hierarchy::build(drawing, &mut bindings, &mut memory.hangers, diagnostics);
+    hints(drawing, &bindings, diagnostics);
+    bindings
 }
 
 /// A string, the part it is nearest to, and another part that is almost as near.
@@ -84,7 +84,7 @@ struct Match {
 struct Binder<'a> {
     drawing: &'a Drawing,
     units: &'a Units,
-    sheet: &'a mut Sheet,
+    bindings: &'a mut Bindings,
     diagnostics: &'a mut Vec<Diagnostic>,
     /// Per group its backmost part.
     backmost: Vec<Option<usize>>,
@@ -96,12 +96,12 @@ impl<'a> Binder<'a> {
     fn new(
         drawing: &'a Drawing,
         units: &'a Units,
-        sheet: &'a mut Sheet,
+        bindings: &'a mut Bindings,
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Self {
         let mut backmost = vec![None; drawing.groups.len()];
         let mut part_of_shape = vec![None; drawing.shapes.len()];
-        for (index, part) in sheet.parts.iter().enumerate() {
+        for (index, part) in bindings.parts.iter().enumerate() {
             // Where an inner group has its part, the outer ones have theirs.
             let chain = units.chain(drawing.shapes[part.shape].group);
             for group in chain
@@ -112,11 +112,11 @@ impl<'a> Binder<'a> {
             }
             part_of_shape[part.shape].get_or_insert(index);
         }
-        units::choose_mains(units, sheet);
+        units::choose_mains(units, bindings);
         Self {
             drawing,
             units,
-            sheet,
+            bindings,
             diagnostics,
             backmost,
             part_of_shape,
@@ -125,9 +125,9 @@ impl<'a> Binder<'a> {
 
     /// Rule 1: descriptions belong to their element.
     fn descriptions(&mut self) {
-        for string in 0..self.sheet.strings.len() {
-            let part = match self.sheet.strings[string].place {
-                _ if !self.sheet.strings[string].wants_part() => continue,
+        for string in 0..self.bindings.strings.len() {
+            let part = match self.bindings.strings[string].place {
+                _ if !self.bindings.strings[string].wants_part() => continue,
                 Place::Label(_) => continue,
                 Place::Shape(shape) => self.part_of_shape[shape],
                 Place::Group(group) if self.units.is_transparent(group) => None,
@@ -141,7 +141,7 @@ impl<'a> Binder<'a> {
 
     /// Rule 2: strings in a group belong to the backmost part of the innermost group that holds a part.
     fn groups(&mut self) {
-        for string in 0..self.sheet.strings.len() {
+        for string in 0..self.bindings.strings.len() {
             let Some(group) = self
                 .waiting_label(string)
                 .map(|label| self.drawing.labels[label].1)
@@ -154,21 +154,21 @@ impl<'a> Binder<'a> {
             });
             match holder {
                 Some(group) if self.units.is_container(group) => {
-                    self.sheet.strings[string].scope = Some(group);
+                    self.bindings.strings[string].scope = Some(group);
                 }
                 Some(group) => {
                     if let Some(part) = self.backmost[group] {
                         self.bind(string, part, BoundBy::Group);
                     }
                 }
-                None => self.sheet.strings[string].scope = self.units.scope_of_layer(group),
+                None => self.bindings.strings[string].scope = self.units.scope_of_layer(group),
             }
         }
     }
 
     /// Rule 3: leaders and connectors.
     fn leaders(&mut self) {
-        for (string, part) in leaders::find(self.drawing, self.sheet, &self.part_of_shape) {
+        for (string, part) in leaders::find(self.drawing, self.bindings, &self.part_of_shape) {
             self.bind(string, part, BoundBy::Leader);
         }
     }
@@ -176,20 +176,20 @@ impl<'a> Binder<'a> {
     /// Rule 4: every other string to the nearest main part candidate, containers among themselves first.
     fn nearest(&mut self, known: &mut memory::Nearest) {
         let by_outline = self
-            .sheet
+            .bindings
             .word(Keyword::Bind)
             .is_some_and(|word| word.eq_ignore_ascii_case("outline"));
         let mode = match by_outline {
             true => nearest::Mode::Outline,
             false => nearest::Mode::Center,
         };
-        let mut waiting: Vec<(Option<usize>, usize)> = (0..self.sheet.strings.len())
+        let mut waiting: Vec<(Option<usize>, usize)> = (0..self.bindings.strings.len())
             .filter(|string| self.waiting_label(*string).is_some())
-            .map(|string| (self.sheet.strings[string].scope, string))
+            .map(|string| (self.bindings.strings[string].scope, string))
             .collect();
         waiting.sort_by_key(|(scope, string)| (scope.is_none(), *scope, *string));
         let free = waiting.partition_point(|(scope, _)| scope.is_some());
-        let contained = units::candidates_by_container(self.units, self.sheet);
+        let contained = units::candidates_by_container(self.units, self.bindings);
         let scopes: Vec<&[(Option<usize>, usize)]> = waiting[..free]
             .chunk_by(|(one, _), (other, _)| one == other)
             .collect();
@@ -205,8 +205,8 @@ impl<'a> Binder<'a> {
         if free < waiting.len() {
             // What lies in a tile layer is left to the strings that lie there.
             let is_free = |part: &Part| part.is_candidate() && !self.units.is_in_layer(part.member);
-            let candidates: Vec<usize> = (0..self.sheet.parts.len())
-                .filter(|part| is_free(&self.sheet.parts[*part]))
+            let candidates: Vec<usize> = (0..self.bindings.parts.len())
+                .filter(|part| is_free(&self.bindings.parts[*part]))
                 .collect();
             let found = self.matches(&waiting[free..], &candidates, mode, known);
             self.bind_matches(found.into_iter());
@@ -221,19 +221,19 @@ impl<'a> Binder<'a> {
         mode: nearest::Mode,
         known: &mut memory::Nearest,
     ) -> Vec<Match> {
-        let corner = |(_, string): &(Option<usize>, usize)| match self.sheet.strings[*string].place
-        {
-            Place::Label(label) => self.drawing.labels[label].0.corner,
-            Place::Shape(_) | Place::Group(_) => glam::DVec2::ZERO,
-        };
+        let corner =
+            |(_, string): &(Option<usize>, usize)| match self.bindings.strings[*string].place {
+                Place::Label(label) => self.drawing.labels[label].0.corner,
+                Place::Shape(_) | Place::Group(_) => glam::DVec2::ZERO,
+            };
         let candidates: Vec<usize> = candidates
             .iter()
             .copied()
-            .filter(|part| self.sheet.parts[*part].string.is_none())
+            .filter(|part| self.bindings.parts[*part].string.is_none())
             .collect();
         let target = |part: &usize| nearest::Target {
-            center: self.sheet.parts[*part].measure.center,
-            outline: Same(Arc::clone(&self.sheet.parts[*part].outline)),
+            center: self.bindings.parts[*part].measure.center,
+            outline: Same(Arc::clone(&self.bindings.parts[*part].outline)),
         };
         let question = nearest::Question {
             corners: strings.iter().map(corner).collect(),
@@ -261,15 +261,15 @@ impl<'a> Binder<'a> {
         } in matches
         {
             self.bind(string, part, BoundBy::Nearest);
-            self.sheet.strings[string].rival = rival;
+            self.bindings.strings[string].rival = rival;
         }
     }
 
     /// What no rule found a part for.
     fn left_over(&mut self) {
-        for (index, string) in self.sheet.strings.iter().enumerate() {
+        for (index, string) in self.bindings.strings.iter().enumerate() {
             let unbound = string.wants_part() && string.binding.is_none();
-            if unbound && !self.sheet.leaves_picture_out(self.drawing, index) {
+            if unbound && !self.bindings.leaves_picture_out(self.drawing, index) {
                 let what = match &string.annotation {
                     Annotation::Part(part) => part
                         .name
@@ -297,7 +297,7 @@ impl<'a> Binder<'a> {
 
     /// The label of a string that still wants a part.
     fn waiting_label(&self, string: usize) -> Option<usize> {
-        let string = &self.sheet.strings[string];
+        let string = &self.bindings.strings[string];
         match string.place {
             Place::Label(label) if string.wants_part() && string.binding.is_none() => Some(label),
             _ => None,
@@ -305,13 +305,13 @@ impl<'a> Binder<'a> {
     }
 
     fn bind(&mut self, string: usize, part: usize, by: BoundBy) {
-        if let Some(other) = self.sheet.parts[part].string {
-            let other_span = self.sheet.strings[other].text.whole();
-            let element = &self.drawing.shapes[self.sheet.parts[part].shape].element;
+        if let Some(other) = self.bindings.parts[part].string {
+            let other_span = self.bindings.strings[other].text.whole();
+            let element = &self.drawing.shapes[self.bindings.parts[part].shape].element;
             self.diagnostics.push(
                 Diagnostic::new(
                     Code::TwoStrings,
-                    self.sheet.strings[string].text.whole(),
+                    self.bindings.strings[string].text.whole(),
                     format!(
                         "this string and another one describe the same part, {}",
                         element.describe()
@@ -322,22 +322,22 @@ impl<'a> Binder<'a> {
                 .help("delete one of them, or move it out of the group"),
             );
             // It must not be said again that the string found no part.
-            self.sheet.strings[string].binding = Some(Binding { part, by });
+            self.bindings.strings[string].binding = Some(Binding { part, by });
             return;
         }
-        self.sheet.parts[part].string = Some(string);
-        self.sheet.strings[string].binding = Some(Binding { part, by });
+        self.bindings.parts[part].string = Some(string);
+        self.bindings.strings[string].binding = Some(Binding { part, by });
     }
 }
 
 /// Says of every part what it is, now that the strings are bound.
-fn classify(drawing: &Drawing, sheet: &mut Sheet) {
-    for index in 0..sheet.parts.len() {
-        let annotation = sheet.parts[index]
+fn classify(drawing: &Drawing, bindings: &mut Bindings) {
+    for index in 0..bindings.parts.len() {
+        let annotation = bindings.parts[index]
             .string
-            .map(|string| &sheet.strings[string].annotation);
-        let main = sheet.parts[index].is_candidate();
-        sheet.parts[index].kind = match annotation {
+            .map(|string| &bindings.strings[string].annotation);
+        let main = bindings.parts[index].is_candidate();
+        bindings.parts[index].kind = match annotation {
             Some(Annotation::Unused) => PartKind::Unused,
             Some(Annotation::Legend(_)) if main => PartKind::Legend,
             _ if main => PartKind::Main,
@@ -345,44 +345,49 @@ fn classify(drawing: &Drawing, sheet: &mut Sheet) {
         };
         if let Some(Annotation::Part(part)) = annotation {
             let name = part.name.as_ref().map(|name| name.text.clone());
-            sheet.parts[index].name = name.unwrap_or_else(|| {
-                described_element(drawing, sheet, index)
+            bindings.parts[index].name = name.unwrap_or_else(|| {
+                described_element(drawing, bindings, index)
                     .own_name()
                     .to_owned()
             });
         }
     }
     // Sub-parts of what is left out are left out with it.
-    for index in 0..sheet.parts.len() {
-        let main = sheet.parts[index].main;
-        if main != index && matches!(sheet.parts[main].kind, PartKind::Unused | PartKind::Legend) {
-            sheet.parts[index].kind = sheet.parts[main].kind;
+    for index in 0..bindings.parts.len() {
+        let main = bindings.parts[index].main;
+        if main != index
+            && matches!(
+                bindings.parts[main].kind,
+                PartKind::Unused | PartKind::Legend
+            )
+        {
+            bindings.parts[index].kind = bindings.parts[main].kind;
         }
     }
-    tiles::classify(drawing, sheet);
+    tiles::classify(drawing, bindings);
 }
 
 /// The element whose description a part's string is: the shape, or a group around it.
-fn described_element<'a>(drawing: &'a Drawing, sheet: &Sheet, part: usize) -> &'a Element {
-    let part = &sheet.parts[part];
-    match part.string.map(|string| sheet.strings[string].place) {
+fn described_element<'a>(drawing: &'a Drawing, bindings: &Bindings, part: usize) -> &'a Element {
+    let part = &bindings.parts[part];
+    match part.string.map(|string| bindings.strings[string].place) {
         Some(Place::Group(group)) => &drawing.groups[group].element,
         _ => &drawing.shapes[part.shape].element,
     }
 }
 
 /// What is worth knowing about bindings and places.
-fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
-    if !sheet.annotated {
+fn hints(drawing: &Drawing, bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
+    if !bindings.annotated {
         return;
     }
-    for string in &sheet.strings {
+    for string in &bindings.strings {
         if let (Some(binding), Some(rival)) = (string.binding, string.rival)
-            && sheet.parts[rival].kind != PartKind::Tile
+            && bindings.parts[rival].kind != PartKind::Tile
         {
             let (bound, rival) = (
-                sheet.describe(drawing, binding.part),
-                sheet.describe(drawing, rival),
+                bindings.describe(drawing, binding.part),
+                bindings.describe(drawing, rival),
             );
             diagnostics.push(
                 Diagnostic::new(
@@ -390,13 +395,13 @@ fn hints(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
                     string.text.whole(),
                     format!("this string belongs to {bound}, but {rival} is almost as near"),
                 )
-                .related(drawing.shapes[sheet.parts[binding.part].shape].element.span, "the part it belongs to")
+                .related(drawing.shapes[bindings.parts[binding.part].shape].element.span, "the part it belongs to")
                 .help("move the string's top left corner closer to the middle of its part, or group both"),
             );
         }
     }
     let (page_low, page_size) = drawing.page;
-    for part in &sheet.parts {
+    for part in &bindings.parts {
         let (low, high) = part.measure.bounds;
         let off = high.cmplt(page_low).any() || low.cmpgt(page_low + page_size).any();
         if off && part.kind == PartKind::Main {

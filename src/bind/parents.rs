@@ -2,8 +2,8 @@
 
 use rustc_hash::FxHashMap;
 
+use super::bindings::{Bindings, DrawingString, Part, PartKind};
 use super::hierarchy::ROOT;
-use super::sheet::{Part, PartKind, Sheet, SheetString};
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::Annotation;
 use crate::svg::Drawing;
@@ -11,20 +11,20 @@ use crate::svg::Drawing;
 /// Finds the parents that strings name.
 pub(super) fn parents(
     drawing: &Drawing,
-    sheet: &mut Sheet,
+    bindings: &mut Bindings,
     names: &FxHashMap<String, usize>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    for index in 0..sheet.parts.len() {
-        let part = &sheet.parts[index];
+    for index in 0..bindings.parts.len() {
+        let part = &bindings.parts[index];
         if part.kind != PartKind::Main {
             continue;
         }
         let Some(string) = part.string else { continue };
-        let (own, string) = (part.name.as_str(), &sheet.strings[string]);
-        match parent(drawing, sheet, string, own, names) {
+        let (own, string) = (part.name.as_str(), &bindings.strings[string]);
+        match parent(drawing, bindings, string, own, names) {
             Ok(None) => {}
-            Ok(parent) => sheet.parts[index].parent = parent,
+            Ok(parent) => bindings.parts[index].parent = parent,
             Err(finding) => diagnostics.push(*finding),
         }
     }
@@ -33,15 +33,15 @@ pub(super) fn parents(
 /// Finds what tile layers hang on.
 pub(super) fn of_layers(
     drawing: &Drawing,
-    sheet: &mut Sheet,
+    bindings: &mut Bindings,
     names: &FxHashMap<String, usize>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    for index in 0..sheet.layers.len() {
-        let layer = &sheet.layers[index];
-        let string = &sheet.strings[layer.string];
-        match parent(drawing, sheet, string, &layer.name, names) {
-            Ok(parent) => sheet.layers[index].parent = parent,
+    for index in 0..bindings.layers.len() {
+        let layer = &bindings.layers[index];
+        let string = &bindings.strings[layer.string];
+        match parent(drawing, bindings, string, &layer.name, names) {
+            Ok(parent) => bindings.layers[index].parent = parent,
             Err(finding) => diagnostics.push(*finding),
         }
     }
@@ -50,8 +50,8 @@ pub(super) fn of_layers(
 /// The part that a string names behind `@`, if it names one; `own` is what the string itself names.
 fn parent(
     drawing: &Drawing,
-    sheet: &Sheet,
-    string: &SheetString,
+    bindings: &Bindings,
+    string: &DrawingString,
     own: &str,
     names: &FxHashMap<String, usize>,
 ) -> Result<Option<usize>, Box<Diagnostic>> {
@@ -76,8 +76,8 @@ fn parent(
         format!("there is no part named `{}`", parent.text),
     );
     let is_named = |part: &&Part| part.name == parent.text && part.kind != PartKind::Main;
-    let mut layers = sheet.layers.iter();
-    if let Some(other) = sheet.parts.iter().find(is_named) {
+    let mut layers = bindings.layers.iter();
+    if let Some(other) = bindings.parts.iter().find(is_named) {
         diagnostic = diagnostic
             .related(
                 drawing.shapes[other.shape].element.span,
@@ -87,7 +87,7 @@ fn parent(
     } else if let Some(layer) = layers.find(|layer| layer.name == parent.text) {
         diagnostic = diagnostic
             .related(
-                sheet.strings[layer.string].text.whole(),
+                bindings.strings[layer.string].text.whole(),
                 "this tile layer has the name, but is no joint",
             )
             .help("let both hang on the same part, or on none");
@@ -119,47 +119,47 @@ fn quoted(name: &str) -> String {
 /// Hangs one part of every cycle of parents on the root.
 pub(super) fn break_cycles(
     drawing: &Drawing,
-    sheet: &mut Sheet,
+    bindings: &mut Bindings,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     // 0: not yet seen; otherwise the walk that saw it.
-    let mut seen = vec![0_usize; sheet.parts.len()];
-    for start in 0..sheet.parts.len() {
+    let mut seen = vec![0_usize; bindings.parts.len()];
+    for start in 0..bindings.parts.len() {
         let mut part = start;
         while seen[part] == 0 {
             seen[part] = start + 1;
-            match sheet.parts[part].parent {
+            match bindings.parts[part].parent {
                 Some(parent) => part = parent,
                 None => break,
             }
         }
-        if seen[part] != start + 1 || sheet.parts[part].parent.is_none() {
+        if seen[part] != start + 1 || bindings.parts[part].parent.is_none() {
             continue;
         }
         let mut cycle = vec![part];
         while let Some(parent) = cycle
             .last()
-            .and_then(|last| sheet.parts[*last].parent)
+            .and_then(|last| bindings.parts[*last].parent)
             .filter(|parent| *parent != part)
         {
             cycle.push(parent);
         }
         let span = |part: usize| {
-            let string = sheet.parts[part]
+            let string = bindings.parts[part]
                 .string
-                .map(|string| &sheet.strings[string]);
+                .map(|string| &bindings.strings[string]);
             match string.map(|string| (&string.annotation, &string.text)) {
                 Some((Annotation::Part(annotation), text)) => annotation
                     .parent
                     .as_ref()
                     .map_or(text.whole(), |parent| text.span(parent.range.clone())),
-                _ => drawing.shapes[sheet.parts[part].shape].element.span,
+                _ => drawing.shapes[bindings.parts[part].shape].element.span,
             }
         };
         let chain: Vec<String> = cycle
             .iter()
             .chain([&part])
-            .map(|part| format!("`{}`", sheet.parts[*part].name))
+            .map(|part| format!("`{}`", bindings.parts[*part].name))
             .collect();
         let mut diagnostic = Diagnostic::new(
             Code::ParentCycle,
@@ -177,10 +177,10 @@ pub(super) fn break_cycles(
         for other in &cycle[1..] {
             diagnostic = diagnostic.related(
                 span(*other),
-                format!("`{}` hangs on this", sheet.parts[*other].name),
+                format!("`{}` hangs on this", bindings.parts[*other].name),
             );
         }
         diagnostics.push(diagnostic);
-        sheet.parts[part].parent = None;
+        bindings.parts[part].parent = None;
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::sheet::{Place, Sheet, SheetString};
+use super::bindings::{Bindings, DrawingString, Place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
@@ -14,7 +14,7 @@ use crate::svg::Drawing;
 use crate::threads::GRAIN;
 
 /// Reads the strings.
-pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Sheet {
+pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
     let mut texts = descriptions(drawing);
     let annotated = !texts.is_empty()
         || drawing
@@ -22,7 +22,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Shee
             .iter()
             .any(|(label, _)| lang::looks_like_string(label.text.as_str()));
     if !annotated {
-        return Sheet::default();
+        return Bindings::default();
     }
     texts.extend(
         drawing
@@ -45,16 +45,16 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Shee
             (place, text, annotation, findings)
         })
         .collect();
-    let mut sheet = Sheet {
+    let mut bindings = Bindings {
         annotated,
-        ..Sheet::default()
+        ..Bindings::default()
     };
     for (place, text, annotation, findings) in parsed {
         diagnostics.extend(findings);
         if annotation == Annotation::Caption {
             diagnostics.push(caption(&text));
         }
-        sheet.strings.push(SheetString {
+        bindings.strings.push(DrawingString {
             place,
             text,
             annotation,
@@ -65,14 +65,14 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Shee
         });
     }
     let variables = Variables::collect(
-        sheet
+        bindings
             .strings
             .iter()
             .filter(|string| matches!(string.annotation, Annotation::Defaults(_)))
             .map(|string| (&*string.text, &string.annotation)),
         diagnostics,
     );
-    let findings: Vec<Vec<Diagnostic>> = sheet
+    let findings: Vec<Vec<Diagnostic>> = bindings
         .strings
         .par_iter_mut()
         .with_min_len(GRAIN)
@@ -84,9 +84,9 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Shee
         })
         .collect();
     diagnostics.extend(findings.into_iter().flatten());
-    sheet.variables = variables;
-    add_up_defaults(&mut sheet, diagnostics);
-    sheet
+    bindings.variables = variables;
+    add_up_defaults(&mut bindings, diagnostics);
+    bindings
 }
 
 /// Descriptions of shapes and groups that are strings.
@@ -120,8 +120,8 @@ fn caption(text: &Text) -> Diagnostic {
 }
 
 /// Later `%` strings win over earlier ones.
-fn add_up_defaults(sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
-    for (index, string) in sheet.strings.iter().enumerate() {
+fn add_up_defaults(bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
+    for (index, string) in bindings.strings.iter().enumerate() {
         if !matches!(string.annotation, Annotation::Defaults(_)) {
             continue;
         }
@@ -130,17 +130,17 @@ fn add_up_defaults(sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
             if matches!(setting.keyword, Keyword::Let | Keyword::Motion) {
                 continue;
             }
-            let earlier = sheet
+            let earlier = bindings
                 .defaults
                 .iter()
                 .position(|(_, other)| other.keyword == setting.keyword);
             let Some(slot) = earlier else {
-                sheet.defaults.push((index, setting.clone()));
+                bindings.defaults.push((index, setting.clone()));
                 continue;
             };
-            let (other, old) = &sheet.defaults[slot];
+            let (other, old) = &bindings.defaults[slot];
             if *other != index {
-                let text = &sheet.strings[*other].text;
+                let text = &bindings.strings[*other].text;
                 diagnostics.push(
                     Diagnostic::new(
                         Code::Overridden,
@@ -154,7 +154,7 @@ fn add_up_defaults(sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
                     .help("delete one of them"),
                 );
             }
-            sheet.defaults[slot] = (index, setting.clone());
+            bindings.defaults[slot] = (index, setting.clone());
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::sheet::{Part, PartKind, Place, Sheet};
+use super::bindings::{Bindings, Part, PartKind, Place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::{self, Annotation};
 use crate::lang::keyword::Keyword;
@@ -70,10 +70,10 @@ fn has_tiles(part: &ast::Part) -> bool {
 }
 
 /// Finds the tile layers, before anything is bound.
-pub(super) fn find(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<Diagnostic>) {
+pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
     let mut layer: Vec<Option<usize>> = vec![None; drawing.groups.len()];
     let mut layers: Vec<TileLayer> = Vec::new();
-    for (index, string) in sheet.strings.iter().enumerate() {
+    for (index, string) in bindings.strings.iter().enumerate() {
         let Annotation::Part(annotation) = &string.annotation else {
             continue;
         };
@@ -98,7 +98,7 @@ pub(super) fn find(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<D
                     ),
                 )
                 .related(
-                    sheet.strings[other.string].text.whole(),
+                    bindings.strings[other.string].text.whole(),
                     "the other string, which counts",
                 )
                 .related(element.span, "the group")
@@ -127,12 +127,12 @@ pub(super) fn find(drawing: &Drawing, sheet: &mut Sheet, diagnostics: &mut Vec<D
     }
     if !layers.is_empty() {
         spread(drawing, &mut layer);
-        sheet.layer_of_group = layer;
-        sheet.layers = layers;
+        bindings.layer_of_group = layer;
+        bindings.layers = layers;
     }
 }
 
-impl Sheet {
+impl Bindings {
     /// Index of the innermost tile layer that a group is, or is in.
     pub fn layer_of_group(&self, group: usize) -> Option<usize> {
         self.layer_of_group.get(group).copied().flatten()
@@ -167,22 +167,27 @@ impl Sheet {
 }
 
 /// Makes tiles of what lies in tile layers and has no string.
-pub(super) fn classify(drawing: &Drawing, sheet: &mut Sheet) {
-    if sheet.layers.is_empty() {
+pub(super) fn classify(drawing: &Drawing, bindings: &mut Bindings) {
+    if bindings.layers.is_empty() {
         return;
     }
-    for index in 0..sheet.parts.len() {
-        let Part { shape, main, .. } = sheet.parts[index];
-        let unbound = sheet.parts[index].string.is_none() && sheet.parts[main].string.is_none();
-        if unbound && sheet.layer_of_group(drawing.shapes[shape].group).is_some() {
-            sheet.parts[index].kind = PartKind::Tile;
+    for index in 0..bindings.parts.len() {
+        let Part { shape, main, .. } = bindings.parts[index];
+        let unbound =
+            bindings.parts[index].string.is_none() && bindings.parts[main].string.is_none();
+        if unbound
+            && bindings
+                .layer_of_group(drawing.shapes[shape].group)
+                .is_some()
+        {
+            bindings.parts[index].kind = PartKind::Tile;
         }
     }
 }
 
 /// Says where attributes of tile layers stand in strings that make none.
-pub(super) fn misplaced(sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
-    for string in &sheet.strings {
+pub(super) fn misplaced(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
+    for string in &bindings.strings {
         let (attributes, what) = match &string.annotation {
             Annotation::Part(part) if !has_tiles(part) => (&part.attributes, "a part's string"),
             Annotation::Legend(attributes) => (attributes, "a legend"),
@@ -194,7 +199,7 @@ pub(super) fn misplaced(sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
         for attribute in attributes {
             let misplaced = match attribute.keyword {
                 Keyword::Tiles => true,
-                Keyword::Bevel | Keyword::Roof => !for_all || sheet.layers.is_empty(),
+                Keyword::Bevel | Keyword::Roof => !for_all || bindings.layers.is_empty(),
                 _ => false,
             };
             if misplaced {

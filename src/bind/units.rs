@@ -5,7 +5,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::sheet::{Place, Sheet};
+use super::bindings::{Bindings, Place};
 use crate::lang::keyword::Keyword;
 use crate::svg::{Drawing, GroupKind};
 
@@ -48,17 +48,18 @@ pub(super) struct Units {
 }
 
 impl Units {
-    pub(super) fn read(drawing: &Drawing, sheet: &Sheet) -> Self {
+    pub(super) fn read(drawing: &Drawing, bindings: &Bindings) -> Self {
         let parents: Vec<usize> = drawing.groups.iter().map(|group| group.parent).collect();
         let mut strings = vec![0_usize; drawing.groups.len()];
-        for string in sheet.strings.iter().filter(|string| string.wants_part()) {
+        for string in bindings.strings.iter().filter(|string| string.wants_part()) {
             if let Place::Label(label) = string.place {
                 strings[drawing.labels[label].1] += 1;
             }
         }
-        let members = members(drawing, sheet);
+        let members = members(drawing, bindings);
         let groups = 0..drawing.groups.len();
-        let layer = groups.map(|group| Some(sheet.layers[sheet.layer_of_group(group)?].group));
+        let layer =
+            groups.map(|group| Some(bindings.layers[bindings.layer_of_group(group)?].group));
         let layer: Vec<Option<usize>> = layer.collect();
         let roles = roles(drawing, &strings, &layer);
         let mut units = Self {
@@ -131,15 +132,15 @@ impl Units {
     }
 }
 
-fn members(drawing: &Drawing, sheet: &Sheet) -> Vec<Member> {
-    let strokes = sheet.word(Keyword::Strokes).map(str::to_lowercase);
+fn members(drawing: &Drawing, bindings: &Bindings) -> Vec<Member> {
+    let strokes = bindings.word(Keyword::Strokes).map(str::to_lowercase);
     let (lines, borders) = match strokes.as_deref() {
         Some("lines") => (true, false),
         Some("all") => (true, true),
         Some(_) => (false, false),
-        None => (!sheet.annotated, false),
+        None => (!bindings.annotated, false),
     };
-    let described = described_lines(drawing, sheet);
+    let described = described_lines(drawing, bindings);
     let mut members = Vec::with_capacity(drawing.shapes.len());
     let mut add = |shape, is_stroke| {
         members.push(Member {
@@ -149,7 +150,7 @@ fn members(drawing: &Drawing, sheet: &Sheet) -> Vec<Member> {
         })
     };
     for (index, shape) in drawing.shapes.iter().enumerate() {
-        if sheet.is_picture_of_tiles(drawing, index) {
+        if bindings.is_picture_of_tiles(drawing, index) {
             continue;
         }
         let filled = !shape.outline.polygons.is_empty();
@@ -157,7 +158,7 @@ fn members(drawing: &Drawing, sheet: &Sheet) -> Vec<Member> {
             add(index, false);
         }
         // Strokes in a tile layer are edges.
-        let is_map = sheet.layer_of_group(shape.group).is_some();
+        let is_map = bindings.layer_of_group(shape.group).is_some();
         let (lines, borders) = (lines && !is_map, borders && !is_map);
         if shape.stroke.is_some()
             && if filled {
@@ -173,7 +174,7 @@ fn members(drawing: &Drawing, sheet: &Sheet) -> Vec<Member> {
 }
 
 /// Which unfilled lines have a string of their own, by description or by a group without filled shapes.
-fn described_lines(drawing: &Drawing, sheet: &Sheet) -> Vec<bool> {
+fn described_lines(drawing: &Drawing, bindings: &Bindings) -> Vec<bool> {
     let mut described = vec![false; drawing.shapes.len()];
     let mut filled = vec![false; drawing.groups.len()];
     let mut first_line = vec![None; drawing.groups.len()];
@@ -191,7 +192,7 @@ fn described_lines(drawing: &Drawing, sheet: &Sheet) -> Vec<bool> {
             group = drawing.groups[group].parent;
         }
     }
-    for string in sheet.strings.iter().filter(|string| string.wants_part()) {
+    for string in bindings.strings.iter().filter(|string| string.wants_part()) {
         let group = match string.place {
             Place::Shape(shape) => {
                 described[shape] = true;
@@ -240,12 +241,12 @@ fn roles(drawing: &Drawing, strings: &[usize], layer: &[Option<usize>]) -> Vec<R
 }
 
 /// Makes the hindmost part of each unit its main part candidate.
-pub(super) fn choose_mains(units: &Units, sheet: &mut Sheet) {
+pub(super) fn choose_mains(units: &Units, bindings: &mut Bindings) {
     let mut mains: FxHashMap<(Option<usize>, usize), usize> = FxHashMap::default();
     let mut main_of_shape: FxHashMap<usize, usize> = FxHashMap::default();
-    for index in 0..sheet.parts.len() {
-        let member = sheet.parts[index].member;
-        let shape = sheet.parts[index].shape;
+    for index in 0..bindings.parts.len() {
+        let member = bindings.parts[index].member;
+        let shape = bindings.parts[index].shape;
         let main = match units.unit[member] {
             Some(group) => *mains
                 .entry((units.container[member], group))
@@ -253,17 +254,17 @@ pub(super) fn choose_mains(units: &Units, sheet: &mut Sheet) {
             // A border belongs to the shape that it borders.
             None => *main_of_shape.entry(shape).or_insert(index),
         };
-        sheet.parts[index].join_unit(index, main);
+        bindings.parts[index].join_unit(index, main);
     }
 }
 
 /// The main part candidates in each container.
 pub(super) fn candidates_by_container(
     units: &Units,
-    sheet: &Sheet,
+    bindings: &Bindings,
 ) -> FxHashMap<usize, Vec<usize>> {
     let mut candidates: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
-    for (index, part) in sheet
+    for (index, part) in bindings
         .parts
         .iter()
         .enumerate()

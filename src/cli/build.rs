@@ -202,8 +202,11 @@ fn stats(loaded: &Loaded, output: &Path, written: Written, times: [Duration; 2])
     let milliseconds = |duration: Duration| format!("{:.1} ms", duration.as_secs_f64() * 1e3);
     let rows = [
         ("output", output.display().to_string()),
-        ("parts", loaded.compiled.sheet.parts.len().to_string()),
-        ("strings", loaded.compiled.sheet.strings.len().to_string()),
+        ("parts", loaded.compiled.bindings.parts.len().to_string()),
+        (
+            "strings",
+            loaded.compiled.bindings.strings.len().to_string(),
+        ),
         ("nodes", scene.nodes.len().to_string()),
         ("meshes", scene.meshes.len().to_string()),
         ("materials", scene.materials.len().to_string()),

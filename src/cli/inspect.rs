@@ -60,9 +60,9 @@ fn json(loaded: &Loaded) -> String {
 }
 
 fn tree(loaded: &Loaded) -> String {
-    let sheet = &loaded.compiled.sheet;
+    let bindings = &loaded.compiled.bindings;
     let mut children: BTreeMap<Option<usize>, Vec<Item>> = BTreeMap::new();
-    for (index, part) in sheet
+    for (index, part) in bindings
         .parts
         .iter()
         .enumerate()
@@ -91,7 +91,7 @@ fn tree(loaded: &Loaded) -> String {
             ("├─ ", "│  ")
         };
         let [name, what] = match item {
-            Item::Part(part) => [&sheet.parts[part].name, &describe_part(loaded, part)],
+            Item::Part(part) => [&bindings.parts[part].name, &describe_part(loaded, part)],
             Item::Layer(layer) => {
                 let layer = &loaded.compiled.layers[layer];
                 [&layer.name, &describe_layer(layer)]
@@ -108,7 +108,7 @@ fn tree(loaded: &Loaded) -> String {
         }
     }
     let mut out = columns(&rows);
-    let left_out: Vec<[String; 2]> = sheet
+    let left_out: Vec<[String; 2]> = bindings
         .parts
         .iter()
         .enumerate()
@@ -188,14 +188,14 @@ fn contents(layer: &Layer) -> Vec<[String; 2]> {
 }
 
 fn describe_part(loaded: &Loaded, index: usize) -> String {
-    let sheet = &loaded.compiled.sheet;
-    let part = &sheet.parts[index];
-    let shape = sheet.setting(index, Keyword::Shape);
+    let bindings = &loaded.compiled.bindings;
+    let part = &bindings.parts[index];
+    let shape = bindings.setting(index, Keyword::Shape);
     let solid = shape.map_or("default".to_owned(), |source| match source.from {
         SetBy::Own => source.setting.words.clone(),
         from => format!("{} ({})", source.setting.words, from.name()),
     });
-    let subs = sheet
+    let subs = bindings
         .parts
         .iter()
         .filter(|other| other.main == index && other.kind == PartKind::Sub)
@@ -213,10 +213,10 @@ fn describe_part(loaded: &Loaded, index: usize) -> String {
 
 /// By what rule a part has its string.
 fn string(loaded: &Loaded, part: usize) -> String {
-    let sheet = &loaded.compiled.sheet;
-    let binding = sheet.parts[part]
+    let bindings = &loaded.compiled.bindings;
+    let binding = bindings.parts[part]
         .string
-        .and_then(|string| sheet.strings[string].binding);
+        .and_then(|string| bindings.strings[string].binding);
     match binding {
         None => "no string".to_owned(),
         Some(binding) => format!("bound by {}", binding.by.name()),

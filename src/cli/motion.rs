@@ -210,7 +210,7 @@ fn report(edited: &Edited, arguments: &Motion) -> String {
     let count = edited.clip.frames();
     let fps = round(rate(edited.clip.frame_time));
     let _ = writeln!(out, "  {} at {fps} a second", frames(count));
-    let Some(sheet) = &edited.exposure else {
+    let Some(bindings) = &edited.exposure else {
         return out;
     };
     if let Some(cut) = &edited.cut {
@@ -264,11 +264,11 @@ fn report(edited: &Edited, arguments: &Motion) -> String {
             limited::LONGEST
         );
     }
-    let shown = sheet.len();
+    let shown = bindings.len();
     let _ = writeln!(
         out,
         "  {} drawings for {}",
-        sheet.drawings().count(),
+        bindings.drawings().count(),
         frames(shown)
     );
     let compares = arguments.compare || arguments.every.is_some() || arguments.drawings.is_some();

@@ -161,7 +161,7 @@ fn counts(build: &Build) -> String {
 fn figures(build: &Build, model: &Model, found: &str, done: &str) -> String {
     format!(
         "{}, {}, {found}{done} in {:.1} ms",
-        counted(build.compiled.sheet.parts.len(), "part"),
+        counted(build.compiled.bindings.parts.len(), "part"),
         counted(model.written.triangles, "triangle"),
         build.steps.duration().as_secs_f64() * 1e3,
     )

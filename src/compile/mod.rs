@@ -5,7 +5,7 @@ mod again;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
-use crate::bind::{self, Sheet};
+use crate::bind::{self, Bindings};
 use crate::diagnostic::{self, Code, Diagnostic, Severity};
 use crate::figure;
 use crate::resolver::{LinkError, Resolver};
@@ -41,12 +41,12 @@ pub struct Compiled {
     /// The model.
     pub scene: Scene,
     /// Who is bound to what.
-    pub sheet: Sheet,
+    pub bindings: Bindings,
     /// The tile maps.
     pub layers: Vec<terrain::Layer>,
     /// The clips that figures play.
     pub shots: Vec<figure::Shot>,
-    /// The drawing. Its outlines and texts are shared with the sheet.
+    /// The drawing. Its outlines and texts are shared with the bindings.
     pub drawing: Arc<Drawing>,
     /// What is wrong, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
@@ -147,11 +147,11 @@ impl Reading {
             Some(Memory { areas, things }) => (Some(areas), things),
             None => (None, &mut nothing),
         };
-        let sheet = bind::bind(&drawing, areas, &mut diagnostics);
-        let layers = terrain::read(&drawing, &sheet, &mut diagnostics);
+        let bindings = bind::bind(&drawing, areas, &mut diagnostics);
+        let layers = terrain::read(&drawing, &bindings, &mut diagnostics);
         let (scene, shots) = figure::build(
             &drawing,
-            &sheet,
+            &bindings,
             &layers,
             &recorder,
             things,
@@ -163,7 +163,7 @@ impl Reading {
         dependencies.dedup();
         Compiled {
             scene,
-            sheet,
+            bindings,
             layers,
             shots,
             drawing,

@@ -5,7 +5,7 @@ use rayon::prelude::*;
 
 use super::Model;
 use super::tree::{Branch, Tree};
-use crate::bind::{Part, PartKind, Sheet};
+use crate::bind::{Bindings, Part, PartKind};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Ground, Value};
 use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene};
@@ -15,8 +15,8 @@ use crate::threads::GRAIN;
 
 /// The rotation from the drawing's right, its up and the viewer's direction to the world (`Axes`), which is
 /// right-handed: other axes are refused where they are read.
-fn axes(sheet: &Sheet) -> DQuat {
-    let Some(Value::Axes(axes)) = sheet.drawing_value(Keyword::Axes) else {
+fn axes(bindings: &Bindings) -> DQuat {
+    let Some(Value::Axes(axes)) = bindings.drawing_value(Keyword::Axes) else {
         return DQuat::IDENTITY;
     };
     let [right, up, front] = axes.map(|axis| {
@@ -39,7 +39,7 @@ impl Stage {
     pub(super) fn of(model: &Model<'_>, layers: &[Layer]) -> Self {
         Self {
             ground: ground(model, layers),
-            turn: axes(model.sheet),
+            turn: axes(model.bindings),
         }
     }
 
@@ -82,8 +82,10 @@ pub(super) fn assemble(
             Some(_) => (branch.place, DQuat::from_rotation_z(branch.angle)),
             None => stage.set(branch.place, branch.angle),
         };
-        let part = &model.sheet.parts[branch.part];
-        let string = part.string.map(|string| &model.sheet.strings[string].text);
+        let part = &model.bindings.parts[branch.part];
+        let string = part
+            .string
+            .map(|string| &model.bindings.strings[string].text);
         Node {
             name: branch.name,
             children: vec![],
@@ -162,13 +164,13 @@ fn mirrored(mesh: &Mesh) -> Mesh {
 
 /// The point of the drawing that lies at the world's origin.
 fn ground(model: &Model<'_>, layers: &[Layer]) -> DVec2 {
-    match model.sheet.drawing_value(Keyword::Ground) {
+    match model.bindings.drawing_value(Keyword::Ground) {
         Some(Value::Ground(Ground::Page)) => model.drawing.page.0,
         Some(Value::Ground(Ground::Point([x, y]))) => DVec2::new(*x, *y),
         _ => {
             let is_built = |part: &&Part| matches!(part.kind, PartKind::Main | PartKind::Sub);
             let built = model
-                .sheet
+                .bindings
                 .parts
                 .par_iter()
                 .with_min_len(GRAIN)

@@ -15,12 +15,12 @@ const MOST_ANCESTORS: usize = 64;
 
 /// Warns of copies that coincide.
 pub(super) fn check(model: &Model<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let parts = 0..model.sheet.parts.len();
+    let parts = 0..model.bindings.parts.len();
     let doubled: Vec<bool> = parts
         .clone()
         .into_par_iter()
         .with_min_len(GRAIN)
-        .map(|part| model.sheet.shape(part).doubled)
+        .map(|part| model.bindings.shape(part).doubled)
         .collect();
     let copied = doubled.contains(&true);
     let found: Vec<Diagnostic> = parts
@@ -36,12 +36,15 @@ pub(super) fn check(model: &Model<'_>, diagnostics: &mut Vec<Diagnostic>) {
 
 /// The least and the greatest depth of a part's solid in its parent's frame, and that it has one.
 fn depths(model: &Model<'_>, part: usize) -> Option<[f64; 2]> {
-    let built = matches!(model.sheet.parts[part].kind, PartKind::Main | PartKind::Sub);
+    let built = matches!(
+        model.bindings.parts[part].kind,
+        PartKind::Main | PartKind::Sub
+    );
     let kind = model.kind(part);
     if !built || kind == ShapeKind::None {
         return None;
     }
-    let measure = &model.sheet.parts[part].measure;
+    let measure = &model.bindings.parts[part].measure;
     let [low, high] = solid::depths(
         &kind,
         measure.half_across,
@@ -59,21 +62,21 @@ fn is_even([low, high]: [f64; 2], plane: f64) -> bool {
 
 /// A copy that the part's own flag makes.
 fn coincident(model: &Model<'_>, part: usize) -> Option<Diagnostic> {
-    let shape = model.sheet.shape(part);
+    let shape = model.bindings.shape(part);
     if !(shape.mirrored || shape.doubled) || !is_even(depths(model, part)?, 0.0) {
         return None;
     }
     let flag = if shape.doubled { "-d" } else { "-s" };
-    let name = model.sheet.describe(model.drawing, part);
+    let name = model.bindings.describe(model.drawing, part);
     let message = format!("the copy that `{flag}` makes of {name} lies exactly where {name} lies");
     Some(told(model, part, message))
 }
 
 /// A copy that an ancestor's `-d` makes.
 fn inherited(model: &Model<'_>, part: usize, doubled: &[bool]) -> Option<Diagnostic> {
-    let parts = &model.sheet.parts;
+    let parts = &model.bindings.parts;
     let main = parts[part].main;
-    let shape = model.sheet.shape(part);
+    let shape = model.bindings.shape(part);
     let depths = depths(model, part)?;
     // From the node that the part hangs on to the plane that an ancestor is mirrored in.
     let mut plane = 0.0;
@@ -85,7 +88,7 @@ fn inherited(model: &Model<'_>, part: usize, doubled: &[bool]) -> Option<Diagnos
     };
     for _ in 0..MOST_ANCESTORS {
         let ancestor = next?;
-        if !model.sheet.shape(ancestor).mirrored {
+        if !model.bindings.shape(ancestor).mirrored {
             plane -= model.offset(ancestor);
         }
         let both = shape.mirrored || shape.doubled;
@@ -94,8 +97,8 @@ fn inherited(model: &Model<'_>, part: usize, doubled: &[bool]) -> Option<Diagnos
             false => is_even(depths, plane),
         };
         if doubled[ancestor] && even {
-            let name = model.sheet.describe(model.drawing, part);
-            let other = model.sheet.describe(model.drawing, ancestor);
+            let name = model.bindings.describe(model.drawing, part);
+            let other = model.bindings.describe(model.drawing, ancestor);
             let message = format!(
                 "copies of {name} that `-d` of {other} makes lie exactly where {name} lies"
             );
@@ -107,12 +110,14 @@ fn inherited(model: &Model<'_>, part: usize, doubled: &[bool]) -> Option<Diagnos
 }
 
 fn told(model: &Model<'_>, part: usize, message: String) -> Diagnostic {
-    let sheet = model.sheet;
-    let source = sheet.setting(part, Keyword::Shape);
+    let bindings = model.bindings;
+    let source = bindings.setting(part, Keyword::Shape);
     let span = source.map_or(
-        model.drawing.shapes[sheet.parts[part].shape].element.span,
+        model.drawing.shapes[bindings.parts[part].shape]
+            .element
+            .span,
         |source| {
-            let text = &sheet.strings[source.string].text;
+            let text = &bindings.strings[source.string].text;
             text.span(source.setting.range.clone())
         },
     );

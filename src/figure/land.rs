@@ -43,7 +43,12 @@ pub(super) fn add(
             mesh: Some(scene.meshes.len()),
             provenance: Some(Provenance {
                 element: model.drawing.groups[layer.group].element.id.clone(),
-                string: Some(model.sheet.strings[layer.string].text.as_str().to_owned()),
+                string: Some(
+                    model.bindings.strings[layer.string]
+                        .text
+                        .as_str()
+                        .to_owned(),
+                ),
             }),
             view_dependent: Some(ViewDependent::Bend),
         });

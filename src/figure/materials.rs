@@ -82,23 +82,23 @@ impl Materials {
         memory: &mut textures::Memory,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let (drawing, sheet) = (model.drawing, model.sheet);
+        let (drawing, bindings) = (model.drawing, model.bindings);
         let textures = Textures::collect(model, models, layers, resolver, memory, diagnostics);
         let mut shared = Shared::default();
-        let mut of_part = Vec::with_capacity(sheet.parts.len());
-        for (index, part) in sheet.parts.iter().enumerate() {
-            let kind = sheet.shape(index).kind;
+        let mut of_part = Vec::with_capacity(bindings.parts.len());
+        for (index, part) in bindings.parts.iter().enumerate() {
+            let kind = bindings.shape(index).kind;
             let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
             // Models bring their own materials.
             if !built || kind == ShapeKind::None || models.has(index) {
                 of_part.push(None);
                 continue;
             }
-            let mut look = sheet.look(drawing, index);
+            let mut look = bindings.look(drawing, index);
             let textured = textures.of(index);
             if let Some(textured) = textured {
                 // What a file shows is tinted by `Color`, but by nothing else.
-                let tinted = textured.is_file && sheet.setting(index, Keyword::Color).is_some();
+                let tinted = textured.is_file && bindings.setting(index, Keyword::Color).is_some();
                 if !tinted {
                     look.color[..3].fill(1.0);
                 }

@@ -1,4 +1,4 @@
-//! The articulated figure: from the sheet to nodes, joints and solids (figure.md).
+//! The articulated figure: from the bindings to nodes, joints and solids (figure.md).
 //!
 //! Invariant: a node's mesh is described in the part's own frame, +Y along its axis away from the joint,
 //! +Z towards the viewer; turning the node turns the limb about its joint.
@@ -19,7 +19,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::bind::{Part, PartKind, Sheet};
+use crate::bind::{Bindings, Part, PartKind};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{area, contains, intersect};
 use crate::lang::keyword::Keyword;
@@ -58,13 +58,13 @@ pub struct Memory {
 /// Builds the figures and landscapes of a drawing, and tells of their clips. What it makes does not depend on what it remembers.
 pub fn build(
     drawing: &Drawing,
-    sheet: &Sheet,
+    bindings: &Bindings,
     layers: &[Layer],
     resolver: &dyn Resolver,
     memory: &mut Memory,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> (Scene, Vec<Shot>) {
-    let model = Model::new(drawing, sheet);
+    let model = Model::new(drawing, bindings);
     let known = &mut memory.relief;
     let (relief, (mut models, materials, frames, members, tree, found)) = rayon::join(
         || Relief::measure(&model, known),
@@ -74,14 +74,14 @@ pub fn build(
             let looks = &mut memory.textures;
             let materials =
                 Materials::collect(&model, &models, layers, resolver, looks, &mut found);
-            let frames: Vec<Frame> = sheet
+            let frames: Vec<Frame> = bindings
                 .parts
                 .par_iter()
                 .with_min_len(GRAIN)
                 .map(Frame::of)
                 .collect();
             let tree = Tree::grow(&model, &frames, &mut found);
-            (models, materials, frames, members(sheet), tree, found)
+            (models, materials, frames, members(bindings), tree, found)
         },
     );
     diagnostics.extend(found);
@@ -146,9 +146,9 @@ pub fn build(
 }
 
 /// Per main part the parts whose solids are in its node.
-fn members(sheet: &Sheet) -> Vec<Vec<usize>> {
-    let mut members: Vec<Vec<usize>> = vec![Vec::new(); sheet.parts.len()];
-    for (index, part) in sheet.parts.iter().enumerate() {
+fn members(bindings: &Bindings) -> Vec<Vec<usize>> {
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); bindings.parts.len()];
+    for (index, part) in bindings.parts.iter().enumerate() {
         if matches!(part.kind, PartKind::Main | PartKind::Sub) {
             members[part.main].push(index);
         }
@@ -167,7 +167,7 @@ struct Stock {
 /// What building needs to know of the whole drawing.
 struct Model<'a> {
     drawing: &'a Drawing,
-    sheet: &'a Sheet,
+    bindings: &'a Bindings,
     /// Metres a drawing unit.
     scale: f64,
     /// The depths of `default` without parameters, drawing units.
@@ -175,15 +175,15 @@ struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    fn new(drawing: &'a Drawing, sheet: &'a Sheet) -> Self {
-        let scale = match sheet.drawing_value(Keyword::Scale) {
+    fn new(drawing: &'a Drawing, bindings: &'a Bindings) -> Self {
+        let scale = match bindings.drawing_value(Keyword::Scale) {
             Some(Value::Number(scale)) => *scale,
             _ => 1.0,
         };
         let depth = drawing.page.1.length() * DEFAULT_DEPTH;
         Self {
             drawing,
-            sheet,
+            bindings,
             scale: scale * CENTIMETRE,
             depth: [-depth, depth],
         }
@@ -191,8 +191,8 @@ impl<'a> Model<'a> {
 
     /// How far a part's solid, or its node, is moved along the viewer axis, drawing units.
     fn offset(&self, part: usize) -> f64 {
-        let source = self.sheet.setting(part, Keyword::Offset);
-        let main = self.sheet.parts[part].main == part;
+        let source = self.bindings.setting(part, Keyword::Offset);
+        let main = self.bindings.parts[part].main == part;
         match source.map(|source| (&source.setting.value, source.from)) {
             // What `%` says has moved the sub-part's node already.
             Some((_, crate::bind::SetBy::Default)) if !main => 0.0,
@@ -203,7 +203,7 @@ impl<'a> Model<'a> {
 
     /// The kind of a part with its depths filled in.
     fn kind(&self, part: usize) -> ShapeKind {
-        match self.sheet.shape(part).kind {
+        match self.bindings.shape(part).kind {
             ShapeKind::Default(None) => ShapeKind::Default(Some(self.depth)),
             kind => kind,
         }
@@ -211,8 +211,11 @@ impl<'a> Model<'a> {
 
     fn options(&self, part: usize) -> solid::Options {
         solid::Options {
-            segments: self.sheet.number(part, Keyword::Segments).unwrap_or(16.0) as u32,
-            crease: self.sheet.number(part, Keyword::Smooth).unwrap_or(30.0),
+            segments: self
+                .bindings
+                .number(part, Keyword::Segments)
+                .unwrap_or(16.0) as u32,
+            crease: self.bindings.number(part, Keyword::Smooth).unwrap_or(30.0),
             thickness: self.depth,
             placement: Placement {
                 rotation: 0.0,
@@ -254,7 +257,7 @@ impl<'a> Model<'a> {
 
     /// How far a part's solid stands from the plane of its node, drawing units, and whether it stands on both sides.
     fn stand(&self, main: usize, part: usize) -> (f64, bool) {
-        let shape = self.sheet.shape(part);
+        let shape = self.bindings.shape(part);
         // The node of a main part is moved already, but with `-s` its two solids are.
         let moved = part != main || shape.mirrored;
         let depth = if moved { self.offset(part) } else { 0.0 };
@@ -273,7 +276,7 @@ impl<'a> Model<'a> {
         options.placement.rotation = own.angle - node.angle;
         options.placement.translation = node.to_local(own.center).extend(depth);
         Some(Solid {
-            outline: Arc::clone(&self.sheet.parts[part].outline),
+            outline: Arc::clone(&self.bindings.parts[part].outline),
             to_frame: own.placing(),
             kind,
             options,

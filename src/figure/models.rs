@@ -66,8 +66,8 @@ impl Models {
         let mut now = Memory::default();
         let mut told = FxHashSet::default();
         let mut triangles = 0_usize;
-        for (index, part) in model.sheet.parts.iter().enumerate() {
-            let Some(source) = model.sheet.setting(index, Keyword::Shape) else {
+        for (index, part) in model.bindings.parts.iter().enumerate() {
+            let Some(source) = model.bindings.setting(index, Keyword::Shape) else {
                 continue;
             };
             let Value::Shape(Shape {
@@ -93,7 +93,7 @@ impl Models {
                 });
                 Ok(models.assets.len() - 1)
             });
-            let text = &model.sheet.strings[source.string].text;
+            let text = &model.bindings.strings[source.string].text;
             let span = text.span(source.setting.range.clone());
             match found {
                 Ok(asset) => {
@@ -176,7 +176,7 @@ impl Models {
             return Vec::new();
         };
         let to_frame = own.placing();
-        let outline = &model.sheet.parts[part].outline;
+        let outline = &model.bindings.parts[part].outline;
         let points = outline
             .polygons
             .iter()

@@ -40,17 +40,17 @@ pub(super) struct Faces {
 
 impl Relief {
     pub(super) fn measure(model: &Model<'_>, memory: &mut Memory) -> Self {
-        let sheet = model.sheet;
+        let bindings = model.bindings;
         let depths = node_depths(model);
-        let faces: Vec<Option<Faces>> = (0..sheet.parts.len())
+        let faces: Vec<Option<Faces>> = (0..bindings.parts.len())
             .into_par_iter()
             .with_min_len(GRAIN)
             .map(|part| faces(model, part, &depths))
             .collect();
         let outline = |part: &Part| Same(Arc::clone(&part.outline));
-        let outlines = sheet.parts.iter().map(outline).collect();
+        let outlines = bindings.parts.iter().map(outline).collect();
         let steps = memory.get((faces, outlines), |(faces, _)| {
-            steps(&sheet.parts, faces).into()
+            steps(&bindings.parts, faces).into()
         });
         Self { steps }
     }
@@ -126,7 +126,7 @@ fn same_plane(a: Faces, b: Faces, side: usize) -> bool {
 
 /// Per part the depth of the node it belongs to, drawing units.
 fn node_depths(model: &Model<'_>) -> Vec<f64> {
-    let parts = &model.sheet.parts;
+    let parts = &model.bindings.parts;
     let mut depths: Vec<Option<f64>> = vec![None; parts.len()];
     for start in 0..parts.len() {
         let mut chain = Vec::new();
@@ -137,7 +137,7 @@ fn node_depths(model: &Model<'_>) -> Vec<f64> {
         }
         let mut depth = next.and_then(|part| depths[part]).unwrap_or(0.0);
         for part in chain.into_iter().rev() {
-            depth += if model.sheet.shape(part).mirrored {
+            depth += if model.bindings.shape(part).mirrored {
                 0.0
             } else {
                 model.offset(part)
@@ -152,11 +152,14 @@ fn node_depths(model: &Model<'_>) -> Vec<f64> {
 }
 
 fn faces(model: &Model<'_>, part: usize, depths: &[f64]) -> Option<Faces> {
-    if !matches!(model.sheet.parts[part].kind, PartKind::Main | PartKind::Sub) {
+    if !matches!(
+        model.bindings.parts[part].kind,
+        PartKind::Main | PartKind::Sub
+    ) {
         return None;
     }
-    let main = model.sheet.parts[part].main;
-    let moved = part != main || model.sheet.shape(part).mirrored;
+    let main = model.bindings.parts[part].main;
+    let moved = part != main || model.bindings.shape(part).mirrored;
     let depth = depths[part] + if moved { model.offset(part) } else { 0.0 };
     let between = |a: f64, b: f64, top: f64| {
         let (back, front) = if a <= b {

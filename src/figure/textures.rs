@@ -75,7 +75,7 @@ impl Textures {
             looks: Vec::new(),
             told: FxHashSet::default(),
         };
-        for part in 0..model.sheet.parts.len() {
+        for part in 0..model.bindings.parts.len() {
             if !models.has(part) {
                 collector.part(part, diagnostics);
             }
@@ -129,13 +129,15 @@ struct Collector<'a> {
 
 impl<'a> Collector<'a> {
     fn part(&mut self, index: usize, diagnostics: &mut Vec<Diagnostic>) {
-        let Model { drawing, sheet, .. } = *self.model;
-        let part = &sheet.parts[index];
+        let Model {
+            drawing, bindings, ..
+        } = *self.model;
+        let part = &bindings.parts[index];
         let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
-        if !built || sheet.shape(index).kind == ShapeKind::None {
+        if !built || bindings.shape(index).kind == ShapeKind::None {
             return;
         }
-        let file = sheet.setting(index, Keyword::Texture);
+        let file = bindings.setting(index, Keyword::Texture);
         let file = file.and_then(|source| self.files.picture(self.model, &source, diagnostics));
         let paint = part.paint(drawing);
         if file.is_none() && paint.server.is_none() {
@@ -154,7 +156,7 @@ impl<'a> Collector<'a> {
             }
             (None, Some(server)) => {
                 let picture = matches!(paint.key, PaintKey::Picture(_));
-                if !picture && sheet.setting(index, Keyword::Color).is_some() {
+                if !picture && bindings.setting(index, Keyword::Color).is_some() {
                     return;
                 }
                 (Arc::clone(server), None)
@@ -219,8 +221,10 @@ impl<'a> Collector<'a> {
 
     /// Says, once a paint, that it appears in one colour.
     fn plain(&mut self, part: usize, why: &str) -> Option<Diagnostic> {
-        let Model { drawing, sheet, .. } = *self.model;
-        let part = &sheet.parts[part];
+        let Model {
+            drawing, bindings, ..
+        } = *self.model;
+        let part = &bindings.parts[part];
         let key = &part.paint(drawing).key;
         let what = match key {
             PaintKey::Server(id) => format!("the gradient or pattern `#{id}`"),
@@ -357,7 +361,7 @@ impl<'a> Files<'a> {
             return Some((link, picture.clone()));
         }
         if self.told.insert(source.string) {
-            let text = &model.sheet.strings[source.string].text;
+            let text = &model.bindings.strings[source.string].text;
             let span = text.span(source.setting.range.clone());
             diagnostics.extend(match read.as_ref().map(|held| &held.picture) {
                 Err(error) => Some(broken_link(link, error, span)),

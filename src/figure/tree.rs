@@ -47,7 +47,7 @@ impl Tree {
         frames: &[Frame],
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let parts = &model.sheet.parts;
+        let parts = &model.bindings.parts;
         let mut children: Vec<Vec<usize>> = vec![Vec::new(); parts.len()];
         let mut roots = Vec::new();
         for (index, part) in parts
@@ -61,7 +61,7 @@ impl Tree {
             }
         }
         let copied = (0..parts.len())
-            .any(|part| parts[part].kind == PartKind::Main && model.sheet.shape(part).doubled);
+            .any(|part| parts[part].kind == PartKind::Main && model.bindings.shape(part).doubled);
         let known = if copied { parts.as_slice() } else { &[] };
         let mut names: FxHashMap<String, usize> =
             known.iter().map(|part| (part.name.clone(), 1)).collect();
@@ -75,7 +75,7 @@ impl Tree {
                 copies,
             };
             // The last one in is grown first: the copy stands behind its original.
-            if model.sheet.shape(part).doubled {
+            if model.bindings.shape(part).doubled {
                 buds.push(bud(!mirrored, copies + 1));
             }
             buds.push(bud(mirrored, copies));
@@ -129,10 +129,10 @@ fn free_name(name: String, names: &mut FxHashMap<String, usize>) -> String {
 }
 
 fn place(model: &Model<'_>, frames: &[Frame], bud: &Bud) -> Branch {
-    let part = &model.sheet.parts[bud.part];
+    let part = &model.bindings.parts[bud.part];
     let own = &frames[bud.part];
     // With `-s` the two solids are moved, not the node.
-    let offset = if model.sheet.shape(bud.part).mirrored {
+    let offset = if model.bindings.shape(bud.part).mirrored {
         0.0
     } else {
         model.offset(bud.part)

@@ -58,7 +58,7 @@ impl Analysis {
 
     /// For a part without a string: one in its description, and one beside it.
     fn give_a_string(&self, index: usize) -> Vec<Action> {
-        let part = &self.sheet().parts[index];
+        let part = &self.bindings().parts[index];
         if part.string.is_some() || part.kind != PartKind::Main {
             return vec![];
         }
@@ -96,7 +96,7 @@ impl Analysis {
         let name = if is_free { own } else { &part.name };
         let mut string = written(name, Role::Head);
         if let Some(parent) = part.parent {
-            let parent = &self.sheet().parts[parent].name;
+            let parent = &self.bindings().parts[parent].name;
             let _ = write!(string, "@{}", written(parent, Role::Head));
         }
         string
@@ -104,7 +104,7 @@ impl Analysis {
 
     /// A text whose corner is the part's centre, which no other string is nearer to.
     fn beside(&self, part: &Part, string: &str) -> Option<Edit> {
-        let by_outline = self.sheet().word(Keyword::Bind);
+        let by_outline = self.bindings().word(Keyword::Bind);
         if by_outline.is_some_and(|word| word.eq_ignore_ascii_case("outline")) {
             return None;
         }
@@ -147,8 +147,8 @@ impl Analysis {
 
     /// For a part's string with attributes: the same in the legend of its paint.
     fn move_to_legend(&self, string: usize) -> Option<Action> {
-        let part = &self.sheet().parts[self.part_of_string(string)?];
-        let found = &self.sheet().strings[string];
+        let part = &self.bindings().parts[self.part_of_string(string)?];
+        let found = &self.bindings().strings[string];
         let Annotation::Part(annotation) = &found.annotation else {
             return None;
         };
@@ -162,7 +162,7 @@ impl Analysis {
             return None;
         }
         let paint = part.paint(self.drawing());
-        let alike = self.sheet().parts.iter().filter(|other| {
+        let alike = self.bindings().parts.iter().filter(|other| {
             matches!(other.kind, PartKind::Main | PartKind::Sub)
                 && other.paint(self.drawing()).key == paint.key
         });
@@ -171,8 +171,8 @@ impl Analysis {
         let mut edits = replace(&found.text, sign.start..last.range.end, "")?;
         match part.legend {
             Some(legend) => {
-                let (legend, _) = *self.sheet().legends[legend].settings.first()?;
-                let legend = &self.sheet().strings[legend];
+                let (legend, _) = *self.bindings().legends[legend].settings.first()?;
+                let legend = &self.bindings().strings[legend];
                 if shares_a_keyword(&annotation.attributes, attributes(&legend.annotation)) {
                     return None;
                 }
@@ -211,7 +211,7 @@ impl Analysis {
         };
         let (low, size) = self.drawing().page;
         let side = 0.03 * size.min_element();
-        let row = self.sheet().legends.len() as f64;
+        let row = self.bindings().legends.len() as f64;
         let (x, y) = (low.x + side, low.y + side * (1.0 + 1.5 * row));
         let font = self.font_size();
         let prefix = self.prefix();
@@ -327,7 +327,7 @@ mod tests {
 
     fn value(analysis: &Analysis, name: &str, keyword: Keyword) -> Option<(String, &'static str)> {
         let part = analysis.part_named(name).unwrap();
-        let source = analysis.sheet().setting(part, keyword)?;
+        let source = analysis.bindings().setting(part, keyword)?;
         Some((source.setting.words.clone(), source.from.name()))
     }
 
@@ -345,8 +345,10 @@ mod tests {
             .replace("<rect id=\"left\"", "<¦rect id=\"left\"");
         for (title, by) in [("beside", BoundBy::Nearest), ("description", BoundBy::Desc)] {
             let after = after(&source, title);
-            let part = &after.sheet().parts[after.part_named("left").unwrap()];
-            let binding = after.sheet().strings[part.string.unwrap()].binding.unwrap();
+            let part = &after.bindings().parts[after.part_named("left").unwrap()];
+            let binding = after.bindings().strings[part.string.unwrap()]
+                .binding
+                .unwrap();
             assert_eq!(binding.by, by);
             assert_eq!(part.parent, after.part_named("Body"));
         }

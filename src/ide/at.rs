@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Analysis;
-use crate::bind::SheetString;
+use crate::bind::DrawingString;
 use crate::lang::ast::{Annotation, Attribute};
 
 /// What stands at a place of a drawing.
@@ -11,7 +11,7 @@ use crate::lang::ast::{Annotation, Attribute};
 pub enum At {
     /// A string.
     String {
-        /// Its index in the sheet.
+        /// Its index in the bindings.
         string: usize,
         /// Where in its decoded characters.
         offset: usize,
@@ -62,7 +62,7 @@ impl Analysis {
     /// What stands at byte `offset`.
     pub fn at(&self, offset: usize) -> Option<At> {
         if let Some((string, offset)) = self.string_at(offset) {
-            let token = token_at(&self.sheet().strings[string], offset);
+            let token = token_at(&self.bindings().strings[string], offset);
             return Some(At::String {
                 string,
                 offset,
@@ -79,7 +79,7 @@ impl Analysis {
 
     /// The string at byte `offset`, and where in its decoded characters that is.
     pub(super) fn string_at(&self, offset: usize) -> Option<(usize, usize)> {
-        let strings = &self.sheet().strings;
+        let strings = &self.bindings().strings;
         let behind = strings.partition_point(|string| string.text.whole().start <= offset);
         // A clone's description is the description of what it shows: several strings may stand in one place.
         let string = (0..behind)
@@ -95,14 +95,14 @@ impl Analysis {
 
     /// The part that a shape became; of fill and border the fill.
     pub(super) fn part_of_shape(&self, shape: usize) -> Option<usize> {
-        let mut parts = self.sheet().parts.iter();
+        let mut parts = self.bindings().parts.iter();
         parts.position(|part| part.shape == shape)
     }
 
     /// The part that a string describes.
     pub(super) fn part_of_string(&self, string: usize) -> Option<usize> {
-        let binding = self.sheet().strings[string].binding?;
-        let part = &self.sheet().parts[binding.part];
+        let binding = self.bindings().strings[string].binding?;
+        let part = &self.bindings().parts[binding.part];
         (part.string == Some(string)).then_some(binding.part)
     }
 }
@@ -121,7 +121,7 @@ pub(super) fn attributes(annotation: &Annotation) -> &[Attribute] {
 }
 
 /// The words and signs of a string, in order; what could not be read is missing.
-pub(super) fn tokens(string: &SheetString) -> Vec<Token> {
+pub(super) fn tokens(string: &DrawingString) -> Vec<Token> {
     let text = string.text.as_str();
     let mut tokens = vec![];
     let mut push = |item, range: &Range<usize>| {
@@ -173,7 +173,7 @@ pub(super) fn tokens(string: &SheetString) -> Vec<Token> {
 
 /// The word or sign at a place of a string: the one that begins there rather than the one that ends there, and a
 /// word rather than a sign.
-pub(super) fn token_at(string: &SheetString, offset: usize) -> Option<Token> {
+pub(super) fn token_at(string: &DrawingString, offset: usize) -> Option<Token> {
     let touching = tokens(string)
         .into_iter()
         .filter(|token| (token.range.start..=token.range.end).contains(&offset));
@@ -235,7 +235,7 @@ mod tests {
         else {
             panic!("the tag is not found");
         };
-        assert_eq!(analysis.sheet().parts[part].name, "Arm");
+        assert_eq!(analysis.bindings().parts[part].name, "Arm");
         assert_eq!(analysis.at(0), None);
     }
 }

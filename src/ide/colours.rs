@@ -23,7 +23,7 @@ impl Analysis {
     /// The colours of all `Color` attributes, in the order of the file.
     pub fn swatches(&self) -> Vec<Swatch> {
         let mut out = vec![];
-        for string in &self.sheet().strings {
+        for string in &self.bindings().strings {
             let all = attributes(&string.annotation).iter();
             for attribute in all.filter(|attribute| attribute.keyword == Keyword::Color) {
                 let setting = string
@@ -54,7 +54,7 @@ impl Analysis {
         let Some((index, _)) = self.string_at(span.start) else {
             return vec![];
         };
-        let string = &self.sheet().strings[index];
+        let string = &self.bindings().strings[index];
         let mut all = attributes(&string.annotation).iter();
         let Some(attribute) = all.find(|attribute| {
             attribute.keyword == Keyword::Color

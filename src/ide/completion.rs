@@ -12,7 +12,7 @@ use super::Analysis;
 use super::at::attributes;
 use super::quoting::{Role, written};
 use super::typed::{Typed, typed_at};
-use crate::bind::{PartKind, Place, Sheet};
+use crate::bind::{Bindings, PartKind, Place};
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::colours::COLOURS;
 use crate::lang::keyword::kinds::{KINDS, Kind};
@@ -91,7 +91,7 @@ struct Cursor<'a> {
     /// What stands before the place, decoded.
     head: &'a str,
     in_desc: bool,
-    /// Index of the string in the sheet, if it is there.
+    /// Index of the string in the bindings, if it is there.
     string: Option<usize>,
 }
 
@@ -100,7 +100,7 @@ pub fn completion(context: &Context<'_>, offset: usize) -> Option<Completion> {
     let analysis = context.analysis;
     let is_current = analysis.is_sound() && **analysis.source() == *context.source;
     if let Some((string, at)) = is_current.then(|| analysis.string_at(offset)).flatten() {
-        let found = &analysis.sheet().strings[string];
+        let found = &analysis.bindings().strings[string];
         let cursor = Cursor {
             context,
             text: &found.text,
@@ -229,14 +229,14 @@ impl Cursor<'_> {
 
     /// The parts that the string's own part can hang on.
     fn parents(&self) -> Vec<Proposal> {
-        let sheet = self.context.analysis.sheet();
+        let bindings = self.context.analysis.bindings();
         let own = match self.string {
             Some(string) => self.context.analysis.part_of_string(string),
             None => None,
         };
         let typed = own_name_of(self.text, self.in_desc);
-        let carried = own.map_or_else(Vec::new, |own| carried_by(sheet, own));
-        let parts = sheet.parts.iter().enumerate().filter(|(index, part)| {
+        let carried = own.map_or_else(Vec::new, |own| carried_by(bindings, own));
+        let parts = bindings.parts.iter().enumerate().filter(|(index, part)| {
             part.kind == PartKind::Main
                 && !part.name.is_empty()
                 && !part.name.contains('"')
@@ -251,7 +251,7 @@ impl Cursor<'_> {
             .map(|(_, part)| {
                 let on = part
                     .parent
-                    .map(|parent| format!("on {}", sheet.parts[parent].name));
+                    .map(|parent| format!("on {}", bindings.parts[parent].name));
                 Proposal {
                     label: part.name.clone(),
                     kind: ProposalKind::Part,
@@ -272,7 +272,7 @@ impl Cursor<'_> {
             _ => Holder::Part,
         };
         let whole = self.string.map(|string| {
-            let string = &self.context.analysis.sheet().strings[string];
+            let string = &self.context.analysis.bindings().strings[string];
             attributes(&string.annotation)
         });
         let given: BTreeSet<Keyword> = whole
@@ -409,7 +409,7 @@ impl Cursor<'_> {
     }
 
     fn variables(&self) -> Vec<Proposal> {
-        let variables = self.context.analysis.sheet().variables.iter();
+        let variables = self.context.analysis.bindings().variables.iter();
         variables
             .map(|(name, variable)| {
                 let value = variable.value.map(|value| value.to_string());
@@ -492,14 +492,14 @@ impl Cursor<'_> {
 }
 
 /// Of each part whether it is `own` or hangs on it, however far down.
-fn carried_by(sheet: &Sheet, own: usize) -> Vec<bool> {
-    let mut children: Vec<Vec<usize>> = vec![vec![]; sheet.parts.len()];
-    for (index, part) in sheet.parts.iter().enumerate() {
+fn carried_by(bindings: &Bindings, own: usize) -> Vec<bool> {
+    let mut children: Vec<Vec<usize>> = vec![vec![]; bindings.parts.len()];
+    for (index, part) in bindings.parts.iter().enumerate() {
         if let Some(parent) = part.parent {
             children[parent].push(index);
         }
     }
-    let mut carried = vec![false; sheet.parts.len()];
+    let mut carried = vec![false; bindings.parts.len()];
     let mut waiting = vec![own];
     while let Some(part) = waiting.pop() {
         if !std::mem::replace(&mut carried[part], true) {

@@ -7,7 +7,7 @@ use crate::source::Span;
 impl Analysis {
     /// The elements of all strings, in the order of the file.
     pub fn folds(&self) -> Vec<Span> {
-        let strings = self.sheet().strings.iter();
+        let strings = self.bindings().strings.iter();
         let mut folds: Vec<Span> = strings
             .filter(|string| !string.text.as_str().is_empty())
             .map(|string| match string.place {

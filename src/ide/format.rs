@@ -3,7 +3,7 @@
 use super::Analysis;
 use super::at::{Item, Token, attributes, tokens};
 use super::rename::replace;
-use crate::bind::SheetString;
+use crate::bind::DrawingString;
 use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::kinds;
@@ -22,7 +22,7 @@ impl Analysis {
         if !self.is_sound() {
             return vec![];
         }
-        let strings = self.sheet().strings.iter().filter(|string| {
+        let strings = self.bindings().strings.iter().filter(|string| {
             let whole = string.text.whole();
             !string.text.as_str().is_empty()
                 && whole.start <= window.end
@@ -44,13 +44,13 @@ impl Analysis {
 
     /// Whether the strings of both say the same of the same parts.
     fn means_the_same(&self, other: &Self) -> bool {
-        let (one, two) = (self.sheet(), other.sheet());
+        let (one, two) = (self.bindings(), other.bindings());
         let strings = one.strings.iter().zip(&two.strings);
         let parts = one.parts.iter().zip(&two.parts);
         one.strings.len() == two.strings.len()
             && one.parts.len() == two.parts.len()
             && strings.into_iter().all(|(one, two)| {
-                let values = |string: &SheetString| -> Vec<_> {
+                let values = |string: &DrawingString| -> Vec<_> {
                     let settings = string.settings.iter();
                     settings
                         .map(|setting| (setting.keyword, setting.value.clone()))
@@ -63,7 +63,7 @@ impl Analysis {
             })
     }
 
-    fn formatted(&self, string: &SheetString) -> Vec<Edit> {
+    fn formatted(&self, string: &DrawingString) -> Vec<Edit> {
         if matches!(
             string.annotation,
             Annotation::Comment | Annotation::Unused | Annotation::Caption | Annotation::Empty
@@ -103,7 +103,7 @@ impl Analysis {
     }
 
     /// A word in its usual form.
-    fn usual(&self, string: &SheetString, token: &Token, written: &str) -> String {
+    fn usual(&self, string: &DrawingString, token: &Token, written: &str) -> String {
         if written.starts_with(['"', '＂']) {
             return written.to_owned();
         }

@@ -28,13 +28,13 @@ impl Analysis {
     pub fn definition(&self, offset: usize) -> Option<(Span, Vec<Target>)> {
         match self.at(offset)? {
             At::Tag { shape, part } => {
-                let part = &self.sheet().parts[part?];
-                let string = part.string.or(self.sheet().parts[part.main].string)?;
+                let part = &self.bindings().parts[part?];
+                let string = part.string.or(self.bindings().parts[part.main].string)?;
                 let from = self.drawing().shapes[shape].element.span;
                 Some((from, vec![Target::Here(self.place_of_string(string))]))
             }
             At::String { string, token, .. } => {
-                let text = &self.sheet().strings[string].text;
+                let text = &self.bindings().strings[string].text;
                 let Some(token) = token else {
                     return Some((text.whole(), self.shape_of(string)?));
                 };
@@ -67,20 +67,20 @@ impl Analysis {
         }
         let part = match at {
             At::Tag { part, .. } => part?,
-            At::String { string, .. } => self.sheet().strings[string].binding?.part,
+            At::String { string, .. } => self.bindings().strings[string].binding?.part,
         };
-        Some(own_name(&self.compiled, &self.sheet().parts[part]))
+        Some(own_name(&self.compiled, &self.bindings().parts[part]))
     }
 
     /// Where the string of a part or a landscape is, or a part's tag if it has none.
     pub fn place_of(&self, name: &str) -> Option<Span> {
-        let mut parts = self.sheet().parts.iter().enumerate();
+        let mut parts = self.bindings().parts.iter().enumerate();
         if let Some((part, _)) = parts.find(|(_, part)| own_name(&self.compiled, part) == name) {
             return Some(self.place_of_part(part));
         }
         let mut layers = self.compiled.layers.iter();
         let layer = layers.find(|layer| layer.name == name)?;
-        Some(self.sheet().strings[layer.string].text.whole())
+        Some(self.bindings().strings[layer.string].text.whole())
     }
 
     /// Where the symbol at byte `offset` is defined.
@@ -101,7 +101,7 @@ impl Analysis {
 
     /// The shape that a string is about.
     fn shape_of(&self, string: usize) -> Option<Vec<Target>> {
-        let part = &self.sheet().parts[self.part_of_string(string)?];
+        let part = &self.bindings().parts[self.part_of_string(string)?];
         let element = &self.drawing().shapes[part.shape].element;
         Some(vec![Target::Here(element.span)])
     }
@@ -109,8 +109,8 @@ impl Analysis {
     /// What an attribute of a part's own string overrules: the legend's or the default's setting.
     fn overruled(&self, string: usize, index: usize) -> Option<Vec<Target>> {
         let part = self.part_of_string(string)?;
-        let keyword = attributes(&self.sheet().strings[string].annotation)[index].keyword;
-        let others = self.sheet().inherited(part, keyword)?;
+        let keyword = attributes(&self.bindings().strings[string].annotation)[index].keyword;
+        let others = self.bindings().inherited(part, keyword)?;
         Some(vec![Target::Here(
             self.setting_span(others.string, &others.setting.range),
         )])
@@ -118,7 +118,7 @@ impl Analysis {
 
     /// The place of a setting.
     pub(super) fn setting_span(&self, string: usize, range: &Range<usize>) -> Span {
-        self.sheet().strings[string].text.span(range.clone())
+        self.bindings().strings[string].text.span(range.clone())
     }
 
     /// The file that an argument names.
@@ -126,7 +126,7 @@ impl Analysis {
         let Item::Argument(attribute, argument) = item else {
             return None;
         };
-        let attribute = &attributes(&self.sheet().strings[string].annotation)[attribute];
+        let attribute = &attributes(&self.bindings().strings[string].annotation)[attribute];
         file_named(attribute, argument).map(|name| Target::File(name.to_owned()))
     }
 
@@ -143,7 +143,7 @@ impl Analysis {
         let part_name = match self.at(offset) {
             Some(At::Tag {
                 part: Some(part), ..
-            }) => self.sheet().parts[part].name.clone(),
+            }) => self.bindings().parts[part].name.clone(),
             Some(At::String {
                 string,
                 token: Some(token),
@@ -159,7 +159,7 @@ impl Analysis {
     fn parts_that_go_by(&self, string: usize, item: Item) -> Vec<Span> {
         let keyword = match item {
             Item::Keyword(index) => {
-                Some(attributes(&self.sheet().strings[string].annotation)[index].keyword)
+                Some(attributes(&self.bindings().strings[string].annotation)[index].keyword)
             }
             Item::Sign => None,
             _ => return vec![],
@@ -170,11 +170,11 @@ impl Analysis {
         };
         let goes_by = |part: &usize| {
             keywords.iter().any(|keyword| {
-                let source = self.sheet().setting(*part, *keyword);
+                let source = self.bindings().setting(*part, *keyword);
                 source.is_some_and(|source| source.string == string && source.from != SetBy::Own)
             })
         };
-        let parts = 0..self.sheet().parts.len();
+        let parts = 0..self.bindings().parts.len();
         parts
             .filter(goes_by)
             .map(|part| self.place_of_part(part))

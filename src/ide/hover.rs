@@ -42,7 +42,7 @@ impl Analysis {
                 offset,
                 token,
             } => {
-                let text = &self.sheet().strings[string].text;
+                let text = &self.bindings().strings[string].text;
                 match token {
                     None => (text.whole(), self.string_card(string)?),
                     Some(token) => (
@@ -56,7 +56,7 @@ impl Analysis {
     }
 
     fn token_card(&self, string: usize, item: Item, offset: usize) -> Option<String> {
-        let annotation = &self.sheet().strings[string].annotation;
+        let annotation = &self.bindings().strings[string].annotation;
         let attribute = |index: usize| &attributes(annotation)[index];
         match item {
             Item::Sign | Item::Name | Item::Remark => self.string_card(string),
@@ -111,8 +111,8 @@ impl Analysis {
         slot: Slot,
         offset: usize,
     ) -> Option<String> {
-        let sheet = self.sheet();
-        let given = &attributes(&sheet.strings[string].annotation)[index].arguments[argument];
+        let bindings = self.bindings();
+        let given = &attributes(&bindings.strings[string].annotation)[index].arguments[argument];
         let parameter = slot.parameter();
         let usage = match slot.kind {
             Some(kind) => format!("Shape {}", kind.usage()),
@@ -142,7 +142,7 @@ impl Analysis {
                 takes.describe()
             ),
         };
-        if let Some(value) = sheet.variables.value(given)
+        if let Some(value) = bindings.variables.value(given)
             && !matches!(given.kind, ArgumentKind::Number(_))
         {
             let _ = write!(out, "\n\nIts value here is {value}.");
@@ -156,11 +156,14 @@ impl Analysis {
 
     /// Of the variable at a place of a string: its value and where it comes from.
     fn variable_card(&self, string: usize, offset: usize) -> Option<String> {
-        let at = self.sheet().strings[string].text.span(offset..offset).start;
+        let at = self.bindings().strings[string]
+            .text
+            .span(offset..offset)
+            .start;
         let (Symbol::Variable(name), _) = self.symbol_at(at)? else {
             return None;
         };
-        let variables = &self.sheet().variables;
+        let variables = &self.bindings().variables;
         let (_, variable) = variables.iter().find(|(known, _)| *known == name)?;
         let definition = &self.source[variable.place.start..];
         let definition = definition.split(['<', '\n']).next().unwrap_or_default();
@@ -172,12 +175,12 @@ impl Analysis {
     }
 
     fn string_card(&self, string: usize) -> Option<String> {
-        let sheet = self.sheet();
-        match &sheet.strings[string].annotation {
+        let bindings = self.bindings();
+        match &bindings.strings[string].annotation {
             Annotation::Defaults(_) => Some(self.defaults_card(string)),
             Annotation::Legend(_) => self.legend_card(string),
             Annotation::Unused => {
-                let part = sheet.strings[string].binding?.part;
+                let part = bindings.strings[string].binding?.part;
                 Some(format!(
                     "{} is left out of the model.",
                     self.element_of(part)
@@ -198,28 +201,28 @@ impl Analysis {
 
     /// A part: where it hangs, what it is bound to and why, and where each attribute comes from.
     pub(super) fn part_card(&self, index: usize) -> String {
-        let sheet = self.sheet();
-        let part = &sheet.parts[index];
+        let bindings = self.bindings();
+        let part = &bindings.parts[index];
         let mut out = match part.kind {
             PartKind::Main => format!("**{}**", escaped(&part.name)),
             PartKind::Sub => {
-                let main = sheet.describe(self.drawing(), part.main);
+                let main = bindings.describe(self.drawing(), part.main);
                 format!("A solid in the node of {main}")
             }
             PartKind::Legend => "**A legend's swatch**, left out of the model".to_owned(),
             PartKind::Unused => "**Left out of the model**".to_owned(),
             PartKind::Tile => {
-                let layer = sheet.layer_of_group(self.drawing().shapes[part.shape].group);
-                let name = layer.map_or("", |layer| &sheet.layers[layer].name);
+                let layer = bindings.layer_of_group(self.drawing().shapes[part.shape].group);
+                let name = layer.map_or("", |layer| &bindings.layers[layer].name);
                 format!("**Tiles** of {}", escaped(name))
             }
         };
         if part.kind == PartKind::Main {
             let _ = write!(out, "\n\n{}", self.lineage(index));
         }
-        let bound = sheet.parts[index]
+        let bound = bindings.parts[index]
             .string
-            .and_then(|string| sheet.strings[string].binding)
+            .and_then(|string| bindings.strings[string].binding)
             .map(|binding| binding.by);
         let why = match bound {
             None if part.automatic => {
@@ -235,7 +238,7 @@ impl Analysis {
         if matches!(part.kind, PartKind::Main | PartKind::Sub) {
             // A list, since many editors show tables as they are written.
             out.push_str("\n\n");
-            for attribute in sheet.resolved(self.drawing(), index) {
+            for attribute in bindings.resolved(self.drawing(), index) {
                 let from = match attribute.from {
                     SetBy::Own => "its own string",
                     SetBy::Legend => "the legend of its paint",
@@ -255,9 +258,9 @@ impl Analysis {
             let _ = write!(out, "\n{driven}");
         }
         if part.kind == PartKind::Main {
-            let children = (0..sheet.parts.len()).filter(|child| {
-                sheet.parts[*child].kind == PartKind::Main
-                    && sheet.parts[*child].parent == Some(index)
+            let children = (0..bindings.parts.len()).filter(|child| {
+                bindings.parts[*child].kind == PartKind::Main
+                    && bindings.parts[*child].parent == Some(index)
             });
             if let Some(names) = self.names(children.collect()) {
                 let _ = write!(out, "\nCarries {names}.");
@@ -268,7 +271,7 @@ impl Analysis {
 
     /// `Root › Ubody › **Rarm**`
     fn lineage(&self, part: usize) -> String {
-        let parts = &self.sheet().parts;
+        let parts = &self.bindings().parts;
         let mut names = vec![format!("**{}**", escaped(&parts[part].name))];
         let mut at = part;
         while let Some(parent) = parts[at].parent {
@@ -285,7 +288,7 @@ impl Analysis {
     }
 
     fn element_of(&self, part: usize) -> String {
-        let element = &self.drawing().shapes[self.sheet().parts[part].shape].element;
+        let element = &self.drawing().shapes[self.bindings().parts[part].shape].element;
         let called = element.describe();
         match element.label.is_some() || element.id.is_some() {
             true => format!("`<{}>` {called}", element.tag),
@@ -303,7 +306,7 @@ impl Analysis {
     }
 
     fn legend_card(&self, string: usize) -> Option<String> {
-        let part = self.sheet().strings[string].binding?.part;
+        let part = self.bindings().strings[string].binding?.part;
         let mut out = format!(
             "A legend for all parts that are painted like {}.",
             self.element_of(part)
@@ -319,24 +322,24 @@ impl Analysis {
 
     /// The parts that take an attribute from a legend or from a `%` string.
     fn parts_by(&self, string: usize) -> Vec<usize> {
-        let sheet = self.sheet();
-        let keywords = attributes(&sheet.strings[string].annotation);
+        let bindings = self.bindings();
+        let keywords = attributes(&bindings.strings[string].annotation);
         let goes_by = |part: &usize| {
-            let is_built = matches!(sheet.parts[*part].kind, PartKind::Main | PartKind::Sub);
+            let is_built = matches!(bindings.parts[*part].kind, PartKind::Main | PartKind::Sub);
             is_built
                 && keywords.iter().any(|attribute| {
-                    let source = sheet.setting(*part, attribute.keyword);
+                    let source = bindings.setting(*part, attribute.keyword);
                     source.is_some_and(|source| source.string == string)
                 })
         };
-        (0..sheet.parts.len()).filter(goes_by).collect()
+        (0..bindings.parts.len()).filter(goes_by).collect()
     }
 
     fn names(&self, parts: Vec<usize>) -> Option<String> {
         let shown: Vec<_> = parts
             .iter()
             .take(MOST_NAMED)
-            .map(|part| self.sheet().describe(self.drawing(), *part))
+            .map(|part| self.bindings().describe(self.drawing(), *part))
             .collect();
         let more = parts.len().saturating_sub(MOST_NAMED);
         match (shown.is_empty(), more) {

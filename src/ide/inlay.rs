@@ -32,21 +32,21 @@ pub struct InlayPiece {
 impl Analysis {
     /// The inlays within `window`, in the order of the file.
     pub fn inlays(&self, window: Span) -> Vec<Inlay> {
-        let sheet = self.sheet();
-        if !sheet.annotated {
+        let bindings = self.bindings();
+        if !bindings.annotated {
             return vec![];
         }
         let mut out = vec![];
-        for index in 0..sheet.parts.len() {
-            let part = &sheet.parts[index];
+        for index in 0..bindings.parts.len() {
+            let part = &bindings.parts[index];
             if part.kind != PartKind::Main {
                 continue;
             }
             match part.string {
                 Some(string)
-                    if sheet.strings[string].text.whole().touches(window.start)
+                    if bindings.strings[string].text.whole().touches(window.start)
                         || (window.start..=window.end)
-                            .contains(&sheet.strings[string].text.whole().start) =>
+                            .contains(&bindings.strings[string].text.whole().start) =>
                 {
                     out.extend(self.name_of_element(index, string));
                     out.extend(self.inherited_by(index, string));
@@ -62,8 +62,8 @@ impl Analysis {
 
     /// Behind a shape's tag: the name and parent that it was given by itself.
     fn automatic(&self, index: usize) -> Option<Inlay> {
-        let sheet = self.sheet();
-        let part = &sheet.parts[index];
+        let bindings = self.bindings();
+        let part = &bindings.parts[index];
         let at = self.drawing().shapes[part.shape].element.span.end;
         let mut pieces = vec![InlayPiece {
             text: part.name.clone(),
@@ -72,7 +72,7 @@ impl Analysis {
         }];
         if let Some(parent) = part.parent {
             pieces.push(InlayPiece {
-                text: format!("@{}", sheet.parts[parent].name),
+                text: format!("@{}", bindings.parts[parent].name),
                 from: Some(self.place_of_part(parent)),
                 about: "It hangs on the nearest named part".to_owned(),
             });
@@ -82,11 +82,13 @@ impl Analysis {
 
     /// Before a description without a name: the name that its element gives.
     fn name_of_element(&self, index: usize, string: usize) -> Option<Inlay> {
-        let sheet = self.sheet();
-        let found = &sheet.strings[string];
+        let bindings = self.bindings();
+        let found = &bindings.strings[string];
         let text = found.text.as_str();
         let nameless = own_name(found).is_none() && looks_like_string(text);
-        if matches!(found.place, Place::Label(_)) || !nameless || sheet.parts[index].name.is_empty()
+        if matches!(found.place, Place::Label(_))
+            || !nameless
+            || bindings.parts[index].name.is_empty()
         {
             return None;
         }
@@ -94,8 +96,12 @@ impl Analysis {
         Some(Inlay {
             at: found.text.span(start..start).start,
             pieces: vec![InlayPiece {
-                text: sheet.parts[index].name.clone(),
-                from: Some(self.drawing().shapes[sheet.parts[index].shape].element.span),
+                text: bindings.parts[index].name.clone(),
+                from: Some(
+                    self.drawing().shapes[bindings.parts[index].shape]
+                        .element
+                        .span,
+                ),
                 about: "The name is the label or the id of the element".to_owned(),
             }],
         })
@@ -103,9 +109,9 @@ impl Analysis {
 
     /// Behind a string: what its part has from a legend or from `%`.
     fn inherited_by(&self, index: usize, string: usize) -> Option<Inlay> {
-        let sheet = self.sheet();
-        let text = &sheet.strings[string].text;
-        let resolved = sheet.resolved(self.drawing(), index).into_iter();
+        let bindings = self.bindings();
+        let text = &bindings.strings[string].text;
+        let resolved = bindings.resolved(self.drawing(), index).into_iter();
         let inherited: Vec<_> = resolved
             .filter(|attribute| matches!(attribute.from, SetBy::Legend | SetBy::Default))
             .collect();
@@ -115,7 +121,7 @@ impl Analysis {
         let mut pieces = vec![];
         for attribute in inherited.iter().take(MOST) {
             let space = if pieces.is_empty() { "" } else { " " };
-            let source = sheet.setting(index, attribute.keyword)?;
+            let source = bindings.setting(index, attribute.keyword)?;
             pieces.push(InlayPiece {
                 text: format!("{space}{} {}", attribute.keyword.name(), attribute.value),
                 from: Some(self.setting_span(source.string, &source.setting.range)),

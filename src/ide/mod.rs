@@ -41,7 +41,7 @@ pub use uses::{Symbol, Use};
 
 use std::sync::Arc;
 
-use crate::bind::{PartKind, Sheet};
+use crate::bind::{Bindings, PartKind};
 use crate::compile::Compiled;
 use crate::diagnostic::Diagnostic;
 use crate::source::Span;
@@ -87,13 +87,13 @@ impl Analysis {
     /// editors show nothing.
     pub fn is_annotated(&self) -> bool {
         match self.is_sound() {
-            true => self.sheet().annotated,
+            true => self.bindings().annotated,
             false => typed::looks_annotated(&self.source),
         }
     }
 
-    fn sheet(&self) -> &Sheet {
-        &self.compiled.sheet
+    fn bindings(&self) -> &Bindings {
+        &self.compiled.bindings
     }
 
     fn drawing(&self) -> &Drawing {
@@ -103,13 +103,13 @@ impl Analysis {
     /// The main part of a name; of several the hindmost.
     fn part_named(&self, name: &str) -> Option<usize> {
         let named = |part: &crate::bind::Part| part.kind == PartKind::Main && part.name == name;
-        self.sheet().parts.iter().position(named)
+        self.bindings().parts.iter().position(named)
     }
 
     /// Where a part is named: in its string, or at its shape's tag.
     fn place_of_part(&self, part: usize) -> Span {
-        let sheet = self.sheet();
-        let part = &sheet.parts[part];
+        let bindings = self.bindings();
+        let part = &bindings.parts[part];
         match part.string {
             Some(string) => self.place_of_string(string),
             None => self.drawing().shapes[part.shape].element.span,
@@ -118,7 +118,7 @@ impl Analysis {
 
     /// Where a string says whom it is about: its name, or all of it.
     fn place_of_string(&self, string: usize) -> Span {
-        let string = &self.sheet().strings[string];
+        let string = &self.bindings().strings[string];
         let name = at::tokens(string)
             .into_iter()
             .find(|token| token.item == Item::Name);
@@ -130,9 +130,9 @@ impl Analysis {
 
     /// Whether a variable of this name is defined.
     fn is_variable(&self, name: &str) -> bool {
-        self.sheet().variables.get(name).is_some()
+        self.bindings().variables.get(name).is_some()
             || self
-                .sheet()
+                .bindings()
                 .variables
                 .iter()
                 .any(|(known, _)| known == name)

@@ -22,7 +22,7 @@ const MOST_JOINTS: usize = 8;
 impl Analysis {
     /// The clips of the drawing, those of a part's figure first.
     pub(super) fn clips_for(&self, part: Option<usize>) -> Vec<&Shot> {
-        let main = part.map(|part| self.sheet().parts[part].main);
+        let main = part.map(|part| self.bindings().parts[part].main);
         let mut shots: Vec<&Shot> = self.compiled.shots.iter().collect();
         shots.sort_by_key(|shot| main.is_none_or(|main| shot.driven(main).is_none()));
         shots
@@ -31,7 +31,7 @@ impl Analysis {
     /// Which joint drives a part, and why, in each clip of its figure: one paragraph for clips that agree. Nothing for
     /// parts of figures that do not move.
     pub(super) fn driven_card(&self, part: usize) -> Option<String> {
-        if self.sheet().parts[part].kind != PartKind::Main {
+        if self.bindings().parts[part].kind != PartKind::Main {
             return None;
         }
         let mut lines: Vec<(String, Vec<&str>)> = vec![];
@@ -75,7 +75,7 @@ impl Analysis {
 
     /// What the clips are that attribute `index` of a string asks for or cuts, or which joint drives its part.
     pub(super) fn motion_card(&self, string: usize, index: usize) -> Option<String> {
-        let string_of = &self.sheet().strings[string];
+        let string_of = &self.bindings().strings[string];
         let attribute = &attributes(&string_of.annotation)[index];
         let span = string_of.text.span(attribute.range.clone());
         match attribute.keyword {
@@ -143,7 +143,7 @@ impl Analysis {
         let part = self.part_of_string(string);
         let shots = self.clips_for(part);
         let is_own = |shot: &&&Shot| {
-            part.is_some_and(|part| shot.driven(self.sheet().parts[part].main).is_some())
+            part.is_some_and(|part| shot.driven(self.bindings().parts[part].main).is_some())
         };
         let own = shots.iter().filter(is_own).count();
         let shots = if own > 0 { &shots[..own] } else { &shots[..] };
@@ -169,12 +169,12 @@ impl Analysis {
     }
 
     fn figure_of(&self, shot: &Shot) -> String {
-        code(&self.sheet().parts[shot.root].name)
+        code(&self.bindings().parts[shot.root].name)
     }
 
     /// The name that an argument of `Bone` gives.
     pub(super) fn bone_name(&self, string: usize, index: usize, argument: usize) -> Option<&str> {
-        let attribute = &attributes(&self.sheet().strings[string].annotation)[index];
+        let attribute = &attributes(&self.bindings().strings[string].annotation)[index];
         match &attribute.arguments.get(argument)?.kind {
             ArgumentKind::Word(name) | ArgumentKind::Quoted(name)
                 if attribute.keyword == Keyword::Bone =>

@@ -3,7 +3,7 @@
 use super::quoting::{Role, can_be_bare, meant, written};
 use super::uses::own_name;
 use super::{Analysis, Item, Symbol, Use};
-use crate::bind::SheetString;
+use crate::bind::DrawingString;
 use crate::diagnostic::Edit;
 use crate::lang::keyword::{Keyword, colours, words};
 use crate::lang::{in_word, looks_like_string};
@@ -76,7 +76,7 @@ impl Analysis {
         }
         let mut edits = vec![];
         for found in self.uses(&symbol) {
-            let string = &self.sheet().strings[found.string];
+            let string = &self.bindings().strings[found.string];
             let new = rewritten(string, &found, &symbol, &name);
             let replaced = replace(&string.text, found.range.clone(), &new);
             edits.extend(replaced.ok_or_else(|| RenameError::InEntity(symbol.name().to_owned()))?);
@@ -95,7 +95,7 @@ impl Analysis {
         let (symbol, found) = self.symbol_at(offset).ok_or(RenameError::NoName)?;
         if let Symbol::Part(name) = &symbol
             && let Some(part) = self.part_named(name)
-            && self.sheet().parts[part].string.is_none()
+            && self.bindings().parts[part].string.is_none()
         {
             return Err(RenameError::NoString(name.clone()));
         }
@@ -119,8 +119,8 @@ impl Analysis {
 
     /// A description without a name takes it from its element: there the new name is put before the rest.
     fn named_by_element(&self, old: &str, name: &str) -> Option<Edit> {
-        let part = &self.sheet().parts[self.part_named(old)?];
-        let string = &self.sheet().strings[part.string?];
+        let part = &self.bindings().parts[self.part_named(old)?];
+        let string = &self.bindings().strings[part.string?];
         let head = string.text.as_str();
         let start = head.len() - head.trim_start().len();
         (own_name(string).is_none() && looks_like_string(head)).then(|| Edit {
@@ -131,7 +131,7 @@ impl Analysis {
 }
 
 /// The new name as it is written in place of the old one. Quotes that the old name did not need are kept.
-fn rewritten(string: &SheetString, found: &Use, symbol: &Symbol, name: &str) -> String {
+fn rewritten(string: &DrawingString, found: &Use, symbol: &Symbol, name: &str) -> String {
     if matches!(symbol, Symbol::Variable(_)) {
         return name.to_owned();
     }

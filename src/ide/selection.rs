@@ -11,7 +11,7 @@ impl Analysis {
         let Some((index, at)) = self.string_at(offset) else {
             return vec![];
         };
-        let string = &self.sheet().strings[index];
+        let string = &self.bindings().strings[index];
         let all = attributes(&string.annotation);
         let mut ranges = vec![];
         if let Some(token) = token_at(string, at) {

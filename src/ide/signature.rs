@@ -39,7 +39,7 @@ pub fn signature(source: &str, analysis: &Analysis, offset: usize) -> Option<Sig
     let is_current = analysis.is_sound() && **analysis.source() == *source;
     let (head, place) = match is_current.then(|| analysis.string_at(offset)).flatten() {
         Some((string, at)) => {
-            let string = &analysis.sheet().strings[string];
+            let string = &analysis.bindings().strings[string];
             let place = match string.place {
                 Place::Label(_) => lang::Place::Text,
                 Place::Shape(_) | Place::Group(_) => lang::Place::Desc,

@@ -27,18 +27,18 @@ pub struct Outline {
 impl Analysis {
     /// The main parts as a tree, in the order of the file.
     pub fn outline(&self) -> Vec<Outline> {
-        let sheet = self.sheet();
-        if !sheet.annotated {
+        let bindings = self.bindings();
+        if !bindings.annotated {
             return vec![];
         }
-        let mut children: Vec<Vec<usize>> = vec![vec![]; sheet.parts.len()];
+        let mut children: Vec<Vec<usize>> = vec![vec![]; bindings.parts.len()];
         let mut roots = vec![];
-        let mut order: Vec<usize> = (0..sheet.parts.len())
-            .filter(|part| sheet.parts[*part].kind == PartKind::Main)
+        let mut order: Vec<usize> = (0..bindings.parts.len())
+            .filter(|part| bindings.parts[*part].kind == PartKind::Main)
             .collect();
         order.sort_by_cached_key(|part| self.place_of_part(*part));
         for part in order {
-            match sheet.parts[part].parent {
+            match bindings.parts[part].parent {
                 Some(parent) => children[parent].push(part),
                 None => roots.push(part),
             }
@@ -63,15 +63,15 @@ impl Analysis {
     }
 
     fn outline_entry(&self, part: usize) -> Outline {
-        let sheet = self.sheet();
+        let bindings = self.bindings();
         let selection = self.place_of_part(part);
-        let shape = sheet.setting(part, crate::lang::keyword::Keyword::Shape);
-        let span = match sheet.parts[part].string {
-            Some(string) => sheet.strings[string].text.whole(),
+        let shape = bindings.setting(part, crate::lang::keyword::Keyword::Shape);
+        let span = match bindings.parts[part].string {
+            Some(string) => bindings.strings[string].text.whole(),
             None => selection,
         };
         Outline {
-            name: sheet.parts[part].name.clone(),
+            name: bindings.parts[part].name.clone(),
             detail: shape.map_or("default".to_owned(), |source| source.setting.words.clone()),
             is_joint: false,
             span: span.join(selection),

@@ -50,7 +50,7 @@ pub struct Colouring {
 impl Analysis {
     /// What the words of all strings within `window` are, in the order of the file.
     pub fn colouring(&self, window: Span) -> Vec<Colouring> {
-        let strings = &self.sheet().strings;
+        let strings = &self.bindings().strings;
         let first = strings.partition_point(|string| string.text.whole().end < window.start);
         let mut out: Vec<Colouring> = vec![];
         for (index, string) in strings.iter().enumerate().skip(first) {
@@ -70,7 +70,7 @@ impl Analysis {
     }
 
     fn colouring_of(&self, index: usize, out: &mut Vec<Colouring>) {
-        let string = &self.sheet().strings[index];
+        let string = &self.bindings().strings[index];
         let mut push = |range: Range<usize>, paint, defines| {
             for piece in string.text.pieces(range) {
                 for span in self.lines_of(piece) {

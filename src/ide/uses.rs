@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::Analysis;
 use super::at::{At, Item, attributes};
-use crate::bind::SheetString;
+use crate::bind::DrawingString;
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::signature::Takes;
@@ -68,7 +68,7 @@ impl Analysis {
 
     /// Where a symbol stands, in the order of the text.
     pub fn uses(&self, symbol: &Symbol) -> Vec<Use> {
-        let strings = 0..self.sheet().strings.len();
+        let strings = 0..self.bindings().strings.len();
         let all = strings.flat_map(|string| self.symbols_of(string));
         all.filter(|(other, _)| other == symbol)
             .map(|(_, found)| found)
@@ -77,14 +77,14 @@ impl Analysis {
 
     /// The place of a use in the drawing.
     pub fn span_of(&self, found: &Use) -> Span {
-        self.sheet().strings[found.string]
+        self.bindings().strings[found.string]
             .text
             .span(found.range.clone())
     }
 
     /// The symbols of a string, in order.
     fn symbols_of(&self, index: usize) -> Vec<(Symbol, Use)> {
-        let string = &self.sheet().strings[index];
+        let string = &self.bindings().strings[index];
         let mut found = vec![];
         let mut push = |symbol, range: &Range<usize>, defines| {
             let range = range.clone();
@@ -153,7 +153,7 @@ impl Analysis {
     /// Which strings name a part of this name.
     pub(super) fn named_in(&self, name: &str) -> Option<usize> {
         let symbol = Symbol::Part(name.to_owned());
-        let strings = 0..self.sheet().strings.len();
+        let strings = 0..self.bindings().strings.len();
         strings.into_iter().find(|string| {
             self.symbols_of(*string)
                 .iter()
@@ -163,7 +163,7 @@ impl Analysis {
 }
 
 /// The name that a string gives its part, if it gives one.
-pub(super) fn own_name(string: &SheetString) -> Option<&str> {
+pub(super) fn own_name(string: &DrawingString) -> Option<&str> {
     match &string.annotation {
         Annotation::Part(part) => part.name.as_ref().map(|name| name.text.as_str()),
         _ => None,

@@ -65,7 +65,7 @@ pub fn clips(compiled: &Compiled) -> Vec<Clip<'_>> {
 }
 
 fn clip<'a>(compiled: &'a Compiled, shot: &'a Shot) -> Clip<'a> {
-    let name = |part: usize| own_name(compiled, &compiled.sheet.parts[part]);
+    let name = |part: usize| own_name(compiled, &compiled.bindings.parts[part]);
     let mut joints = BTreeMap::new();
     let mut unmatched = Vec::new();
     for driven in &shot.parts {

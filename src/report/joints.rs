@@ -41,7 +41,7 @@ pub struct Driver<'a> {
 
 /// The clips of a drawing, in the order in which strings ask for them.
 pub fn clip_reports(compiled: &Compiled) -> Vec<ClipReport<'_>> {
-    let parts = &compiled.sheet.parts;
+    let parts = &compiled.bindings.parts;
     let report = |shot| {
         let shot: &Shot = shot;
         let joint = |driven: &Driven| {
@@ -79,7 +79,7 @@ pub fn cut_frames(shot: &Shot) -> (Vec<u32>, Vec<u32>) {
 /// Per part what drives it: the joint of the first clip of its figure that has one for it, else why the first clip has none.
 /// `None` for parts of no figure that moves.
 pub fn drivers(compiled: &Compiled) -> Vec<Option<Driver<'_>>> {
-    let mut drivers: Vec<Option<Driver>> = vec![None; compiled.sheet.parts.len()];
+    let mut drivers: Vec<Option<Driver>> = vec![None; compiled.bindings.parts.len()];
     for shot in &compiled.shots {
         for driven in &shot.parts {
             let driver = &mut drivers[driven.part];

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::{Places, drivers};
-use crate::bind::{self, PartKind, SetBy, SheetString};
+use crate::bind::{self, DrawingString, PartKind, SetBy};
 use crate::compile::Compiled;
 use crate::terrain::Layer;
 
@@ -63,21 +63,23 @@ pub struct AttributeReport {
 
 /// The parts of a drawing, in the order in which they are drawn.
 pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
-    let sheet = &compiled.sheet;
+    let bindings = &compiled.bindings;
     let places = Places::new(text);
     let drivers = drivers(compiled);
-    let parts = sheet.parts.iter().enumerate();
+    let parts = bindings.parts.iter().enumerate();
     let parts = parts.filter(|(_, part)| part.kind != PartKind::Tile);
     let report = |(index, part): (usize, &'a bind::Part)| Part {
         name: own_name(compiled, part),
         parent: match part.kind {
-            PartKind::Main => part.parent.map(|parent| sheet.parts[parent].name.as_str()),
-            _ => (part.main != index).then(|| own_name(compiled, &sheet.parts[part.main])),
+            PartKind::Main => part
+                .parent
+                .map(|parent| bindings.parts[parent].name.as_str()),
+            _ => (part.main != index).then(|| own_name(compiled, &bindings.parts[part.main])),
         },
         kind: part.kind.name(),
         element: compiled.drawing.shapes[part.shape].element.id.as_deref(),
         string: part.string.map(|string| {
-            let string = &sheet.strings[string];
+            let string = &bindings.strings[string];
             string_report(string, &places)
         }),
         center: part.measure.center.to_array(),
@@ -93,11 +95,11 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
 
 /// The landscapes of a drawing as parts of their own kind, for lists of all that is in the model.
 pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
-    let (sheet, places) = (&compiled.sheet, Places::new(text));
+    let (bindings, places) = (&compiled.bindings, Places::new(text));
     let report = |layer: &'a Layer| {
         let [low, high] = layer.bounds();
         let (center, middle) = ((low + high) / 2.0, (low.y + high.y) / 2.0);
-        let string = &sheet.strings[layer.string];
+        let string = &bindings.strings[layer.string];
         let settings = string.settings.iter().map(|setting| {
             let report = AttributeReport {
                 value: setting.words.clone(),
@@ -107,7 +109,7 @@ pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
         });
         Part {
             name: &layer.name,
-            parent: layer.parent.map(|part| sheet.parts[part].name.as_str()),
+            parent: layer.parent.map(|part| bindings.parts[part].name.as_str()),
             kind: "terrain",
             element: compiled.drawing.groups[layer.group].element.id.as_deref(),
             string: Some(string_report(string, &places)),
@@ -123,7 +125,7 @@ pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     compiled.layers.iter().map(report).collect()
 }
 
-fn string_report<'a>(string: &'a SheetString, places: &Places) -> StringReport<'a> {
+fn string_report<'a>(string: &'a DrawingString, places: &Places) -> StringReport<'a> {
     let (line, column) = places.line_column(string.text.whole().start);
     StringReport {
         line,
@@ -143,7 +145,10 @@ pub fn own_name<'a>(compiled: &'a Compiled, part: &'a bind::Part) -> &'a str {
 }
 
 fn attributes(compiled: &Compiled, part: usize) -> BTreeMap<&'static str, AttributeReport> {
-    let resolved = compiled.sheet.resolved(&compiled.drawing, part).into_iter();
+    let resolved = compiled
+        .bindings
+        .resolved(&compiled.drawing, part)
+        .into_iter();
     resolved
         .map(|attribute| {
             let report = AttributeReport {

@@ -11,7 +11,7 @@ const MOST_RANGES: usize = 12;
 
 /// Each clip with its length and drawings, and per part what drives it and why.
 pub(super) fn clips(compiled: &Compiled) -> String {
-    let parts = &compiled.sheet.parts;
+    let parts = &compiled.bindings.parts;
     let mut out = String::new();
     for shot in &compiled.shots {
         let _ = writeln!(

@@ -3,7 +3,7 @@
 use glam::DVec2;
 use rstar::{AABB, RTree, primitives::GeomWithData, primitives::Rectangle};
 
-use crate::bind::{Part, PartKind, Sheet};
+use crate::bind::{Bindings, Part, PartKind};
 use crate::geometry::{area, distance_squared};
 
 use super::super::Model;
@@ -20,7 +20,7 @@ const MOST_TOUCHED: usize = 256;
 /// A figure.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Group {
-    /// Its parts, indices into the sheet's.
+    /// Its parts, indices into the bindings' parts.
     pub(super) parts: Vec<usize>,
     /// Per part the one it hangs on, indices into `parts`: by its string, or because it touches it.
     pub(super) parents: Vec<Option<usize>>,
@@ -70,8 +70,8 @@ impl Group {
 
 /// The figures of a drawing, in drawing order of their first parts.
 pub(super) fn groups(model: &Model<'_>) -> Vec<Group> {
-    let sheet = model.sheet;
-    let trees = trees(sheet);
+    let bindings = model.bindings;
+    let trees = trees(bindings);
     let near = touching(model, &trees);
     let mut taken = vec![false; trees.len()];
     let mut groups = Vec::new();
@@ -90,7 +90,7 @@ pub(super) fn groups(model: &Model<'_>) -> Vec<Group> {
             }
         }
         members.sort_unstable();
-        groups.push(group(sheet, &trees, &near, &members));
+        groups.push(group(bindings, &trees, &near, &members));
     }
     groups
 }
@@ -102,11 +102,11 @@ struct Tree {
     high: DVec2,
 }
 
-fn trees(sheet: &Sheet) -> Vec<Tree> {
+fn trees(bindings: &Bindings) -> Vec<Tree> {
     let is_main = |part: &Part| part.kind == PartKind::Main;
-    let mut children = vec![Vec::new(); sheet.parts.len()];
+    let mut children = vec![Vec::new(); bindings.parts.len()];
     let mut trees = Vec::new();
-    let mains = sheet
+    let mains = bindings
         .parts
         .iter()
         .enumerate()
@@ -126,7 +126,7 @@ fn trees(sheet: &Sheet) -> Vec<Tree> {
         while let Some(&part) = tree.parts.get(next) {
             next += 1;
             tree.parts.extend_from_slice(&children[part]);
-            let (low, high) = sheet.parts[part].measure.bounds;
+            let (low, high) = bindings.parts[part].measure.bounds;
             tree.low = tree.low.min(low);
             tree.high = tree.high.max(high);
         }
@@ -136,7 +136,7 @@ fn trees(sheet: &Sheet) -> Vec<Tree> {
 
 /// Per tree the trees whose first parts touch its own.
 fn touching(model: &Model<'_>, trees: &[Tree]) -> Vec<Vec<usize>> {
-    let first = |tree: &Tree| &model.sheet.parts[tree.parts[0]];
+    let first = |tree: &Tree| &model.bindings.parts[tree.parts[0]];
     let boxes = trees.iter().enumerate().map(|(index, tree)| {
         let (low, high) = first(tree).measure.bounds;
         GeomWithData::new(
@@ -194,7 +194,7 @@ fn rings(part: &Part) -> impl Iterator<Item = &[DVec2]> {
         .map(Vec::as_slice)
 }
 
-fn group(sheet: &Sheet, trees: &[Tree], near: &[Vec<usize>], members: &[usize]) -> Group {
+fn group(bindings: &Bindings, trees: &[Tree], near: &[Vec<usize>], members: &[usize]) -> Group {
     let parts: Vec<usize> = members
         .iter()
         .flat_map(|tree| &trees[*tree].parts)
@@ -203,13 +203,13 @@ fn group(sheet: &Sheet, trees: &[Tree], near: &[Vec<usize>], members: &[usize]) 
     let place: std::collections::BTreeMap<usize, usize> = parts.iter().copied().zip(0..).collect();
     let parents = parts
         .iter()
-        .map(|part| sheet.parts[*part].parent.map(|parent| place[&parent]));
+        .map(|part| bindings.parts[*part].parent.map(|parent| place[&parent]));
     let first = |tree: &usize| trees[*tree].parts[0];
     let touching = members.iter().map(|tree| {
         let others = near[*tree].iter().map(|other| place[&first(other)]);
         (place[&first(tree)], others.collect())
     });
-    let size = |part: &usize| area(&sheet.parts[*part].outline);
+    let size = |part: &usize| area(&bindings.parts[*part].outline);
     // The first of the largest, so that twins do not change places.
     let largest = members
         .iter()

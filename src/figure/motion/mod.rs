@@ -64,13 +64,13 @@ pub(super) struct Wish<'a> {
 
 /// What strings ask for, in their order.
 pub(super) fn wishes<'a>(model: &Model<'a>) -> Vec<Wish<'a>> {
-    let strings = model.sheet.strings.iter();
+    let strings = model.bindings.strings.iter();
     let wishes = strings.flat_map(|string| {
         let part = match string.annotation {
             Annotation::Defaults(_) => Some(None),
             _ => string
                 .binding
-                .map(|binding| Some(model.sheet.parts[binding.part].main)),
+                .map(|binding| Some(model.bindings.parts[binding.part].main)),
         };
         string
             .settings
@@ -164,7 +164,7 @@ pub(super) fn perform(
 
 /// Says what has no effect in a drawing without motions.
 pub(super) fn without(model: &Model<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    told::without_motion(model.sheet, diagnostics);
+    told::without_motion(model.bindings, diagnostics);
 }
 
 /// Clips on their way to figures.
@@ -279,13 +279,13 @@ impl Theatre<'_> {
 
     /// How many drawings of a figure's clips are omitted and how many frames held, and where that is said.
     fn limits(&self, group: &Group) -> Option<([usize; 2], Span)> {
-        let sheet = self.model.sheet;
+        let bindings = self.model.bindings;
         let said = |part: usize| {
-            let source = sheet.setting(part, Keyword::Limited)?;
+            let source = bindings.setting(part, Keyword::Limited)?;
             let Value::Pair(amounts) = source.setting.value else {
                 return None;
             };
-            let span = sheet.strings[source.string]
+            let span = bindings.strings[source.string]
                 .text
                 .span(source.setting.range.clone());
             Some((amounts.map(|amount| amount as usize), span, source.from))

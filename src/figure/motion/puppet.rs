@@ -16,10 +16,10 @@ use crate::motion::skeleton::Placed;
 
 /// How the parts of a figure lie, in the order of the group; drawing units, y up.
 pub(super) fn figure(model: &Model<'_>, group: &Group, members: &[Vec<usize>]) -> Figure {
-    let sheet = model.sheet;
-    let middle = |part: usize| up(sheet.parts[part].measure.center);
+    let bindings = model.bindings;
+    let middle = |part: usize| up(bindings.parts[part].measure.center);
     let part = |(place, &index): (usize, &usize)| {
-        let part = &sheet.parts[index];
+        let part = &bindings.parts[index];
         let [one, other] = part.measure.ends.map(up);
         let nearer = |to: DVec2| match one.distance_squared(to) <= other.distance_squared(to) {
             true => [one, other],
@@ -38,7 +38,7 @@ pub(super) fn figure(model: &Model<'_>, group: &Group, members: &[Vec<usize>]) -
         };
         let own = members[index]
             .iter()
-            .map(|member| sheet.parts[*member].measure.bounds);
+            .map(|member| bindings.parts[*member].measure.bounds);
         let bounds = own.fold(
             [joint.min(tip), joint.max(tip)],
             |[low, high], (from, to)| {
@@ -46,7 +46,7 @@ pub(super) fn figure(model: &Model<'_>, group: &Group, members: &[Vec<usize>]) -
                 [low.min(a.min(b)), high.max(a.max(b))]
             },
         );
-        let bones = match sheet
+        let bones = match bindings
             .setting(index, Keyword::Bone)
             .map(|source| &source.setting.value)
         {
@@ -161,7 +161,7 @@ pub(super) struct Link {
 impl Nodes {
     /// The nodes that the branches become; drawing units and the drawing's axes.
     pub(in super::super) fn new(model: &Model<'_>, frames: &[Frame], branches: &[Branch]) -> Self {
-        let mut rest = vec![None; model.sheet.parts.len()];
+        let mut rest = vec![None; model.bindings.parts.len()];
         let mut depths = Vec::with_capacity(branches.len());
         let mut links = Vec::with_capacity(branches.len());
         for branch in branches {

@@ -20,7 +20,7 @@ pub struct Shot {
     pub file: String,
     /// Where a string asks for it.
     pub asked: Span,
-    /// The part that all others of the figure hang on, an index into the sheet's parts.
+    /// The part that all others of the figure hang on, an index into the bindings' parts.
     pub root: usize,
     /// What drives which part; all parts of the figure that are in the hierarchy, in drawing order.
     pub parts: Vec<Driven>,

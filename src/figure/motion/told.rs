@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::bind::Sheet;
+use crate::bind::Bindings;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
@@ -63,9 +63,9 @@ pub(super) fn nobody(span: Span, link: &str) -> Diagnostic {
 }
 
 /// `Limited` and `Bone` in a drawing without a motion, each said once.
-pub(super) fn without_motion(sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) {
+pub(super) fn without_motion(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
     for keyword in [Keyword::Limited, Keyword::Bone] {
-        let found = sheet.strings.iter().find_map(|string| {
+        let found = bindings.strings.iter().find_map(|string| {
             let counts = !matches!(string.annotation, Annotation::Legend(_));
             let mut settings = string.settings.iter().filter(|_| counts);
             let setting = settings.find(|setting| setting.keyword == keyword)?;
@@ -182,11 +182,13 @@ fn problem_of(
     problem: &Problem,
     skeleton: Option<&Skeleton>,
 ) -> Diagnostic {
-    let sheet = model.sheet;
-    let element = model.drawing.shapes[sheet.parts[part].shape].element.span;
-    let bone = sheet.setting(part, Keyword::Bone);
+    let bindings = model.bindings;
+    let element = model.drawing.shapes[bindings.parts[part].shape]
+        .element
+        .span;
+    let bone = bindings.setting(part, Keyword::Bone);
     let span = bone.map_or(element, |source| {
-        sheet.strings[source.string]
+        bindings.strings[source.string]
             .text
             .span(source.setting.range.clone())
     });
@@ -195,7 +197,7 @@ fn problem_of(
         joint.map_or_else(String::new, |joint| format!("`{}`", joint.name))
     };
     let unclear = |message: String| Diagnostic::new(Code::UnclearJoint, span, message);
-    let name = sheet.describe(model.drawing, part);
+    let name = bindings.describe(model.drawing, part);
     match problem {
         Problem::UnknownBone { name, nearest, .. } => {
             let told = unclear(format!("the motion has no joint `{name}`"));

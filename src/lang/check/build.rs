@@ -266,7 +266,7 @@ impl Checker<'_> {
                 self.text.span(range),
                 format!("this `{name}` has no thickness"),
             )
-            .help("for a thin sheet write `Shape flat`, for no solid at all `Shape none`"),
+            .help("for a thin bindings write `Shape flat`, for no solid at all `Shape none`"),
         );
     }
 }

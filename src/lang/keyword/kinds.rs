@@ -203,7 +203,7 @@ pub static KINDS: [Kind; 12] = [
         form: form(&DEPTH, &[0, 1]),
         default: "0",
         summary: "the outline alone, like paper",
-        long: "The part stays a thin sheet that is seen from both sides. `z` is the depth at which \
+        long: "The part stays a thin bindings that is seen from both sides. `z` is the depth at which \
                it lies.",
         example: "Eye@Head$Shape flat 26",
         status: Status::Built,

@@ -67,7 +67,7 @@ fn w305_zero_thickness() {
         r#"
             Arm$Shape default 5 5
                               ^^^ W305: this `default` has no thickness
-              help: for a thin sheet write `Shape flat`, for no solid at all `Shape none`
+              help: for a thin bindings write `Shape flat`, for no solid at all `Shape none`
         "#,
     );
     check(
@@ -75,7 +75,7 @@ fn w305_zero_thickness() {
         r#"
             Arm$Shape round -90 90 0
                             ^^^^^^^^ W305: this `round` has no thickness
-              help: for a thin sheet write `Shape flat`, for no solid at all `Shape none`
+              help: for a thin bindings write `Shape flat`, for no solid at all `Shape none`
         "#,
     );
 }

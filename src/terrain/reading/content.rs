@@ -6,7 +6,7 @@ use rustc_hash::FxHashSet;
 use super::grid::Grid;
 use super::looks::{Painted, Paints};
 use super::raster::{Item, MOST_PAINTS, Picture, paint_code};
-use crate::bind::{PartKind, Place, Sheet};
+use crate::bind::{Bindings, PartKind, Place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::bounds;
 use crate::lang::ast::Annotation;
@@ -29,18 +29,18 @@ pub(super) struct Content {
 }
 
 /// What each tile layer holds.
-pub(super) fn contents(drawing: &Drawing, sheet: &Sheet) -> Vec<Content> {
-    let mut contents = vec![Content::default(); sheet.layers.len()];
+pub(super) fn contents(drawing: &Drawing, bindings: &Bindings) -> Vec<Content> {
+    let mut contents = vec![Content::default(); bindings.layers.len()];
     // What has a string of its own is no tile; but lines have seldom a part at all.
     let mut is_tile = vec![true; drawing.shapes.len()];
-    for part in sheet
+    for part in bindings
         .parts
         .iter()
         .filter(|part| part.kind != PartKind::Tile)
     {
         is_tile[part.shape] = false;
     }
-    let unused = sheet.strings.iter();
+    let unused = bindings.strings.iter();
     let unused = unused.filter(|string| string.annotation == Annotation::Unused);
     let left_out: FxHashSet<usize> = unused
         .filter_map(|string| match string.place {
@@ -49,7 +49,7 @@ pub(super) fn contents(drawing: &Drawing, sheet: &Sheet) -> Vec<Content> {
         })
         .collect();
     for (index, shape) in drawing.shapes.iter().enumerate() {
-        let Some(layer) = sheet.layer_of_group(shape.group) else {
+        let Some(layer) = bindings.layer_of_group(shape.group) else {
             continue;
         };
         if !is_tile[index] || left_out.contains(&index) {

@@ -8,7 +8,7 @@ use super::grid::{Grid, rectangle};
 use super::looks::Paints;
 use super::raster::Code as Painted;
 use super::survey::Tally;
-use crate::bind::Sheet;
+use crate::bind::Bindings;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::Keyword;
 use crate::source::Span;
@@ -40,8 +40,8 @@ pub fn cells_named(columns: usize, first: &[usize], count: usize) -> String {
 }
 
 /// Where a layer's string says how large tiles are.
-pub(super) fn size_span(sheet: &Sheet, layer: usize) -> Span {
-    let string = &sheet.strings[sheet.layers[layer].string];
+pub(super) fn size_span(bindings: &Bindings, layer: usize) -> Span {
+    let string = &bindings.strings[bindings.layers[layer].string];
     let mut settings = string.settings.iter();
     let size = settings.find(|setting| setting.keyword == Keyword::Tiles);
     size.map_or(string.text.whole(), |size| {
@@ -50,9 +50,14 @@ pub(super) fn size_span(sheet: &Sheet, layer: usize) -> Span {
 }
 
 /// A layer without tiles.
-pub(super) fn empty(drawing: &Drawing, sheet: &Sheet, layer: usize, holds: bool) -> Diagnostic {
-    let element = &drawing.groups[sheet.layers[layer].group].element;
-    let name = &sheet.layers[layer].name;
+pub(super) fn empty(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    layer: usize,
+    holds: bool,
+) -> Diagnostic {
+    let element = &drawing.groups[bindings.layers[layer].group].element;
+    let name = &bindings.layers[layer].name;
     let (message, help) = match holds {
         true => (
             format!(
@@ -68,14 +73,14 @@ pub(super) fn empty(drawing: &Drawing, sheet: &Sheet, layer: usize, holds: bool)
             "put the string into the group or layer that holds the tiles",
         ),
     };
-    Diagnostic::new(Code::NoTiles, size_span(sheet, layer), message)
+    Diagnostic::new(Code::NoTiles, size_span(bindings, layer), message)
         .related(element.span, "the group")
         .help(help)
 }
 
 /// A grid over the limit.
 pub(super) fn too_large(
-    sheet: &Sheet,
+    bindings: &Bindings,
     layer: usize,
     size: f64,
     [columns, rows]: [f64; 2],
@@ -84,7 +89,7 @@ pub(super) fn too_large(
         "tiles of {size} make a grid of {columns:.0} × {rows:.0} = {:.0} cells, and more than {MOST_CELLS} are not built",
         columns * rows
     );
-    Diagnostic::new(Code::LimitPassed, size_span(sheet, layer), message)
+    Diagnostic::new(Code::LimitPassed, size_span(bindings, layer), message)
         .help("write the side of a tile in drawing units; or is there something drawn far off?")
 }
 
@@ -234,7 +239,7 @@ pub(super) fn plain(drawing: &Drawing, paints: &Paints<'_>, list: &[usize]) -> V
 /// Tiles that lie off the grid.
 pub(super) fn off_grid(
     drawing: &Drawing,
-    sheet: &Sheet,
+    bindings: &Bindings,
     layer: usize,
     grid: &Grid,
     content: &Content,
@@ -267,7 +272,7 @@ pub(super) fn off_grid(
         }
     }
     let (_, first) = found.first()?;
-    let name = &sheet.layers[layer].name;
+    let name = &bindings.layers[layer].name;
     let message = match found.len() == count {
         true if count == 1 => format!("the shape in `{name}` lies off the grid"),
         true => format!("all {count} rectangles in `{name}` lie off the grid"),
@@ -290,7 +295,8 @@ pub(super) fn off_grid(
             grid.size
         ),
     };
-    let mut finding = Diagnostic::new(Code::OffGrid, size_span(sheet, layer), message).help(help);
+    let mut finding =
+        Diagnostic::new(Code::OffGrid, size_span(bindings, layer), message).help(help);
     for (shape, _) in found.iter().take(MOST_SHOWN) {
         let element = &drawing.shapes[*shape].element;
         finding = finding.related(

@@ -4,7 +4,7 @@ use rustc_hash::FxHashMap;
 
 use super::colours;
 use super::raster::{Code, paint_of, pixel_of};
-use crate::bind::{Look, Sheet};
+use crate::bind::{Bindings, Look};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Setting, Value};
 use crate::svg::PaintKey;
@@ -66,7 +66,7 @@ pub(super) struct Meaning {
 
 /// All paints of a layer's shapes, and who says what of them.
 pub(super) struct Paints<'a> {
-    sheet: &'a Sheet,
+    bindings: &'a Bindings,
     /// Index of the layer.
     layer: usize,
     pub(super) list: Vec<Painted<'a>>,
@@ -75,10 +75,10 @@ pub(super) struct Paints<'a> {
 }
 
 impl<'a> Paints<'a> {
-    pub(super) fn new(sheet: &'a Sheet, layer: usize) -> Self {
-        let legends = sheet.legends.iter().enumerate();
+    pub(super) fn new(bindings: &'a Bindings, layer: usize) -> Self {
+        let legends = bindings.legends.iter().enumerate();
         Self {
-            sheet,
+            bindings,
             layer,
             list: Vec::new(),
             known: FxHashMap::default(),
@@ -114,7 +114,7 @@ impl<'a> Paints<'a> {
             None => self.legends.get(&PaintKey::Solid(color)),
         };
         let legend = legend.copied();
-        let said = legend.and_then(|legend| self.sheet.legends[legend].says(Keyword::Tile));
+        let said = legend.and_then(|legend| self.bindings.legends[legend].says(Keyword::Tile));
         let tile = match said.map(|said| &said.setting.value) {
             Some(Value::Word(word)) => Some(tile(word)),
             _ => colours::kind(color),
@@ -135,13 +135,13 @@ impl<'a> Paints<'a> {
         color: [f64; 3],
         opacity: f64,
     ) -> LookOf {
-        let own = &self.sheet.strings[self.sheet.layers[self.layer].string];
+        let own = &self.bindings.strings[self.bindings.layers[self.layer].string];
         let says = |keyword: Keyword| -> Option<(usize, &'a Setting)> {
-            let by_legend = legend.and_then(|legend| self.sheet.legends[legend].says(keyword));
+            let by_legend = legend.and_then(|legend| self.bindings.legends[legend].says(keyword));
             let by_legend = by_legend.map(|source| (source.string, source.setting));
-            let string = self.sheet.layers[self.layer].string;
+            let string = self.bindings.layers[self.layer].string;
             let mut of_layer = own.settings.iter().map(|setting| (string, setting));
-            let of_all = self.sheet.defaults.iter();
+            let of_all = self.bindings.defaults.iter();
             let mut of_all = of_all.map(|(string, setting)| (*string, setting));
             by_legend
                 .or_else(|| of_layer.find(|(_, setting)| setting.keyword == keyword))

@@ -23,7 +23,7 @@ pub use looks::LookOf;
 
 use super::land::{Land, ROOF};
 use super::map::{MOST_CELLS, Map};
-use crate::bind::Sheet;
+use crate::bind::Bindings;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
@@ -101,17 +101,25 @@ impl Layer {
 }
 
 /// Reads the tile layers of a drawing. Those in which nothing can be built are said and left out.
-pub fn read(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>) -> Vec<Layer> {
-    if sheet.layers.is_empty() {
+pub fn read(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Layer> {
+    if bindings.layers.is_empty() {
         return Vec::new();
     }
-    let mut used: Vec<bool> = sheet.legends.iter().map(|legend| legend.is_used).collect();
+    let mut used: Vec<bool> = bindings
+        .legends
+        .iter()
+        .map(|legend| legend.is_used)
+        .collect();
     let mut layers = Vec::new();
     let mut all_read = true;
-    for (index, content) in contents(drawing, sheet).iter().enumerate() {
+    for (index, content) in contents(drawing, bindings).iter().enumerate() {
         let reading = Reading {
             drawing,
-            sheet,
+            bindings,
             index,
         };
         match reading.layer(content, &mut used, diagnostics) {
@@ -124,10 +132,10 @@ pub fn read(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>)
     }
     // Legends whose paint only pictures can have are left to this room.
     let mut shapes = 0..drawing.shapes.len();
-    if all_read && shapes.any(|shape| sheet.is_picture_of_tiles(drawing, shape)) {
-        for (legend, _) in sheet.legends.iter().zip(used).filter(|(_, used)| !used) {
+    if all_read && shapes.any(|shape| bindings.is_picture_of_tiles(drawing, shape)) {
+        for (legend, _) in bindings.legends.iter().zip(used).filter(|(_, used)| !used) {
             if matches!(legend.paint, PaintKey::Solid(_)) {
-                diagnostics.push(legend.unused(drawing, sheet));
+                diagnostics.push(legend.unused(drawing, bindings));
             }
         }
     }
@@ -137,7 +145,7 @@ pub fn read(drawing: &Drawing, sheet: &Sheet, diagnostics: &mut Vec<Diagnostic>)
 /// A layer that is being read.
 struct Reading<'a> {
     drawing: &'a Drawing,
-    sheet: &'a Sheet,
+    bindings: &'a Bindings,
     index: usize,
 }
 
@@ -154,11 +162,11 @@ impl Reading<'_> {
     ) -> Result<Layer, Option<Box<Diagnostic>>> {
         let Self {
             drawing,
-            sheet,
+            bindings,
             index,
         } = *self;
-        let of_layer = &sheet.layers[index];
-        let string = &sheet.strings[of_layer.string];
+        let of_layer = &bindings.layers[index];
+        let string = &bindings.strings[of_layer.string];
         let mut settings = string.settings.iter();
         let size = settings.find(|setting| setting.keyword == Keyword::Tiles);
         let Some(Value::Number(size)) = size.map(|setting| &setting.value) else {
@@ -166,18 +174,18 @@ impl Reading<'_> {
         };
         let nothing = |holds| {
             Err(Some(Box::new(findings::empty(
-                drawing, sheet, index, holds,
+                drawing, bindings, index, holds,
             ))))
         };
         let Some(bounds) = content.bounds() else {
             return nothing(false);
         };
         let grid = Grid::over(bounds, *size, MOST_CELLS)
-            .map_err(|count| Some(Box::new(findings::too_large(sheet, index, *size, count))))?;
+            .map_err(|count| Some(Box::new(findings::too_large(bindings, index, *size, count))))?;
         if grid.columns == 0 || grid.rows == 0 {
             return nothing(true);
         }
-        let mut paints = Paints::new(sheet, index);
+        let mut paints = Paints::new(bindings, index);
         let items = content.items(drawing, &grid, &mut paints, diagnostics)?;
         let sources = items.iter().map(|(shape, item)| {
             let [columns, rows] = item.reach(&grid).map(|[from, to]| from..to);
@@ -221,18 +229,18 @@ impl Reading<'_> {
             looks,
             origin: grid.origin,
             size: grid.size,
-            roof: sheet.layer_number(index, Keyword::Roof).unwrap_or(ROOF),
-            bevel: sheet.layer_number(index, Keyword::Bevel).unwrap_or(0.0),
+            roof: bindings.layer_number(index, Keyword::Roof).unwrap_or(ROOF),
+            bevel: bindings.layer_number(index, Keyword::Bevel).unwrap_or(0.0),
             parent: of_layer.parent,
             sources,
         };
         findings::unclear(drawing, &layer, &paints, &unclear, diagnostics);
         diagnostics.extend(findings::plain(drawing, &paints, &plain));
-        diagnostics.extend(findings::off_grid(drawing, sheet, index, &grid, content));
+        diagnostics.extend(findings::off_grid(drawing, bindings, index, &grid, content));
         if too_many_legends {
             let message =
                 "so many paints are used that not every legend's attributes can be heeded";
-            let span = findings::size_span(sheet, index);
+            let span = findings::size_span(bindings, index);
             let help = "use fewer paints, or fewer legends";
             diagnostics.push(Diagnostic::new(Code::LimitPassed, span, message).help(help));
         }

@@ -17,8 +17,8 @@ fn read_with(svg: &str, files: MemoryResolver) -> (Vec<Layer>, Vec<String>) {
     let svg =
         format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="400" height="400">{svg}</svg>"#);
     let (drawing, mut diagnostics) = svg::read(&svg, 0.001, &files, &bind::in_tile_layers);
-    let sheet = bind::bind(&drawing, None, &mut diagnostics);
-    let layers = read(&drawing, &sheet, &mut diagnostics);
+    let bindings = bind::bind(&drawing, None, &mut diagnostics);
+    let layers = read(&drawing, &bindings, &mut diagnostics);
     // How high things lie is not the matter here.
     let told = diagnostics.iter();
     let told = told.filter(|found| found.code != Code::OpenTerrain);

@@ -1,4 +1,4 @@
-//! The sheet: strings, parts, and how they belong together.
+//! The bindings: strings, parts, and how they belong together.
 
 use std::sync::Arc;
 
@@ -16,11 +16,11 @@ use super::units::Member;
 
 /// Everything that the strings say of the parts.
 #[derive(Debug, Default)]
-pub struct Sheet {
+pub struct Bindings {
     /// Whether the drawing is annotated at all (language.md, Where strings live).
     pub annotated: bool,
     /// The strings, in the order of the file.
-    pub strings: Vec<SheetString>,
+    pub strings: Vec<DrawingString>,
     /// The parts, hindmost first; sub-parts, legends and unused parts included.
     pub parts: Vec<Part>,
     /// The settings of all `%` strings, each with the index of its string; one a keyword, the last one.
@@ -82,7 +82,7 @@ pub struct Binding {
 
 /// A string of the drawing.
 #[derive(Debug)]
-pub struct SheetString {
+pub struct DrawingString {
     /// Where it stands.
     pub place: Place,
     /// Its characters; the drawing's too.
@@ -99,7 +99,7 @@ pub struct SheetString {
     pub(super) scope: Option<usize>,
 }
 
-impl SheetString {
+impl DrawingString {
     /// Whether the string describes a part, rather than nothing, everything or a group.
     pub fn wants_part(&self) -> bool {
         match &self.annotation {
@@ -215,7 +215,7 @@ impl Part {
     }
 }
 
-impl Sheet {
+impl Bindings {
     /// What a setting of the whole drawing says in one word.
     pub fn word(&self, keyword: Keyword) -> Option<&str> {
         match self.drawing_value(keyword)? {
