@@ -1,50 +1,17 @@
-//! The rooms of `src` know only what docs/architecture.md lets them know.
+//! The rooms of `src` (its top-level modules) use only the rooms that docs/architecture.md lets them use.
+//!
+//! The graph is read from the syntax: `use` trees and paths, macros and nested modules included, `#[cfg(test)]` left out.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Each room, and the rooms that it may name.
-const MAY_KNOW: &[(&str, &[&str])] = &[
-    ("source", &[]),
-    ("resolver", &[]),
-    ("kept", &[]),
-    ("geometry", &[]),
-    ("diagnostic", &["source"]),
-    ("lang", &["diagnostic", "source"]),
-    ("threads", &[]),
-    (
-        "svg",
-        &[
-            "diagnostic",
-            "geometry",
-            "resolver",
-            "scene",
-            "source",
-            "texture",
-            "threads",
-        ],
-    ),
-    (
-        "terrain",
-        &[
-            "bind",
-            "diagnostic",
-            "geometry",
-            "lang",
-            "resolver",
-            "scene",
-            "source",
-            "svg",
-            "texture",
-            "threads",
-        ],
-    ),
-    ("texture", &["scene"]),
-    ("motion", &["scene"]),
-    ("solid", &["geometry", "lang", "scene"]),
-    ("scene", &["solid"]),
-    ("gltf", &["scene", "solid", "threads"]),
+use proc_macro2::{TokenStream, TokenTree};
+use syn::visit::{self, Visit};
+use syn::{Attribute, ImplItem, Item, UseTree};
+
+/// Each room, with exactly the rooms that it uses.
+const USES: &[(&str, &[&str])] = &[
     (
         "bind",
         &[
@@ -57,6 +24,41 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
+    (
+        "cli",
+        &[
+            "bind",
+            "compile",
+            "diagnostic",
+            "disk",
+            "gltf",
+            "lang",
+            "lsp",
+            "motion",
+            "preview",
+            "render",
+            "report",
+            "source",
+            "terrain",
+            "watch",
+        ],
+    ),
+    (
+        "compile",
+        &[
+            "bind",
+            "diagnostic",
+            "figure",
+            "resolver",
+            "scene",
+            "source",
+            "svg",
+            "terrain",
+            "threads",
+        ],
+    ),
+    ("diagnostic", &["source"]),
+    ("disk", &["resolver"]),
     (
         "figure",
         &[
@@ -77,56 +79,8 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
-    (
-        "compile",
-        &[
-            "bind",
-            "diagnostic",
-            "figure",
-            "resolver",
-            "scene",
-            "source",
-            "svg",
-            "terrain",
-            "threads",
-        ],
-    ),
-    ("import", &["resolver", "scene"]),
-    ("render", &["import", "resolver", "threads"]),
-    ("disk", &["resolver"]),
-    (
-        "cli",
-        &[
-            "bind",
-            "compile",
-            "diagnostic",
-            "disk",
-            "gltf",
-            "lang",
-            "lsp",
-            "motion",
-            "preview",
-            "render",
-            "report",
-            "source",
-            "terrain",
-            "watch",
-        ],
-    ),
-    ("report", &["bind", "compile", "figure", "terrain"]),
-    ("watch", &["compile", "disk", "gltf", "resolver"]),
-    (
-        "preview",
-        &[
-            "compile",
-            "diagnostic",
-            "gltf",
-            "render",
-            "report",
-            "resolver",
-            "watch",
-        ],
-    ),
+    ("geometry", &[]),
+    ("gltf", &["scene", "solid", "threads"]),
     (
         "ide",
         &[
@@ -142,6 +96,10 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "terrain",
         ],
     ),
+    ("import", &["resolver", "scene"]),
+    ("kept", &[]),
+    ("lang", &["diagnostic", "source"]),
+    ("lib", &[]),
     (
         "lsp",
         &[
@@ -157,140 +115,486 @@ const MAY_KNOW: &[(&str, &[&str])] = &[
             "watch",
         ],
     ),
-    ("lib", &[]),
-    ("main", &[]),
+    ("main", &["cli"]),
+    ("motion", &["scene"]),
+    (
+        "preview",
+        &[
+            "compile",
+            "diagnostic",
+            "gltf",
+            "render",
+            "report",
+            "resolver",
+            "watch",
+        ],
+    ),
+    ("render", &["import", "resolver", "threads"]),
+    ("report", &["bind", "compile", "figure", "terrain"]),
+    ("resolver", &[]),
+    ("scene", &["solid"]),
+    ("solid", &["geometry", "lang", "scene"]),
+    ("source", &[]),
+    (
+        "svg",
+        &[
+            "diagnostic",
+            "geometry",
+            "resolver",
+            "scene",
+            "source",
+            "texture",
+            "threads",
+        ],
+    ),
+    (
+        "terrain",
+        &[
+            "bind",
+            "diagnostic",
+            "geometry",
+            "lang",
+            "scene",
+            "source",
+            "svg",
+        ],
+    ),
+    ("texture", &["scene"]),
+    ("threads", &[]),
+    ("watch", &["compile", "disk", "gltf", "resolver"]),
 ];
 
-/// What only some rooms may touch: a piece of code, those rooms, and why.
+/// What only some rooms may use: a path or a macro, those rooms, and why.
 const ONLY_IN: &[(&str, &[&str], &str)] = &[
     ("std::fs", &["disk"], "only `disk` touches files"),
-    ("File::", &["disk"], "only `disk` touches files"),
+    ("tokio::fs", &["disk"], "only `disk` touches files"),
     (
         "std::env",
         &["cli", "main"],
-        "compiling knows no environment",
+        "compiling reads no environment",
     ),
     (
         "std::process",
         &["cli", "lsp", "main"],
-        "compiling starts nothing",
+        "compiling starts no process",
     ),
     (
-        "ls_types",
+        "tower_lsp",
         &["lsp"],
         "only `lsp` names the protocol's types",
     ),
     (
-        "Instant::",
+        "std::time::Instant",
         &["cli", "disk", "preview", "watch"],
-        "compiling knows no clock",
+        "compiling reads no clock",
     ),
     (
-        "SystemTime",
+        "std::time::SystemTime",
         &["cli", "disk", "lsp", "preview", "watch"],
-        "compiling knows no clock",
+        "compiling reads no clock",
     ),
+    ("chrono", &["cli"], "compiling reads no clock"),
+    ("print!", &["cli"], "only `cli` prints"),
     ("println!", &["cli"], "only `cli` prints"),
+    ("eprint!", &["cli"], "only `cli` prints"),
     ("eprintln!", &["cli"], "only `cli` prints"),
 ];
 
-struct Source {
+/// A path as a list of names; a path into this crate begins with `crate`.
+type Names = Vec<String>;
+
+/// A source file without its tests.
+struct SourceFile {
     room: String,
     path: PathBuf,
-    /// Without comments and tests.
-    code: String,
+    /// The paths that it names, and its macros as `name!`.
+    paths: BTreeSet<Names>,
 }
 
-fn sources() -> Vec<Source> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut found = Vec::new();
-    let mut folders = vec![root.clone()];
-    while let Some(folder) = folders.pop() {
-        for entry in fs::read_dir(&folder).expect("a folder") {
-            let path = entry.expect("an entry").path();
-            if path.is_dir() {
-                folders.push(path);
-                continue;
-            }
-            let inside = path.strip_prefix(&root).expect("in src").to_owned();
-            let words: Vec<String> = inside
-                .with_extension("")
-                .iter()
-                .map(|word| word.to_string_lossy().into_owned())
-                .collect();
-            let for_tests = |word: &String| {
-                matches!(word.as_str(), "tests" | "laws" | "samples") || word.ends_with("_tests")
-            };
-            if words.iter().any(for_tests) {
-                continue;
-            }
-            let text = fs::read_to_string(&path).expect("text");
-            let text = text
-                .split("#[cfg(test)]\nmod tests {")
-                .next()
-                .unwrap_or_default();
-            let code = text
-                .lines()
-                .filter(|line| !line.trim_start().starts_with("//"))
-                .map(|line| format!("{line}\n"))
-                .collect();
-            found.push(Source {
-                room: words[0].clone(),
-                path: inside,
-                code,
-            });
-        }
-    }
-    found
-}
-
-/// The rooms that code names by `crate::`.
-fn named(code: &str) -> BTreeSet<&str> {
-    code.split("crate::")
-        .skip(1)
-        .filter_map(|rest| {
-            rest.split(|c: char| !c.is_ascii_lowercase() && c != '_')
-                .next()
+impl SourceFile {
+    /// The rooms that it names.
+    fn rooms(&self) -> impl Iterator<Item = &str> {
+        self.paths.iter().filter_map(|path| match path.as_slice() {
+            [root, room, ..] if root == "crate" => Some(room.as_str()),
+            _ => None,
         })
-        .filter(|word| !word.is_empty())
-        .collect()
+    }
 }
 
-#[test]
-fn rooms_know_only_what_they_may() {
-    let may_know: BTreeMap<&str, &[&str]> = MAY_KNOW.iter().copied().collect();
-    let sources = sources();
+/// The files of the library and of the program, found by following `mod` items.
+fn sources() -> Vec<SourceFile> {
+    let mut sources = Vec::new();
+    read_module("lib.rs".into(), Vec::new(), &mut sources);
+    read_module("main.rs".into(), Vec::new(), &mut sources);
     assert!(
         sources.len() > 50,
         "only {} files were found",
         sources.len()
     );
-    let mut rooms = BTreeSet::new();
-    for source in &sources {
-        let room = source.room.as_str();
-        rooms.insert(room);
-        let allowed = may_know.get(room).unwrap_or_else(|| {
-            panic!("`{room}` is a new room: give it a line here and in docs/architecture.md")
-        });
-        for other in named(&source.code) {
-            assert!(
-                other == room || allowed.contains(&other),
-                "{} names `{other}`, which `{room}` must not know",
-                source.path.display()
-            );
+    sources
+}
+
+fn src() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+}
+
+/// Reads a file of `src` that is the module `module`, and the files of its modules.
+fn read_module(path: PathBuf, module: Names, sources: &mut Vec<SourceFile>) {
+    let text = fs::read_to_string(src().join(&path)).expect("a source file");
+    let file = syn::parse_file(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut reader = Reader {
+        module: module.clone(),
+        ..Reader::default()
+    };
+    reader.visit_file(&file);
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let parent = path.parent().unwrap_or(Path::new(""));
+    let folder = match &*stem {
+        "lib" | "main" | "mod" => parent.to_owned(),
+        stem => parent.join(stem),
+    };
+    sources.push(SourceFile {
+        room: module.first().cloned().unwrap_or(stem.into_owned()),
+        path,
+        paths: reader.resolved(),
+    });
+    for child in reader.files {
+        let inside: PathBuf = folder.join(child[module.len()..].iter().collect::<PathBuf>());
+        let plain = inside.with_extension("rs");
+        let path = if src().join(&plain).exists() {
+            plain
+        } else {
+            inside.join("mod.rs")
+        };
+        read_module(path, child, sources);
+    }
+}
+
+/// Collects the paths that a file names.
+#[derive(Default)]
+struct Reader {
+    /// The module that is read.
+    module: Names,
+    /// Modules that have a file of their own.
+    files: Vec<Names>,
+    paths: Vec<Names>,
+    /// The names that `use` items give to other paths.
+    imports: BTreeMap<String, Names>,
+}
+
+impl Reader {
+    /// All paths, with imported names and `self` and `super` replaced by what they refer to.
+    fn resolved(&self) -> BTreeSet<Names> {
+        let resolve = |path: &Names| match self.imports.get(&path[0]) {
+            Some(import) => [import, &path[1..]].concat(),
+            None => path.clone(),
+        };
+        let uses = self.imports.values().cloned();
+        self.paths.iter().map(resolve).chain(uses).collect()
+    }
+
+    /// A path as it is from the crate's root, if it leads into this crate.
+    fn absolute(&self, path: &[String]) -> Names {
+        let root = ["crate".to_owned()];
+        let mut module = self.module.as_slice();
+        let mut rest = path;
+        match path[0].as_str() {
+            "okoshi" => return [&root, &path[1..]].concat(),
+            "self" | "super" => {}
+            _ => return path.to_vec(),
+        }
+        while let [first, others @ ..] = rest {
+            match first.as_str() {
+                "self" => {}
+                "super" => module = &module[..module.len() - 1],
+                _ => break,
+            }
+            rest = others;
+        }
+        [&root, module, rest].concat()
+    }
+
+    /// Adds the paths of a `use` tree, nested groups included.
+    fn import(&mut self, prefix: &[String], tree: &UseTree) {
+        let with = |name: &syn::Ident| [prefix, &[name.to_string()]].concat();
+        let (path, name) = match tree {
+            UseTree::Path(path) => return self.import(&with(&path.ident), &path.tree),
+            UseTree::Group(group) => {
+                for item in &group.items {
+                    self.import(prefix, item);
+                }
+                return;
+            }
+            UseTree::Glob(_) => {
+                let path = self.absolute(prefix);
+                // Names from everywhere would hide where they come from.
+                assert!(
+                    path != ["crate"] && path != ["std"] && path != ["std", "time"],
+                    "a glob of {path:?}"
+                );
+                return self.paths.push(path);
+            }
+            UseTree::Name(name) if name.ident == "self" => {
+                (prefix.to_vec(), prefix.last().cloned().unwrap_or_default())
+            }
+            UseTree::Name(name) => (with(&name.ident), name.ident.to_string()),
+            UseTree::Rename(name) => (with(&name.ident), name.rename.to_string()),
+        };
+        let path = self.absolute(&path);
+        self.imports.insert(name, path.clone());
+        self.paths.push(path);
+    }
+
+    /// Adds the paths among the tokens of a macro.
+    fn tokens(&mut self, tokens: TokenStream) {
+        let mut path: Names = Vec::new();
+        let mut colons = 0;
+        for token in tokens {
+            match &token {
+                TokenTree::Ident(name) if colons == 2 => path.push(name.to_string()),
+                TokenTree::Ident(name) => {
+                    self.name(&std::mem::take(&mut path));
+                    path = vec![name.to_string()];
+                }
+                TokenTree::Punct(punct) if punct.as_char() == ':' => {
+                    colons += 1;
+                    continue;
+                }
+                TokenTree::Punct(punct) if punct.as_char() == '!' && path.len() == 1 => {
+                    path[0].push('!');
+                }
+                _ => self.name(&std::mem::take(&mut path)),
+            }
+            colons = 0;
+            if let TokenTree::Group(group) = token {
+                self.tokens(group.stream());
+            }
+        }
+        self.name(&path);
+    }
+
+    fn name(&mut self, path: &[String]) {
+        if !path.is_empty() {
+            self.paths.push(self.absolute(path));
         }
     }
-    for (room, _) in MAY_KNOW {
-        assert!(rooms.contains(room), "`{room}` is gone: take its line away");
+}
+
+/// Whether an item is compiled for tests only.
+fn only_for_tests(attributes: &[Attribute]) -> bool {
+    attributes.iter().any(|attribute| {
+        let cfg = attribute.path().is_ident("cfg");
+        let test = |name: syn::Path| name.is_ident("test");
+        cfg && attribute.parse_args::<syn::Path>().is_ok_and(test)
+    })
+}
+
+impl<'ast> Visit<'ast> for Reader {
+    fn visit_item(&mut self, item: &'ast Item) {
+        let attributes = match item {
+            Item::Const(item) => &item.attrs,
+            Item::Enum(item) => &item.attrs,
+            Item::Fn(item) => &item.attrs,
+            Item::Impl(item) => &item.attrs,
+            Item::Macro(item) => &item.attrs,
+            Item::Mod(item) => &item.attrs,
+            Item::Static(item) => &item.attrs,
+            Item::Struct(item) => &item.attrs,
+            Item::Trait(item) => &item.attrs,
+            Item::Type(item) => &item.attrs,
+            Item::Use(item) => &item.attrs,
+            _ => &Vec::new(),
+        };
+        if !only_for_tests(attributes) {
+            visit::visit_item(self, item);
+        }
     }
+
+    fn visit_item_mod(&mut self, item: &'ast syn::ItemMod) {
+        self.module.push(item.ident.to_string());
+        if item.content.is_none() {
+            let moved = item.attrs.iter().any(|one| one.path().is_ident("path"));
+            assert!(!moved, "`{}` has a path of its own", item.ident);
+            self.files.push(self.module.clone());
+        }
+        visit::visit_item_mod(self, item);
+        self.module.pop();
+    }
+
+    fn visit_item_use(&mut self, item: &'ast syn::ItemUse) {
+        self.import(&[], &item.tree);
+    }
+
+    fn visit_impl_item(&mut self, item: &'ast ImplItem) {
+        let attributes = match item {
+            ImplItem::Const(item) => &item.attrs,
+            ImplItem::Fn(item) => &item.attrs,
+            _ => &Vec::new(),
+        };
+        if !only_for_tests(attributes) {
+            visit::visit_impl_item(self, item);
+        }
+    }
+
+    fn visit_field(&mut self, field: &'ast syn::Field) {
+        if !only_for_tests(&field.attrs) {
+            visit::visit_field(self, field);
+        }
+    }
+
+    fn visit_local(&mut self, local: &'ast syn::Local) {
+        if !only_for_tests(&local.attrs) {
+            visit::visit_local(self, local);
+        }
+    }
+
+    fn visit_path(&mut self, path: &'ast syn::Path) {
+        let names: Names = path
+            .segments
+            .iter()
+            .map(|one| one.ident.to_string())
+            .collect();
+        self.name(&names);
+        visit::visit_path(self, path);
+    }
+
+    fn visit_macro(&mut self, item: &'ast syn::Macro) {
+        if let Some(name) = item.path.segments.last() {
+            self.paths.push(vec![format!("{}!", name.ident)]);
+        }
+        self.tokens(item.tokens.clone());
+        visit::visit_macro(self, item);
+    }
+}
+
+type Graph = BTreeMap<String, BTreeSet<String>>;
+
+/// Each room with the other rooms that it uses, and for every such pair a file that shows it.
+fn graph(sources: &[SourceFile]) -> (Graph, BTreeMap<(String, String), String>) {
+    let rooms: BTreeSet<&str> = sources.iter().map(|source| source.room.as_str()).collect();
+    let mut graph = Graph::new();
+    let mut shown = BTreeMap::new();
+    for source in sources {
+        let uses = graph.entry(source.room.clone()).or_default();
+        for room in source.rooms() {
+            if rooms.contains(room) && room != source.room {
+                uses.insert(room.to_owned());
+                let edge = (source.room.clone(), room.to_owned());
+                shown.insert(edge, source.path.display().to_string());
+            }
+        }
+    }
+    (graph, shown)
+}
+
+#[test]
+fn rooms_use_exactly_what_the_list_says() {
+    let (graph, shown) = graph(&sources());
+    let listed: Graph = USES
+        .iter()
+        .map(|(room, uses)| {
+            (
+                (*room).to_owned(),
+                uses.iter().map(|room| (*room).to_owned()).collect(),
+            )
+        })
+        .collect();
+    let mut differences = Vec::new();
+    for (room, uses) in &graph {
+        let Some(allowed) = listed.get(room) else {
+            differences.push(format!(
+                "`{room}` is new: it needs a row here and in docs/architecture.md"
+            ));
+            continue;
+        };
+        for other in uses.difference(allowed) {
+            let path = &shown[&(room.clone(), other.clone())];
+            differences.push(format!(
+                "{path} uses `{other}`, which `{room}` must not use"
+            ));
+        }
+        for other in allowed.difference(uses) {
+            differences.push(format!(
+                "`{room}` no longer uses `{other}`: remove it from the list"
+            ));
+        }
+    }
+    for room in listed.keys().filter(|room| !graph.contains_key(*room)) {
+        differences.push(format!("`{room}` is gone: remove its row"));
+    }
+    assert!(
+        differences.is_empty(),
+        "{}\n{graph:#?}",
+        differences.join("\n")
+    );
+}
+
+/// The rooms of a dependency cycle; none if there is no cycle.
+fn cycle(mut graph: Graph) -> Vec<String> {
+    // Remove the rooms that use none of the rest until every room uses another.
+    loop {
+        let rest: BTreeSet<String> = graph.keys().cloned().collect();
+        graph.retain(|_, uses| {
+            uses.retain(|room| rest.contains(room));
+            !uses.is_empty()
+        });
+        if graph.len() == rest.len() {
+            break;
+        }
+    }
+    let mut walk: Vec<String> = graph.keys().take(1).cloned().collect();
+    while let Some(last) = walk.last() {
+        let next = graph[last].first().expect("every room uses another");
+        if let Some(start) = walk.iter().position(|room| room == next) {
+            return walk.split_off(start);
+        }
+        walk.push(next.clone());
+    }
+    walk
+}
+
+#[test]
+fn no_rooms_use_each_other_in_a_cycle() {
+    let (graph, _) = graph(&sources());
+    // The edge that is left to cut.
+    assert_eq!(cycle(graph), ["scene", "solid"]);
+}
+
+#[test]
+fn cycles_are_found() {
+    let graph = |edges: &[(&str, &str)]| {
+        let mut graph = Graph::new();
+        for (from, to) in edges {
+            graph.entry((*to).to_owned()).or_default();
+            graph
+                .entry((*from).to_owned())
+                .or_default()
+                .insert((*to).to_owned());
+        }
+        graph
+    };
+    let mut edges = vec![("a", "b"), ("b", "c"), ("c", "d"), ("a", "d"), ("e", "b")];
+    assert!(cycle(graph(&edges)).is_empty());
+    edges.push(("d", "b"));
+    assert_eq!(cycle(graph(&edges)), ["b", "c", "d"]);
 }
 
 #[test]
 fn only_the_rim_touches_the_world() {
     for source in sources() {
-        for (piece, rooms, why) in ONLY_IN {
-            let touches = source.code.contains(piece) && !rooms.contains(&source.room.as_str());
-            assert!(!touches, "{} has `{piece}`: {why}", source.path.display());
+        for (only, rooms, why) in ONLY_IN {
+            let only: Vec<&str> = only.split("::").collect();
+            let begins = |path: &Names| {
+                path.len() >= only.len() && path.iter().zip(&only).all(|(a, b)| a == b)
+            };
+            let touches = source.paths.iter().any(begins);
+            let allowed = rooms.contains(&source.room.as_str());
+            let path = source.path.display();
+            assert!(
+                allowed || !touches,
+                "{path} uses `{}`: {why}",
+                only.join("::")
+            );
         }
     }
 }
@@ -299,11 +603,42 @@ fn only_the_rim_touches_the_world() {
 fn the_map_names_every_room() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/architecture.md");
     let map = fs::read_to_string(path).expect("docs/architecture.md");
-    for (room, _) in MAY_KNOW {
+    for (room, _) in USES {
         let on_map = map.contains(&format!("| `{room}` |"));
         assert!(
             on_map || matches!(*room, "lib" | "main"),
             "docs/architecture.md lacks `{room}`"
         );
+    }
+}
+
+/// The reader sees what text would hide.
+#[test]
+fn paths_are_read_from_all_places() {
+    let file = syn::parse_file(
+        "use crate::{a, b::{self, c as d}};
+         use std::{io, time};
+         // crate::comment
+         fn f(x: super::e::E) -> time::Instant { println!(\"crate::string {}\", crate::g::h!(super::i::j)); }
+         #[cfg(test)] mod tests { use crate::k; }
+         mod inner { pub(super) use super::super::l; }
+         impl T { #[cfg(test)] fn t() { crate::m::n() } }",
+    )
+    .expect("Rust");
+    let mut reader = Reader {
+        module: vec!["here".to_owned()],
+        ..Reader::default()
+    };
+    reader.visit_file(&file);
+    let source = SourceFile {
+        room: "here".to_owned(),
+        path: PathBuf::new(),
+        paths: reader.resolved(),
+    };
+    let rooms: BTreeSet<&str> = source.rooms().collect();
+    assert_eq!(rooms, ["a", "b", "e", "g", "i", "l"].into());
+    let text: Vec<String> = source.paths.iter().map(|path| path.join("::")).collect();
+    for path in ["crate::b::c", "std::time::Instant", "println!"] {
+        assert!(text.contains(&path.to_owned()), "{text:?} lacks {path}");
     }
 }
