@@ -95,7 +95,7 @@ fn chain(clip: &Clip, pose: &[Placed], why: &str) -> Option<DVec3> {
 
 /// The axis of a part in the drawing's axes: from where it turns to its far end.
 fn axis(compiled: &Compiled, part: usize) -> DVec3 {
-    let part = &compiled.sheet.parts[part];
+    let part = &compiled.bindings.parts[part];
     let flip = |point: DVec2| DVec2::new(point.x, -point.y);
     let origin = flip(part.origin);
     let [a, b] = part.measure.ends.map(flip);
@@ -143,7 +143,7 @@ fn worst(compiled: &Compiled, shot: &Shot, facing: Facing, turn: DQuat) -> f64 {
         let pose = clip.pose(frame);
         let now = world(&compiled.scene, full, frame);
         for driven in &shot.parts {
-            let name = &*compiled.sheet.parts[driven.part].name;
+            let name = &*compiled.bindings.parts[driven.part].name;
             let Some(way) = chain(clip, &pose, &driven.why) else {
                 continue;
             };
