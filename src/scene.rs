@@ -4,6 +4,7 @@
 //! from outside, quaternions `x y z w`, colours linear RGBA.
 
 mod animation;
+mod deferred;
 mod skin;
 
 use std::borrow::Cow;
@@ -11,9 +12,8 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use crate::solid::Solid;
-
 pub use animation::{Animation, Interpolation, Timing, Track, Values};
+pub use deferred::SurfaceSource;
 pub use skin::{MOST_JOINTS, Pose, Posed, Skin, TooManyJoints};
 
 /// A model.
@@ -102,30 +102,44 @@ pub struct Primitive {
 /// A piece of a primitive.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Piece {
-    /// Triangles.
-    Surface(Surface),
-    /// A solid, whose triangles are made when they are asked for: most who look at a scene never do, and a
-    /// large one would fill the memory.
-    Solid(Solid),
+    /// Triangles; boxed, because a large scene consists of deferred pieces.
+    Surface(Box<Surface>),
+    /// A surface that is made when it is asked for.
+    Deferred(Arc<dyn SurfaceSource>),
     /// Another piece, which follows a joint of a skin.
     Posed(Box<Posed>),
+}
+
+impl From<Surface> for Piece {
+    fn from(surface: Surface) -> Self {
+        Self::Surface(Box::new(surface))
+    }
 }
 
 impl Piece {
     /// Its triangles.
     pub fn surface(&self) -> Cow<'_, Surface> {
-        self.surface_by(&mut |solid| Cow::Owned(solid.surface()))
+        self.surface_by(&mut |source| Cow::Owned(source.surface()))
     }
 
-    /// Its triangles, with solids made by `make`.
+    /// Its triangles, with deferred surfaces made by `make`.
     pub fn surface_by<'a>(
         &'a self,
-        make: &mut dyn FnMut(&'a Solid) -> Cow<'a, Surface>,
+        make: &mut dyn FnMut(&'a Arc<dyn SurfaceSource>) -> Cow<'a, Surface>,
     ) -> Cow<'a, Surface> {
         match self {
             Self::Surface(surface) => Cow::Borrowed(surface),
-            Self::Solid(solid) => make(solid),
+            Self::Deferred(source) => make(source),
             Self::Posed(posed) => Cow::Owned(posed.surface()),
+        }
+    }
+
+    /// The piece mirrored in the plane z = 0.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        match self {
+            Self::Deferred(source) => Self::Deferred(source.mirrored()),
+            _ => self.surface().mirrored().into(),
         }
     }
 }
@@ -133,13 +147,13 @@ impl Piece {
 impl Primitive {
     /// The triangles of all its pieces.
     pub fn surface(&self) -> Cow<'_, Surface> {
-        self.surface_by(&mut |solid| Cow::Owned(solid.surface()))
+        self.surface_by(&mut |source| Cow::Owned(source.surface()))
     }
 
-    /// The triangles of all its pieces, with solids made by `make`.
+    /// The triangles of all its pieces, with deferred surfaces made by `make`.
     pub fn surface_by<'a>(
         &'a self,
-        make: &mut dyn FnMut(&'a Solid) -> Cow<'a, Surface>,
+        make: &mut dyn FnMut(&'a Arc<dyn SurfaceSource>) -> Cow<'a, Surface>,
     ) -> Cow<'a, Surface> {
         match self.pieces.as_slice() {
             [piece] => piece.surface_by(make),
@@ -187,6 +201,23 @@ impl Surface {
                 .iter()
                 .map(|t| t.map(|corner| corner + base)),
         );
+    }
+
+    /// The surface mirrored in the plane z = 0, its triangles still counter-clockwise.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let across = |list: &[[f32; 3]]| list.iter().map(|[x, y, z]| [*x, *y, -z]).collect();
+        Self {
+            positions: across(&self.positions),
+            normals: across(&self.normals),
+            uvs: self.uvs.clone(),
+            joints: self.joints.clone(),
+            triangles: self
+                .triangles
+                .iter()
+                .map(|[a, b, c]| [*a, *c, *b])
+                .collect(),
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 
 mod common;
 
+use std::any::Any;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -11,6 +12,7 @@ use okoshi::diagnostic::{Code, Diagnostic};
 use okoshi::disk::FolderResolver;
 use okoshi::geometry::{FillRule, area, clean, intersect};
 use okoshi::scene::{Piece, Scene};
+use okoshi::solid::{Sides, Solid};
 
 /// How near planes are one, metres, as a share of the model's extent.
 const NEAR: f64 = 1e-6;
@@ -46,8 +48,12 @@ fn faces(scene: &Scene) -> Vec<Face> {
         for piece in primitives.flat_map(|primitive| &primitive.pieces) {
             owner += 1;
             // A solid and its copy count as two.
-            let copies =
-                matches!(piece, Piece::Solid(solid) if solid.sides == okoshi::solid::Sides::Both);
+            let copies = match piece {
+                Piece::Deferred(source) => (&**source as &dyn Any)
+                    .downcast_ref::<Solid>()
+                    .is_some_and(|solid| solid.sides == Sides::Both),
+                _ => false,
+            };
             let surface = piece.surface();
             let half = surface.triangles.len() / 2;
             for (number, triangle) in surface.triangles.iter().enumerate() {

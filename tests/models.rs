@@ -7,8 +7,8 @@ use okoshi::compile::{Compiled, Options, compile};
 use okoshi::gltf::{Container, write};
 use okoshi::resolver::MemoryResolver;
 use okoshi::scene::{
-    Filter, Image, Material, MediaType, Mesh, Node, Piece, Primitive, Scene, Surface, Texture,
-    TextureUse, Wrap,
+    Filter, Image, Material, MediaType, Mesh, Node, Primitive, Scene, Surface, Texture, TextureUse,
+    Wrap,
 };
 
 /// A box of 2 × 4 × 1 about (10, 0, 0): a textured front, and a bare body.
@@ -38,7 +38,7 @@ fn pillar() -> Vec<u8> {
         },
     };
     let primitive = |surface: Surface, material: usize| Primitive {
-        pieces: vec![Piece::Surface(surface)],
+        pieces: vec![surface.into()],
         material,
     };
     let scene = Scene {

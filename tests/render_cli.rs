@@ -10,8 +10,8 @@ use glam::DQuat;
 use image::{AnimationDecoder, ImageDecoder};
 use okoshi::gltf::{Container, write};
 use okoshi::scene::{
-    Animation, Interpolation, Material, Mesh, Node, Piece, Primitive, Scene, Surface, Timing,
-    Track, Values, ViewDependent,
+    Animation, Interpolation, Material, Mesh, Node, Primitive, Scene, Surface, Timing, Track,
+    Values, ViewDependent,
 };
 
 const GOOD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
@@ -312,7 +312,7 @@ fn upright(node: Node, animations: Vec<Animation>) -> Vec<u8> {
         roots: vec![0],
         meshes: vec![Mesh {
             primitives: vec![Primitive {
-                pieces: vec![Piece::Surface(square)],
+                pieces: vec![square.into()],
                 material: 0,
             }],
         }],

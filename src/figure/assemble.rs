@@ -9,7 +9,6 @@ use crate::bind::{Bindings, Part, PartKind};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Ground, Value};
 use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene};
-use crate::solid;
 use crate::terrain::Layer;
 use crate::threads::GRAIN;
 
@@ -149,12 +148,8 @@ impl Meshes {
 
 /// A mesh mirrored in the drawing plane.
 fn mirrored(mesh: &Mesh) -> Mesh {
-    let piece = |piece: &Piece| match piece {
-        Piece::Solid(solid) => Piece::Solid(solid.mirrored()),
-        made => Piece::Surface(solid::mirror(&made.surface())),
-    };
     let primitive = |primitive: &Primitive| Primitive {
-        pieces: primitive.pieces.iter().map(piece).collect(),
+        pieces: primitive.pieces.iter().map(Piece::mirrored).collect(),
         material: primitive.material,
     };
     Mesh {

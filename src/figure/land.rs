@@ -78,7 +78,7 @@ fn mesh(layer: &Layer, tile: f64, material_of: impl Fn(u8) -> Option<usize>) -> 
         {
             *position = position.map(|at| (f64::from(at) * tile) as f32);
         }
-        let pieces = surfaces.into_iter().map(Piece::Surface);
+        let pieces = surfaces.into_iter().map(Piece::from);
         let mut same = primitives.iter_mut();
         match same.find(|primitive| primitive.material == material) {
             Some(primitive) => primitive.pieces.extend(pieces),

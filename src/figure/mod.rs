@@ -243,13 +243,13 @@ impl<'a> Model<'a> {
                 let frames = [&stock.frames[part], &stock.frames[main]];
                 let (depth, both) = self.stand(main, part);
                 for (material, surface) in stock.models.surfaces(self, part, frames, depth, both) {
-                    add(material, Piece::Surface(surface));
+                    add(material, surface.into());
                 }
             } else if let Some((material, texture)) = stock.painted.of(part)
                 && let Some(mut solid) = self.solid(main, part, &stock.frames, &stock.relief)
             {
                 solid.texture = texture;
-                add(material, Piece::Solid(solid));
+                add(material, Piece::Deferred(Arc::new(solid)));
             }
         }
         (!primitives.is_empty()).then_some(Mesh { primitives })

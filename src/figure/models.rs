@@ -14,7 +14,6 @@ use crate::lang::keyword::Keyword;
 use crate::lang::value::{Shape, ShapeKind, Value};
 use crate::resolver::{LinkError, Resolver};
 use crate::scene::{Scene, Surface};
-use crate::solid;
 use crate::svg::broken_link;
 
 /// Most triangles that all parts made of models have together.
@@ -202,7 +201,7 @@ impl Models {
             .placed(turn, translation)
             .map(|(material, mut surface)| {
                 if both {
-                    let back = solid::mirror(&surface);
+                    let back = surface.mirrored();
                     surface.append(&back);
                 }
                 (first_material + material, surface)

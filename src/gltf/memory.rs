@@ -5,41 +5,40 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use crate::scene::Surface;
-use crate::solid::Solid;
+use crate::scene::{Surface, SurfaceSource};
 
-/// What writing remembers from one time to the next: the surfaces of the solids of the last scene, as large as the
-/// model itself. A solid is found by all that it is made from, so that what is written does not depend on it.
+/// Results that writing a scene keeps for the next one: the deferred surfaces of the last scene, as large as the
+/// model itself. A surface is found by everything it is made from, so that the output does not depend on the memory.
 #[derive(Debug, Default)]
 pub struct Memory {
     known: FxHashMap<u64, Vec<Made>>,
     made: usize,
 }
 
-/// A solid and its surface.
+/// A surface and what it was made from.
 #[derive(Debug, Clone)]
 pub(super) struct Made {
-    solid: Solid,
+    source: Arc<dyn SurfaceSource>,
     surface: Arc<Surface>,
 }
 
 impl Memory {
-    /// How many solids were made the last time, and not found.
+    /// How many surfaces were made the last time, and not found.
     pub fn made(&self) -> usize {
         self.made
     }
 
-    fn find(&self, key: u64, solid: &Solid) -> Option<&Made> {
+    fn find(&self, key: u64, source: &dyn SurfaceSource) -> Option<&Made> {
         let all = self.known.get(&key)?;
-        all.iter().find(|made| made.solid == *solid)
+        all.iter().find(|made| *made.source == *source)
     }
 
     /// Remembers `used`, and nothing else.
     pub(super) fn keep(&mut self, used: Used) {
         self.known.clear();
-        for (key, made) in used.solids {
+        for (key, made) in used.surfaces {
             let same = self.known.entry(key).or_default();
-            if !same.iter().any(|known| known.solid == made.solid) {
+            if !same.iter().any(|known| *known.source == *made.source) {
                 same.push(made);
             }
         }
@@ -47,33 +46,37 @@ impl Memory {
     }
 }
 
-/// The solids that were used, and how many of them were made.
+/// The surfaces that were used, and how many of them were made.
 #[derive(Debug, Default)]
 pub(super) struct Used {
-    solids: Vec<(u64, Made)>,
+    surfaces: Vec<(u64, Made)>,
     made: usize,
 }
 
 impl Used {
-    /// The surface of a solid, found or made.
-    pub(super) fn surface<'a>(&mut self, solid: &Solid, memory: &'a Memory) -> Cow<'a, Surface> {
-        let key = solid.key();
-        if let Some(made) = memory.find(key, solid) {
-            self.solids.push((key, made.clone()));
+    /// The surface of a source, found or made.
+    pub(super) fn surface<'a>(
+        &mut self,
+        source: &Arc<dyn SurfaceSource>,
+        memory: &'a Memory,
+    ) -> Cow<'a, Surface> {
+        let key = source.key();
+        if let Some(made) = memory.find(key, &**source) {
+            self.surfaces.push((key, made.clone()));
             return Cow::Borrowed(&made.surface);
         }
-        let surface = solid.surface();
+        let surface = source.surface();
         self.made += 1;
         let made = Made {
-            solid: solid.clone(),
+            source: Arc::clone(source),
             surface: Arc::new(surface.clone()),
         };
-        self.solids.push((key, made));
+        self.surfaces.push((key, made));
         Cow::Owned(surface)
     }
 
     pub(super) fn append(&mut self, other: &mut Self) {
-        self.solids.append(&mut other.solids);
+        self.surfaces.append(&mut other.surfaces);
         self.made += std::mem::take(&mut other.made);
     }
 }

@@ -374,7 +374,9 @@ impl Batch {
         self.entries.clear();
         for primitive in primitives {
             let surface = match memory {
-                Some(memory) => primitive.surface_by(&mut |solid| self.used.surface(solid, memory)),
+                Some(memory) => {
+                    primitive.surface_by(&mut |source| self.used.surface(source, memory))
+                }
                 None => primitive.surface(),
             };
             let Some(material) = scene.materials.get(primitive.material) else {

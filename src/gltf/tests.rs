@@ -26,7 +26,7 @@ fn bytes(scene: &Scene, container: Container) -> Vec<u8> {
 
 fn primitive(surface: Surface, material: usize) -> Primitive {
     Primitive {
-        pieces: vec![Piece::Surface(surface)],
+        pieces: vec![surface.into()],
         material,
     }
 }

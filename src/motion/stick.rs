@@ -8,8 +8,8 @@ use super::carry::continuous;
 use super::limited::Exposure;
 use super::skeleton::{Channel, Clip, Placed, height};
 use crate::scene::{
-    Animation, Interpolation, Material, Mesh, Node, Piece, Primitive, Scene, Surface, Timing,
-    Track, Values,
+    Animation, Interpolation, Material, Mesh, Node, Primitive, Scene, Surface, Timing, Track,
+    Values,
 };
 
 /// How high the model is in the first frame, metres: files have any unit.
@@ -54,7 +54,7 @@ pub fn stick_figure(
             .collect();
         scene.meshes.push(Mesh {
             primitives: vec![Primitive {
-                pieces: vec![Piece::Surface(bones(&ways))],
+                pieces: vec![bones(&ways).into()],
                 material: 0,
             }],
         });

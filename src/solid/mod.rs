@@ -97,22 +97,6 @@ pub fn build(outline: &Outline, kind: &ShapeKind, options: &Options) -> Surface 
     stack::stack(outline, &layers, options)
 }
 
-/// The surface on the other side of the plane z = 0.
-pub fn mirror(surface: &Surface) -> Surface {
-    let across = |list: &[[f32; 3]]| list.iter().map(|[x, y, z]| [*x, *y, -z]).collect();
-    Surface {
-        positions: across(&surface.positions),
-        normals: across(&surface.normals),
-        uvs: surface.uvs.clone(),
-        joints: surface.joints.clone(),
-        triangles: surface
-            .triangles
-            .iter()
-            .map(|[a, b, c]| [*a, *c, *b])
-            .collect(),
-    }
-}
-
 #[cfg(test)]
 mod laws;
 #[cfg(test)]

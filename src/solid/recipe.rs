@@ -1,15 +1,16 @@
 //! A solid that is still to be made.
 
+use std::any::Any;
 use std::hash::Hasher;
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 use rustc_hash::FxHasher;
 
-use super::{Options, build, mirror};
+use super::{Options, build};
 use crate::geometry::{Outline, Polygon};
 use crate::lang::value::ShapeKind;
-use crate::scene::Surface;
+use crate::scene::{Surface, SurfaceSource};
 
 /// All that a solid is made from.
 #[derive(Debug, Clone, PartialEq)]
@@ -40,9 +41,8 @@ pub enum Sides {
     Both,
 }
 
-impl Solid {
-    /// Makes the solid.
-    pub fn surface(&self) -> Surface {
+impl SurfaceSource for Solid {
+    fn surface(&self) -> Surface {
         let ring = |ring: &Vec<_>| {
             ring.iter()
                 .map(|point| self.to_frame.transform_point2(*point))
@@ -65,18 +65,16 @@ impl Solid {
         }
         match self.sides {
             Sides::Front => surface,
-            Sides::Back => mirror(&surface),
+            Sides::Back => surface.mirrored(),
             Sides::Both => {
-                let back = mirror(&surface);
+                let back = surface.mirrored();
                 surface.append(&back);
                 surface
             }
         }
     }
 
-    /// A number that tells solids apart: those that are made from other numbers, down to their signs, mostly have
-    /// another one.
-    pub fn key(&self) -> u64 {
+    fn key(&self) -> u64 {
         let mut hasher = FxHasher::default();
         let mut number = |number: f64| hasher.write_u64(number.to_bits());
         for ring in self
@@ -130,6 +128,24 @@ impl Solid {
         hasher.finish()
     }
 
+    fn mirrored(&self) -> Arc<dyn SurfaceSource> {
+        let sides = match self.sides {
+            Sides::Front => Sides::Back,
+            Sides::Back => Sides::Front,
+            Sides::Both => Sides::Both,
+        };
+        Arc::new(Self {
+            sides,
+            ..self.clone()
+        })
+    }
+
+    fn is_equal(&self, other: &dyn SurfaceSource) -> bool {
+        (other as &dyn Any).downcast_ref::<Self>() == Some(self)
+    }
+}
+
+impl Solid {
     /// From the solid's final places, seen from the front, back to the drawing.
     fn to_drawing(&self) -> DAffine2 {
         let placement = &self.options.placement;
@@ -137,19 +153,5 @@ impl Solid {
             * DAffine2::from_translation(placement.translation.truncate())
             * DAffine2::from_angle(placement.rotation);
         (placed * self.to_frame).inverse()
-    }
-
-    /// The solid mirrored in the drawing plane.
-    #[must_use]
-    pub fn mirrored(&self) -> Self {
-        let sides = match self.sides {
-            Sides::Front => Sides::Back,
-            Sides::Back => Sides::Front,
-            Sides::Both => Sides::Both,
-        };
-        Self {
-            sides,
-            ..self.clone()
-        }
     }
 }
