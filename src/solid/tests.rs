@@ -304,7 +304,7 @@ fn placement_and_mirror() {
         .iter()
         .fold([0f32; 3], |m, p| [0, 1, 2].map(|i| m[i].max(p[i])));
     assert_eq!(far, [0.3, 0.4, 0.06]);
-    let mirrored = mirror(&surface);
+    let mirrored = surface.mirrored();
     closed(&mirrored).unwrap();
     assert!(volume(&mirrored) > 0.0 && mirrored.positions.iter().all(|p| p[2] < 0.0));
 }
