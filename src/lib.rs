@@ -8,6 +8,7 @@
     allow(clippy::unwrap_used, reason = "a test that fails to unwrap has failed")
 )]
 
+pub mod assemble;
 pub mod bind;
 pub mod cli;
 pub mod compile;
@@ -26,6 +27,7 @@ pub mod preview;
 pub mod render;
 pub mod report;
 pub mod resolver;
+pub mod rig;
 pub mod scene;
 pub mod solid;
 pub mod source;

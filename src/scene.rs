@@ -6,6 +6,7 @@
 mod animation;
 mod deferred;
 mod skin;
+mod world;
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -15,6 +16,7 @@ use glam::{DQuat, DVec3};
 pub use animation::{Animation, Interpolation, Timing, Track, Values};
 pub use deferred::SurfaceSource;
 pub use skin::{MOST_JOINTS, Pose, Posed, Skin, TooManyJoints};
+pub use world::WorldTransform;
 
 /// A model.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -35,6 +37,34 @@ pub struct Scene {
     pub skin: Option<Skin>,
     /// The clips, each with a name of its own.
     pub animations: Vec<Animation>,
+}
+
+/// A node to be added to a scene, with its mesh.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct NewNode {
+    /// The node.
+    pub node: Node,
+    /// What it shows.
+    pub mesh: Option<Mesh>,
+    /// Index of its parent in the scene; `None` makes it a root.
+    pub parent: Option<usize>,
+}
+
+impl Scene {
+    /// Adds a node with its mesh.
+    pub fn add(&mut self, new: NewNode) {
+        let index = self.nodes.len();
+        let mut node = new.node;
+        node.mesh = new.mesh.map(|mesh| {
+            self.meshes.push(mesh);
+            self.meshes.len() - 1
+        });
+        self.nodes.push(node);
+        match new.parent {
+            Some(parent) => self.nodes[parent].children.push(index),
+            None => self.roots.push(index),
+        }
+    }
 }
 
 /// A node of the hierarchy: a joint, with or without a solid.

@@ -5,10 +5,11 @@ mod again;
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex};
 
+use crate::assemble::{self, Assembled};
 use crate::bind::{self, Bindings};
 use crate::diagnostic::{self, Code, Diagnostic, Severity};
-use crate::figure;
 use crate::resolver::{LinkError, Resolver};
+use crate::rig;
 use crate::scene::Scene;
 use crate::source::Span;
 use crate::svg::{self, Drawing};
@@ -45,7 +46,7 @@ pub struct Compiled {
     /// The tile maps.
     pub layers: Vec<terrain::Layer>,
     /// The clips that figures play.
-    pub shots: Vec<figure::Shot>,
+    pub shots: Vec<rig::Shot>,
     /// The drawing. Its outlines and texts are shared with the bindings.
     pub drawing: Arc<Drawing>,
     /// What is wrong, in the order of the text.
@@ -66,7 +67,7 @@ impl Compiled {
 
     /// The nodes of the model with the clips of limited animation as they were before they were cut; `None` if none was.
     pub fn originals(&self) -> Option<Scene> {
-        figure::originals(&self.scene, &self.shots)
+        rig::originals(&self.scene, &self.shots)
     }
 
     /// Whether there are errors, which keep the model from being written.
@@ -110,7 +111,7 @@ struct Reading {
 #[derive(Debug, Default)]
 struct Memory {
     areas: bind::Memory,
-    things: figure::Memory,
+    things: assemble::Memory,
 }
 
 /// A link that was followed, and where it led.
@@ -142,21 +143,17 @@ impl Reading {
             links: mut dependencies,
         } = self;
         let recorder = Recorder::new(resolver);
-        let mut nothing = figure::Memory::default();
+        let mut nothing = assemble::Memory::default();
         let (areas, things) = match memory {
             Some(Memory { areas, things }) => (Some(areas), things),
             None => (None, &mut nothing),
         };
         let bindings = bind::bind(&drawing, areas, &mut diagnostics);
-        let layers = terrain::read(&drawing, &bindings, &mut diagnostics);
-        let (scene, shots) = figure::build(
-            &drawing,
-            &bindings,
-            &layers,
-            &recorder,
-            things,
-            &mut diagnostics,
-        );
+        let Assembled {
+            scene,
+            layers,
+            shots,
+        } = assemble::assemble(&drawing, &bindings, &recorder, things, &mut diagnostics);
         diagnostic::sort(&mut diagnostics);
         dependencies.extend(recorder.followed().into_iter().map(|(link, _)| link));
         dependencies.sort();

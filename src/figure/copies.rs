@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::Model;
+use super::FigureContext;
 use crate::bind::PartKind;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::Keyword;
@@ -14,44 +14,44 @@ use crate::threads::GRAIN;
 const MOST_ANCESTORS: usize = 64;
 
 /// Warns of copies that coincide.
-pub(super) fn check(model: &Model<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    let parts = 0..model.bindings.parts.len();
+pub(super) fn check(context: &FigureContext<'_>, diagnostics: &mut Vec<Diagnostic>) {
+    let parts = 0..context.bindings.parts.len();
     let doubled: Vec<bool> = parts
         .clone()
         .into_par_iter()
         .with_min_len(GRAIN)
-        .map(|part| model.bindings.shape(part).doubled)
+        .map(|part| context.bindings.shape(part).doubled)
         .collect();
     let copied = doubled.contains(&true);
     let found: Vec<Diagnostic> = parts
         .into_par_iter()
         .with_min_len(GRAIN)
         .filter_map(|part| {
-            let own = coincident(model, part);
-            own.or_else(|| copied.then(|| inherited(model, part, &doubled))?)
+            let own = coincident(context, part);
+            own.or_else(|| copied.then(|| inherited(context, part, &doubled))?)
         })
         .collect();
     diagnostics.extend(found);
 }
 
 /// The least and the greatest depth of a part's solid in its parent's frame, and that it has one.
-fn depths(model: &Model<'_>, part: usize) -> Option<[f64; 2]> {
+fn depths(context: &FigureContext<'_>, part: usize) -> Option<[f64; 2]> {
     let built = matches!(
-        model.bindings.parts[part].kind,
+        context.bindings.parts[part].kind,
         PartKind::Main | PartKind::Sub
     );
-    let kind = model.kind(part);
+    let kind = context.kind(part);
     if !built || kind == ShapeKind::None {
         return None;
     }
-    let measure = &model.bindings.parts[part].measure;
+    let measure = &context.bindings.parts[part].measure;
     let [low, high] = solid::depths(
         &kind,
         measure.half_across,
         measure.half_along,
-        &model.options(part),
+        &context.options(part),
     )?;
-    let offset = model.offset(part);
+    let offset = context.offset(part);
     Some([low + offset, high + offset])
 }
 
@@ -61,23 +61,23 @@ fn is_even([low, high]: [f64; 2], plane: f64) -> bool {
 }
 
 /// A copy that the part's own flag makes.
-fn coincident(model: &Model<'_>, part: usize) -> Option<Diagnostic> {
-    let shape = model.bindings.shape(part);
-    if !(shape.mirrored || shape.doubled) || !is_even(depths(model, part)?, 0.0) {
+fn coincident(context: &FigureContext<'_>, part: usize) -> Option<Diagnostic> {
+    let shape = context.bindings.shape(part);
+    if !(shape.mirrored || shape.doubled) || !is_even(depths(context, part)?, 0.0) {
         return None;
     }
     let flag = if shape.doubled { "-d" } else { "-s" };
-    let name = model.bindings.describe(model.drawing, part);
+    let name = context.bindings.describe(context.drawing, part);
     let message = format!("the copy that `{flag}` makes of {name} lies exactly where {name} lies");
-    Some(told(model, part, message))
+    Some(told(context, part, message))
 }
 
 /// A copy that an ancestor's `-d` makes.
-fn inherited(model: &Model<'_>, part: usize, doubled: &[bool]) -> Option<Diagnostic> {
-    let parts = &model.bindings.parts;
+fn inherited(context: &FigureContext<'_>, part: usize, doubled: &[bool]) -> Option<Diagnostic> {
+    let parts = &context.bindings.parts;
     let main = parts[part].main;
-    let shape = model.bindings.shape(part);
-    let depths = depths(model, part)?;
+    let shape = context.bindings.shape(part);
+    let depths = depths(context, part)?;
     // From the node that the part hangs on to the plane that an ancestor is mirrored in.
     let mut plane = 0.0;
     // A sub-part hangs on its main part's node.
@@ -88,8 +88,8 @@ fn inherited(model: &Model<'_>, part: usize, doubled: &[bool]) -> Option<Diagnos
     };
     for _ in 0..MOST_ANCESTORS {
         let ancestor = next?;
-        if !model.bindings.shape(ancestor).mirrored {
-            plane -= model.offset(ancestor);
+        if !context.bindings.shape(ancestor).mirrored {
+            plane -= context.offset(ancestor);
         }
         let both = shape.mirrored || shape.doubled;
         let even = match both {
@@ -97,23 +97,23 @@ fn inherited(model: &Model<'_>, part: usize, doubled: &[bool]) -> Option<Diagnos
             false => is_even(depths, plane),
         };
         if doubled[ancestor] && even {
-            let name = model.bindings.describe(model.drawing, part);
-            let other = model.bindings.describe(model.drawing, ancestor);
+            let name = context.bindings.describe(context.drawing, part);
+            let other = context.bindings.describe(context.drawing, ancestor);
             let message = format!(
                 "copies of {name} that `-d` of {other} makes lie exactly where {name} lies"
             );
-            return Some(told(model, part, message));
+            return Some(told(context, part, message));
         }
         next = parts[ancestor].parent;
     }
     None
 }
 
-fn told(model: &Model<'_>, part: usize, message: String) -> Diagnostic {
-    let bindings = model.bindings;
+fn told(context: &FigureContext<'_>, part: usize, message: String) -> Diagnostic {
+    let bindings = context.bindings;
     let source = bindings.setting(part, Keyword::Shape);
     let span = source.map_or(
-        model.drawing.shapes[bindings.parts[part].shape]
+        context.drawing.shapes[bindings.parts[part].shape]
             .element
             .span,
         |source| {

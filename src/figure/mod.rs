@@ -3,146 +3,212 @@
 //! Invariant: a node's mesh is described in the part's own frame, +Y along its axis away from the joint,
 //! +Z towards the viewer; turning the node turns the limb about its joint.
 
-mod assemble;
 mod copies;
-mod frame;
-mod land;
-mod materials;
 mod models;
-mod motion;
+mod nodes;
 mod relief;
-mod textures;
 mod tree;
 
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::DAffine2;
 use rayon::prelude::*;
 
 use crate::bind::{Bindings, Part, PartKind};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{area, contains, intersect};
+use crate::geometry::{Frame, area, contains, intersect};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{ShapeKind, Value};
 use crate::resolver::Resolver;
-use crate::scene::{Mesh, Piece, Primitive, Scene};
+use crate::scene::{Mesh, Piece, Primitive, Scene, WorldTransform};
 use crate::solid::{self, Placement, Sides, Solid};
 use crate::svg::Drawing;
-use crate::terrain::Layer;
 use crate::threads::GRAIN;
 
-use assemble::Stage;
-use frame::Frame;
-use materials::{Materials, Painted};
 use models::Models;
 use relief::Relief;
 use tree::Tree;
 
-pub use motion::{Driven, Shot, originals};
+pub use nodes::PartNode;
 
-/// Metres in a centimetre: one drawing unit is `Scale` centimetres.
-const CENTIMETRE: f64 = 0.01;
 /// How far the faces of `default` lie from the drawing plane, as a share of the page's diagonal.
 const DEFAULT_DEPTH: f64 = 0.025;
 
-/// What building remembers for the next time: things that take long to make, from what seldom changes. The next
-/// time checks that it has not.
+/// Results kept between compiles.
 #[derive(Debug, Default)]
 pub struct Memory {
     models: models::Memory,
-    textures: textures::Memory,
     relief: relief::Memory,
-    motion: motion::Memory,
 }
 
-/// Builds the figures and landscapes of a drawing, and tells of their clips. What it makes does not depend on what it remembers.
-pub fn build(
-    drawing: &Drawing,
-    bindings: &Bindings,
-    layers: &[Layer],
-    resolver: &dyn Resolver,
-    memory: &mut Memory,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> (Scene, Vec<Shot>) {
-    let model = Model::new(drawing, bindings);
-    let known = &mut memory.relief;
-    let (relief, (mut models, materials, frames, members, tree, found)) = rayon::join(
-        || Relief::measure(&model, known),
-        || {
-            let mut found = Vec::new();
-            let models = Models::collect(&model, resolver, &mut memory.models, &mut found);
-            let looks = &mut memory.textures;
-            let materials =
-                Materials::collect(&model, &models, layers, resolver, looks, &mut found);
-            let frames: Vec<Frame> = bindings
-                .parts
-                .par_iter()
-                .with_min_len(GRAIN)
-                .map(Frame::of)
-                .collect();
-            let tree = Tree::grow(&model, &frames, &mut found);
-            (models, materials, frames, members(bindings), tree, found)
-        },
-    );
-    diagnostics.extend(found);
-    copies::check(&model, diagnostics);
-    let (mut scene, painted, grounds) = materials.into_scene();
-    models.add_looks(&mut scene);
-    let stock = Stock {
-        frames,
-        relief,
-        painted,
-        models,
-    };
-    let meshes: Vec<Option<Mesh>> = members
-        .par_iter()
-        .enumerate()
-        .with_min_len(GRAIN)
-        .map(|(main, parts)| model.mesh(main, parts, &stock))
-        .collect();
-    let stage = Stage::of(&model, layers);
-    let wishes = motion::wishes(&model);
-    // The hierarchy is used up where it becomes the scene's.
-    let puppets = match wishes.is_empty() {
-        true => None,
-        false => Some(motion::Nodes::new(&model, &stock.frames, &tree.branches)),
-    };
-    let (mut scene, nodes) = assemble::assemble(&model, tree, meshes, &stage, scene);
-    land::add(
-        &model,
-        layers,
-        &grounds,
-        &stage,
-        &stock.frames,
-        &nodes,
-        &mut scene,
-    );
-    let shots = match &puppets {
-        Some(nodes) => {
-            let ground = motion::Ground {
-                stage: &stage,
-                nodes,
-                members: &members,
-                scale: model.scale,
-            };
-            let known = &mut memory.motion;
-            motion::perform(
-                &model,
-                &wishes,
-                &ground,
-                resolver,
-                known,
-                &mut scene,
-                diagnostics,
-            )
+/// The linked models of a drawing's figures, read before anything else: parts that are models need no material.
+pub struct LinkedModels(Models);
+
+impl LinkedModels {
+    /// Reads the models that `Shape model` links to.
+    pub fn read(
+        bindings: &Bindings,
+        resolver: &dyn Resolver,
+        memory: &mut Memory,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Self {
+        let known = &mut memory.models;
+        Self(Models::collect(bindings, resolver, known, diagnostics))
+    }
+
+    /// Whether a part is a model, with materials of its own.
+    pub fn has(&self, part: usize) -> bool {
+        self.0.has(part)
+    }
+
+    /// Adds the models' materials to a scene.
+    pub fn add_materials(&mut self, scene: &mut Scene) {
+        self.0.add_materials(scene);
+    }
+}
+
+/// The figures of a drawing, laid out: frames, hierarchy and relief.
+pub struct Figures<'a> {
+    context: FigureContext<'a>,
+    relief: Relief,
+    frames: Vec<Frame>,
+    members: Vec<Vec<usize>>,
+    tree: Tree,
+}
+
+/// The nodes of a drawing's figures, in the order in which they are in the scene.
+pub struct FigureNodes {
+    /// Per part its rest frame.
+    pub frames: Vec<Frame>,
+    /// Per main part the parts whose solids are in its node.
+    pub members: Vec<Vec<usize>>,
+    /// Per node the part that it shows.
+    pub nodes: Vec<PartNode>,
+    /// Per part the first node that shows it.
+    pub node_of_part: Vec<Option<usize>>,
+}
+
+/// The material of a part and, if it has a texture, the map from the drawing to texture coordinates; `None` for a part without a
+/// solid.
+pub type PartMaterial = Option<(usize, Option<DAffine2>)>;
+
+impl<'a> Figures<'a> {
+    /// Lays out the figures of a drawing.
+    pub fn lay_out(
+        drawing: &'a Drawing,
+        bindings: &'a Bindings,
+        memory: &mut Memory,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Self {
+        let context = FigureContext::new(drawing, bindings);
+        let known = &mut memory.relief;
+        let (relief, (frames, members, tree)) = rayon::join(
+            || Relief::measure(&context, known),
+            || {
+                let parts = bindings.parts.par_iter().with_min_len(GRAIN);
+                let frames: Vec<Frame> = parts
+                    .map(|part| Frame::new(&part.measure, part.origin))
+                    .collect();
+                let tree = Tree::grow(&context, &frames, diagnostics);
+                (frames, members(bindings), tree)
+            },
+        );
+        copies::check(&context, diagnostics);
+        Self {
+            context,
+            relief,
+            frames,
+            members,
+            tree,
         }
-        None => {
-            memory.motion = motion::Memory::default();
-            motion::without(&model, diagnostics);
-            Vec::new()
+    }
+
+    /// Adds the figures' nodes and meshes to a scene that has nothing but materials.
+    pub fn build(
+        self,
+        models: &LinkedModels,
+        materials: &[PartMaterial],
+        world: &WorldTransform,
+        scene: &mut Scene,
+    ) -> FigureNodes {
+        let meshes: Vec<Option<Mesh>> = self
+            .members
+            .par_iter()
+            .enumerate()
+            .with_min_len(GRAIN)
+            .map(|(main, parts)| self.mesh(main, parts, &models.0, materials, world))
+            .collect();
+        let (nodes, node_of_part) = nodes::add(&self.context, self.tree, meshes, world, scene);
+        FigureNodes {
+            frames: self.frames,
+            members: self.members,
+            nodes,
+            node_of_part,
         }
-    };
-    (scene, shots)
+    }
+
+    /// The solids of a main part and its sub-parts, in the main part's frame.
+    fn mesh(
+        &self,
+        main: usize,
+        parts: &[usize],
+        models: &Models,
+        materials: &[PartMaterial],
+        world: &WorldTransform,
+    ) -> Option<Mesh> {
+        let mut primitives: Vec<Primitive> = Vec::new();
+        let mut add = |material: usize, piece: Piece| {
+            let mut same = primitives.iter_mut().filter(|p| p.material == material);
+            match same.next() {
+                Some(primitive) => primitive.pieces.push(piece),
+                None => primitives.push(Primitive {
+                    pieces: vec![piece],
+                    material,
+                }),
+            }
+        };
+        for &part in parts {
+            if models.has(part) {
+                let frames = [&self.frames[part], &self.frames[main]];
+                let (depth, both) = self.context.stand(main, part);
+                let outline = &self.context.bindings.parts[part].outline;
+                for (material, surface) in
+                    models.surfaces(part, outline, frames, depth, both, world.scale)
+                {
+                    add(material, surface.into());
+                }
+            } else if let Some((material, texture)) = materials[part]
+                && let Some(mut solid) = self.solid(main, part, world)
+            {
+                solid.texture = texture;
+                add(material, Piece::Deferred(Arc::new(solid)));
+            }
+        }
+        (!primitives.is_empty()).then_some(Mesh { primitives })
+    }
+
+    fn solid(&self, main: usize, part: usize, world: &WorldTransform) -> Option<Solid> {
+        let kind = self.relief.raised(part, self.context.kind(part));
+        if kind == ShapeKind::None {
+            return None;
+        }
+        let (depth, both) = self.context.stand(main, part);
+        let (own, node) = (&self.frames[part], &self.frames[main]);
+        let mut options = self.context.options(part);
+        options.placement = Placement {
+            rotation: own.angle - node.angle,
+            translation: node.to_local(own.center).extend(depth),
+            scale: world.scale,
+        };
+        Some(Solid {
+            outline: Arc::clone(&self.context.bindings.parts[part].outline),
+            to_frame: own.from_drawing_about_center(),
+            kind,
+            options,
+            sides: if both { Sides::Both } else { Sides::Front },
+            texture: None,
+        })
+    }
 }
 
 /// Per main part the parts whose solids are in its node.
@@ -156,35 +222,20 @@ fn members(bindings: &Bindings) -> Vec<Vec<usize>> {
     members
 }
 
-/// What meshes are made with.
-struct Stock {
-    frames: Vec<Frame>,
-    relief: Relief,
-    painted: Painted,
-    models: Models,
-}
-
 /// What building needs to know of the whole drawing.
-struct Model<'a> {
+struct FigureContext<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
-    /// Metres a drawing unit.
-    scale: f64,
     /// The depths of `default` without parameters, drawing units.
     depth: [f64; 2],
 }
 
-impl<'a> Model<'a> {
+impl<'a> FigureContext<'a> {
     fn new(drawing: &'a Drawing, bindings: &'a Bindings) -> Self {
-        let scale = match bindings.drawing_value(Keyword::Scale) {
-            Some(Value::Number(scale)) => *scale,
-            _ => 1.0,
-        };
         let depth = drawing.page.1.length() * DEFAULT_DEPTH;
         Self {
             drawing,
             bindings,
-            scale: scale * CENTIMETRE,
             depth: [-depth, depth],
         }
     }
@@ -217,42 +268,8 @@ impl<'a> Model<'a> {
                 .unwrap_or(16.0) as u32,
             crease: self.bindings.number(part, Keyword::Smooth).unwrap_or(30.0),
             thickness: self.depth,
-            placement: Placement {
-                rotation: 0.0,
-                translation: DVec3::ZERO,
-                scale: self.scale,
-            },
+            placement: Placement::default(),
         }
-    }
-
-    /// The solids of a main part and its sub-parts, in the main part's frame.
-    fn mesh(&self, main: usize, parts: &[usize], stock: &Stock) -> Option<Mesh> {
-        let mut primitives: Vec<Primitive> = Vec::new();
-        let mut add = |material: usize, piece: Piece| {
-            let mut same = primitives.iter_mut().filter(|p| p.material == material);
-            match same.next() {
-                Some(primitive) => primitive.pieces.push(piece),
-                None => primitives.push(Primitive {
-                    pieces: vec![piece],
-                    material,
-                }),
-            }
-        };
-        for &part in parts {
-            if stock.models.has(part) {
-                let frames = [&stock.frames[part], &stock.frames[main]];
-                let (depth, both) = self.stand(main, part);
-                for (material, surface) in stock.models.surfaces(self, part, frames, depth, both) {
-                    add(material, surface.into());
-                }
-            } else if let Some((material, texture)) = stock.painted.of(part)
-                && let Some(mut solid) = self.solid(main, part, &stock.frames, &stock.relief)
-            {
-                solid.texture = texture;
-                add(material, Piece::Deferred(Arc::new(solid)));
-            }
-        }
-        (!primitives.is_empty()).then_some(Mesh { primitives })
     }
 
     /// How far a part's solid stands from the plane of its node, drawing units, and whether it stands on both sides.
@@ -263,26 +280,6 @@ impl<'a> Model<'a> {
         let depth = if moved { self.offset(part) } else { 0.0 };
         // A sub-part has no node of its own that could be doubled.
         (depth, shape.mirrored || (shape.doubled && part != main))
-    }
-
-    fn solid(&self, main: usize, part: usize, frames: &[Frame], relief: &Relief) -> Option<Solid> {
-        let kind = relief.raised(part, self.kind(part));
-        if kind == ShapeKind::None {
-            return None;
-        }
-        let (depth, both) = self.stand(main, part);
-        let (own, node) = (&frames[part], &frames[main]);
-        let mut options = self.options(part);
-        options.placement.rotation = own.angle - node.angle;
-        options.placement.translation = node.to_local(own.center).extend(depth);
-        Some(Solid {
-            outline: Arc::clone(&self.bindings.parts[part].outline),
-            to_frame: own.placing(),
-            kind,
-            options,
-            sides: if both { Sides::Both } else { Sides::Front },
-            texture: None,
-        })
     }
 }
 

@@ -5,10 +5,9 @@ use std::sync::{Arc, Mutex};
 use glam::{DMat3, DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::Model;
-use super::frame::Frame;
-use crate::bind::PartKind;
+use crate::bind::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::{Frame, Outline};
 use crate::import::{Asset, ImportError, read_asset};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Shape, ShapeKind, Value};
@@ -52,7 +51,7 @@ enum Trouble {
 
 impl Models {
     pub(super) fn collect(
-        model: &Model<'_>,
+        bindings: &Bindings,
         resolver: &dyn Resolver,
         memory: &mut Memory,
         diagnostics: &mut Vec<Diagnostic>,
@@ -65,8 +64,8 @@ impl Models {
         let mut now = Memory::default();
         let mut told = FxHashSet::default();
         let mut triangles = 0_usize;
-        for (index, part) in model.bindings.parts.iter().enumerate() {
-            let Some(source) = model.bindings.setting(index, Keyword::Shape) else {
+        for (index, part) in bindings.parts.iter().enumerate() {
+            let Some(source) = bindings.setting(index, Keyword::Shape) else {
                 continue;
             };
             let Value::Shape(Shape {
@@ -92,7 +91,7 @@ impl Models {
                 });
                 Ok(models.assets.len() - 1)
             });
-            let text = &model.bindings.strings[source.string].text;
+            let text = &bindings.strings[source.string].text;
             let span = text.span(source.setting.range.clone());
             match found {
                 Ok(asset) => {
@@ -131,8 +130,8 @@ impl Models {
         self.of_part.contains_key(&part)
     }
 
-    /// Gives the models' looks to a scene.
-    pub(super) fn add_looks(&mut self, scene: &mut Scene) {
+    /// Adds the models' materials to a scene.
+    pub(super) fn add_materials(&mut self, scene: &mut Scene) {
         for Loaded {
             asset,
             first_material,
@@ -161,11 +160,12 @@ impl Models {
     /// its up leads along the part's axis, and its front to the viewer.
     pub(super) fn surfaces(
         &self,
-        model: &Model<'_>,
         part: usize,
+        outline: &Outline,
         [own, node]: [&Frame; 2],
         depth: f64,
         both: bool,
+        scale: f64,
     ) -> Vec<(usize, Surface)> {
         let Some(Loaded {
             asset,
@@ -174,8 +174,7 @@ impl Models {
         else {
             return Vec::new();
         };
-        let to_frame = own.placing();
-        let outline = &model.bindings.parts[part].outline;
+        let to_frame = own.from_drawing_about_center();
         let points = outline
             .polygons
             .iter()
@@ -193,10 +192,10 @@ impl Models {
         let size = size.fold(f64::INFINITY, f64::min);
         let size = if size.is_finite() { size } else { 1.0 };
         let spin = DMat3::from_rotation_z(own.angle - node.angle);
-        let turn = spin * (size * model.scale);
+        let turn = spin * (size * scale);
         let middle =
             spin * low.midpoint(high).extend(0.0) + node.to_local(own.center).extend(depth);
-        let translation: DVec3 = middle * model.scale - turn * least.midpoint(greatest);
+        let translation: DVec3 = middle * scale - turn * least.midpoint(greatest);
         asset
             .placed(turn, translation)
             .map(|(material, mut surface)| {

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
-use super::{Model, overlap};
+use super::{FigureContext, overlap};
 use crate::bind::{Part, PartKind};
 use crate::geometry::Outline;
 use crate::kept::{Kept, Same};
@@ -39,13 +39,13 @@ pub(super) struct Faces {
 }
 
 impl Relief {
-    pub(super) fn measure(model: &Model<'_>, memory: &mut Memory) -> Self {
-        let bindings = model.bindings;
-        let depths = node_depths(model);
+    pub(super) fn measure(context: &FigureContext<'_>, memory: &mut Memory) -> Self {
+        let bindings = context.bindings;
+        let depths = node_depths(context);
         let faces: Vec<Option<Faces>> = (0..bindings.parts.len())
             .into_par_iter()
             .with_min_len(GRAIN)
-            .map(|part| faces(model, part, &depths))
+            .map(|part| faces(context, part, &depths))
             .collect();
         let outline = |part: &Part| Same(Arc::clone(&part.outline));
         let outlines = bindings.parts.iter().map(outline).collect();
@@ -125,8 +125,8 @@ fn same_plane(a: Faces, b: Faces, side: usize) -> bool {
 }
 
 /// Per part the depth of the node it belongs to, drawing units.
-fn node_depths(model: &Model<'_>) -> Vec<f64> {
-    let parts = &model.bindings.parts;
+fn node_depths(context: &FigureContext<'_>) -> Vec<f64> {
+    let parts = &context.bindings.parts;
     let mut depths: Vec<Option<f64>> = vec![None; parts.len()];
     for start in 0..parts.len() {
         let mut chain = Vec::new();
@@ -137,10 +137,10 @@ fn node_depths(model: &Model<'_>) -> Vec<f64> {
         }
         let mut depth = next.and_then(|part| depths[part]).unwrap_or(0.0);
         for part in chain.into_iter().rev() {
-            depth += if model.bindings.shape(part).mirrored {
+            depth += if context.bindings.shape(part).mirrored {
                 0.0
             } else {
-                model.offset(part)
+                context.offset(part)
             };
             depths[part] = Some(depth);
         }
@@ -151,16 +151,16 @@ fn node_depths(model: &Model<'_>) -> Vec<f64> {
         .collect()
 }
 
-fn faces(model: &Model<'_>, part: usize, depths: &[f64]) -> Option<Faces> {
+fn faces(context: &FigureContext<'_>, part: usize, depths: &[f64]) -> Option<Faces> {
     if !matches!(
-        model.bindings.parts[part].kind,
+        context.bindings.parts[part].kind,
         PartKind::Main | PartKind::Sub
     ) {
         return None;
     }
-    let main = model.bindings.parts[part].main;
-    let moved = part != main || model.bindings.shape(part).mirrored;
-    let depth = depths[part] + if moved { model.offset(part) } else { 0.0 };
+    let main = context.bindings.parts[part].main;
+    let moved = part != main || context.bindings.shape(part).mirrored;
+    let depth = depths[part] + if moved { context.offset(part) } else { 0.0 };
     let between = |a: f64, b: f64, top: f64| {
         let (back, front) = if a <= b {
             (true, top > 0.0)
@@ -175,11 +175,11 @@ fn faces(model: &Model<'_>, part: usize, depths: &[f64]) -> Option<Faces> {
             thickness: (b - a).abs(),
         }
     };
-    match model.kind(part) {
+    match context.kind(part) {
         ShapeKind::Default(Some([a, b])) => Some(between(a, b, 1.0)),
         ShapeKind::Flat(z) => Some(Faces {
             planes: [None, Some(depth + z)],
-            thickness: model.depth[1] - model.depth[0],
+            thickness: context.depth[1] - context.depth[0],
         }),
         ShapeKind::Cone([a, b, top])
         | ShapeKind::ConeV([a, b, top])

@@ -3,10 +3,10 @@
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-use super::Model;
-use super::frame::Frame;
+use super::FigureContext;
 use crate::bind::PartKind;
 use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::Frame;
 
 /// Most nodes that `-d` may add: nested copies double each time.
 const MOST_COPIES: usize = 1 << 16;
@@ -43,11 +43,11 @@ struct Bud {
 impl Tree {
     /// Grows the hierarchy, `-d` copies included.
     pub(super) fn grow(
-        model: &Model<'_>,
+        context: &FigureContext<'_>,
         frames: &[Frame],
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let parts = &model.bindings.parts;
+        let parts = &context.bindings.parts;
         let mut children: Vec<Vec<usize>> = vec![Vec::new(); parts.len()];
         let mut roots = Vec::new();
         for (index, part) in parts
@@ -61,7 +61,7 @@ impl Tree {
             }
         }
         let copied = (0..parts.len())
-            .any(|part| parts[part].kind == PartKind::Main && model.bindings.shape(part).doubled);
+            .any(|part| parts[part].kind == PartKind::Main && context.bindings.shape(part).doubled);
         let known = if copied { parts.as_slice() } else { &[] };
         let mut names: FxHashMap<String, usize> =
             known.iter().map(|part| (part.name.clone(), 1)).collect();
@@ -75,7 +75,7 @@ impl Tree {
                 copies,
             };
             // The last one in is grown first: the copy stands behind its original.
-            if model.bindings.shape(part).doubled {
+            if context.bindings.shape(part).doubled {
                 buds.push(bud(!mirrored, copies + 1));
             }
             buds.push(bud(mirrored, copies));
@@ -85,7 +85,7 @@ impl Tree {
         }
         while let Some(bud) = buds.pop() {
             if branches.len() >= parts.len() + MOST_COPIES {
-                let element = &model.drawing.shapes[parts[bud.part].shape].element;
+                let element = &context.drawing.shapes[parts[bud.part].shape].element;
                 diagnostics.push(
                     Diagnostic::new(
                         Code::LimitPassed,
@@ -97,7 +97,7 @@ impl Tree {
                 break;
             }
             let index = branches.len();
-            let mut branch = place(model, frames, &bud);
+            let mut branch = place(context, frames, &bud);
             if bud.copies > 0 {
                 branch.name = free_name(branch.name, &mut names);
             }
@@ -128,14 +128,14 @@ fn free_name(name: String, names: &mut FxHashMap<String, usize>) -> String {
     }
 }
 
-fn place(model: &Model<'_>, frames: &[Frame], bud: &Bud) -> Branch {
-    let part = &model.bindings.parts[bud.part];
+fn place(context: &FigureContext<'_>, frames: &[Frame], bud: &Bud) -> Branch {
+    let part = &context.bindings.parts[bud.part];
     let own = &frames[bud.part];
     // With `-s` the two solids are moved, not the node.
-    let offset = if model.bindings.shape(bud.part).mirrored {
+    let offset = if context.bindings.shape(bud.part).mirrored {
         0.0
     } else {
-        model.offset(bud.part)
+        context.offset(bud.part)
     };
     let depth = if bud.mirrored { -offset } else { offset };
     let (place, angle) = match part.parent {

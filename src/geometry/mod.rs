@@ -8,6 +8,7 @@
 
 pub mod clean;
 pub mod flatten;
+mod frame;
 pub mod measure;
 mod plain;
 mod query;
@@ -15,6 +16,7 @@ mod touch;
 
 pub use clean::{clean, intersect, union};
 pub use flatten::flatten;
+pub use frame::{Frame, y_up};
 pub use measure::{Measure, measure, measure_along};
 pub(crate) use query::crosses;
 pub use query::{area, bounds, contains, distance_squared};

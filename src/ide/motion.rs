@@ -6,10 +6,10 @@ use super::Analysis;
 use super::at::attributes;
 use super::hover::escaped;
 use crate::bind::PartKind;
-use crate::figure::Shot;
 use crate::lang::ast::ArgumentKind;
 use crate::lang::keyword::Keyword;
 use crate::report::{cut_frames, ranges, undriven};
+use crate::rig::Shot;
 use crate::source::Span;
 
 /// How many clips are told of one by one.

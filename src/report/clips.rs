@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::own_name;
 use crate::compile::Compiled;
-use crate::figure::Shot;
+use crate::rig::Shot;
 
 /// How many values of speed are told at most: more cannot be told apart on a screen.
 const MOST_SPEEDS: usize = 4096;

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::compile::Compiled;
-use crate::figure::{Driven, Shot};
+use crate::rig::{Driven, Shot};
 
 /// A clip of a figure (frontends.md, `inspect --json`).
 #[derive(Debug, Clone, Serialize)]

@@ -10,6 +10,7 @@ mod houses;
 mod land;
 mod levels;
 mod map;
+mod nodes;
 mod notes;
 mod reading;
 mod solids;
@@ -18,5 +19,6 @@ mod ties;
 
 pub use land::{Built, Group, Land, ROOF};
 pub use map::{EDGE_BELOW, EDGE_RIGHT, MOST_CELLS, Map, Tile};
+pub use nodes::node;
 pub use notes::{Note, Open};
 pub use reading::{Layer, LookOf, Tiles, cells_named, read};

@@ -6,10 +6,10 @@ use std::path::Path;
 use glam::{DQuat, DVec2, DVec3};
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::disk::FolderResolver;
-use okoshi::figure::Shot;
 use okoshi::motion::carry::Landmarks;
 use okoshi::motion::labels::Facing;
 use okoshi::motion::skeleton::{Clip, Placed};
+use okoshi::rig::Shot;
 use okoshi::scene::{Animation, Interpolation, Scene, Values};
 
 use crate::carry::clips::clip;

@@ -1,9 +1,9 @@
 //! The joints that `Bone` can name.
 
 use super::{Cursor, Proposal, ProposalKind, own_name_of, simple};
-use crate::figure::Shot;
 use crate::ide::quoting::{Role, written};
 use crate::lang::ast::{ArgumentKind, Attribute};
+use crate::rig::Shot;
 
 impl Cursor<'_> {
     /// The joints of the drawing's motions, those of the part's figure first; as a second name the joints that hang on the first

@@ -7,9 +7,9 @@ use glam::{DQuat, DVec3};
 
 use crate::motion::carry::{Carried, continuous};
 use crate::motion::limited::Exposure;
-use crate::scene::{Animation, Interpolation, Timing, Track, Values};
+use crate::scene::{Animation, Interpolation, Timing, Track, Values, WorldTransform};
 
-use super::Ground;
+use super::puppet::Nodes;
 
 /// When the frames of a clip are shown.
 pub(super) struct Shown {
@@ -57,7 +57,8 @@ impl Shown {
 
 /// The animation of the figure whose parts, in the order of `carried`, are these parts of the drawing.
 pub(super) fn animation(
-    ground: &Ground<'_>,
+    world: &WorldTransform,
+    nodes: &Nodes,
     name: &str,
     parts: &[usize],
     carried: &Carried,
@@ -65,7 +66,7 @@ pub(super) fn animation(
 ) -> Animation {
     let index: BTreeMap<usize, usize> = parts.iter().copied().zip(0..).collect();
     let mut tracks = Vec::new();
-    for (node, link) in ground.nodes.links.iter().enumerate() {
+    for (node, link) in nodes.links.iter().enumerate() {
         let Some(&index) = index.get(&link.part).filter(|_| !shown.frames.is_empty()) else {
             continue;
         };
@@ -85,7 +86,7 @@ pub(super) fn animation(
                 } else {
                     place
                 };
-                ground.stage.set(place, 0.0).0 * ground.scale
+                world.point(place)
             });
             add(Values::Translations(places.collect()));
         }
@@ -98,7 +99,7 @@ pub(super) fn animation(
                     turn
                 };
                 if link.is_rooted {
-                    ground.stage.turned(turn)
+                    world.rotate(turn)
                 } else {
                     turn
                 }

@@ -2,10 +2,9 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::super::Model;
-use super::super::frame::{Frame, up};
-use super::super::tree::Branch;
+use super::Stage;
 use super::cast::Group;
+use crate::geometry::{Frame, y_up};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
 use crate::motion::carry::{Drive, Puppet, PuppetPart};
@@ -15,12 +14,12 @@ use crate::motion::matching::{Follow, Matching};
 use crate::motion::skeleton::Placed;
 
 /// How the parts of a figure lie, in the order of the group; drawing units, y up.
-pub(super) fn figure(model: &Model<'_>, group: &Group, members: &[Vec<usize>]) -> Figure {
-    let bindings = model.bindings;
-    let middle = |part: usize| up(bindings.parts[part].measure.center);
+pub(super) fn figure(stage: &Stage<'_>, group: &Group) -> Figure {
+    let bindings = stage.bindings;
+    let middle = |part: usize| y_up(bindings.parts[part].measure.center);
     let part = |(place, &index): (usize, &usize)| {
         let part = &bindings.parts[index];
-        let [one, other] = part.measure.ends.map(up);
+        let [one, other] = part.measure.ends.map(y_up);
         let nearer = |to: DVec2| match one.distance_squared(to) <= other.distance_squared(to) {
             true => [one, other],
             false => [other, one],
@@ -28,7 +27,7 @@ pub(super) fn figure(model: &Model<'_>, group: &Group, members: &[Vec<usize>]) -
         let parent = group.parents[place];
         let [joint, tip] = match (part.parent, parent) {
             // Its joint is where it turns, though that may be between its ends.
-            (Some(_), _) => [up(part.origin), nearer(up(part.origin))[1]],
+            (Some(_), _) => [y_up(part.origin), nearer(y_up(part.origin))[1]],
             (None, Some(parent)) => nearer(middle(group.parts[parent])),
             // A trunk stands on its lower end.
             (None, None) => match one.y <= other.y {
@@ -36,13 +35,13 @@ pub(super) fn figure(model: &Model<'_>, group: &Group, members: &[Vec<usize>]) -
                 false => [other, one],
             },
         };
-        let own = members[index]
+        let own = stage.members[index]
             .iter()
             .map(|member| bindings.parts[*member].measure.bounds);
         let bounds = own.fold(
             [joint.min(tip), joint.max(tip)],
             |[low, high], (from, to)| {
-                let (a, b) = (up(from), up(to));
+                let (a, b) = (y_up(from), y_up(to));
                 [low.min(a.min(b)), high.max(a.max(b))]
             },
         );
@@ -141,48 +140,41 @@ fn sole(part: &Part, [low, high]: [DVec2; 2], depth: f64) -> Vec<DVec3> {
 }
 
 /// The nodes of parts: where they are at rest, and which there are.
-pub(in super::super) struct Nodes {
+pub(super) struct Nodes {
     /// Per part its node at rest, and whether it hangs on the model's root; copies left out.
     rest: Vec<Option<(Placed, bool)>>,
     /// Per node of the scene.
-    pub(super) links: Vec<Link>,
+    pub(super) links: Vec<RestNode>,
 }
 
-/// A node, and what it shows.
-pub(super) struct Link {
+/// A node of the scene at rest, and what it shows.
+#[derive(Debug, Clone, Copy)]
+pub struct RestNode {
     /// The part.
-    pub(super) part: usize,
+    pub part: usize,
     /// Whether it hangs on the model's root.
-    pub(super) is_rooted: bool,
+    pub is_rooted: bool,
     /// Whether it is mirrored in the drawing plane.
-    pub(super) is_mirrored: bool,
+    pub is_mirrored: bool,
+    /// How far it lies in front of the drawing plane, drawing units.
+    pub depth: f64,
 }
 
 impl Nodes {
-    /// The nodes that the branches become; drawing units and the drawing's axes.
-    pub(in super::super) fn new(model: &Model<'_>, frames: &[Frame], branches: &[Branch]) -> Self {
-        let mut rest = vec![None; model.bindings.parts.len()];
-        let mut depths = Vec::with_capacity(branches.len());
-        let mut links = Vec::with_capacity(branches.len());
-        for branch in branches {
-            let above = branch.parent.map_or(0.0, |parent: usize| depths[parent]);
-            let depth: f64 = above + branch.place.z;
-            depths.push(depth);
-            let frame = &frames[branch.part];
-            let is_rooted = branch.parent.is_none();
+    /// The nodes of a scene, given the frames of their parts; drawing units and the drawing's axes.
+    pub(super) fn new(frames: &[Frame], nodes: impl Iterator<Item = RestNode>) -> Self {
+        let links: Vec<RestNode> = nodes.collect();
+        let mut rest = vec![None; frames.len()];
+        for node in &links {
+            let frame = &frames[node.part];
             // The original stands before its copies.
-            rest[branch.part].get_or_insert((
+            rest[node.part].get_or_insert((
                 Placed {
                     rotation: DQuat::from_rotation_z(frame.angle),
-                    position: frame.origin.extend(depth),
+                    position: frame.origin.extend(node.depth),
                 },
-                is_rooted,
+                node.is_rooted,
             ));
-            links.push(Link {
-                part: branch.part,
-                is_rooted,
-                is_mirrored: branch.mirrored,
-            });
         }
         Self { rest, links }
     }

@@ -12,7 +12,7 @@ use crate::motion::matching::{Matching, Problem};
 use crate::motion::skeleton::Skeleton;
 use crate::source::Span;
 
-use super::super::Model;
+use super::Stage;
 use super::cast::Group;
 use super::{MOST_CASTS, MOST_KEYS};
 
@@ -164,26 +164,26 @@ impl Gathered {
     /// Says what no clip of a figure has.
     pub(super) fn tell(
         &self,
-        model: &Model<'_>,
+        stage: &Stage<'_>,
         skeleton: Option<&Skeleton>,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
         for ((part, _), (count, problem)) in &self.problems {
             if self.clips.get(part).is_none_or(|clips| count >= clips) {
-                diagnostics.push(problem_of(model, *part, problem, skeleton));
+                diagnostics.push(problem_of(stage, *part, problem, skeleton));
             }
         }
     }
 }
 
 fn problem_of(
-    model: &Model<'_>,
+    stage: &Stage<'_>,
     part: usize,
     problem: &Problem,
     skeleton: Option<&Skeleton>,
 ) -> Diagnostic {
-    let bindings = model.bindings;
-    let element = model.drawing.shapes[bindings.parts[part].shape]
+    let bindings = stage.bindings;
+    let element = stage.drawing.shapes[bindings.parts[part].shape]
         .element
         .span;
     let bone = bindings.setting(part, Keyword::Bone);
@@ -197,7 +197,7 @@ fn problem_of(
         joint.map_or_else(String::new, |joint| format!("`{}`", joint.name))
     };
     let unclear = |message: String| Diagnostic::new(Code::UnclearJoint, span, message);
-    let name = bindings.describe(model.drawing, part);
+    let name = bindings.describe(stage.drawing, part);
     match problem {
         Problem::UnknownBone { name, nearest, .. } => {
             let told = unclear(format!("the motion has no joint `{name}`"));

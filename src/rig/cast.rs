@@ -6,8 +6,6 @@ use rstar::{AABB, RTree, primitives::GeomWithData, primitives::Rectangle};
 use crate::bind::{Bindings, Part, PartKind};
 use crate::geometry::{area, distance_squared};
 
-use super::super::Model;
-
 /// How far apart parts of one figure may be that hang on nothing, as a share of the larger one's height with all that hangs on it.
 const GAP: f64 = 0.02;
 
@@ -69,10 +67,9 @@ impl Group {
 }
 
 /// The figures of a drawing, in drawing order of their first parts.
-pub(super) fn groups(model: &Model<'_>) -> Vec<Group> {
-    let bindings = model.bindings;
+pub(super) fn groups(bindings: &Bindings) -> Vec<Group> {
     let trees = trees(bindings);
-    let near = touching(model, &trees);
+    let near = touching(bindings, &trees);
     let mut taken = vec![false; trees.len()];
     let mut groups = Vec::new();
     for first in 0..trees.len() {
@@ -135,8 +132,8 @@ fn trees(bindings: &Bindings) -> Vec<Tree> {
 }
 
 /// Per tree the trees whose first parts touch its own.
-fn touching(model: &Model<'_>, trees: &[Tree]) -> Vec<Vec<usize>> {
-    let first = |tree: &Tree| &model.bindings.parts[tree.parts[0]];
+fn touching(bindings: &Bindings, trees: &[Tree]) -> Vec<Vec<usize>> {
+    let first = |tree: &Tree| &bindings.parts[tree.parts[0]];
     let boxes = trees.iter().enumerate().map(|(index, tree)| {
         let (low, high) = first(tree).measure.bounds;
         GeomWithData::new(

@@ -12,9 +12,9 @@ mod tracks;
 
 use std::sync::Arc;
 
-use super::Model;
-use super::assemble::Stage;
+use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
+use crate::geometry::Frame;
 use crate::kept::{Kept, Same};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
@@ -25,12 +25,14 @@ use crate::motion::labels::Class;
 use crate::motion::limited::{self, Cut, Length};
 use crate::motion::matching::{Matching, match_figure};
 use crate::resolver::Resolver;
-use crate::scene::Scene;
+use crate::scene::{Scene, WorldTransform};
 use crate::source::Span;
+use crate::svg::Drawing;
 
 use cast::Group;
 use clips::{Prepared, Stock};
-pub(super) use puppet::Nodes;
+use puppet::Nodes;
+pub use puppet::RestNode;
 pub use shot::{Driven, Shot, originals};
 use tracks::Shown;
 
@@ -47,14 +49,14 @@ type KeptCut = Kept<([usize; 2], Same<Prepared>), Arc<Cut>>;
 
 /// What the next drawing may have use for.
 #[derive(Debug, Default)]
-pub(super) struct Memory {
+pub struct Memory {
     clips: clips::Memory,
     carried: Vec<KeptCarried>,
     cuts: Vec<KeptCut>,
 }
 
 /// A clip that somebody asks for.
-pub(super) struct Wish<'a> {
+struct Wish<'a> {
     /// The part whose string does; `None` for a string that speaks to all figures.
     part: Option<usize>,
     file: &'a str,
@@ -63,14 +65,14 @@ pub(super) struct Wish<'a> {
 }
 
 /// What strings ask for, in their order.
-pub(super) fn wishes<'a>(model: &Model<'a>) -> Vec<Wish<'a>> {
-    let strings = model.bindings.strings.iter();
+fn wishes(bindings: &Bindings) -> Vec<Wish<'_>> {
+    let strings = bindings.strings.iter();
     let wishes = strings.flat_map(|string| {
         let part = match string.annotation {
             Annotation::Defaults(_) => Some(None),
             _ => string
                 .binding
-                .map(|binding| Some(model.bindings.parts[binding.part].main)),
+                .map(|binding| Some(bindings.parts[binding.part].main)),
         };
         string
             .settings
@@ -89,13 +91,17 @@ pub(super) fn wishes<'a>(model: &Model<'a>) -> Vec<Wish<'a>> {
 }
 
 /// What is known of a drawing's figures when clips are put on them.
-pub(super) struct Ground<'a> {
-    pub(super) stage: &'a Stage,
-    pub(super) nodes: &'a Nodes,
+pub struct Stage<'a> {
+    /// The drawing.
+    pub drawing: &'a Drawing,
+    /// Its bindings.
+    pub bindings: &'a Bindings,
+    /// How it lies in the world.
+    pub world: &'a WorldTransform,
+    /// Per part its rest frame.
+    pub frames: &'a [Frame],
     /// Per main part the parts whose solids are in its node.
-    pub(super) members: &'a [Vec<usize>],
-    /// Metres a drawing unit.
-    pub(super) scale: f64,
+    pub members: &'a [Vec<usize>],
 }
 
 /// A figure cast for a clip.
@@ -105,21 +111,28 @@ struct Role {
     matching: Matching,
 }
 
-/// Adds the clips that strings ask for to the scene, and tells of each what it is.
-pub(super) fn perform(
-    model: &Model<'_>,
-    wishes: &[Wish<'_>],
-    ground: &Ground<'_>,
+/// Adds the clips that strings ask for to the scene, and tells of each what it is. `nodes` are the scene's first ones, parents
+/// before children.
+pub fn perform(
+    stage: &Stage<'_>,
+    nodes: impl Iterator<Item = RestNode>,
     resolver: &dyn Resolver,
     memory: &mut Memory,
     scene: &mut Scene,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Shot> {
-    let groups = cast::groups(model);
+    let wishes = wishes(stage.bindings);
+    if wishes.is_empty() {
+        *memory = Memory::default();
+        told::without_motion(stage.bindings, diagnostics);
+        return Vec::new();
+    }
+    let nodes = Nodes::new(stage.frames, nodes);
+    let groups = cast::groups(stage.bindings);
     let before = std::mem::take(memory);
     let mut theatre = Theatre {
-        model,
-        ground,
+        stage,
+        nodes: &nodes,
         carried: before.carried.into_iter(),
         cuts: before.cuts.into_iter(),
         now: Memory::default(),
@@ -128,7 +141,7 @@ pub(super) fn perform(
     };
     let mut stock = Stock::new(before.clips);
     let (mut keys, mut casts) = (0_usize, 0_usize);
-    for wish in wishes {
+    for wish in &wishes {
         let Some(clip) = stock.get(wish.file, wish.span, resolver, diagnostics) else {
             continue;
         };
@@ -156,21 +169,16 @@ pub(super) fn perform(
         }
     }
     let skeleton = theatre.shots.last().map(|shot| &*shot.skeleton);
-    theatre.gathered.tell(model, skeleton, diagnostics);
+    theatre.gathered.tell(stage, skeleton, diagnostics);
     *memory = theatre.now;
     memory.clips = stock.into_memory();
     theatre.shots
 }
 
-/// Says what has no effect in a drawing without motions.
-pub(super) fn without(model: &Model<'_>, diagnostics: &mut Vec<Diagnostic>) {
-    told::without_motion(model.bindings, diagnostics);
-}
-
 /// Clips on their way to figures.
 struct Theatre<'a> {
-    model: &'a Model<'a>,
-    ground: &'a Ground<'a>,
+    stage: &'a Stage<'a>,
+    nodes: &'a Nodes,
     carried: std::vec::IntoIter<KeptCarried>,
     cuts: std::vec::IntoIter<KeptCut>,
     now: Memory,
@@ -182,7 +190,7 @@ impl Theatre<'_> {
     /// Matches a figure with a clip; `None` if no joint drives any part.
     fn cast(&mut self, group: &Group, clip: &Prepared) -> Option<Role> {
         let matched = |group: Group| {
-            let figure = puppet::figure(self.model, &group, self.ground.members);
+            let figure = puppet::figure(self.stage, &group);
             let matching = match_figure(&figure, &clip.clip.skeleton, &clip.anatomy);
             Role {
                 group,
@@ -227,9 +235,9 @@ impl Theatre<'_> {
         let wanted = wish.name.unwrap_or_else(|| shot::stem(wish.file));
         let name = shot::free_name(&self.shots, group.root, wanted);
         let step = clip.clip.frame_time;
-        let ground = self.ground;
+        let (world, nodes) = (self.stage.world, self.nodes);
         let animation =
-            |shown: &Shown| tracks::animation(ground, &name, &group.parts, &carried, shown);
+            |shown: &Shown| tracks::animation(world, nodes, &name, &group.parts, &carried, shown);
         let full = animation(&Shown::full(clip.clip.frames(), step));
         let (shown, full) = match &cut {
             Some(cut) => (animation(&Shown::held(&cut.exposure, step)), Some(full)),
@@ -253,7 +261,7 @@ impl Theatre<'_> {
     }
 
     fn carried(&mut self, role: &Role, clip: &Arc<Prepared>) -> Arc<Carried> {
-        let puppet = puppet::puppet(&role.figure, &role.group, &role.matching, self.ground.nodes);
+        let puppet = puppet::puppet(&role.figure, &role.group, &role.matching, self.nodes);
         let mut kept = self.carried.next().unwrap_or_default();
         let carried = kept.get((puppet, Same(Arc::clone(clip))), |(puppet, clip)| {
             let landmarks = Landmarks::of(&clip.0.anatomy);
@@ -279,7 +287,7 @@ impl Theatre<'_> {
 
     /// How many drawings of a figure's clips are omitted and how many frames held, and where that is said.
     fn limits(&self, group: &Group) -> Option<([usize; 2], Span)> {
-        let bindings = self.model.bindings;
+        let bindings = self.stage.bindings;
         let said = |part: usize| {
             let source = bindings.setting(part, Keyword::Limited)?;
             let Value::Pair(amounts) = source.setting.value else {

@@ -5,15 +5,14 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::Model;
-use super::models::Models;
-use crate::bind::{PartKind, SetBy, Source as SettingSource};
+use crate::bind::{Bindings, PartKind, SetBy, Source as SettingSource};
 use crate::diagnostic::{Code, Diagnostic};
+use crate::figure::LinkedModels;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{ShapeKind, Value};
 use crate::resolver::{LinkError, Resolver};
 use crate::scene::{self, Image, Texture, Wrap};
-use crate::svg::{PaintKey, broken_link};
+use crate::svg::{Drawing, PaintKey, broken_link};
 use crate::terrain::Layer;
 use crate::texture::{
     self, Alpha, Baked, Baker, Picture, PictureError, Plan, PlanKey, Server, Source,
@@ -53,16 +52,19 @@ struct Wish {
 
 impl Textures {
     pub(super) fn collect<'a>(
-        model: &'a Model<'a>,
-        models: &Models,
+        drawing: &'a Drawing,
+        bindings: &'a Bindings,
+        models: &LinkedModels,
         layers: &'a [Layer],
         resolver: &dyn Resolver,
         memory: &mut Memory,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let mut collector = Collector {
-            model,
+            drawing,
+            bindings,
             files: Files {
+                bindings,
                 resolver,
                 last: &memory.pictures,
                 read: FxHashMap::default(),
@@ -75,7 +77,7 @@ impl Textures {
             looks: Vec::new(),
             told: FxHashSet::default(),
         };
-        for part in 0..model.bindings.parts.len() {
+        for part in 0..bindings.parts.len() {
             if !models.has(part) {
                 collector.part(part, diagnostics);
             }
@@ -114,7 +116,8 @@ impl Textures {
 }
 
 struct Collector<'a> {
-    model: &'a Model<'a>,
+    drawing: &'a Drawing,
+    bindings: &'a Bindings,
     files: Files<'a>,
     plans: Vec<Plan>,
     /// The names of the plans.
@@ -129,16 +132,14 @@ struct Collector<'a> {
 
 impl<'a> Collector<'a> {
     fn part(&mut self, index: usize, diagnostics: &mut Vec<Diagnostic>) {
-        let Model {
-            drawing, bindings, ..
-        } = *self.model;
+        let (drawing, bindings) = (self.drawing, self.bindings);
         let part = &bindings.parts[index];
         let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
         if !built || bindings.shape(index).kind == ShapeKind::None {
             return;
         }
         let file = bindings.setting(index, Keyword::Texture);
-        let file = file.and_then(|source| self.files.picture(self.model, &source, diagnostics));
+        let file = file.and_then(|source| self.files.picture(&source, diagnostics));
         let paint = part.paint(drawing);
         if file.is_none() && paint.server.is_none() {
             return;
@@ -164,7 +165,7 @@ impl<'a> Collector<'a> {
             (None, None) => return,
         };
         let is_file = name.is_some();
-        let density = DETAIL / self.model.drawing.page.1.length().max(f64::MIN_POSITIVE);
+        let density = DETAIL / drawing.page.1.length().max(f64::MIN_POSITIVE);
         let plan = match server.plan([extent.0, extent.1], density) {
             Ok(plan) => plan,
             Err(why) => return diagnostics.extend(self.plain(index, why)),
@@ -194,7 +195,7 @@ impl<'a> Collector<'a> {
                 from: SetBy::Legend,
                 string: *string,
             };
-            let Some((link, picture)) = self.files.picture(self.model, &source, diagnostics) else {
+            let Some((link, picture)) = self.files.picture(&source, diagnostics) else {
                 continue;
             };
             let server = Server {
@@ -221,9 +222,7 @@ impl<'a> Collector<'a> {
 
     /// Says, once a paint, that it appears in one colour.
     fn plain(&mut self, part: usize, why: &str) -> Option<Diagnostic> {
-        let Model {
-            drawing, bindings, ..
-        } = *self.model;
+        let (drawing, bindings) = (self.drawing, self.bindings);
         let part = &bindings.parts[part];
         let key = &part.paint(drawing).key;
         let what = match key {
@@ -310,6 +309,7 @@ fn file_name(link: &str) -> &str {
 
 /// The files that `Texture` names.
 struct Files<'a> {
+    bindings: &'a Bindings,
     resolver: &'a dyn Resolver,
     /// What files held the last time.
     last: &'a Pictures,
@@ -341,7 +341,6 @@ impl<'a> Files<'a> {
     /// A file's name and picture; where there is none, the string that names it is told, once.
     fn picture(
         &mut self,
-        model: &Model<'a>,
         source: &SettingSource<'a>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<(&'a str, Picture)> {
@@ -361,7 +360,7 @@ impl<'a> Files<'a> {
             return Some((link, picture.clone()));
         }
         if self.told.insert(source.string) {
-            let text = &model.bindings.strings[source.string].text;
+            let text = &self.bindings.strings[source.string].text;
             let span = text.span(source.setting.range.clone());
             diagnostics.extend(match read.as_ref().map(|held| &held.picture) {
                 Err(error) => Some(broken_link(link, error, span)),

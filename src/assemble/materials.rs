@@ -1,17 +1,16 @@
 //! Materials, shared by everything that looks alike.
 
-use glam::DAffine2;
 use rustc_hash::FxHashMap;
 
-use super::Model;
-use super::models::Models;
 use super::textures::{self, Textures};
-use crate::bind::{Look, PartKind};
+use crate::bind::{Bindings, Look, PartKind};
 use crate::diagnostic::Diagnostic;
+use crate::figure::{LinkedModels, PartMaterial};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::ShapeKind;
 use crate::resolver::Resolver;
 use crate::scene::{AlphaMode, Image, Material, Scene, Texture, TextureUse};
+use crate::svg::Drawing;
 use crate::terrain::{Layer, LookOf, Tile};
 use crate::texture::Alpha;
 
@@ -23,8 +22,7 @@ pub(super) struct Materials {
     list: Vec<Material>,
     textures: Vec<Texture>,
     images: Vec<Image>,
-    /// Per part its material, and the way from the drawing to texture coordinates.
-    of_part: Vec<Option<(usize, Option<DAffine2>)>>,
+    of_part: Vec<PartMaterial>,
     /// Per tile layer and look its material.
     of_looks: Vec<Vec<Option<usize>>>,
 }
@@ -75,15 +73,23 @@ struct Key {
 
 impl Materials {
     pub(super) fn collect(
-        model: &Model<'_>,
-        models: &Models,
+        drawing: &Drawing,
+        bindings: &Bindings,
+        models: &LinkedModels,
         layers: &[Layer],
         resolver: &dyn Resolver,
         memory: &mut textures::Memory,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let (drawing, bindings) = (model.drawing, model.bindings);
-        let textures = Textures::collect(model, models, layers, resolver, memory, diagnostics);
+        let textures = Textures::collect(
+            drawing,
+            bindings,
+            models,
+            layers,
+            resolver,
+            memory,
+            diagnostics,
+        );
         let mut shared = Shared::default();
         let mut of_part = Vec::with_capacity(bindings.parts.len());
         for (index, part) in bindings.parts.iter().enumerate() {
@@ -134,32 +140,22 @@ impl Materials {
         }
     }
 
-    /// A scene that has them, and nothing else yet, and who is painted with what.
-    pub(super) fn into_scene(self) -> (Scene, Painted, Grounds) {
+    /// A scene that has them, and nothing else yet; and which part and which look of a tile layer has which.
+    pub(super) fn into_scene(self) -> (Scene, Vec<PartMaterial>, LookMaterials) {
         let scene = Scene {
             materials: self.list,
             textures: self.textures,
             images: self.images,
             ..Scene::default()
         };
-        (scene, Painted(self.of_part), Grounds(self.of_looks))
-    }
-}
-
-/// Per part its material, and the way from the drawing to texture coordinates.
-pub(super) struct Painted(Vec<Option<(usize, Option<DAffine2>)>>);
-
-impl Painted {
-    /// The material of a part, if it has a solid, and the way from the drawing to its texture.
-    pub(super) fn of(&self, part: usize) -> Option<(usize, Option<DAffine2>)> {
-        self.0[part]
+        (scene, self.of_part, LookMaterials(self.of_looks))
     }
 }
 
 /// Per tile layer and look its material.
-pub(super) struct Grounds(Vec<Vec<Option<usize>>>);
+pub(super) struct LookMaterials(Vec<Vec<Option<usize>>>);
 
-impl Grounds {
+impl LookMaterials {
     /// The material of a layer's look, if anything looks so.
     pub(super) fn of(&self, layer: usize, look: u8) -> Option<usize> {
         self.0[layer].get(usize::from(look)).copied().flatten()

@@ -1,0 +1,111 @@
+//! The scene of a drawing: what the systems (figures, landscapes, motion on figures) make, put together.
+//!
+//! Invariant: this is the only room that knows more than one system. Each gets plain data of the others: rest frames of parts, the
+//! node of each part, materials, the world transform.
+
+mod materials;
+mod textures;
+mod world;
+
+use crate::bind::Bindings;
+use crate::diagnostic::Diagnostic;
+use crate::figure::{self, Figures, LinkedModels};
+use crate::resolver::Resolver;
+use crate::rig::{self, RestNode, Shot};
+use crate::scene::Scene;
+use crate::svg::Drawing;
+use crate::terrain::{self, Layer};
+use materials::Materials;
+
+/// Results kept between compiles.
+#[derive(Debug, Default)]
+pub struct Memory {
+    figure: figure::Memory,
+    textures: textures::Memory,
+    rig: rig::Memory,
+}
+
+/// A drawing's scene, and what is in it.
+#[derive(Debug, Default)]
+pub struct Assembled {
+    /// The model.
+    pub scene: Scene,
+    /// The tile maps.
+    pub layers: Vec<Layer>,
+    /// The clips that figures play.
+    pub shots: Vec<Shot>,
+}
+
+/// Builds the scene of a drawing. The result does not depend on what is in `memory`.
+pub fn assemble(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    resolver: &dyn Resolver,
+    memory: &mut Memory,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Assembled {
+    let layers = terrain::read(drawing, bindings, diagnostics);
+    let world = world::world_transform(drawing, bindings, &layers);
+    let known = &mut memory.figure;
+    let mut models = LinkedModels::read(bindings, resolver, known, diagnostics);
+    let mut found = Vec::new();
+    let (figures, materials) = rayon::join(
+        || Figures::lay_out(drawing, bindings, known, &mut found),
+        || {
+            let known = &mut memory.textures;
+            Materials::collect(
+                drawing,
+                bindings,
+                &models,
+                &layers,
+                resolver,
+                known,
+                diagnostics,
+            )
+        },
+    );
+    diagnostics.extend(found);
+    let (mut scene, of_part, of_looks) = materials.into_scene();
+    models.add_materials(&mut scene);
+    let figures = figures.build(&models, &of_part, &world, &mut scene);
+    for (index, layer) in layers.iter().enumerate() {
+        let parent = layer
+            .parent
+            .and_then(|part| Some((figures.node_of_part[part]?, &figures.frames[part])));
+        let material_of = |look| of_looks.of(index, look);
+        scene.add(terrain::node(
+            layer,
+            drawing,
+            bindings,
+            &world,
+            parent,
+            material_of,
+        ));
+    }
+    let nodes = figures.nodes.iter().map(|node| RestNode {
+        part: node.part,
+        is_rooted: node.parent.is_none(),
+        is_mirrored: node.is_mirrored,
+        depth: node.depth,
+    });
+    let stage = rig::Stage {
+        drawing,
+        bindings,
+        world: &world,
+        frames: &figures.frames,
+        members: &figures.members,
+    };
+    let shots = rig::perform(
+        &stage,
+        nodes,
+        resolver,
+        &mut memory.rig,
+        &mut scene,
+        diagnostics,
+    );
+    Assembled {
+        scene,
+        layers,
+        shots,
+    }
+}
