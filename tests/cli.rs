@@ -108,7 +108,7 @@ fn stdin_and_stdout() {
 fn nothing_is_written_on_errors() {
     let room = Room::with("bad.svg", BAD);
     room.run(&["build", "bad.svg"])
-        .ends(1, "", "error[E101]: `Shap` is no keyword");
+        .ends(1, "", "error[E101]: `Shap` is not a keyword");
     assert_eq!(room.files(), ["bad.svg"]);
     room.write("bad.glb", b"the last good one");
     let run = room.run(&["build", "bad.svg"]);

@@ -62,6 +62,7 @@ fn readme_table() {
     let Ok(readme) = fs::read_to_string(path("README.md")) else {
         return;
     };
-    let renewed = reference::renew_readme(&readme).expect("README.md has the markers of its table");
+    let renewed =
+        reference::update_readme(&readme).expect("README.md has the markers of its table");
     same("README.md", &renewed);
 }

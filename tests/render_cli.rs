@@ -275,7 +275,7 @@ fn errors_in_the_drawing() {
         &room,
         "render bad.svg",
         1,
-        "error[E101]: `Shap` is no keyword",
+        "error[E101]: `Shap` is not a keyword",
     );
     ends(&room, "render bad.svg", 1, "nothing was written");
     assert!(files(&room).is_empty());

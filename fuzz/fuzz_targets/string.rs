@@ -2,13 +2,13 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use okoshi::lang::{Place, parse, settings, variables::Variables};
+use okoshi::lang::{Container, parse, settings, variables::Variables};
 use okoshi::source::Text;
 
 fuzz_target!(|string: &str| {
-    for place in [Place::Text, Place::Desc] {
+    for container in [Container::Text, Container::Desc] {
         let text = Text::plain(string, 0);
-        let (annotation, findings) = parse(&text, place);
+        let (annotation, findings) = parse(&text, container);
         for finding in &findings {
             assert!(string.get(finding.span.start..finding.span.end).is_some(), "{finding:?}");
         }

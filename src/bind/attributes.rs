@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 
 use super::bindings::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lang::keyword::{Holder, Keyword};
+use crate::lang::keyword::{AttributeString, Keyword};
 use crate::lang::value::{Setting, Shape, ShapeKind, Value};
 use crate::svg::{Drawing, PaintKey};
 
@@ -146,12 +146,13 @@ impl Bindings {
             _ => None,
         };
         let keywords = Keyword::ALL.iter().copied();
-        let of_parts = keywords.filter(|keyword| keyword.row().allowed.permits(Holder::Part));
+        let of_parts =
+            keywords.filter(|keyword| keyword.row().allowed.permits(AttributeString::Part));
         of_parts
             .filter_map(|keyword| match self.setting(part, keyword) {
                 Some(source) => Some(Resolved {
                     keyword,
-                    value: source.setting.words.clone(),
+                    value: source.setting.text.clone(),
                     from: source.from,
                     string: Some(source.string),
                 }),

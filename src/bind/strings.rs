@@ -37,9 +37,9 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
         .with_min_len(GRAIN)
         .map(|(place, text)| {
             let kind = if matches!(place, Place::Label(_)) {
-                lang::Place::Text
+                lang::Container::Text
             } else {
-                lang::Place::Desc
+                lang::Container::Desc
             };
             let (annotation, findings) = lang::parse(&text, kind);
             (place, text, annotation, findings)

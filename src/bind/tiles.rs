@@ -30,7 +30,7 @@ pub struct TileLayer {
 pub fn in_tile_layers(drawing: &Drawing) -> Vec<bool> {
     let labels = drawing.labels.par_iter().with_min_len(GRAIN);
     let of_labels = labels.filter_map(|(label, group)| {
-        let (annotation, _) = lang::parse(&label.text, lang::Place::Text);
+        let (annotation, _) = lang::parse(&label.text, lang::Container::Text);
         makes_layer(&annotation).then_some(*group)
     });
     let mut holders: Vec<usize> = of_labels.collect();
@@ -41,7 +41,7 @@ pub fn in_tile_layers(drawing: &Drawing) -> Vec<bool> {
     for (element, group) in groups.chain(shapes) {
         let desc = element.desc.as_deref();
         if let Some(text) = desc.filter(|text| lang::looks_like_string(text.as_str())) {
-            let (annotation, _) = lang::parse(text, lang::Place::Desc);
+            let (annotation, _) = lang::parse(text, lang::Container::Desc);
             holders.extend(makes_layer(&annotation).then_some(group));
         }
     }

@@ -22,7 +22,7 @@ pub(super) fn run(topic: Option<&str>, common: Common) -> Outcome {
 }
 
 fn unknown(topic: &str) -> String {
-    let near = nearest_word(topic, explain::words());
+    let near = nearest_word(topic, explain::topics());
     let hint = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
     format!("there is no page on `{topic}`: {hint}`okoshi explain` lists them all")
 }

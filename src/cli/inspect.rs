@@ -192,8 +192,8 @@ fn describe_part(loaded: &Loaded, index: usize) -> String {
     let part = &bindings.parts[index];
     let shape = bindings.setting(index, Keyword::Shape);
     let solid = shape.map_or("default".to_owned(), |source| match source.from {
-        SetBy::Own => source.setting.words.clone(),
-        from => format!("{} ({})", source.setting.words, from.name()),
+        SetBy::Own => source.setting.text.clone(),
+        from => format!("{} ({})", source.setting.text, from.name()),
     });
     let subs = bindings
         .parts

@@ -19,12 +19,12 @@ macro_rules! codes {
                 match self { $(Code::$name => $id,)+ }
             }
 
-            /// A title of a few words.
+            /// A short title.
             pub fn title(self) -> &'static str {
                 match self { $(Code::$name => $title,)+ }
             }
 
-            /// The manual page, in Markdown: what it means, a wrong example, the way out.
+            /// The manual page, in Markdown: what the diagnostic means, an example of the mistake, and the fix.
             pub fn manual(self) -> &'static str {
                 match self { $(Code::$name => concat!($($doc, "\n",)+),)+ }
             }
@@ -34,18 +34,18 @@ macro_rules! codes {
 
 codes! {
     // The file
-    /// The drawing is not well-formed XML: a tag that is never closed, a quote missing in a tag, or a bare
-    /// `&` or `<` in a text. Drawing programs write good XML, so this comes from editing by hand, or from a
-    /// file that was cut off.
+    /// The drawing is not well-formed XML: a tag is never closed, a quote is missing in a tag, or a text
+    /// contains a bare `&` or `<`. Drawing programs write correct XML, so this usually comes from editing the
+    /// file by hand, or from a file that was cut off.
     ///
     /// ```text
     /// <text>Salt & Pepper</text>
     /// ```
     ///
-    /// Mend the place that is shown. In texts write `&amp;` for `&` and `&lt;` for `<`; or open the drawing
-    /// in the drawing program and save it again.
+    /// Fix the marked place. In texts, write `&amp;` for `&` and `&lt;` for `<`. Or open the drawing in the
+    /// drawing program and save it again.
     NotXml = "E001", "not well-formed XML";
-    /// The file is XML, but its outermost element is not `svg`, so it is no drawing.
+    /// The file is XML, but its outermost element is not `svg`, so it is not a drawing.
     ///
     /// ```text
     /// <html>…</html>
@@ -53,181 +53,176 @@ codes! {
     ///
     /// Save the drawing as SVG, and give that file to okoshi.
     NotSvg = "E002", "not an SVG drawing";
-    /// The file holds nothing at all.
+    /// The file is empty.
     ///
-    /// Save the drawing again; look whether the disk is full.
+    /// Save the drawing again, and check that the disk is not full.
     EmptyFile = "E003", "empty file";
-    /// The file's bytes are not UTF-8, the encoding that drawings are written in.
+    /// The file is not encoded in UTF-8, the encoding that okoshi reads.
     ///
     /// Open the drawing in the drawing program and save it again as plain SVG.
     NotUtf8 = "E004", "not UTF-8";
-    /// The drawing asks for more than okoshi is ready to do: parentheses nested too deep, an image or a map
-    /// too large, groups within groups within groups. The limits are there so that a slip cannot fill the
-    /// memory.
+    /// The drawing passes one of okoshi's limits: parentheses or groups are nested too deep, or an image or a
+    /// map is too large. The limits are there so that a mistake cannot use up the computer's memory.
     ///
     /// ```text
     /// Arm$Offset ((((…))))
     /// ```
     ///
-    /// Make the thing smaller or simpler. Calculations become shorter when parts of them get names with
+    /// Make the marked thing smaller or simpler. To shorten a calculation, define parts of it as variables with
     /// `Let`.
     LimitPassed = "E005", "limit passed";
-    /// The drawing names a file that is not there, or that is there but cannot be read as what it should be.
-    /// Names of files are read from the drawing's own folder on, and upper and lower case matter.
+    /// The drawing names a file that does not exist, or that cannot be read as the expected kind of file. File
+    /// names are relative to the drawing's folder, and upper and lower case matter.
     ///
     /// ```text
     /// Lbody$Motion "Kick.bvh"
     /// ```
     ///
-    /// Put the file there, or write its name as it is. A picture that cannot be read is mended by saving it
-    /// again as PNG.
+    /// Put the file there, or correct its name. If a picture cannot be read, save it again as PNG.
     MissingFile = "E006", "missing linked file";
-    /// The drawing names a file outside its own folder, by `..`, a full path or a web address. Such files
-    /// are not read, so that a drawing from somebody else cannot look around in your computer.
+    /// The drawing names a file outside its own folder: by `..`, an absolute path or a web address. Such files
+    /// are not read, so that a drawing from somebody else cannot read files from your computer.
     ///
     /// ```text
     /// Sail$Texture "../../photos/canvas.png"
     /// ```
     ///
-    /// Copy the file into the drawing's folder, or below it.
+    /// Copy the file into the drawing's folder or a folder below it.
     LinkOutside = "E007", "link outside the drawing's folder";
 
     // The strings
-    /// A keyword is due here, and the word is none: a slip of the pen, or a word too many behind the
-    /// attribute before it.
+    /// The marked word is not a keyword. Either a keyword is misspelled, or the attribute before it has a word
+    /// too many.
     ///
     /// ```text
     /// Rarm@Ubody$Colr 1 0 0
     /// ```
     ///
-    /// Write the keyword that was meant: `Color`. `okoshi explain` lists all of them. What follows up to
-    /// the next keyword is skipped; the rest of the string counts.
+    /// Correct the keyword: `Color`. `okoshi explain` lists all keywords. The text up to the next keyword is
+    /// skipped; the rest of the string still counts.
     UnknownKeyword = "E101", "unknown keyword";
-    /// An attribute that takes one of a few words got another one: a kind of `Shape`, a colour's name, a
-    /// function.
+    /// An attribute that takes one of a few words got a word it does not know, for example as a kind of
+    /// `Shape`, a colour name or a function.
     ///
     /// ```text
     /// Rarm@Ubody$Shape roundw
     /// ```
     ///
-    /// Write one of the words that it knows: `Shape roundv`.
+    /// Write one of the words the attribute knows: `Shape roundv`.
     UnknownWord = "E102", "unknown word";
-    /// An attribute got too few arguments, or too many.
+    /// An attribute has too few or too many arguments.
     ///
     /// ```text
     /// Rarm@Ubody$Shape roundv 90
     /// ```
     ///
-    /// Give as many as the help says: `Shape roundv` takes two angles or none. If a name is also a keyword,
-    /// put it in quotes.
+    /// Give as many arguments as the help shows: `Shape roundv` takes two angles or none. If an argument is a
+    /// name that is also a keyword, put it in quotes.
     ArgumentCount = "E103", "wrong number of arguments";
-    /// An argument is of another sort than the one that is due: text for a number, a number with a unit or
-    /// a comma, a file's name without quotes.
+    /// An argument has the wrong type: text instead of a number, a number with a unit or a comma, or a file name
+    /// without quotes.
     ///
     /// ```text
     /// Rarm@Ubody$Offset 12px
     /// ```
     ///
-    /// Write numbers bare, with a point for decimals (`0.5`); put files and text into quotes
-    /// (`"kick.bvh"`); put calculations into parentheses (`(2 * 3)`).
+    /// Write numbers without units, and with a point for decimals (`0.5`). Put files and text in quotes
+    /// (`"kick.bvh"`), and calculations in parentheses (`(2 * 3)`).
     ArgumentType = "E104", "wrong type of argument";
-    /// A number is outside what the attribute can use, or a calculation has no result, such as a division
-    /// by zero.
+    /// A number is outside the range that the attribute accepts, or a calculation has no result, for example
+    /// because it divides by zero.
     ///
     /// ```text
     /// Window@Car$Alpha 30
     /// ```
     ///
-    /// Write a number in the range that is shown: opacity goes from 0 to 1, so 30 % is `Alpha 0.3`.
+    /// Write a number in the range that the message shows. Opacity goes from 0 to 1, so 30 % is `Alpha 0.3`.
     OutOfRange = "E105", "value out of range";
-    /// A text in quotes begins here and never ends.
+    /// A quoted text begins here, but its closing quote is missing.
     ///
     /// ```text
     /// Lbody$Motion "kick.bvh Color red
     /// ```
     ///
-    /// Close it with `"`: `Motion "kick.bvh"`.
+    /// Add the closing `"`: `Motion "kick.bvh"`.
     UnclosedQuote = "E106", "unclosed quote";
-    /// A parenthesis is opened and never closed, or closed without having been opened.
+    /// An opening parenthesis has no closing one, or a closing parenthesis has no opening one.
     ///
     /// ```text
     /// Rarm@Ubody$Offset (1 + 2
     /// ```
     ///
-    /// Write the missing one: `Offset (1 + 2)`.
+    /// Add the missing parenthesis: `Offset (1 + 2)`.
     UnclosedParenthesis = "E107", "unclosed parenthesis";
-    /// A word stands where a number is due. It could be a variable, but no `%` string defines it.
+    /// A word is used in place of a number. It could be a variable, but no `%` string defines it.
     ///
     /// ```text
     /// Rarm@Ubody$Offset thick
     /// ```
     ///
-    /// Write a number, or define the variable: `%Let thick 12`. Upper and lower case matter in names of
-    /// variables.
+    /// Write a number, or define the variable: `%Let thick 12`. Upper and lower case matter in variable names.
     UnknownVariable = "E108", "unknown variable";
-    /// Variables are defined by each other in a circle, so that none of them has a value.
+    /// Variables are defined in terms of each other in a circle, so that none of them has a value.
     ///
     /// ```text
     /// %Let a (b + 1) Let b (a - 1)
     /// ```
     ///
-    /// Give one of them a number.
+    /// Give one of the variables a plain number.
     VariableCycle = "E109", "cycle of variables";
-    /// The attribute means nothing in this kind of string. `Scale`, say, is about the whole drawing and
-    /// stands in `%` strings only.
+    /// The attribute is not allowed in this kind of string. `Scale`, for example, applies to the whole drawing
+    /// and is only allowed in `%` strings.
     ///
     /// ```text
     /// Rarm@Ubody$Scale 2
     /// ```
     ///
-    /// Move it to a string where it can stand; the help says which.
+    /// Move the attribute to a string where it is allowed. The help says which.
     NotAllowedHere = "E110", "attribute not allowed here";
-    /// A string gives a parent or attributes but no name, or there is no name behind `@`.
+    /// A string has a parent or attributes but no name, or there is no name after `@`.
     ///
     /// ```text
     /// @Ubody$Shape roundv
     /// ```
     ///
-    /// Write the name first: `Rarm@Ubody$Shape roundv`. (In the description of an object the name may be
-    /// left out.)
+    /// Write the name first: `Rarm@Ubody$Shape roundv`. Only in the description of an object may the name be
+    /// left out.
     NoName = "E111", "part string without a name";
-    /// A sign stands where none can stand. Most often two strings were typed into one text: the cursor was
-    /// still in the first when the second was typed.
+    /// A sign is in a place where it is not allowed. Most often, two strings were typed into one text because
+    /// the cursor was still in the first text.
     ///
     /// ```text
     /// Rarm@Ubody$Shape round$Shape default 0 20 Color 1 0 0v -90 90
     /// ```
     ///
-    /// Cut out what does not belong there and give it a text of its own. Attributes behind the sign are
-    /// read all the same.
+    /// Cut out the second string and paste it into a text of its own. Until then, the attributes after the sign
+    /// are read as if the sign were not there.
     UnexpectedSign = "E112", "unexpected sign";
-    /// A letter behind `-` that the attribute does not know. Directly behind a keyword `-` and letters are
-    /// flags.
+    /// The attribute does not know the letter after `-`. Directly after a keyword, `-` and letters are flags.
     ///
     /// ```text
     /// Wheel@Car$Shape -x round
     /// ```
     ///
-    /// Use the flags that the help names. If you meant a negative variable, put it in parentheses: `Offset
-    /// (-w)`.
+    /// Use the flags that the help lists. A negative variable needs parentheses: `Offset (-w)`.
     UnknownFlag = "E113", "unknown flag";
-    /// A calculation cannot be read: a sign or a number is missing, or it lacks its parentheses.
+    /// A calculation cannot be read: an operator, a number or the parentheses are missing.
     ///
     /// ```text
     /// Rarm@Ubody$Offset (1 + )
     /// ```
     ///
-    /// Mend the calculation: `Offset (1 + 2)`.
+    /// Complete the calculation: `Offset (1 + 2)`.
     BadExpression = "E114", "malformed expression";
-    /// A name has spaces or parentheses in it and no quotes around it.
+    /// A name contains spaces or parentheses, but is not in quotes.
     ///
     /// ```text
     /// Left arm@Body$Shape roundv
     /// ```
     ///
-    /// Put it in quotes, here and wherever else the name stands: `"Left arm"@Body$Shape roundv`.
+    /// Put the name in quotes, here and wherever else it is used: `"Left arm"@Body$Shape roundv`.
     UnquotedName = "E115", "name needs quotes";
-    /// Attributes stand behind a name without the `$` that begins them.
+    /// The `$` between a name and its attributes is missing.
     ///
     /// ```text
     /// Rarm@Ubody Shape roundv
@@ -237,86 +232,88 @@ codes! {
     MissingSign = "E116", "missing sign";
 
     // Strings and parts
-    /// There is no part left that this string could belong to: every part has one already, or the drawing
-    /// has fewer parts than strings.
+    /// No part is left for this string: every part has a string already, or the drawing has fewer parts than
+    /// strings.
     ///
-    /// Delete the string, draw its part, or group the two (a filled shape; lines alone are no parts unless
-    /// `Strokes` says so).
+    /// Delete the string, draw its part, or group the string with its part. A part is a filled shape; lines
+    /// without a fill are parts only if `Strokes` says so.
     NoPartLeft = "E201", "string with no part left";
-    /// Two strings belong to one part: both are in its group, or one is in its description. Or two strings with
-    /// `Tiles` make one group a tile layer.
+    /// Two strings belong to the same part: both are grouped with it, or one is in its description. Or two
+    /// strings with `Tiles` are in the same group.
     ///
-    /// Delete one, or put it where it belongs. Attributes of both can stand in one string.
+    /// Delete one of them, or move it to the part it belongs to. One string can hold the attributes of both.
     TwoStrings = "E202", "two strings on one part";
-    /// Two parts have the same name, so that nobody can tell which one is meant by `@`.
+    /// Two parts have the same name, so that a parent given by `@` would be ambiguous.
     ///
     /// ```text
     /// two texts that both say Arm@Body
     /// ```
     ///
-    /// Give one of them another name: `Rarm` and `Larm`.
+    /// Rename one of them, for example to `Rarm` and `Larm`.
     DuplicateName = "E203", "duplicate name";
-    /// The name behind `@` is no part of this drawing.
+    /// No part of this drawing has the name after `@`.
     ///
     /// ```text
     /// Rarm@Upbody$Shape roundv
     /// ```
     ///
-    /// Write the parent's name as its own string has it. Upper and lower case matter.
+    /// Write the parent's name exactly as in the parent's own string. Upper and lower case matter.
     UnknownParent = "E204", "unknown parent";
-    /// Parts hang on each other in a circle, so that none of them hangs on the figure.
+    /// Parts are attached to each other in a circle, so that none of them is attached to the rest of the figure.
     ///
     /// ```text
     /// Arm@Hand, and Hand@Arm
     /// ```
     ///
-    /// Let one of them hang on something else, or on nothing.
+    /// Attach one of them to another part, or give it no parent.
     ParentCycle = "E205", "cycle of parents";
 
     // Tiles
-    /// The colour of a tile could mean more than one thing, or nothing that tiles can be: it is neither the colour
-    /// of a legend nor near to one of the five colours of tiles.
+    /// It is not clear what kind of tile this colour stands for: no legend has the colour, and it is not close
+    /// enough to exactly one of the five tile colours.
     ///
     /// ```text
     /// a purple square in a group with Island$Tiles 16
     /// ```
     ///
-    /// Draw a small square of that colour in the same layer, and beside it write what such tiles are: `$Tile green`
+    /// Draw a small square of that colour in the same layer, and write beside it what such tiles are: `$Tile green`
     /// (ground), `brown` (cliff), `blue` (water), `red` (roof), `beige` (wall) or `none`.
     UnclearTile = "E206", "tile of unclear colour";
-    /// A motion file is no BVH that can be read: a line is missing or damaged, or frames have too many numbers or too
-    /// few. The message tells the line and the column in that file. With `--keep-going` the whole frames before it are used.
+    /// The motion file is not a readable BVH file: a line is missing or damaged, or a frame has too many or too few
+    /// numbers. The message gives the line and the column in that file. With `--keep-going`, the complete frames
+    /// before the error are used.
     ///
     /// ```text
     /// %Motion "kick.bvh", whose last line is cut off
     /// ```
     ///
-    /// Export the motion again, or delete the damaged frame and set `Frames:` to how many there are.
+    /// Export the motion again. Or delete the damaged frame, and set `Frames:` to the number of frames that are left.
     BrokenMotion = "E207", "motion file that cannot be read";
 
     // Warnings
-    /// An attribute stands twice in one string. The later one holds.
+    /// A string sets the same attribute twice. The later one counts.
     ///
     /// ```text
     /// Rarm@Ubody$Color red Shape roundv Color blue
     /// ```
     ///
-    /// Delete the one that is not meant.
+    /// Delete the one you do not want.
     GivenTwice = "W301", "attribute given twice";
-    /// Something that an earlier `%` string sets, or a variable, is set again. The later one holds for the
-    /// whole drawing.
+    /// A `%` string sets a variable or a setting that an earlier `%` string has set already. The later one counts,
+    /// for the whole drawing.
     ///
     /// ```text
     /// %Let thick 5 Let thick 8
     /// ```
     ///
-    /// Delete one, or give the second variable another name.
+    /// Delete one of them, or give the second variable another name.
     Overridden = "W302", "setting overridden";
-    /// A legend stands beside a sample whose paint no part has, so that it does nothing.
+    /// No part has the paint of this legend's sample, so the legend has no effect.
     ///
-    /// Fill the sample exactly like the parts (pick the colour from one of them), or delete the legend.
+    /// Give the sample exactly the same fill as the parts, for example by picking the colour from one of them.
+    /// Or delete the legend.
     UnusedLegend = "W303", "legend paint that no part has";
-    /// Two legends stand beside samples of the same paint. The later one holds where both say something.
+    /// Two legends have samples with the same paint. Where both set the same attribute, the later legend counts.
     ///
     /// Put all attributes into one of them.
     TwoLegends = "W304", "two legends for one paint";
@@ -328,7 +325,7 @@ codes! {
     ///
     /// Write two different depths, or `Shape flat 5` for a thin sheet.
     ZeroThickness = "W305", "zero thickness";
-    /// The copies that `-s` or `-d` make lie in the same place, because the part reaches evenly to both
+    /// The two copies that `-s` or `-d` makes are in the same place, because the part reaches equally far to both
     /// sides of the drawing plane.
     ///
     /// ```text
@@ -337,159 +334,160 @@ codes! {
     ///
     /// Move the part off the plane, by its depths (`Shape -d default 20 30`) or by `Offset`.
     CopiesCoincide = "W306", "copies coincide";
-    /// Nothing is left of a part: it has no area, or a clip cuts all of it away.
+    /// Nothing is left of the part: it has no area, or a clip removes all of it.
     ///
     /// Draw it larger, or delete it.
     Vanishes = "W307", "part vanishes";
-    /// A text of several words without a sign says nothing to okoshi. It is taken for a caption.
+    /// A text consists of several words and has no sign, so okoshi does not read it as a string. It is taken for a
+    /// caption.
     ///
     /// ```text
     /// Left arm
     /// ```
     ///
-    /// If it is one, put `#` before it. If it is a part's name, put it in quotes.
+    /// If it is a caption, put `#` before it. If it is a part's name, put it in quotes.
     Caption = "W308", "caption";
-    /// The drawing uses something of SVG that has no meaning for solids, a mask or a filter for example.
-    /// The part is built as if it were not there.
+    /// The drawing uses an SVG feature that has no meaning for solids, for example a mask or a filter. The part is
+    /// built without it.
     ///
-    /// Draw the outline itself, or use a clip, which is understood.
+    /// Draw the outline itself, or use a clip, which okoshi understands.
     NoSolidMeaning = "W309", "SVG feature without solid meaning";
-    /// The attribute, or the kind of shape, is read and checked, but this version does not act upon it.
+    /// This version reads and checks the attribute, or the kind of shape, but does not build it yet.
     ///
     /// ```text
     /// Boy$View 0 0
     /// ```
     ///
-    /// Leave it for a later version, or use something else meanwhile.
-    NotBuiltYet = "W310", "not built yet";
-    /// A gradient, a pattern or a picture cannot be laid on the part, because drawing it would take too much
-    /// time or memory or it uses something that okoshi does not draw, a filter within a pattern for example.
-    /// The part has the mean of its colours.
+    /// Leave it in for a later version, or use something else for now.
+    NotBuiltYet = "W310", "not supported yet";
+    /// A gradient, a pattern or a picture cannot be drawn on the part, because that would take too much time or
+    /// memory, or because it uses something that okoshi does not draw, such as a filter in a pattern. The part gets
+    /// the mean colour instead.
     ///
     /// ```text
     /// a pattern whose tile holds 5,000 shapes
     /// ```
     ///
-    /// Make the pattern simpler, export it as a picture and use that as `Texture`, or set the part's colour with
+    /// Simplify the pattern, export it as a picture and use that as `Texture`, or set the part's colour with
     /// `Color`.
     PlainPaint = "W311", "paint shown as its mean colour";
 
-    /// A tile lies more than a tenth of a tile off the grid. Each cell of the grid becomes what is drawn at its
-    /// middle, so that such a tile may become larger or smaller than it was drawn, or vanish.
+    /// A tile is more than a tenth of a tile off the grid. Each cell of the grid becomes whatever is drawn at its
+    /// centre, so such a tile can become larger or smaller than it is drawn, or vanish.
     ///
     /// ```text
     /// squares of 18 in a group with Island$Tiles 16
     /// ```
     ///
-    /// Write the size that tiles are drawn with; or move them onto the grid: in Inkscape with a grid of that
-    /// spacing and snapping, from a multiple of the size on.
+    /// Write the size that the tiles are drawn with, or move them onto the grid. In Inkscape, use a grid with that
+    /// spacing and with its origin at a multiple of the size, and turn on snapping.
     OffGrid = "W312", "tiles off the grid";
-    /// A tile layer holds no tile: nothing is painted in its group, or nothing that reaches the middle of a cell.
+    /// A tile layer has no tiles: nothing in its group is painted, or nothing covers the centre of a cell.
     ///
     /// ```text
     /// Island$Tiles 16, alone in a group
     /// ```
     ///
-    /// Put the string into the group or layer that holds the tiles, beside them.
+    /// Put the string into the group or layer that contains the tiles.
     NoTiles = "W313", "tile layer without tiles";
-    /// `Tiles`, `Bevel` or `Roof` stands in a string that makes no tile layer, so that it has no effect.
+    /// `Tiles`, `Bevel` or `Roof` is in a string that does not make a tile layer, so it has no effect.
     ///
     /// ```text
     /// Hat@Head$Roof 0.5
     /// ```
     ///
-    /// Move it to the string that makes a layer or group a map: `Village$Tiles 16 Roof 0.5`.
+    /// Move it to the string that turns a layer or a group into a map: `Village$Tiles 16 Roof 0.5`.
     NoTileLayer = "W314", "attribute of a tile layer elsewhere";
-    /// A tile map can be read in more than one way, or in none that the rules of terrain explain. It is built all the same: a
-    /// group whose height nothing tells lies on the ground, one with fewer brown tiles than it is high hangs, brown tiles
-    /// in the midst of green ones are pits, and a wall or a roof alone is ground of its colour.
+    /// The rules of terrain allow more than one reading of this tile map, or none. It is built all the same: a group
+    /// without a height lies on the ground, a group with fewer brown tiles than it is high hangs in the air, brown
+    /// tiles in the middle of green ones are pits, and a wall or a roof on its own is ground of its colour.
     ///
     /// ```text
     /// a brown tile in the midst of green ones, and no edge in the map
     /// ```
     ///
-    /// Draw what is missing: brown tiles below what stands, an edge (a stroke along the line between two tiles) where one
-    /// thing ends and another begins, roofs over walls.
+    /// Draw what is missing: brown tiles below a block, an edge (a stroke along the line between two tiles) where one
+    /// thing ends and another begins, or roofs over walls.
     OpenTerrain = "W315", "terrain with more than one reading";
-    /// `Bone` names a joint that no motion of the figure has, or that several joints are called; or two joints of which the second
-    /// does not hang on the first. The part is matched by its name and place, or follows the first of the joints.
+    /// `Bone` names a joint that no motion of the figure has, or a name that several joints share; or it names two
+    /// joints, and the second is not below the first. The part is matched by its name and position instead, or it
+    /// follows the first of the joints.
     ///
     /// ```text
     /// Rarm@Ubody$Bone RightAm
     /// ```
     ///
-    /// Write the joint as the motion file does; editors complete it, and `okoshi motion FILE` lists them all. `Bone` takes a joint,
-    /// or two: where a chain begins and where it ends.
+    /// Write the joint's name as in the motion file. Editors complete it, and `okoshi motion FILE` lists all joints.
+    /// `Bone` takes one joint, or two: the first and the last of a chain.
     UnclearJoint = "W316", "unclear joint";
-    /// A motion that moves nothing, or `Limited` or `Bone` in a drawing without a motion.
+    /// A motion moves nothing, or the drawing has `Limited` or `Bone` but no motion.
     ///
     /// ```text
     /// %Limited 4 30, and no Motion
     /// ```
     ///
-    /// Write `%Motion "file.bvh"` for all figures, or `Motion "file.bvh"` in the string of a figure's root. A figure needs parts
-    /// that are known as head, body, arms or legs by their names or places; `Bone` says which joint drives a part.
+    /// Write `%Motion "file.bvh"` for all figures, or `Motion "file.bvh"` in the string of a figure's root part. okoshi
+    /// must recognise some parts as head, body, arms or legs, by their names or positions; `Bone` says which joint
+    /// drives a part.
     IdleMotion = "W317", "motion without effect";
-    /// Limited animation could not be made as asked, or tears the motion apart: no pose stands for more than three frames, so
-    /// that at most about two thirds of the frames can be held; and more than six drawings left out in one place look like a
-    /// mistake.
+    /// The motion cannot be limited as asked, or limiting leaves a large gap. No pose is held for more than three
+    /// frames, so at most about two thirds of the frames can be held. And more than six omitted drawings in one place
+    /// look like a mistake.
     ///
     /// ```text
     /// %Motion "kick.bvh" Limited 12 90, and kick.bvh has 60 frames
     /// ```
     ///
-    /// Ask for less: 4 to 6 drawings to omit, and a third of the frames to hold.
+    /// Ask for less: omit 4 to 6 drawings, and hold a third of the frames.
     TooLimited = "W318", "limited animation out of reach";
 
     // Hints
-    /// Another part lies almost as near to the string as the one it was given to.
+    /// Another part is almost as near to the string as the part it belongs to.
     ///
     /// Group the string with its part, or move it nearer.
     NearlyAsNear = "H401", "second part almost as near";
-    /// A part without a string was given a name, `U-1` for example, and the nearest named part as its
-    /// parent.
+    /// A part without a string got an automatic name, such as `U-1`, and the nearest named part as its parent.
     ///
-    /// Write a name beside it if you want to say more about it.
+    /// Write a name beside the part if you want to give it a parent or attributes.
     AutomaticName = "H402", "automatic name";
-    /// The part is about as long as it is wide, so that its axis is a guess: upright.
+    /// The part is about as long as it is wide, so its axis is a guess: upright.
     ///
     /// ```text
     /// Head@Ubody$Shape roundv
     /// ```
     ///
-    /// Set the axis with `Axis`, or use `Shape round`, which needs none.
+    /// Set the axis with `Axis`, or use `Shape round`, which needs no axis.
     AxisGuess = "H403", "axis is a guess";
-    /// A long part turns about its middle, which is seldom meant for an arm or a leg. Both its ends are
-    /// about equally far from the parent.
+    /// A long part turns about its middle, which is seldom right for an arm or a leg. It does so because both its
+    /// ends are about equally far from the parent.
     ///
-    /// Write `Origin start` (the end nearer to the parent) or `Origin end`.
+    /// Write `Origin start` (the end nearer to the parent) or `Origin end` (the other end).
     TurnsAboutMiddle = "H404", "turns about its middle";
-    /// The string has full-width signs, as Japanese input methods type them. They are read as their
-    /// half-width forms.
+    /// The string contains full-width characters, as Japanese input methods type them. They are read as ASCII.
     ///
     /// ```text
     /// Ｒａｒｍ＠Ｕｂｏｄｙ＄Ｓｈａｐｅ　ｒｏｕｎｄ
     /// ```
     ///
-    /// Nothing need be done. The fix writes the half-width forms: `Rarm@Ubody$Shape round`.
-    FullWidth = "H405", "full-width signs";
-    /// A shape lies off the page. It becomes a part all the same.
+    /// You need not change anything. The fix writes the ASCII forms: `Rarm@Ubody$Shape round`.
+    FullWidth = "H405", "full-width characters";
+    /// A shape is off the page. It still becomes a part.
     ///
-    /// Delete it if it is a leftover; move it onto the page, or put an unused string (`*`) beside it.
+    /// If it is a leftover, delete it. Otherwise move it onto the page, or put an unused string (`*`) beside it.
     OffPage = "H406", "off the page";
-    /// A motion file was read in spite of a slip in it, or a part of it was left out because it is no motion: the T-pose
-    /// that many clips begin with.
+    /// A motion file was read in spite of a small error in it, or a part of it was left out because it is not motion:
+    /// the T-pose that many clips begin with.
     ///
-    /// Nothing need be done. `okoshi motion IN.bvh --full -o OUT.bvh` writes the motion as it was understood.
-    MotionMended = "H407", "motion file read with care";
-    /// The motion has no joint for a limb of the figure. The part follows the one that it hangs on.
+    /// You need not change anything. `okoshi motion IN.bvh --full -o OUT.bvh` writes the motion as okoshi read it.
+    MotionRepaired = "H407", "small error in a motion file";
+    /// The motion has no joint for a limb of the figure. The part moves along with its parent.
     ///
-    /// Say which joint drives it with `Bone`, or leave it as it is.
+    /// Name the joint that drives it with `Bone`, or leave it as it is.
     NoJoint = "H408", "limb without a joint";
 }
 
 impl Code {
-    /// The severity, which is the code's letter.
+    /// The severity, given by the code's letter.
     pub fn severity(self) -> Severity {
         match self.id().as_bytes()[0] {
             b'E' => Severity::Error,
@@ -498,7 +496,7 @@ impl Code {
         }
     }
 
-    /// The code that is printed as `id`, whatever its case.
+    /// The code printed as `id`, ignoring case.
     pub fn from_id(id: &str) -> Option<Self> {
         Self::ALL
             .iter()

@@ -1,7 +1,7 @@
-//! What is wrong with a drawing, where, and what to do about it.
+//! Diagnostics: what is wrong with a drawing, where, and how to fix it.
 //!
-//! Diagnostics are made where the fault is seen; their codes, severities and manual pages are one
-//! table, [`codes`].
+//! A diagnostic is made by the code that detects the problem. The codes, severities and manual pages are
+//! in one table, [`codes`].
 
 pub mod codes;
 
@@ -11,14 +11,14 @@ use std::borrow::Cow;
 
 use crate::source::Span;
 
-/// How bad it is. Errors keep `build` from writing.
+/// The severity of a diagnostic. With errors, `build` does not write a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     /// The drawing does not say what to build.
     Error,
-    /// It can be built, but perhaps not as it was meant.
+    /// The drawing can be built, but the result may not be what was meant.
     Warning,
-    /// Worth knowing.
+    /// Useful to know.
     Hint,
 }
 
@@ -33,54 +33,54 @@ impl Severity {
     }
 }
 
-/// Another place that has to do with a diagnostic.
+/// Another place that is related to a diagnostic.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Related {
     /// The place.
     pub span: Span,
-    /// What is there.
+    /// What is at that place.
     pub message: String,
 }
 
-/// A replacement of one stretch of the drawing's text.
+/// A replacement of a range of the drawing's text.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Edit {
-    /// What is replaced; an empty span inserts.
+    /// The replaced range; an empty span inserts.
     pub span: Span,
-    /// What takes its place, already escaped for XML.
+    /// The new text, already escaped for XML.
     pub text: String,
 }
 
-/// A way out that can be applied to the drawing as it is.
+/// A fix that can be applied to the drawing automatically.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fix {
-    /// What it does, as an imperative.
+    /// What the fix does, as an imperative.
     pub title: String,
-    /// The edits, which do not overlap.
+    /// The edits; they do not overlap.
     pub edits: Vec<Edit>,
 }
 
-/// One finding.
+/// A problem in a drawing, or something worth knowing about it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// Its stable code, which fixes the severity.
+    /// Its stable code, which determines the severity.
     pub code: Code,
-    /// One sentence that names the thing, without a full stop.
+    /// One sentence that names the problem, without a full stop.
     pub message: String,
-    /// The exact characters that it is about.
+    /// The exact characters that the diagnostic is about.
     pub span: Span,
-    /// A few words under the caret.
+    /// A few words below the marked characters.
     pub label: Option<Cow<'static, str>>,
-    /// Other places.
+    /// Related places.
     pub related: Vec<Related>,
-    /// What to do, in a sentence.
+    /// How to fix the problem, in one sentence.
     pub help: Option<Cow<'static, str>>,
-    /// What can be done at a click.
+    /// Automatic fixes.
     pub fixes: Vec<Fix>,
 }
 
 impl Diagnostic {
-    /// A finding with a message at a place, and nothing else.
+    /// A diagnostic with a message and nothing else.
     pub fn new(code: Code, span: Span, message: impl Into<String>) -> Self {
         Self {
             code,
@@ -93,14 +93,14 @@ impl Diagnostic {
         }
     }
 
-    /// Adds the words under the caret.
+    /// Adds a label below the marked characters.
     #[must_use]
     pub fn label(mut self, label: impl Into<Cow<'static, str>>) -> Self {
         self.label = Some(label.into());
         self
     }
 
-    /// Adds another place.
+    /// Adds a related place.
     #[must_use]
     pub fn related(mut self, span: Span, message: impl Into<String>) -> Self {
         self.related.push(Related {
@@ -110,14 +110,14 @@ impl Diagnostic {
         self
     }
 
-    /// Adds what to do.
+    /// Adds help: how to fix the problem.
     #[must_use]
     pub fn help(mut self, help: impl Into<Cow<'static, str>>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Adds a fix of one edit.
+    /// Adds a fix with a single edit.
     #[must_use]
     pub fn fix(mut self, title: impl Into<String>, span: Span, text: impl Into<String>) -> Self {
         self.fixes.push(Fix {
@@ -130,13 +130,13 @@ impl Diagnostic {
         self
     }
 
-    /// The severity of its code.
+    /// The severity, given by the code.
     pub fn severity(&self) -> Severity {
         self.code.severity()
     }
 }
 
-/// Puts diagnostics in the order of the text, errors first at one place, and drops exact repeats.
+/// Sorts diagnostics by their position in the text, errors first at one position, and drops duplicates.
 pub fn sort(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.sort_by(|a, b| {
         (a.span, a.severity(), a.code, &a.message).cmp(&(b.span, b.severity(), b.code, &b.message))
@@ -144,7 +144,7 @@ pub fn sort(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.dedup();
 }
 
-/// The candidate nearest to `word` in spelling, if it is near enough to be a slip of the pen.
+/// The candidate with the smallest edit distance to `word`, if `word` could be a misspelling of it.
 ///
 /// Case is ignored; up to a third of the letters may differ.
 pub fn nearest_word<'a>(
@@ -156,7 +156,7 @@ pub fn nearest_word<'a>(
     let allowed = (letters / 3).max(1);
     candidates
         .into_iter()
-        // Comparing takes time and memory of the product of both lengths.
+        // The comparison takes time and memory proportional to the product of both lengths.
         .filter(|candidate| candidate.chars().count().abs_diff(letters) <= allowed.min(64))
         .map(|candidate| {
             (
@@ -164,7 +164,7 @@ pub fn nearest_word<'a>(
                 candidate,
             )
         })
-        // Words of one letter each have nothing in common.
+        // Two different one-letter words have nothing in common.
         .filter(|(distance, candidate)| {
             *distance <= allowed && *distance < letters.max(candidate.chars().count())
         })

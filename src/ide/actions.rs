@@ -328,7 +328,7 @@ mod tests {
     fn value(analysis: &Analysis, name: &str, keyword: Keyword) -> Option<(String, &'static str)> {
         let part = analysis.part_named(name).unwrap();
         let source = analysis.bindings().setting(part, keyword)?;
-        Some((source.setting.words.clone(), source.from.name()))
+        Some((source.setting.text.clone(), source.from.name()))
     }
 
     #[test]

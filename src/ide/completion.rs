@@ -17,9 +17,9 @@ use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::colours::COLOURS;
 use crate::lang::keyword::kinds::{KINDS, Kind};
 use crate::lang::keyword::signature::Takes;
-use crate::lang::keyword::words::{AXES, FUNCTIONS, STRINGS};
-use crate::lang::keyword::{Holder, Keyword, Status};
-use crate::lang::{self, folded, in_name, in_word, slot};
+use crate::lang::keyword::vocabulary::{AXES, FUNCTIONS, STRINGS};
+use crate::lang::keyword::{AttributeString, Keyword, Status};
+use crate::lang::{self, is_name_char, is_word_char, normalize, parameter_at};
 use crate::source::{Span, Text};
 use snippets::{example_arguments, filled, kind_arguments, plain};
 
@@ -213,15 +213,15 @@ impl Cursor<'_> {
 
     /// The word before the place: it may begin with a sign of numbers, flags and colours.
     fn word(&self) -> Range<usize> {
-        let letters = self.head.trim_end_matches(in_word);
+        let letters = self.head.trim_end_matches(is_word_char);
         let start = letters.strip_suffix(['-', '+', '#']).unwrap_or(letters);
         start.len()..self.head.len()
     }
 
     fn parsed(&self, head: &str) -> (Annotation, usize) {
         let place = match self.in_desc {
-            true => lang::Place::Desc,
-            false => lang::Place::Text,
+            true => lang::Container::Desc,
+            false => lang::Container::Text,
         };
         let (annotation, findings) = lang::parse(&Text::plain(head, 0), place);
         (annotation, findings.len())
@@ -267,9 +267,9 @@ impl Cursor<'_> {
     /// The keywords that can stand here and are not given yet.
     fn keywords(&self, annotation: &Annotation) -> Vec<Proposal> {
         let holder = match annotation {
-            Annotation::Defaults(_) => Holder::Defaults,
-            Annotation::Legend(_) => Holder::Legend,
-            _ => Holder::Part,
+            Annotation::Defaults(_) => AttributeString::Defaults,
+            Annotation::Legend(_) => AttributeString::Legend,
+            _ => AttributeString::Part,
         };
         let whole = self.string.map(|string| {
             let string = &self.context.analysis.bindings().strings[string];
@@ -341,7 +341,7 @@ impl Cursor<'_> {
                 let first = forms.filter_map(|form| form.parameters.first());
                 first.map(|parameter| &parameter.takes).collect()
             }
-            _ => slot(attribute, next, &is_variable)
+            _ => parameter_at(attribute, next, &is_variable)
                 .map(|slot| &slot.parameter().takes)
                 .into_iter()
                 .collect(),
@@ -474,9 +474,9 @@ impl Cursor<'_> {
                     .iter()
                     .any(|proposal| proposal.kind == ProposalKind::Part) =>
             {
-                tail.len() - tail.trim_start_matches(in_name).len()
+                tail.len() - tail.trim_start_matches(is_name_char).len()
             }
-            Some(_) => tail.len() - tail.trim_start_matches(in_word).len(),
+            Some(_) => tail.len() - tail.trim_start_matches(is_word_char).len(),
             None => 0,
         };
         let whole = self.text.span(range.start..range.end + rest);
@@ -524,9 +524,9 @@ fn simple(label: &str, kind: ProposalKind, detail: &str) -> Proposal {
 /// The name that a text gives its part, whether it is bound yet or not.
 fn own_name_of(text: &Text, in_desc: bool) -> Option<String> {
     let place = if in_desc {
-        lang::Place::Desc
+        lang::Container::Desc
     } else {
-        lang::Place::Text
+        lang::Container::Text
     };
     let (annotation, _) = lang::parse(&Text::plain(text.as_str(), 0), place);
     match annotation {
@@ -536,7 +536,7 @@ fn own_name_of(text: &Text, in_desc: bool) -> Option<String> {
 }
 
 fn is_sign(text: &str, range: &Range<usize>, sign: char) -> bool {
-    folded(&text[range.clone()]).starts_with(sign)
+    normalize(&text[range.clone()]).starts_with(sign)
 }
 
 /// Where a quote is opened that is not closed.
@@ -556,7 +556,7 @@ fn open_quote(head: &str) -> Option<usize> {
 /// Whether a parenthesis is opened that is not closed.
 fn open_parenthesis(head: &str) -> bool {
     let mut depth = 0_usize;
-    for c in folded(head).chars() {
+    for c in normalize(head).chars() {
         match c {
             '(' => depth += 1,
             ')' => depth = depth.saturating_sub(1),
@@ -576,10 +576,10 @@ fn can_end(attribute: &Attribute) -> bool {
         _ => None,
     };
     match kind {
-        Some(kind) => kind.form.fits(count - 1),
+        Some(kind) => kind.form.accepts(count - 1),
         None => {
             let forms = attribute.keyword.row().forms;
-            forms.iter().any(|form| form.fits(count))
+            forms.iter().any(|form| form.accepts(count))
         }
     }
 }

@@ -8,8 +8,8 @@ use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::kinds;
 use crate::lang::keyword::signature::Takes;
-use crate::lang::keyword::words::{AXES, Word};
-use crate::lang::{folded, slot};
+use crate::lang::keyword::vocabulary::{AXES, Word};
+use crate::lang::{normalize, parameter_at};
 use crate::source::{Span, Text};
 
 impl Analysis {
@@ -110,10 +110,11 @@ impl Analysis {
         let all = attributes(&string.annotation);
         match token.item {
             Item::Keyword(index) => all[index].keyword.name().to_owned(),
-            Item::Flag(..) => folded(written).to_ascii_lowercase(),
+            Item::Flag(..) => normalize(written).to_ascii_lowercase(),
             Item::Argument(index, argument) => {
                 let known = |name: &str| self.is_variable(name);
-                let takes = slot(&all[index], argument, &known).map(|slot| &slot.parameter().takes);
+                let takes =
+                    parameter_at(&all[index], argument, &known).map(|slot| &slot.parameter().takes);
                 let known = match (&all[index].arguments[argument].kind, takes) {
                     (ArgumentKind::Word(word), Some(Takes::Kind)) => {
                         kinds::from_name(word).map(|kind| kind.name)
@@ -122,9 +123,11 @@ impl Analysis {
                     (ArgumentKind::Word(word), Some(Takes::SignedAxis)) => named(&AXES, word),
                     _ => None,
                 };
-                known.map_or_else(|| folded(written).into_owned(), str::to_owned)
+                known.map_or_else(|| normalize(written).into_owned(), str::to_owned)
             }
-            Item::Sign | Item::Name | Item::Parent | Item::Feature => folded(written).into_owned(),
+            Item::Sign | Item::Name | Item::Parent | Item::Feature => {
+                normalize(written).into_owned()
+            }
             Item::Remark => written.to_owned(),
         }
     }
@@ -144,7 +147,7 @@ fn gap(
     after: Option<&Token>,
 ) -> Vec<Edit> {
     let written = &text.as_str()[range.clone()];
-    let signs = folded(written);
+    let signs = normalize(written);
     let is_flag =
         |token: Option<&Token>| matches!(token.map(|token| token.item), Some(Item::Flag(..)));
     let is_sign = |token: Option<&Token>| matches!(token.map(|token| token.item), Some(Item::Sign));

@@ -8,7 +8,7 @@ use crate::bind::SetBy;
 use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::signature::Takes;
-use crate::lang::slot;
+use crate::lang::parameter_at;
 use crate::report::own_name;
 use crate::source::Span;
 
@@ -195,7 +195,9 @@ impl Analysis {
 
 /// The file that an argument names, if it names one.
 pub(super) fn file_named(attribute: &Attribute, argument: usize) -> Option<&str> {
-    let takes = &slot(attribute, argument, &|_| false)?.parameter().takes;
+    let takes = &parameter_at(attribute, argument, &|_| false)?
+        .parameter()
+        .takes;
     match (takes, &attribute.arguments.get(argument)?.kind) {
         (Takes::File, ArgumentKind::Quoted(name) | ArgumentKind::Word(name)) => Some(name),
         _ => None,

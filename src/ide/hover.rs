@@ -8,7 +8,7 @@ use crate::bind::{BoundBy, PartKind, SetBy};
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::{Keyword, kinds};
-use crate::lang::{Slot, explain, slot};
+use crate::lang::{ParameterRef, explain, parameter_at};
 use crate::source::Span;
 
 /// How many parts are named before the rest is only counted.
@@ -87,7 +87,8 @@ impl Analysis {
                 Some(format!("`-{}`: {}", known.letter, known.summary))
             }
             Item::Argument(index, argument) => {
-                let slot = slot(attribute(index), argument, &|name| self.is_variable(name))?;
+                let slot =
+                    parameter_at(attribute(index), argument, &|name| self.is_variable(name))?;
                 if let Some(name) = self.bone_name(string, index, argument)
                     && let Some(card) = self.joint_card(string, name)
                 {
@@ -108,7 +109,7 @@ impl Analysis {
         &self,
         string: usize,
         (index, argument): (usize, usize),
-        slot: Slot,
+        slot: ParameterRef,
         offset: usize,
     ) -> Option<String> {
         let bindings = self.bindings();
@@ -116,7 +117,7 @@ impl Analysis {
         let parameter = slot.parameter();
         let usage = match slot.kind {
             Some(kind) => format!("Shape {}", kind.usage()),
-            None => format!("{} {}", slot.taker, slot.form.print()),
+            None => format!("{} {}", slot.owner, slot.form.print()),
         };
         let mut out = match (&parameter.takes, &given.kind) {
             (Takes::Kind, ArgumentKind::Word(word)) => {
@@ -129,7 +130,7 @@ impl Analysis {
                 format!("`{}`: {}", word.name, word.summary)
             }
             (Takes::Names, ArgumentKind::Word(name) | ArgumentKind::Quoted(name))
-                if slot.taker == Keyword::Follow.name() =>
+                if slot.owner == Keyword::Follow.name() =>
             {
                 let part = self.part_named(name);
                 return part.map(|part| self.part_card(part));
@@ -137,7 +138,7 @@ impl Analysis {
             (takes, _) => format!(
                 "`{}` of `{}`: {}\n\n*{}*",
                 parameter.name,
-                slot.taker,
+                slot.owner,
                 parameter.summary,
                 takes.describe()
             ),
@@ -165,7 +166,7 @@ impl Analysis {
         };
         let variables = &self.bindings().variables;
         let (_, variable) = variables.iter().find(|(known, _)| *known == name)?;
-        let definition = &self.source[variable.place.start..];
+        let definition = &self.source[variable.definition.start..];
         let definition = definition.split(['<', '\n']).next().unwrap_or_default();
         let short: String = definition.chars().take(40).collect();
         Some(match variable.value {

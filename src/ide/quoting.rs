@@ -1,7 +1,7 @@
 //! How names are written: bare where they can be, in quotes where they must.
 
 use crate::lang::keyword::Keyword;
-use crate::lang::{folded, in_name, in_word};
+use crate::lang::{is_name_char, is_word_char, normalize};
 
 /// Where a name stands, which decides what can do without quotes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,14 +14,14 @@ pub(super) enum Role {
 
 /// Whether `name` is read as itself without quotes.
 pub(super) fn can_be_bare(name: &str, role: Role) -> bool {
-    if name.is_empty() || folded(name) != name {
+    if name.is_empty() || normalize(name) != name {
         return false;
     }
     match role {
-        Role::Head => name.chars().all(in_name) && !name.starts_with(['#', '%', '*', '^']),
+        Role::Head => name.chars().all(is_name_char) && !name.starts_with(['#', '%', '*', '^']),
         Role::Argument => {
             name.starts_with(char::is_alphabetic)
-                && name.chars().all(in_word)
+                && name.chars().all(is_word_char)
                 && Keyword::from_name(name).is_none()
         }
     }
@@ -44,7 +44,7 @@ pub(super) fn meant(input: &str) -> Option<String> {
         .and_then(|rest| rest.strip_suffix('"'));
     let name = match inner {
         Some(inner) => inner.to_owned(),
-        None => folded(input).into_owned(),
+        None => normalize(input).into_owned(),
     };
     let name = name.split_whitespace().collect::<Vec<_>>().join(" ");
     (!name.is_empty() && !name.contains(['"', '＂']) && !name.contains(char::is_control))

@@ -5,8 +5,8 @@ use super::uses::own_name;
 use super::{Analysis, Item, Symbol, Use};
 use crate::bind::DrawingString;
 use crate::diagnostic::Edit;
-use crate::lang::keyword::{Keyword, colours, words};
-use crate::lang::{in_word, looks_like_string};
+use crate::lang::keyword::{Keyword, colours, vocabulary};
+use crate::lang::{is_word_char, looks_like_string};
 use crate::source::{Span, Text};
 
 /// Why something cannot be renamed so.
@@ -103,11 +103,12 @@ impl Analysis {
     }
 
     fn check_variable(&self, name: &str) -> Result<(), RenameError> {
-        if !name.starts_with(char::is_alphabetic) || !name.chars().all(in_word) {
+        if !name.starts_with(char::is_alphabetic) || !name.chars().all(is_word_char) {
             return Err(RenameError::NotAVariable(name.to_owned()));
         }
-        let is_taken =
-            Keyword::from_name(name).is_some() || words::is_known(name) || colours::is_colour(name);
+        let is_taken = Keyword::from_name(name).is_some()
+            || vocabulary::is_known(name)
+            || colours::is_colour(name);
         if is_taken {
             return Err(RenameError::WordOfTheLanguage(name.to_owned()));
         }

@@ -9,7 +9,7 @@ use crate::bind::Place;
 use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::keyword::signature::Form;
 use crate::lang::keyword::{Keyword, kinds};
-use crate::lang::{self, slot};
+use crate::lang::{self, parameter_at};
 use crate::source::Text;
 
 /// The ways to write an attribute, and where in them the place is.
@@ -41,16 +41,16 @@ pub fn signature(source: &str, analysis: &Analysis, offset: usize) -> Option<Sig
         Some((string, at)) => {
             let string = &analysis.bindings().strings[string];
             let place = match string.place {
-                Place::Label(_) => lang::Place::Text,
-                Place::Shape(_) | Place::Group(_) => lang::Place::Desc,
+                Place::Label(_) => lang::Container::Text,
+                Place::Shape(_) | Place::Group(_) => lang::Container::Desc,
             };
             (string.text.as_str().get(..at)?.to_owned(), place)
         }
         None => {
             let typed = typed_at(source, offset)?;
             let place = match typed.in_desc {
-                true => lang::Place::Desc,
-                false => lang::Place::Text,
+                true => lang::Container::Desc,
+                false => lang::Container::Text,
             };
             (typed.text.as_str().get(..typed.offset)?.to_owned(), place)
         }
@@ -86,7 +86,7 @@ fn help(
         return Some(SignatureHelp {
             signatures: vec![written(&name, &kind.form, kind.summary)],
             active: 0,
-            parameter: slot(attribute, index, is_variable)?.index,
+            parameter: parameter_at(attribute, index, is_variable)?.index,
         });
     }
     let flags: String = row.flags.iter().map(|flag| flag.letter).collect();
@@ -98,7 +98,7 @@ fn help(
     let signatures: Vec<_> = forms
         .map(|form| written(&name, form, row.summary))
         .collect();
-    let slot = slot(attribute, index, is_variable)?;
+    let slot = parameter_at(attribute, index, is_variable)?;
     let active = row.forms.iter();
     let active = active
         .into_iter()

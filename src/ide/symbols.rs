@@ -72,7 +72,7 @@ impl Analysis {
         };
         Outline {
             name: bindings.parts[part].name.clone(),
-            detail: shape.map_or("default".to_owned(), |source| source.setting.words.clone()),
+            detail: shape.map_or("default".to_owned(), |source| source.setting.text.clone()),
             is_joint: false,
             span: span.join(selection),
             selection,

@@ -6,7 +6,7 @@ use super::Analysis;
 use super::at::{Item, attributes, tokens};
 use crate::lang::ast::{ArgumentKind, Function};
 use crate::lang::keyword::signature::Takes;
-use crate::lang::{in_word, slot};
+use crate::lang::{is_word_char, parameter_at};
 use crate::source::Span;
 
 /// What a stretch of characters is.
@@ -94,7 +94,7 @@ impl Analysis {
                 Item::Argument(attribute, argument) => {
                     let attribute = &attributes(&string.annotation)[attribute];
                     let given = &attribute.arguments[argument];
-                    let takes = slot(attribute, argument, &|name| self.is_variable(name))
+                    let takes = parameter_at(attribute, argument, &|name| self.is_variable(name))
                         .map(|slot| &slot.parameter().takes);
                     match (&given.kind, takes) {
                         (ArgumentKind::Expression(_), _) => {
@@ -142,7 +142,7 @@ fn calculation(text: &str, range: Range<usize>) -> Vec<(Range<usize>, Paint)> {
     let mut at = range.start;
     while let Some(c) = text[at..range.end].chars().next() {
         let word =
-            text[at..range.end].len() - text[at..range.end].trim_start_matches(in_word).len();
+            text[at..range.end].len() - text[at..range.end].trim_start_matches(is_word_char).len();
         let paint = match c {
             c if c.is_alphabetic() => {
                 let name = &text[at..at + word];

@@ -8,7 +8,7 @@ use crate::bind::DrawingString;
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::signature::Takes;
-use crate::lang::slot;
+use crate::lang::parameter_at;
 use crate::source::Span;
 
 /// Something that has a name.
@@ -131,7 +131,7 @@ impl Analysis {
                 }
                 ArgumentKind::Word(word) | ArgumentKind::Quoted(word) => {
                     let is_word = matches!(argument.kind, ArgumentKind::Word(_));
-                    let slot = slot(attribute, index, &|name| self.is_variable(name));
+                    let slot = parameter_at(attribute, index, &|name| self.is_variable(name));
                     match slot.map(|slot| &slot.parameter().takes) {
                         Some(Takes::Variable) if is_word => {
                             push(Symbol::Variable(word.clone()), &argument.range, true);

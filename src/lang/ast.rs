@@ -1,4 +1,4 @@
-//! Strings as they are written: the syntax tree.
+//! The syntax tree of a string.
 //!
 //! Ranges are byte ranges of the decoded string ([`crate::source::Text::as_str`]).
 
@@ -23,7 +23,7 @@ pub enum Annotation {
     Feature(Name),
     /// `name@parent$ …`
     Part(Part),
-    /// Several words without a sign: no string at all.
+    /// Several words without a sign: plain text, not a string.
     Caption,
 }
 
@@ -32,20 +32,20 @@ pub enum Annotation {
 pub struct Part {
     /// The part's name; may be left out in `<desc>` only.
     pub name: Option<Name>,
-    /// What stands behind `@`.
+    /// The name after `@`.
     pub parent: Option<Name>,
-    /// What stands behind `$`.
+    /// The attributes after `$`.
     pub attributes: Vec<Attribute>,
-    /// Where the `@` and the `$` stand that were read as such.
+    /// The ranges of the `@` and the `$`.
     pub signs: Vec<Range<usize>>,
 }
 
-/// A name with its place.
+/// A name with its range.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Name {
-    /// The name, quotes taken off, full-width signs read as ASCII.
+    /// The name without quotes, full-width characters read as ASCII.
     pub text: String,
-    /// Where it stands, quotes included.
+    /// Its range, quotes included.
     pub range: Range<usize>,
 }
 
@@ -54,9 +54,9 @@ pub struct Name {
 pub struct Attribute {
     /// The keyword.
     pub keyword: Keyword,
-    /// Where the keyword stands.
+    /// The range of the keyword.
     pub keyword_range: Range<usize>,
-    /// The letters behind `-`, each with its place.
+    /// The letters after `-`, each with its range.
     pub flags: Vec<(char, Range<usize>)>,
     /// The arguments.
     pub arguments: Vec<Argument>,
@@ -64,16 +64,16 @@ pub struct Attribute {
     pub range: Range<usize>,
 }
 
-/// An argument with its place.
+/// An argument with its range.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Argument {
-    /// What it is.
+    /// The argument itself.
     pub kind: ArgumentKind,
-    /// Where it stands.
+    /// Its range.
     pub range: Range<usize>,
 }
 
-/// What an argument is.
+/// The kinds of argument.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ArgumentKind {
     /// `12`, `-.5`
@@ -86,7 +86,7 @@ pub enum ArgumentKind {
     Quoted(String),
     /// `#rrggbb`, without the sign
     Hex(String),
-    /// Something that could not be read; a diagnostic says why, so that nothing else need be said.
+    /// An argument that could not be read. It has a diagnostic already, and must not get another one.
     Unreadable,
 }
 
@@ -95,18 +95,18 @@ pub enum ArgumentKind {
 pub enum Expression {
     /// A number.
     Number(f64),
-    /// A variable with its place.
+    /// A variable with its range.
     Variable(Name),
     /// `-a`
     Negate(Box<Expression>),
     /// `a op b`, `op` one of `+ - * /`
     Binary(char, Box<Expression>, Box<Expression>),
-    /// `min(a, b)` and the like
+    /// `min(a, b)` and other functions
     Call(Function, Vec<Expression>),
 }
 
 impl Expression {
-    /// Gives all variables that stand in it to `found`, in their order.
+    /// Calls `found` for each variable, from left to right.
     pub fn variables<'a>(&'a self, found: &mut dyn FnMut(&'a Name)) {
         match self {
             Self::Number(_) => {}

@@ -1,17 +1,17 @@
-//! From a syntax tree to checked settings.
+//! Checks a syntax tree and computes the values of its attributes.
 //!
-//! A setting with a fault is left out, the others are kept. What the parser has said already is not
-//! said again.
+//! An attribute with an error is dropped, the others are kept. Errors that the parser has reported are
+//! not reported again.
 
+mod arguments;
 mod build;
-mod fit;
-mod told;
+mod diagnostics;
 
 use std::collections::BTreeMap;
 
 use super::ast::{Annotation, ArgumentKind, Attribute};
 use super::keyword::signature::Takes;
-use super::keyword::{Holder, Keyword, Status};
+use super::keyword::{AttributeString, Keyword, Status};
 use super::value::Setting;
 use super::variables::Variables;
 use crate::diagnostic::Diagnostic;
@@ -26,10 +26,10 @@ pub fn settings(
     variables: &Variables,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Setting> {
-    let (attributes, holder) = match annotation {
-        Annotation::Defaults(attributes) => (attributes, Holder::Defaults),
-        Annotation::Legend(attributes) => (attributes, Holder::Legend),
-        Annotation::Part(part) => (&part.attributes, Holder::Part),
+    let (attributes, string) = match annotation {
+        Annotation::Defaults(attributes) => (attributes, AttributeString::Defaults),
+        Annotation::Legend(attributes) => (attributes, AttributeString::Legend),
+        Annotation::Part(part) => (&part.attributes, AttributeString::Part),
         Annotation::Empty
         | Annotation::Comment
         | Annotation::Unused
@@ -41,13 +41,13 @@ pub fn settings(
         variables,
         diagnostics: vec![],
     };
-    let settings = checker.attributes(attributes, holder);
+    let settings = checker.attributes(attributes, string);
     super::keep_safe_fixes(text, &mut checker.diagnostics);
     diagnostics.append(&mut checker.diagnostics);
     settings
 }
 
-/// A string under examination.
+/// The string that is being checked, with the diagnostics so far.
 struct Checker<'a> {
     text: &'a Text,
     variables: &'a Variables,
@@ -55,23 +55,23 @@ struct Checker<'a> {
 }
 
 impl Checker<'_> {
-    fn attributes(&mut self, attributes: &[Attribute], holder: Holder) -> Vec<Setting> {
+    fn attributes(&mut self, attributes: &[Attribute], string: AttributeString) -> Vec<Setting> {
         let mut settings: Vec<Option<Setting>> = vec![];
         let mut given: BTreeMap<Keyword, (usize, &Attribute)> = BTreeMap::new();
         let mut before: Option<&Attribute> = None;
-        // Behind a sign that cannot stand in the string another string begins, by the look of it.
-        let mut slipped = false;
+        // After a sign that is not allowed here, another string seems to begin.
+        let mut in_second_string = false;
         for attribute in attributes {
             if before.is_some_and(|before| self.is_sign_between(before, attribute)) {
-                slipped = true;
+                in_second_string = true;
                 given.clear();
             }
-            let allowed = attribute.keyword.row().allowed.permits(holder);
-            let setting = match (allowed, slipped) {
+            let allowed = attribute.keyword.row().allowed.permits(string);
+            let setting = match (allowed, in_second_string) {
                 (true, _) => self.attribute(attribute, before),
                 (false, true) => None,
                 (false, false) => {
-                    self.not_allowed(attribute, holder);
+                    self.not_allowed(attribute, string);
                     None
                 }
             };
@@ -87,21 +87,21 @@ impl Checker<'_> {
             settings.push(setting);
             before = Some(attribute);
         }
-        if slipped {
+        if in_second_string {
             self.keep_last(&mut settings);
         }
         settings.into_iter().flatten().collect()
     }
 
-    /// Drops settings that a later one replaces, where nothing was said about it.
+    /// Drops settings that a later one replaces without a diagnostic.
     fn keep_last(&self, settings: &mut [Option<Setting>]) {
         let mut seen = std::collections::BTreeSet::new();
         for setting in settings.iter_mut().rev() {
             let Some(keyword) = setting.as_ref().map(|setting| setting.keyword) else {
                 continue;
             };
-            let adds_up = matches!(keyword, Keyword::Let | Keyword::Motion);
-            if !seen.insert(keyword) && !adds_up {
+            let accumulates = matches!(keyword, Keyword::Let | Keyword::Motion);
+            if !seen.insert(keyword) && !accumulates {
                 *setting = None;
             }
         }
@@ -110,10 +110,10 @@ impl Checker<'_> {
     fn attribute(&mut self, attribute: &Attribute, before: Option<&Attribute>) -> Option<Setting> {
         let row = attribute.keyword.row();
         let flags_are_known = self.flags(attribute);
-        let needs_arguments = !row.forms.iter().any(|form| form.fits(0));
+        let needs_arguments = !row.forms.iter().any(|form| form.accepts(0));
         if attribute.arguments.is_empty() && needs_arguments {
             if flags_are_known {
-                self.nothing_given(attribute, before);
+                self.missing_arguments(attribute, before);
             }
             return None;
         }
@@ -127,30 +127,30 @@ impl Checker<'_> {
         if unreadable {
             return None;
         }
-        let (value, words) = self.value(attribute)?;
+        let (value, arguments) = self.value(attribute)?;
         if !flags_are_known {
             return None;
         }
-        let mut written = String::new();
+        let mut text = String::new();
         if !attribute.flags.is_empty() {
-            written.push('-');
-            written.extend(
+            text.push('-');
+            text.extend(
                 attribute
                     .flags
                     .iter()
                     .map(|(letter, _)| letter.to_ascii_lowercase()),
             );
         }
-        for word in words {
-            if !written.is_empty() {
-                written.push(' ');
+        for argument in arguments {
+            if !text.is_empty() {
+                text.push(' ');
             }
-            written.push_str(&word);
+            text.push_str(&argument);
         }
         Some(Setting {
             keyword: attribute.keyword,
             value,
-            words: written,
+            text,
             range: attribute.range.clone(),
         })
     }
@@ -173,7 +173,7 @@ impl Checker<'_> {
         all
     }
 
-    /// Whether a sign of the language stands between two attributes.
+    /// Whether there is a sign of the language between two attributes.
     fn is_sign_between(&self, left: &Attribute, right: &Attribute) -> bool {
         let between = self
             .text
@@ -185,14 +185,14 @@ impl Checker<'_> {
     }
 }
 
-/// Whether the attribute could take the keyword behind it as a name.
+/// Whether the attribute could take the keyword that follows it as a name.
 fn takes_a_name(attribute: &Attribute) -> bool {
     let count = attribute.arguments.len();
     attribute.keyword.row().forms.iter().any(|form| {
         let parameter = form.parameters.get(count).or(form.parameters.last());
         parameter.is_some_and(|parameter| match parameter.takes {
             Takes::Names => true,
-            Takes::Text | Takes::File | Takes::Variable => count < form.most(),
+            Takes::Text | Takes::File | Takes::Variable => count < form.max_arguments(),
             _ => false,
         })
     })

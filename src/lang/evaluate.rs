@@ -2,39 +2,43 @@
 
 use super::ast::{Expression, Function, Name};
 
-/// What is known about a variable.
+/// The result of looking up a variable.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Known {
+pub(super) enum Lookup {
     /// Its value.
     Value(f64),
-    /// It is defined, but not well; its definition has the diagnostic.
-    Broken,
-    /// Nothing defines it.
-    Unknown,
+    /// Its definition has an error, which is reported at the definition.
+    Invalid,
+    /// It is not defined.
+    Undefined,
 }
 
 /// Why an expression has no value.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Failure {
-    /// A variable that nothing defines.
-    Unknown(Name),
-    /// A variable without a value, of which its definition tells.
-    Broken,
-    /// There is no such number.
-    NoNumber(&'static str),
+pub(super) enum EvaluationError {
+    /// A variable is not defined.
+    UndefinedVariable(Name),
+    /// The definition of a variable has an error, which is reported there.
+    InvalidVariable,
+    /// The result is not a number; the text continues "this calculation …".
+    NotANumber(&'static str),
 }
 
-/// Computes `expression`.
+/// Computes the value of `expression`.
+///
+/// # Errors
+///
+/// If a variable has no value, or the result is not a finite number.
 pub(super) fn evaluate(
     expression: &Expression,
-    variable: &dyn Fn(&str) -> Known,
-) -> Result<f64, Failure> {
+    variable: &dyn Fn(&str) -> Lookup,
+) -> Result<f64, EvaluationError> {
     let value = match expression {
         Expression::Number(value) => *value,
         Expression::Variable(name) => match variable(&name.text) {
-            Known::Value(value) => value,
-            Known::Broken => return Err(Failure::Broken),
-            Known::Unknown => return Err(Failure::Unknown(name.clone())),
+            Lookup::Value(value) => value,
+            Lookup::Invalid => return Err(EvaluationError::InvalidVariable),
+            Lookup::Undefined => return Err(EvaluationError::UndefinedVariable(name.clone())),
         },
         Expression::Negate(inner) => -evaluate(inner, variable)?,
         Expression::Binary(sign, left, right) => {
@@ -43,7 +47,7 @@ pub(super) fn evaluate(
                 '+' => left + right,
                 '-' => left - right,
                 '*' => left * right,
-                _ if right == 0. => return Err(Failure::NoNumber("divides by zero")),
+                _ if right == 0. => return Err(EvaluationError::NotANumber("divides by zero")),
                 _ => left / right,
             }
         }
@@ -57,18 +61,20 @@ pub(super) fn evaluate(
     };
     match value.is_finite() {
         true => Ok(value),
-        false => Err(Failure::NoNumber("is too large to reckon with")),
+        false => Err(EvaluationError::NotANumber(
+            "gives a number that is too large",
+        )),
     }
 }
 
-fn call(function: Function, values: &[f64]) -> Result<f64, Failure> {
+fn call(function: Function, values: &[f64]) -> Result<f64, EvaluationError> {
     let first = values.first().copied().unwrap_or(0.);
     Ok(match function {
         Function::Min => values.iter().copied().fold(first, f64::min),
         Function::Max => values.iter().copied().fold(first, f64::max),
         Function::Abs => first.abs(),
         Function::Sqrt if first < 0. => {
-            return Err(Failure::NoNumber(
+            return Err(EvaluationError::NotANumber(
                 "takes the square root of a negative number",
             ));
         }

@@ -1,19 +1,19 @@
-//! The manual, page by page, in Markdown that reads well in a terminal too.
+//! The pages of the manual, in Markdown that also reads well in a terminal.
 
 use std::fmt::Write as _;
 
 use super::keyword::kinds::{KINDS, Kind};
 use super::keyword::signature::{Form, Takes};
-use super::keyword::words::{FUNCTIONS, STRINGS};
+use super::keyword::vocabulary::{FUNCTIONS, STRINGS};
 use super::keyword::{Keyword, Status};
 use crate::diagnostic::Code;
 
-/// What is said about rows of the table that have no effect yet.
-const PLANNED: &str = "*Read and checked, but without effect in this version.*";
+/// The note on keywords and kinds that have no effect yet.
+const PLANNED: &str = "*This version reads and checks it, but it has no effect yet.*";
 
-/// The page that `word` names: a keyword, a kind of `Shape`, or a diagnostic's code, whatever its case.
+/// The page on `word`: a keyword, a kind of `Shape`, or a diagnostic's code, ignoring case.
 ///
-/// A keyword goes before a kind of the same name.
+/// A keyword has precedence over a kind of the same name.
 pub fn page(word: &str) -> Option<String> {
     Keyword::from_name(word)
         .map(keyword)
@@ -21,8 +21,8 @@ pub fn page(word: &str) -> Option<String> {
         .or_else(|| Code::from_id(word).map(code))
 }
 
-/// Every word that has a page.
-pub fn words() -> impl Iterator<Item = &'static str> {
+/// All words that have a page.
+pub fn topics() -> impl Iterator<Item = &'static str> {
     let keywords = Keyword::ALL.iter().map(|keyword| keyword.name());
     let kinds = KINDS.iter().map(|kind| kind.name);
     keywords
@@ -30,7 +30,7 @@ pub fn words() -> impl Iterator<Item = &'static str> {
         .chain(Code::ALL.iter().map(|code| code.id()))
 }
 
-/// The manual of a keyword.
+/// The page on a keyword.
 pub fn keyword(keyword: Keyword) -> String {
     let row = keyword.row();
     let mut out = format!(
@@ -63,12 +63,12 @@ pub fn keyword(keyword: Keyword) -> String {
     if !row.default.is_empty() {
         let _ = writeln!(out, "Default: {}\n", row.default);
     }
-    let _ = writeln!(out, "Stands {}.\n", row.allowed.places());
+    let _ = writeln!(out, "Allowed {}.\n", row.allowed.places());
     let _ = write!(out, "Example:\n\n```\n{}\n```\n", row.example);
     out
 }
 
-/// The manual of a kind of `Shape`.
+/// The page on a kind of `Shape`.
 pub fn kind(kind: &Kind) -> String {
     let mut out = format!(
         "# Shape {}\n\n{}.\n\n```\nShape {}\n```\n\n",
@@ -88,7 +88,7 @@ pub fn kind(kind: &Kind) -> String {
     out
 }
 
-/// The manual of a diagnostic's code.
+/// The page on a diagnostic's code.
 pub fn code(code: Code) -> String {
     format!(
         "# {}: {}\n\n*{}*\n\n{}",
@@ -99,7 +99,7 @@ pub fn code(code: Code) -> String {
     )
 }
 
-/// The language at a glance.
+/// An overview of the language.
 pub fn overview() -> String {
     let mut out = String::from("# The strings of a drawing\n\n");
     for row in &STRINGS {
@@ -133,12 +133,12 @@ pub fn overview() -> String {
         let _ = writeln!(out, "- `{}`: {}", row.usage, row.summary);
     }
     out.push_str(
-        "\n`okoshi explain WORD` tells more about a keyword, a kind, or a diagnostic's code.\n",
+        "\n`okoshi explain WORD` shows the page on a keyword, a kind, or a diagnostic's code.\n",
     );
     out
 }
 
-/// What the parameters of some forms take, as a list; nothing where the printed form says it all.
+/// A list of the parameters of some forms; empty if the printed forms say everything.
 pub(super) fn parameters(forms: &[Form]) -> String {
     let mut out = String::new();
     for parameter in forms.iter().flat_map(|form| form.parameters) {
@@ -161,7 +161,7 @@ pub(super) fn parameters(forms: &[Form]) -> String {
     out
 }
 
-/// `text` with a capital letter first.
+/// `text` with its first letter capitalized.
 pub(super) fn sentence(text: &str) -> String {
     let mut chars = text.chars();
     match chars.next() {
@@ -170,7 +170,7 @@ pub(super) fn sentence(text: &str) -> String {
     }
 }
 
-/// Doc comments as Markdown: each line without the space it begins with.
+/// Doc comments as Markdown: removes the leading space of each line.
 pub(super) fn paragraphs(manual: &str) -> String {
     let lines: Vec<_> = manual
         .lines()
@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn every_word_has_a_page() {
-        for word in words() {
+        for word in topics() {
             let page = page(word).unwrap();
             assert!(page.starts_with("# ") && page.ends_with('\n'), "{page}");
             assert!(!page.contains("\n\n\n"), "{page}");
@@ -198,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn the_overview_names_all() {
+    fn the_overview_names_all_keywords() {
         let overview = overview();
         for keyword in Keyword::ALL {
             assert!(overview.contains(&format!("`{}`", keyword.name())));

@@ -1,22 +1,24 @@
 //! The language as one table.
 //!
 //! A keyword is one [`Row`]. The parser, the checker, hovers, completion, signature help, the
-//! reference page and the grammars are all made from these rows and from their neighbours:
-//! the [`kinds`] of `Shape`, the [`words`] of the language, and the [`signature`]s that hold them together.
+//! reference page and the grammars all read these rows, together with the [`kinds`] of `Shape`, the
+//! [`vocabulary`] of other words, and the [`signature`]s.
 
 mod drawing;
-mod figure;
-mod scenes;
+mod motion;
+mod part;
+mod terrain;
+mod views;
 
 pub mod colours;
 pub mod kinds;
 pub mod signature;
-pub mod words;
+pub mod vocabulary;
 
 use signature::Form;
 
 macro_rules! keywords {
-    ($($name:ident)+) => {
+    ($($name:ident = $row:path;)+) => {
         /// A keyword of the language, in the order of the reference.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Keyword { $(#[doc = concat!("`", stringify!($name), "`")] $name,)+ }
@@ -29,29 +31,64 @@ macro_rules! keywords {
             pub fn name(self) -> &'static str {
                 match self { $(Keyword::$name => stringify!($name),)+ }
             }
+
+            /// The keyword's row of the table.
+            pub fn row(self) -> &'static Row {
+                match self { $(Keyword::$name => &$row,)+ }
+            }
         }
     };
 }
 
 keywords! {
-    Color Shape Offset Origin Axis Segments Smooth Metallic Roughness Emissive Alpha
-    Texture Depth Bone Mark Follow Tiles Tile Bevel Roof View Backing Hidden
-    Scale Axes Ground Let Bind Strokes
-    Motion Limited Stand Size Walk Pose Perform
+    Color = part::COLOR;
+    Shape = part::SHAPE;
+    Offset = part::OFFSET;
+    Origin = part::ORIGIN;
+    Axis = part::AXIS;
+    Segments = part::SEGMENTS;
+    Smooth = part::SMOOTH;
+    Metallic = part::METALLIC;
+    Roughness = part::ROUGHNESS;
+    Emissive = part::EMISSIVE;
+    Alpha = part::ALPHA;
+    Texture = part::TEXTURE;
+    Depth = views::DEPTH;
+    Bone = motion::BONE;
+    Mark = motion::MARK;
+    Follow = motion::FOLLOW;
+    Tiles = terrain::TILES;
+    Tile = terrain::TILE;
+    Bevel = terrain::BEVEL;
+    Roof = terrain::ROOF;
+    View = views::VIEW;
+    Backing = views::BACKING;
+    Hidden = views::HIDDEN;
+    Scale = drawing::SCALE;
+    Axes = drawing::AXES;
+    Ground = drawing::GROUND;
+    Let = drawing::LET;
+    Bind = drawing::BIND;
+    Strokes = drawing::STROKES;
+    Motion = motion::MOTION;
+    Limited = motion::LIMITED;
+    Stand = motion::STAND;
+    Size = motion::SIZE;
+    Walk = motion::WALK;
+    Pose = motion::POSE;
+    Perform = motion::PERFORM;
 }
 
 /// What the table says about a keyword.
 #[derive(Debug)]
 pub struct Row {
-    /// The keyword.
-    pub keyword: Keyword,
-    /// The ways to give its arguments; one of them must fit.
+    /// The argument lists that the keyword accepts; one of them must fit.
     pub forms: &'static [Form],
-    /// The letters that may stand behind `-`.
+    /// The letters that may follow `-`.
     pub flags: &'static [Flag],
-    /// In which strings it may stand.
+    /// In which strings the keyword is allowed.
     pub allowed: Allowed,
-    /// What holds where the attribute is not given.
+    /// The value without the attribute.
     pub default: &'static str,
     /// One line.
     pub summary: &'static str,
@@ -59,14 +96,14 @@ pub struct Row {
     pub long: &'static str,
     /// A whole string that uses it.
     pub example: &'static str,
-    /// Whether this version acts upon it.
+    /// Whether this version supports it.
     pub status: Status,
 }
 
 /// A flag of a keyword.
 #[derive(Debug)]
 pub struct Flag {
-    /// The letter behind `-`.
+    /// The letter after `-`.
     pub letter: char,
     /// One line.
     pub summary: &'static str,
@@ -75,13 +112,13 @@ pub struct Flag {
 /// Whether a row of the table has an effect in this version.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Status {
-    /// It is acted upon.
+    /// It has an effect.
     Built,
-    /// It is read and checked, and has no effect yet.
+    /// It is read and checked, but has no effect yet.
     Planned,
 }
 
-/// In which strings an attribute may stand.
+/// In which strings an attribute is allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Allowed {
     /// In part strings and legends, and as a default in `%` strings.
@@ -94,9 +131,9 @@ pub enum Allowed {
     PartAndDrawing,
 }
 
-/// The strings that have attributes.
+/// The kinds of string that have attributes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Holder {
+pub enum AttributeString {
     /// `Name@Parent$ …`
     Part,
     /// `$ …`
@@ -106,12 +143,12 @@ pub enum Holder {
 }
 
 impl Allowed {
-    /// Whether an attribute may stand in such a string.
-    pub fn permits(self, holder: Holder) -> bool {
+    /// Whether an attribute is allowed in such a string.
+    pub fn permits(self, string: AttributeString) -> bool {
         match self {
             Self::Part | Self::PartAndDrawing => true,
-            Self::Drawing => holder == Holder::Defaults,
-            Self::Legend => holder == Holder::Legend,
+            Self::Drawing => string == AttributeString::Defaults,
+            Self::Legend => string == AttributeString::Legend,
         }
     }
 
@@ -125,13 +162,13 @@ impl Allowed {
         }
     }
 
-    /// Where it may stand, in words.
+    /// Where the attribute is allowed, as the end of a sentence.
     pub fn places(self) -> &'static str {
         match self {
             Self::Part => {
                 "in part strings (`Name$ …`), in legends (`$ …`), and as a default for all parts in `%` strings"
             }
-            Self::Drawing => "in `%` strings only, since it is about the whole drawing",
+            Self::Drawing => "in `%` strings only, because it applies to the whole drawing",
             Self::Legend => "in legends only (`$ …`, a text beside a sample of the paint)",
             Self::PartAndDrawing => {
                 "in part strings (`Name$ …`), and in `%` strings for the whole drawing"
@@ -141,7 +178,7 @@ impl Allowed {
 }
 
 impl Keyword {
-    /// The keyword that is written `name`, whatever its case.
+    /// The keyword called `name`, ignoring case.
     pub fn from_name(name: &str) -> Option<Self> {
         Self::ALL
             .iter()
@@ -149,8 +186,8 @@ impl Keyword {
             .find(|keyword| keyword.name().eq_ignore_ascii_case(name))
     }
 
-    /// The keyword that `word` is a slip of the pen for, with the number of letters that differ.
-    pub fn nearly(word: &str) -> Option<(Self, usize)> {
+    /// The keyword that `word` is probably a misspelling of, and their edit distance.
+    pub fn nearest(word: &str) -> Option<(Self, usize)> {
         let lower = word.to_ascii_lowercase();
         let letters = lower.chars().take(32).count();
         if letters >= 32 {
@@ -161,8 +198,8 @@ impl Keyword {
             .copied()
             .filter_map(|keyword| {
                 let name = keyword.name().to_ascii_lowercase();
-                // A third of the letters, as everywhere; of the shorter word, so that short words
-                // are not found in longer ones.
+                // A third of the letters, as in `nearest_word`, but of the shorter word: a short word
+                // must not match a much longer one.
                 let allowed = (letters.min(name.len()) / 3).max(1);
                 if letters < 3 || letters.abs_diff(name.len()) > allowed {
                     return None;
@@ -173,20 +210,7 @@ impl Keyword {
             .min_by_key(|(_, distance)| *distance)
     }
 
-    /// The row of the table.
-    pub fn row(self) -> &'static Row {
-        let index = self as usize;
-        let [figure, scenes] = [figure::ROWS.len(), scenes::ROWS.len()];
-        if index < figure {
-            &figure::ROWS[index]
-        } else if index < figure + scenes {
-            &scenes::ROWS[index - figure]
-        } else {
-            &drawing::ROWS[index - figure - scenes]
-        }
-    }
-
-    /// The printed form of its ways to give arguments: `Origin center|start|end`, `Origin x y`.
+    /// The printed form of each argument list: `Origin center|start|end`, `Origin x y`.
     pub fn usages(self) -> Vec<String> {
         let row = self.row();
         let flags: String = row.flags.iter().map(|flag| flag.letter).collect();
@@ -212,23 +236,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rows_stand_in_the_order_of_the_keywords() {
-        let rows = figure::ROWS.len() + scenes::ROWS.len() + drawing::ROWS.len();
-        assert_eq!(rows, Keyword::ALL.len());
+    fn each_keyword_has_its_own_row() {
         for keyword in Keyword::ALL {
-            assert_eq!(keyword.row().keyword, *keyword);
+            let same = |other: &&Keyword| std::ptr::eq(keyword.row(), other.row());
+            assert_eq!(Keyword::ALL.iter().filter(same).count(), 1);
+            assert!(keyword.row().example.contains(keyword.name()));
         }
     }
 
     #[test]
     fn no_word_of_the_language_is_a_keyword() {
-        for word in words::all() {
+        for word in vocabulary::all() {
             assert_eq!(Keyword::from_name(word), None, "{word}");
         }
     }
 
     #[test]
-    fn usages_show_what_may_be_left_out() {
+    fn usages_show_optional_arguments() {
         assert_eq!(Keyword::Shape.usages(), ["Shape [-scd] kind parameters…"]);
         assert_eq!(
             Keyword::Color.usages(),
@@ -244,10 +268,10 @@ mod tests {
     }
 
     #[test]
-    fn slips_of_the_pen_are_found() {
-        assert_eq!(Keyword::nearly("Colr"), Some((Keyword::Color, 1)));
-        assert_eq!(Keyword::nearly("shpae"), Some((Keyword::Shape, 1)));
-        assert_eq!(Keyword::nearly("w"), None);
-        assert_eq!(Keyword::nearly(&"x".repeat(1 << 20)), None);
+    fn misspelled_keywords_are_recognised() {
+        assert_eq!(Keyword::nearest("Colr"), Some((Keyword::Color, 1)));
+        assert_eq!(Keyword::nearest("shpae"), Some((Keyword::Shape, 1)));
+        assert_eq!(Keyword::nearest("w"), None);
+        assert_eq!(Keyword::nearest(&"x".repeat(1 << 20)), None);
     }
 }

@@ -1,37 +1,37 @@
-//! The annotation language: what a person may write into a drawing.
+//! The annotation language: the strings that people write into a drawing.
 //!
-//! Invariant: this module knows strings, not drawings. [`parse()`] never fails; what it cannot read
-//! becomes a diagnostic, and everything else in the string still counts. One table, [`keyword`], is
-//! the language.
+//! Invariant: this module knows strings, not drawings. [`parse()`] never fails: whatever it cannot read
+//! becomes a diagnostic, and the rest of the string still counts. One table, [`keyword`], defines the
+//! language.
 //!
-//! A string goes through three steps: [`parse()`] gives its syntax tree, [`Variables::collect`] reads
+//! A string goes through three steps: [`parse()`] builds its syntax tree, [`Variables::collect`] reads
 //! the `Let` of all `%` strings, and [`settings`] checks the attributes and computes their values.
 
 pub mod ast;
 pub mod check;
 pub mod explain;
 pub mod keyword;
+pub mod parameter;
 pub mod parse;
 pub mod reference;
-pub mod slot;
 pub mod value;
 pub mod variables;
 
 mod evaluate;
-mod folded;
+mod normalize;
 #[cfg(test)]
 mod tests;
 
 pub use check::settings;
-pub use folded::folded;
-pub use parse::{Place, in_name, in_word, looks_like_string, parse};
-pub use slot::{Slot, slot};
+pub use normalize::normalize;
+pub use parameter::{ParameterRef, parameter_at};
+pub use parse::{Container, is_name_char, is_word_char, looks_like_string, parse};
 pub use variables::Variables;
 
 use crate::diagnostic::Diagnostic;
 use crate::source::Text;
 
-/// Drops fixes that would replace tags between the parts of a text along with it.
+/// Drops fixes that would also replace tags between the pieces of a text.
 fn keep_safe_fixes(text: &Text, diagnostics: &mut [Diagnostic]) {
     for diagnostic in diagnostics {
         diagnostic

@@ -1,88 +1,88 @@
-//! From a string as it is written to its syntax tree.
+//! Parses a string into its syntax tree.
 //!
-//! Nothing stops the parser: after a slip it goes on at the next keyword, the next word that is
-//! nearly a keyword, or the next sign, so that one slip costs one diagnostic and all else counts.
-//! It takes time linear in the string's length.
+//! The parser recovers from errors: it continues at the next keyword, the next misspelled keyword, or
+//! the next sign. One mistake gives one diagnostic, and the rest of the string still counts. Parsing
+//! takes time linear in the string's length.
 
 mod arguments;
 mod attributes;
 mod expression;
 mod lexical;
 mod names;
-pub(in crate::lang) mod slips;
+pub(in crate::lang) mod suggestions;
 
-pub use lexical::in_word;
+pub use lexical::is_word_char;
 
 use std::ops::Range;
 
 use super::ast::{Annotation, Part};
-use super::folded::Folded;
+use super::normalize::Normalized;
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::source::{Span, Text};
 
-/// Where a string stands.
+/// The element that contains a string.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Place {
-    /// In a `<text>` element.
+pub enum Container {
+    /// A `<text>` element.
     Text,
-    /// In the `<desc>` of a shape or a group, to which it is bound.
+    /// The `<desc>` of a shape or a group, which the string is bound to.
     Desc,
 }
 
-/// Reads a string.
-pub fn parse(text: &Text, place: Place) -> (Annotation, Vec<Diagnostic>) {
-    let folded = Folded::new(text.as_str());
+/// Parses a string.
+pub fn parse(text: &Text, container: Container) -> (Annotation, Vec<Diagnostic>) {
+    let normalized = Normalized::new(text.as_str());
     let mut parser = Parser {
         text,
-        folded: &folded,
+        normalized: &normalized,
         at: 0,
         sign_reported: false,
         diagnostics: vec![],
     };
-    let annotation = parser.annotation(place);
+    let annotation = parser.annotation(container);
     let mut diagnostics = parser.diagnostics;
     if !matches!(annotation, Annotation::Caption | Annotation::Empty) {
-        diagnostics.extend(full_width(text, &folded));
+        diagnostics.extend(full_width(text, &normalized));
     }
     super::keep_safe_fixes(text, &mut diagnostics);
     (annotation, diagnostics)
 }
 
-/// Whether `text` looks like a string, which makes its drawing an annotated one: it starts with one
+/// Whether `text` looks like a string, so that its drawing counts as annotated: it starts with one
 /// of `% $ * @`, or has the form `Name@…` or `Name$…`.
 pub fn looks_like_string(text: &str) -> bool {
-    let folded = Folded::new(text);
-    let text = folded.as_str().trim_start();
+    let normalized = Normalized::new(text);
+    let text = normalized.as_str().trim_start();
     if text.starts_with(['%', '$', '*', '@']) {
         return true;
     }
     if text.starts_with(['#', '^']) {
         return false;
     }
-    let behind_name = match lexical::quoted(text) {
+    let after_name = match lexical::quoted(text) {
         Ok((rest, _)) => rest,
-        Err(_) => text.trim_start_matches(in_name),
+        Err(_) => text.trim_start_matches(is_name_char),
     };
-    behind_name.len() < text.len() && behind_name.starts_with(['@', '$'])
+    after_name.len() < text.len() && after_name.starts_with(['@', '$'])
 }
 
-/// Whether a name without quotes may have `c`.
-pub fn in_name(c: char) -> bool {
+/// Whether a name without quotes may contain `c`.
+pub fn is_name_char(c: char) -> bool {
     !c.is_whitespace() && !matches!(c, '@' | '$' | '"' | '(' | ')')
 }
 
-/// A place in the folded string, and what was found so far.
+/// The position in the normalized string, and the diagnostics so far.
 struct Parser<'a> {
     text: &'a Text,
-    folded: &'a Folded<'a>,
+    normalized: &'a Normalized<'a>,
     at: usize,
-    /// Whether a sign where none can stand was reported: those behind it are of the same slip.
+    /// Whether a misplaced sign was reported. Signs after it belong to the same mistake.
     sign_reported: bool,
     diagnostics: Vec<Diagnostic>,
 }
 
 impl<'a> Parser<'a> {
-    fn annotation(&mut self, place: Place) -> Annotation {
+    fn annotation(&mut self, container: Container) -> Annotation {
         self.skip_blank();
         let Some(sign) = self.peek() else {
             return Annotation::Empty;
@@ -98,9 +98,9 @@ impl<'a> Parser<'a> {
                 let sign = self.range(self.at..self.at + 1);
                 self.at += 1;
                 let attributes = self.attributes();
-                match place {
-                    Place::Text => Annotation::Legend(attributes),
-                    Place::Desc => Annotation::Part(Part {
+                match container {
+                    Container::Text => Annotation::Legend(attributes),
+                    Container::Desc => Annotation::Part(Part {
                         attributes,
                         signs: vec![sign],
                         ..Part::default()
@@ -108,13 +108,13 @@ impl<'a> Parser<'a> {
                 }
             }
             '^' => self.feature(),
-            _ => self.part(place),
+            _ => self.part(container),
         }
     }
 
-    /// What is still to be read.
+    /// The unread rest of the string.
     fn rest(&self) -> &'a str {
-        &self.folded.as_str()[self.at..]
+        &self.normalized.as_str()[self.at..]
     }
 
     fn peek(&self) -> Option<char> {
@@ -127,22 +127,22 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Goes on at `rest`, a tail of the string.
+    /// Continues at `rest`, a tail of the string.
     fn move_to(&mut self, rest: &str) {
-        self.at = self.folded.as_str().len() - rest.len();
+        self.at = self.normalized.as_str().len() - rest.len();
     }
 
-    /// Where the folded characters `range` stand in the decoded string.
+    /// The range in the decoded string of a range in the normalized string.
     fn range(&self, range: Range<usize>) -> Range<usize> {
-        self.folded.original(range)
+        self.normalized.original(range)
     }
 
-    /// Where the folded characters `range` stand in the drawing.
+    /// The span in the drawing of a range in the normalized string.
     fn span(&self, range: Range<usize>) -> Span {
         self.text.span(self.range(range))
     }
 
-    /// `written`, escaped to take the place of the folded characters from `offset` on.
+    /// `written`, escaped for insertion at `offset` of the normalized string.
     fn escape(&self, offset: usize, written: &str) -> String {
         self.text
             .escape_at(self.range(offset..offset).start, written)
@@ -153,20 +153,22 @@ impl<'a> Parser<'a> {
     }
 }
 
-/// The hint that full-width signs were read as ASCII.
-fn full_width(text: &Text, folded: &Folded<'_>) -> Option<Diagnostic> {
-    let folds = folded.folds();
-    let (first, last) = (folds.first()?, folds.last()?);
+/// The hint that full-width characters were read as ASCII.
+fn full_width(text: &Text, normalized: &Normalized<'_>) -> Option<Diagnostic> {
+    let replacements = normalized.replacements();
+    let (first, last) = (replacements.first()?, replacements.last()?);
     let span = text.span(first.0.start..last.0.end);
-    let edits = folds
+    let edits = replacements
         .iter()
         .map(|(range, ascii)| Edit {
             span: text.span(range.clone()),
             text: text.escape_at(range.start, ascii),
         })
         .collect();
-    let sign = folds.iter().find(|(_, ascii)| !ascii.trim().is_empty());
-    let message = match sign {
+    let visible = replacements
+        .iter()
+        .find(|(_, ascii)| !ascii.trim().is_empty());
+    let message = match visible {
         Some((range, ascii)) => format!(
             "`{}` is read as `{}`",
             names::shorten(&text.as_str()[range.clone()]),
@@ -175,10 +177,10 @@ fn full_width(text: &Text, folded: &Folded<'_>) -> Option<Diagnostic> {
         None => "a special space is read as a plain one".to_owned(),
     };
     let mut hint = Diagnostic::new(Code::FullWidth, span, message)
-        .label("full-width signs")
+        .label("full-width characters")
         .help("switch the input method to half-width, or apply the fix");
     hint.fixes.push(Fix {
-        title: "Write full-width signs as ASCII".to_owned(),
+        title: "Write full-width characters as ASCII".to_owned(),
         edits,
     });
     Some(hint)

@@ -1,6 +1,6 @@
-//! What is generated from the table: the reference, the manual of diagnostics, the grammars.
+//! Everything generated from the table: the reference, the list of diagnostics, the grammars.
 //!
-//! A test compares each with the file in the repository, and rewrites it on demand.
+//! A test compares each with its file in the repository, and rewrites the file on demand.
 
 mod ebnf;
 mod textmate;
@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 
 use super::explain::{keyword, kind, paragraphs, sentence};
 use super::keyword::kinds::KINDS;
-use super::keyword::words::{FUNCTIONS, STRINGS};
+use super::keyword::vocabulary::{FUNCTIONS, STRINGS};
 use super::keyword::{Keyword, Status};
 use crate::diagnostic::{Code, Severity};
 
@@ -19,9 +19,9 @@ pub use textmate::{injection, textmate};
 const GENERATED: &str =
     "<!-- Generated from the keyword table: `OKOSHI_REWRITE=1 cargo test --test generated`. -->\n";
 
-/// Where the README's table begins.
+/// The line before the README's table.
 pub const TABLE_START: &str = "<!-- keywords -->";
-/// Where the README's table ends.
+/// The line after the README's table.
 pub const TABLE_END: &str = "<!-- /keywords -->";
 
 /// `docs/reference.md`: the whole language.
@@ -82,11 +82,11 @@ pub fn reference() -> String {
     out
 }
 
-/// `docs/diagnostics.md`: a section a code.
+/// `docs/diagnostics.md`: a section for each code.
 pub fn diagnostics() -> String {
     let mut out = format!(
-        "# Diagnostics\n\n{GENERATED}\nErrors keep `okoshi build` from writing; warnings and hints do \
-         not. `okoshi explain CODE` prints a section in the terminal.\n"
+        "# Diagnostics\n\n{GENERATED}\nWith errors, `okoshi build` does not write a model; warnings and hints \
+         do not prevent it. `okoshi explain CODE` prints a section in the terminal.\n"
     );
     for severity in [Severity::Error, Severity::Warning, Severity::Hint] {
         let _ = write!(out, "\n## {}s\n", sentence(severity.name()));
@@ -104,7 +104,7 @@ pub fn diagnostics() -> String {
     out
 }
 
-/// The table of keywords, as the README has it.
+/// The table of keywords, for the README and the reference.
 pub fn keyword_table() -> String {
     let mut out = String::from("| keyword | where | meaning | default |\n|---|---|---|---|\n");
     for keyword in Keyword::ALL {
@@ -127,8 +127,8 @@ pub fn keyword_table() -> String {
     out
 }
 
-/// `readme` with its table of keywords renewed; `None` if it has no place for one.
-pub fn renew_readme(readme: &str) -> Option<String> {
+/// `readme` with its table of keywords updated; `None` if the markers of the table are missing.
+pub fn update_readme(readme: &str) -> Option<String> {
     let (head, rest) = readme.split_once(TABLE_START)?;
     let (_, tail) = rest.split_once(TABLE_END)?;
     let table = keyword_table();
@@ -142,7 +142,7 @@ fn later(status: Status) -> &'static str {
     }
 }
 
-/// A manual page as a section of a larger one.
+/// A page of the manual with its heading two levels deeper, as a section of a larger page.
 fn deeper(page: &str) -> String {
     match page.strip_prefix("# ") {
         Some(rest) => format!("### {rest}"),
@@ -155,12 +155,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_readme_keeps_its_words() {
+    fn the_readme_keeps_its_text() {
         let readme = "a\n<!-- keywords -->\nold\n<!-- /keywords -->\nb\n";
-        let renewed = renew_readme(readme).unwrap();
-        assert!(renewed.starts_with("a\n<!-- keywords -->\n| keyword"));
-        assert!(renewed.ends_with("|\n<!-- /keywords -->\nb\n"));
-        assert_eq!(renew_readme(&renewed), Some(renewed.clone()));
-        assert_eq!(renew_readme("nothing"), None);
+        let updated = update_readme(readme).unwrap();
+        assert!(updated.starts_with("a\n<!-- keywords -->\n| keyword"));
+        assert!(updated.ends_with("|\n<!-- /keywords -->\nb\n"));
+        assert_eq!(update_readme(&updated), Some(updated.clone()));
+        assert_eq!(update_readme("nothing"), None);
     }
 }

@@ -1,4 +1,4 @@
-//! Strings in, diagnostics out.
+//! Tests of the language: strings in, diagnostics out.
 
 mod arguments;
 mod laws;
@@ -9,19 +9,19 @@ mod warnings;
 
 use super::ast::Annotation;
 use super::value::Setting;
-use super::{Place, Variables, parse, settings};
+use super::{Container, Variables, parse, settings};
 use crate::diagnostic::{Diagnostic, sort};
 use crate::source::Text;
 
-/// Everything that is found out about a text.
+/// The result of parsing and checking a text.
 pub(super) struct Reading {
     pub(super) annotation: Annotation,
     pub(super) settings: Vec<Setting>,
     pub(super) diagnostics: Vec<Diagnostic>,
 }
 
-pub(super) fn read(text: &Text, place: Place) -> Reading {
-    let (annotation, mut diagnostics) = parse(text, place);
+pub(super) fn read(text: &Text, container: Container) -> Reading {
+    let (annotation, mut diagnostics) = parse(text, container);
     let variables = Variables::collect([(text, &annotation)], &mut diagnostics);
     let settings = settings(text, &annotation, &variables, &mut diagnostics);
     sort(&mut diagnostics);
@@ -32,7 +32,7 @@ pub(super) fn read(text: &Text, place: Place) -> Reading {
     }
 }
 
-/// The string, and under it each diagnostic with carets at its place in the drawing.
+/// The string, and below it each diagnostic with carets at its span.
 pub(super) fn show(input: &str, diagnostics: &[Diagnostic]) -> String {
     let mut out = format!("{input}\n");
     let column = |offset: usize| input[..offset].chars().count();
@@ -74,10 +74,10 @@ pub(super) fn apply(input: &str, fix: &crate::diagnostic::Fix) -> String {
     out
 }
 
-/// Compares what is said about `input` with `expect`, both without the indentation of the test.
+/// Compares the diagnostics of `input` with `expect`, both without the indentation of the test.
 #[track_caller]
 pub(super) fn check(input: &str, expect: &str) {
-    let reading = read(&Text::plain(input, 0), Place::Text);
+    let reading = read(&Text::plain(input, 0), Container::Text);
     let shown = show(input, &reading.diagnostics);
     if std::env::var_os("OKOSHI_SHOW").is_some() {
         use std::io::Write as _;

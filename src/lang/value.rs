@@ -1,4 +1,4 @@
-//! Strings as they are meant: checked attributes with their values.
+//! The values of checked attributes.
 
 use std::ops::Range;
 
@@ -7,17 +7,17 @@ use super::keyword::Keyword;
 /// An attribute whose arguments were checked and computed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
-    /// Which attribute.
+    /// The attribute's keyword.
     pub keyword: Keyword,
-    /// What it says.
+    /// The attribute's value.
     pub value: Value,
-    /// Its arguments and flags as words, variables resolved, for people: `-cd default -5 5`.
-    pub words: String,
-    /// Where it stands in the decoded string, keyword included.
+    /// Its flags and arguments as text, with variables replaced by their values: `-cd default -5 5`.
+    pub text: String,
+    /// Its range in the decoded string, keyword included.
     pub range: Range<usize>,
 }
 
-/// What an attribute says.
+/// The value of an attribute.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Value {
     /// `Color`, straight sRGB and alpha, each 0 to 1. `alpha` is `None` where the string does not give it.
@@ -54,7 +54,7 @@ pub enum Value {
     },
     /// `Let`: name and value.
     Let(String, f64),
-    /// Nothing: `Backing Hidden`
+    /// No arguments: `Backing Hidden`
     Flag,
 }
 
@@ -124,11 +124,11 @@ pub enum Ground {
     Point([f64; 2]),
 }
 
-/// `+x` and the like: axis 0 to 2 and its sign.
+/// A world axis with a sign, such as `+x`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct SignedAxis {
     /// 0 is x, 1 is y, 2 is z.
     pub axis: usize,
-    /// Whether it points the negative way.
+    /// Whether it points in the negative direction.
     pub negative: bool,
 }

@@ -1,9 +1,9 @@
-//! Variables: what the `Let` of all `%` strings define.
+//! Variables, defined by the `Let` of all `%` strings.
 
 use std::collections::BTreeMap;
 
 use super::ast::{Annotation, Argument, ArgumentKind, Expression, Name};
-use super::evaluate::{Failure, Known, evaluate};
+use super::evaluate::{EvaluationError, Lookup, evaluate};
 use super::keyword::Keyword;
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::source::{Span, Text};
@@ -17,58 +17,58 @@ pub struct Variables {
 /// A variable.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Variable {
-    /// Its value; `None` if its definition has a fault.
+    /// Its value; `None` if its definition has an error.
     pub value: Option<f64>,
-    /// Where the drawing names it first: its name behind `Let`.
-    pub place: Span,
+    /// The name after `Let`.
+    pub definition: Span,
 }
 
-/// Names offered instead of an unknown one are looked for among so many variables at most.
-const OFFERED: usize = 200;
+/// How many variables are searched for one to suggest in place of an unknown name.
+const MAX_CANDIDATES: usize = 200;
 
-/// A definition as it is written.
+/// A definition in a `%` string.
 struct Definition<'a> {
     text: &'a Text,
     value: &'a Argument,
-    /// The value as an expression; `None` if it is no number at all, which the checker tells.
+    /// The value as an expression; `None` if it is not a number, which the checker reports.
     expression: Option<Expression>,
-    place: Span,
+    span: Span,
     state: State,
 }
 
-/// How far the search for a definition's value has come.
+/// The state of a definition in the depth-first search that evaluates all definitions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum State {
-    New,
-    Open,
+    Unvisited,
+    InProgress,
     Done(Option<f64>),
 }
 
 impl Variables {
     /// Reads the definitions of all `%` strings, given in document order with their texts.
     ///
-    /// A definition may stand behind its use. Of two of one name the later holds.
+    /// A variable may be used before its definition. Of two definitions of one name the later one counts.
     pub fn collect<'a>(
         defaults: impl IntoIterator<Item = (&'a Text, &'a Annotation)>,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let mut definitions = BTreeMap::new();
         for (text, annotation) in defaults {
-            define(text, annotation, &mut definitions, diagnostics);
+            collect_string(text, annotation, &mut definitions, diagnostics);
         }
         let names: Vec<String> = definitions.keys().cloned().collect();
         for name in &names {
-            settle(name, &mut definitions, diagnostics);
+            resolve(name, &mut definitions, diagnostics);
         }
         let variables = definitions
             .into_iter()
             .map(|(name, definition)| {
                 let value = match definition.state {
                     State::Done(value) => value,
-                    State::New | State::Open => None,
+                    State::Unvisited | State::InProgress => None,
                 };
-                let place = definition.place;
-                (name, Variable { value, place })
+                let definition = definition.span;
+                (name, Variable { value, definition })
             })
             .collect();
         Self { variables }
@@ -81,35 +81,38 @@ impl Variables {
 
     /// The number that an argument stands for, if it stands for one.
     pub fn value(&self, argument: &Argument) -> Option<f64> {
-        evaluate(&expression(argument)?, &|name| self.known(name)).ok()
+        evaluate(&as_expression(argument)?, &|name| self.lookup(name)).ok()
     }
 
-    /// All variables in the order of their names.
+    /// All variables, sorted by name.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &Variable)> {
         self.variables
             .iter()
             .map(|(name, variable)| (name.as_str(), variable))
     }
 
-    /// What is known about a variable.
-    pub(super) fn known(&self, name: &str) -> Known {
+    /// Looks up a variable.
+    pub(super) fn lookup(&self, name: &str) -> Lookup {
         match self.variables.get(name) {
-            None => Known::Unknown,
-            Some(variable) => variable.value.map_or(Known::Broken, Known::Value),
+            None => Lookup::Undefined,
+            Some(variable) => variable.value.map_or(Lookup::Invalid, Lookup::Value),
         }
     }
 
-    /// The variable that `name` is a slip of the pen for.
+    /// The variable that `name` is probably a misspelling of.
     pub(super) fn nearest(&self, name: &str) -> Option<&str> {
         nearest_word(
             name,
-            self.variables.keys().take(OFFERED).map(String::as_str),
+            self.variables
+                .keys()
+                .take(MAX_CANDIDATES)
+                .map(String::as_str),
         )
     }
 }
 
 /// Adds the definitions of one string.
-fn define<'a>(
+fn collect_string<'a>(
     text: &'a Text,
     annotation: &'a Annotation,
     definitions: &mut BTreeMap<String, Definition<'a>>,
@@ -128,30 +131,26 @@ fn define<'a>(
         if attribute.keyword != Keyword::Let {
             continue;
         }
-        let place = text.span(name.range.clone());
+        let span = text.span(name.range.clone());
         let definition = Definition {
             text,
             value,
-            expression: expression(value),
-            place,
-            state: State::New,
+            expression: as_expression(value),
+            span,
+            state: State::Unvisited,
         };
         if let Some(earlier) = definitions.insert(word.clone(), definition) {
             diagnostics.push(
-                Diagnostic::new(
-                    Code::Overridden,
-                    place,
-                    format!("`{word}` is defined again"),
-                )
-                .label("this definition holds")
-                .related(earlier.place, "this one has no effect"),
+                Diagnostic::new(Code::Overridden, span, format!("`{word}` is defined again"))
+                    .label("this definition counts")
+                    .related(earlier.span, "this one is ignored"),
             );
         }
     }
 }
 
-/// An argument where a number is due, as an expression.
-pub(super) fn expression(argument: &Argument) -> Option<Expression> {
+/// The expression that an argument for a number stands for.
+pub(super) fn as_expression(argument: &Argument) -> Option<Expression> {
     match &argument.kind {
         ArgumentKind::Number(value) => Some(Expression::Number(*value)),
         ArgumentKind::Expression(expression) => Some(expression.clone()),
@@ -163,15 +162,16 @@ pub(super) fn expression(argument: &Argument) -> Option<Expression> {
     }
 }
 
-/// Computes `name` and what it needs, without recursion: chains of definitions may be long.
-fn settle(
+/// Evaluates `name` and the variables it depends on. An explicit stack replaces recursion, because chains of
+/// definitions can be long.
+fn resolve(
     name: &str,
     definitions: &mut BTreeMap<String, Definition<'_>>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    // Each entry with those of the names it needs that were not looked at yet.
+    // The names being evaluated, each with the dependencies that were not visited yet.
     let mut path: Vec<(String, Vec<String>)> = vec![];
-    if let Some(needed) = open(name, definitions) {
+    if let Some(needed) = begin(name, definitions) {
         path.push((name.to_owned(), needed));
     }
     while let Some((_, needed)) = path.last_mut() {
@@ -182,12 +182,12 @@ fn settle(
             continue;
         };
         match definitions.get(&next).map(|definition| definition.state) {
-            Some(State::New) => {
-                if let Some(needed) = open(&next, definitions) {
+            Some(State::Unvisited) => {
+                if let Some(needed) = begin(&next, definitions) {
                     path.push((next, needed));
                 }
             }
-            Some(State::Open) => {
+            Some(State::InProgress) => {
                 let from = path.iter().position(|(name, _)| *name == next).unwrap_or(0);
                 let members: Vec<_> = path[from..].iter().map(|(name, _)| name.clone()).collect();
                 report_cycle(&members, definitions, diagnostics);
@@ -195,7 +195,7 @@ fn settle(
                     needed.clear();
                 }
                 for member in members {
-                    close(&member, None, definitions);
+                    set_value(&member, None, definitions);
                 }
             }
             Some(State::Done(_)) | None => {}
@@ -203,13 +203,13 @@ fn settle(
     }
 }
 
-/// Marks a definition as under way and gives the variables it needs.
-fn open(name: &str, definitions: &mut BTreeMap<String, Definition<'_>>) -> Option<Vec<String>> {
+/// Marks a definition as in progress and returns the variables it depends on, last one first.
+fn begin(name: &str, definitions: &mut BTreeMap<String, Definition<'_>>) -> Option<Vec<String>> {
     let definition = definitions.get_mut(name)?;
-    if definition.state != State::New {
+    if definition.state != State::Unvisited {
         return None;
     }
-    definition.state = State::Open;
+    definition.state = State::InProgress;
     let mut needed = vec![];
     if let Some(expression) = &definition.expression {
         expression.variables(&mut |name| needed.push(name.text.clone()));
@@ -218,13 +218,13 @@ fn open(name: &str, definitions: &mut BTreeMap<String, Definition<'_>>) -> Optio
     Some(needed)
 }
 
-fn close(name: &str, value: Option<f64>, definitions: &mut BTreeMap<String, Definition<'_>>) {
+fn set_value(name: &str, value: Option<f64>, definitions: &mut BTreeMap<String, Definition<'_>>) {
     if let Some(definition) = definitions.get_mut(name) {
         definition.state = State::Done(value);
     }
 }
 
-/// Computes a definition whose needs are settled.
+/// Evaluates a definition whose dependencies have been evaluated.
 fn finish(
     name: &str,
     definitions: &mut BTreeMap<String, Definition<'_>>,
@@ -233,55 +233,56 @@ fn finish(
     let Some(definition) = definitions.get(name) else {
         return;
     };
-    if definition.state != State::Open {
+    if definition.state != State::InProgress {
         return;
     }
-    let known = |name: &str| match definitions.get(name).map(|definition| definition.state) {
-        None => Known::Unknown,
-        Some(State::Done(Some(value))) => Known::Value(value),
-        Some(_) => Known::Broken,
+    let lookup = |name: &str| match definitions.get(name).map(|definition| definition.state) {
+        None => Lookup::Undefined,
+        Some(State::Done(Some(value))) => Lookup::Value(value),
+        Some(_) => Lookup::Invalid,
     };
     let value = match &definition.expression {
         None => None,
-        Some(expression) => match evaluate(expression, &known) {
+        Some(expression) => match evaluate(expression, &lookup) {
             Ok(value) => Some(value),
-            Err(failure) => {
+            Err(error) => {
                 let nearest = |name: &str| {
-                    let names = definitions.keys().take(OFFERED).map(String::as_str);
+                    let names = definitions.keys().take(MAX_CANDIDATES).map(String::as_str);
                     nearest_word(name, names).map(str::to_owned)
                 };
-                let mut told: Vec<_> = tell(failure, definition.text, definition.value, &nearest)
-                    .into_iter()
-                    .collect();
-                super::keep_safe_fixes(definition.text, &mut told);
-                diagnostics.append(&mut told);
+                let mut reported: Vec<_> =
+                    evaluation_diagnostic(error, definition.text, definition.value, &nearest)
+                        .into_iter()
+                        .collect();
+                super::keep_safe_fixes(definition.text, &mut reported);
+                diagnostics.append(&mut reported);
                 None
             }
         },
     };
-    close(name, value, definitions);
+    set_value(name, value, definitions);
 }
 
-/// The diagnostic of an expression without a value.
-pub(super) fn tell(
-    failure: Failure,
+/// The diagnostic for an expression without a value; `None` if the error is reported elsewhere.
+pub(super) fn evaluation_diagnostic(
+    error: EvaluationError,
     text: &Text,
     argument: &Argument,
     nearest: &dyn Fn(&str) -> Option<String>,
 ) -> Option<Diagnostic> {
-    match failure {
-        Failure::Broken => None,
-        Failure::NoNumber(why) => Some(Diagnostic::new(
+    match error {
+        EvaluationError::InvalidVariable => None,
+        EvaluationError::NotANumber(why) => Some(Diagnostic::new(
             Code::OutOfRange,
             text.span(argument.range.clone()),
             format!("this calculation {why}"),
         )),
-        Failure::Unknown(name) => {
+        EvaluationError::UndefinedVariable(name) => {
             let span = text.span(name.range.clone());
             let diagnostic = Diagnostic::new(
                 Code::UnknownVariable,
                 span,
-                format!("no variable is called `{}`", name.text),
+                format!("there is no variable called `{}`", name.text),
             );
             Some(match nearest(&name.text) {
                 Some(near) => diagnostic.label(format!("did you mean `{near}`?")).fix(
@@ -289,7 +290,7 @@ pub(super) fn tell(
                     span,
                     text.escape_at(name.range.start, &near),
                 ),
-                None => diagnostic.label("a number is due here").help(format!(
+                None => diagnostic.label("expected a number").help(format!(
                     "write a number, or define the variable in a `%` string: `%Let {} 10`",
                     name.text
                 )),
@@ -303,28 +304,28 @@ fn report_cycle(
     definitions: &BTreeMap<String, Definition<'_>>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    const SHOWN: usize = 8;
+    const MAX_SHOWN: usize = 8;
     let Some((first, others)) = members.split_first() else {
         return;
     };
     let Some(definition) = definitions.get(first) else {
         return;
     };
-    let mut chain: Vec<&str> = members.iter().take(SHOWN).map(String::as_str).collect();
-    if members.len() > SHOWN {
+    let mut chain: Vec<&str> = members.iter().take(MAX_SHOWN).map(String::as_str).collect();
+    if members.len() > MAX_SHOWN {
         chain.push("…");
     }
     chain.push(first);
     let mut diagnostic = Diagnostic::new(
         Code::VariableCycle,
-        definition.place,
+        definition.span,
         format!("the value of `{first}` depends on itself"),
     )
     .label(chain.join(" → "))
-    .help("give one of them a number");
-    for other in others.iter().take(SHOWN) {
+    .help("give one of these variables a plain number");
+    for other in others.iter().take(MAX_SHOWN) {
         if let Some(definition) = definitions.get(other) {
-            diagnostic = diagnostic.related(definition.place, format!("through `{other}`"));
+            diagnostic = diagnostic.related(definition.span, format!("through `{other}`"));
         }
     }
     diagnostics.push(diagnostic);

@@ -102,7 +102,7 @@ pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
         let string = &bindings.strings[layer.string];
         let settings = string.settings.iter().map(|setting| {
             let report = AttributeReport {
-                value: setting.words.clone(),
+                value: setting.text.clone(),
                 from: SetBy::Own.name(),
             };
             (setting.keyword.name(), report)

@@ -35,7 +35,7 @@ pub(super) fn broken_file(link: &str, error: &bvh::Error, frames: usize, span: S
 /// Something in a file that was read all the same, or left out.
 pub(super) fn note(link: &str, note: &str, span: Span) -> Diagnostic {
     let message = format!("the motion `{link}`: {note}");
-    Diagnostic::new(Code::MotionMended, span, message)
+    Diagnostic::new(Code::MotionRepaired, span, message)
 }
 
 /// A drawing whose clips are too long.

@@ -85,7 +85,7 @@ return {
           ['end'] = { line = first.lnum, character = 999 },
         }
         local fix = h.ask('textDocument/codeAction', { range = range, context = { diagnostics = {}, only = { 'quickfix' } } })[1]
-        h.equal(fix.title, 'Write full-width signs as ASCII')
+        h.equal(fix.title, 'Write full-width characters as ASCII')
         h.apply(fix.edit)
         h.wait('its hint is gone', function()
           return #h.shown() == left

@@ -39,7 +39,7 @@ pub(super) fn kind_arguments(kind: &Kind) -> Vec<String> {
 
 /// The arguments of a keyword in a string, without the first few.
 fn arguments_of(string: &str, keyword: Keyword, skipped: usize) -> Vec<String> {
-    let (annotation, _) = lang::parse(&Text::plain(string, 0), lang::Place::Text);
+    let (annotation, _) = lang::parse(&Text::plain(string, 0), lang::Container::Text);
     let found = attributes(&annotation)
         .iter()
         .find(|attribute| attribute.keyword == keyword);

@@ -127,7 +127,11 @@ fn a_text_that_is_no_drawing_is_read_around_the_place() {
 #[test]
 fn every_example_fills_its_keyword() {
     for keyword in Keyword::ALL {
-        let takes_nothing = keyword.row().forms.iter().all(|form| form.most() == 0);
+        let takes_nothing = keyword
+            .row()
+            .forms
+            .iter()
+            .all(|form| form.max_arguments() == 0);
         assert_eq!(
             example_arguments(*keyword).is_empty(),
             takes_nothing,

@@ -1,22 +1,22 @@
-//! Values from arguments that fit.
+//! Computes the value of an attribute from its arguments.
 
 use super::Checker;
-use super::fit::{Given, Taker};
+use super::arguments::{ArgumentValue, Callee};
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::lang::ast::{Argument, ArgumentKind, Attribute};
-use crate::lang::evaluate::Known;
+use crate::lang::evaluate::Lookup;
 use crate::lang::keyword::signature::{Form, Takes};
 use crate::lang::keyword::{Keyword, Status, kinds};
-use crate::lang::slot::spoken_for;
+use crate::lang::parameter::form_by_first_argument;
 use crate::lang::value::{Ground, Origin, Shape, ShapeKind, SignedAxis, Value};
 
 impl Checker<'_> {
-    /// The value of an attribute and its arguments as words.
+    /// The value of an attribute, and its arguments as text.
     pub(super) fn value(&mut self, attribute: &Attribute) -> Option<(Value, Vec<String>)> {
-        let taker = Taker {
+        let callee = Callee {
             name: attribute.keyword.name(),
             kind: None,
-            place: &attribute.keyword_range,
+            range: &attribute.keyword_range,
             parameters: attribute
                 .keyword
                 .row()
@@ -26,22 +26,22 @@ impl Checker<'_> {
             keyword: attribute.keyword,
         };
         if attribute.keyword == Keyword::Shape {
-            return self.shape(attribute, taker);
+            return self.shape(attribute, callee);
         }
-        if attribute.keyword == Keyword::Color && self.is_told_as_bytes(attribute) {
+        if attribute.keyword == Keyword::Color && self.reports_byte_colour(attribute) {
             return None;
         }
-        let form = self.form(taker, attribute)?;
-        let given = self.fit(taker, form, &attribute.arguments)?;
-        let value = value_of(attribute.keyword, &given)?;
+        let form = self.form(callee, attribute)?;
+        let values = self.match_arguments(callee, form, &attribute.arguments)?;
+        let value = value_of(attribute.keyword, &values)?;
         if let Value::Axes(axes) = &value {
-            self.distinct(axes, attribute)?;
+            self.check_axes(axes, attribute)?;
         }
-        Some((value, given.iter().map(print).collect()))
+        Some((value, values.iter().map(print).collect()))
     }
 
-    /// The form that the first argument speaks for.
-    fn form(&mut self, taker: Taker<'_>, attribute: &Attribute) -> Option<&'static Form> {
+    /// The form that the first argument fits; reports an argument that fits none.
+    fn form(&mut self, callee: Callee<'_>, attribute: &Attribute) -> Option<&'static Form> {
         let forms = attribute.keyword.row().forms;
         let (only, others) = forms.split_first()?;
         let Some(first) = attribute.arguments.first() else {
@@ -50,31 +50,31 @@ impl Checker<'_> {
         if others.is_empty() {
             return Some(only);
         }
-        let found = spoken_for(attribute, &|name| {
-            self.variables.known(name) != Known::Unknown
+        let found = form_by_first_argument(attribute, &|name| {
+            self.variables.lookup(name) != Lookup::Undefined
         });
         if found.is_some() {
             return found;
         }
-        let worded = forms.iter().find(|form| {
+        let with_words = forms.iter().find(|form| {
             form.parameters
                 .iter()
                 .any(|parameter| matches!(parameter.takes, Takes::Choice(_) | Takes::ColourName))
         });
         let fallback = match first.kind {
-            ArgumentKind::Word(_) => worded.unwrap_or(only),
+            ArgumentKind::Word(_) => with_words.unwrap_or(only),
             _ => only,
         };
         let parameter = fallback.parameters.first()?;
         if !matches!(first.kind, ArgumentKind::Word(_)) {
-            self.wrong_type(taker, parameter, first);
+            self.wrong_type(callee, parameter, first);
             return None;
         }
         Some(fallback)
     }
 
-    /// `Color 255 128 0`: says what to write instead.
-    fn is_told_as_bytes(&mut self, attribute: &Attribute) -> bool {
+    /// Reports `Color 255 128 0`, with a fix; returns whether it did.
+    fn reports_byte_colour(&mut self, attribute: &Attribute) -> bool {
         let mut bytes = vec![];
         for argument in &attribute.arguments {
             match argument.kind {
@@ -102,7 +102,7 @@ impl Checker<'_> {
             Diagnostic::new(
                 Code::OutOfRange,
                 span,
-                "red, green and blue go from 0 to 1, not to 255",
+                "red, green and blue go from 0 to 1, not from 0 to 255",
             )
             .fix(
                 format!("Write `#{digits}`"),
@@ -113,24 +113,24 @@ impl Checker<'_> {
         true
     }
 
-    fn distinct(&mut self, axes: &[SignedAxis; 3], attribute: &Attribute) -> Option<()> {
+    fn check_axes(&mut self, axes: &[SignedAxis; 3], attribute: &Attribute) -> Option<()> {
         let [right, up, front] = axes.map(|axis| axis.axis);
         if right != up && up != front && front != right {
-            return self.right_handed(axes, attribute);
+            return self.check_handedness(axes, attribute);
         }
         self.diagnostics.push(
             Diagnostic::new(
                 Code::OutOfRange,
                 self.text.span(attribute.range.clone()),
-                "two directions of `Axes` lie on one axis",
+                "`Axes` uses one axis twice",
             )
-            .help("each of x, y and z must occur once: `%Axes +x +y +z`"),
+            .help("use each of x, y and z once: `%Axes +x +y +z`"),
         );
         None
     }
 
-    /// Directions that make a left hand would show the figure as in a mirror.
-    fn right_handed(&mut self, axes: &[SignedAxis; 3], attribute: &Attribute) -> Option<()> {
+    /// Left-handed axes would mirror the figure.
+    fn check_handedness(&mut self, axes: &[SignedAxis; 3], attribute: &Attribute) -> Option<()> {
         let negative = axes.iter().filter(|axis| axis.negative).count();
         let cyclic = (axes[0].axis + 1) % 3 == axes[1].axis;
         if cyclic == (negative % 2 == 0) {
@@ -139,51 +139,51 @@ impl Checker<'_> {
         let mut diagnostic = Diagnostic::new(
             Code::OutOfRange,
             self.text.span(attribute.range.clone()),
-            "these directions of `Axes` would turn the model into its mirror image",
+            "these `Axes` would mirror the model",
         )
-        .help("turn one of the three round, `+z` into `-z` for example");
+        .help("reverse one of the three directions, for example from `+z` to `-z`");
         if let Some(front) = attribute.arguments.last() {
             let written = &self.text.as_str()[front.range.clone()];
-            let turned = match written.strip_prefix('-') {
+            let reversed = match written.strip_prefix('-') {
                 Some(axis) => format!("+{axis}"),
                 None => format!("-{}", written.trim_start_matches('+')),
             };
             diagnostic = diagnostic.fix(
-                format!("Write `{turned}`"),
+                format!("Write `{reversed}`"),
                 self.text.span(front.range.clone()),
-                turned,
+                reversed,
             );
         }
         self.diagnostics.push(diagnostic);
         None
     }
 
-    fn shape(&mut self, attribute: &Attribute, taker: Taker<'_>) -> Option<(Value, Vec<String>)> {
+    fn shape(&mut self, attribute: &Attribute, callee: Callee<'_>) -> Option<(Value, Vec<String>)> {
         let (first, parameters) = attribute.arguments.split_first()?;
         let ArgumentKind::Word(word) = &first.kind else {
             let parameter = attribute.keyword.row().forms.first()?.parameters.first()?;
-            self.wrong_type(taker, parameter, first);
+            self.wrong_type(callee, parameter, first);
             return None;
         };
         let Some(kind) = kinds::from_name(word) else {
             let names = kinds::KINDS.iter().map(|kind| kind.name);
-            self.unknown_word(taker, first, word, names);
+            self.unknown_word(callee, first, word, names);
             return None;
         };
         if kind.status == Status::Planned {
             self.not_built(kind.name, first.range.clone());
         }
-        let taker = Taker {
+        let callee = Callee {
             name: kind.name,
             kind: Some(kind),
-            place: &first.range,
+            range: &first.range,
             parameters: kind.form.parameters.len(),
             keyword: Keyword::Shape,
         };
-        let given = self.fit(taker, &kind.form, parameters)?;
-        let value = shape_kind(kind.name, &given)?;
-        self.angles(&value, parameters)?;
-        self.thickness(kind.name, &value, attribute, parameters, given.len());
+        let values = self.match_arguments(callee, &kind.form, parameters)?;
+        let value = shape_kind(kind.name, &values)?;
+        self.check_angles(&value, parameters)?;
+        self.check_thickness(kind.name, &value, attribute, parameters, values.len());
         let has = |letter: char| {
             let mut flags = attribute.flags.iter();
             flags.any(|(flag, _)| flag.eq_ignore_ascii_case(&letter))
@@ -195,12 +195,12 @@ impl Checker<'_> {
             centered: has('c'),
         };
         let mut words = vec![kind.name.to_owned()];
-        words.extend(given.iter().map(print));
+        words.extend(values.iter().map(print));
         Some((Value::Shape(shape), words))
     }
 
-    /// Angles of a rounding go up.
-    fn angles(&mut self, kind: &ShapeKind, parameters: &[Argument]) -> Option<()> {
+    /// The first angle of a rounding must be smaller than the second.
+    fn check_angles(&mut self, kind: &ShapeKind, parameters: &[Argument]) -> Option<()> {
         let (ShapeKind::RoundV([a0, a1])
         | ShapeKind::RoundH([a0, a1])
         | ShapeKind::Round([a0, a1], _)) = kind
@@ -217,7 +217,7 @@ impl Checker<'_> {
         let mut diagnostic = Diagnostic::new(
             Code::OutOfRange,
             self.text.span(range),
-            format!("the rounding from {a0} to {a1} degrees is empty"),
+            format!("nothing is left of a rounding from {a0} to {a1} degrees"),
         )
         .label("the first angle must be the smaller one");
         if a0 > a1 {
@@ -235,8 +235,8 @@ impl Checker<'_> {
         None
     }
 
-    /// Warns of a solid without thickness.
-    fn thickness(
+    /// Warns about a solid without thickness.
+    fn check_thickness(
         &mut self,
         name: &str,
         kind: &ShapeKind,
@@ -266,24 +266,24 @@ impl Checker<'_> {
                 self.text.span(range),
                 format!("this `{name}` has no thickness"),
             )
-            .help("for a thin bindings write `Shape flat`, for no solid at all `Shape none`"),
+            .help("write `Shape flat` for a thin sheet, or `Shape none` for no solid at all"),
         );
     }
 }
 
-fn value_of(keyword: Keyword, given: &[Given]) -> Option<Value> {
-    let number = |index: usize| match given.get(index) {
-        Some(Given::Number(value)) => Some(*value),
+fn value_of(keyword: Keyword, values: &[ArgumentValue]) -> Option<Value> {
+    let number = |index: usize| match values.get(index) {
+        Some(ArgumentValue::Number(value)) => Some(*value),
         _ => None,
     };
-    let word = |index: usize| match given.get(index) {
-        Some(Given::Word(word) | Given::Text(word)) => Some(word.clone()),
+    let word = |index: usize| match values.get(index) {
+        Some(ArgumentValue::Word(word) | ArgumentValue::Text(word)) => Some(word.clone()),
         _ => None,
     };
     let pair = || Some([number(0)?, number(1)?]);
     Some(match keyword {
-        Keyword::Color => match given.first()? {
-            Given::Colour([r, g, b, a], written) => Value::Color {
+        Keyword::Color => match values.first()? {
+            ArgumentValue::Colour([r, g, b, a], written) => Value::Color {
                 rgb: [r, g, b].map(|channel| f64::from(*channel) / 255.),
                 alpha: gives_alpha(written).then_some(f64::from(*a) / 255.),
             },
@@ -293,15 +293,15 @@ fn value_of(keyword: Keyword, given: &[Given]) -> Option<Value> {
             },
         },
         Keyword::Shape => return None,
-        Keyword::Origin => Value::Origin(match given.first()? {
-            Given::Word(word) if word == "center" => Origin::Center,
-            Given::Word(word) if word == "start" => Origin::Start,
-            Given::Word(_) => Origin::End,
+        Keyword::Origin => Value::Origin(match values.first()? {
+            ArgumentValue::Word(word) if word == "center" => Origin::Center,
+            ArgumentValue::Word(word) if word == "start" => Origin::Start,
+            ArgumentValue::Word(_) => Origin::End,
             _ => Origin::Point(pair()?),
         }),
-        Keyword::Ground => Value::Ground(match given.first()? {
-            Given::Word(word) if word == "bottom" => Ground::Bottom,
-            Given::Word(_) => Ground::Page,
+        Keyword::Ground => Value::Ground(match values.first()? {
+            ArgumentValue::Word(word) if word == "bottom" => Ground::Bottom,
+            ArgumentValue::Word(_) => Ground::Page,
             _ => Ground::Point(pair()?),
         }),
         Keyword::Emissive => Value::Rgb([number(0)?, number(1)?, number(2)?]),
@@ -324,15 +324,15 @@ fn value_of(keyword: Keyword, given: &[Given]) -> Option<Value> {
         Keyword::Texture | Keyword::Tile | Keyword::Bind | Keyword::Strokes | Keyword::Perform => {
             Value::Word(word(0)?)
         }
-        Keyword::Mark => match given.first()? {
-            Given::Colour(_, written) => Value::Word(written.clone()),
+        Keyword::Mark => match values.first()? {
+            ArgumentValue::Colour(_, written) => Value::Word(written.clone()),
             _ => return None,
         },
         Keyword::Bone | Keyword::Follow => Value::Names(
-            given
+            values
                 .iter()
-                .filter_map(|given| match given {
-                    Given::Name(name) => Some(name.clone()),
+                .filter_map(|value| match value {
+                    ArgumentValue::Name(name) => Some(name.clone()),
                     _ => None,
                 })
                 .collect(),
@@ -351,7 +351,7 @@ fn value_of(keyword: Keyword, given: &[Given]) -> Option<Value> {
     })
 }
 
-/// Whether a written colour says how opaque it is.
+/// Whether a colour, as it is written, sets its opacity.
 fn gives_alpha(written: &str) -> bool {
     match written.strip_prefix('#') {
         Some(digits) => matches!(digits.len(), 4 | 8),
@@ -359,9 +359,9 @@ fn gives_alpha(written: &str) -> bool {
     }
 }
 
-fn shape_kind(name: &str, given: &[Given]) -> Option<ShapeKind> {
-    let number = |index: usize| match given.get(index) {
-        Some(Given::Number(value)) => Some(*value),
+fn shape_kind(name: &str, values: &[ArgumentValue]) -> Option<ShapeKind> {
+    let number = |index: usize| match values.get(index) {
+        Some(ArgumentValue::Number(value)) => Some(*value),
         _ => None,
     };
     let angles = [number(0).unwrap_or(-90.), number(1).unwrap_or(90.)];
@@ -380,8 +380,8 @@ fn shape_kind(name: &str, given: &[Given]) -> Option<ShapeKind> {
         "coneh" => ShapeKind::ConeH(cone),
         "inflate" => ShapeKind::Inflate(number(0)),
         "lathe" => ShapeKind::Lathe(number(0).unwrap_or(360.)),
-        "model" => match given.first()? {
-            Given::Text(file) => ShapeKind::Model(file.clone()),
+        "model" => match values.first()? {
+            ArgumentValue::Text(file) => ShapeKind::Model(file.clone()),
             _ => return None,
         },
         "flat" => ShapeKind::Flat(number(0).unwrap_or(0.)),
@@ -398,11 +398,11 @@ fn signed_axis(word: &str) -> Option<SignedAxis> {
     })
 }
 
-/// An argument as it is written, its value put in.
-fn print(given: &Given) -> String {
-    match given {
-        Given::Number(value) => format!("{value}"),
-        Given::Word(word) | Given::Colour(_, word) => word.clone(),
-        Given::Text(text) | Given::Name(text) => format!("\"{text}\""),
+/// An argument as text, with variables replaced by their values.
+fn print(value: &ArgumentValue) -> String {
+    match value {
+        ArgumentValue::Number(number) => format!("{number}"),
+        ArgumentValue::Word(word) | ArgumentValue::Colour(_, word) => word.clone(),
+        ArgumentValue::Text(text) | ArgumentValue::Name(text) => format!("\"{text}\""),
     }
 }

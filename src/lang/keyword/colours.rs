@@ -1,6 +1,6 @@
-//! Colours by name.
+//! CSS colour names.
 
-/// The colours' names as in CSS.
+/// All CSS colour names.
 #[rustfmt::skip]
 pub static COLOURS: [&str; 148] = [
     "aliceblue", "antiquewhite", "aqua", "aquamarine", "azure", "beige", "bisque", "black",
@@ -28,22 +28,22 @@ pub static COLOURS: [&str; 148] = [
     "yellow", "yellowgreen",
 ];
 
-/// Whether `word` is a colour's name as in CSS.
+/// Whether `word` is a CSS colour name.
 pub fn is_colour(word: &str) -> bool {
     colour(word).is_some()
 }
 
-/// The colour that CSS calls `name`: red, green, blue and alpha, each 0 to 255.
+/// The CSS colour called `name`: red, green, blue and alpha, each 0 to 255.
 pub fn colour(name: &str) -> Option<[u8; 4]> {
     use std::str::FromStr as _;
-    // Colour names of CSS are letters; functions and `currentColor` are no names.
+    // CSS colour names consist of letters. Functions such as `rgb()` and `currentColor` are not names.
     if !name.bytes().all(|byte| byte.is_ascii_alphabetic()) || name.len() > 24 {
         return None;
     }
     let lower = name.to_ascii_lowercase();
     match lower.as_str() {
         "currentcolor" => return None,
-        // Newer than the list of names that `svgtypes` has.
+        // `svgtypes` does not know this newer name.
         "rebeccapurple" => return Some([102, 51, 153, 255]),
         _ => {}
     }
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn colours_are_those_of_css() {
+    fn colours_are_the_css_colours() {
         assert_eq!(colour("Orange"), Some([255, 165, 0, 255]));
         assert_eq!(colour("currentColor"), None);
         assert_eq!(colour("rgb"), None);

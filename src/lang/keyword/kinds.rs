@@ -1,16 +1,16 @@
 //! The kinds of `Shape`.
 
 use super::Status;
-use super::signature::{Bounds, Form, Grain, Parameter, Takes, number};
+use super::signature::{Bounds, Form, Parameter, Restriction, Takes, number};
 
 /// What the table says about a kind of `Shape`.
 #[derive(Debug)]
 pub struct Kind {
-    /// How it is written.
+    /// The word after `Shape`.
     pub name: &'static str,
     /// Its parameters.
     pub form: Form,
-    /// What they are where they are not given.
+    /// The values of parameters that are not given.
     pub default: &'static str,
     /// One line.
     pub summary: &'static str,
@@ -18,39 +18,39 @@ pub struct Kind {
     pub long: &'static str,
     /// A whole string that uses it.
     pub example: &'static str,
-    /// Whether this version acts upon it.
+    /// Whether this version supports it.
     pub status: Status,
 }
 
 const A0: Parameter = number(
     "a0",
     Bounds::QUARTER,
-    "where the rounding begins: -90 is the back, 0 the drawing plane, degrees",
+    "where the rounding begins, in degrees: -90 is the back, 0 the drawing plane",
 );
 const A1: Parameter = number(
     "a1",
     Bounds::QUARTER,
-    "where the rounding ends: 0 is the drawing plane, 90 the front, degrees",
+    "where the rounding ends, in degrees: 0 is the drawing plane, 90 the front",
 );
 const R: Parameter = number(
     "r",
     Bounds::NOT_NEGATIVE,
-    "how far it comes out of the drawing, drawing units",
+    "how far it comes out of the drawing plane, in drawing units",
 );
 const Z0: Parameter = number(
     "z0",
     Bounds::ANY,
-    "depth of one end, towards the viewer, drawing units",
+    "depth of one end, in drawing units towards the viewer",
 );
 const Z1: Parameter = number(
     "z1",
     Bounds::ANY,
-    "depth of the other end, towards the viewer, drawing units",
+    "depth of the other end, in drawing units towards the viewer",
 );
 const TOP: Parameter = number(
     "top",
     Bounds::NOT_NEGATIVE,
-    "size at `z1` over the size at `z0`",
+    "size at `z1` divided by the size at `z0`",
 );
 
 static ANGLES: [Parameter; 2] = [A0, A1];
@@ -60,12 +60,12 @@ static CONE: [Parameter; 3] = [Z0, Z1, TOP];
 static HEIGHT: [Parameter; 1] = [number(
     "h",
     Bounds::NOT_NEGATIVE,
-    "height of the highest point, drawing units",
+    "height of the highest point, in drawing units",
 )];
 static TURN: [Parameter; 1] = [number(
     "degrees",
-    Bounds::new(0., 360., Grain::Above),
-    "how far it is turned",
+    Bounds::new(0., 360., Restriction::MinExclusive),
+    "how far it is turned about the axis",
 )];
 static FILE: [Parameter; 1] = [Parameter {
     name: "file.glb",
@@ -75,72 +75,68 @@ static FILE: [Parameter; 1] = [Parameter {
 static DEPTH: [Parameter; 1] = [number(
     "z",
     Bounds::ANY,
-    "depth towards the viewer, drawing units",
+    "depth towards the viewer, in drawing units",
 )];
-
-const fn form(parameters: &'static [Parameter], counts: &'static [usize]) -> Form {
-    Form { parameters, counts }
-}
 
 /// All kinds, in the order of the reference.
 pub static KINDS: [Kind; 12] = [
     Kind {
         name: "default",
-        form: form(&DEPTHS, &[0, 2]),
+        form: Form::new(&DEPTHS, &[0, 2]),
         default: "2.5 % of the page's diagonal to the front and to the back",
         summary: "a plate: the outline from depth `z0` to depth `z1`",
         long: "The drawn outline becomes a plate with straight walls, like something sawn out of \
-               wood. `z0` and `z1` say how far it reaches to the back (negative) and to the front \
+               wood. `z0` and `z1` say how far it extends to the back (negative) and to the front \
                (positive), in drawing units.",
         example: "Ubody$Shape default -10 10",
         status: Status::Built,
     },
     Kind {
         name: "roundv",
-        form: form(&ANGLES, &[0, 2]),
+        form: Form::new(&ANGLES, &[0, 2]),
         default: "-90 90",
         summary: "rounded about the part's axis: an arm, a leg, a trunk",
         long: "The part is rounded about its long axis, so that a drawn bar becomes a cylinder and \
-               a drawn carrot a carrot. The angles say how much of the turn is kept: `-90 90` is \
-               the whole of it, `0 90` the front half, `-90 0` the back half.",
+               a drawn carrot becomes a carrot. The angles say how much of the rounding is kept: \
+               `-90 90` is all of it, `0 90` the front half, `-90 0` the back half.",
         example: "Rarm@Ubody$Shape roundv -90 90",
         status: Status::Built,
     },
     Kind {
         name: "roundh",
-        form: form(&ANGLES, &[0, 2]),
+        form: Form::new(&ANGLES, &[0, 2]),
         default: "-90 90",
         summary: "rounded across the part's axis: a wheel seen from its edge, a drum on its side",
         long: "Like `roundv`, but rounded the other way: the cylinder lies across the part's long \
-               axis. The angles say how much of the turn is kept.",
+               axis. The angles say how much of the rounding is kept.",
         example: "Drum$Shape roundh",
         status: Status::Built,
     },
     Kind {
         name: "round",
-        form: form(&ROUND, &[0, 2, 3]),
+        form: Form::new(&ROUND, &[0, 2, 3]),
         default: "-90 90, and as deep as the part's smaller half extent",
         summary: "rounded on all sides: a ball, an egg, a head",
         long: "The part is rounded both ways: a circle becomes a ball, an ellipse an egg. The \
-               angles say how much of the turn is kept (`0 90` is a dome), `r` how far it comes out \
-               of the drawing, in drawing units.",
+               angles say how much of the rounding is kept (`0 90` is a dome), `r` how far it comes \
+               out of the drawing plane, in drawing units.",
         example: "Head@Ubody$Shape round -90 90 25",
         status: Status::Built,
     },
     Kind {
         name: "cone",
-        form: form(&CONE, &[0, 2, 3]),
+        form: Form::new(&CONE, &[0, 2, 3]),
         default: "0 20 0",
         summary: "narrows from `z0` to `z1`: a cone, a pyramid, a nose",
-        long: "The outline stands in full size at depth `z0` and shrinks to `top` times its size at \
-               depth `z1`. A `top` of 0 is a point, 0.5 half the size, 1 a plate. A circle becomes \
-               a cone, a square a pyramid.",
+        long: "The outline has its full size at depth `z0` and shrinks to `top` times that size at \
+               depth `z1`. A `top` of 0 gives a point, 0.5 half the size, 1 a plate. A circle \
+               becomes a cone, a square a pyramid.",
         example: "Nose@Head$Shape cone 0 12 0.2",
         status: Status::Built,
     },
     Kind {
         name: "conev",
-        form: form(&CONE, &[0, 2, 3]),
+        form: Form::new(&CONE, &[0, 2, 3]),
         default: "0 20 0",
         summary: "narrows across the axis only: a roof along the axis, a wedge",
         long: "Like `cone`, but only the width across the part's axis shrinks. A bar becomes a roof \
@@ -150,7 +146,7 @@ pub static KINDS: [Kind; 12] = [
     },
     Kind {
         name: "coneh",
-        form: form(&CONE, &[0, 2, 3]),
+        form: Form::new(&CONE, &[0, 2, 3]),
         default: "0 20 0",
         summary: "narrows along the axis only: a roof across the axis, a wedge",
         long: "Like `cone`, but only the length along the part's axis shrinks. A bar becomes a roof \
@@ -160,60 +156,60 @@ pub static KINDS: [Kind; 12] = [
     },
     Kind {
         name: "inflate",
-        form: form(&HEIGHT, &[0, 1]),
-        default: "as high as it is round, at most half the part's smaller extent",
-        summary: "blown up like a balloon: any outline, round inside",
+        form: Form::new(&HEIGHT, &[0, 1]),
+        default: "as high as it comes out round, at most half the part's smaller extent",
+        summary: "blown up like a balloon: any outline, rounded inside",
         long: "The outline is blown up to both sides, as if two pieces of cloth were sewn together \
-               along it and filled. `h` is the height of the highest point, in drawing units; all \
-               else follows it, so that thin limbs come out thinner than the trunk, and walls \
-               round holes like tubes. A disc becomes a ball; what is thin everywhere, a ring or a letter, \
-               stays about as thick as its stroke is wide. Good for hands, leaves, clouds, \
-               animals: outlines for which the round kinds are too regular.",
+               along it and filled. `h` is the height of the highest point, in drawing units. The \
+               rest scales with it: thin limbs come out thinner than the trunk, and the material \
+               around a hole becomes a tube. A disc becomes a ball; a shape that is thin \
+               everywhere, such as a ring or a letter, becomes about as thick as its stroke is \
+               wide. Good for hands, leaves, clouds and animals: outlines for which the round \
+               kinds are too regular.",
         example: "Cloud$Shape inflate 12",
         status: Status::Built,
     },
     Kind {
         name: "lathe",
-        form: form(&TURN, &[0, 1]),
+        form: Form::new(&TURN, &[0, 1]),
         default: "360",
         summary: "turned like a vase: half the outline, turned about the part's axis",
         long: "Half the outline is turned about the part's axis, which runs through the part's middle, \
-               as on a potter's wheel. Both halves count: what stands out on one side only goes all \
-               the way round, so that the front looks like the drawing. What does not reach the axis \
-               becomes a ring, a hole in both halves a hollow. `degrees` is how far it is turned, \
-               evenly to both sides of the viewer: 360 makes it whole, 180 is the front half, closed \
-               by a flat back.",
+               as on a potter's wheel. Both halves count: a bulge on one side only goes all the way \
+               round, so that the front looks like the drawing. A region that does not reach the \
+               axis becomes a ring, and a hole in both halves becomes a hollow. `degrees` is how \
+               far the outline is turned, half of it to each side of the viewer: 360 makes a \
+               complete turn, 180 the front half, closed by a flat back.",
         example: "Vase$Shape lathe 360",
         status: Status::Built,
     },
     Kind {
         name: "model",
-        form: form(&FILE, &[1]),
+        form: Form::new(&FILE, &[1]),
         default: "",
-        summary: "a ready model from a file, fitted to the part's box",
-        long: "Instead of a solid made from the outline, a ready glTF model is put there, `.glb` or \
-               `.gltf`, with its own materials and textures. It is made as large as it fits into the part's \
-               box; its up leads along the part's axis (`Axis 90` keeps it upright), its front to the viewer. \
-               The file must lie in the drawing's folder or below it.",
+        summary: "a ready-made model from a file, fitted to the part's bounding box",
+        long: "A ready-made glTF model (`.glb` or `.gltf`) takes the place of the outline's solid, \
+               with its own materials and textures. It is scaled to fit the part's bounding box. \
+               Its up direction follows the part's axis (`Axis 90` keeps it upright), and its front \
+               faces the viewer. The file must be in the drawing's folder or below it.",
         example: "Sword@Rarm$Shape model \"sword.glb\"",
         status: Status::Built,
     },
     Kind {
         name: "flat",
-        form: form(&DEPTH, &[0, 1]),
+        form: Form::new(&DEPTH, &[0, 1]),
         default: "0",
         summary: "the outline alone, like paper",
-        long: "The part stays a thin bindings that is seen from both sides. `z` is the depth at which \
-               it lies.",
+        long: "The part stays a thin sheet that is visible from both sides. `z` is its depth.",
         example: "Eye@Head$Shape flat 26",
         status: Status::Built,
     },
     Kind {
         name: "none",
-        form: form(&[], &[0]),
+        form: Form::new(&[], &[0]),
         default: "",
         summary: "no solid: a joint only",
-        long: "The part makes no solid, but it is there as a joint on which other parts can hang.",
+        long: "The part has no solid, but it is a joint that other parts can be attached to.",
         example: "Hips$Shape none",
         status: Status::Built,
     },
@@ -238,7 +234,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn usages_show_what_may_be_left_out() {
+    fn usages_show_optional_parameters() {
         let usages: Vec<_> = KINDS.iter().map(Kind::usage).collect();
         assert_eq!(
             usages,

@@ -1,28 +1,28 @@
-//! What arguments an attribute takes, as data.
+//! The signatures of attributes: which arguments they take, as data.
 
-use super::words::Word;
+use super::vocabulary::Word;
 
-/// One way to give the arguments of a keyword, or the parameters of a kind of `Shape`.
+/// One of the argument lists that a keyword accepts, or the parameter list of a kind of `Shape`.
 #[derive(Debug)]
 pub struct Form {
     /// The parameters, in order.
     pub parameters: &'static [Parameter],
-    /// How many of them may be given; ascending.
+    /// How many arguments may be given, in ascending order.
     pub counts: &'static [usize],
 }
 
 /// One parameter.
 #[derive(Debug)]
 pub struct Parameter {
-    /// Its name in the reference.
+    /// The name in the reference.
     pub name: &'static str,
-    /// What it means, in a few words.
+    /// A few words.
     pub summary: &'static str,
-    /// What it takes.
+    /// The type of argument.
     pub takes: Takes,
 }
 
-/// What a parameter takes.
+/// The type of argument that a parameter takes.
 #[derive(Debug)]
 pub enum Takes {
     /// A number, an expression or a variable.
@@ -31,85 +31,91 @@ pub enum Takes {
     Choice(&'static [Word]),
     /// `#rgb`, `#rrggbb`, `#rrggbbaa`
     Hex,
-    /// A colour's name as in CSS.
+    /// A CSS colour name.
     ColourName,
     /// A kind of `Shape`; the kind's own parameters follow.
     Kind,
     /// `+x` and the like.
     SignedAxis,
-    /// A file's name, best in quotes.
+    /// A file name, best in quotes.
     File,
     /// Some text, in quotes if it is more than one word.
     Text,
     /// The name of a new variable.
     Variable,
-    /// One or more names; takes all arguments that are left.
+    /// One or more names: takes all remaining arguments.
     Names,
 }
 
 /// The numbers that a parameter takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
-    /// The least.
+    /// The smallest number.
     pub min: f64,
-    /// The largest.
+    /// The largest number.
     pub max: f64,
-    /// What else they must be.
-    pub grain: Grain,
+    /// What else holds for the numbers.
+    pub restriction: Restriction,
 }
 
-/// What numbers between two bounds count.
+/// Which numbers between two bounds are allowed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Grain {
+pub enum Restriction {
     /// All of them.
-    Any,
+    None,
     /// All but the lower bound itself.
-    Above,
+    MinExclusive,
     /// Whole numbers.
-    Whole,
+    Integer,
 }
 
 impl Bounds {
     /// Any number.
-    pub const ANY: Self = Self::new(f64::NEG_INFINITY, f64::INFINITY, Grain::Any);
-    /// A share: 0 to 1.
-    pub const SHARE: Self = Self::new(0., 1., Grain::Any);
+    pub const ANY: Self = Self::new(f64::NEG_INFINITY, f64::INFINITY, Restriction::None);
+    /// 0 to 1.
+    pub const FRACTION: Self = Self::new(0., 1., Restriction::None);
     /// 0 or more.
-    pub const NOT_NEGATIVE: Self = Self::new(0., f64::INFINITY, Grain::Any);
+    pub const NOT_NEGATIVE: Self = Self::new(0., f64::INFINITY, Restriction::None);
     /// More than 0.
-    pub const POSITIVE: Self = Self::new(0., f64::INFINITY, Grain::Above);
+    pub const POSITIVE: Self = Self::new(0., f64::INFINITY, Restriction::MinExclusive);
     /// 0, 1, 2 …
-    pub const COUNT: Self = Self::new(0., 1e6, Grain::Whole);
-    /// An angle of a rounding.
-    pub const QUARTER: Self = Self::new(-90., 90., Grain::Any);
+    pub const COUNT: Self = Self::new(0., 1e6, Restriction::Integer);
+    /// An angle of a rounding, in degrees.
+    pub const QUARTER: Self = Self::new(-90., 90., Restriction::None);
 
     /// Numbers from `min` to `max`.
-    pub const fn new(min: f64, max: f64, grain: Grain) -> Self {
-        Self { min, max, grain }
+    pub const fn new(min: f64, max: f64, restriction: Restriction) -> Self {
+        Self {
+            min,
+            max,
+            restriction,
+        }
     }
 
-    /// Whether `number` is one of them.
-    pub fn holds(self, number: f64) -> bool {
+    /// Whether `number` is allowed.
+    pub fn contains(self, number: f64) -> bool {
         let in_range = (self.min..=self.max).contains(&number);
         in_range
-            && match self.grain {
-                Grain::Any => true,
-                Grain::Above => number > self.min,
-                Grain::Whole => number.fract() == 0.,
+            && match self.restriction {
+                Restriction::None => true,
+                Restriction::MinExclusive => number > self.min,
+                Restriction::Integer => number.fract() == 0.,
             }
     }
 
     /// The bounds in words: `a number from 0 to 1`.
     pub fn describe(self) -> String {
-        let noun = match self.grain {
-            Grain::Whole => "a whole number",
-            Grain::Any | Grain::Above => "a number",
+        let noun = match self.restriction {
+            Restriction::Integer => "a whole number",
+            Restriction::None | Restriction::MinExclusive => "a number",
         };
         match (self.min.is_finite(), self.max.is_finite()) {
-            _ if self.grain == Grain::Above && self.max.is_finite() => {
+            _ if self.restriction == Restriction::MinExclusive && self.max.is_finite() => {
                 format!("{noun} above {}, up to {}", self.min, self.max)
             }
-            _ if self.grain == Grain::Above => format!("{noun} above {}", self.min),
+            _ if self.restriction == Restriction::MinExclusive => {
+                format!("{noun} above {}", self.min)
+            }
             (true, true) => format!("{noun} from {} to {}", self.min, self.max),
             (true, false) => format!("{noun} of at least {}", self.min),
             (false, true) => format!("{noun} of at most {}", self.max),
@@ -119,7 +125,7 @@ impl Bounds {
 }
 
 impl Takes {
-    /// What is due, in words.
+    /// The type in words, for messages that say what was expected.
     pub fn describe(&self) -> String {
         match self {
             Self::Number(bounds) => bounds.describe(),
@@ -131,10 +137,10 @@ impl Takes {
                 format!("one of {}", names.join(", "))
             }
             Self::Hex => "a colour as `#rrggbb`".to_owned(),
-            Self::ColourName => "a colour's name as in CSS, `orange` for example".to_owned(),
+            Self::ColourName => "a CSS colour name, `orange` for example".to_owned(),
             Self::Kind => "a kind of shape, `roundv` for example".to_owned(),
             Self::SignedAxis => "one of `+x`, `-x`, `+y`, `-y`, `+z`, `-z`".to_owned(),
-            Self::File => "a file's name in quotes".to_owned(),
+            Self::File => "a file name in quotes".to_owned(),
             Self::Text => "a word, or text in quotes".to_owned(),
             Self::Variable => "the name of a variable".to_owned(),
             Self::Names => "one or more names".to_owned(),
@@ -143,8 +149,13 @@ impl Takes {
 }
 
 impl Form {
+    /// A form with these parameters, of which as many may be given as `counts` says.
+    pub(super) const fn new(parameters: &'static [Parameter], counts: &'static [usize]) -> Self {
+        Self { parameters, counts }
+    }
+
     /// The largest number of arguments.
-    pub fn most(&self) -> usize {
+    pub fn max_arguments(&self) -> usize {
         match self.parameters.last() {
             Some(Parameter {
                 takes: Takes::Names,
@@ -154,9 +165,9 @@ impl Form {
         }
     }
 
-    /// Whether so many arguments are right.
-    pub fn fits(&self, count: usize) -> bool {
-        self.counts.contains(&count) || (self.most() == usize::MAX && count > 0)
+    /// Whether `count` arguments may be given.
+    pub fn accepts(&self, count: usize) -> bool {
+        self.counts.contains(&count) || (self.max_arguments() == usize::MAX && count > 0)
     }
 
     /// The printed form: `r g b [a]`.
@@ -179,7 +190,7 @@ impl Form {
 }
 
 impl Parameter {
-    /// The printed form: the name, or what is written literally.
+    /// The printed form: the name, or the words to choose from.
     pub fn print(&self) -> String {
         match &self.takes {
             Takes::Choice(words) => {
@@ -195,13 +206,35 @@ impl Parameter {
     }
 }
 
-/// A form with no arguments.
-pub(super) const NOTHING: &[Form] = &[Form {
-    parameters: &[],
-    counts: &[0],
+/// The forms of a keyword without arguments.
+pub(super) const NO_ARGUMENTS: &[Form] = &[Form::new(&[], &[0])];
+
+/// A file of the drawing.
+pub(super) static FILE: [Parameter; 1] = [Parameter {
+    name: "file",
+    summary: "a file in the drawing's folder",
+    takes: Takes::File,
+}];
+/// A colour in hexadecimal digits.
+pub(super) static HEX: [Parameter; 1] = [Parameter {
+    name: "hex",
+    summary: "the colour; the seventh and eighth digit give the opacity",
+    takes: Takes::Hex,
+}];
+/// A colour by name.
+pub(super) static COLOUR_NAME: [Parameter; 1] = [Parameter {
+    name: "colour",
+    summary: "the colour's CSS name",
+    takes: Takes::ColourName,
+}];
+/// A list of names.
+pub(super) static NAMES: [Parameter; 1] = [Parameter {
+    name: "name",
+    summary: "one name or several",
+    takes: Takes::Names,
 }];
 
-/// A number of the name `name`.
+/// A parameter that takes a number.
 pub(super) const fn number(name: &'static str, bounds: Bounds, summary: &'static str) -> Parameter {
     Parameter {
         name,
@@ -215,20 +248,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bounds_are_told_in_words() {
+    fn bounds_are_described_in_words() {
         for (bounds, words) in [
             (Bounds::ANY, "a number"),
-            (Bounds::SHARE, "a number from 0 to 1"),
+            (Bounds::FRACTION, "a number from 0 to 1"),
             (Bounds::POSITIVE, "a number above 0"),
             (Bounds::NOT_NEGATIVE, "a number of at least 0"),
             (
-                Bounds::new(1., 256., Grain::Whole),
+                Bounds::new(1., 256., Restriction::Integer),
                 "a whole number from 1 to 256",
             ),
         ] {
             assert_eq!(bounds.describe(), words);
         }
-        assert!(!Bounds::POSITIVE.holds(0.) && Bounds::POSITIVE.holds(1e-9));
-        assert!(!Bounds::COUNT.holds(1.5) && !Bounds::ANY.holds(f64::NAN));
+        assert!(!Bounds::POSITIVE.contains(0.) && Bounds::POSITIVE.contains(1e-9));
+        assert!(!Bounds::COUNT.contains(1.5) && !Bounds::ANY.contains(f64::NAN));
     }
 }

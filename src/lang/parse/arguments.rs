@@ -1,20 +1,20 @@
-//! Arguments: numbers, words, quotes, colours and expressions.
+//! Parses arguments: numbers, words, quotes, colours and expressions.
 
 use std::ops::Range;
 
 use nom::Err;
 
-use super::expression::{DEPTH, Fault, OPERATIONS, Reader};
+use super::expression::{ExpressionError, ExpressionParser, MAX_DEPTH, MAX_OPERATORS};
 use super::names::shorten;
-use super::{Parser, lexical, slips};
+use super::{Parser, lexical, suggestions};
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::{Argument, ArgumentKind, Expression, Function};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::signature::Takes;
-use crate::lang::keyword::words::FUNCTIONS;
+use crate::lang::keyword::vocabulary::FUNCTIONS;
 
 impl Parser<'_> {
-    /// Reads the argument that comes next; there is one.
+    /// Parses the next argument; there must be one.
     pub(super) fn argument(
         &mut self,
         keyword: Keyword,
@@ -46,7 +46,7 @@ impl Parser<'_> {
         let start = self.at;
         self.at += 1;
         self.skip_to_attribute(false);
-        let end = start + self.folded.as_str()[start..self.at].trim_end().len();
+        let end = start + self.normalized.as_str()[start..self.at].trim_end().len();
         self.at = end;
         self.unclosed_quote(start, end);
         ArgumentKind::Unreadable
@@ -57,7 +57,7 @@ impl Parser<'_> {
         let diagnostic = Diagnostic::new(
             Code::UnclosedParenthesis,
             span,
-            "this `)` closes nothing: `(` is missing",
+            "this `)` has no matching `(`",
         )
         .fix("Delete it", span, "");
         self.report(diagnostic);
@@ -65,17 +65,17 @@ impl Parser<'_> {
     }
 
     fn expression(&mut self) -> ArgumentKind {
-        let folded = self.folded;
-        let whole = folded.as_str();
+        let normalized = self.normalized;
+        let whole = normalized.as_str();
         let start = self.at;
         let (close, region) = match closing(self.rest()) {
             Ok(close) => (Some(start + close), start + close),
             Err(end) => (None, start + end),
         };
-        let reader = Reader::new(folded);
-        let parsed = reader.sum(&whole[start + 1..], DEPTH);
+        let parser = ExpressionParser::new(normalized);
+        let parsed = parser.sum(&whole[start + 1..], MAX_DEPTH);
         let Some(close) = close else {
-            // What can be read of it is the calculation; go on behind that.
+            // Continue after the part that can be read as a calculation.
             self.at = match &parsed {
                 Ok((rest, _)) => (whole.len() - rest.len()).min(region),
                 Err(_) => start + whole[start..region].trim_end().len(),
@@ -91,49 +91,50 @@ impl Parser<'_> {
             return ArgumentKind::Unreadable;
         };
         self.at = close + 1;
-        let fault = match parsed {
+        let error = match parsed {
             Ok((rest, value)) if whole.len() - rest.trim_start().len() == close => {
                 return ArgumentKind::Expression(value);
             }
-            Ok((rest, _)) => {
-                Fault::Expected("a sign of arithmetic is due here", rest.trim_start().len())
-            }
-            Err(Err::Error(fault) | Err::Failure(fault)) => fault,
-            Err(Err::Incomplete(_)) => Fault::Mismatch,
+            Ok((rest, _)) => ExpressionError::Expected(
+                "expected an operator: `+`, `-`, `*` or `/`",
+                rest.trim_start().len(),
+            ),
+            Err(Err::Error(error) | Err::Failure(error)) => error,
+            Err(Err::Incomplete(_)) => ExpressionError::Mismatch,
         };
-        let diagnostic = self.fault(fault, start..close + 1);
+        let diagnostic = self.expression_diagnostic(error, start..close + 1);
         self.report(diagnostic);
         ArgumentKind::Unreadable
     }
 
-    /// What a fault of the expression in `range` is called.
-    fn fault(&self, fault: Fault, range: Range<usize>) -> Diagnostic {
-        let whole = self.folded.as_str();
+    /// The diagnostic for an error in the expression at `range`.
+    fn expression_diagnostic(&self, error: ExpressionError, range: Range<usize>) -> Diagnostic {
+        let whole = self.normalized.as_str();
         let written = shorten(&whole[range.clone()]);
-        match fault {
-            Fault::Mismatch => Diagnostic::new(
+        match error {
+            ExpressionError::Mismatch => Diagnostic::new(
                 Code::BadExpression,
                 self.span(range),
-                format!("`{written}` cannot be read as a calculation"),
+                format!("`{written}` is not a valid calculation"),
             ),
-            Fault::Expected(what, rest) => {
+            ExpressionError::Expected(what, rest) => {
                 let at = (whole.len() - rest).min(range.end - 1);
                 let length = lexical::run(&whole[at..]).max(1);
                 let end = (at + length).min(range.end.max(at + 1));
                 Diagnostic::new(
                     Code::BadExpression,
                     self.span(at..end),
-                    format!("`{written}` cannot be read as a calculation"),
+                    format!("`{written}` is not a valid calculation"),
                 )
                 .label(what)
             }
-            Fault::UnknownFunction(name, rest) => {
+            ExpressionError::UnknownFunction(name, rest) => {
                 let at = whole.len() - rest;
                 let range = at..at + name.len();
                 let mut diagnostic = Diagnostic::new(
                     Code::UnknownWord,
                     self.span(range.clone()),
-                    format!("`{}` is no function", shorten(&name)),
+                    format!("`{}` is not a function", shorten(&name)),
                 )
                 .help(format!("the functions are {}", function_names()));
                 let names = FUNCTIONS.iter().map(|row| row.name);
@@ -146,7 +147,7 @@ impl Parser<'_> {
                 }
                 diagnostic
             }
-            Fault::ArgumentCount(function, from, to) => {
+            ExpressionError::ArgumentCount(function, from, to) => {
                 let row = function.row();
                 Diagnostic::new(
                     Code::ArgumentCount,
@@ -155,20 +156,20 @@ impl Parser<'_> {
                 )
                 .help(format!("write `{}`", row.usage))
             }
-            Fault::TooLarge(from, to) => Diagnostic::new(
+            ExpressionError::TooLarge(from, to) => Diagnostic::new(
                 Code::OutOfRange,
                 self.span(whole.len() - from..whole.len() - to),
-                "this number is too large to reckon with",
+                "this number is too large",
             ),
-            Fault::Limit => Diagnostic::new(
+            ExpressionError::Limit => Diagnostic::new(
                 Code::LimitPassed,
                 self.span(range),
                 format!(
-                    "this calculation is nested deeper than {DEPTH} parentheses or has more than \
-                     {OPERATIONS} signs"
+                    "this calculation has more than {MAX_DEPTH} nested parentheses or more than \
+                     {MAX_OPERATORS} operators"
                 ),
             )
-            .help("give parts of it names with `Let`"),
+            .help("split it up: define parts of it as variables with `Let`"),
         }
     }
 
@@ -190,7 +191,7 @@ impl Parser<'_> {
                     let diagnostic = Diagnostic::new(
                         Code::OutOfRange,
                         self.span(start..self.at),
-                        format!("`{}` is too large to reckon with", shorten(run)),
+                        format!("the number `{}` is too large", shorten(run)),
                     );
                     self.report(diagnostic);
                     ArgumentKind::Unreadable
@@ -207,8 +208,8 @@ impl Parser<'_> {
         {
             return ArgumentKind::Word(run.to_owned());
         }
-        if let Ok((behind, digits)) = lexical::hex(run)
-            && behind.is_empty()
+        if let Ok((after, digits)) = lexical::hex(run)
+            && after.is_empty()
         {
             return ArgumentKind::Hex(digits.to_owned());
         }
@@ -216,32 +217,32 @@ impl Parser<'_> {
         if named && takes(keyword, |takes| matches!(takes, Takes::Names)) {
             return ArgumentKind::Word(run.to_owned());
         }
-        // From the end, so that many such arguments are found in few steps each.
-        let commas_said = before.iter().rev().any(|argument| {
+        // The last argument comes first: with many such arguments, the search then ends at once.
+        let comma_reported = before.iter().rev().any(|argument| {
             argument.kind == ArgumentKind::Unreadable
                 && self.text.as_str()[argument.range.clone()].contains([',', '，'])
         });
-        if run.contains(',') && commas_said {
+        if run.contains(',') && comma_reported {
             return ArgumentKind::Unreadable;
         }
-        let slip = slips::Slip {
+        let bad = suggestions::BadArgument {
             keyword,
             flags,
             before,
             run,
         };
-        let place = slips::At {
+        let location = suggestions::Location {
             text: self.text,
             range: self.range(start..start + length),
         };
-        let diagnostic = slips::malformed(&slip, &place, self.is_calculation(run));
+        let diagnostic = suggestions::malformed(&bad, &location, self.is_calculation(run));
         self.report(diagnostic);
         ArgumentKind::Unreadable
     }
 
     /// `min(1, 2)` without parentheses around it.
     fn bare_call(&mut self, start: usize) -> ArgumentKind {
-        let whole = self.folded.as_str();
+        let whole = self.normalized.as_str();
         let Ok(close) = closing(self.rest()) else {
             return self.expression();
         };
@@ -259,11 +260,11 @@ impl Parser<'_> {
         ArgumentKind::Unreadable
     }
 
-    /// Whether `run`, a stretch of the string, would be a calculation in parentheses.
+    /// Whether `run`, a piece of the string, would be a calculation in parentheses.
     fn is_calculation(&self, run: &str) -> bool {
-        let folded = super::Folded::new(run);
-        let reader = Reader::new(&folded);
-        let parsed = reader.sum(folded.as_str(), DEPTH);
+        let normalized = super::Normalized::new(run);
+        let parser = ExpressionParser::new(&normalized);
+        let parsed = parser.sum(normalized.as_str(), MAX_DEPTH);
         matches!(
             parsed,
             Ok(("", Expression::Binary(..) | Expression::Negate(_)))
@@ -277,8 +278,8 @@ fn takes(keyword: Keyword, what: fn(&Takes) -> bool) -> bool {
     parameters.any(|parameter| what(&parameter.takes))
 }
 
-/// The offset of the parenthesis that closes the one at the start of `rest`; if there is none, where
-/// the calculation ends at the latest: at a keyword, a sign, a quote, or with the string.
+/// The offset of the parenthesis that closes the one at the start of `rest`. If there is none, the error is
+/// the offset of the next keyword, sign or quote, or the end of the string: the calculation ends before it.
 fn closing(rest: &str) -> Result<usize, usize> {
     let mut depth = 0_usize;
     let mut word = true;
@@ -300,7 +301,7 @@ fn closing(rest: &str) -> Result<usize, usize> {
             }
             _ => {}
         }
-        word = !lexical::in_word(c);
+        word = !lexical::is_word_char(c);
     }
     Err(rest.len())
 }

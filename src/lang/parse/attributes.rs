@@ -1,10 +1,10 @@
-//! Attributes: a keyword, its flags, its arguments.
+//! Parses attributes: a keyword, its flags and its arguments.
 
-use super::{Parser, lexical, slips};
+use super::{Parser, lexical, suggestions};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::keyword::signature::Takes;
-use crate::lang::keyword::{Keyword, kinds, words};
+use crate::lang::keyword::{Keyword, kinds, vocabulary};
 
 impl Parser<'_> {
     /// Reads attributes to the end of the string.
@@ -17,13 +17,13 @@ impl Parser<'_> {
                 return attributes;
             }
             if starts_sign(rest) {
-                self.disown_name(attributes.last_mut());
+                self.drop_name_of_next_string(attributes.last_mut());
                 self.unexpected_sign();
             } else if let Some((keyword, length)) = keyword_at(rest) {
                 let attribute = self.attribute(keyword, length);
                 attributes.push(attribute);
             } else {
-                self.no_keyword();
+                self.unknown_keyword();
             }
         }
     }
@@ -68,8 +68,8 @@ impl Parser<'_> {
         }
     }
 
-    /// Something stands where a keyword is due: says so and goes on at the next attribute.
-    fn no_keyword(&mut self) {
+    /// Reports text in the place of a keyword, and continues at the next attribute.
+    fn unknown_keyword(&mut self) {
         let rest = self.rest();
         let length = match lexical::run(rest) {
             0 => rest.chars().next().map_or(0, char::len_utf8),
@@ -77,18 +77,18 @@ impl Parser<'_> {
         };
         let found = &rest[..length];
         let range = self.range(self.at..self.at + length);
-        let diagnostic = slips::no_keyword(self.text, range, found);
+        let diagnostic = suggestions::unknown_keyword(self.text, range, found);
         self.report(diagnostic);
         self.at += match found {
-            // What stands in quotes or parentheses is skipped with them.
+            // `skip_to_attribute` skips quotes and parentheses together with their contents.
             "\"" | "(" => 0,
             _ => length,
         };
         self.skip_to_attribute(found.starts_with(char::is_lowercase));
     }
 
-    /// Goes to the next keyword, word that is nearly one, or sign. Words in parentheses and quotes
-    /// do not count, and lower-case words only where the string is written in lower case.
+    /// Goes to the next keyword, misspelled keyword, or sign. Words in parentheses and quotes do not
+    /// count. Misspelled keywords in lower case count only if `lower_case` is set.
     pub(super) fn skip_to_attribute(&mut self, lower_case: bool) {
         let mut depth = 0_usize;
         loop {
@@ -100,8 +100,8 @@ impl Parser<'_> {
             if starts_sign(rest) || keyword_at(rest).is_some() {
                 return;
             }
-            if let Ok((behind, _)) = lexical::quoted(rest) {
-                self.move_to(behind);
+            if let Ok((after, _)) = lexical::quoted(rest) {
+                self.move_to(after);
                 continue;
             }
             match c {
@@ -110,14 +110,15 @@ impl Parser<'_> {
                 _ => {}
             }
             let run = lexical::run(rest);
-            if run > 0 && depth == 0 && slips::is_nearly_keyword(&rest[..run], lower_case) {
+            if run > 0 && depth == 0 && suggestions::is_misspelled_keyword(&rest[..run], lower_case)
+            {
                 return;
             }
             self.at += run.max(c.len_utf8());
         }
     }
 
-    /// Reports the sign that comes next, once a string, and goes on behind it and the name it brings.
+    /// Reports the next sign, but only once in a string, and continues after the sign and its name.
     pub(super) fn unexpected_sign(&mut self) {
         let at = self.at;
         let rest = self.rest();
@@ -131,18 +132,18 @@ impl Parser<'_> {
             let diagnostic = Diagnostic::new(
                 Code::UnexpectedSign,
                 span,
-                format!("`{sign}` cannot stand here"),
+                format!("`{sign}` is not allowed here"),
             );
-            let doubled = self.folded.as_str()[..at].ends_with(sign);
+            let doubled = self.normalized.as_str()[..at].ends_with(sign);
             let diagnostic = match doubled {
-                true => diagnostic.label("the sign is typed twice").fix(
+                true => diagnostic.label("the sign was typed twice").fix(
                     "Delete the second sign",
                     span,
                     "",
                 ),
                 false => diagnostic.label("a new string seems to begin here").help(
                     "two strings seem to have been typed into one text: cut the second one out and \
-                     give it a text of its own",
+                     paste it into a text of its own",
                 ),
             };
             self.report(diagnostic);
@@ -150,14 +151,14 @@ impl Parser<'_> {
         if matches!(sign, '@' | '*' | '^') {
             self.skip_blank();
             match lexical::quoted(self.rest()) {
-                Ok((behind, _)) => self.move_to(behind),
+                Ok((after, _)) => self.move_to(after),
                 Err(_) => self.at += lexical::run(self.rest()),
             }
         }
     }
 
-    /// In `Shape round Larm@Body` the word before the sign is the name of another string's part.
-    fn disown_name(&self, attribute: Option<&mut Attribute>) {
+    /// In `Shape round Larm@Body` the word before the sign is not an argument, but the name in another string.
+    fn drop_name_of_next_string(&self, attribute: Option<&mut Attribute>) {
         let Some(attribute) = attribute else { return };
         let sign = self.range(self.at..self.at).start;
         let Some(last) = attribute.arguments.last() else {
@@ -166,14 +167,14 @@ impl Parser<'_> {
         let ArgumentKind::Word(word) = &last.kind else {
             return;
         };
-        let glued = last.range.end == sign;
-        if glued && !words::is_known(word) && fits_without_last(attribute) {
+        let adjacent = last.range.end == sign;
+        if adjacent && !vocabulary::is_known(word) && fits_without_last(attribute) {
             attribute.arguments.pop();
         }
     }
 }
 
-/// Whether the number of arguments is still right without the last.
+/// Whether the number of arguments is also right without the last one.
 fn fits_without_last(attribute: &Attribute) -> bool {
     let left = attribute.arguments.len().saturating_sub(1);
     let kind = match attribute.arguments.first().map(|first| &first.kind) {
@@ -183,26 +184,26 @@ fn fits_without_last(attribute: &Attribute) -> bool {
         _ => None,
     };
     match kind {
-        Some(kind) => left >= 1 && kind.form.fits(left - 1),
+        Some(kind) => left >= 1 && kind.form.accepts(left - 1),
         None => attribute
             .keyword
             .row()
             .forms
             .iter()
-            .any(|form| form.fits(left)),
+            .any(|form| form.accepts(left)),
     }
 }
 
-/// The keyword that `rest` begins with, and its length. Flags, a number or a colour may touch it.
+/// The keyword at the start of `rest`, and its length. Flags or a colour may follow without a space.
 fn keyword_at(rest: &str) -> Option<(Keyword, usize)> {
     let run = &rest[..lexical::run(rest)];
-    let (behind, word) = lexical::word(run).ok()?;
-    (behind.is_empty() || behind.starts_with(['-', '#']))
+    let (after, word) = lexical::word(run).ok()?;
+    (after.is_empty() || after.starts_with(['-', '#']))
         .then(|| Keyword::from_name(word))?
         .map(|keyword| (keyword, word.len()))
 }
 
-/// Whether `rest` begins with a sign that begins another string.
+/// Whether `rest` starts with a sign that can only start another string.
 fn starts_sign(rest: &str) -> bool {
     let mut chars = rest.chars();
     match chars.next() {

@@ -7,33 +7,33 @@ use nom::error::{ErrorKind, ParseError};
 
 use super::lexical;
 use crate::lang::ast::{Expression, Function, Name};
-use crate::lang::folded::Folded;
 use crate::lang::keyword::Keyword;
+use crate::lang::normalize::Normalized;
 
-/// How deep parentheses, signs and functions may be nested.
-pub(super) const DEPTH: usize = 64;
+/// How deep parentheses, minus signs and functions may be nested.
+pub(super) const MAX_DEPTH: usize = 64;
 
-/// How many signs of arithmetic one expression may have.
-pub(super) const OPERATIONS: usize = 256;
+/// How many operators one expression may have.
+pub(super) const MAX_OPERATORS: usize = 256;
 
-/// Why an expression cannot be read, and from where on.
+/// Why an expression cannot be parsed. Positions are given as the length of the rest of the string.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Fault {
-    /// Nothing was said yet; another parser may fit.
+pub(super) enum ExpressionError {
+    /// Not reported: another parser may match.
     Mismatch,
-    /// Something else is due at this place (as the length of the rest).
+    /// Something else was expected here.
     Expected(&'static str, usize),
-    /// A word before `(` that is no function, with its length.
+    /// A word before `(` that is not a function.
     UnknownFunction(String, usize),
-    /// A function with the wrong number of arguments: the rest before the name and behind the arguments.
+    /// A function with the wrong number of arguments: the rest before its name and after its arguments.
     ArgumentCount(Function, usize, usize),
-    /// A number too large to reckon with, with its length.
+    /// A number that is too large: the rest before and after it.
     TooLarge(usize, usize),
-    /// Nested too deep, or too long.
+    /// Nested too deep, or too many operators.
     Limit,
 }
 
-impl ParseError<&str> for Fault {
+impl ParseError<&str> for ExpressionError {
     fn from_error_kind(_: &str, _: ErrorKind) -> Self {
         Self::Mismatch
     }
@@ -43,22 +43,22 @@ impl ParseError<&str> for Fault {
     }
 }
 
-type Parsed<'a> = nom::IResult<&'a str, Expression, Fault>;
+type Parsed<'a> = nom::IResult<&'a str, Expression, ExpressionError>;
 
-/// Reads expressions of one string.
-pub(super) struct Reader<'a> {
-    /// The whole folded string.
-    pub(super) folded: &'a Folded<'a>,
-    /// Signs of arithmetic still allowed.
-    pub(super) operations: std::cell::Cell<usize>,
+/// Parses an expression of a string.
+pub(super) struct ExpressionParser<'a> {
+    /// The whole normalized string.
+    pub(super) normalized: &'a Normalized<'a>,
+    /// The number of operators still allowed.
+    pub(super) operators: std::cell::Cell<usize>,
 }
 
-impl<'a> Reader<'a> {
-    /// A reader of one expression.
-    pub(super) fn new(folded: &'a Folded<'a>) -> Self {
+impl<'a> ExpressionParser<'a> {
+    /// A parser for one expression.
+    pub(super) fn new(normalized: &'a Normalized<'a>) -> Self {
         Self {
-            folded,
-            operations: std::cell::Cell::new(OPERATIONS),
+            normalized,
+            operators: std::cell::Cell::new(MAX_OPERATORS),
         }
     }
 
@@ -75,18 +75,19 @@ impl<'a> Reader<'a> {
         &self,
         input: &'a str,
         depth: usize,
-        signs: &'static str,
+        operators: &'static str,
         part: fn(&Self, &'a str, usize) -> Parsed<'a>,
     ) -> Parsed<'a> {
         let (mut rest, mut left) = part(self, input, depth)?;
         loop {
-            let behind = skip(rest);
-            let Ok((next, sign)) = one_of::<_, _, Fault>(signs).parse(behind) else {
+            let after = skip(rest);
+            let Ok((next, operator)) = one_of::<_, _, ExpressionError>(operators).parse(after)
+            else {
                 return Ok((rest, left));
             };
             self.count()?;
             let (next, right) = part(self, next, depth)?;
-            left = Expression::Binary(sign, Box::new(left), Box::new(right));
+            left = Expression::Binary(operator, Box::new(left), Box::new(right));
             rest = next;
         }
     }
@@ -94,14 +95,14 @@ impl<'a> Reader<'a> {
     fn factor(&self, input: &'a str, depth: usize) -> Parsed<'a> {
         let input = skip(input);
         if depth == 0 {
-            return Err(Err::Failure(Fault::Limit));
+            return Err(Err::Failure(ExpressionError::Limit));
         }
-        if let Ok((rest, _)) = char::<_, Fault>('-').parse(input) {
+        if let Ok((rest, _)) = char::<_, ExpressionError>('-').parse(input) {
             self.count()?;
             let (rest, value) = self.factor(rest, depth - 1)?;
             return Ok((rest, Expression::Negate(Box::new(value))));
         }
-        if let Ok((rest, _)) = char::<_, Fault>('(').parse(input) {
+        if let Ok((rest, _)) = char::<_, ExpressionError>('(').parse(input) {
             let (rest, value) = self.sum(rest, depth - 1)?;
             let (rest, _) = close(rest)?;
             return Ok((rest, value));
@@ -111,20 +112,20 @@ impl<'a> Reader<'a> {
         }
         match lexical::word(input) {
             Ok((_, name)) if Keyword::from_name(name).is_some() => {
-                expected("a number or a variable is due, not a keyword", input)
+                expected("expected a number or a variable, not a keyword", input)
             }
-            Ok((rest, name)) => match char::<_, Fault>('(').parse(skip(rest)) {
+            Ok((rest, name)) => match char::<_, ExpressionError>('(').parse(skip(rest)) {
                 Ok((arguments, _)) => self.call(input, name, arguments, depth - 1),
                 _ => Ok((rest, Expression::Variable(self.name(input, name)))),
             },
-            _ => expected("a number or a variable is due here", input),
+            _ => expected("expected a number or a variable", input),
         }
     }
 
     fn call(&self, input: &'a str, name: &'a str, rest: &'a str, depth: usize) -> Parsed<'a> {
         let Some(function) = Function::from_name(name) else {
-            let fault = Fault::UnknownFunction(name.to_owned(), input.len());
-            return Err(Err::Failure(fault));
+            let error = ExpressionError::UnknownFunction(name.to_owned(), input.len());
+            return Err(Err::Failure(error));
         };
         let mut arguments = vec![];
         let mut rest = rest;
@@ -132,7 +133,7 @@ impl<'a> Reader<'a> {
             self.count()?;
             let (next, argument) = self.sum(rest, depth)?;
             arguments.push(argument);
-            match char::<_, Fault>(',').parse(skip(next)) {
+            match char::<_, ExpressionError>(',').parse(skip(next)) {
                 Ok((next, _)) => rest = next,
                 _ => {
                     rest = close(next)?.0;
@@ -140,29 +141,29 @@ impl<'a> Reader<'a> {
                 }
             }
         }
-        let (least, most) = function.row().arguments;
-        if !(least..=most).contains(&arguments.len()) {
-            let fault = Fault::ArgumentCount(function, input.len(), rest.len());
-            return Err(Err::Failure(fault));
+        let (min, max) = function.row().arguments;
+        if !(min..=max).contains(&arguments.len()) {
+            let error = ExpressionError::ArgumentCount(function, input.len(), rest.len());
+            return Err(Err::Failure(error));
         }
         Ok((rest, Expression::Call(function, arguments)))
     }
 
     fn name(&self, input: &str, name: &str) -> Name {
-        let start = self.folded.as_str().len() - input.len();
+        let start = self.normalized.as_str().len() - input.len();
         Name {
             text: name.to_owned(),
-            range: self.folded.original(start..start + name.len()),
+            range: self.normalized.original(start..start + name.len()),
         }
     }
 
-    fn count(&self) -> Result<(), Err<Fault>> {
-        match self.operations.get().checked_sub(1) {
+    fn count(&self) -> Result<(), Err<ExpressionError>> {
+        match self.operators.get().checked_sub(1) {
             Some(left) => {
-                self.operations.set(left);
+                self.operators.set(left);
                 Ok(())
             }
-            None => Err(Err::Failure(Fault::Limit)),
+            None => Err(Err::Failure(ExpressionError::Limit)),
         }
     }
 }
@@ -170,27 +171,31 @@ impl<'a> Reader<'a> {
 fn number<'a>(input: &'a str, digits: &str, rest: &'a str) -> Parsed<'a> {
     match digits.parse::<f64>() {
         Ok(value) if value.is_finite() => match rest.chars().next() {
-            Some(c) if lexical::in_word(c) => {
-                expected("a number and letters in one word are neither", input)
-            }
+            Some(c) if lexical::is_word_char(c) => expected(
+                "letters directly after a number: put a space or an operator between them",
+                input,
+            ),
             _ => Ok((rest, Expression::Number(value))),
         },
-        _ => Err(Err::Failure(Fault::TooLarge(input.len(), rest.len()))),
+        _ => Err(Err::Failure(ExpressionError::TooLarge(
+            input.len(),
+            rest.len(),
+        ))),
     }
 }
 
-fn close(input: &str) -> nom::IResult<&str, char, Fault> {
+fn close(input: &str) -> nom::IResult<&str, char, ExpressionError> {
     let input = skip(input);
-    char(')').parse(input).map_err(|_: Err<Fault>| {
-        Err::Failure(Fault::Expected(
-            "a sign of arithmetic or `)` is due here",
+    char(')').parse(input).map_err(|_: Err<ExpressionError>| {
+        Err::Failure(ExpressionError::Expected(
+            "expected an operator or `)`",
             input.len(),
         ))
     })
 }
 
 fn expected<'a>(what: &'static str, input: &str) -> Parsed<'a> {
-    Err(Err::Failure(Fault::Expected(what, input.len())))
+    Err(Err::Failure(ExpressionError::Expected(what, input.len())))
 }
 
 fn skip(input: &str) -> &str {

@@ -8,7 +8,7 @@ use nom::character::complete::{char, digit0, digit1, one_of, satisfy};
 use nom::combinator::{all_consuming, opt, recognize};
 use nom::sequence::{delimited, preceded};
 
-/// The result of a parser of tokens.
+/// The result of a token parser.
 pub(super) type Parsed<'a, T> = IResult<&'a str, T>;
 
 /// White space, a line feed included.
@@ -33,11 +33,11 @@ pub(super) fn number(input: &str) -> Parsed<'_, &str> {
 
 /// Letters, digits, `_` and `.`, beginning with a letter.
 pub(super) fn word(input: &str) -> Parsed<'_, &str> {
-    recognize((satisfy(char::is_alphabetic), take_while(in_word))).parse(input)
+    recognize((satisfy(char::is_alphabetic), take_while(is_word_char))).parse(input)
 }
 
-/// Whether a word may have `c` behind its first character, which is a letter.
-pub fn in_word(c: char) -> bool {
+/// Whether a word may contain `c` after its first character, which is a letter.
+pub fn is_word_char(c: char) -> bool {
     c.is_alphanumeric() || c == '_' || c == '.'
 }
 
@@ -56,24 +56,24 @@ pub(super) fn signed_axis(input: &str) -> Parsed<'_, &str> {
     recognize((one_of("+-"), one_of("xyzXYZ"))).parse(input)
 }
 
-/// Behind `#`: the digits of a colour.
+/// `#rrggbb`: the digits.
 pub(super) fn hex(input: &str) -> Parsed<'_, &str> {
     preceded(tag("#"), take_while1(|c: char| c.is_ascii_alphanumeric())).parse(input)
 }
 
-/// Whether all of `text` is what `parser` reads.
+/// Whether `parser` reads all of `text`.
 pub(super) fn is<'a>(text: &'a str, parser: fn(&'a str) -> Parsed<'a, &'a str>) -> bool {
     all_consuming(parser).parse(text).is_ok()
 }
 
-/// How long the stretch of characters is that belong together at the start of `input`: up to white
-/// space or a sign that cannot be part of an argument.
+/// The length of the run of characters at the start of `input` that ends at white space or at a sign
+/// that cannot be part of an argument.
 pub(super) fn run(input: &str) -> usize {
     let mut chars = input.char_indices().peekable();
     while let Some((at, c)) = chars.next() {
         let ends = match c {
             '"' | '(' | ')' | '@' | '$' => true,
-            // `5%` is a number with a slip; `5%Scale` is a number and another string.
+            // `5%` is a mistyped number; `5%Scale` is a number and another string.
             '%' => at == 0 || chars.peek().is_some_and(|(_, next)| next.is_alphabetic()),
             c => c.is_whitespace(),
         };
@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_and_words_keep_apart() {
+    fn numbers_and_words_are_distinct() {
         for text in ["12", "-20", ".5", "-.5", "1e3", "5.", "+5", "1.5e-3"] {
             assert!(is(text, number), "{text}");
         }

@@ -1,13 +1,13 @@
-//! The head of a string: names and parents.
+//! The head of a string: its name and its parent's name.
 
-use super::{Parser, Place, in_name, lexical};
+use super::{Container, Parser, is_name_char, lexical};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::{Annotation, Name, Part};
 use crate::lang::keyword::Keyword;
 
-/// What a name names, for messages.
+/// What a name refers to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Role {
+enum NameKind {
     Part,
     Parent,
     Feature,
@@ -18,7 +18,7 @@ impl Parser<'_> {
     pub(super) fn feature(&mut self) -> Annotation {
         let sign = self.at;
         self.at += 1;
-        let name = self.name(Role::Feature);
+        let name = self.name(NameKind::Feature);
         self.skip_blank();
         if self.peek().is_some() {
             self.unexpected_sign();
@@ -26,23 +26,23 @@ impl Parser<'_> {
         match name {
             Some(name) => Annotation::Feature(name),
             None => {
-                self.no_name(sign, "a feature point needs a name behind `^`");
+                self.no_name(sign, "a feature point needs a name after `^`");
                 Annotation::Comment
             }
         }
     }
 
     /// `name@parent$ …`, or a caption.
-    pub(super) fn part(&mut self, place: Place) -> Annotation {
+    pub(super) fn part(&mut self, container: Container) -> Annotation {
         let start = self.at;
         if self.is_caption() {
             return Annotation::Caption;
         }
         let mut part = Part {
-            name: self.name(Role::Part),
+            name: self.name(NameKind::Part),
             ..Part::default()
         };
-        if part.name.is_none() && place == Place::Text {
+        if part.name.is_none() && container == Container::Text {
             self.no_name(start, "this string does not name its part");
         }
         self.skip_blank();
@@ -50,9 +50,9 @@ impl Parser<'_> {
             let sign = self.at;
             self.at += 1;
             part.signs.push(self.range(sign..self.at));
-            part.parent = self.name(Role::Parent);
+            part.parent = self.name(NameKind::Parent);
             if part.parent.is_none() {
-                self.no_name(sign, "no parent is named behind `@`");
+                self.no_name(sign, "there is no parent's name after `@`");
             }
         }
         self.skip_blank();
@@ -90,15 +90,15 @@ impl Parser<'_> {
                 }
             }
         }
-        words > 1 || (words == 1 && !rest.starts_with('"') && !rest.chars().all(in_name))
+        words > 1 || (words == 1 && !rest.starts_with('"') && !rest.chars().all(is_name_char))
     }
 
     /// Reads a name up to the next sign.
-    fn name(&mut self, role: Role) -> Option<Name> {
+    fn name(&mut self, kind: NameKind) -> Option<Name> {
         self.skip_blank();
         let rest = self.rest();
-        if let Ok((behind, name)) = lexical::quoted(rest) {
-            return self.quoted_name(role, name, rest.len() - behind.len());
+        if let Ok((after, name)) = lexical::quoted(rest) {
+            return self.quoted_name(kind, name, rest.len() - after.len());
         }
         if rest.starts_with('"') {
             return self.unclosed_name();
@@ -108,11 +108,14 @@ impl Parser<'_> {
         if written.is_empty() {
             return None;
         }
-        let first = written.split(|c| !in_name(c)).next().unwrap_or_default();
+        let first = written
+            .split(|c| !is_name_char(c))
+            .next()
+            .unwrap_or_default();
         if first.len() == written.len() {
             return Some(self.take_name(first, first.len()));
         }
-        if role == Role::Parent
+        if kind == NameKind::Parent
             && let Some(name) = self.name_before_keyword(written)
         {
             return Some(name);
@@ -123,7 +126,7 @@ impl Parser<'_> {
             self.span(range.clone()),
             format!("the name `{}` needs quotes", shorten(written)),
         )
-        .label("a name with spaces or parentheses stands in quotes");
+        .label("a name with spaces or parentheses needs quotes");
         if !written.contains('"') {
             let quoted = format!(
                 "\"{}\"",
@@ -139,7 +142,7 @@ impl Parser<'_> {
         Some(self.take_name(written, written.len()))
     }
 
-    fn quoted_name(&mut self, role: Role, name: &str, length: usize) -> Option<Name> {
+    fn quoted_name(&mut self, kind: NameKind, name: &str, length: usize) -> Option<Name> {
         let start = self.at;
         let taken = (!name.trim().is_empty()).then(|| Name {
             text: name.split_whitespace().collect::<Vec<_>>().join(" "),
@@ -148,28 +151,28 @@ impl Parser<'_> {
         self.at += length;
         self.skip_blank();
         let rest = self.rest();
-        let junk = rest.split(['@', '$']).next().unwrap_or_default().trim_end();
-        if junk.is_empty() {
+        let excess = rest.split(['@', '$']).next().unwrap_or_default().trim_end();
+        if excess.is_empty() {
             return taken;
         }
-        let word = &junk[..lexical::run(junk)];
-        if role != Role::Feature && Keyword::from_name(word).is_some() {
+        let word = &excess[..lexical::run(excess)];
+        if kind != NameKind::Feature && Keyword::from_name(word).is_some() {
             self.missing_sign(word.len());
             return taken;
         }
-        let span = self.span(self.at..self.at + junk.len());
+        let span = self.span(self.at..self.at + excess.len());
         let diagnostic = Diagnostic::new(
             Code::UnquotedName,
             span,
-            format!("`{}` stands behind the quotes of a name", shorten(junk)),
+            format!("`{}` follows the closing quote of a name", shorten(excess)),
         )
-        .label("put all of the name into the quotes");
+        .label("put the whole name inside the quotes");
         self.report(diagnostic);
-        self.at += junk.len();
+        self.at += excess.len();
         taken
     }
 
-    /// Reports the quote at `start`, which could be closed at `end`.
+    /// Reports the unclosed quote at `start`, with a fix that closes it at `end`.
     pub(super) fn unclosed_quote(&mut self, start: usize, end: usize) {
         let diagnostic = Diagnostic::new(
             Code::UnclosedQuote,
@@ -200,16 +203,16 @@ impl Parser<'_> {
         })
     }
 
-    /// The name in `Ubody Shape roundv`, where somebody forgot `$`.
+    /// The name in `Ubody Shape roundv`, where `$` is missing.
     fn name_before_keyword(&mut self, written: &str) -> Option<Name> {
         let mut from = 0;
         for word in written.split_whitespace() {
-            // Words are found from left to right, so each is searched for behind the last.
+            // Words are found from left to right, so each search begins after the previous word.
             let at = from + written[from..].find(word)?;
             from = at + word.len();
             if at > 0 && Keyword::from_name(word).is_some() {
                 let name = written[..at].trim_end();
-                if !name.chars().all(in_name) {
+                if !name.chars().all(is_name_char) {
                     return None;
                 }
                 let name = self.take_name(name, name.len());
@@ -221,7 +224,7 @@ impl Parser<'_> {
         None
     }
 
-    /// Says that `$` is missing before the keyword of `length` that comes next.
+    /// Reports that `$` is missing before the next word, a keyword of `length` bytes.
     fn missing_sign(&mut self, length: usize) {
         let at = self.at;
         let word = &self.rest()[..length];
@@ -230,17 +233,17 @@ impl Parser<'_> {
             self.span(at..at + length),
             format!("`$` is missing before `{word}`"),
         )
-        .label("attributes stand behind `$`")
+        .label("attributes come after `$`")
         .fix("Insert `$`", self.span(at..at), self.escape(at, "$"));
         self.report(diagnostic);
-        // A `$` further on belongs to the same slip.
+        // A `$` further on belongs to the same mistake.
         self.sign_reported = true;
     }
 
     fn no_name(&mut self, sign: usize, message: &str) {
         let diagnostic = Diagnostic::new(Code::NoName, self.span(sign..sign + 1), message)
-            .label("a name is due here")
-            .help("write `Name@Parent$ attributes`; a name with spaces stands in quotes");
+            .label("expected a name")
+            .help("write `Name@Parent$ attributes`; a name with spaces needs quotes");
         self.report(diagnostic);
     }
 
@@ -254,12 +257,12 @@ impl Parser<'_> {
     }
 }
 
-/// The beginning of `text`, for messages.
+/// `text`, shortened for messages.
 pub(super) fn shorten(text: &str) -> String {
-    const LONGEST: usize = 40;
-    if text.chars().nth(LONGEST).is_none() {
+    const MAX_CHARS: usize = 40;
+    if text.chars().nth(MAX_CHARS).is_none() {
         return text.to_owned();
     }
-    let head: String = text.chars().take(LONGEST - 1).collect();
+    let head: String = text.chars().take(MAX_CHARS - 1).collect();
     format!("{head}…")
 }

@@ -4,10 +4,10 @@ use std::fmt::Write as _;
 
 use crate::lang::keyword::kinds::KINDS;
 use crate::lang::keyword::signature::{Form, Parameter, Takes};
-use crate::lang::keyword::words::FUNCTIONS;
+use crate::lang::keyword::vocabulary::FUNCTIONS;
 use crate::lang::keyword::{Allowed, Keyword};
 
-/// `grammar/okoshi.ebnf`: what a string may be.
+/// `grammar/okoshi.ebnf`: the grammar of a string.
 pub fn ebnf() -> String {
     let mut out = String::from(include_str!("head.ebnf"));
     rule(&mut out, "attribute", &mentions(|_| true));

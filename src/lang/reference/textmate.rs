@@ -1,14 +1,14 @@
-//! TextMate grammars, by which editors colour strings.
+//! TextMate grammars for syntax highlighting in editors.
 
 use serde_json::{Value, json};
 
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::kinds::KINDS;
-use crate::lang::keyword::words::{AXES, BIND, FUNCTIONS, GROUND, ORIGIN, STROKES, TILE};
+use crate::lang::keyword::vocabulary::{AXES, BIND, FUNCTIONS, GROUND, ORIGIN, STROKES, TILE};
 
 const NOTE: &str = "Generated from the keyword table: OKOSHI_REWRITE=1 cargo test --test generated";
 
-/// A number that is no part of a word.
+/// A number that is not part of a word.
 const NUMBER: &str = r"(?<![\w.])[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?(?![\w.])";
 
 /// `grammar/okoshi.tmLanguage.json`: one string.
@@ -37,7 +37,7 @@ pub fn textmate() -> String {
                 "match": r"(?:^|(?<=>))\s*[*＊][^<]*",
             },
             "head": {
-                // Something must stand there: a match of nothing makes engines give the line up.
+                // The lookahead requires a character: on an empty match, engines stop tokenizing the line.
                 "match": r#"(?:^|(?<=>))\s*(?=[^\s$＄%％^()<>])("[^"<]*"|[^\s@$＠＄%％^"()<>]+)?\s*(?:([@＠])\s*("[^"<]*"|[^\s@$＠＄"()<>]+))?(?=\s*(?:[$＄<]|$))"#,
                 "captures": {
                     "1": { "name": "entity.name.type.part.okoshi" },
@@ -116,10 +116,10 @@ pub fn textmate() -> String {
 
 /// `grammar/okoshi-injection.tmLanguage.json`: strings inside the texts and descriptions of an SVG file.
 pub fn injection() -> String {
-    // Text of a drawing that is no string is left alone: what is coloured begins like one.
+    // Only text that starts like a string is coloured; other text of the drawing is left alone.
     let like_a_string = r#"(?=\s*(?:[%$*@#^％＄＊＠＃＾]|(?:"[^"<]*"|[^\s@$＠＄"()<>]+)[@$＠＄]))"#;
-    // Left out are tags, comments, CDATA (style sheets), and what is coloured already: an engine that finds the rule
-    // again at the place where it has just begun gives the line up.
+    // Excluded are tags, comments, CDATA (style sheets), and text that this rule has matched already: an engine that
+    // matches a rule again at the position where it has just begun stops tokenizing the line.
     let outside = "-meta.tag -comment -string -meta.embedded.okoshi";
     pretty(&json!({
         "$schema": "https://raw.githubusercontent.com/martinring/tmlanguage/master/tmlanguage.json",
@@ -132,7 +132,7 @@ pub fn injection() -> String {
                 "name": "meta.embedded.okoshi",
                 "contentName": "source.okoshi",
                 "begin": format!(r"(?<=>){like_a_string}"),
-                // At any tag: an inner element and a comment have XML's own colours.
+                // Ends at any tag, so that inner elements and comments keep XML's own colours.
                 "end": "(?=<)",
                 "patterns": [
                     { "include": "text.xml#entity" },
@@ -165,7 +165,7 @@ fn words() -> String {
     format!("{}|{}", longest_first(names), axes.join("|"))
 }
 
-/// Alternatives of a regular expression, so that no word hides a longer one.
+/// Alternatives of a regular expression, longest first, so that no word hides a longer one.
 fn longest_first(mut names: Vec<&str>) -> String {
     names.sort_by_key(|name| std::cmp::Reverse(name.len()));
     names.join("|")

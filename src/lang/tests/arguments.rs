@@ -1,4 +1,4 @@
-//! What is said about keywords, words and arguments, to the letter.
+//! The exact diagnostics about keywords, words and arguments.
 
 use super::check;
 
@@ -8,7 +8,7 @@ fn e101_unknown_keyword() {
         "Rarm@Ubody$Colr 1 0 0 Shape roundv",
         r#"
             Rarm@Ubody$Colr 1 0 0 Shape roundv
-                       ^^^^ E101: `Colr` is no keyword (did you mean `Color`?)
+                       ^^^^ E101: `Colr` is not a keyword (did you mean `Color`?)
               fix: Write `Color` -> Rarm@Ubody$Color 1 0 0 Shape roundv
         "#,
     );
@@ -16,7 +16,7 @@ fn e101_unknown_keyword() {
         "Rarm@Ubody$Shape default 0 20 Colr 1 0 0 Offset 2",
         r#"
             Rarm@Ubody$Shape default 0 20 Colr 1 0 0 Offset 2
-                                          ^^^^ E101: `Colr` is no keyword (did you mean `Color`?)
+                                          ^^^^ E101: `Colr` is not a keyword (did you mean `Color`?)
               fix: Write `Color` -> Rarm@Ubody$Shape default 0 20 Color 1 0 0 Offset 2
         "#,
     );
@@ -24,9 +24,9 @@ fn e101_unknown_keyword() {
         "Rarm@Ubody$Shape round Colr 1 0 0 Shpe round",
         r#"
             Rarm@Ubody$Shape round Colr 1 0 0 Shpe round
-                                   ^^^^ E101: `Colr` is no keyword (did you mean `Color`?)
+                                   ^^^^ E101: `Colr` is not a keyword (did you mean `Color`?)
               fix: Write `Color` -> Rarm@Ubody$Shape round Color 1 0 0 Shpe round
-                                              ^^^^ E101: `Shpe` is no keyword (did you mean `Shape`?)
+                                              ^^^^ E101: `Shpe` is not a keyword (did you mean `Shape`?)
               fix: Write `Shape` -> Rarm@Ubody$Shape round Colr 1 0 0 Shape round
         "#,
     );
@@ -34,8 +34,8 @@ fn e101_unknown_keyword() {
         "Arm$Follow Rarm Colr 1 0 0",
         r#"
             Arm$Follow Rarm Colr 1 0 0
-                ^^^^^^ W310: `Follow` has no effect in this version (understood, but not built yet)
-                            ^^^^ E101: `Colr` is no keyword (did you mean `Color`?)
+                ^^^^^^ W310: `Follow` has no effect in this version (read and checked, but not supported yet)
+                            ^^^^ E101: `Colr` is not a keyword (did you mean `Color`?)
               fix: Write `Color` -> Arm$Follow Rarm Color 1 0 0
         "#,
     );
@@ -43,7 +43,7 @@ fn e101_unknown_keyword() {
         "Arm$roundv",
         r#"
             Arm$roundv
-                ^^^^^^ E101: `roundv` is no keyword (this is a word of `Shape`)
+                ^^^^^^ E101: `roundv` is not a keyword (this is a value for `Shape`)
               fix: Write `Shape roundv` -> Arm$Shape roundv
         "#,
     );
@@ -51,7 +51,7 @@ fn e101_unknown_keyword() {
         "Arm$red",
         r#"
             Arm$red
-                ^^^ E101: `red` is no keyword (this is a word of `Color`)
+                ^^^ E101: `red` is not a keyword (this is a value for `Color`)
               fix: Write `Color red` -> Arm$Color red
         "#,
     );
@@ -59,7 +59,7 @@ fn e101_unknown_keyword() {
         "Arm$Color=red Offset 1",
         r#"
             Arm$Color=red Offset 1
-                ^^^^^^^^^ E101: `Color=red` is no keyword (only a space stands behind a keyword)
+                ^^^^^^^^^ E101: `Color=red` is not a keyword (put only a space after a keyword)
               fix: Write `Color red` -> Arm$Color red Offset 1
         "#,
     );
@@ -67,15 +67,15 @@ fn e101_unknown_keyword() {
         "Arm$5 Offset 1",
         r#"
             Arm$5 Offset 1
-                ^ E101: `5` is no keyword (a number stands behind a keyword)
+                ^ E101: `5` is not a keyword (a number needs a keyword before it)
         "#,
     );
     check(
         r##"Arm$Foo (Colr) cone "Shape" Offset 1"##,
         r#"
             Arm$Foo (Colr) cone "Shape" Offset 1
-                ^^^ E101: `Foo` is no keyword (a keyword is due here)
-              help: `okoshi explain` lists the keywords; a name with spaces stands in quotes
+                ^^^ E101: `Foo` is not a keyword (expected a keyword)
+              help: `okoshi explain` lists the keywords; a name with spaces needs quotes
         "#,
     );
 }
@@ -86,7 +86,7 @@ fn e102_unknown_word() {
         "Rarm@Ubody$Shape roundw -90 90 Offset 3",
         r#"
             Rarm@Ubody$Shape roundw -90 90 Offset 3
-                             ^^^^^^ E102: `roundw` is no kind of `Shape` (did you mean `roundv`?)
+                             ^^^^^^ E102: `roundw` is not a kind of `Shape` (did you mean `roundv`?)
               fix: Write `roundv` -> Rarm@Ubody$Shape roundv -90 90 Offset 3
         "#,
     );
@@ -94,7 +94,7 @@ fn e102_unknown_word() {
         "Arm$Color orang",
         r#"
             Arm$Color orang
-                      ^^^^^ E102: `orang` is no colour (did you mean `orange`?)
+                      ^^^^^ E102: `orang` is not a colour (did you mean `orange`?)
               fix: Write `orange` -> Arm$Color orange
         "#,
     );
@@ -102,7 +102,7 @@ fn e102_unknown_word() {
         "%Bind centre",
         r#"
             %Bind centre
-                  ^^^^^^ E102: `centre` is no word of `Bind` (did you mean `center`?)
+                  ^^^^^^ E102: `centre` is not a value for `Bind` (did you mean `center`?)
               fix: Write `center` -> %Bind center
         "#,
     );
@@ -110,7 +110,7 @@ fn e102_unknown_word() {
         "%Axes -x +y z",
         r#"
             %Axes -x +y z
-                        ^ E102: `z` is no word of `Axes` (did you mean `+z`?)
+                        ^ E102: `z` is not a value for `Axes` (did you mean `+z`?)
               fix: Write `+z` -> %Axes -x +y +z
         "#,
     );
@@ -118,15 +118,15 @@ fn e102_unknown_word() {
         "$Tile pink",
         r#"
             $Tile pink
-                  ^^^^ E102: `pink` is no word of `Tile`
-              help: it is one of `green`, `brown`, `blue`, `red`, `beige`, `none`
+                  ^^^^ E102: `pink` is not a value for `Tile`
+              help: write one of `green`, `brown`, `blue`, `red`, `beige`, `none`
         "#,
     );
     check(
         "Arm$Offset (sqr(2))",
         r#"
             Arm$Offset (sqr(2))
-                        ^^^ E102: `sqr` is no function (did you mean `sqrt`?)
+                        ^^^ E102: `sqr` is not a function (did you mean `sqrt`?)
               help: the functions are `min`, `max`, `abs`, `sqrt`, `sin`, `cos`
               fix: Write `sqrt` -> Arm$Offset (sqrt(2))
         "#,
@@ -171,7 +171,7 @@ fn e103_argument_count() {
         "Arm$Shape Offset 1",
         r#"
             Arm$Shape Offset 1
-                ^^^^^ E103: `Shape` stands here without arguments
+                ^^^^^ E103: `Shape` needs arguments
               help: write `Shape [-scd] kind parameters…`
         "#,
     );
@@ -179,17 +179,17 @@ fn e103_argument_count() {
         "%Let Size 5",
         r#"
             %Let Size 5
-             ^^^ E103: `Let` stands here without arguments
+             ^^^ E103: `Let` needs arguments
               help: write `Let name value`; a variable cannot have the name of a keyword
-                 ^^^^ W310: `Size` has no effect in this version (understood, but not built yet)
+                 ^^^^ W310: `Size` has no effect in this version (read and checked, but not supported yet)
         "#,
     );
     check(
         r##"Lbody$Motion "walk.bvh" walk"##,
         r#"
             Lbody$Motion "walk.bvh" walk
-                                    ^^^^ E103: `Walk` stands here without arguments
-              help: write `Walk speed`; if it is a name for `Motion`, put it in quotes
+                                    ^^^^ E103: `Walk` needs arguments
+              help: write `Walk speed`; if it is a name that belongs to `Motion`, put it in quotes
               fix: Put it in quotes -> Lbody$Motion "walk.bvh" "walk"
         "#,
     );
@@ -201,7 +201,7 @@ fn e104_argument_type() {
         r##"Arm$Offset "3""##,
         r#"
             Arm$Offset "3"
-                       ^^^ E104: `"3"` is not what `Offset` needs here (a number is due)
+                       ^^^ E104: `"3"` is not what `Offset` needs here (expected a number)
               help: write `Offset d`
         "#,
     );
@@ -209,8 +209,8 @@ fn e104_argument_type() {
         "Arm$Follow Rarm 5",
         r#"
             Arm$Follow Rarm 5
-                ^^^^^^ W310: `Follow` has no effect in this version (understood, but not built yet)
-                            ^ E104: `5` is not what `Follow` needs here (one or more names is due)
+                ^^^^^^ W310: `Follow` has no effect in this version (read and checked, but not supported yet)
+                            ^ E104: `5` is not what `Follow` needs here (expected one or more names)
               help: write `Follow name…`
         "#,
     );
@@ -218,8 +218,8 @@ fn e104_argument_type() {
         "Arm$Color #12345",
         r#"
             Arm$Color #12345
-                      ^^^^^^ E104: `#12345` is no colour (3, 6 or 8 digits from 0 to f are due)
-              help: write a colour as `#rrggbb`, `#ff8800` for example
+                      ^^^^^^ E104: `#12345` is not a colour (expected 3, 4, 6 or 8 digits from 0 to f)
+              help: write a colour as `#rrggbb`, for example `#ff8800`
         "#,
     );
     check(
@@ -227,7 +227,7 @@ fn e104_argument_type() {
         r#"
             Arm$Texture my-pic.png
                         ^^^^^^^^^^ E104: the file name `my-pic.png` needs quotes
-              help: a name with signs or spaces in it stands in quotes
+              help: a file name with spaces or punctuation needs quotes
               fix: Write `"my-pic.png"` -> Arm$Texture "my-pic.png"
         "#,
     );
@@ -236,7 +236,7 @@ fn e104_argument_type() {
         r#"
             Arm$Texture “pic.png”
                         ^^^^^^^^^ E104: `“pic.png”` has typographic quotes
-              help: use the plain quotation mark `"`
+              help: use the straight quotation mark `"`
               fix: Write `"pic.png"` -> Arm$Texture "pic.png"
         "#,
     );
@@ -245,7 +245,7 @@ fn e104_argument_type() {
         r#"
             Arm$Offset 5px Color red
                        ^^^ E104: `5px` is a number with a unit
-              help: numbers stand alone: lengths are in drawing units, angles in degrees
+              help: write numbers without units: lengths are in drawing units, angles in degrees
               fix: Write `5` -> Arm$Offset 5 Color red
         "#,
     );
@@ -253,8 +253,8 @@ fn e104_argument_type() {
         "Arm$Color 1,0,0",
         r#"
             Arm$Color 1,0,0
-                      ^^^^^ E104: `1,0,0` has a comma
-              help: arguments are separated by spaces, and decimals have a point: `0.5 1 2`
+                      ^^^^^ E104: `1,0,0` contains a comma
+              help: separate arguments with spaces, and write decimals with a point: `0.5 1 2`
               fix: Write `1 0 0` -> Arm$Color 1 0 0
         "#,
     );
@@ -262,8 +262,8 @@ fn e104_argument_type() {
         "Arm$Color 1, 0, 0",
         r#"
             Arm$Color 1, 0, 0
-                      ^^ E104: `1,` has a comma
-              help: arguments are separated by spaces, and decimals have a point: `0.5 1 2`
+                      ^^ E104: `1,` contains a comma
+              help: separate arguments with spaces, and write decimals with a point: `0.5 1 2`
               fix: Write `1` -> Arm$Color 1 0, 0
         "#,
     );
@@ -271,8 +271,8 @@ fn e104_argument_type() {
         "Arm$Offset 0,5",
         r#"
             Arm$Offset 0,5
-                       ^^^ E104: `0,5` has a comma
-              help: arguments are separated by spaces, and decimals have a point: `0.5 1 2`
+                       ^^^ E104: `0,5` contains a comma
+              help: separate arguments with spaces, and write decimals with a point: `0.5 1 2`
               fix: Write `0.5` -> Arm$Offset 0.5
               fix: Write `0 5` -> Arm$Offset 0 5
         "#,
@@ -281,7 +281,7 @@ fn e104_argument_type() {
         "Arm$Offset −5",
         r#"
             Arm$Offset −5
-                       ^^ E104: `−5` does not begin with a plain minus sign
+                       ^^ E104: `−5` does not start with a plain minus sign
               fix: Write `-5` -> Arm$Offset -5
         "#,
     );
@@ -297,15 +297,15 @@ fn e104_argument_type() {
         "Arm$Offset 2 * 3",
         r#"
             Arm$Offset 2 * 3
-                         ^ E104: `*` is no argument
-              help: calculations stand in parentheses, as in `(2 * 3)`
+                         ^ E104: `*` is not an argument
+              help: put calculations in parentheses, as in `(2 * 3)`
         "#,
     );
     check(
         "Arm$Shape round -c",
         r#"
             Arm$Shape round -c
-                            ^^ E104: the flag `-c` must stand directly behind `Shape`
+                            ^^ E104: the flag `-c` must come directly after `Shape`
               help: write `Shape -c …`
         "#,
     );
@@ -313,7 +313,7 @@ fn e104_argument_type() {
         "Arm$Shape default -w 5",
         r#"
             Arm$Shape default -w 5
-                              ^^ E104: `-w` is no number (a negative variable needs parentheses)
+                              ^^ E104: `-w` is not a number (a negative variable needs parentheses)
               fix: Write `(-w)` -> Arm$Shape default (-w) 5
         "#,
     );
@@ -325,21 +325,21 @@ fn e105_out_of_range() {
         "Arm$Alpha 2",
         r#"
             Arm$Alpha 2
-                      ^ E105: `Alpha` cannot be 2 (a number from 0 to 1 is due)
+                      ^ E105: `Alpha` cannot be 2 (expected a number from 0 to 1)
         "#,
     );
     check(
         "Arm$Segments 1.5",
         r#"
             Arm$Segments 1.5
-                         ^^^ E105: `Segments` cannot be 1.5 (a whole number from 1 to 256 is due)
+                         ^^^ E105: `Segments` cannot be 1.5 (expected a whole number from 1 to 256)
         "#,
     );
     check(
         "Arm$Color 255 128 0",
         r#"
             Arm$Color 255 128 0
-                      ^^^^^^^^^ E105: red, green and blue go from 0 to 1, not to 255
+                      ^^^^^^^^^ E105: red, green and blue go from 0 to 1, not from 0 to 255
               fix: Write `#ff8000` -> Arm$Color #ff8000
         "#,
     );
@@ -347,7 +347,7 @@ fn e105_out_of_range() {
         "Arm$Shape roundv 90 -90",
         r#"
             Arm$Shape roundv 90 -90
-                             ^^^^^^ E105: the rounding from 90 to -90 degrees is empty (the first angle must be the smaller one)
+                             ^^^^^^ E105: nothing is left of a rounding from 90 to -90 degrees (the first angle must be the smaller one)
               fix: Swap the angles -> Arm$Shape roundv -90 90
         "#,
     );
@@ -369,15 +369,15 @@ fn e105_out_of_range() {
         "Arm$Offset 1e999",
         r#"
             Arm$Offset 1e999
-                       ^^^^^ E105: `1e999` is too large to reckon with
+                       ^^^^^ E105: the number `1e999` is too large
         "#,
     );
     check(
         "%Axes +x +x +z",
         r#"
             %Axes +x +x +z
-             ^^^^^^^^^^^^^ E105: two directions of `Axes` lie on one axis
-              help: each of x, y and z must occur once: `%Axes +x +y +z`
+             ^^^^^^^^^^^^^ E105: `Axes` uses one axis twice
+              help: use each of x, y and z once: `%Axes +x +y +z`
         "#,
     );
     check(

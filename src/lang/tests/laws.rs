@@ -1,11 +1,11 @@
-//! What holds for every string.
+//! Properties that hold for every string.
 
 use proptest::prelude::*;
 
 use super::*;
 use crate::diagnostic::Code;
 
-/// Pieces that strings are made of, well or badly put together.
+/// Pieces of strings, to be combined in valid and invalid ways.
 fn piece() -> impl Strategy<Value = String> {
     prop_oneof![
         prop::sample::select(vec![
@@ -85,16 +85,16 @@ fn string() -> impl Strategy<Value = String> {
     })
 }
 
-fn places() -> impl Strategy<Value = Place> {
-    prop_oneof![Just(Place::Text), Just(Place::Desc)]
+fn containers() -> impl Strategy<Value = Container> {
+    prop_oneof![Just(Container::Text), Just(Container::Desc)]
 }
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1500))]
 
     #[test]
-    fn everything_said_is_about_characters_of_the_string(input in string(), place in places()) {
-        let reading = read(&Text::plain(&input, 0), place);
+    fn spans_are_on_character_boundaries(input in string(), container in containers()) {
+        let reading = read(&Text::plain(&input, 0), container);
         let inside = |span: crate::source::Span| {
             span.start <= span.end && input.is_char_boundary(span.start) && input.is_char_boundary(span.end)
         };
@@ -115,13 +115,13 @@ proptest! {
     }
 
     #[test]
-    fn ascii_needs_no_hint(input in string(), place in places()) {
-        let reading = read(&Text::plain(&input, 0), place);
+    fn ascii_needs_no_hint(input in string(), container in containers()) {
+        let reading = read(&Text::plain(&input, 0), container);
         let hints: Vec<_> = reading.diagnostics.iter().filter(|found| found.code == Code::FullWidth).collect();
         prop_assert!(hints.len() <= 1);
         if let Some(hint) = hints.first() {
             let fixed = apply(&input, &hint.fixes[0]);
-            let again = read(&Text::plain(&fixed, 0), place);
+            let again = read(&Text::plain(&fixed, 0), container);
             prop_assert!(again.diagnostics.iter().all(|found| found.code != Code::FullWidth), "{fixed}");
             let values = |reading: &Reading| reading.settings.iter().map(|s| s.value.clone()).collect::<Vec<_>>();
             prop_assert_eq!(values(&reading), values(&again));
@@ -129,32 +129,32 @@ proptest! {
     }
 
     #[test]
-    fn words_of_a_setting_mean_the_same(input in string()) {
-        let reading = read(&Text::plain(&input, 0), Place::Text);
+    fn the_text_of_a_setting_parses_to_the_same_value(input in string()) {
+        let reading = read(&Text::plain(&input, 0), Container::Text);
         let sign = match reading.annotation {
             Annotation::Defaults(_) => "%",
             Annotation::Legend(_) => "$",
             _ => "A$",
         };
         for setting in &reading.settings {
-            let printed = format!("{sign}{} {}", setting.keyword.name(), setting.words);
-            let again = read(&Text::plain(&printed, 0), Place::Text);
+            let printed = format!("{sign}{} {}", setting.keyword.name(), setting.text);
+            let again = read(&Text::plain(&printed, 0), Container::Text);
             prop_assert_eq!(again.settings.len(), 1, "{}", printed);
             prop_assert_eq!(&again.settings[0].value, &setting.value);
-            prop_assert_eq!(&again.settings[0].words, &setting.words);
+            prop_assert_eq!(&again.settings[0].text, &setting.text);
         }
     }
 
     #[test]
-    fn looking_never_fails(input in "\\PC{0,40}") {
+    fn parsing_never_panics(input in "\\PC{0,40}") {
         let _ = crate::lang::looks_like_string(&input);
-        let _ = read(&Text::plain(&input, 0), Place::Text);
+        let _ = read(&Text::plain(&input, 0), Container::Text);
     }
 }
 
-/// Long strings of one trick each, which would show a loop within a loop, or recursion.
+/// Long strings of one repeated piece, which would expose nested loops or recursion.
 #[test]
-fn long_strings_take_no_longer_than_their_length() {
+fn parsing_time_is_linear() {
     for unit in [
         "(",
         ")",
@@ -182,7 +182,7 @@ fn long_strings_take_no_longer_than_their_length() {
         for head in ["%", "A$Color ", ""] {
             let input = format!("{head}{}", unit.repeat(200_000 / unit.len()));
             let start = std::time::Instant::now();
-            let reading = read(&Text::plain(&input, 0), Place::Text);
+            let reading = read(&Text::plain(&input, 0), Container::Text);
             drop(reading);
             let seconds = start.elapsed().as_secs_f64();
             assert!(seconds < 5., "{head}{unit}…: {seconds} s");
@@ -191,14 +191,14 @@ fn long_strings_take_no_longer_than_their_length() {
 }
 
 #[test]
-fn long_chains_of_variables_are_followed() {
+fn long_chains_of_variables_are_evaluated() {
     let mut input = String::from("%Let v0 1");
     for index in 1..20_000 {
         input.push_str(&format!(" Let v{} (v{} + 1)", index, index - 1));
     }
-    // The last needs all others, and the names are looked up from the first.
+    // The last variable depends on all others.
     let text = Text::plain(&input, 0);
-    let (annotation, mut diagnostics) = parse(&text, Place::Text);
+    let (annotation, mut diagnostics) = parse(&text, Container::Text);
     let variables = Variables::collect([(&text, &annotation)], &mut diagnostics);
     assert_eq!(diagnostics, []);
     assert_eq!(variables.get("v19999"), Some(20_000.));

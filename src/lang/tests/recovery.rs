@@ -1,4 +1,4 @@
-//! What is said about signs, names and strings as a whole, to the letter.
+//! The exact diagnostics about signs, names and whole strings.
 
 use super::check;
 
@@ -36,7 +36,7 @@ fn e107_unclosed_parenthesis() {
         "Arm$Offset 1) Color red",
         r#"
             Arm$Offset 1) Color red
-                        ^ E107: this `)` closes nothing: `(` is missing
+                        ^ E107: this `)` has no matching `(`
               fix: Delete it -> Arm$Offset 1 Color red
         "#,
     );
@@ -58,7 +58,7 @@ fn e108_unknown_variable() {
         "Arm$Offset wdth",
         r#"
             Arm$Offset wdth
-                       ^^^^ E108: no variable is called `wdth` (a number is due here)
+                       ^^^^ E108: there is no variable called `wdth` (expected a number)
               help: write a number, or define the variable in a `%` string: `%Let wdth 10`
         "#,
     );
@@ -66,7 +66,7 @@ fn e108_unknown_variable() {
         "%Let thick 5 Offset thikc",
         r#"
             %Let thick 5 Offset thikc
-                                ^^^^^ E108: no variable is called `thikc` (did you mean `thick`?)
+                                ^^^^^ E108: there is no variable called `thikc` (did you mean `thick`?)
               fix: Write `thick` -> %Let thick 5 Offset thick
         "#,
     );
@@ -74,7 +74,7 @@ fn e108_unknown_variable() {
         "%Let a (b + 1)",
         r#"
             %Let a (b + 1)
-                    ^ E108: no variable is called `b` (a number is due here)
+                    ^ E108: there is no variable called `b` (expected a number)
               help: write a number, or define the variable in a `%` string: `%Let b 10`
         "#,
     );
@@ -88,7 +88,7 @@ fn e109_variable_cycle() {
             %Let a (b) Let b (a + 1) Offset a
                  ^ E109: the value of `a` depends on itself (a → b → a)
               see `b`: through `b`
-              help: give one of them a number
+              help: give one of these variables a plain number
         "#,
     );
     check(
@@ -96,7 +96,7 @@ fn e109_variable_cycle() {
         r#"
             %Let a a
                  ^ E109: the value of `a` depends on itself (a → a)
-              help: give one of them a number
+              help: give one of these variables a plain number
         "#,
     );
 }
@@ -107,24 +107,24 @@ fn e110_not_allowed_here() {
         "Arm$Scale 2",
         r#"
             Arm$Scale 2
-                ^^^^^ E110: `Scale` cannot stand in a part string
-              help: `Scale` stands in `%` strings only, since it is about the whole drawing
+                ^^^^^ E110: `Scale` is not allowed in a part string
+              help: `Scale` is allowed in `%` strings only, because it applies to the whole drawing
         "#,
     );
     check(
         "Arm$Tile green Offset 1",
         r#"
             Arm$Tile green Offset 1
-                ^^^^ E110: `Tile` cannot stand in a part string
-              help: `Tile` stands in legends only (`$ …`, a text beside a sample of the paint)
+                ^^^^ E110: `Tile` is not allowed in a part string
+              help: `Tile` is allowed in legends only (`$ …`, a text beside a sample of the paint)
         "#,
     );
     check(
         "$Let w 2",
         r#"
             $Let w 2
-             ^^^ E110: `Let` cannot stand in a legend
-              help: `Let` stands in `%` strings only, since it is about the whole drawing
+             ^^^ E110: `Let` is not allowed in a legend
+              help: `Let` is allowed in `%` strings only, because it applies to the whole drawing
         "#,
     );
 }
@@ -135,24 +135,24 @@ fn e111_no_name() {
         "@Body$Shape round",
         r#"
             @Body$Shape round
-            ^ E111: this string does not name its part (a name is due here)
-              help: write `Name@Parent$ attributes`; a name with spaces stands in quotes
+            ^ E111: this string does not name its part (expected a name)
+              help: write `Name@Parent$ attributes`; a name with spaces needs quotes
         "#,
     );
     check(
         "Rarm@$Shape round",
         r#"
             Rarm@$Shape round
-                ^ E111: no parent is named behind `@` (a name is due here)
-              help: write `Name@Parent$ attributes`; a name with spaces stands in quotes
+                ^ E111: there is no parent's name after `@` (expected a name)
+              help: write `Name@Parent$ attributes`; a name with spaces needs quotes
         "#,
     );
     check(
         "^",
         r#"
             ^
-            ^ E111: a feature point needs a name behind `^` (a name is due here)
-              help: write `Name@Parent$ attributes`; a name with spaces stands in quotes
+            ^ E111: a feature point needs a name after `^` (expected a name)
+              help: write `Name@Parent$ attributes`; a name with spaces needs quotes
         "#,
     );
 }
@@ -163,25 +163,25 @@ fn e112_unexpected_sign() {
         "Rarm@Ubody$Shape round$Shape default 0 20 Color 0.0 0.0 1.0v -90 90",
         r#"
             Rarm@Ubody$Shape round$Shape default 0 20 Color 0.0 0.0 1.0v -90 90
-                                  ^ E112: `$` cannot stand here (a new string seems to begin here)
-              help: two strings seem to have been typed into one text: cut the second one out and give it a text of its own
+                                  ^ E112: `$` is not allowed here (a new string seems to begin here)
+              help: two strings seem to have been typed into one text: cut the second one out and paste it into a text of its own
                                                                     ^^^^ E104: `1.0v` is neither a number nor a word
-              help: put a space between numbers and words, and text with signs in quotes
+              help: put a space between numbers and words, and quotes around text with punctuation
         "#,
     );
     check(
         "Arm$Shape round Larm@Ubody$Shape round",
         r#"
             Arm$Shape round Larm@Ubody$Shape round
-                                ^ E112: `@` cannot stand here (a new string seems to begin here)
-              help: two strings seem to have been typed into one text: cut the second one out and give it a text of its own
+                                ^ E112: `@` is not allowed here (a new string seems to begin here)
+              help: two strings seem to have been typed into one text: cut the second one out and paste it into a text of its own
         "#,
     );
     check(
         "Arm$$Offset 1",
         r#"
             Arm$$Offset 1
-                ^ E112: `$` cannot stand here (the sign is typed twice)
+                ^ E112: `$` is not allowed here (the sign was typed twice)
               fix: Delete the second sign -> Arm$Offset 1
         "#,
     );
@@ -189,24 +189,24 @@ fn e112_unexpected_sign() {
         "Arm@Body@Leg$Offset 1",
         r#"
             Arm@Body@Leg$Offset 1
-                    ^ E112: `@` cannot stand here (a new string seems to begin here)
-              help: two strings seem to have been typed into one text: cut the second one out and give it a text of its own
+                    ^ E112: `@` is not allowed here (a new string seems to begin here)
+              help: two strings seem to have been typed into one text: cut the second one out and paste it into a text of its own
         "#,
     );
     check(
         "Arm$Offset 1%Scale 2",
         r#"
             Arm$Offset 1%Scale 2
-                        ^ E112: `%` cannot stand here (a new string seems to begin here)
-              help: two strings seem to have been typed into one text: cut the second one out and give it a text of its own
+                        ^ E112: `%` is not allowed here (a new string seems to begin here)
+              help: two strings seem to have been typed into one text: cut the second one out and paste it into a text of its own
         "#,
     );
     check(
         "%Scale 2 *Unuse",
         r#"
             %Scale 2 *Unuse
-                     ^ E112: `*` cannot stand here (a new string seems to begin here)
-              help: two strings seem to have been typed into one text: cut the second one out and give it a text of its own
+                     ^ E112: `*` is not allowed here (a new string seems to begin here)
+              help: two strings seem to have been typed into one text: cut the second one out and paste it into a text of its own
         "#,
     );
 }
@@ -227,7 +227,7 @@ fn e113_unknown_flag() {
         r#"
             Arm$Shape -x round
                        ^ E113: `Shape` has no flag `-x`
-              help: its flags are: `-s` a second, mirrored copy on the other side of the drawing plane, moving with the first; `-c` the part turns about its centre, short for `Origin center`; `-d` a second, mirrored copy that moves by itself, with all that hangs on the part
+              help: its flags are: `-s` a second, mirrored copy on the other side of the drawing plane that moves with the first; `-c` the part turns about its centre, short for `Origin center`; `-d` a second, mirrored copy that moves independently, with copies of all attached parts
         "#,
     );
 }
@@ -238,21 +238,21 @@ fn e114_bad_expression() {
         "Arm$Offset (1 + )",
         r#"
             Arm$Offset (1 + )
-                            ^ E114: `(1 + )` cannot be read as a calculation (a number or a variable is due here)
+                            ^ E114: `(1 + )` is not a valid calculation (expected a number or a variable)
         "#,
     );
     check(
         "Arm$Offset (1 2)",
         r#"
             Arm$Offset (1 2)
-                          ^ E114: `(1 2)` cannot be read as a calculation (a sign of arithmetic is due here)
+                          ^ E114: `(1 2)` is not a valid calculation (expected an operator: `+`, `-`, `*` or `/`)
         "#,
     );
     check(
         "Arm$Offset (2w)",
         r#"
             Arm$Offset (2w)
-                        ^^ E114: `(2w)` cannot be read as a calculation (a number and letters in one word are neither)
+                        ^^ E114: `(2w)` is not a valid calculation (letters directly after a number: put a space or an operator between them)
         "#,
     );
     check(
@@ -267,7 +267,7 @@ fn e114_bad_expression() {
         "Arm$Offset ()",
         r#"
             Arm$Offset ()
-                        ^ E114: `()` cannot be read as a calculation (a number or a variable is due here)
+                        ^ E114: `()` is not a valid calculation (expected a number or a variable)
         "#,
     );
 }
@@ -278,7 +278,7 @@ fn e115_unquoted_name() {
         "Left arm@Body$Shape round",
         r#"
             Left arm@Body$Shape round
-            ^^^^^^^^ E115: the name `Left arm` needs quotes (a name with spaces or parentheses stands in quotes)
+            ^^^^^^^^ E115: the name `Left arm` needs quotes (a name with spaces or parentheses needs quotes)
               fix: Put the name in quotes -> "Left arm"@Body$Shape round
         "#,
     );
@@ -286,7 +286,7 @@ fn e115_unquoted_name() {
         "Arm@Upper body",
         r#"
             Arm@Upper body
-                ^^^^^^^^^^ E115: the name `Upper body` needs quotes (a name with spaces or parentheses stands in quotes)
+                ^^^^^^^^^^ E115: the name `Upper body` needs quotes (a name with spaces or parentheses needs quotes)
               fix: Put the name in quotes -> Arm@"Upper body"
         "#,
     );
@@ -294,7 +294,7 @@ fn e115_unquoted_name() {
         r##""Left" arm@Body"##,
         r#"
             "Left" arm@Body
-                   ^^^ E115: `arm` stands behind the quotes of a name (put all of the name into the quotes)
+                   ^^^ E115: `arm` follows the closing quote of a name (put the whole name inside the quotes)
         "#,
     );
 }
@@ -305,7 +305,7 @@ fn e116_missing_sign() {
         "Rarm@Ubody Shape roundv",
         r#"
             Rarm@Ubody Shape roundv
-                       ^^^^^ E116: `$` is missing before `Shape` (attributes stand behind `$`)
+                       ^^^^^ E116: `$` is missing before `Shape` (attributes come after `$`)
               fix: Insert `$` -> Rarm@Ubody $Shape roundv
         "#,
     );
@@ -313,16 +313,16 @@ fn e116_missing_sign() {
         r##""Left arm" Shape$Color red"##,
         r#"
             "Left arm" Shape$Color red
-                       ^^^^^ E103: `Shape` stands here without arguments
+                       ^^^^^ E103: `Shape` needs arguments
               help: write `Shape [-scd] kind parameters…`
-                       ^^^^^ E116: `$` is missing before `Shape` (attributes stand behind `$`)
+                       ^^^^^ E116: `$` is missing before `Shape` (attributes come after `$`)
               fix: Insert `$` -> "Left arm" $Shape$Color red
         "#,
     );
 }
 
 #[test]
-fn faultless() {
+fn read_without_diagnostics() {
     check(
         "Arm$shape -CD ROUNDV color ORANGE",
         r#"
@@ -333,7 +333,7 @@ fn faultless() {
         r##"Arm$Follow U-1 "Left arm" mixamorig:Hips"##,
         r#"
             Arm$Follow U-1 "Left arm" mixamorig:Hips
-                ^^^^^^ W310: `Follow` has no effect in this version (understood, but not built yet)
+                ^^^^^^ W310: `Follow` has no effect in this version (read and checked, but not supported yet)
         "#,
     );
     check(

@@ -1,13 +1,13 @@
-//! What strings are read as.
+//! The syntax tree and values of strings.
 
 use super::*;
 use crate::lang::looks_like_string;
 use crate::lang::value::{Origin, Shape, ShapeKind, Value};
 use crate::source::{Form, Span};
 
-fn head(input: &str, place: Place) -> String {
+fn head(input: &str, container: Container) -> String {
     let name = |name: Option<crate::lang::ast::Name>| name.map_or("-".to_owned(), |name| name.text);
-    match read(&Text::plain(input, 0), place).annotation {
+    match read(&Text::plain(input, 0), container).annotation {
         Annotation::Empty => "empty".to_owned(),
         Annotation::Comment => "comment".to_owned(),
         Annotation::Unused => "unused".to_owned(),
@@ -47,7 +47,7 @@ fn kinds_of_string() {
         ("$", "legend 0"),
         ("Ｈｅａｄ", "part Head of -, 0"),
     ] {
-        assert_eq!(head(input, Place::Text), found, "{input}");
+        assert_eq!(head(input, Container::Text), found, "{input}");
     }
     for (input, found) in [
         ("$Color red", "part - of -, 1"),
@@ -55,14 +55,14 @@ fn kinds_of_string() {
         ("Arm@Body", "part Arm of Body, 0"),
         ("%Scale 2", "defaults 1"),
     ] {
-        assert_eq!(head(input, Place::Desc), found, "{input}");
-        let reading = read(&Text::plain(input, 0), Place::Desc);
+        assert_eq!(head(input, Container::Desc), found, "{input}");
+        let reading = read(&Text::plain(input, 0), Container::Desc);
         assert_eq!(reading.diagnostics, [], "{input}");
     }
 }
 
 #[test]
-fn strings_are_told_from_other_texts() {
+fn strings_are_distinguished_from_other_texts() {
     for text in [
         "%",
         " $Color",
@@ -94,12 +94,12 @@ fn strings_are_told_from_other_texts() {
 #[test]
 fn values_are_computed() {
     let input = "%Let w 4 Offset (w * (2 + 1) / 2 - -1) Shape -cs round Origin 1 w Color #f008";
-    let reading = read(&Text::plain(input, 0), Place::Text);
+    let reading = read(&Text::plain(input, 0), Container::Text);
     assert_eq!(reading.diagnostics, []);
     let values: Vec<_> = reading
         .settings
         .iter()
-        .map(|setting| (&setting.value, setting.words.as_str()))
+        .map(|setting| (&setting.value, setting.text.as_str()))
         .collect();
     let round = Shape {
         kind: ShapeKind::Round([-90., 90.], None),
@@ -124,8 +124,8 @@ fn values_are_computed() {
 }
 
 #[test]
-fn what_is_right_counts_beside_what_is_wrong() {
-    for (input, kept) in [
+fn valid_attributes_count_beside_invalid_ones() {
+    for (input, expected) in [
         (
             "Arm$Shape rond Offset 3 Colr red Alpha .5",
             vec!["Offset", "Alpha"],
@@ -139,31 +139,31 @@ fn what_is_right_counts_beside_what_is_wrong() {
         ("Arm$Offset (1 Alpha .5", vec!["Alpha"]),
         ("Arm$Shape default 0 20 Colr 1 0 0", vec!["Shape"]),
     ] {
-        let reading = read(&Text::plain(input, 0), Place::Text);
+        let reading = read(&Text::plain(input, 0), Container::Text);
         let found: Vec<_> = reading
             .settings
             .iter()
             .map(|setting| setting.keyword.name())
             .collect();
-        assert_eq!(found, kept, "{input}");
+        assert_eq!(found, expected, "{input}");
     }
 }
 
 #[test]
-fn places_and_fixes_go_through_entities_and_elements() {
+fn spans_and_fixes_cross_entities_and_elements() {
     // `Arm$Co` `lr` in a second element, `red`, all behind an entity for `$`.
     let mut text = Text::default();
     text.push("Arm", Span::new(10, 13), Form::Plain);
     text.push("$", Span::new(13, 18), Form::Unit);
     text.push("Colr red Offset wx", Span::new(18, 36), Form::Plain);
-    let reading = read(&text, Place::Text);
+    let reading = read(&text, Container::Text);
     assert_eq!(reading.diagnostics[0].span, Span::new(18, 22));
     assert_eq!(reading.diagnostics[0].fixes.len(), 1);
 
     let mut torn = Text::default();
     torn.push("Arm$Co", Span::new(10, 16), Form::Plain);
     torn.push("lr red", Span::new(40, 46), Form::Plain);
-    let reading = read(&torn, Place::Text);
+    let reading = read(&torn, Container::Text);
     assert_eq!(reading.diagnostics[0].span, Span::new(14, 42));
     assert_eq!(
         reading.diagnostics[0].fixes,

@@ -1,12 +1,12 @@
-//! The table's examples are strings without a fault.
+//! The examples of the table are strings without diagnostics.
 
 use super::*;
 use crate::diagnostic::Code;
-use crate::lang::keyword::{Keyword, kinds, words};
+use crate::lang::keyword::{Keyword, kinds, vocabulary};
 
 #[track_caller]
-fn faultless(example: &str) -> Reading {
-    let mut reading = read(&Text::plain(example, 0), Place::Text);
+fn read_without_diagnostics(example: &str) -> Reading {
+    let mut reading = read(&Text::plain(example, 0), Container::Text);
     reading
         .diagnostics
         .retain(|diagnostic| diagnostic.code != Code::NotBuiltYet);
@@ -22,13 +22,13 @@ fn faultless(example: &str) -> Reading {
 fn examples_of_keywords() {
     for keyword in Keyword::ALL {
         let row = keyword.row();
-        let reading = faultless(row.example);
+        let reading = read_without_diagnostics(row.example);
         let used = |setting: &Setting| setting.keyword == *keyword;
         assert!(reading.settings.iter().any(used), "{}", row.example);
     }
 }
 
-/// The wrong example on a code's manual page shows just that fault.
+/// The example on the manual page of a code gives exactly that diagnostic.
 #[test]
 fn examples_of_diagnostics() {
     for code in Code::ALL {
@@ -44,12 +44,12 @@ fn examples_of_diagnostics() {
             "((((…))))",
             &format!("{}1{}", "(".repeat(99), ")".repeat(99)),
         );
-        let mut reading = read(&Text::plain(&example, 0), Place::Text);
+        let mut reading = read(&Text::plain(&example, 0), Container::Text);
         reading
             .diagnostics
             .retain(|found| found.code != Code::NotBuiltYet || *code == Code::NotBuiltYet);
         let codes: Vec<_> = reading.diagnostics.iter().map(|found| found.code).collect();
-        // Two strings in one text break a word besides.
+        // The second string also breaks the word before it.
         let expected = match code {
             Code::UnexpectedSign => vec![Code::UnexpectedSign, Code::ArgumentType],
             code => vec![*code],
@@ -61,14 +61,14 @@ fn examples_of_diagnostics() {
 #[test]
 fn examples_of_kinds_functions_and_strings() {
     for kind in &kinds::KINDS {
-        let reading = faultless(kind.example);
-        let words = &reading.settings[0].words;
+        let reading = read_without_diagnostics(kind.example);
+        let words = &reading.settings[0].text;
         assert!(words.contains(kind.name), "{words}");
     }
-    for row in &words::FUNCTIONS {
-        faultless(row.example);
+    for row in &vocabulary::FUNCTIONS {
+        read_without_diagnostics(row.example);
     }
-    for row in &words::STRINGS {
-        faultless(row.example);
+    for row in &vocabulary::STRINGS {
+        read_without_diagnostics(row.example);
     }
 }

@@ -1,4 +1,4 @@
-//! What is warned of and hinted at, to the letter.
+//! The exact warnings and hints.
 
 use super::check;
 
@@ -8,18 +8,18 @@ fn h405_full_width() {
         "Ｒａｒｍ＠Ｕｂｏｄｙ＄Ｓｈａｐｅ　ｒｏｕｎｄｖ",
         r#"
             Ｒａｒｍ＠Ｕｂｏｄｙ＄Ｓｈａｐｅ　ｒｏｕｎｄｖ
-            ^^^^^^^^^^^^^^^^^^^^^^^ H405: `Ｒａｒｍ＠Ｕｂｏｄｙ＄Ｓｈａｐｅ　ｒｏｕｎｄｖ` is read as `Rarm@Ubody$Shape roundv` (full-width signs)
+            ^^^^^^^^^^^^^^^^^^^^^^^ H405: `Ｒａｒｍ＠Ｕｂｏｄｙ＄Ｓｈａｐｅ　ｒｏｕｎｄｖ` is read as `Rarm@Ubody$Shape roundv` (full-width characters)
               help: switch the input method to half-width, or apply the fix
-              fix: Write full-width signs as ASCII -> Rarm@Ubody$Shape roundv
+              fix: Write full-width characters as ASCII -> Rarm@Ubody$Shape roundv
         "#,
     );
     check(
         "右腕@胴$Shape　round（１）",
         r#"
             右腕@胴$Shape　round（１）
-                      ^^^^^^^^^ H405: `（１）` is read as `(1)` (full-width signs)
+                      ^^^^^^^^^ H405: `（１）` is read as `(1)` (full-width characters)
               help: switch the input method to half-width, or apply the fix
-              fix: Write full-width signs as ASCII -> 右腕@胴$Shape round(1)
+              fix: Write full-width characters as ASCII -> 右腕@胴$Shape round(1)
                        ^^^^^^^^ E103: `round` has too few arguments (`a1` is missing)
               help: write `Shape round [a0 a1 [r]]`
         "#,
@@ -28,9 +28,9 @@ fn h405_full_width() {
         "＃ ＡＢＣ",
         r#"
             ＃ ＡＢＣ
-            ^ H405: `＃` is read as `#` (full-width signs)
+            ^ H405: `＃` is read as `#` (full-width characters)
               help: switch the input method to half-width, or apply the fix
-              fix: Write full-width signs as ASCII -> # ＡＢＣ
+              fix: Write full-width characters as ASCII -> # ＡＢＣ
         "#,
     );
 }
@@ -41,8 +41,8 @@ fn w301_given_twice() {
         "%Scale 2 Scale 3",
         r#"
             %Scale 2 Scale 3
-                     ^^^^^ W301: `Scale` is given twice (this one holds)
-              see `Scale 2`: this one has no effect
+                     ^^^^^ W301: `Scale` is given twice (this one counts)
+              see `Scale 2`: this one is ignored
               help: delete one of them
         "#,
     );
@@ -54,8 +54,8 @@ fn w302_overridden() {
         "%Let a 1 Let a 2",
         r#"
             %Let a 1 Let a 2
-                         ^ W302: `a` is defined again (this definition holds)
-              see `a`: this one has no effect
+                         ^ W302: `a` is defined again (this definition counts)
+              see `a`: this one is ignored
         "#,
     );
 }
@@ -67,7 +67,7 @@ fn w305_zero_thickness() {
         r#"
             Arm$Shape default 5 5
                               ^^^ W305: this `default` has no thickness
-              help: for a thin bindings write `Shape flat`, for no solid at all `Shape none`
+              help: write `Shape flat` for a thin sheet, or `Shape none` for no solid at all
         "#,
     );
     check(
@@ -75,7 +75,7 @@ fn w305_zero_thickness() {
         r#"
             Arm$Shape round -90 90 0
                             ^^^^^^^^ W305: this `round` has no thickness
-              help: for a thin bindings write `Shape flat`, for no solid at all `Shape none`
+              help: write `Shape flat` for a thin sheet, or `Shape none` for no solid at all
         "#,
     );
 }
@@ -86,7 +86,7 @@ fn w310_not_built_yet() {
         "Boy$View 0 0",
         r#"
             Boy$View 0 0
-                ^^^^ W310: `View` has no effect in this version (understood, but not built yet)
+                ^^^^ W310: `View` has no effect in this version (read and checked, but not supported yet)
         "#,
     );
 }

@@ -1,19 +1,19 @@
-//! The diagnostics of attributes as a whole.
+//! Diagnostics about a whole attribute.
 
 use std::ops::Range;
 
 use super::{Checker, takes_a_name};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Attribute;
-use crate::lang::keyword::{Holder, Keyword};
+use crate::lang::keyword::{AttributeString, Keyword};
 
 impl Checker<'_> {
-    pub(super) fn not_allowed(&mut self, attribute: &Attribute, holder: Holder) {
+    pub(super) fn not_allowed(&mut self, attribute: &Attribute, string: AttributeString) {
         let name = attribute.keyword.name();
-        let here = match holder {
-            Holder::Part => "in a part string",
-            Holder::Legend => "in a legend",
-            Holder::Defaults => "in a `%` string",
+        let here = match string {
+            AttributeString::Part => "in a part string",
+            AttributeString::Legend => "in a legend",
+            AttributeString::Defaults => "in a `%` string",
         };
         let span = self.text.span(attribute.keyword_range.clone());
         let places = attribute.keyword.row().allowed.places();
@@ -21,9 +21,9 @@ impl Checker<'_> {
             Diagnostic::new(
                 Code::NotAllowedHere,
                 span,
-                format!("`{name}` cannot stand {here}"),
+                format!("`{name}` is not allowed {here}"),
             )
-            .help(format!("`{name}` stands {places}")),
+            .help(format!("`{name}` is allowed {places}")),
         );
     }
 
@@ -36,8 +36,8 @@ impl Checker<'_> {
                 self.text.span(later.keyword_range.clone()),
                 format!("`{name}` is given twice"),
             )
-            .label("this one holds")
-            .related(related, "this one has no effect")
+            .label("this one counts")
+            .related(related, "this one is ignored")
             .help("delete one of them"),
         );
     }
@@ -49,7 +49,7 @@ impl Checker<'_> {
                 self.text.span(range),
                 format!("`{name}` has no effect in this version"),
             )
-            .label("understood, but not built yet"),
+            .label("read and checked, but not supported yet"),
         );
     }
 
@@ -68,7 +68,7 @@ impl Checker<'_> {
         );
         let word: String = attribute.flags.iter().map(|(letter, _)| *letter).collect();
         if flags.is_empty() {
-            // Directly behind a keyword `-w` reads as flags.
+            // Directly after a keyword, `-w` is read as flags.
             let all = match (attribute.flags.first(), attribute.flags.last()) {
                 (Some((_, first)), Some((_, last))) => first.start.saturating_sub(1)..last.end,
                 _ => range,
@@ -95,8 +95,8 @@ impl Checker<'_> {
         self.diagnostics.push(diagnostic);
     }
 
-    /// A keyword that needs arguments and has none.
-    pub(super) fn nothing_given(&mut self, attribute: &Attribute, before: Option<&Attribute>) {
+    /// Reports a keyword that needs arguments and has none.
+    pub(super) fn missing_arguments(&mut self, attribute: &Attribute, before: Option<&Attribute>) {
         let name = attribute.keyword.name();
         let usage = attribute.keyword.usages().join("`, or `");
         let range = attribute.keyword_range.clone();
@@ -104,16 +104,16 @@ impl Checker<'_> {
         let diagnostic = Diagnostic::new(
             Code::ArgumentCount,
             span,
-            format!("`{name}` stands here without arguments"),
+            format!("`{name}` needs arguments"),
         );
         let written = self.text.as_str().get(range.clone()).unwrap_or(name);
         let diagnostic = match before.filter(|before| takes_a_name(before)) {
             Some(before) if before.keyword == Keyword::Let => diagnostic.help(format!(
-                "a variable cannot be called `{written}`, since that is a keyword"
+                "a variable cannot be called `{written}`, because that is a keyword"
             )),
             Some(before) => diagnostic
                 .help(format!(
-                    "write `{usage}`; if it is a name for `{}`, put it in quotes",
+                    "write `{usage}`; if it is a name that belongs to `{}`, put it in quotes",
                     before.keyword.name()
                 ))
                 .fix(

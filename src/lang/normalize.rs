@@ -1,30 +1,30 @@
-//! Full-width signs read as ASCII.
+//! Normalization: full-width characters are read as ASCII.
 //!
-//! Japanese input methods type `＄`, `２`, `（` and the ideographic space where the language has
-//! ASCII. Every character that compatibility normalisation (NFKC) maps to ASCII is folded, except in
-//! comments and quotes; places in the folded text lead back to the text as it was written.
+//! Japanese input methods type `＄`, `２`, `（` and the ideographic space where the language uses
+//! ASCII. Every character that Unicode compatibility normalization (NFKC) maps to ASCII is replaced,
+//! except in comments and quotes. Offsets in the normalized text can be mapped back to the original.
 
 use std::borrow::Cow;
 use std::ops::Range;
 
 use unicode_normalization::char::decompose_compatible;
 
-/// A string with full-width signs folded to ASCII.
+/// A string with full-width characters replaced by ASCII.
 #[derive(Debug)]
-pub(super) struct Folded<'a> {
+pub(super) struct Normalized<'a> {
     text: Cow<'a, str>,
     changes: Vec<Change>,
 }
 
-/// A character that was folded.
+/// A character that was replaced.
 #[derive(Debug, Clone)]
 struct Change {
-    folded: Range<usize>,
+    normalized: Range<usize>,
     original: Range<usize>,
 }
 
-impl<'a> Folded<'a> {
-    /// Folds `text`.
+impl<'a> Normalized<'a> {
+    /// Normalizes `text`.
     pub(super) fn new(text: &'a str) -> Self {
         if text.is_ascii() {
             return Self {
@@ -40,10 +40,10 @@ impl<'a> Folded<'a> {
         while let Some(c) = text[at..].chars().next() {
             let next = at + c.len_utf8();
             let start = out.len();
-            fold(c, &mut out);
+            normalize_char(c, &mut out);
             if out[start..] != text[at..next] {
                 changes.push(Change {
-                    folded: start..out.len(),
+                    normalized: start..out.len(),
                     original: at..next,
                 });
             }
@@ -62,58 +62,58 @@ impl<'a> Folded<'a> {
         }
     }
 
-    /// The folded text.
+    /// The normalized text.
     pub(super) fn as_str(&self) -> &str {
         &self.text
     }
 
-    /// Where the folded characters `range` stand in the text as it was written.
+    /// The range of the original text that `range` of the normalized text came from.
     pub(super) fn original(&self, range: Range<usize>) -> Range<usize> {
-        let start = self.place(range.start, |change| change.original.start);
+        let start = self.original_offset(range.start, |change| change.original.start);
         if range.is_empty() {
             return start..start;
         }
-        start..self.place(range.end, |change| change.original.end)
+        start..self.original_offset(range.end, |change| change.original.end)
     }
 
-    /// The characters that were folded, neighbours together: where they stand in the text as it was
-    /// written, and what they were read as.
-    pub(super) fn folds(&self) -> Vec<(Range<usize>, &str)> {
+    /// The replaced stretches of the original text, adjacent characters joined, each with its
+    /// replacement.
+    pub(super) fn replacements(&self) -> Vec<(Range<usize>, &str)> {
         let mut runs: Vec<(Range<usize>, Range<usize>)> = vec![];
         for change in &self.changes {
             match runs.last_mut() {
-                Some((original, folded)) if original.end == change.original.start => {
+                Some((original, normalized)) if original.end == change.original.start => {
                     original.end = change.original.end;
-                    folded.end = change.folded.end;
+                    normalized.end = change.normalized.end;
                 }
-                _ => runs.push((change.original.clone(), change.folded.clone())),
+                _ => runs.push((change.original.clone(), change.normalized.clone())),
             }
         }
         runs.into_iter()
-            .map(|(original, folded)| (original, &self.text[folded]))
+            .map(|(original, normalized)| (original, &self.text[normalized]))
             .collect()
     }
 
-    /// The original offset of a folded one; `inside` says what holds within a folded character.
-    fn place(&self, offset: usize, inside: fn(&Change) -> usize) -> usize {
+    /// The original offset of a normalized one; `inside` gives the offset within a replaced character.
+    fn original_offset(&self, offset: usize, inside: fn(&Change) -> usize) -> usize {
         let next = self
             .changes
-            .partition_point(|change| change.folded.start < offset);
+            .partition_point(|change| change.normalized.start < offset);
         match next.checked_sub(1).map(|index| &self.changes[index]) {
             None => offset,
-            Some(change) if offset < change.folded.end => inside(change),
-            Some(change) => change.original.end + (offset - change.folded.end),
+            Some(change) if offset < change.normalized.end => inside(change),
+            Some(change) => change.original.end + (offset - change.normalized.end),
         }
     }
 }
 
-/// `text` as the language reads it: full-width signs, letters and digits as ASCII, except in comments and quotes.
-pub fn folded(text: &str) -> Cow<'_, str> {
-    Folded::new(text).text
+/// `text` with full-width characters replaced by ASCII, except in comments and quotes.
+pub fn normalize(text: &str) -> Cow<'_, str> {
+    Normalized::new(text).text
 }
 
-/// Appends `c`, or the ASCII that it stands for.
-fn fold(c: char, out: &mut String) {
+/// Appends `c`, or the ASCII characters it stands for.
+fn normalize_char(c: char, out: &mut String) {
     if c.is_ascii() {
         out.push(c);
         return;
@@ -129,7 +129,7 @@ fn fold(c: char, out: &mut String) {
 /// The offset of the quote that closes the one at `open`.
 ///
 /// An ASCII quote is closed by the next ASCII quote if there is one; otherwise, and for a full-width
-/// quote, either kind closes. So reading the folded text again gives the same quotes.
+/// quote, either kind closes it. With this rule the normalized text has the same quotes when it is read again.
 fn closing_quote(text: &str, open: usize, last_quote: Option<usize>) -> Option<usize> {
     let inside = open + text[open..].chars().next().map_or(0, char::len_utf8);
     let ascii = text[open..].starts_with('"') && last_quote.is_some_and(|last| last > open);
@@ -143,8 +143,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn everything_that_is_ascii_at_heart_is_folded() {
-        for (text, folded) in [
+    fn compatibility_characters_become_ascii() {
+        for (text, expected) in [
             (
                 "Ｒａｒｍ＠Ｕｂｏｄｙ＄Ｓｈａｐｅ　（２＋１）",
                 "Rarm@Ubody$Shape (2+1)",
@@ -157,18 +157,18 @@ mod tests {
             ("１ \"２ ３", "1 \"2 3"),
             ("㎝½", "cm½"),
         ] {
-            assert_eq!(Folded::new(text).as_str(), folded, "{text}");
+            assert_eq!(Normalized::new(text).as_str(), expected, "{text}");
         }
     }
 
     #[test]
-    fn places_lead_back() {
+    fn ranges_map_back_to_the_original() {
         let text = "a㎝　é＄b";
-        let folded = Folded::new(text);
-        assert_eq!(folded.as_str(), "acm é$b");
+        let normalized = Normalized::new(text);
+        assert_eq!(normalized.as_str(), "acm é$b");
         let find = |part: &str| {
-            let at = folded.as_str().find(part).unwrap();
-            &text[folded.original(at..at + part.len())]
+            let at = normalized.as_str().find(part).unwrap();
+            &text[normalized.original(at..at + part.len())]
         };
         for (part, original) in [
             ("a", "a"),
@@ -179,6 +179,6 @@ mod tests {
         ] {
             assert_eq!(find(part), original);
         }
-        assert_eq!(folded.folds().len(), 2);
+        assert_eq!(normalized.replacements().len(), 2);
     }
 }

@@ -1,57 +1,57 @@
-//! Arguments against the parameters of the table.
+//! Matches arguments against the parameters of the table.
 
 use super::Checker;
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::{Argument, ArgumentKind, Name};
-use crate::lang::evaluate::{Failure, Known, evaluate};
+use crate::lang::evaluate::{EvaluationError, Lookup, evaluate};
 use crate::lang::keyword::colours::{self, COLOURS};
 use crate::lang::keyword::kinds::Kind;
 use crate::lang::keyword::signature::{Bounds, Form, Parameter, Takes};
-use crate::lang::keyword::{Keyword, words};
-use crate::lang::parse::slips;
-use crate::lang::variables::{expression, tell};
+use crate::lang::keyword::{Keyword, vocabulary};
+use crate::lang::parse::suggestions;
+use crate::lang::variables::{as_expression, evaluation_diagnostic};
 
-/// An argument that fits.
+/// The value of an argument that matches its parameter.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Given {
+pub(super) enum ArgumentValue {
     /// A number.
     Number(f64),
-    /// A word in its canonical form, an axis, a variable's name.
+    /// A word in its canonical spelling, an axis, or a variable's name.
     Word(String),
     /// A colour, and how it is written.
     Colour([u8; 4], String),
-    /// A file's name, or text.
+    /// A file name, or text.
     Text(String),
     /// One of several names.
     Name(String),
 }
 
-/// Why an argument does not fit; a diagnostic was made, or none is due.
+/// Why an argument does not match its parameter.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Misfit {
-    /// The attribute has a fault.
-    Fault,
-    /// The argument is no argument, but a keyword with a slip: the attribute ends before it.
-    Keyword,
+enum ArgumentError {
+    /// The argument is wrong, which has been reported if necessary.
+    Invalid,
+    /// The argument is a misspelled keyword: the attribute ends before it.
+    MisspelledKeyword,
 }
 
-/// Who takes the arguments, for messages.
+/// The keyword or kind whose arguments are matched, for messages.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Taker<'a> {
-    /// A keyword or a kind of `Shape`.
+pub(super) struct Callee<'a> {
+    /// The keyword or the kind of `Shape`.
     pub(super) name: &'a str,
-    /// The kind, where it is one.
+    /// The kind, if it is one.
     pub(super) kind: Option<&'static Kind>,
-    /// The place of its name.
-    pub(super) place: &'a std::ops::Range<usize>,
-    /// How many parameters there are.
+    /// The range of the name.
+    pub(super) range: &'a std::ops::Range<usize>,
+    /// The number of parameters.
     pub(super) parameters: usize,
-    /// Whose values `Let` tells about: there nothing is said here.
+    /// The attribute's keyword.
     pub(super) keyword: Keyword,
 }
 
-impl Taker<'_> {
-    /// How it is written in full.
+impl Callee<'_> {
+    /// The printed form, for messages.
     fn usage(&self) -> String {
         match self.kind {
             Some(kind) => format!("Shape {}", kind.usage()),
@@ -61,138 +61,139 @@ impl Taker<'_> {
 }
 
 impl Checker<'_> {
-    /// Fits `arguments` to `form`.
-    pub(super) fn fit(
+    /// Matches `arguments` against `form`. `None` if there is an error, which has been reported.
+    pub(super) fn match_arguments(
         &mut self,
-        taker: Taker<'_>,
+        callee: Callee<'_>,
         form: &Form,
         arguments: &[Argument],
-    ) -> Option<Vec<Given>> {
-        let mut given = vec![];
-        let mut whole = true;
+    ) -> Option<Vec<ArgumentValue>> {
+        let mut values = vec![];
+        let mut valid = true;
         for (index, argument) in arguments.iter().enumerate() {
             let parameter = match form.parameters.get(index).or(form.parameters.last()) {
-                Some(parameter) if index < form.most() => parameter,
+                Some(parameter) if index < form.max_arguments() => parameter,
                 _ => {
-                    let ends = self.too_many(taker, &arguments[index..]);
-                    let enough = form.fits(given.len());
-                    return (whole && ends && enough).then_some(given);
+                    let ends = self.too_many(callee, &arguments[index..]);
+                    let enough = form.accepts(values.len());
+                    return (valid && ends && enough).then_some(values);
                 }
             };
-            match self.argument(taker, parameter, argument) {
-                Ok(value) => given.push(value),
-                Err(Misfit::Fault) => {
+            match self.argument(callee, parameter, argument) {
+                Ok(value) => values.push(value),
+                Err(ArgumentError::Invalid) => {
                     if matches!(parameter.takes, Takes::Names) {
-                        return self.no_name(taker, parameter, &arguments[..=index], given);
+                        return self.not_a_name(callee, parameter, &arguments[..=index], values);
                     }
-                    whole = false;
-                    given.push(Given::Number(0.));
+                    valid = false;
+                    values.push(ArgumentValue::Number(0.));
                 }
-                Err(Misfit::Keyword) => {
+                Err(ArgumentError::MisspelledKeyword) => {
                     self.unknown_keywords(&arguments[index..]);
-                    return (whole && form.fits(given.len())).then_some(given);
+                    return (valid && form.accepts(values.len())).then_some(values);
                 }
             }
         }
-        if !form.fits(given.len()) {
-            self.too_few(taker, form, arguments);
+        if !form.accepts(values.len()) {
+            self.too_few(callee, form, arguments);
             return None;
         }
-        whole.then_some(given)
+        valid.then_some(values)
     }
 
     fn argument(
         &mut self,
-        taker: Taker<'_>,
+        callee: Callee<'_>,
         parameter: &Parameter,
         argument: &Argument,
-    ) -> Result<Given, Misfit> {
+    ) -> Result<ArgumentValue, ArgumentError> {
         let found = match (&parameter.takes, &argument.kind) {
             (Takes::Number(bounds), kind) => {
                 if !matches!(kind, ArgumentKind::Quoted(_) | ArgumentKind::Hex(_)) {
-                    return self.number(taker, parameter, *bounds, argument);
+                    return self.number(callee, parameter, *bounds, argument);
                 }
                 None
             }
             (Takes::Choice(choices), ArgumentKind::Word(word)) => {
                 let names = choices.iter().map(|choice| choice.name);
-                return self.word(taker, argument, word, names);
+                return self.word(callee, argument, word, names);
             }
             (Takes::SignedAxis, ArgumentKind::Word(word)) => {
-                let names = words::AXES.iter().map(|axis| axis.name);
-                return self.word(taker, argument, word, names);
+                let names = vocabulary::AXES.iter().map(|axis| axis.name);
+                return self.word(callee, argument, word, names);
             }
             (Takes::ColourName, ArgumentKind::Word(word)) => match colours::colour(word) {
-                Some(colour) => Some(Given::Colour(colour, word.to_ascii_lowercase())),
+                Some(colour) => Some(ArgumentValue::Colour(colour, word.to_ascii_lowercase())),
                 None => {
                     let names = COLOURS.iter().copied();
-                    return self.word(taker, argument, word, names);
+                    return self.word(callee, argument, word, names);
                 }
             },
             (Takes::Hex, ArgumentKind::Hex(digits)) => match hex(digits) {
-                Some(colour) => Some(Given::Colour(
+                Some(colour) => Some(ArgumentValue::Colour(
                     colour,
                     format!("#{}", digits.to_ascii_lowercase()),
                 )),
                 None => {
                     self.bad_hex(argument, digits);
-                    return Err(Misfit::Fault);
+                    return Err(ArgumentError::Invalid);
                 }
             },
             (Takes::File | Takes::Text, ArgumentKind::Quoted(text) | ArgumentKind::Word(text))
                 if !text.trim().is_empty() =>
             {
-                Some(Given::Text(text.clone()))
+                Some(ArgumentValue::Text(text.clone()))
             }
             (Takes::Names, ArgumentKind::Quoted(text) | ArgumentKind::Word(text))
                 if !text.trim().is_empty() =>
             {
-                Some(Given::Name(text.clone()))
+                Some(ArgumentValue::Name(text.clone()))
             }
-            (Takes::Variable, ArgumentKind::Word(word)) => Some(Given::Word(word.clone())),
+            (Takes::Variable, ArgumentKind::Word(word)) => Some(ArgumentValue::Word(word.clone())),
             _ => None,
         };
         found.ok_or_else(|| {
-            // Of a list of names the caller tells, who knows the name before.
+            // The caller reports a bad name in a list, because it knows the name before it.
             if !matches!(parameter.takes, Takes::Names) {
-                self.wrong_type(taker, parameter, argument);
+                self.wrong_type(callee, parameter, argument);
             }
-            Misfit::Fault
+            ArgumentError::Invalid
         })
     }
 
     fn number(
         &mut self,
-        taker: Taker<'_>,
+        callee: Callee<'_>,
         parameter: &Parameter,
         bounds: Bounds,
         argument: &Argument,
-    ) -> Result<Given, Misfit> {
-        let Some(expression) = expression(argument) else {
-            return Err(Misfit::Fault);
+    ) -> Result<ArgumentValue, ArgumentError> {
+        let Some(expression) = as_expression(argument) else {
+            return Err(ArgumentError::Invalid);
         };
-        let value = match evaluate(&expression, &|name| self.variables.known(name)) {
+        let value = match evaluate(&expression, &|name| self.variables.lookup(name)) {
             Ok(value) => value,
-            // `Variables` has looked at the values of `Let`.
-            Err(_) if taker.keyword == Keyword::Let => return Err(Misfit::Fault),
-            Err(failure) => {
-                if let (Failure::Unknown(name), ArgumentKind::Word(_)) = (&failure, &argument.kind)
-                    && self.is_rather_a_keyword(name)
+            // `Variables::collect` has reported errors in the values of `Let`.
+            Err(_) if callee.keyword == Keyword::Let => return Err(ArgumentError::Invalid),
+            Err(error) => {
+                if let (EvaluationError::UndefinedVariable(name), ArgumentKind::Word(_)) =
+                    (&error, &argument.kind)
+                    && self.is_closer_to_a_keyword(name)
                 {
-                    return Err(Misfit::Keyword);
+                    return Err(ArgumentError::MisspelledKeyword);
                 }
                 let nearest = |name: &str| self.variables.nearest(name).map(str::to_owned);
-                let told = tell(failure, self.text, argument, &nearest);
-                self.diagnostics.extend(told);
-                return Err(Misfit::Fault);
+                let diagnostic = evaluation_diagnostic(error, self.text, argument, &nearest);
+                self.diagnostics.extend(diagnostic);
+                return Err(ArgumentError::Invalid);
             }
         };
-        if bounds.holds(value) {
-            return Ok(Given::Number(value));
+        if bounds.contains(value) {
+            return Ok(ArgumentValue::Number(value));
         }
-        let owner = match taker.parameters {
-            1 => format!("`{}`", taker.name),
-            _ => format!("`{}` of `{}`", parameter.name, taker.name),
+        let owner = match callee.parameters {
+            1 => format!("`{}`", callee.name),
+            _ => format!("`{}` of `{}`", parameter.name, callee.name),
         };
         self.diagnostics.push(
             Diagnostic::new(
@@ -200,17 +201,17 @@ impl Checker<'_> {
                 self.text.span(argument.range.clone()),
                 format!("{owner} cannot be {value}"),
             )
-            .label(format!("{} is due", bounds.describe())),
+            .label(format!("expected {}", bounds.describe())),
         );
-        Err(Misfit::Fault)
+        Err(ArgumentError::Invalid)
     }
 
-    /// Whether an unknown variable is nearer to a keyword than to any variable.
-    fn is_rather_a_keyword(&self, name: &Name) -> bool {
-        let Some((_, distance)) = Keyword::nearly(&name.text) else {
+    /// Whether an undefined variable is spelled more like a keyword than like any variable.
+    fn is_closer_to_a_keyword(&self, name: &Name) -> bool {
+        let Some((_, distance)) = Keyword::nearest(&name.text) else {
             return false;
         };
-        if words::is_known(&name.text) {
+        if vocabulary::is_known(&name.text) {
             return false;
         }
         self.variables.nearest(&name.text).is_none_or(|variable| {
@@ -221,30 +222,30 @@ impl Checker<'_> {
 
     fn word<'w>(
         &mut self,
-        taker: Taker<'_>,
+        callee: Callee<'_>,
         argument: &Argument,
         word: &str,
         names: impl Iterator<Item = &'w str> + Clone,
-    ) -> Result<Given, Misfit> {
+    ) -> Result<ArgumentValue, ArgumentError> {
         if let Some(name) = names.clone().find(|name| name.eq_ignore_ascii_case(word)) {
-            return Ok(Given::Word(name.to_owned()));
+            return Ok(ArgumentValue::Word(name.to_owned()));
         }
-        self.unknown_word(taker, argument, word, names);
-        Err(Misfit::Fault)
+        self.unknown_word(callee, argument, word, names);
+        Err(ArgumentError::Invalid)
     }
 
     pub(super) fn unknown_word<'w>(
         &mut self,
-        taker: Taker<'_>,
+        callee: Callee<'_>,
         argument: &Argument,
         word: &str,
         names: impl Iterator<Item = &'w str> + Clone,
     ) {
         let span = self.text.span(argument.range.clone());
-        let what = match taker.keyword {
-            Keyword::Shape => "no kind of `Shape`".to_owned(),
-            Keyword::Color | Keyword::Mark => "no colour".to_owned(),
-            _ => format!("no word of `{}`", taker.name),
+        let what = match callee.keyword {
+            Keyword::Shape => "not a kind of `Shape`".to_owned(),
+            Keyword::Color | Keyword::Mark => "not a colour".to_owned(),
+            _ => format!("not a value for `{}`", callee.name),
         };
         let diagnostic = Diagnostic::new(Code::UnknownWord, span, format!("`{word}` is {what}"));
         let all: Vec<_> = names.clone().map(|name| format!("`{name}`")).collect();
@@ -254,45 +255,45 @@ impl Checker<'_> {
                 span,
                 self.text.escape_at(argument.range.start, near),
             ),
-            None if all.len() > 20 => diagnostic.help(
-                "write a colour's name as in CSS, or `#rrggbb`, or three numbers from 0 to 1",
-            ),
-            None => diagnostic.help(format!("it is one of {}", all.join(", "))),
+            None if all.len() > 20 => {
+                diagnostic.help("write a CSS colour name, `#rrggbb`, or three numbers from 0 to 1")
+            }
+            None => diagnostic.help(format!("write one of {}", all.join(", "))),
         };
         self.diagnostics.push(diagnostic);
     }
 
-    /// The last of `arguments` is no name. In `Follow Rarm Colr 1 0 0` this shows that the name before
-    /// it was to be a keyword.
-    fn no_name(
+    /// Reports that the last of `arguments` is not a name. In `Follow Rarm Colr 1 0 0` the number shows that
+    /// the name before it was meant to be a keyword.
+    fn not_a_name(
         &mut self,
-        taker: Taker<'_>,
+        callee: Callee<'_>,
         parameter: &Parameter,
         arguments: &[Argument],
-        mut given: Vec<Given>,
-    ) -> Option<Vec<Given>> {
+        mut values: Vec<ArgumentValue>,
+    ) -> Option<Vec<ArgumentValue>> {
         if let [.., name, _] = arguments
             && let ArgumentKind::Word(word) = &name.kind
-            && slips::is_nearly_keyword(word, true)
+            && suggestions::is_misspelled_keyword(word, true)
         {
-            given.pop();
-            let diagnostic = slips::no_keyword(self.text, name.range.clone(), word);
+            values.pop();
+            let diagnostic = suggestions::unknown_keyword(self.text, name.range.clone(), word);
             self.diagnostics.push(diagnostic);
-            return (!given.is_empty()).then_some(given);
+            return (!values.is_empty()).then_some(values);
         }
         if let Some(last) = arguments.last() {
-            self.wrong_type(taker, parameter, last);
+            self.wrong_type(callee, parameter, last);
         }
         None
     }
 
-    /// Too many arguments. Whether the attribute ended properly before them.
-    fn too_many(&mut self, taker: Taker<'_>, excess: &[Argument]) -> bool {
+    /// Reports too many arguments. Returns whether the attribute is complete without them.
+    fn too_many(&mut self, callee: Callee<'_>, excess: &[Argument]) -> bool {
         let Some((first, last)) = excess.first().zip(excess.last()) else {
             return true;
         };
         if let ArgumentKind::Word(word) = &first.kind
-            && self.variables.known(word) == Known::Unknown
+            && self.variables.lookup(word) == Lookup::Undefined
         {
             self.unknown_keywords(excess);
             return true;
@@ -301,50 +302,51 @@ impl Checker<'_> {
             Diagnostic::new(
                 Code::ArgumentCount,
                 self.text.span(first.range.start..last.range.end),
-                format!("`{}` has too many arguments", taker.name),
+                format!("`{}` has too many arguments", callee.name),
             )
             .label(match excess.len() {
                 1 => "one too many".to_owned(),
                 count => format!("{count} too many"),
             })
-            .help(format!("write `{}`", taker.usage())),
+            .help(format!("write `{}`", callee.usage())),
         );
         false
     }
 
-    /// The first of `arguments` stands where a keyword is due; others may do so too.
+    /// Reports the first of `arguments`, which is in the place of a keyword, and further misspelled keywords.
     pub(super) fn unknown_keywords(&mut self, arguments: &[Argument]) {
         let mut lower_case = None;
         for argument in arguments {
             let ArgumentKind::Word(word) = &argument.kind else {
                 continue;
             };
-            let slip = match lower_case {
+            let is_keyword = match lower_case {
                 None => true,
                 Some(lower_case) => {
-                    slips::is_nearly_keyword(word, lower_case)
-                        && self.variables.known(word) == Known::Unknown
+                    suggestions::is_misspelled_keyword(word, lower_case)
+                        && self.variables.lookup(word) == Lookup::Undefined
                 }
             };
-            if slip {
+            if is_keyword {
                 lower_case = Some(word.starts_with(char::is_lowercase));
-                let diagnostic = slips::no_keyword(self.text, argument.range.clone(), word);
+                let diagnostic =
+                    suggestions::unknown_keyword(self.text, argument.range.clone(), word);
                 self.diagnostics.push(diagnostic);
             }
         }
     }
 
-    fn too_few(&mut self, taker: Taker<'_>, form: &Form, arguments: &[Argument]) {
+    fn too_few(&mut self, callee: Callee<'_>, form: &Form, arguments: &[Argument]) {
         let missing = form.parameters.get(arguments.len());
         let end = arguments
             .last()
-            .map_or(taker.place.end, |last| last.range.end);
+            .map_or(callee.range.end, |last| last.range.end);
         let diagnostic = Diagnostic::new(
             Code::ArgumentCount,
-            self.text.span(taker.place.start..end),
-            format!("`{}` has too few arguments", taker.name),
+            self.text.span(callee.range.start..end),
+            format!("`{}` has too few arguments", callee.name),
         )
-        .help(format!("write `{}`", taker.usage()));
+        .help(format!("write `{}`", callee.usage()));
         self.diagnostics.push(match missing {
             Some(missing) => diagnostic.label(format!("`{}` is missing", missing.print())),
             None => diagnostic,
@@ -353,7 +355,7 @@ impl Checker<'_> {
 
     pub(super) fn wrong_type(
         &mut self,
-        taker: Taker<'_>,
+        callee: Callee<'_>,
         parameter: &Parameter,
         argument: &Argument,
     ) {
@@ -367,13 +369,13 @@ impl Checker<'_> {
         let mut diagnostic = Diagnostic::new(
             Code::ArgumentType,
             span,
-            format!("`{shown}` is not what `{}` needs here", taker.name),
+            format!("`{shown}` is not what `{}` needs here", callee.name),
         )
-        .label(format!("{} is due", parameter.takes.describe()));
+        .label(format!("expected {}", parameter.takes.describe()));
         let textual = matches!(parameter.takes, Takes::File | Takes::Text);
         if textual && !matches!(argument.kind, ArgumentKind::Quoted(_)) {
             diagnostic = diagnostic
-                .help("text that is not one plain word stands in quotes")
+                .help("text that is not a single plain word needs quotes")
                 .fix(
                     "Put it in quotes",
                     span,
@@ -381,7 +383,7 @@ impl Checker<'_> {
                         .escape_at(argument.range.start, &format!("\"{written}\"")),
                 );
         } else {
-            diagnostic = diagnostic.help(format!("write `{}`", taker.usage()));
+            diagnostic = diagnostic.help(format!("write `{}`", callee.usage()));
         }
         self.diagnostics.push(diagnostic);
     }
@@ -392,10 +394,10 @@ impl Checker<'_> {
             Diagnostic::new(
                 Code::ArgumentType,
                 self.text.span(argument.range.clone()),
-                format!("`#{shown}` is no colour"),
+                format!("`#{shown}` is not a colour"),
             )
-            .label("3, 6 or 8 digits from 0 to f are due")
-            .help("write a colour as `#rrggbb`, `#ff8800` for example"),
+            .label("expected 3, 4, 6 or 8 digits from 0 to f")
+            .help("write a colour as `#rrggbb`, for example `#ff8800`"),
         );
     }
 }

@@ -1,12 +1,12 @@
-//! The small words: arguments that are one of a few, functions of expressions, kinds of string.
+//! The words that are not keywords: arguments that are one of a few words, functions, kinds of string.
 
 use super::{colours, kinds};
 use crate::lang::ast::Function;
 
-/// A word that some attribute takes.
+/// A word that an attribute takes as an argument.
 #[derive(Debug)]
 pub struct Word {
-    /// How it is written.
+    /// The word.
     pub name: &'static str,
     /// One line.
     pub summary: &'static str,
@@ -33,19 +33,22 @@ pub static GROUND: [Word; 2] = [
 pub static BIND: [Word; 2] = [
     word(
         "center",
-        "a string goes to the part whose centre is nearest",
+        "a string belongs to the part with the nearest centre",
     ),
     word(
         "outline",
-        "a string goes to the part whose outline is nearest",
+        "a string belongs to the part with the nearest outline",
     ),
 ];
 
 /// The words of `Strokes`.
 pub static STROKES: [Word; 3] = [
-    word("none", "strokes are guides and make no parts"),
+    word("none", "strokes are guides, not parts"),
     word("lines", "lines without a fill are parts"),
-    word("all", "lines and the borders of filled shapes are parts"),
+    word(
+        "all",
+        "lines without a fill and the borders of filled shapes are parts",
+    ),
 ];
 
 /// The words of `Tile`.
@@ -55,7 +58,7 @@ pub static TILE: [Word; 6] = [
     word("blue", "water"),
     word("red", "roof"),
     word("beige", "wall of a house"),
-    word("none", "no tile at all"),
+    word("none", "not a tile"),
 ];
 
 /// The signed axes of `Axes`.
@@ -68,14 +71,14 @@ pub static AXES: [Word; 6] = [
     word("-z", "against the world's z"),
 ];
 
-/// What the reference says about a function of expressions.
+/// A function of expressions, as the reference describes it.
 #[derive(Debug)]
 pub struct FunctionRow {
     /// The function.
     pub function: Function,
-    /// How it is written.
+    /// The function's name.
     pub name: &'static str,
-    /// How many arguments it takes: the least and the most.
+    /// The smallest and the largest number of arguments.
     pub arguments: (usize, usize),
     /// The printed form.
     pub usage: &'static str,
@@ -138,7 +141,7 @@ pub static FUNCTIONS: [FunctionRow; 6] = [
 ];
 
 impl Function {
-    /// The function that is written `name`.
+    /// The function called `name`, ignoring case.
     pub fn from_name(name: &str) -> Option<Self> {
         FUNCTIONS
             .iter()
@@ -146,20 +149,20 @@ impl Function {
             .map(|row| row.function)
     }
 
-    /// The row of the table.
+    /// The function's row of the table.
     pub fn row(self) -> &'static FunctionRow {
         &FUNCTIONS[self as usize]
     }
 }
 
-/// What the reference says about a kind of string.
+/// A kind of string, as the reference describes it.
 #[derive(Debug)]
 pub struct StringRow {
-    /// What it starts with; empty for part strings.
+    /// The sign that it starts with; empty for part strings.
     pub sign: &'static str,
-    /// What it is called.
+    /// The name of the kind.
     pub name: &'static str,
-    /// What it is bound to.
+    /// What a string of this kind is bound to.
     pub bound: &'static str,
     /// One line.
     pub summary: &'static str,
@@ -176,7 +179,7 @@ pub static STRINGS: [StringRow; 6] = [
         name: "comment",
         bound: "nothing",
         summary: "a note for people",
-        long: "Everything behind `#` is ignored. Use it to leave notes in the drawing.",
+        long: "Everything after `#` is ignored. Use it to leave notes in the drawing.",
         example: "# the left arm waves",
     },
     StringRow {
@@ -184,10 +187,11 @@ pub static STRINGS: [StringRow; 6] = [
         name: "defaults",
         bound: "nothing",
         summary: "attributes for all parts, and settings of the whole drawing",
-        long: "Attributes in a `%` string hold for every part that does not say otherwise itself \
-               or by a legend. Settings of the whole drawing (`Scale`, `Ground` and so on) stand \
-               here and only here.\n\nThere may be several `%` strings, anywhere in the drawing. \
-               They add up from back to front; where two set the same thing the later one wins.",
+        long: "Attributes in a `%` string apply to every part that does not set them in its own \
+               string or through a legend. Settings of the whole drawing (`Scale`, `Ground` and so \
+               on) are allowed only here.\n\nA drawing can have several `%` strings, anywhere on \
+               the page. They are combined from back to front; where two set the same thing, the \
+               later one wins.",
         example: "%Scale 2 Shape roundv",
     },
     StringRow {
@@ -203,21 +207,21 @@ pub static STRINGS: [StringRow; 6] = [
         sign: "$",
         name: "legend",
         bound: "a part",
-        summary: "a sample of paint that gives its attributes to all parts of that paint",
-        long: "Draw a small shape, fill it as your parts are filled, and write the legend beside \
-               it. The shape itself is left out of the model; every part with the same fill gets \
-               the attributes.\n\nIn an object's description (`<desc>`) `$ …` gives the attributes \
-               of that very object instead.",
+        summary: "a sample of paint that gives its attributes to all parts with that paint",
+        long: "Draw a small shape with the same fill as your parts, and write the legend beside it. \
+               The shape itself is left out of the model; every part with the same fill gets the \
+               attributes.\n\nIn an object's description (`<desc>`), `$ …` sets the attributes of \
+               that object itself.",
         example: "$Shape roundv Color #ffcc99",
     },
     StringRow {
         sign: "",
         name: "part",
         bound: "a part",
-        summary: "names a part, hangs it on a parent, and gives its attributes",
-        long: "`Name` alone names the part. `Name@Parent` hangs it on another part: where the \
-               parent goes, it goes. Attributes stand behind `$`.\n\nA name with spaces, or with one \
-               of `@ $ ( )` in it, stands in quotes: `\"Left arm\"@Body`.",
+        summary: "names a part, attaches it to a parent, and sets its attributes",
+        long: "`Name` alone names the part. `Name@Parent` attaches it to another part: it moves \
+               along with its parent. Attributes come after `$`.\n\nA name that contains spaces or \
+               one of `@ $ ( )` needs quotes: `\"Left arm\"@Body`.",
         example: "Rarm@Ubody$Shape roundv -90 90",
     },
     StringRow {
@@ -225,13 +229,13 @@ pub static STRINGS: [StringRow; 6] = [
         name: "feature point",
         bound: "an outline",
         summary: "marks a point on the outline of a billboard's region",
-        long: "The same name in two views marks the same point on a region's outline, so that the \
-               outlines in between keep it.",
+        long: "The same name in two views marks the same point on a region's outline. The outlines \
+               in between keep that point.",
         example: "^ nose",
     },
 ];
 
-/// Every word of the language that is no keyword: kinds, words of attributes, functions.
+/// All words of the language that are not keywords: kinds, words of attributes, functions.
 pub fn all() -> impl Iterator<Item = &'static str> {
     kinds::KINDS
         .iter()
@@ -251,7 +255,7 @@ fn choices() -> impl Iterator<Item = &'static Word> {
         .chain(&AXES)
 }
 
-/// Whether `word` means something in some attribute, colours included.
+/// Whether `word` has a meaning in any attribute, colour names included.
 pub fn is_known(word: &str) -> bool {
     all().any(|known| known.eq_ignore_ascii_case(word)) || colours::is_colour(word)
 }
@@ -261,7 +265,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn functions_stand_in_the_order_of_the_enum() {
+    fn functions_are_in_the_order_of_the_enum() {
         for row in &FUNCTIONS {
             assert_eq!(row.function.row().name, row.name);
         }

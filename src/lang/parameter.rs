@@ -1,4 +1,4 @@
-//! Which parameter an argument is for.
+//! Finds the parameter that an argument is for.
 
 use super::ast::{ArgumentKind, Attribute};
 use super::keyword::signature::{Form, Parameter, Takes};
@@ -6,58 +6,58 @@ use super::keyword::{Keyword, colours, kinds};
 
 /// The parameter that an argument is for.
 #[derive(Debug, Clone, Copy)]
-pub struct Slot {
-    /// Who takes it, as it is written: `Offset`, or for a kind's own parameters `Shape roundv`.
-    pub taker: &'static str,
+pub struct ParameterRef {
+    /// The keyword, or for a kind's own parameters the kind: `Offset`, `roundv`.
+    pub owner: &'static str,
     /// The kind of `Shape` whose parameter it is.
     pub kind: Option<&'static kinds::Kind>,
-    /// The way of giving arguments that it belongs to.
+    /// The form that the parameter belongs to.
     pub form: &'static Form,
-    /// Which of the form's parameters it is.
+    /// The parameter's index in the form.
     pub index: usize,
 }
 
-impl Slot {
+impl ParameterRef {
     /// The parameter.
     pub fn parameter(&self) -> &'static Parameter {
         &self.form.parameters[self.index]
     }
 }
 
-/// The parameter that argument `index` of an attribute is for, or would be for if it stood there; `None` behind
-/// the last one.
-pub fn slot(
+/// The parameter that argument `index` of an attribute is for. The argument need not exist yet. `None` after the
+/// last parameter.
+pub fn parameter_at(
     attribute: &Attribute,
     index: usize,
     is_variable: &dyn Fn(&str) -> bool,
-) -> Option<Slot> {
+) -> Option<ParameterRef> {
     let first = attribute.arguments.first().map(|argument| &argument.kind);
     if attribute.keyword == Keyword::Shape && index > 0 {
         let Some(ArgumentKind::Word(word)) = first else {
             return None;
         };
         let kind = kinds::from_name(word)?;
-        return Some(Slot {
-            taker: kind.name,
+        return Some(ParameterRef {
+            owner: kind.name,
             kind: Some(kind),
             form: &kind.form,
-            index: place(&kind.form, index - 1)?,
+            index: parameter_index(&kind.form, index - 1)?,
         });
     }
     let forms = attribute.keyword.row().forms;
-    let form = spoken_for(attribute, is_variable)
-        .or_else(|| forms.iter().find(|form| form.most() > index))
+    let form = form_by_first_argument(attribute, is_variable)
+        .or_else(|| forms.iter().find(|form| form.max_arguments() > index))
         .or(forms.first())?;
-    Some(Slot {
-        taker: attribute.keyword.name(),
+    Some(ParameterRef {
+        owner: attribute.keyword.name(),
         kind: None,
         form,
-        index: place(form, index)?,
+        index: parameter_index(form, index)?,
     })
 }
 
-/// The form that an attribute's first argument speaks for; `None` if it fits none of them.
-pub(super) fn spoken_for(
+/// The form that an attribute's first argument fits; `None` if it fits none of them.
+pub(super) fn form_by_first_argument(
     attribute: &Attribute,
     is_variable: &dyn Fn(&str) -> bool,
 ) -> Option<&'static Form> {
@@ -74,32 +74,32 @@ pub(super) fn spoken_for(
         (Some(Takes::ColourName), ArgumentKind::Word(word)) => colours::is_colour(word),
         _ => false,
     };
-    // Words of the language come before variables of the same name.
-    let wordy = |form: &&'static Form| !matches!(takes(form), Some(Takes::Number(_)));
-    let found = forms.iter().filter(wordy).find(fits);
+    // Words of the language have precedence over variables with the same name.
+    let takes_words = |form: &&'static Form| !matches!(takes(form), Some(Takes::Number(_)));
+    let found = forms.iter().filter(takes_words).find(fits);
     found.or_else(|| forms.iter().find(fits))
 }
 
-/// Which of a form's parameters argument `index` is for: a list's last parameter takes all that follow.
-fn place(form: &Form, index: usize) -> Option<usize> {
+/// The index of the parameter that argument `index` is for: the last parameter of a list takes all further arguments.
+fn parameter_index(form: &Form, index: usize) -> Option<usize> {
     let last = form.parameters.len().checked_sub(1)?;
-    (index < form.most()).then(|| index.min(last))
+    (index < form.max_arguments()).then(|| index.min(last))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::lang::ast::Annotation;
-    use crate::lang::{Place, parse};
+    use crate::lang::{Container, parse};
     use crate::source::Text;
 
     fn name(string: &str, index: usize) -> Option<(&'static str, &'static str)> {
-        let (annotation, _) = parse(&Text::plain(string, 0), Place::Text);
+        let (annotation, _) = parse(&Text::plain(string, 0), Container::Text);
         let (Annotation::Legend(attributes) | Annotation::Defaults(attributes)) = annotation else {
             panic!("{string} has no attributes");
         };
-        let slot = slot(&attributes[0], index, &|name| name == "w")?;
-        Some((slot.taker, slot.parameter().name))
+        let found = parameter_at(&attributes[0], index, &|name| name == "w")?;
+        Some((found.owner, found.parameter().name))
     }
 
     #[test]
