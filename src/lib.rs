@@ -1,7 +1,7 @@
 //! okoshi turns one annotated 2D drawing into a moving 3D model.
 //!
 //! [`compile::compile`] is the whole of it: a pure function from an SVG drawing to a [`scene::Scene`], with
-//! [`diagnostic::Diagnostic`]s beside it; [`gltf::write`] writes the scene. What the strings in a drawing
+//! [`diagnostic::Diagnostic`]s beside it; [`export::write`] writes the scene. What the strings in a drawing
 //! can say is one table, [`lang::keyword`].
 #![cfg_attr(
     test,
@@ -14,9 +14,9 @@ pub mod cli;
 pub mod compile;
 pub mod diagnostic;
 pub mod disk;
+pub mod export;
 pub mod figure;
 pub mod geometry;
-pub mod gltf;
 pub mod ide;
 pub mod import;
 mod kept;

@@ -4,12 +4,11 @@ mod common;
 
 use std::cell::Cell;
 use std::fs;
-use std::io::Cursor;
 use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use okoshi::compile::{Compiled, Compiler, Options, compile};
-use okoshi::gltf::{Container, Memory, write_again};
+use okoshi::export::{GLB, SurfaceCache, to_memory};
 use okoshi::resolver::{LinkError, Resolver};
 use okoshi::source::Text;
 use proptest::prelude::*;
@@ -298,12 +297,10 @@ fn all(compiled: &Compiled) -> String {
     format!("{:?}\n{:?}", compiled.bindings, compiled.drawing)
 }
 
-/// The model, with what is remembered of the ones before.
-fn written(compiled: &Compiled, memory: &mut Memory) -> Vec<u8> {
-    let mut out = Cursor::new(Vec::new());
-    let written = write_again(&compiled.scene, Container::Glb, &mut out, memory);
-    written.expect("a scene keeps its own rules");
-    out.into_inner()
+/// The model, written with cached surfaces of the one before.
+fn written(compiled: &Compiled, surfaces: &mut SurfaceCache) -> Vec<u8> {
+    let model = to_memory(&GLB, &compiled.scene, Some(surfaces));
+    model.expect("a scene keeps its own rules").bytes
 }
 
 /// Does some acts one after another, and looks every time whether both ways to compile agree. Tells how often the
@@ -316,7 +313,7 @@ fn agree(drawing: &str, acts: &[Act]) -> Result<usize, TestCaseError> {
     let mut undo = Vec::new();
     let mut last = compiler.compile(&text, &options, &files);
     let mut partial = 0;
-    let mut memory = Memory::default();
+    let mut surfaces = SurfaceCache::default();
     for (step, act) in acts.iter().enumerate() {
         match act {
             Act::Undo(count) => {
@@ -341,7 +338,7 @@ fn agree(drawing: &str, acts: &[Act]) -> Result<usize, TestCaseError> {
         prop_assert!(all(&again) == all(&anew), "{:?} made {}", act, text);
         prop_assert!(again.scene == anew.scene, "{:?} made {}", act, text);
         if step % 3 == 0 {
-            let written = written(&again, &mut memory);
+            let written = written(&again, &mut surfaces);
             prop_assert!(written == common::glb(&anew), "{:?} made {}", act, text);
         }
         // What the last one held must not have changed under it; every other time nobody holds it.
@@ -516,12 +513,12 @@ fn only_solids_that_changed_are_made_again() {
          <text x=\"30\" y=\"30\" font-size=\"3\">Wheel$Shape round</text></svg>"
     );
     let mut compiler = Compiler::default();
-    let mut memory = Memory::default();
+    let mut surfaces = SurfaceCache::default();
     let mut made = |text: &str| {
         let compiled = compiler.compile(text, &Options::default(), &files);
-        let again = written(&compiled, &mut memory);
+        let again = written(&compiled, &mut surfaces);
         assert!(again == common::glb(&compile(text, &Options::default(), &files)));
-        memory.made()
+        surfaces.made()
     };
     assert_eq!(made(&text), 300);
     assert_eq!(made(&text), 0);

@@ -47,7 +47,7 @@ const USES: &[(&str, &[&str])] = &[
             "compile",
             "diagnostic",
             "disk",
-            "gltf",
+            "export",
             "lang",
             "lsp",
             "motion",
@@ -75,7 +75,8 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("diagnostic", &["source"]),
-    ("disk", &["resolver"]),
+    ("disk", &["export", "resolver"]),
+    ("export", &["scene", "threads"]),
     (
         "figure",
         &[
@@ -93,7 +94,6 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("geometry", &[]),
-    ("gltf", &["scene", "threads"]),
     (
         "ide",
         &[
@@ -119,7 +119,7 @@ const USES: &[(&str, &[&str])] = &[
             "compile",
             "diagnostic",
             "disk",
-            "gltf",
+            "export",
             "ide",
             "lang",
             "preview",
@@ -135,7 +135,7 @@ const USES: &[(&str, &[&str])] = &[
         &[
             "compile",
             "diagnostic",
-            "gltf",
+            "export",
             "render",
             "report",
             "resolver",
@@ -189,7 +189,7 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("texture", &["scene"]),
     ("threads", &[]),
-    ("watch", &["compile", "disk", "gltf", "resolver"]),
+    ("watch", &["compile", "disk", "export", "resolver"]),
 ];
 
 /// What only some rooms may use: a path or a macro, those rooms, and why.

@@ -4,7 +4,7 @@ use std::io::Cursor;
 use std::sync::Arc;
 
 use okoshi::compile::{Compiled, Options, compile};
-use okoshi::gltf::{Container, write};
+use okoshi::export::{GLB, to_memory};
 use okoshi::resolver::MemoryResolver;
 use okoshi::scene::{
     Filter, Image, Material, MediaType, Mesh, Node, Primitive, Scene, Surface, Texture, TextureUse,
@@ -79,9 +79,7 @@ fn pillar() -> Vec<u8> {
         }],
         ..Scene::default()
     };
-    let mut out = Cursor::new(Vec::new());
-    write(&scene, Container::Glb, &mut out).expect("sound");
-    out.into_inner()
+    to_memory(&GLB, &scene, None).expect("sound").bytes
 }
 
 /// A drawing of a rectangle of 40 × 100 about (50, 80), and a body beside it.
@@ -177,9 +175,8 @@ fn both_sides_and_offsets_are_as_with_solids() {
 #[test]
 fn a_models_looks_are_kept() {
     let compiled = compiled("model \"pillar.glb\"", &[("pillar.glb", &pillar())]);
-    let mut out = Cursor::new(Vec::new());
-    write(&compiled.scene, Container::Glb, &mut out).expect("sound");
-    let document = gltf::Gltf::from_slice(out.get_ref())
+    let model = to_memory(&GLB, &compiled.scene, None).expect("sound");
+    let document = gltf::Gltf::from_slice(&model.bytes)
         .expect("sound")
         .document;
     let materials: Vec<_> = document
@@ -265,7 +262,6 @@ fn broken_models_do_no_harm() {
         let mut bytes = whole.clone();
         bytes[at] ^= 0x55;
         let compiled = compiled("model \"a.glb\"", &[("a.glb", &bytes)]);
-        let mut out = Cursor::new(Vec::new());
-        write(&compiled.scene, Container::Glb, &mut out).expect("sound");
+        to_memory(&GLB, &compiled.scene, None).expect("sound");
     }
 }

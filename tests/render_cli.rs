@@ -8,7 +8,7 @@ use std::sync::Arc;
 use common::program::{BAD, Room};
 use glam::DQuat;
 use image::{AnimationDecoder, ImageDecoder};
-use okoshi::gltf::{Container, write};
+use okoshi::export::{GLB, to_memory};
 use okoshi::scene::{
     Animation, Interpolation, Material, Mesh, Node, Primitive, Scene, Surface, Timing, Track,
     Values, ViewDependent,
@@ -323,9 +323,7 @@ fn upright(node: Node, animations: Vec<Animation>) -> Vec<u8> {
         animations,
         ..Scene::default()
     };
-    let mut out = std::io::Cursor::new(Vec::new());
-    write(&scene, Container::Glb, &mut out).expect("sound");
-    out.into_inner()
+    to_memory(&GLB, &scene, None).expect("sound").bytes
 }
 
 /// A model that bends with the view.

@@ -10,8 +10,8 @@ use super::loading::{Detail, Loaded, describe, load, root};
 use super::parallel::each;
 use super::progress::spinning;
 use super::{Outcome, fail, style};
-use crate::disk::{FolderResolver, write_atomic};
-use crate::gltf::{self, Container, Written};
+use crate::disk::{FolderResolver, is_drawing, is_standard_stream, write_atomic};
+use crate::export::{self, Exporter, GLB, Written};
 
 /// Builds every drawing; several at once in parallel, reported in the order given.
 pub(super) fn run(arguments: &Build, common: Common) -> Outcome {
@@ -35,7 +35,7 @@ pub(super) fn run(arguments: &Build, common: Common) -> Outcome {
 
 /// Where each drawing's model goes.
 fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, String> {
-    let beside = |drawing: &Path| drawing.with_extension("glb");
+    let beside = |drawing: &Path| drawing.with_extension(GLB.extension());
     let several = arguments.drawings.len() > 1;
     if several && arguments.depfile.is_some() {
         return Err("--depfile goes with one drawing; build the drawings one by one".to_owned());
@@ -57,7 +57,7 @@ fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, String> {
             Err("with several drawings, -o must name a folder that exists".to_owned())
         }
         (Some(output), None) => {
-            container(output)?;
+            exporter(output)?;
             Ok(vec![output.clone()])
         }
         (None, _) => {
@@ -85,24 +85,21 @@ fn distinct(outputs: Vec<PathBuf>) -> Result<Vec<PathBuf>, String> {
     }
 }
 
-/// The container that a file's ending asks for.
-fn container(output: &Path) -> Result<Container, String> {
-    let ending = output
-        .extension()
-        .map(|ending| ending.to_string_lossy().to_lowercase());
-    match ending.as_deref() {
-        _ if output.as_os_str() == "-" => Ok(Container::Glb),
-        Some("glb") => Ok(Container::Glb),
-        Some("gltf") => Ok(Container::Gltf),
-        Some("svg" | "svgz") => Err(format!(
-            "`{}` is a drawing, and okoshi never writes over drawings: the output must end in .glb or .gltf",
-            output.display()
-        )),
-        _ => Err(format!(
-            "the output `{}` must end in .glb or .gltf",
-            output.display()
-        )),
+/// The exporter for the extension of the output.
+fn exporter(output: &Path) -> Result<&'static dyn Exporter, String> {
+    if is_standard_stream(output) {
+        return Ok(&GLB);
     }
+    export::by_extension(output).ok_or_else(|| {
+        let name = output.display();
+        let extensions = export::extensions(|_| true);
+        match is_drawing(output) {
+            true => format!(
+                "`{name}` is a drawing, and okoshi never overwrites drawings: the output must end in {extensions}"
+            ),
+            false => format!("the output `{name}` must end in {extensions}"),
+        }
+    })
 }
 
 fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (Outcome, String) {
@@ -140,9 +137,9 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
             }
         }
     }
-    let written = container(output).and_then(|container| {
+    let written = exporter(output).and_then(|exporter| {
         write_atomic(output, |out| {
-            gltf::write(&loaded.compiled.scene, container, out)
+            export::write(exporter, &loaded.compiled.scene, out, None)
         })
         .map_err(|error| error.to_string())
     });
@@ -212,7 +209,7 @@ fn stats(loaded: &Loaded, output: &Path, written: Written, times: [Duration; 2])
         ("materials", scene.materials.len().to_string()),
         ("clips", scene.animations.len().to_string()),
         ("triangles", written.triangles.to_string()),
-        ("corners", written.corners.to_string()),
+        ("vertices", written.vertices.to_string()),
         ("data bytes", written.bytes.to_string()),
         ("compiled in", milliseconds(times[0])),
         ("written in", milliseconds(times[1])),

@@ -7,7 +7,7 @@ use super::args::{Common, Motion};
 use super::progress::spinning;
 use super::{Outcome, fail, print_out};
 use crate::disk::{WriteError, is_same_file, open_stream, write_atomic};
-use crate::gltf::{self, Container};
+use crate::export::{self, Exporter};
 use crate::motion::bvh::{self, Reading};
 use crate::motion::edit::{Edited, How, edit};
 use crate::motion::labels::{Anatomy, Label};
@@ -19,10 +19,10 @@ use crate::motion::stick::stick_figure;
 use crate::report::ranges;
 
 /// What is to be written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 enum Kind {
     Bvh,
-    Model(Container),
+    Model(&'static dyn Exporter),
     Chart,
 }
 
@@ -136,13 +136,15 @@ fn kind(output: &Path, input: &Path) -> Result<Kind, String> {
     match ending.as_deref() {
         _ if output.as_os_str() == "-" => Ok(Kind::Bvh),
         Some("bvh") => Ok(Kind::Bvh),
-        Some("glb") => Ok(Kind::Model(Container::Glb)),
-        Some("gltf") => Ok(Kind::Model(Container::Gltf)),
         Some("svg") => Ok(Kind::Chart),
-        _ => Err(format!(
-            "the output `{}` must end in .bvh (the motion), .glb or .gltf (a model that plays it) or .svg (a chart of it)",
-            output.display()
-        )),
+        _ => match export::by_extension(output).filter(|exporter| exporter.is_animated()) {
+            Some(exporter) => Ok(Kind::Model(exporter)),
+            None => Err(format!(
+                "the output `{}` must end in .bvh (the motion), {} (a model that plays it) or .svg (a chart of it)",
+                output.display(),
+                export::extensions(|exporter| exporter.is_animated()),
+            )),
+        },
     }
 }
 
@@ -171,11 +173,11 @@ fn write(edited: &Edited, output: &Path, kind: Kind, arguments: &Motion) -> Resu
     match kind {
         Kind::Bvh => write_atomic(output, |out| edited.write_bvh(out)),
         Kind::Chart => write_atomic(output, |out| out.write_all(edited.chart(&stem).as_bytes())),
-        Kind::Model(container) => {
+        Kind::Model(exporter) => {
             let exposure = edited.exposure.as_ref();
             let scene = stick_figure(&edited.clip, exposure, &stem, edited.to_model);
             write_atomic(output, |out| {
-                gltf::write(&scene, container, out).map(|_| ())
+                export::write(exporter, &scene, out, None).map(|_| ())
             })
         }
     }

@@ -1,7 +1,7 @@
 //! `okoshi render`
 
 use std::fmt::Write as _;
-use std::io::{self, Cursor};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use super::args::{Bend, Common, Projection, Render, Shading};
@@ -9,7 +9,7 @@ use super::loading::{Detail, describe, load, root};
 use super::progress::{counting, spinning};
 use super::{Outcome, fail, style};
 use crate::disk::{FolderResolver, read_drawing, write_atomic};
-use crate::gltf::{self, Container};
+use crate::export::{self, GLB};
 use crate::render::{self, Animation, Clip, Model, Options, Palette, Stage, TURN, write_png};
 
 mod clips;
@@ -209,9 +209,8 @@ fn model(arguments: &Render, common: Common) -> Result<(Vec<u8>, Outcome), Outco
         }
         return Err(Outcome::Errors);
     }
-    let mut bytes = Cursor::new(Vec::new());
-    match gltf::write(&loaded.compiled.scene, Container::Glb, &mut bytes) {
-        Ok(_) => Ok((bytes.into_inner(), loaded.outcome())),
+    match export::to_memory(&GLB, &loaded.compiled.scene, None) {
+        Ok(model) => Ok((model.bytes, loaded.outcome())),
         Err(error) => Err(fail(&format!("`{}` cannot be drawn: {error}", loaded.path))),
     }
 }

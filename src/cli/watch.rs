@@ -8,7 +8,8 @@ use super::args::{Common, Noticing, Reading, Watch};
 use super::loading::{Detail, count, describe, tally};
 use super::{Findings, Outcome, fail, style};
 use crate::disk::{Notice, ReadError, make_folder, write_atomic};
-use crate::watch::{Build, Event, Model, NoModel, Options, watch};
+use crate::export::Model;
+use crate::watch::{Build, Event, NoModel, Options, watch};
 
 /// Builds drawings at every save, until it is stopped.
 pub(super) fn run(arguments: &Watch, common: Common) -> Outcome {

@@ -6,7 +6,8 @@ use std::path::PathBuf;
 
 use etcetera::BaseStrategy as _;
 
-use super::write::{Output, write_atomic};
+use super::write::write_atomic;
+use crate::export::Output;
 
 /// Writes a file of this name into okoshi's folder among the user's caches, whole or not at all, and says where it is;
 /// `None` if there is no such place.

@@ -15,7 +15,7 @@ pub use read::{DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, open_stream, read_drawi
 pub use search::{Below, Stamp, below, is_drawing, stamp};
 pub use text::{Decode, decode};
 pub use watch::{Changed, FolderWatch, Notice, WatchError, as_told, names_told};
-pub use write::{Output, WriteError, make_folder, write_atomic, write_new};
+pub use write::{WriteError, make_folder, write_atomic, write_new};
 
 use std::path::Path;
 
@@ -28,6 +28,7 @@ pub fn is_same_file(one: &Path, other: &Path) -> bool {
     one == other || place(one).is_some_and(|one| place(other) == Some(one))
 }
 
-fn is_standard_stream(path: &Path) -> bool {
+/// Whether a path names stdin or stdout.
+pub fn is_standard_stream(path: &Path) -> bool {
     path.as_os_str() == STANDARD_STREAM
 }

@@ -1,16 +1,17 @@
 //! Outputs, written whole or not at all.
 
 use std::fs::{self, File, Permissions};
-use std::io::{self, BufWriter, Cursor, Seek, Write};
+use std::io::{self, BufWriter, Seek, Write};
 use std::path::{Path, PathBuf};
 
-/// What an output can do: be written, also out of order.
-pub trait Output: Write + Seek + Send {}
+use tempfile::{SpooledData, SpooledTempFile};
 
-impl<T: Write + Seek + Send> Output for T {}
+use crate::export::{InMemory, Output};
 
 /// How much is gathered before it is written, bytes; larger pieces, as of models, go past it.
 const BUFFER: usize = 16 << 10;
+/// How much data that is set aside stays in memory, bytes.
+const MAX_ASIDE_IN_MEMORY: usize = 1 << 20;
 
 /// Why an output cannot be written. Each message names the file and says what to do.
 #[derive(Debug, thiserror::Error)]
@@ -78,7 +79,12 @@ pub fn write_atomic<T>(
 
     let mut temporary =
         temporary_beside(&target).map_err(|error| folder_failure(&target, path, error))?;
-    let mut out = BufWriter::with_capacity(BUFFER, temporary.as_file_mut());
+    // What is set aside lies in the same folder, so that the system can move it without copying where it knows how.
+    let aside = SpooledTempFile::new_in(MAX_ASIDE_IN_MEMORY, folder_of(&target));
+    let mut out = FileOutput {
+        out: BufWriter::with_capacity(BUFFER, temporary.as_file_mut()),
+        aside,
+    };
     let answer = fill(&mut out)
         .and_then(|answer| out.flush().map(|()| answer))
         .map_err(failed)?;
@@ -134,16 +140,54 @@ pub fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
     }
 }
 
-/// Fills something that can only be written forwards, a pipe for example.
+/// Fills a stream, which gets everything or, if `fill` fails, nothing.
 fn fill_stream<T>(
     mut out: impl Write,
     fill: impl FnOnce(&mut dyn Output) -> io::Result<T>,
 ) -> io::Result<T> {
-    let mut content = Cursor::new(Vec::new());
+    let mut content = InMemory::default();
     let answer = fill(&mut content)?;
-    out.write_all(content.get_ref())?;
+    out.write_all(&content.bytes)?;
     out.flush()?;
     Ok(answer)
+}
+
+/// A file, and the data that was set aside for it.
+struct FileOutput<'a> {
+    out: BufWriter<&'a mut File>,
+    aside: SpooledTempFile,
+}
+
+impl Write for FileOutput<'_> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.out.write(bytes)
+    }
+
+    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.out.write_all(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
+impl Output for FileOutput<'_> {
+    fn set_aside(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.aside.write_all(bytes)
+    }
+
+    fn append_set_aside(&mut self) -> io::Result<()> {
+        let empty = SpooledTempFile::new(MAX_ASIDE_IN_MEMORY);
+        match std::mem::replace(&mut self.aside, empty).into_inner() {
+            SpooledData::InMemory(data) => self.out.write_all(data.get_ref()),
+            SpooledData::OnDisk(mut file) => {
+                file.rewind()?;
+                // Between files the system copies by itself, without reading them into the program.
+                io::copy(&mut file, &mut self.out).map(|_| ())
+            }
+        }
+    }
 }
 
 fn temporary_beside(target: &Path) -> io::Result<tempfile::NamedTempFile> {
@@ -232,6 +276,29 @@ mod tests {
         for content in [&b"old"[..], b"new"] {
             write_atomic(&path, |out| out.write_all(content)).unwrap();
             assert_eq!(fs::read(&path).unwrap(), content);
+        }
+        assert_eq!(names(folder.path()), ["a.glb"]);
+    }
+
+    #[test]
+    fn data_that_is_set_aside_is_written_when_its_place_is_reached() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.glb");
+        let data = vec![7; MAX_ASIDE_IN_MEMORY / 2 + 1];
+        // The second part no longer fits into memory.
+        for parts in 0..3 {
+            let fill = |out: &mut dyn Output| {
+                (0..parts).try_for_each(|_| out.set_aside(&data))?;
+                out.write_all(b"head")?;
+                out.append_set_aside()?;
+                out.write_all(b"tail")
+            };
+            write_atomic(&path, fill).unwrap();
+            let mut memory = InMemory::default();
+            fill(&mut memory).unwrap();
+            let expected = [b"head", &data.repeat(parts)[..], b"tail"].concat();
+            assert!(fs::read(&path).unwrap() == expected);
+            assert!(memory.bytes == expected);
         }
         assert_eq!(names(folder.path()), ["a.glb"]);
     }

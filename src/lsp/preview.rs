@@ -1,7 +1,6 @@
 //! The live preview of open texts, saved or not: shown by the client's own panel, or on a page in the browser.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::io::Cursor;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock};
 use std::time::SystemTime;
 
@@ -17,7 +16,7 @@ use tower_lsp::ls_types::*;
 
 use super::backend::Backend;
 use super::documents::{Analysed, Documents};
-use crate::gltf::{self, Container};
+use crate::export::{self, GLB, SurfaceCache};
 use crate::preview::{Hub, Picked, Shown, bind, serve};
 use crate::source::Span;
 use crate::watch::Steps;
@@ -156,7 +155,7 @@ impl Previews {
 
     /// Builds what waits, always the newest state, until the process ends.
     fn build(&self) {
-        let mut memories: BTreeMap<String, gltf::Memory> = BTreeMap::new();
+        let mut memories: BTreeMap<String, SurfaceCache> = BTreeMap::new();
         loop {
             let mut queue = self.queue();
             let next = loop {
@@ -175,14 +174,12 @@ impl Previews {
         }
     }
 
-    fn publish(&self, uri: &str, analysed: &Analysed, memory: &mut gltf::Memory) {
+    fn publish(&self, uri: &str, analysed: &Analysed, memory: &mut SurfaceCache) {
         let begun = SystemTime::now();
         let compiled = analysed.analysis.compiled();
         let made = || {
-            let mut out = Cursor::new(Vec::new());
-            let written =
-                gltf::write_again(&compiled.scene, Container::Glb, &mut out, memory).ok()?;
-            Some((out.into_inner().into(), written.triangles))
+            let model = export::to_memory(&GLB, &compiled.scene, Some(memory)).ok()?;
+            Some((model.bytes.into(), model.written.triangles))
         };
         let model = (!compiled.has_errors()).then(made).flatten();
         let path = analysed.document.path.as_deref();

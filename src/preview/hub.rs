@@ -1,7 +1,6 @@
 //! What there is to show, and the news of it.
 
 use std::collections::BTreeMap;
-use std::io::Cursor;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
 
 use axum::body::Bytes;
@@ -10,7 +9,7 @@ use tokio::sync::{Semaphore, watch};
 
 use super::message::{Build, Listed, ToPage, findings};
 use crate::compile::Compiled;
-use crate::gltf::{self, Container};
+use crate::export::{self, GLB};
 use crate::render::{self, Options, Stage, write_png};
 use crate::report::{clips, landscapes, parts};
 use crate::resolver::MemoryResolver;
@@ -313,9 +312,8 @@ impl Hub {
 
 /// The clips of a drawing before they were cut, as a file; `None` if none was cut.
 fn originals(compiled: &Compiled) -> Option<Bytes> {
-    let mut out = Cursor::new(Vec::new());
-    gltf::write(&compiled.originals()?, Container::Glb, &mut out).ok()?;
-    Some(out.into_inner().into())
+    let model = export::to_memory(&GLB, &compiled.originals()?, None).ok()?;
+    Some(model.bytes.into())
 }
 
 /// Messages hold texts and numbers only, so writing them does not fail.

@@ -2,15 +2,14 @@
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hasher};
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::SystemTime;
 
-use super::{Build, Model, NoModel, Options, Steps};
+use super::{Build, NoModel, Options, Steps};
 use crate::compile::{self, Compiled, Compiler};
 use crate::disk::{FolderResolver, ReadError, decode, read_drawing};
-use crate::gltf::{self, Container};
+use crate::export::{self, GLB, SurfaceCache};
 use crate::resolver::{LinkError, Resolver};
 
 /// A drawing and what is remembered of it, so that the next build takes no longer than it must.
@@ -20,7 +19,7 @@ pub struct Drawing {
     options: compile::Options,
     resolver: FolderResolver,
     compiler: Compiler,
-    memory: gltf::Memory,
+    surfaces: SurfaceCache,
     last: Option<Last>,
 }
 
@@ -54,7 +53,7 @@ impl Drawing {
             },
             resolver: FolderResolver::new(options.root.clone().unwrap_or(folder)),
             compiler: Compiler::default(),
-            memory: gltf::Memory::default(),
+            surfaces: SurfaceCache::default(),
             last: None,
         }
     }
@@ -123,15 +122,9 @@ impl Drawing {
         last.drawing == drawing && last.linked.iter().all(|(link, was)| now(link) == *was)
     }
 
-    fn model(&mut self, compiled: &Compiled) -> Result<Model, NoModel> {
-        let mut out = Cursor::new(Vec::new());
-        let written =
-            gltf::write_again(&compiled.scene, Container::Glb, &mut out, &mut self.memory);
-        let written = written.map_err(|error| NoModel::Unwritten(error.to_string()))?;
-        Ok(Model {
-            bytes: out.into_inner(),
-            written,
-        })
+    fn model(&mut self, compiled: &Compiled) -> Result<export::Model, NoModel> {
+        let model = export::to_memory(&GLB, &compiled.scene, Some(&mut self.surfaces));
+        model.map_err(|error| NoModel::Unwritten(error.to_string()))
     }
 }
 

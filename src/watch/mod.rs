@@ -13,7 +13,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use crate::compile::{Compiled, TOLERANCE};
 use crate::disk::{FolderWatch, Notice, WatchError};
-use crate::gltf::Written;
+use crate::export::Model;
 use round::Round;
 
 pub use drawing::Drawing;
@@ -46,19 +46,10 @@ pub struct Build {
     pub text: String,
     /// What came of it.
     pub compiled: Compiled,
-    /// The model, or why there is none.
+    /// The model as binary glTF, or why there is none.
     pub model: Result<Model, NoModel>,
     /// When it was built.
     pub steps: Steps,
-}
-
-/// A model as a file.
-#[derive(Debug, Clone)]
-pub struct Model {
-    /// Binary glTF.
-    pub bytes: Vec<u8>,
-    /// How much that is.
-    pub written: Written,
 }
 
 /// Why there is no model.

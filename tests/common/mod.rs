@@ -11,12 +11,11 @@ pub(crate) mod program;
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt::Write as _;
 use std::fs;
-use std::io::Cursor;
 use std::path::Path;
 
 use gltf::animation::util::ReadOutputs;
 use okoshi::compile::{Compiled, Options, compile};
-use okoshi::gltf::{Container, write};
+use okoshi::export::{GLB, to_memory};
 use okoshi::resolver::Resolver;
 
 /// A solid, or several solids of one material, as the file has them.
@@ -64,9 +63,8 @@ pub(crate) fn compiled(text: &str, resolver: &dyn Resolver) -> Compiled {
 
 /// The GLB of a compiled drawing.
 pub(crate) fn glb(compiled: &Compiled) -> Vec<u8> {
-    let mut out = Cursor::new(Vec::new());
-    write(&compiled.scene, Container::Glb, &mut out).expect("a scene keeps its own rules");
-    out.into_inner()
+    let model = to_memory(&GLB, &compiled.scene, None);
+    model.expect("a scene keeps its own rules").bytes
 }
 
 /// The nodes of a GLB, parents before children. Reading validates it.

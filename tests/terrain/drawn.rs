@@ -3,12 +3,11 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
-use std::io::Cursor;
 use std::path::Path;
 
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::disk::FolderResolver;
-use okoshi::gltf::{Container, write};
+use okoshi::export::{GLB, to_memory};
 use okoshi::render::{self, Stage, View, Window};
 use okoshi::resolver::{MemoryResolver, Resolver};
 use okoshi::terrain::{EDGE_BELOW, EDGE_RIGHT, Map, Tile};
@@ -56,9 +55,8 @@ fn drawn(map: &Map) -> String {
 
 /// Which cells of each landscape are not seen in the material of their look.
 fn hidden(compiled: &Compiled, resolver: &dyn Resolver) -> Vec<String> {
-    let mut bytes = Cursor::new(Vec::new());
-    write(&compiled.scene, Container::Glb, &mut bytes).expect("written");
-    let model = render::read(&bytes.into_inner(), resolver).expect("a model");
+    let written = to_memory(&GLB, &compiled.scene, None).expect("written");
+    let model = render::read(&written.bytes, resolver).expect("a model");
     let stage = Stage::new(&model, &model.rest()).expect("something to see");
     let mut wrong = vec![];
     for layer in &compiled.layers {

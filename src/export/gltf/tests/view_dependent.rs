@@ -13,17 +13,17 @@ fn bent() -> Scene {
 
 #[test]
 fn a_bent_node_says_so_and_no_reader_must_know_it() {
-    for container in [Container::Glb, Container::Gltf] {
-        let file = bytes(&bent(), container);
+    for exporter in BOTH {
+        let file = bytes(&bent(), exporter);
         let json = json(&file);
         assert_eq!(json["extensionsUsed"], json!([VIEW_DEPENDENT]));
         assert!(json.get("extensionsRequired").is_none());
         let of = |node: usize| &json["nodes"][node]["extensions"];
         assert_eq!(*of(1), json!({ "OKOSHI_view_dependent": { "bend": {} } }));
         assert!(of(0).is_null() && of(2).is_null());
-        assert_round_trip(&bent(), container);
+        assert_round_trip(&bent(), exporter);
     }
-    let plain = json(&bytes(&single(strip(4)), Container::Glb));
+    let plain = json(&bytes(&single(strip(4)), &GLB));
     assert!(plain.get("extensionsUsed").is_none());
 }
 
@@ -34,7 +34,7 @@ fn what_is_bent_is_left_out_of_a_skin() {
     assert_eq!(meshes, [None, Some(0), Some(0)]);
     let skin = skinned.skin.as_ref().unwrap();
     assert_eq!((skin.mesh, skinned.meshes.len()), (1, 2));
-    let file = json(&bytes(&skinned, Container::Glb));
+    let file = json(&bytes(&skinned, &GLB));
     assert_eq!(file["nodes"][1]["mesh"], 0);
     assert_eq!(file["nodes"][4]["mesh"], 1);
     let joints = |mesh: usize| &file["meshes"][mesh]["primitives"][0]["attributes"]["JOINTS_0"];
@@ -51,7 +51,7 @@ fn what_is_bent_is_left_out_of_a_skin() {
     hollow.meshes.push(Mesh {
         primitives: vec![primitive(Surface::default(), 0)],
     });
-    let file = json(&bytes(&hollow.skinned().unwrap(), Container::Glb));
+    let file = json(&bytes(&hollow.skinned().unwrap(), &GLB));
     assert!(file.get("skins").is_none());
     assert_eq!(file["nodes"].as_array().unwrap().len(), 4);
 }

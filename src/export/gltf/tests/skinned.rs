@@ -93,8 +93,8 @@ fn a_skinned_model_stands_and_moves_like_the_other() {
         let skinned = scene.clone().skinned().unwrap();
         assert_eq!(skinned.meshes.len(), 1);
         assert_eq!(skinned.meshes[0].primitives.len(), 2);
-        for container in [Container::Glb, Container::Gltf] {
-            let [plain, skin] = [&scene, &skinned].map(|scene| bytes(scene, container));
+        for exporter in BOTH {
+            let [plain, skin] = [&scene, &skinned].map(|scene| bytes(scene, exporter));
             for turned in [usize::MAX, 1] {
                 let pose = |index: usize| match index == turned {
                     true => glam::Mat4::from_rotation_y(1.0),

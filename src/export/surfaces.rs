@@ -1,4 +1,4 @@
-//! Solids that were made, kept for the next time the model is written.
+//! Surfaces of solids that are kept for the next time the model is written.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -8,9 +8,9 @@ use rustc_hash::FxHashMap;
 use crate::scene::{Surface, SurfaceSource};
 
 /// Results that writing a scene keeps for the next one: the deferred surfaces of the last scene, as large as the
-/// model itself. A surface is found by everything it is made from, so that the output does not depend on the memory.
+/// model itself. A surface is found by everything it is made from, so that the output does not depend on the cache.
 #[derive(Debug, Default)]
-pub struct Memory {
+pub struct SurfaceCache {
     known: FxHashMap<u64, Vec<Made>>,
     made: usize,
 }
@@ -22,7 +22,7 @@ pub(super) struct Made {
     surface: Arc<Surface>,
 }
 
-impl Memory {
+impl SurfaceCache {
     /// How many surfaces were made the last time, and not found.
     pub fn made(&self) -> usize {
         self.made
@@ -58,10 +58,10 @@ impl Used {
     pub(super) fn surface<'a>(
         &mut self,
         source: &Arc<dyn SurfaceSource>,
-        memory: &'a Memory,
+        cache: &'a SurfaceCache,
     ) -> Cow<'a, Surface> {
         let key = source.key();
-        if let Some(made) = memory.find(key, &**source) {
+        if let Some(made) = cache.find(key, &**source) {
             self.surfaces.push((key, made.clone()));
             return Cow::Borrowed(&made.surface);
         }

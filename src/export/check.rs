@@ -1,4 +1,4 @@
-//! What a scene must keep to, seen before the first byte is written.
+//! Checks a scene before the first byte is written.
 
 use std::collections::BTreeSet;
 use std::io;
@@ -6,7 +6,7 @@ use std::io;
 use super::invalid;
 use crate::scene::{AlphaMode, Animation, MOST_JOINTS, MediaType, Scene, Track, Values};
 
-/// Refuses nodes, materials and animations that would make a file that no reader takes.
+/// Refuses nodes, materials and animations that would make an invalid file.
 pub(super) fn check(scene: &Scene) -> io::Result<()> {
     check_nodes(scene)?;
     check_skin(scene)?;
@@ -23,10 +23,10 @@ fn check_nodes(scene: &Scene) -> io::Result<()> {
         let name = &node.name;
         if !node.translation.is_finite() || !node.rotation.is_finite() {
             return Err(invalid(format!(
-                "node `{name}` stands nowhere: not a number"
+                "node `{name}` has a position that is not a number"
             )));
         }
-        // A child stands behind its parent, so no cycle gets past this.
+        // A child comes after its parent, so there can be no cycle.
         let in_order = |child: &usize| (index + 1..scene.nodes.len()).contains(child);
         if !node.children.iter().all(in_order) {
             return Err(invalid(format!("node `{name}` has a child out of order")));
@@ -59,7 +59,7 @@ fn check_images(scene: &Scene) -> io::Result<()> {
     for image in &scene.images {
         if MediaType::of(&image.bytes) != Some(image.media_type) {
             let (name, media_type) = (&image.name, image.media_type);
-            return Err(invalid(format!("image `{name}` is no {media_type:?}")));
+            return Err(invalid(format!("image `{name}` is not a {media_type:?}")));
         }
     }
     match scene.textures.iter().any(|t| t.image >= scene.images.len()) {
@@ -103,30 +103,30 @@ fn check_animation(animation: &Animation, nodes: usize) -> io::Result<()> {
     let name = &animation.name;
     let wrong = |what: &str| Err(invalid(format!("animation `{name}` has {what}")));
     if !(0.0..f64::INFINITY).contains(&animation.seconds) {
-        return wrong("a length that is no time");
+        return wrong("a length that is not a duration");
     }
-    let mut moved = BTreeSet::new();
+    let mut animated = BTreeSet::new();
     for Track {
         node,
         timing,
         values,
     } in &animation.tracks
     {
-        let (turns, count, sound) = match values {
-            // A unit quaternion that is none would be made one, whichever.
-            Values::Rotations(turns) => {
-                let unit = |turn: &glam::DQuat| (turn.length_squared() - 1.0).abs() < 1e-3;
-                (true, turns.len(), turns.iter().all(unit))
+        let (is_rotation, count, is_valid) = match values {
+            // Writing would normalise any other quaternion to an arbitrary rotation.
+            Values::Rotations(rotations) => {
+                let unit = |rotation: &glam::DQuat| (rotation.length_squared() - 1.0).abs() < 1e-3;
+                (true, rotations.len(), rotations.iter().all(unit))
             }
-            Values::Translations(places) => {
-                let sound = places.iter().all(|place| place.as_vec3().is_finite());
-                (false, places.len(), sound)
+            Values::Translations(translations) => {
+                let is_valid = translations.iter().all(|t| t.as_vec3().is_finite());
+                (false, translations.len(), is_valid)
             }
         };
         if *node >= nodes {
             return wrong("a track of a node out of range");
         }
-        if !moved.insert((*node, turns)) {
+        if !animated.insert((*node, is_rotation)) {
             return wrong("two tracks of one kind for one node");
         }
         let times = &timing.times;
@@ -137,10 +137,10 @@ fn check_animation(animation: &Animation, nodes: usize) -> io::Result<()> {
             return wrong("keys out of order in time, or none");
         }
         if count != times.len() {
-            return wrong("another number of keys than of moments");
+            return wrong("a different number of keys and times");
         }
-        if !sound {
-            return wrong("a key that is not a number, or no turn");
+        if !is_valid {
+            return wrong("a key that is not a number, or not a rotation");
         }
     }
     Ok(())

@@ -1,0 +1,233 @@
+//! The JSON of a scene.
+
+use std::io;
+use std::ops::Range;
+
+use ::gltf::json::accessor::Accessor as JsonAccessor;
+use ::gltf::json::buffer::View as JsonView;
+use ::gltf::json::extensions::scene as node_extensions;
+use ::gltf::json::mesh::{Mesh as JsonMesh, Mode, Primitive as JsonPrimitive, Semantic};
+use ::gltf::json::scene::UnitQuaternion;
+use ::gltf::json::validation::Checked::Valid;
+use ::gltf::json::{Asset, Index, Node as JsonNode, Root, Scene as JsonScene, Skin as JsonSkin};
+use serde::Serialize;
+use serde_json::json;
+use serde_json::value::to_raw_value;
+
+use super::buffer::Kind;
+use super::json::Json;
+use super::primitives::Packed;
+use super::{ROOT, SKINNED, VIEW_DEPENDENT, animations, materials};
+use crate::scene::{self, Scene};
+
+/// The JSON up to the buffers, without the closing brace.
+pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
+    let root_node = scene.nodes.len();
+    let skin = packed.bind_matrices.and(scene.skin.as_ref());
+    let mut root = Root {
+        asset: Asset {
+            generator: Some(concat!("okoshi ", env!("CARGO_PKG_VERSION")).to_owned()),
+            ..Asset::default()
+        },
+        extensions_used: extensions(scene),
+        scene: Some(Index::new(0)),
+        // A skinned mesh follows its joints alone, so it has no parent.
+        scenes: vec![JsonScene {
+            nodes: (root_node..=root_node + usize::from(skin.is_some()))
+                .map(index)
+                .collect(),
+            extensions: None,
+            extras: None,
+            name: None,
+        }],
+        ..Root::default()
+    };
+    materials::add_textures(scene, packed, &mut root);
+    root.skins
+        .extend(packed.bind_matrices.map(|matrices| JsonSkin {
+            inverse_bind_matrices: Some(index(matrices)),
+            joints: (0..root_node).map(index).collect(),
+            skeleton: Some(index(root_node)),
+            extensions: None,
+            extras: None,
+            name: None,
+        }));
+    let mut json = Json::new(&root)?;
+
+    let first_primitives = starts(scene.meshes.iter().map(|mesh| mesh.primitives.len()));
+    let primitives = |mesh: usize| {
+        let first = first_primitives[mesh];
+        &packed.primitives[first..first + scene.meshes[mesh].primitives.len()]
+    };
+    let written = |mesh: usize| !primitives(mesh).iter().all(Range::is_empty);
+    let meshes = starts((0..scene.meshes.len()).map(|mesh| usize::from(written(mesh))));
+    let mesh_index = |mesh: usize| written(mesh).then(|| index(meshes[mesh]));
+    let nodes = root_node + 1 + usize::from(skin.is_some());
+    json.list("nodes", nodes, |number| {
+        Some(match (scene.nodes.get(number), skin) {
+            (Some(node), _) => JsonNode {
+                mesh: node.mesh.and_then(mesh_index),
+                ..json_node(node)
+            },
+            (None, Some(skin)) if number > root_node => JsonNode {
+                name: name(SKINNED),
+                mesh: mesh_index(skin.mesh),
+                skin: Some(Index::new(0)),
+                ..JsonNode::default()
+            },
+            (None, _) => JsonNode {
+                name: name(ROOT),
+                children: children(&scene.roots),
+                ..JsonNode::default()
+            },
+        })
+    })?;
+
+    // A mesh is named after the first node that shows it.
+    let mut names = vec![""; scene.meshes.len()];
+    for node in scene.nodes.iter().rev() {
+        if let Some(mesh) = node.mesh {
+            names[mesh] = &node.name;
+        }
+    }
+    json.list("meshes", scene.meshes.len(), |mesh| {
+        let primitives = scene.meshes[mesh].primitives.iter().zip(primitives(mesh));
+        let primitives = primitives.filter(|(_, accessors)| !accessors.is_empty());
+        let primitives: Vec<_> = primitives
+            .map(|(primitive, accessors)| json_primitive(primitive, accessors.clone(), packed))
+            .collect();
+        (!primitives.is_empty()).then(|| JsonMesh {
+            name: name(names[mesh]),
+            primitives,
+            weights: None,
+            extensions: None,
+            extras: None,
+        })
+    })?;
+    json.list("materials", scene.materials.len(), |number| {
+        Some(materials::material(&scene.materials[number]))
+    })?;
+    let first_tracks = starts(scene.animations.iter().map(|a| a.tracks.len()));
+    json.list("animations", scene.animations.len(), |number| {
+        let animation = &scene.animations[number];
+        let accessors = &packed.tracks[first_tracks[number]..];
+        (!animation.tracks.is_empty()).then(|| animations::animation(animation, accessors))
+    })?;
+    let layout = &packed.layout;
+    json.list("accessors", layout.accessors.len(), |number| {
+        Some(JsonAccessor::from(&layout.accessors[number]))
+    })?;
+    json.list("bufferViews", layout.views.len(), |number| {
+        Some(JsonView::from(&layout.views[number]))
+    })?;
+    Ok(json)
+}
+
+/// The extensions that the scene uses.
+fn extensions(scene: &Scene) -> Vec<String> {
+    let mut nodes = scene.nodes.iter();
+    let view_dependent = nodes.any(|node| node.view_dependent.is_some());
+    let used = view_dependent.then(|| VIEW_DEPENDENT.to_owned());
+    used.into_iter().collect()
+}
+
+/// The index of the first element of each group, for groups that follow one another.
+fn starts(counts: impl Iterator<Item = usize>) -> Vec<usize> {
+    let start = |next: &mut usize, count| {
+        *next += count;
+        Some(*next - count)
+    };
+    counts.scan(0, start).collect()
+}
+
+/// A node without its mesh.
+fn json_node(node: &scene::Node) -> JsonNode {
+    let translation = node.translation.as_vec3().to_array();
+    let rotation = node.rotation.as_quat().to_array();
+    // A quaternion and its negative are the same rotation.
+    let rotated = rotation.map(f32::abs) != [0.0, 0.0, 0.0, 1.0];
+    JsonNode {
+        name: name(&node.name),
+        children: children(&node.children),
+        translation: (translation != [0.0; 3]).then_some(translation),
+        rotation: rotated.then_some(UnitQuaternion(rotation)),
+        extensions: node.view_dependent.map(|view_dependent| {
+            // One object for each way of following the viewer, so that later ones have keys of their own.
+            let extension = match view_dependent {
+                scene::ViewDependent::Bend => json!({ "bend": {} }),
+            };
+            node_extensions::Node {
+                others: [(VIEW_DEPENDENT.to_owned(), extension)]
+                    .into_iter()
+                    .collect(),
+            }
+        }),
+        extras: node.provenance.as_ref().and_then(|provenance| {
+            let okoshi = Provenance {
+                element: provenance.element.as_deref(),
+                string: provenance.string.as_deref(),
+            };
+            let known = okoshi.element.is_some() || okoshi.string.is_some();
+            known.then(|| to_raw_value(&Extras { okoshi }).ok())?
+        }),
+        ..JsonNode::default()
+    }
+}
+
+#[derive(Serialize)]
+struct Extras<'a> {
+    okoshi: Provenance<'a>,
+}
+
+#[derive(Serialize)]
+struct Provenance<'a> {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    element: Option<&'a str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    string: Option<&'a str>,
+}
+
+fn json_primitive(
+    primitive: &scene::Primitive,
+    accessors: Range<usize>,
+    packed: &Packed,
+) -> JsonPrimitive {
+    let mut json = JsonPrimitive {
+        attributes: Default::default(),
+        indices: None,
+        material: Some(index(primitive.material)),
+        mode: Valid(Mode::Triangles),
+        targets: None,
+        extensions: None,
+        extras: None,
+    };
+    for accessor in accessors {
+        let semantic = match packed.layout.accessors[accessor].kind {
+            Kind::Positions => Semantic::Positions,
+            Kind::Normals => Semantic::Normals,
+            Kind::TexCoords => Semantic::TexCoords(0),
+            Kind::JointsU16 | Kind::JointsU8 => Semantic::Joints(0),
+            Kind::Weights => Semantic::Weights(0),
+            _ => {
+                json.indices = Some(index(accessor));
+                continue;
+            }
+        };
+        json.attributes.insert(Valid(semantic), index(accessor));
+    }
+    json
+}
+
+/// The index of an item. A file that fits its format has fewer than 2³² items of each kind.
+pub(super) fn index<T>(number: usize) -> Index<T> {
+    Index::new(number as u32)
+}
+
+/// A name, unless it is empty.
+pub(super) fn name(name: &str) -> Option<String> {
+    (!name.is_empty()).then(|| name.to_owned())
+}
+
+fn children<T>(nodes: &[usize]) -> Option<Vec<Index<T>>> {
+    (!nodes.is_empty()).then(|| nodes.iter().copied().map(index).collect())
+}

@@ -1,0 +1,368 @@
+//! The binary data of the primitives: surfaces are made, packed little-endian and written, a window of primitives at a time.
+//!
+//! A model of a hundred thousand parts is never in memory as a whole: while one window is written, the next one is made,
+//! on all cores. A window's data lies together, with a buffer view for each kind in it; the size of windows is fixed, so
+//! that the bytes do not depend on the machine.
+
+use std::io;
+use std::ops::Range;
+
+use glam::DMat4;
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::animations;
+use super::buffer::{Accessor, BufferWriter, Kind, Layout, Sink, floats};
+use super::{SurfaceCache, Written, invalid};
+use crate::export::surfaces::Used;
+use crate::scene::{Image, MediaType, Mesh, Pose, Primitive, Scene, Surface};
+
+/// Primitives in a window.
+const WINDOW: usize = 512;
+/// Primitives that are packed by one thread at a time.
+const BATCH: usize = 32;
+
+/// An image that was packed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct StoredImage {
+    /// Its index in the scene: the first of those that are equal.
+    pub(super) image: usize,
+    /// Index of the view that holds its bytes.
+    pub(super) view: usize,
+}
+
+/// The layout of the buffer, and what is where in it.
+#[derive(Debug, Default)]
+pub(super) struct Packed {
+    pub(super) layout: Layout,
+    /// The accessors of each primitive of all meshes in order; none of one without triangles, which glTF cannot hold.
+    pub(super) primitives: Vec<Range<usize>>,
+    /// The accessor of the skin's inverse bind matrices.
+    pub(super) bind_matrices: Option<usize>,
+    /// Per track, in the order of the animations, the accessors of its times and of its values.
+    pub(super) tracks: Vec<[usize; 2]>,
+    /// The images, equal ones once.
+    pub(super) images: Vec<StoredImage>,
+    /// Per image of the scene its index in `images`.
+    pub(super) image_numbers: Vec<usize>,
+}
+
+/// Data of a batch of primitives, a buffer for each of [`Kind::OF_PRIMITIVES`].
+#[derive(Default)]
+struct Batch {
+    data: [Vec<u8>; Kind::OF_PRIMITIVES.len()],
+    /// With offsets in `data` and without views, until the batch is written.
+    accessors: Vec<Accessor>,
+    /// The accessors of each primitive.
+    primitives: Vec<Range<usize>>,
+    used: Used,
+}
+
+impl Packed {
+    /// Packs all that goes into the buffer.
+    ///
+    /// # Errors
+    /// Those of `out`; [`io::ErrorKind::InvalidInput`] for a surface that breaks its own rules.
+    pub(super) fn new<'a>(
+        scene: &Scene,
+        cache: Option<&mut SurfaceCache>,
+        out: &'a mut Sink<'a>,
+    ) -> io::Result<Self> {
+        let mut out = BufferWriter::new(out);
+        let mut used = Used::default();
+        let primitives = write_primitives(scene, cache.as_deref(), &mut used, &mut out)?;
+        let bind_matrices = write_bind_matrices(scene, &primitives, &mut out)?;
+        let tracks = animations::write_keys(scene, &mut out)?;
+        let mut packed = Self {
+            primitives,
+            bind_matrices,
+            tracks,
+            ..Self::default()
+        };
+        packed.write_images(&scene.images, &mut out)?;
+        packed.layout = out.layout;
+        if let Some(cache) = cache {
+            cache.keep(used);
+        }
+        Ok(packed)
+    }
+
+    /// How much was written.
+    pub(super) fn written(&self) -> Written {
+        let mut written = Written {
+            bytes: self.layout.length,
+            ..Written::default()
+        };
+        let accessors = self.primitives.iter().cloned();
+        for accessor in accessors.flat_map(|range| &self.layout.accessors[range]) {
+            match accessor.kind {
+                Kind::Positions => written.vertices += accessor.count,
+                Kind::IndicesU8 | Kind::IndicesU16 | Kind::IndicesU32 => {
+                    written.triangles += accessor.count / 3;
+                }
+                _ => {}
+            }
+        }
+        written
+    }
+
+    /// Writes the images behind the surfaces, equal ones once.
+    fn write_images(&mut self, images: &[Image], out: &mut BufferWriter<'_>) -> io::Result<()> {
+        let mut known: FxHashMap<(MediaType, &[u8]), usize> = FxHashMap::default();
+        for (index, image) in images.iter().enumerate() {
+            let next = self.images.len();
+            let number = *known
+                .entry((image.media_type, &image.bytes))
+                .or_insert(next);
+            self.image_numbers.push(number);
+            if number < next {
+                continue;
+            }
+            let view = out.view(None);
+            self.images.push(StoredImage { image: index, view });
+            out.write(&image.bytes)?;
+            out.pad()?;
+        }
+        Ok(())
+    }
+}
+
+/// Writes every primitive, and returns the accessors of each.
+fn write_primitives(
+    scene: &Scene,
+    cache: Option<&SurfaceCache>,
+    used: &mut Used,
+    out: &mut BufferWriter<'_>,
+) -> io::Result<Vec<Range<usize>>> {
+    let primitives: Vec<&Primitive> = scene
+        .meshes
+        .iter()
+        .flat_map(|mesh| &mesh.primitives)
+        .collect();
+    let mut ranges = Vec::with_capacity(primitives.len());
+    let make = |window: &[&Primitive], batches: &mut Vec<Batch>| -> io::Result<()> {
+        batches.resize_with(window.len().div_ceil(BATCH), Batch::default);
+        let batches = batches.par_iter_mut().zip(window.par_chunks(BATCH));
+        batches.try_for_each(|(batch, window)| batch.fill(window, scene, cache))
+    };
+    let mut windows = primitives.chunks(WINDOW);
+    // Two sets of buffers take turns, so that no memory is allocated after the second window.
+    let (mut full, mut next) = (Vec::new(), Vec::new());
+    make(windows.next().unwrap_or(&[]), &mut full)?;
+    while !full.is_empty() {
+        full.iter_mut()
+            .for_each(|batch: &mut Batch| used.append(&mut batch.used));
+        let window = windows.next().unwrap_or(&[]);
+        let (written, made) = rayon::join(
+            || write_window(&mut full, &mut ranges, out),
+            || make(window, &mut next),
+        );
+        written?;
+        made?;
+        std::mem::swap(&mut full, &mut next);
+    }
+    Ok(ranges)
+}
+
+/// Writes a window kind by kind, and adds the accessors of its primitives.
+fn write_window(
+    window: &mut [Batch],
+    ranges: &mut Vec<Range<usize>>,
+    out: &mut BufferWriter<'_>,
+) -> io::Result<()> {
+    let mut views = [0; Kind::OF_PRIMITIVES.len()];
+    for kind in Kind::OF_PRIMITIVES {
+        let slot = kind as usize;
+        if window.iter().all(|batch| batch.data[slot].is_empty()) {
+            continue;
+        }
+        views[slot] = out.view(Some(kind));
+        for batch in window.iter() {
+            out.write(&batch.data[slot])?;
+        }
+    }
+    out.pad()?;
+
+    let mut before = [0_u64; Kind::OF_PRIMITIVES.len()];
+    for batch in window.iter_mut() {
+        let accessors = &mut out.layout.accessors;
+        let first = accessors.len();
+        accessors.extend(batch.accessors.iter().map(|accessor| Accessor {
+            view: views[accessor.kind as usize],
+            offset: before[accessor.kind as usize] + accessor.offset,
+            ..*accessor
+        }));
+        let shifted = |range: &Range<usize>| first + range.start..first + range.end;
+        ranges.extend(batch.primitives.iter().map(shifted));
+        for (before, data) in before.iter_mut().zip(&batch.data) {
+            *before += data.len() as u64;
+        }
+    }
+    Ok(())
+}
+
+/// Writes the skin's inverse bind matrices, one a joint, column by column, and returns their accessor.
+fn write_bind_matrices(
+    scene: &Scene,
+    primitives: &[Range<usize>],
+    out: &mut BufferWriter<'_>,
+) -> io::Result<Option<usize>> {
+    let Some(skin) = &scene.skin else {
+        return Ok(None);
+    };
+    let count = |mesh: &Mesh| mesh.primitives.len();
+    let first: usize = scene.meshes[..skin.mesh].iter().map(count).sum();
+    let of_skin = &primitives[first..][..count(&scene.meshes[skin.mesh])];
+    if of_skin.iter().all(Range::is_empty) {
+        return Ok(None);
+    }
+    let matrix = |pose: &Pose| {
+        let back = pose.inverse();
+        let matrix = DMat4::from_rotation_translation(back.rotation, back.translation);
+        matrix.as_mat4().to_cols_array()
+    };
+    let matrices: Vec<[f32; 16]> = skin.rest.iter().map(matrix).collect();
+    let accessor = out.accessor(Kind::InverseBindMatrices, matrices.len(), None);
+    out.write_floats(&matrices)?;
+    Ok(Some(accessor))
+}
+
+impl Batch {
+    fn fill(
+        &mut self,
+        primitives: &[&Primitive],
+        scene: &Scene,
+        cache: Option<&SurfaceCache>,
+    ) -> io::Result<()> {
+        self.data.iter_mut().for_each(Vec::clear);
+        self.accessors.clear();
+        self.primitives.clear();
+        for primitive in primitives {
+            let surface = match cache {
+                Some(cache) => primitive.surface_by(&mut |source| self.used.surface(source, cache)),
+                None => primitive.surface(),
+            };
+            let Some(material) = scene.materials.get(primitive.material) else {
+                return Err(invalid("a primitive with a material out of range"));
+            };
+            let unmapped = surface.uvs.is_empty() && !surface.positions.is_empty();
+            if unmapped && material.textures().next().is_some() {
+                return Err(invalid("a textured surface without texture coordinates"));
+            }
+            let first = self.accessors.len();
+            if !surface.triangles.is_empty() {
+                self.push(&surface, scene.nodes.len())?;
+            }
+            self.primitives.push(first..self.accessors.len());
+        }
+        Ok(())
+    }
+
+    /// Packs a surface with triangles; `joints` is the number of joints of the skin.
+    fn push(&mut self, surface: &Surface, joints: usize) -> io::Result<()> {
+        let bounds = checked_bounds(surface, joints)?;
+        let vertices = surface.positions.len();
+        let positions = self.accessor(Kind::Positions, vertices, Some(bounds));
+        floats(positions, &surface.positions);
+        if !surface.normals.is_empty() {
+            let normals = self.accessor(Kind::Normals, vertices, None);
+            floats(normals, &surface.normals);
+        }
+        if !surface.uvs.is_empty() {
+            let tex_coords = self.accessor(Kind::TexCoords, vertices, None);
+            floats(tex_coords, &surface.uvs);
+        }
+        // The smallest type for so many vertices. A type's greatest value is not an index: it restarts primitives.
+        let indices = surface.triangles.as_flattened();
+        match vertices {
+            0..=0xFF => {
+                let out = self.accessor(Kind::IndicesU8, indices.len(), None);
+                out.extend(indices.iter().map(|index| *index as u8));
+            }
+            0x100..=0xFFFF => {
+                let out = self.accessor(Kind::IndicesU16, indices.len(), None);
+                out.extend(indices.iter().flat_map(|i| (*i as u16).to_le_bytes()));
+            }
+            _ => {
+                let out = self.accessor(Kind::IndicesU32, indices.len(), None);
+                out.extend(indices.iter().flat_map(|index| index.to_le_bytes()));
+            }
+        }
+        if !surface.joints.is_empty() {
+            // Every vertex follows one joint with all its weight.
+            let numbers = surface.joints.iter();
+            if joints <= 0x100 {
+                let out = self.accessor(Kind::JointsU8, vertices, None);
+                out.extend(numbers.flat_map(|joint| [*joint as u8, 0, 0, 0]));
+            } else {
+                let out = self.accessor(Kind::JointsU16, vertices, None);
+                out.extend(numbers.flat_map(|joint| {
+                    let [low, high] = joint.to_le_bytes();
+                    [low, high, 0, 0, 0, 0, 0, 0]
+                }));
+            }
+            let weights = self.accessor(Kind::Weights, vertices, None);
+            weights.extend(std::iter::repeat_n([u8::MAX, 0, 0, 0], vertices).flatten());
+        }
+        Ok(())
+    }
+
+    /// Adds an accessor, and returns the buffer for its elements.
+    fn accessor(
+        &mut self,
+        kind: Kind,
+        count: usize,
+        bounds: Option<[[f32; 3]; 2]>,
+    ) -> &mut Vec<u8> {
+        let data = &mut self.data[kind as usize];
+        self.accessors.push(Accessor {
+            kind,
+            view: 0,
+            offset: data.len() as u64,
+            count,
+            bounds,
+        });
+        data
+    }
+}
+
+/// The bounding box of a surface, which must be valid.
+fn checked_bounds(surface: &Surface, joints: usize) -> io::Result<[[f32; 3]; 2]> {
+    let vertices = surface.positions.len();
+    let lengths = [
+        surface.normals.len(),
+        surface.uvs.len(),
+        surface.joints.len(),
+    ];
+    if !lengths.iter().all(|length| [0, vertices].contains(length)) {
+        return Err(invalid(
+            "a surface whose lists of vertices differ in length",
+        ));
+    }
+    let greatest = surface.triangles.as_flattened().iter().max();
+    if greatest.is_none_or(|vertex| *vertex as usize >= vertices) || vertices > u32::MAX as usize {
+        return Err(invalid("a surface with a vertex out of range"));
+    }
+    if surface
+        .joints
+        .iter()
+        .any(|joint| usize::from(*joint) >= joints)
+    {
+        return Err(invalid("a surface with a joint out of range"));
+    }
+    // A sum is finite only if all its terms are, and adds up without branches.
+    let sum = |rows: &[f32]| rows.iter().map(|number| number * 0.0).sum::<f32>();
+    let sums = sum(surface.positions.as_flattened())
+        + sum(surface.normals.as_flattened())
+        + sum(surface.uvs.as_flattened());
+    if !sums.is_finite() {
+        return Err(invalid("a surface with a vertex that is not a number"));
+    }
+    let first = [surface.positions[0]; 2];
+    Ok(surface.positions.iter().fold(first, |[min, max], p| {
+        [
+            [0, 1, 2].map(|i| min[i].min(p[i])),
+            [0, 1, 2].map(|i| max[i].max(p[i])),
+        ]
+    }))
+}

@@ -1,0 +1,127 @@
+//! Writes a [`Scene`] as a file that other programs read. Knows nothing of drawings.
+//!
+//! Each format is an [`Exporter`], listed once in [`EXPORTERS`]; every command looks it up there. The same scene gives the
+//! same bytes. Surfaces that a scene makes on demand are made while they are written, so that a large model is never in
+//! memory as a whole.
+
+mod check;
+mod gltf;
+mod output;
+mod surfaces;
+
+use std::io;
+use std::path::Path;
+
+use crate::scene::Scene;
+use crate::threads;
+
+pub use gltf::{GLB, GLTF, ROOT, SKINNED, VIEW_DEPENDENT};
+pub use output::{InMemory, Output};
+pub use surfaces::SurfaceCache;
+
+/// All formats, in the order in which messages list them.
+pub const EXPORTERS: &[&dyn Exporter] = &[&GLB, &GLTF];
+
+/// A file format for models.
+pub trait Exporter: Sync {
+    /// The file extension, in lower case and without its dot.
+    fn extension(&self) -> &'static str;
+
+    /// What the file holds, in a few words, for help and messages.
+    fn description(&self) -> &'static str;
+
+    /// Whether the format holds animations.
+    fn is_animated(&self) -> bool;
+
+    /// Writes a scene that is valid; [`write()`] has checked that.
+    ///
+    /// # Errors
+    /// The errors of `out`; [`io::ErrorKind::InvalidInput`] for an invalid surface, or a scene that the format cannot hold.
+    fn write(
+        &self,
+        scene: &Scene,
+        out: &mut dyn Output,
+        surfaces: Option<&mut SurfaceCache>,
+    ) -> io::Result<Written>;
+}
+
+/// How much was written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Written {
+    /// Vertices, shared ones once.
+    pub vertices: usize,
+    /// Triangles.
+    pub triangles: usize,
+    /// Bytes of geometry, images and animation keys; their description is not counted.
+    pub bytes: u64,
+}
+
+/// A model as a file in memory.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The file.
+    pub bytes: Vec<u8>,
+    /// How much that is.
+    pub written: Written,
+}
+
+/// The exporter for a file's extension, in upper or lower case.
+pub fn by_extension(path: &Path) -> Option<&'static dyn Exporter> {
+    let extension = path.extension()?.to_str()?;
+    let mut exporters = EXPORTERS.iter().copied();
+    exporters.find(|exporter| exporter.extension().eq_ignore_ascii_case(extension))
+}
+
+/// The extensions of some exporters for a message: `.glb, .gltf or .obj`.
+pub fn extensions(wanted: impl Fn(&dyn Exporter) -> bool) -> String {
+    let wanted = EXPORTERS.iter().filter(|exporter| wanted(**exporter));
+    let names: Vec<String> = wanted.map(|e| format!(".{}", e.extension())).collect();
+    match names.split_last() {
+        Some((last, [])) => last.clone(),
+        Some((last, others)) => format!("{} or {last}", others.join(", ")),
+        None => String::new(),
+    }
+}
+
+/// Writes `scene` at the end of `out`. Surfaces that are in `surfaces` are not made again; afterwards it holds those of
+/// `scene` and no others.
+///
+/// Primitives without triangles are left out, and meshes without primitives.
+///
+/// # Errors
+/// The errors of `out`; [`io::ErrorKind::InvalidInput`] for a scene that breaks its own rules (a vertex that is not a
+/// number, an index out of range) or that the format cannot hold. `surfaces` is unchanged then.
+pub fn write(
+    exporter: &dyn Exporter,
+    scene: &Scene,
+    out: &mut dyn Output,
+    surfaces: Option<&mut SurfaceCache>,
+) -> io::Result<Written> {
+    check::check(scene)?;
+    threads::run(|| exporter.write(scene, out, surfaces)).unwrap_or_else(|| {
+        Err(io::Error::other(
+            "a solid cannot be made: this should not happen, please tell us",
+        ))
+    })
+}
+
+/// Writes `scene` to memory as [`write()`] does.
+///
+/// # Errors
+/// Those of [`write()`].
+pub fn to_memory(
+    exporter: &dyn Exporter,
+    scene: &Scene,
+    surfaces: Option<&mut SurfaceCache>,
+) -> io::Result<Model> {
+    let mut out = InMemory::default();
+    let written = write(exporter, scene, &mut out, surfaces)?;
+    Ok(Model {
+        bytes: out.bytes,
+        written,
+    })
+}
+
+fn invalid(message: impl Into<String>) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidInput, message.into())
+}
