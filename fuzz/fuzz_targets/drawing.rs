@@ -1,11 +1,9 @@
 //! Every drawing compiles, what comes out can be written, and what is said points into the drawing.
 #![no_main]
 
-use std::io::Cursor;
-
 use libfuzzer_sys::fuzz_target;
 use okoshi::compile::{Options, compile};
-use okoshi::gltf::{Container, write};
+use okoshi::export::{GLB, to_memory};
 use okoshi::resolver::MemoryResolver;
 
 fuzz_target!(|drawing: &str| {
@@ -13,6 +11,5 @@ fuzz_target!(|drawing: &str| {
     for finding in &compiled.diagnostics {
         assert!(drawing.get(finding.span.start..finding.span.end).is_some(), "{finding:?}");
     }
-    let mut out = Cursor::new(Vec::new());
-    write(&compiled.scene, Container::Glb, &mut out).expect("a scene keeps its own rules");
+    to_memory(&GLB, &compiled.scene, None).expect("a scene keeps its own rules");
 });
