@@ -8,9 +8,6 @@
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
-#[path = "../tests/common/dice.rs"]
-mod dice;
-
 use std::collections::BTreeMap;
 use std::io::Cursor;
 use std::process::Command;
@@ -19,7 +16,7 @@ use std::time::{Duration, Instant};
 use block_mesh::{
     GreedyQuadsBuffer, MergeVoxel, RIGHT_HANDED_Y_UP_CONFIG, Voxel, VoxelVisibility, greedy_quads,
 };
-use dice::Dice;
+use fastrand::Rng;
 use ndshape::{ConstShape, ConstShape3u32};
 use okoshi::terrain::{Land, Map};
 use rayon::prelude::*;
@@ -53,18 +50,18 @@ fn main() {
 
 /// Terraces with wandering cliffs, ponds and houses.
 fn map(side: usize) -> Map {
-    let mut dice = Dice::new(side as u64);
+    let mut random = Rng::with_seed(side as u64);
     let mut map = Map::empty(side, side);
     map.cells.fill(1);
     let last = side as i32 - 1;
-    let mut row = dice.roll(6, 16);
+    let mut row = random.i32(6..=16);
     while row < last - 8 {
-        let (mut at, mut height, mut run) = (row, dice.roll(1, 6), 0);
+        let (mut at, mut height, mut run) = (row, random.i32(1..=6), 0);
         for column in 0..side {
             if run == 0 {
-                run = dice.roll(3, 14);
-                at = (at + dice.roll(-2, 2)).clamp(row - 4, row + 4);
-                height = (height + dice.roll(-1, 1)).clamp(0, 6);
+                run = random.i32(3..=14);
+                at = (at + random.i32(-2..=2)).clamp(row - 4, row + 4);
+                height = (height + random.i32(-1..=1)).clamp(0, 6);
             }
             run -= 1;
             for front in at.max(0)..(at + height).min(last) {
@@ -72,12 +69,12 @@ fn map(side: usize) -> Map {
                 map.cells[cell] = 2;
             }
         }
-        row += dice.roll(12, 28);
+        row += random.i32(12..=28);
     }
     for _ in 0..side * side / 1500 {
-        let [x, y] = [dice.roll(0, last), dice.roll(0, last)];
-        let [width, depth, wall] = [dice.roll(3, 8), dice.roll(2, 4), dice.roll(1, 3)];
-        let house = dice.chance(50);
+        let [x, y] = [random.i32(0..=last), random.i32(0..=last)];
+        let [width, depth, wall] = [random.i32(3..=8), random.i32(2..=4), random.i32(1..=3)];
+        let house = random.u8(..100) < 50;
         let rows = y..(y + depth + wall).min(last);
         let cells =
             rows.flat_map(|row| (x..(x + width).min(last)).map(move |column| (column, row)));

@@ -1,19 +1,16 @@
 //! Drawings with what becomes of them: `tests/cases/<name>/drawing.svg` and `expected.txt` beside it.
 //!
-//! A new case is a new folder. `OKOSHI_REWRITE=1 cargo test --test cases` writes what is expected; look at it
+//! A new case is a new folder, and each is a test of its own: `cargo test --test cases NAME` runs those with NAME in their names. `OKOSHI_REWRITE=cases cargo test --test cases` writes what is expected; look at it
 //! against the design before you keep it. The comment in a drawing says the rule that it is a case of.
-#![allow(
-    clippy::print_stdout,
-    reason = "a failing test prints what it expected"
-)]
-
 mod common;
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, ExitCode};
 
+use common::rewrite::rewrites;
+use libtest_mimic::{Arguments, Failed, Trial};
 use okoshi::cli::Findings;
 use okoshi::cli::report::{Style, human};
 use okoshi::diagnostic::Code;
@@ -71,36 +68,46 @@ fn outcome(case: &Path) -> Result<String, String> {
     ))
 }
 
-#[test]
-fn drawings_become_what_is_expected() {
-    let cases = cases();
-    assert!(cases.len() > 100, "only {} cases were found", cases.len());
-    let mut failed = Vec::new();
-    for case in &cases {
-        let name = case.file_name().unwrap_or_default().to_string_lossy();
-        let file = case.join("expected.txt");
-        let outcome = outcome(case).unwrap_or_else(|error| format!("BROKEN: {error}\n"));
-        if outcome.starts_with("BROKEN") {
-            println!("---- {name}: {outcome}");
-            failed.push(name.into_owned());
-            continue;
-        }
-        if std::env::var_os("OKOSHI_REWRITE").is_some() {
-            fs::write(&file, outcome).expect("expected.txt can be written");
-            continue;
-        }
-        let expected = fs::read_to_string(&file).unwrap_or_default();
-        if expected != outcome {
-            println!("---- {name}\n{}", difference(&expected, &outcome));
-            failed.push(name.into_owned());
-        }
+/// Compares what becomes of a drawing with its `expected.txt`, or writes that.
+fn check(case: &Path) -> Result<(), Failed> {
+    let file = case.join("expected.txt");
+    let outcome = outcome(case)?;
+    if rewrites("cases") {
+        return Ok(fs::write(file, outcome)?);
     }
-    assert!(
-        failed.is_empty(),
-        "{} cases differ: {}\nlook at them above; `OKOSHI_REWRITE=1 cargo test --test cases` takes them as they are",
-        failed.len(),
-        failed.join(", ")
-    );
+    let expected = fs::read_to_string(file).unwrap_or_default();
+    if expected == outcome {
+        return Ok(());
+    }
+    let difference = difference(&expected, &outcome);
+    Err(format!(
+        "{difference}If this is right, `OKOSHI_REWRITE=cases cargo test --test cases` writes it."
+    )
+    .into())
+}
+
+fn main() -> ExitCode {
+    let cases = cases();
+    assert!(cases.len() > 200, "only {} cases were found", cases.len());
+    let trial = |case: PathBuf| {
+        let name = case.file_name().unwrap_or_default().to_string_lossy();
+        Trial::test(name.into_owned(), move || check(&case))
+    };
+    let mut trials: Vec<Trial> = cases.into_iter().map(trial).collect();
+    let others: [(&str, fn()); 2] = [
+        ("every_diagnostic_has_a_case", every_diagnostic_has_a_case),
+        (
+            "four_segments_make_an_octagonal_prism",
+            four_segments_make_an_octagonal_prism,
+        ),
+    ];
+    trials.extend(others.map(|(name, test)| {
+        Trial::test(name, move || {
+            test();
+            Ok(())
+        })
+    }));
+    libtest_mimic::run(&Arguments::from_args(), trials).exit_code()
 }
 
 /// The lines that differ, with `-` and `+`.
@@ -126,7 +133,6 @@ const ELSEWHERE: &[(Code, &str)] = &[(
     "the file is no text; tests/cli.rs, `encodings`",
 )];
 
-#[test]
 fn every_diagnostic_has_a_case() {
     let mut seen = BTreeSet::new();
     for case in cases() {
@@ -153,7 +159,6 @@ fn every_diagnostic_has_a_case() {
 }
 
 /// The paper's figure 8: a rectangle rounded about its axis in four layers is a prism over an octagon.
-#[test]
 fn four_segments_make_an_octagonal_prism() {
     let case = folder().join("shape-octagonal-prism");
     let text = fs::read_to_string(case.join("drawing.svg")).expect("the case");

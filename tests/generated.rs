@@ -1,6 +1,9 @@
 //! What is generated from the keyword table is what the repository has.
 //!
-//! `OKOSHI_REWRITE=1 cargo test --test generated` rewrites it.
+//! `OKOSHI_REWRITE=generated cargo test --test generated` rewrites it.
+
+#[path = "common/rewrite.rs"]
+mod rewrite;
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +17,7 @@ fn path(name: &str) -> PathBuf {
 #[track_caller]
 fn same(name: &str, generated: &str) {
     let path = path(name);
-    if std::env::var_os("OKOSHI_REWRITE").is_some() {
+    if rewrite::rewrites("generated") {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder).expect("folder");
         }
@@ -24,7 +27,7 @@ fn same(name: &str, generated: &str) {
     let written = fs::read_to_string(&path).unwrap_or_default();
     assert!(
         written == generated,
-        "{name} is out of date: run `OKOSHI_REWRITE=1 cargo test --test generated`"
+        "{name} is out of date: run `OKOSHI_REWRITE=generated cargo test --test generated`"
     );
 }
 
@@ -58,11 +61,7 @@ fn injection() {
 
 #[test]
 fn readme_table() {
-    // The README has its place for the table once it is written.
-    let Ok(readme) = fs::read_to_string(path("README.md")) else {
-        return;
-    };
-    let renewed =
-        reference::update_readme(&readme).expect("README.md has the markers of its table");
+    let readme = fs::read_to_string(path("README.md")).expect("README.md");
+    let renewed = reference::update_readme(&readme).expect("README.md has the markers of its table");
     same("README.md", &renewed);
 }

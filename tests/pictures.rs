@@ -1,6 +1,6 @@
 //! Every example looks as it did: its picture is compared with the one kept in `tests/pictures/`.
 //!
-//! `OKOSHI_REWRITE=1 cargo test --test pictures` makes those anew; look at them before they are committed.
+//! `OKOSHI_REWRITE=pictures cargo test --test pictures` makes those anew; look at them before they are committed.
 
 mod common;
 
@@ -77,7 +77,7 @@ fn save(image: &RgbaImage, path: &Path) {
 
 #[test]
 fn examples_look_as_they_did() {
-    let rewrite = std::env::var_os("OKOSHI_REWRITE").is_some();
+    let rewrite = common::rewrite::rewrites("pictures");
     let mut wrong = Vec::new();
     for name in &common::examples() {
         let kept = folder("tests/pictures").join(format!("{name}.png"));
@@ -104,7 +104,7 @@ fn examples_look_as_they_did() {
     assert!(
         wrong.is_empty(),
         "{}\nThe pictures as they are now lie in target/pictures. If they are right, run\n\
-         `OKOSHI_REWRITE=1 cargo test --test pictures`",
+         `OKOSHI_REWRITE=pictures cargo test --test pictures`",
         wrong.join("\n")
     );
 }

@@ -222,13 +222,12 @@ fn a_kill_at_any_moment_leaves_a_sound_model() {
         let circles: String = (0..200).map(circle).collect();
         drawing(50).replace("<text", &format!("{circles}<text"))
     };
-    let mut random = 12345_u64;
+    let mut random = fastrand::Rng::with_seed(12345);
     let (mut builds, mut kills, mut saves) = (0, 0, 0);
     while builds < 200 {
         fs::write(&path, many(saves)).expect("written");
         let live = Live::start(folder.path(), &["watch", "a.svg", "-q"]);
-        random = random.wrapping_mul(6364136223846793005).wrapping_add(1);
-        let life = 30 + (random >> 33) % 400;
+        let life = random.u64(30..430);
         let mut last = fs::read(folder.path().join("a.glb")).unwrap_or_default();
         let end = std::time::Instant::now() + Duration::from_millis(life);
         while std::time::Instant::now() < end {

@@ -16,8 +16,7 @@ use crate::diagnostic::{Code, Severity};
 pub use ebnf::ebnf;
 pub use textmate::{injection, textmate};
 
-const GENERATED: &str =
-    "<!-- Generated from the keyword table: `OKOSHI_REWRITE=1 cargo test --test generated`. -->\n";
+const GENERATED: &str = "<!-- Generated from the keyword table: `OKOSHI_REWRITE=generated cargo test --test generated`. -->\n";
 
 /// The line before the README's table.
 pub const TABLE_START: &str = "<!-- keywords -->";

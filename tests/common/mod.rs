@@ -7,6 +7,7 @@
 pub(crate) mod editor;
 pub(crate) mod live;
 pub(crate) mod program;
+pub(crate) mod rewrite;
 
 use std::collections::{BTreeSet, HashMap, HashSet};
 use std::fmt::Write as _;

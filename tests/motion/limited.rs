@@ -6,6 +6,7 @@ mod plain_limited;
 use std::fs::File;
 use std::path::Path;
 
+use fastrand::Rng;
 use glam::{DVec3, dvec3};
 use okoshi::motion::bvh;
 use okoshi::motion::edit::{How, edit};
@@ -16,26 +17,16 @@ use okoshi::motion::limited::{
 use okoshi::motion::ready;
 use plain_limited::{Plain, plain};
 
-/// Numbers that look random and are the same everywhere.
-struct Numbers(u64);
-
-impl Numbers {
-    fn below(&mut self, below: u64) -> u64 {
-        let step = self.0.wrapping_mul(0x5851_f42d_4c95_7f2d);
-        self.0 = step.wrapping_add(0x1405_7b7e_f767_814f);
-        (self.0 >> 33) % below
-    }
-
-    fn place(&mut self, places: u64) -> DVec3 {
-        let [x, y, z] = [(); 3].map(|()| self.below(places) as f64);
-        dvec3(x, y, z)
-    }
+/// A random point of a grid with `places` places in each direction.
+fn place(random: &mut Rng, places: u64) -> DVec3 {
+    let [x, y, z] = [(); 3].map(|()| random.u64(..places) as f64);
+    dvec3(x, y, z)
 }
 
 /// Motions of all kinds: a few poses over and over, still stretches, even walks, smooth ones and wild ones.
-fn motion(numbers: &mut Numbers, kind: u64, frames: usize, joints: usize) -> Vec<DVec3> {
+fn motion(random: &mut Rng, kind: u64, frames: usize, joints: usize) -> Vec<DVec3> {
     let poses: Vec<Vec<DVec3>> = (0..3)
-        .map(|_| (0..joints).map(|_| numbers.place(3)).collect())
+        .map(|_| (0..joints).map(|_| place(random, 3)).collect())
         .collect();
     let mut out = Vec::with_capacity(frames * joints);
     let mut still = 0;
@@ -45,14 +36,14 @@ fn motion(numbers: &mut Numbers, kind: u64, frames: usize, joints: usize) -> Vec
             out.extend_from_within((frame - 1) * joints..);
             continue;
         }
-        still = if numbers.below(8) == 0 {
-            numbers.below(6)
+        still = if random.u64(..8) == 0 {
+            random.u64(..6)
         } else {
             0
         };
         match kind {
-            0 => out.extend(&poses[numbers.below(3) as usize]),
-            1 => out.extend((0..joints).map(|_| numbers.place(3))),
+            0 => out.extend(&poses[random.u64(..3) as usize]),
+            1 => out.extend((0..joints).map(|_| place(random, 3))),
             2 => out.extend((0..joints).map(|joint| DVec3::splat((frame + joint) as f64))),
             3 => {
                 let time = frame as f64 * 0.3;
@@ -60,7 +51,7 @@ fn motion(numbers: &mut Numbers, kind: u64, frames: usize, joints: usize) -> Vec
                     |joint: usize| dvec3((time + joint as f64).sin(), time.cos(), 0.1 * time);
                 out.extend((0..joints).map(sway));
             }
-            _ => out.extend((0..joints).map(|_| numbers.place(1 << 30))),
+            _ => out.extend((0..joints).map(|_| place(random, 1 << 30))),
         }
     }
     out
@@ -124,21 +115,21 @@ fn check(positions: &[DVec3], joints: usize, steps: [usize; 2], kept: bool) -> C
 
 #[test]
 fn the_fast_code_does_what_the_plain_code_does() {
-    let mut numbers = Numbers(1);
+    let mut random = Rng::with_seed(1);
     for round in 0..4000 {
         let frames = match round % 4 {
-            0 => numbers.below(5),
-            1 => numbers.below(16),
-            2 => numbers.below(40),
-            _ => numbers.below(90),
+            0 => random.u64(..5),
+            1 => random.u64(..16),
+            2 => random.u64(..40),
+            _ => random.u64(..90),
         } as usize;
-        let joints = 1 + numbers.below(3) as usize;
-        let kind = numbers.below(5);
-        let positions = motion(&mut numbers, kind, frames, joints);
-        let mut steps = || match numbers.below(4) {
+        let joints = 1 + random.u64(..3) as usize;
+        let kind = random.u64(..5);
+        let positions = motion(&mut random, kind, frames, joints);
+        let mut steps = || match random.u64(..4) {
             0 => 0,
-            1 => numbers.below(6) as usize,
-            2 => numbers.below(1 + frames as u64) as usize,
+            1 => random.u64(..6) as usize,
+            2 => random.u64(..1 + frames as u64) as usize,
             _ => usize::MAX,
         };
         let steps = [steps(), steps()];
@@ -303,8 +294,8 @@ fn usual_options_are_those_of_the_thesis() {
 
 #[test]
 fn holds_end_near_half_of_the_frames() {
-    let mut numbers = Numbers(9);
-    let positions = motion(&mut numbers, 4, 3000, 2);
+    let mut random = Rng::with_seed(9);
+    let positions = motion(&mut random, 4, 3000, 2);
     let frames = cut(&positions, 2, [0; 2], true).exposure.drawings().count();
     let done = cut(&positions, 2, [0, usize::MAX], true).holds.done;
     let share = done as f64 / frames as f64;
@@ -338,9 +329,9 @@ fn positions_that_are_no_numbers_are_cut_too() {
 
 #[test]
 fn the_distance_of_two_poses_is_symmetric_and_bitwise_stable() {
-    let mut numbers = Numbers(4);
+    let mut random = Rng::with_seed(4);
     let mut pose = || -> Vec<DVec3> {
-        let places = (0..30).map(|_| numbers.place(1 << 30) / 7.3);
+        let places = (0..30).map(|_| place(random, 1 << 30) / 7.3);
         places.collect()
     };
     for _ in 0..100 {
@@ -382,10 +373,10 @@ fn errors_are_measured_against_the_source_at_the_same_time() {
 
 #[test]
 fn the_best_drawings_are_never_worse_than_others_of_the_same_number() {
-    let mut numbers = Numbers(21);
+    let mut random = Rng::with_seed(21);
     for round in 0..60 {
-        let frames = 20 + numbers.below(100) as usize;
-        let positions = motion(&mut numbers, round % 5, frames, 2);
+        let frames = 20 + random.u64(..100) as usize;
+        let positions = motion(&mut random, round % 5, frames, 2);
         let asked = check(&positions, 2, [3, frames / 3], true).exposure;
         for exposure in [asked, every(frames as u32, 2), every(frames as u32, 3)] {
             let [asked, .., best] = compare(&positions, 2, 1.0, &exposure).map(|(_, error)| error);

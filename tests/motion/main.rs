@@ -5,8 +5,6 @@
 
 #[path = "../common/mod.rs"]
 mod common;
-#[path = "../common/dice.rs"]
-mod dice;
 
 mod carry;
 mod cli;

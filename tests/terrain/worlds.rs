@@ -2,7 +2,7 @@
 
 use okoshi::terrain::{EDGE_BELOW, EDGE_RIGHT, Map};
 
-use crate::dice::Dice;
+use fastrand::Rng;
 
 /// What a column of earth has on top.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,25 +47,25 @@ const BEIGE: u8 = 5;
 impl World {
     /// A landscape of plateaus, blocks on them, stairs, ponds, pits and houses.
     pub(crate) fn random(seed: u64) -> Self {
-        let mut dice = Dice::new(seed);
-        let (columns, depth) = (dice.roll(10, 26), dice.roll(10, 24));
-        let ground = dice.chance(70).then_some((0, Top::Green));
+        let mut random = Rng::with_seed(seed);
+        let (columns, depth) = (random.i32(10..=26), random.i32(10..=24));
+        let ground = (random.u8(..100) < 70).then_some((0, Top::Green));
         let mut world = Self {
             columns,
             depth,
             places: vec![ground; (columns * depth) as usize],
             houses: 0,
         };
-        for _ in 0..dice.roll(1, 4) {
-            world.plateau(&mut dice);
+        for _ in 0..random.i32(1..=4) {
+            world.plateau(&mut random);
         }
-        for _ in 0..dice.roll(0, 2) {
-            match dice.roll(0, 5) {
-                0 | 1 => world.block(&mut dice),
-                2 => world.stairs(&mut dice),
-                3 => world.hole(&mut dice, Top::Blue),
-                4 => world.hole(&mut dice, Top::Green),
-                _ => world.house(&mut dice),
+        for _ in 0..random.i32(0..=2) {
+            match random.i32(0..=5) {
+                0 | 1 => world.block(&mut random),
+                2 => world.stairs(&mut random),
+                3 => world.hole(&mut random, Top::Blue),
+                4 => world.hole(&mut random, Top::Green),
+                _ => world.house(&mut random),
             }
         }
         world
@@ -81,11 +81,11 @@ impl World {
     }
 
     /// A rectangle: left, right, back, front; the latter of each pair is not in it.
-    fn rectangle(&self, dice: &mut Dice, width: [i32; 2], depth: [i32; 2]) -> [i32; 4] {
-        let width = dice.roll(width[0], width[1]).min(self.columns);
-        let depth = dice.roll(depth[0], depth[1]).min(self.depth);
-        let x = dice.roll(0, self.columns - width);
-        let z = dice.roll(0, self.depth - depth);
+    fn rectangle(&self, random: &mut Rng, width: [i32; 2], depth: [i32; 2]) -> [i32; 4] {
+        let width = random.i32(width[0]..=width[1]).min(self.columns);
+        let depth = random.i32(depth[0]..=depth[1]).min(self.depth);
+        let x = random.i32(0..=self.columns - width);
+        let z = random.i32(0..=self.depth - depth);
         [x, x + width, z, z + depth]
     }
 
@@ -107,29 +107,29 @@ impl World {
         (all && first.1 == Top::Green).then_some(first.0)
     }
 
-    fn plateau(&mut self, dice: &mut Dice) {
-        let place = self.rectangle(dice, [3, 12], [3, 10]);
-        let height = dice.roll(1, 4);
+    fn plateau(&mut self, random: &mut Rng) {
+        let place = self.rectangle(random, [3, 12], [3, 10]);
+        let height = random.i32(1..=4);
         self.fill(place, height, Top::Green);
     }
 
-    fn block(&mut self, dice: &mut Dice) {
+    fn block(&mut self, random: &mut Rng) {
         for _ in 0..20 {
-            let place = self.rectangle(dice, [1, 4], [1, 4]);
+            let place = self.rectangle(random, [1, 4], [1, 4]);
             if let Some(height) = self.flat(place, 0) {
-                let height = height + dice.roll(1, 3);
+                let height = height + random.i32(1..=3);
                 return self.fill(place, height, Top::Green);
             }
         }
     }
 
-    fn stairs(&mut self, dice: &mut Dice) {
-        let steps = dice.roll(2, 4);
-        let sideways = dice.chance(40);
+    fn stairs(&mut self, random: &mut Rng) {
+        let steps = random.i32(2..=4);
+        let sideways = random.u8(..100) < 40;
         for _ in 0..20 {
             let size = [[steps, steps], [2, 4]];
             let [width, depth] = if sideways { size } else { [size[1], size[0]] };
-            let place = self.rectangle(dice, width, depth);
+            let place = self.rectangle(random, width, depth);
             let Some(height) = self.flat(place, 0) else {
                 continue;
             };
@@ -146,21 +146,21 @@ impl World {
     }
 
     /// A pond or a pit with banks on all sides.
-    fn hole(&mut self, dice: &mut Dice, top: Top) {
+    fn hole(&mut self, random: &mut Rng, top: Top) {
         for _ in 0..20 {
-            let place = self.rectangle(dice, [1, 5], [2, 5]);
+            let place = self.rectangle(random, [1, 5], [2, 5]);
             if let Some(height) = self.flat(place, 1) {
-                let height = height - dice.roll(1, 2);
+                let height = height - random.i32(1..=2);
                 return self.fill(place, height, top);
             }
         }
     }
 
-    fn house(&mut self, dice: &mut Dice) {
+    fn house(&mut self, random: &mut Rng) {
         for _ in 0..20 {
-            let place = self.rectangle(dice, [2, 5], [2, 4]);
+            let place = self.rectangle(random, [2, 5], [2, 4]);
             if let Some(base) = self.flat(place, 0) {
-                let height = base + dice.roll(1, 3);
+                let height = base + random.i32(1..=3);
                 self.houses += 1;
                 return self.fill(place, height, Top::Roof(self.houses, base));
             }
@@ -233,13 +233,13 @@ impl World {
 
 /// A map that nobody meant: rectangles of all kinds over each other, and edges anywhere.
 pub(crate) fn scribble(seed: u64) -> Map {
-    let mut dice = Dice::new(seed ^ 0x5c21_bb1e);
-    let (columns, rows) = (dice.roll(1, 18), dice.roll(1, 22));
+    let mut random = Rng::with_seed(seed ^ 0x5c21_bb1e);
+    let (columns, rows) = (random.i32(1..=18), random.i32(1..=22));
     let mut map = Map::empty(columns as usize, rows as usize);
-    for _ in 0..dice.roll(1, 24) {
-        let look = dice.roll(0, 5) as u8;
-        let (left, top) = (dice.roll(0, columns - 1), dice.roll(0, rows - 1));
-        let (right, bottom) = (left + dice.roll(1, 7), top + dice.roll(1, 7));
+    for _ in 0..random.i32(1..=24) {
+        let look = random.i32(0..=5) as u8;
+        let (left, top) = (random.i32(0..=columns - 1), random.i32(0..=rows - 1));
+        let (right, bottom) = (left + random.i32(1..=7), top + random.i32(1..=7));
         for row in top..bottom.min(rows) {
             for column in left..right.min(columns) {
                 let cell = map.index(column as usize, row as usize);
@@ -247,10 +247,10 @@ pub(crate) fn scribble(seed: u64) -> Map {
             }
         }
     }
-    let percent = [0, 3, 20][dice.roll(0, 2) as usize];
+    let percent = [0, 3, 20][random.i32(0..=2) as usize];
     for edges in &mut map.edges {
-        if dice.chance(percent) {
-            *edges = dice.roll(1, 3) as u8;
+        if random.i32(..100) < percent {
+            *edges = random.i32(1..=3) as u8;
         }
     }
     map

@@ -6,7 +6,8 @@ use crate::lang::keyword::Keyword;
 use crate::lang::keyword::kinds::KINDS;
 use crate::lang::keyword::vocabulary::{AXES, BIND, FUNCTIONS, GROUND, ORIGIN, STROKES, TILE};
 
-const NOTE: &str = "Generated from the keyword table: OKOSHI_REWRITE=1 cargo test --test generated";
+const NOTE: &str =
+    "Generated from the keyword table: OKOSHI_REWRITE=generated cargo test --test generated";
 
 /// A number that is not part of a word.
 const NUMBER: &str = r"(?<![\w.])[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?(?![\w.])";

@@ -1,39 +1,28 @@
 //! Real files, damaged at random: never a panic, never a number that is none.
 
+use fastrand::Rng;
+
 use super::tests::{FILES, bytes};
 use super::*;
 use crate::motion::skeleton::Clip;
 
-/// A generator of the same numbers everywhere (Knuth's linear congruential one).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, limit: usize) -> usize {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as usize % limit.max(1)
-    }
-}
-
 /// A file in which lines or bytes were cut, swapped, repeated or deleted.
-fn damaged(text: &[u8], random: &mut Random) -> Vec<u8> {
+fn damaged(text: &[u8], random: &mut Rng) -> Vec<u8> {
     let mut lines: Vec<&[u8]> = text.split_inclusive(|b| *b == b'\n').collect();
-    let (line_damage, byte_damage) = match random.below(3) {
+    let (line_damage, byte_damage) = match random.usize(..3) {
         0 => (1, 0),
         1 => (0, 1),
-        _ => (1 + random.below(2), 1 + random.below(3)),
+        _ => (1 + random.usize(..2), 1 + random.usize(..3)),
     };
     for _ in 0..line_damage {
         // Half of the damage is done to the hierarchy, however long the motion is.
-        let reach = if random.below(2) == 0 {
+        let reach = if random.usize(..2) == 0 {
             lines.len()
         } else {
             lines.len().min(130)
         };
-        let (a, b) = (random.below(reach), random.below(reach));
-        match random.below(6) {
+        let (a, b) = (random.usize(..reach), random.usize(..reach));
+        match random.usize(..6) {
             0 => lines.swap(a, b),
             1 => lines.insert(a, lines[b]),
             2 => drop(lines.remove(a)),
@@ -50,22 +39,24 @@ fn damaged(text: &[u8], random: &mut Random) -> Vec<u8> {
         if text.is_empty() {
             break;
         }
-        let reach = if random.below(2) == 0 {
+        let reach = if random.usize(..2) == 0 {
             text.len()
         } else {
             text.len().min(4000)
         };
-        let at = random.below(reach);
-        match random.below(5) {
-            0 => text[at] = random.below(256) as u8,
+        let at = random.usize(..reach);
+        match random.usize(..5) {
+            0 => text[at] = random.usize(..256) as u8,
             1 => drop(text.remove(at)),
             2 => text.truncate(at),
             3 => text.insert(
                 at,
-                *b"{}\n\r\t ,.-eEnN0\x00\xFF:".get(random.below(17)).unwrap(),
+                *b"{}\n\r\t ,.-eEnN0\x00\xFF:"
+                    .get(random.usize(..17))
+                    .unwrap(),
             ),
             _ => {
-                let end = (at + random.below(40)).min(text.len());
+                let end = (at + random.usize(..40)).min(text.len());
                 text.drain(at..end);
             }
         }
@@ -102,7 +93,7 @@ fn sound(clip: &Clip) {
 
 #[test]
 fn damaged_files_are_refused_in_a_line_or_read_with_notes() {
-    let mut random = Random(11);
+    let mut random = Rng::with_seed(11);
     let (mut refused, mut noted) = (0, 0);
     for (name, ..) in FILES {
         let text = bytes(name);

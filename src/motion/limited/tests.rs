@@ -1,3 +1,4 @@
+use fastrand::Rng;
 use glam::DVec3;
 
 use super::queue::{Queue, falling, rising};
@@ -5,43 +6,34 @@ use super::ssd::Frames;
 use super::stretches::{Stretches, drawing};
 use super::{drawings, every, exact};
 
-/// Numbers that look random and are the same everywhere.
-struct Numbers(u64);
-
-impl Numbers {
-    fn next(&mut self, below: u64) -> u64 {
-        self.0 = self
-            .0
-            .wrapping_mul(0x5851_f42d_4c95_7f2d)
-            .wrapping_add(0x1405_7b7e_f767_814f);
-        (self.0 >> 33) % below
-    }
-
-    /// A motion of one joint, of `frames` frames; some stand still.
-    fn motion(&mut self, frames: usize, places: u64) -> Vec<DVec3> {
-        let mut at = DVec3::ZERO;
-        let mut motion = Vec::new();
-        let mut still = 0;
-        for _ in 0..frames {
-            if still == 0 && self.next(6) == 0 {
-                still = self.next(9);
-            }
-            if still > 0 {
-                still -= 1;
-            } else {
-                at = DVec3::new(self.next(places) as f64, self.next(places) as f64, 0.0);
-            }
-            motion.push(at);
+/// A motion of one joint, of `frames` frames; some stand still.
+fn motion(random: &mut Rng, frames: usize, places: u64) -> Vec<DVec3> {
+    let mut at = DVec3::ZERO;
+    let mut motion = Vec::new();
+    let mut still = 0;
+    for _ in 0..frames {
+        if still == 0 && random.u64(..6) == 0 {
+            still = random.u64(..9);
         }
-        motion
+        if still > 0 {
+            still -= 1;
+        } else {
+            at = DVec3::new(
+                random.u64(..places) as f64,
+                random.u64(..places) as f64,
+                0.0,
+            );
+        }
+        motion.push(at);
     }
+    motion
 }
 
 #[test]
 fn a_queue_gives_the_least_of_many_keys() {
-    let mut numbers = Numbers(3);
+    let mut random = Rng::with_seed(3);
     for count in [0, 1, 2, 3, 5, 8, 13, 64, 100] {
-        let mut keys: Vec<u64> = (0..count).map(|_| numbers.next(9)).collect();
+        let mut keys: Vec<u64> = (0..count).map(|_| random.u64(..9)).collect();
         let mut queue = Queue::new(keys.clone());
         for _ in 0..400 {
             let least = (0..keys.len()).filter(|entry| keys[*entry] != Queue::OUT);
@@ -50,10 +42,10 @@ fn a_queue_gives_the_least_of_many_keys() {
                 least.min_by_key(|entry| (keys[*entry], *entry))
             );
             if count > 0 {
-                let entry = numbers.next(count) as usize;
-                keys[entry] = match numbers.next(4) {
+                let entry = random.u64(..count) as usize;
+                keys[entry] = match random.u64(..4) {
                     0 => Queue::OUT,
-                    _ => numbers.next(9),
+                    _ => random.u64(..9),
                 };
                 queue.set(entry, keys[entry]);
             }
@@ -114,12 +106,12 @@ fn least(motion: &[DVec3], longest: usize) -> Vec<f64> {
 
 #[test]
 fn no_other_drawings_are_better() {
-    let mut numbers = Numbers(11);
+    let mut random = Rng::with_seed(11);
     for round in 0..400 {
-        let frames = 1 + numbers.next(30) as usize;
-        let longest = 1 + numbers.next(9) as usize;
+        let frames = 1 + random.u64(..30) as usize;
+        let longest = 1 + random.u64(..9) as usize;
         let places = [2, 3, 10, 1_000_000][round % 4];
-        let motion = numbers.motion(frames, places);
+        let motion = motion(&mut random, frames, places);
         let least = least(&motion, longest);
         let fewest = least.iter().position(|cost| cost.is_finite()).unwrap_or(0);
         let poses = motion.chunk_by(|a, b| a == b).count();
@@ -159,10 +151,10 @@ fn numbers_that_no_price_gives_are_found() {
     let costs = [1, 2, 3].map(|count| drawings(&motion, 1, count, 8).cost);
     assert_eq!(costs, [3.0, 3.0, 0.0]);
     // The table has to find what splitting alone does not.
-    let mut numbers = Numbers(5);
+    let mut random = Rng::with_seed(5);
     let mut tables = 0;
     for _ in 0..200 {
-        let motion = numbers.motion(24, 1000);
+        let motion = motion(&mut random, 24, 1000);
         let frames = Frames::new(&motion, 1);
         let stretches = Stretches::new(frames, 5);
         let best: Vec<f64> = (5..20)
@@ -218,10 +210,10 @@ fn where_very_many_choices_are_equally_good_the_bound_says_how_good_they_are() {
 
 #[test]
 fn the_same_stretches_are_found_from_either_end() {
-    let mut numbers = Numbers(8);
+    let mut random = Rng::with_seed(8);
     for _ in 0..100 {
-        let motion = numbers.motion(40, 9);
-        let longest = 1 + numbers.next(5) as usize;
+        let motion = motion(&mut random, 40, 9);
+        let longest = 1 + random.u64(..5) as usize;
         let stretches = Stretches::new(Frames::new(&motion, 1), longest);
         let starting = (0..40).flat_map(|start| {
             let ends = stretches.starting(start);

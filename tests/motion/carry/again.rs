@@ -6,7 +6,7 @@ use okoshi::motion::carry::{Carried, Landmarks, Puppet, Rest, carry};
 use okoshi::motion::labels::{Facing, label_clip};
 use okoshi::motion::skeleton::Clip;
 
-use crate::dice::Dice;
+use fastrand::Rng;
 
 use super::clips::{FILES, Moving, clip};
 use super::puppets::{Limbs, biped};
@@ -55,12 +55,12 @@ fn same(file: &str, what: &str, a: &Clip, b: &Clip) {
 }
 
 fn random_turns(count: usize, seed: u64) -> Vec<DQuat> {
-    let mut dice = Dice::new(seed);
+    let mut random = Rng::with_seed(seed);
     let turns = (0..count).map(|_| {
-        if dice.chance(20) {
+        if random.u8(..100) < 20 {
             return DQuat::IDENTITY;
         }
-        let mut number = || f64::from(dice.roll(-1000, 1000)) / 1000.0;
+        let mut number = || f64::from(random.i32(-1000..=1000)) / 1000.0;
         let [x, y, z, w] = [(); 4].map(|()| number());
         DQuat::from_xyzw(x, y, z, w + 1.5).normalize()
     });

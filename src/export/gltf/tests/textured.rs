@@ -1,12 +1,10 @@
 use super::*;
 
 /// A PNG of noise, `side` pixels wide and high.
-fn noise(side: u32, seed: u32) -> Arc<[u8]> {
-    let mut state = seed;
-    let picture = image::RgbaImage::from_fn(side, side, |_, _| {
-        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-        image::Rgba(state.to_le_bytes())
-    });
+fn noise(side: u32, seed: u64) -> Arc<[u8]> {
+    let mut random = fastrand::Rng::with_seed(seed);
+    let picture =
+        image::RgbaImage::from_fn(side, side, |_, _| image::Rgba(random.u32(..).to_le_bytes()));
     let mut out = io::Cursor::new(vec![]);
     picture.write_to(&mut out, image::ImageFormat::Png).unwrap();
     out.into_inner().into()

@@ -136,20 +136,15 @@ fn by_shape_alone() {
 }
 
 /// A clip whose siblings stand in another order, and per joint its place in the other.
-fn shuffled(clip: &Clip, mut seed: u64) -> (Clip, Vec<usize>) {
+fn shuffled(clip: &Clip, seed: u64) -> (Clip, Vec<usize>) {
     let children = clip.skeleton.children();
-    let mut next = move || {
-        seed = seed
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 33) as usize
-    };
+    let mut random = fastrand::Rng::with_seed(seed);
     let mut order = Vec::new();
     let mut open: Vec<usize> = (0..clip.skeleton.joints.len())
         .filter(|joint| clip.skeleton.joints[*joint].parent.is_none())
         .collect();
     while !open.is_empty() {
-        let joint = open.swap_remove(next() % open.len());
+        let joint = open.swap_remove(random.usize(..open.len()));
         order.push(joint);
         open.extend(&children[joint]);
     }
