@@ -111,7 +111,7 @@ fn no_other_drawings_are_better() {
         let frames = 1 + random.u64(..30) as usize;
         let longest = 1 + random.u64(..9) as usize;
         let places = [2, 3, 10, 1_000_000][round % 4];
-        let motion = motion(&mut random, frames, places);
+        let motion = self::motion(&mut random, frames, places);
         let least = least(&motion, longest);
         let fewest = least.iter().position(|cost| cost.is_finite()).unwrap_or(0);
         let poses = motion.chunk_by(|a, b| a == b).count();
@@ -154,7 +154,7 @@ fn numbers_that_no_price_gives_are_found() {
     let mut random = Rng::with_seed(5);
     let mut tables = 0;
     for _ in 0..200 {
-        let motion = motion(&mut random, 24, 1000);
+        let motion = self::motion(&mut random, 24, 1000);
         let frames = Frames::new(&motion, 1);
         let stretches = Stretches::new(frames, 5);
         let best: Vec<f64> = (5..20)
@@ -212,7 +212,7 @@ fn where_very_many_choices_are_equally_good_the_bound_says_how_good_they_are() {
 fn the_same_stretches_are_found_from_either_end() {
     let mut random = Rng::with_seed(8);
     for _ in 0..100 {
-        let motion = motion(&mut random, 40, 9);
+        let motion = self::motion(&mut random, 40, 9);
         let longest = 1 + random.u64(..5) as usize;
         let stretches = Stretches::new(Frames::new(&motion, 1), longest);
         let starting = (0..40).flat_map(|start| {
