@@ -331,7 +331,7 @@ fn positions_that_are_no_numbers_are_cut_too() {
 fn the_distance_of_two_poses_is_symmetric_and_bitwise_stable() {
     let mut random = Rng::with_seed(4);
     let mut pose = || -> Vec<DVec3> {
-        let places = (0..30).map(|_| place(random, 1 << 30) / 7.3);
+        let places = (0..30).map(|_| place(&mut random, 1 << 30) / 7.3);
         places.collect()
     };
     for _ in 0..100 {
