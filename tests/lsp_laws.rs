@@ -260,7 +260,7 @@ fn strings(text: &str) -> Vec<Range<usize>> {
     };
     let tags = ["<text", "<tspan", "<desc"].into_iter();
     tags.flat_map(|tag| inside(tag, ">", "<"))
-        .chain(inside("<![CDATA", "[", "]]>"))
+        .chain(inside("<![CDATA[", "CDATA[", "]]>"))
         .collect()
 }
 
@@ -622,8 +622,12 @@ fn renaming_leads_back() {
             .replace("&#x40;", "@")
             .replace("@\"胴😀\"", "@胴😀");
         let before = analysis(&text);
-        let named = |at: &usize| before.prepare_rename(*at).is_ok();
-        let places: Vec<usize> = bounds(&text).into_iter().filter(named).collect();
+        // Where names begin.
+        let mut places: Vec<usize> = bounds(&text)
+            .into_iter()
+            .filter_map(|at| Some(before.prepare_rename(at).ok()?.0.start))
+            .collect();
+        places.dedup();
         let at = places[place.index(places.len())];
         let (_, old) = before.prepare_rename(at).expect("a name");
         // What is refused is no case: the law is tried with so many that are not.
