@@ -19,13 +19,13 @@ pub enum LinkError {
     #[error("is not there")]
     Missing,
     /// It leaves the drawing's folder, by `..` or by a symbolic link.
-    #[error("leads out of the drawing's folder")]
+    #[error("is outside the drawing's folder")]
     Outside,
     /// It names a place on one machine.
     #[error("is an absolute path")]
     Absolute,
     /// It names something on the net, or its scheme is not a file's.
-    #[error("is an address, not a file beside the drawing")]
+    #[error("is a web address, not a file beside the drawing")]
     Remote,
     /// It is there but cannot be read; says why.
     #[error("cannot be read: {0}")]

@@ -155,7 +155,7 @@ const NO_DRAWINGS: &[(&str, &[u8], i32, &str)] = &[
         "packed.svgz",
         b"\x1f\x8b\x08\x00broken",
         2,
-        "`packed.svgz` is packed, but damaged",
+        "`packed.svgz` is compressed, but damaged",
     ),
 ];
 
@@ -257,7 +257,7 @@ fn files_without_permission() {
         room.run(&["build", "a.svg"]).ends(
             2,
             "",
-            "error: `a.svg` may not be read by you; change its permissions",
+            "error: `a.svg` cannot be read: permission denied; change its permissions",
         );
         room.run(&["build", "shut/b.svg"]).ends(2, "", "error: ");
         assert!(!room.path("shut/b.glb").exists());
@@ -637,7 +637,7 @@ fn links_are_followed_in_the_folder_of_the_drawing() {
     room.run(&["build", "in/b.svg"]).ends(
         1,
         "",
-        "error[E007]: the link `../full.png` leads out of the drawing's folder",
+        "error[E007]: the link `../full.png` is outside the drawing's folder",
     );
     room.write("in/c.svg", drawing("full.png"));
     fs::remove_file(room.path("in/full.png")).expect("removed");

@@ -154,7 +154,7 @@ fn a_folder_that_may_not_be_written() {
         &room,
         &["new", "locked/me"],
         2,
-        &["error: you may not write in the folder `locked`; name a drawing in another"],
+        &["error: no permission to write in the folder `locked`; name a drawing in another"],
     );
     assert!(common::program::files(&folder).is_empty());
 }

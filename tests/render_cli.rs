@@ -263,7 +263,7 @@ fn wrong_use_is_told() {
         &room,
         "render out.gltf",
         2,
-        "links to `../x.bin`, which leads out of",
+        "links to `../x.bin`, which is outside",
     );
     assert_eq!(files(&room), ["no.glb", "out.gltf"]);
 }

@@ -248,10 +248,10 @@ pub(super) fn legends(
                 Diagnostic::new(
                     Code::TwoLegends,
                     bindings.strings[string].text.whole(),
-                    "this legend's paint has a legend already; where both say something, this one wins",
+                    "this legend's paint has a legend already; where both set an attribute, this one counts",
                 )
                 .related(bindings.strings[first].text.whole(), "the other legend")
-                .help("give the swatch another colour, or put both strings into one"),
+                .help("give the sample another colour, or combine both strings"),
             );
             let legend: &mut Legend = &mut bindings.legends[*legend];
             for (string, setting) in settings {
@@ -317,13 +317,13 @@ impl Legend {
             Code::UnusedLegend,
             bindings.strings[self.string].text.whole(),
             format!(
-                "no {what} is painted like this legend, {}",
+                "no {what} has the paint of this legend, {}",
                 swatch.describe()
             ),
         )
         .related(swatch.span, "the legend")
         .help(format!(
-            "pick the swatch's colour from the {whence} with the dropper, or delete the legend"
+            "pick the sample's colour from the {whence} with the colour picker, or delete the legend"
         ))
     }
 }

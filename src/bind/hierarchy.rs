@@ -189,7 +189,7 @@ fn automatic(
         let message =
             format!("{count} more parts have no string: they are named `{from}` to `{to}`");
         let span = drawing.shapes[bindings.parts[*first].shape].element.span;
-        let help = "`okoshi inspect` lists them all, each with the part that it hangs on";
+        let help = "`okoshi inspect` lists them all, each with its parent";
         diagnostics.push(Diagnostic::new(Code::AutomaticName, span, message).help(help));
     }
 }
@@ -218,7 +218,7 @@ fn named_by_itself(
     parent: Option<usize>,
 ) -> Diagnostic {
     let on = parent.map_or(String::new(), |parent| {
-        format!(" and hangs on `{}`", bindings.parts[parent].name)
+        format!(" and is attached to `{}`", bindings.parts[parent].name)
     });
     let element = &drawing.shapes[bindings.parts[part].shape].element;
     let message = format!(
@@ -285,9 +285,9 @@ fn axis(drawing: &Drawing, bindings: &Bindings, index: usize) -> Option<Axis> {
             Diagnostic::new(
                 Code::AxisGuess,
                 place,
-                format!("{name} is as wide as long, so its axis is taken to be upright"),
+                format!("{name} is as wide as it is long, so its axis is assumed to be upright"),
             )
-            .help("`Axis 90` says so, `Axis 0` lays it level"),
+            .help("write `Axis 90` for an upright axis, `Axis 0` for a horizontal one"),
         )
     })
 }
@@ -378,13 +378,13 @@ fn turns_about_middle(
         Code::TurnsAboutMiddle,
         text.whole(),
         format!(
-            "`{}` lies beside `{}`, so it turns about its middle",
+            "both ends of `{}` are about equally far from `{}`, so it turns about its middle",
             part.name, bindings.parts[parent].name
         ),
     )
     .related(drawing.shapes[part.shape].element.span, "the part")
     .help(format!(
-        "for an arm or a leg write `Origin start`, the end nearer to the middle of `{}` (here the {side} one), or `Origin end`",
+        "for an arm or a leg write `Origin start` (the end nearer to the centre of `{}`, here the {side} one) or `Origin end`",
         bindings.parts[parent].name
     ));
     for word in ["start", "end"] {

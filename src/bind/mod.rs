@@ -289,7 +289,7 @@ impl<'a> Binder<'a> {
                         string.text.whole(),
                         format!("there is no part left for {what}: every shape {place} has a string already"),
                     )
-                    .help("delete the string, draw its shape, or begin it with `#` to make it a comment"),
+                    .help("delete the string, draw its shape, or put `#` before it to make it a comment"),
                 );
             }
         }
@@ -396,7 +396,7 @@ fn hints(drawing: &Drawing, bindings: &Bindings, diagnostics: &mut Vec<Diagnosti
                     format!("this string belongs to {bound}, but {rival} is almost as near"),
                 )
                 .related(drawing.shapes[bindings.parts[binding.part].shape].element.span, "the part it belongs to")
-                .help("move the string's top left corner closer to the middle of its part, or group both"),
+                .help("move the string's top left corner closer to the centre of its part, or group the two"),
             );
         }
     }
@@ -409,9 +409,9 @@ fn hints(drawing: &Drawing, bindings: &Bindings, diagnostics: &mut Vec<Diagnosti
                 Diagnostic::new(
                     Code::OffPage,
                     drawing.shapes[part.shape].element.span,
-                    format!("`{}` lies off the page", part.name),
+                    format!("`{}` is off the page", part.name),
                 )
-                .help("it is built all the same; `*` in a string beside it leaves it out"),
+                .help("it is built anyway; to leave it out, write `*` beside it"),
             );
         }
     }

@@ -81,16 +81,16 @@ fn parent(
         diagnostic = diagnostic
             .related(
                 drawing.shapes[other.shape].element.span,
-                "this sub-part has the name, but is no joint",
+                "this sub-part has that name, but sub-parts have no joints",
             )
             .help("name the main part of its group instead");
     } else if let Some(layer) = layers.find(|layer| layer.name == parent.text) {
         diagnostic = diagnostic
             .related(
                 bindings.strings[layer.string].text.whole(),
-                "this tile layer has the name, but is no joint",
+                "this tile layer has that name, but tile layers have no joints",
             )
-            .help("let both hang on the same part, or on none");
+            .help("attach both to the same part, or to none");
     } else {
         let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
         known.sort_unstable();
@@ -102,7 +102,8 @@ fn parent(
                 text.escape_at(parent.range.start, &quoted(near)),
             );
         }
-        diagnostic = diagnostic.help("the name behind `@` must be that of a part, written alike");
+        diagnostic = diagnostic
+            .help("the name after `@` must be the name of a part, spelled exactly the same");
     }
     Err(Box::new(diagnostic))
 }
@@ -168,16 +169,16 @@ pub(super) fn break_cycles(
                 format!("{} is its own parent", chain[0])
             } else {
                 format!(
-                    "parts hang on each other in a circle: {}",
+                    "parts are attached to each other in a circle: {}",
                     chain.join(" on ")
                 )
             },
         )
-        .help("one of them must hang on a part outside the circle, or on none");
+        .help("attach one of them to a part outside the circle, or to none");
         for other in &cycle[1..] {
             diagnostic = diagnostic.related(
                 span(*other),
-                format!("`{}` hangs on this", bindings.parts[*other].name),
+                format!("`{}` is attached to this", bindings.parts[*other].name),
             );
         }
         diagnostics.push(diagnostic);

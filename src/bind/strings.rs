@@ -113,9 +113,9 @@ fn caption(text: &Text) -> Diagnostic {
     Diagnostic::new(
         Code::Caption,
         text.whole(),
-        "this text is no string, and is taken for a caption",
+        "this text is not a string; it is taken for a caption",
     )
-    .help("begin it with `#` to make it a comment; a part's name with blanks in it needs quotes")
+    .help("put `#` before it to make it a comment; a part's name with spaces needs quotes")
     .fix("Make it a comment", start, "#")
 }
 
@@ -146,7 +146,7 @@ fn add_up_defaults(bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
                         Code::Overridden,
                         text.span(old.range.clone()),
                         format!(
-                            "`{}` is set again by a later `%` string, which wins",
+                            "`{}` is set again by a later `%` string, which counts",
                             setting.keyword.name()
                         ),
                     )

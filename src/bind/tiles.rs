@@ -93,7 +93,7 @@ pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut
                     Code::TwoStrings,
                     string.text.whole(),
                     format!(
-                        "this string and another one make a tile layer of the same group, {}",
+                        "this string and another one make the same group a tile layer, {}",
                         element.describe()
                     ),
                 )
@@ -103,7 +103,7 @@ pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut
                 )
                 .related(element.span, "the group")
                 .help(
-                    "delete one of them, or put each into the group or layer that holds its tiles",
+                    "delete one of them, or put each into the group or layer that contains its tiles",
                 ),
             );
             continue;
@@ -204,7 +204,8 @@ pub(super) fn misplaced(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) 
             };
             if misplaced {
                 let name = attribute.keyword.name();
-                let message = format!("`{name}` has no effect in {what}: it is about a tile layer");
+                let message =
+                    format!("`{name}` has no effect in {what}: it applies to tile layers");
                 diagnostics.push(
                     Diagnostic::new(
                         Code::NoTileLayer,

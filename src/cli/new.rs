@@ -77,7 +77,7 @@ fn way_out(error: &WriteError) -> String {
             folder.display()
         ),
         WriteError::FolderDenied(folder) => format!(
-            "you may not write in the folder `{}`; name a drawing in another",
+            "no permission to write in the folder `{}`; name a drawing in another",
             folder.display()
         ),
         other => other.to_string(),

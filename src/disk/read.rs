@@ -23,7 +23,7 @@ pub enum ReadError {
     #[error("`{}` is a folder; name a drawing in it", .0.display())]
     Folder(PathBuf),
     /// The file may not be read.
-    #[error("`{}` may not be read by you; change its permissions", .0.display())]
+    #[error("`{}` cannot be read: permission denied; change its permissions", .0.display())]
     Denied(PathBuf),
     /// Larger than [`DRAWING_LIMIT`].
     #[error("`{}` is larger than the limit of {} MiB; split the drawing", .0.display(), DRAWING_LIMIT >> 20)]
@@ -35,7 +35,7 @@ pub enum ReadError {
     )]
     TooLargeUnpacked(PathBuf),
     /// Packed, and the packing is broken.
-    #[error("`{}` is packed, but damaged ({source}); save the drawing again", .path.display())]
+    #[error("`{}` is compressed, but damaged ({source}); save the drawing again", .path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
@@ -177,7 +177,7 @@ mod tests {
         let mut cut = gzip(&[b"<svg/>"]);
         cut.truncate(12);
         std::fs::write(&path, cut).unwrap();
-        assert!(message(&path).starts_with("`/a.svg` is packed, but damaged"));
+        assert!(message(&path).starts_with("`/a.svg` is compressed, but damaged"));
         assert_eq!(
             message(&path.join("b.svg")),
             "`/a.svg/b.svg` is not there; check the path"

@@ -10,7 +10,7 @@ pub enum Decode {
     #[error("the drawing is UTF-32; save it as UTF-8")]
     Utf32,
     /// A zero byte, which no XML holds.
-    #[error("byte {offset} is zero: this is no SVG drawing")]
+    #[error("byte {offset} is zero: this is not an SVG drawing")]
     Nul {
         /// Where the byte is.
         offset: usize,
@@ -22,7 +22,9 @@ pub enum Decode {
         offset: usize,
     },
     /// The XML declaration names an encoding in which the bytes mean something else.
-    #[error("the drawing says that it is {encoding}, which is not read; save it as UTF-8")]
+    #[error(
+        "the drawing declares the encoding {encoding}, which is not supported; save it as UTF-8"
+    )]
     Declared {
         /// The encoding, as the drawing names it.
         encoding: String,
@@ -160,7 +162,7 @@ mod tests {
             let error = drawing("ISO-8859-1", text).unwrap_err();
             assert_eq!(
                 error.to_string(),
-                "the drawing says that it is ISO-8859-1, which is not read; save it as UTF-8"
+                "the drawing declares the encoding ISO-8859-1, which is not supported; save it as UTF-8"
             );
             assert_eq!(error.offset(), 51);
         }

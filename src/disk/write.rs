@@ -23,7 +23,7 @@ pub enum WriteError {
     #[error("the folder `{}` is not there; create it or choose another with -o", .0.display())]
     NoFolder(PathBuf),
     /// The folder may not be written to.
-    #[error("you may not write in the folder `{}`; choose another with -o", .0.display())]
+    #[error("no permission to write in the folder `{}`; choose another with -o", .0.display())]
     FolderDenied(PathBuf),
     /// The file exists and is protected.
     #[error("`{}` is write-protected; change that or choose another file with -o", .0.display())]

@@ -68,7 +68,8 @@ fn coincident(context: &FigureContext<'_>, part: usize) -> Option<Diagnostic> {
     }
     let flag = if shape.doubled { "-d" } else { "-s" };
     let name = context.bindings.describe(context.drawing, part);
-    let message = format!("the copy that `{flag}` makes of {name} lies exactly where {name} lies");
+    let message =
+        format!("the copy that `{flag}` makes of {name} is in exactly the same place as {name}");
     Some(told(context, part, message))
 }
 
@@ -100,7 +101,7 @@ fn inherited(context: &FigureContext<'_>, part: usize, doubled: &[bool]) -> Opti
             let name = context.bindings.describe(context.drawing, part);
             let other = context.bindings.describe(context.drawing, ancestor);
             let message = format!(
-                "copies of {name} that `-d` of {other} makes lie exactly where {name} lies"
+                "copies of {name} that `-d` on {other} makes are in exactly the same place as {name}"
             );
             return Some(told(context, part, message));
         }
@@ -122,6 +123,6 @@ fn told(context: &FigureContext<'_>, part: usize, message: String) -> Diagnostic
         },
     );
     Diagnostic::new(Code::CopiesCoincide, span, message).help(
-        "give both sides a distance with `Offset`, or depths on one side only, as in `default 45 50`",
+        "move the two sides apart with `Offset`, or give depths on one side only, as in `default 45 50`",
     )
 }

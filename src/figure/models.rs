@@ -102,7 +102,7 @@ impl Models {
                         let message = format!(
                             "the models have more than {MOST_TRIANGLES} triangles together"
                         );
-                        let help = "use simpler models, or fewer parts that are models";
+                        let help = "use simpler models, or fewer of them";
                         diagnostics
                             .push(Diagnostic::new(Code::LimitPassed, span, message).help(help));
                     }
@@ -114,7 +114,7 @@ impl Models {
                         Trouble::Import(error) => {
                             let message = format!("the model `{link}` {error}");
                             Diagnostic::new(Code::MissingFile, span, message)
-                                .help("the part stays a plate until then")
+                                .help("until this is fixed, the part is built as a plate")
                         }
                     })
                 }

@@ -92,7 +92,7 @@ impl Tree {
                         element.span,
                         format!("the copies of `-d` add more than {MOST_COPIES} nodes"),
                     )
-                    .help("a part with `-d` on a part with `-d` is copied four times, and so on: take some away"),
+                    .help("each `-d` doubles everything attached to the part, so nested ones multiply: remove some of them"),
                 );
                 break;
             }

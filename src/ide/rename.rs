@@ -13,10 +13,10 @@ use crate::source::{Span, Text};
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum RenameError {
     /// There is no name at this place.
-    #[error("there is no name of a part and no variable here")]
+    #[error("there is no part name and no variable here")]
     NoName,
     /// The new name cannot be written.
-    #[error("a name needs a letter or sign, and has no quotes in it")]
+    #[error("a name must not be empty or contain quotes")]
     NotAName,
     /// Another part has it.
     #[error("there is a part named `{0}` already")]
@@ -39,7 +39,7 @@ pub enum RenameError {
     )]
     InEntity(String),
     /// The drawing's text cannot be read.
-    #[error("the drawing is not well-formed XML: mend that first, so that no name is missed")]
+    #[error("the drawing is not well-formed XML: fix that first, so that no name is missed")]
     NotSound,
 }
 

@@ -31,10 +31,14 @@ pub const TRIANGLE_LIMIT: usize = 32 << 20;
 #[derive(Debug, thiserror::Error)]
 pub enum ImportError {
     /// The bytes are no glTF, or break its rules.
-    #[error("is no glTF that can be read: {0}; export it again, or ask the Khronos glTF validator")]
+    #[error(
+        "is not a readable glTF file: {0}; export it again, or check it with the Khronos glTF validator"
+    )]
     Malformed(String),
     /// It needs an extension of glTF that is not known here.
-    #[error("needs the glTF extension `{0}`, which okoshi does not know; export it without")]
+    #[error(
+        "needs the glTF extension `{0}`, which okoshi does not support; export it without that extension"
+    )]
     Extension(String),
     /// A file that it links to cannot be had.
     #[error("links to `{link}`, which {error}")]
@@ -45,7 +49,7 @@ pub enum ImportError {
         error: LinkError,
     },
     /// An image cannot be decoded.
-    #[error("has an image that cannot be read ({0}); PNG and JPEG can")]
+    #[error("has an image that cannot be read ({0}); use PNG or JPEG")]
     Image(String),
     /// No triangle to be seen.
     #[error("has no triangles: there is nothing to see")]

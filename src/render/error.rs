@@ -20,7 +20,7 @@ pub enum RenderError {
     #[error("cannot be drawn as a strip of {0} by {1} pixels, more than {limit} in all: ask for fewer moments or a smaller size", limit = super::STRIP_LIMIT)]
     Strip(u64, u32),
     /// The work broke off.
-    #[error("cannot be drawn: this should not happen, please tell us")]
+    #[error("cannot be rendered: this is a bug in okoshi, please report it")]
     Broken,
 }
 

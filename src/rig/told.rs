@@ -1,4 +1,4 @@
-//! What is said of motions.
+//! Diagnostics about motions.
 
 use std::collections::BTreeMap;
 
@@ -25,7 +25,7 @@ pub(super) fn broken_file(link: &str, error: &bvh::Error, frames: usize, span: S
     let help = match frames {
         0 => error.help.clone(),
         frames => format!(
-            "{}; --keep-going uses the {frames} whole frames before it",
+            "{}; --keep-going uses the {frames} complete frames before the error",
             error.help
         ),
     };
@@ -40,9 +40,8 @@ pub(super) fn note(link: &str, note: &str, span: Span) -> Diagnostic {
 
 /// A drawing whose clips are too long.
 pub(super) fn too_many_keys(span: Span) -> Diagnostic {
-    let message = format!(
-        "the clips have more than {MOST_KEYS} keys together, counted as frames times parts"
-    );
+    let message =
+        format!("the clips have more than {MOST_KEYS} keys together (frames times parts)");
     let help =
         "use shorter motions; `okoshi motion IN.bvh -o OUT.bvh --range 1:240` cuts a part out";
     Diagnostic::new(Code::LimitPassed, span, message).help(help)
@@ -50,14 +49,15 @@ pub(super) fn too_many_keys(span: Span) -> Diagnostic {
 
 /// A drawing with too many figures and motions.
 pub(super) fn too_many_casts(span: Span) -> Diagnostic {
-    let message = format!("motions meet figures more than {MOST_CASTS} times");
-    let help = "write `Motion` into the strings of those figures that are to move, and not into a `%` string";
+    let message = format!("there are more than {MOST_CASTS} pairs of a motion and a figure");
+    let help =
+        "write `Motion` in the strings of the figures that should move, instead of in a `%` string";
     Diagnostic::new(Code::LimitPassed, span, message).help(help)
 }
 
 /// A motion that no figure plays.
 pub(super) fn nobody(span: Span, link: &str) -> Diagnostic {
-    let message = format!("the motion `{link}` moves nothing: no part is driven by a joint of it");
+    let message = format!("the motion `{link}` moves nothing: none of its joints drives a part");
     let help = "name parts after what they are (Head, Rarm, Lleg …), or say which joint drives a part: `Bone RightArm`";
     Diagnostic::new(Code::IdleMotion, span, message).help(help)
 }
@@ -74,7 +74,7 @@ pub(super) fn without_motion(bindings: &Bindings, diagnostics: &mut Vec<Diagnost
         if let Some(span) = found {
             let name = keyword.name();
             let message = format!("`{name}` has no effect: the drawing has no motion");
-            let help = "write `Motion \"file.bvh\"` into a `%` string, or into the string of a figure's root";
+            let help = "write `Motion \"file.bvh\"` in a `%` string, or in the string of a figure's root part";
             diagnostics.push(Diagnostic::new(Code::IdleMotion, span, message).help(help));
         }
     }
@@ -205,21 +205,21 @@ fn problem_of(
                 [] => told.help("`okoshi motion FILE` lists the joints of a motion"),
                 nearest => {
                     let names: Vec<String> = nearest.iter().map(|name| format!("`{name}`")).collect();
-                    told.help(format!("perhaps {} was meant", names.join(" or ")))
+                    told.help(format!("did you mean {}?", names.join(" or ")))
                 }
             }
         }
         Problem::AmbiguousBone { name, joints, .. } => unclear(format!("{} joints of the motion are called `{name}`", joints.len()))
-            .help("the first of them is taken; `Bone first second` names a chain"),
+            .help("the first of them is used; `Bone first second` names a chain"),
         Problem::NotAChain { from, to, .. } => {
-            unclear(format!("the joint {} does not hang on {}", called(*to), called(*from)))
+            unclear(format!("the joint {} is not below {}", called(*to), called(*from)))
                 .help("name the joint where the chain begins first, then the one where it ends: `Bone RightArm RightHand`")
         }
         Problem::TooManyBones { .. } => unclear("`Bone` names more than two joints".to_owned())
             .help("name the joint where the chain begins and the one where it ends: `Bone RightArm RightHand`"),
         Problem::NoSuchLimb { class, side, .. } => {
-            let message = format!("the motion has no {} {} for {name}, which follows the part that it hangs on", side.name(), class.name());
-            Diagnostic::new(Code::NoJoint, element, message).help("`Bone` says which joint drives a part")
+            let message = format!("the motion has no {} {} for {name}, so it moves along with its parent", side.name(), class.name());
+            Diagnostic::new(Code::NoJoint, element, message).help("use `Bone` to say which joint drives the part")
         }
         Problem::NothingMatched => unclear("no joint drives any part".to_owned()),
     }

@@ -49,12 +49,12 @@ pub(super) fn check(
     }
     let blamed = growth.blamed.and_then(|node| document.get_node(node));
     let span = start_tag(blamed.unwrap_or(document.root_element()), prepared);
-    let what = "patterns, clips, masks or markers within each other";
+    let what = "nested patterns, clips, masks or markers";
     let message = match growth.too_deep {
-        true => format!("{what} lie more than {MAX_DEPTH} deep"),
-        false => format!("{what} become more than {MOST} elements"),
+        true => format!("{what} are more than {MAX_DEPTH} levels deep"),
+        false => format!("{what} expand to more than {MOST} elements"),
     };
-    let help = "take out what is nested: a pattern of plain shapes, a clip of one path";
+    let help = "remove the nesting: use patterns of plain shapes, and clips of a single path";
     Err(Box::new(
         Diagnostic::new(Code::LimitPassed, span, message).help(help),
     ))

@@ -44,9 +44,9 @@ pub(super) fn unusable(
         | usvg::Error::ParsingFailed(roxmltree::Error::NodesLimitReached) => Diagnostic::new(
             Code::LimitPassed,
             tag,
-            "the drawing has more than a million elements once its clones are drawn, or is nested too deep",
+            "with its clones, the drawing has more than a million elements, or it is nested too deep",
         )
-        .help("split the drawing in several files"),
+        .help("split the drawing into several files"),
         other => Diagnostic::new(Code::NotSvg, tag, format!("the drawing cannot be read: {other}")),
     }
 }
@@ -76,13 +76,13 @@ pub(crate) fn broken_link(link: &str, error: &LinkError, span: Span) -> Diagnost
     let (code, help) = match error {
         LinkError::Missing => (
             Code::MissingFile,
-            "put the file beside the drawing, or write its name as it is",
+            "put the file beside the drawing, or correct its name",
         ),
         LinkError::Outside | LinkError::Absolute | LinkError::Remote => (
             Code::LinkOutside,
             "copy the file into the drawing's folder and link it there, or embed it",
         ),
-        LinkError::Unreadable(_) => (Code::MissingFile, "see whether the file can be opened"),
+        LinkError::Unreadable(_) => (Code::MissingFile, "check whether the file can be opened"),
         LinkError::TooLarge { .. } => (Code::LimitPassed, "use a smaller file"),
     };
     Diagnostic::new(code, span, format!("the link `{link}` {error}")).help(help)

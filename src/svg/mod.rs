@@ -242,7 +242,7 @@ fn not_xml(error: &roxmltree::Error, prepared: &prepare::Prepared, source: &str)
     let help = if ended {
         "the file ends too early: was it cut off while it was saved?"
     } else {
-        "open the drawing in Inkscape and save it again, or mend the text at this place"
+        "open the drawing in Inkscape and save it again, or fix the text at this place"
     };
     Diagnostic::new(
         Code::NotXml,

@@ -41,7 +41,7 @@ fn one(picture: &PictureSource, shape: &mut Shape) -> (bool, Option<Diagnostic>)
         let name = shape.element.describe();
         let message = format!("nothing opaque is left of the picture {name}");
         Diagnostic::new(Code::Vanishes, shape.element.span, message)
-            .help("delete it, or show what its clip hides")
+            .help("delete it, or enlarge its clip")
     });
     shape.outline = Arc::new(outline);
     shape.paint = Paint {

@@ -211,7 +211,7 @@ impl<'a> Scan<'a> {
                         Code::LimitPassed,
                         Span::new(at, at + text.len()),
                         format!(
-                            "the drawing's entities become more than {} MiB of text",
+                            "the drawing's entities expand to more than {} MiB of text",
                             MAX_ENTITY_TEXT >> 20
                         ),
                     )

@@ -117,7 +117,7 @@ impl<'a> Walk<'a, '_, '_> {
             self.no_solid_meaning(
                 xml,
                 "mask",
-                "the part is built as if it were not masked; cut the shape itself instead",
+                "the part is built without the mask; cut the shape itself instead",
             );
         }
         if !group.filters().is_empty() {

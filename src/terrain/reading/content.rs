@@ -95,7 +95,7 @@ impl Content {
         for (index, bounds) in &self.fills {
             let shape = &drawing.shapes[*index];
             let too_much = |what: String| {
-                let help = "take away what is hidden, or draw one picture with a pixel a tile";
+                let help = "remove what is hidden, or use one picture with one pixel per tile";
                 Box::new(Diagnostic::new(Code::LimitPassed, shape.element.span, what).help(help))
             };
             let item = match &shape.picture {
@@ -138,7 +138,7 @@ impl Content {
             painted = painted.saturating_add(columns * rows);
             if painted > MOST_PAINTED {
                 let what = format!(
-                    "the shapes of a tile layer cover more than {MOST_PAINTED} cells, one over the other"
+                    "the shapes of a tile layer cover more than {MOST_PAINTED} cells in total"
                 );
                 return Err(too_much(what));
             }

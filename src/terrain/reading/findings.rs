@@ -61,16 +61,16 @@ pub(super) fn empty(
     let (message, help) = match holds {
         true => (
             format!(
-                "nothing in the tile layer `{name}` is a tile: no shape reaches the middle of a cell, or legends say `none` of all that do"
+                "the tile layer `{name}` has no tiles: no shape covers the centre of a cell, or legends set `none` for all that do"
             ),
-            "is the size larger than the tiles are drawn?",
+            "is the tile size larger than the drawn tiles?",
         ),
         false => (
             format!(
                 "the tile layer `{name}` has no tiles: nothing is painted in {}",
                 element.describe()
             ),
-            "put the string into the group or layer that holds the tiles",
+            "put the string into the group or layer that contains the tiles",
         ),
     };
     Diagnostic::new(Code::NoTiles, size_span(bindings, layer), message)
@@ -86,11 +86,11 @@ pub(super) fn too_large(
     [columns, rows]: [f64; 2],
 ) -> Diagnostic {
     let message = format!(
-        "tiles of {size} make a grid of {columns:.0} × {rows:.0} = {:.0} cells, and more than {MOST_CELLS} are not built",
+        "tiles of {size} make a grid of {columns:.0} × {rows:.0} = {:.0} cells, more than the limit of {MOST_CELLS}",
         columns * rows
     );
     Diagnostic::new(Code::LimitPassed, size_span(bindings, layer), message)
-        .help("write the side of a tile in drawing units; or is there something drawn far off?")
+        .help("write the side of a tile in drawing units, and check that nothing is drawn far away")
 }
 
 /// What the map leaves open, and how it was decided.
@@ -110,10 +110,10 @@ pub(super) fn open(drawing: &Drawing, layer: &Layer, diagnostics: &mut Vec<Diagn
         let span = drawing.groups[layer.group].element.span;
         let more = notes.len() - MOST_NOTES;
         let message = format!(
-            "`{}`: {more} more places are open to more than one reading",
+            "`{}`: {more} more places can be read in more than one way",
             layer.name
         );
-        let help = "mend the first ones: others often follow from them";
+        let help = "fix the first ones: they often cause the others";
         diagnostics.push(Diagnostic::new(Code::OpenTerrain, span, message).help(help));
     }
 }
@@ -123,11 +123,11 @@ impl Open {
     fn told(self) -> (String, String) {
         match self {
             Self::Loose => (
-                "nothing says how high this group lies, and its lowest part was put on the ground".into(),
+                "nothing gives the height of this group, so its lowest part is on the ground".into(),
                 "draw brown tiles below it, down to what it stands on".into(),
             ),
             Self::Hangs { drawn, needed } => (
-                format!("this group hangs in the air: {drawn} brown tiles are drawn below it where its height is {needed}"),
+                format!("this group hangs in the air: its height is {needed}, but {drawn} brown tiles are drawn below it"),
                 "draw as many brown tiles as it is high, or draw an edge where another group begins".into(),
             ),
             Self::Plain(Tile::Red) => (
@@ -136,15 +136,15 @@ impl Open {
             ),
             Self::Plain(_) => (
                 "a wall without a roof above it is read as ground of its colour".into(),
-                "draw red tiles above the wall; for a path, `$Tile green` on a swatch of its colour says so".into(),
+                "draw red tiles above the wall; for a path, write `$Tile green` beside a sample of its colour".into(),
             ),
             Self::House => (
-                "this house hides tiles that are drawn: its roof or its wall is no rectangle".into(),
-                "draw roof and wall as rectangles, or what stands before them high enough to hide the rest".into(),
+                "this house hides other tiles, because its roof or its wall is not a rectangle".into(),
+                "draw roof and wall as rectangles, or make what is in front of them high enough to hide the rest".into(),
             ),
             Self::Pits => (
-                "brown tiles in the midst of green ones are pits".into(),
-                "was a block meant, that stands on the ground? Draw edges around its top".into(),
+                "brown tiles in the middle of green ones are pits".into(),
+                "if a block on the ground was meant, draw edges around its top".into(),
             ),
         }
     }
@@ -170,10 +170,7 @@ pub(super) fn unclear(
             _ => (format!("the colour {hex}"), format!("of the colour {hex}")),
         };
         let cells = cells_named(layer.map.columns, &tally.first, tally.count);
-        let message = format!(
-            "{what} is none that tiles of `{}` can have: {cells}",
-            layer.name
-        );
+        let message = format!("{what} is not a tile colour of `{}`: {cells}", layer.name);
         let help = format!(
             "say what it means: draw a square {swatch} in the same layer, and beside it write `$Tile green`, or brown, blue, red, beige, none"
         );
@@ -186,11 +183,11 @@ pub(super) fn unclear(
         let count: usize = rest.iter().map(|(_, tally)| tally.count).sum();
         let cells = cells_named(layer.map.columns, &first.first[..1], count);
         let message = format!(
-            "{} more colours are none that tiles of `{}` can have: {cells}",
+            "{} more colours are not tile colours of `{}`: {cells}",
             rest.len(),
             layer.name
         );
-        let help = "paint maps with few plain colours, without shades between them: as PNG, and without smoothing";
+        let help = "paint maps in a few plain colours, without anti-aliasing, and save them as PNG";
         let span = drawing.shapes[shape].element.span;
         diagnostics.push(Diagnostic::new(Code::UnclearTile, span, message).help(help));
     }
@@ -230,13 +227,13 @@ pub(super) fn plain(drawing: &Drawing, paints: &Paints<'_>, list: &[usize]) -> V
         let span = drawing.shapes[paint.shape].element.span;
         Some(
             Diagnostic::new(Code::PlainPaint, span, message)
-                .help("give its tiles a picture by a legend, as in `$Tile green Texture \"grass.png\"`, or a `Color`"),
+                .help("to give the tiles a picture, use a legend such as `$Tile green Texture \"grass.png\"`; or set a `Color`"),
         )
     };
     list.iter().filter_map(finding).collect()
 }
 
-/// Tiles that lie off the grid.
+/// Tiles that are off the grid.
 pub(super) fn off_grid(
     drawing: &Drawing,
     bindings: &Bindings,
@@ -274,10 +271,10 @@ pub(super) fn off_grid(
     let (_, first) = found.first()?;
     let name = &bindings.layers[layer].name;
     let message = match found.len() == count {
-        true if count == 1 => format!("the shape in `{name}` lies off the grid"),
-        true => format!("all {count} rectangles in `{name}` lie off the grid"),
+        true if count == 1 => format!("the shape in `{name}` is off the grid"),
+        true => format!("all {count} rectangles in `{name}` are off the grid"),
         false => format!(
-            "{} of {count} rectangles in `{name}` lie off the grid",
+            "{} of {count} rectangles in `{name}` are off the grid",
             found.len()
         ),
     };
@@ -291,7 +288,7 @@ pub(super) fn off_grid(
             )
         }
         _ => format!(
-            "is {} the size that they are drawn with? a cell becomes what is drawn at its middle",
+            "is {} the size they are drawn with? A cell becomes whatever is drawn at its centre",
             grid.size
         ),
     };

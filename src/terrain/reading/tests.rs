@@ -169,8 +169,8 @@ fn unclear_colours_are_errors_that_name_cells() {
     assert_eq!(
         told,
         [
-            "E206: the colour #808080 is none that tiles of `Island` can have: column 1, row 2; column 2, row 2; column 3, row 2 and 2 more",
-            "E206: the colour #800080 is none that tiles of `Island` can have: column 3, row 1",
+            "E206: the colour #808080 is not a tile colour of `Island`: column 1, row 2; column 2, row 2; column 3, row 2 and 2 more",
+            "E206: the colour #800080 is not a tile colour of `Island`: column 3, row 1",
         ]
     );
     assert_eq!(drawn(&layers[0]), ["gg...", "....."]);
@@ -192,7 +192,7 @@ fn layers_without_tiles_and_huge_grids_are_told() {
     assert_eq!(
         told,
         [
-            "E005: tiles of 0.001 make a grid of 300000 × 300000 = 90000000000 cells, and more than 67108864 are not built"
+            "E005: tiles of 0.001 make a grid of 300000 × 300000 = 90000000000 cells, more than the limit of 67108864"
         ]
     );
 }
@@ -207,11 +207,11 @@ fn rectangles_off_the_grid_are_told() {
     assert_eq!(off(-0.9, 11.8), [""; 0]);
     assert_eq!(
         off(1.2, 9.0),
-        ["W312: 1 of 2 rectangles in `Island` lie off the grid"]
+        ["W312: 1 of 2 rectangles in `Island` are off the grid"]
     );
     assert_eq!(
         off(0.0, 14.0),
-        ["W312: 1 of 2 rectangles in `Island` lie off the grid"]
+        ["W312: 1 of 2 rectangles in `Island` are off the grid"]
     );
 }
 
