@@ -1,4 +1,4 @@
-//! How long limited animation takes, beside the plain algorithm that computes all speeds anew in each step.
+//! ExposureMethod long limited animation takes, beside the plain algorithm that computes all speeds anew in each step.
 //!
 //!   cargo bench --bench motion [-- FRAMES…]
 //!
@@ -17,9 +17,9 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use okoshi::motion::bvh;
-use okoshi::motion::edit::{How, edit};
+use okoshi::motion::edit::{ExposureMethod, edit};
 use okoshi::motion::limited::{Length, Options, compare, drawings, limit};
-use okoshi::motion::ready;
+use okoshi::motion::prepare;
 use okoshi::motion::skeleton::{Axis, Channel, Clip, Joint, Skeleton};
 use plain_limited::plain;
 
@@ -69,7 +69,7 @@ fn text(frames: usize) -> Vec<u8> {
     let skeleton = Skeleton {
         joints: (0..JOINTS).map(joint).collect(),
     };
-    let width = skeleton.width();
+    let width = skeleton.channel_count();
     let number = |place: usize| {
         let (time, own) = ((place / width) as f64 / 24.0, (place % width) as f64);
         // As many digits as capture systems write.
@@ -93,7 +93,7 @@ fn read(text: &[u8]) -> Clip {
 /// Both in turn, so that what else the machine does weighs on both.
 fn whole(frames: usize) {
     let text = text(frames);
-    let how = How::Limited {
+    let how = ExposureMethod::Limited {
         omit: None,
         hold: None,
         length: Length::Kept,
@@ -106,7 +106,7 @@ fn whole(frames: usize) {
         times[0].push(begun.elapsed());
         let begun = Instant::now();
         out.clear();
-        let edited = edit(read(&text), &ready::Options::default(), how, None);
+        let edited = edit(read(&text), &prepare::Options::default(), how, None);
         let written = edited.map(|edited| edited.write_bvh(&mut out).is_ok());
         assert_eq!(written, Ok(true));
         times[1].push(begun.elapsed());
@@ -153,7 +153,7 @@ fn median(rounds: usize, mut work: impl FnMut()) -> f64 {
 
 fn measure(frames: usize) {
     let positions = motion(frames);
-    let usual = Options::usual(frames);
+    let usual = Options::recommended(frames);
     let fast = median(ROUNDS, || {
         drop(black_box(limit(&positions, JOINTS, &usual)))
     });

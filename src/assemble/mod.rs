@@ -11,7 +11,7 @@ use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
 use crate::figure::{self, Figures, LinkedModels};
 use crate::resolver::Resolver;
-use crate::rig::{self, RestNode, Shot};
+use crate::rig::{self, FigureClip, RestNode};
 use crate::scene::Scene;
 use crate::svg::Drawing;
 use crate::terrain::{self, Layer};
@@ -33,7 +33,7 @@ pub struct Assembled {
     /// The tile maps.
     pub layers: Vec<Layer>,
     /// The clips that figures play.
-    pub shots: Vec<Shot>,
+    pub clips: Vec<FigureClip>,
 }
 
 /// Builds the scene of a drawing. The result does not depend on what is in `memory`.
@@ -88,15 +88,15 @@ pub fn assemble(
         is_mirrored: node.is_mirrored,
         depth: node.depth,
     });
-    let stage = rig::Stage {
+    let context = rig::Context {
         drawing,
         bindings,
         world: &world,
         frames: &figures.frames,
         members: &figures.members,
     };
-    let shots = rig::perform(
-        &stage,
+    let clips = rig::add_clips(
+        &context,
         nodes,
         resolver,
         &mut memory.rig,
@@ -106,6 +106,6 @@ pub fn assemble(
     Assembled {
         scene,
         layers,
-        shots,
+        clips,
     }
 }

@@ -257,7 +257,7 @@ pub(super) struct Motion {
     #[arg(long)]
     pub(super) compare: bool,
     /// Frames a second
-    #[arg(long, value_name = "F", default_value_t = crate::motion::ready::FPS)]
+    #[arg(long, value_name = "F", default_value_t = crate::motion::prepare::FPS)]
     pub(super) fps: f64,
     /// Take a part of it: frames as they are shown, from 1, both ends within; `10:` and `:48` are open
     #[arg(long, value_name = "A:B", value_parser = range)]

@@ -12,7 +12,7 @@ use super::progress::spinning;
 use super::{Outcome, pretty, print_out, style};
 use crate::bind::{PartKind, SetBy};
 use crate::lang::keyword::Keyword;
-use crate::report::{ClipReport, Part, Terrain, clip_reports, own_name, parts, terrain};
+use crate::report::{self, Clip, Part, Reader, Terrain, own_name, parts, terrain};
 use crate::terrain::Layer;
 
 /// Prints the hierarchy; findings go to stderr.
@@ -46,7 +46,7 @@ struct Report<'a> {
     parts: Vec<Part<'a>>,
     terrain: Vec<Terrain<'a>>,
     billboards: [(); 0],
-    clips: Vec<ClipReport<'a>>,
+    clips: Vec<Clip<'a>>,
 }
 
 fn json(loaded: &Loaded) -> String {
@@ -55,7 +55,7 @@ fn json(loaded: &Loaded) -> String {
         parts: parts(&loaded.compiled, &loaded.text),
         terrain: terrain(&loaded.compiled),
         billboards: [],
-        clips: clip_reports(&loaded.compiled),
+        clips: report::clips(&loaded.compiled, Reader::Inspect),
     })
 }
 

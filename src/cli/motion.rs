@@ -9,16 +9,16 @@ use super::{Outcome, fail, print_out};
 use crate::disk::{WriteError, is_same_file, open_stream, write_atomic};
 use crate::export::{self, Exporter};
 use crate::motion::bvh::{self, Reading};
-use crate::motion::edit::{Edited, How, edit};
+use crate::motion::edit::{EditedClip, ExposureMethod, edit};
 use crate::motion::labels::{Anatomy, Label};
 use crate::motion::limited::{self, Error, Length, Method};
-use crate::motion::ready::{self, LeadIn};
+use crate::motion::prepare::{self, LeadInPolicy};
 use crate::motion::resample::rate;
 use crate::motion::skeleton::Clip;
-use crate::motion::stick::stick_figure;
+use crate::motion::skeleton_model::skeleton_model;
 use crate::report::ranges;
 
-/// What is to be written.
+/// What to write.
 #[derive(Clone, Copy)]
 enum Kind {
     Bvh,
@@ -26,7 +26,7 @@ enum Kind {
     Chart,
 }
 
-/// Edits a motion by itself, or says what is in it.
+/// Edits a motion file, or lists its joints.
 pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
     let kind = match arguments
         .output
@@ -50,7 +50,7 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
             eprintln!("  help: {}", error.help);
             match rescued {
                 Some(clip) if arguments.keep_going => {
-                    eprintln!("  going on with the {} before it", frames(clip.frames()));
+                    eprintln!("  continuing with the {} before it", frames(clip.frames()));
                     Reading {
                         clip: *clip,
                         notes: Vec::new(),
@@ -58,7 +58,7 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
                 }
                 Some(clip) => {
                     eprintln!(
-                        "  help: --keep-going goes on with the {} before it",
+                        "  help: --keep-going continues with the {} before it",
                         frames(clip.frames())
                     );
                     return Outcome::Failed;
@@ -67,30 +67,30 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
             }
         }
     };
-    let mut told = String::new();
+    let mut messages = String::new();
     for note in &reading.notes {
-        let _ = writeln!(told, "  {note}");
+        let _ = writeln!(messages, "  {note}");
     }
     let opening = describe(&reading.clip);
-    let options = ready::Options {
+    let options = prepare::Options {
         fps: arguments.fps,
         lead_in: if arguments.keep_rest {
-            LeadIn::Keep
+            LeadInPolicy::Keep
         } else {
-            LeadIn::Drop
+            LeadInPolicy::Drop
         },
         range: arguments.range,
     };
-    let how = how(arguments);
+    let method = exposure_method(arguments);
     let edited = spinning("cutting", || {
-        edit(reading.clip, &options, how, arguments.camera)
+        edit(reading.clip, &options, method, arguments.camera)
     });
     let edited = match edited {
         Ok(edited) => edited,
         Err(error) => return fail(&format!("`{name}`: {error}")),
     };
     for note in &edited.notes {
-        let _ = writeln!(told, "  {note}");
+        let _ = writeln!(messages, "  {note}");
     }
     let plot = arguments.plot.as_ref().map(|plot| (plot, Kind::Chart));
     let outputs = arguments.output.as_ref().zip(kind).into_iter().chain(plot);
@@ -111,10 +111,10 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
         || arguments.every.is_some()
         || arguments.drawings.is_some();
     if !common.quiet && (count > 0 || cuts) {
-        told.push_str(&report(&edited, arguments));
+        messages.push_str(&report(&edited, arguments));
     }
     if !common.quiet {
-        eprint!("{name}: {opening}\n{told}{wrote}");
+        eprint!("{name}: {opening}\n{messages}{wrote}");
     }
     match count {
         0 => print_out(&joints(&edited.clip, &edited.anatomy)),
@@ -122,7 +122,7 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
     }
 }
 
-/// What a file's ending asks for.
+/// What to write, by the ending of the output's name.
 fn kind(output: &Path, input: &Path) -> Result<Kind, String> {
     let ending = output
         .extension()
@@ -148,13 +148,13 @@ fn kind(output: &Path, input: &Path) -> Result<Kind, String> {
     }
 }
 
-/// How the arguments want the motion to be cut.
-fn how(arguments: &Motion) -> How {
+/// How to thin out the motion, by the arguments.
+fn exposure_method(arguments: &Motion) -> ExposureMethod {
     match (arguments.every, arguments.drawings) {
-        _ if arguments.full => How::Full,
-        (Some(every), _) => How::Every(every),
-        (None, Some(drawings)) => How::Drawings(drawings),
-        (None, None) => How::Limited {
+        _ if arguments.full => ExposureMethod::Full,
+        (Some(every), _) => ExposureMethod::Every(every),
+        (None, Some(drawings)) => ExposureMethod::Drawings(drawings),
+        (None, None) => ExposureMethod::Limited {
             omit: arguments.omit,
             hold: arguments.hold,
             length: if arguments.shorten {
@@ -167,7 +167,12 @@ fn how(arguments: &Motion) -> How {
 }
 
 /// Writes a file.
-fn write(edited: &Edited, output: &Path, kind: Kind, arguments: &Motion) -> Result<(), WriteError> {
+fn write(
+    edited: &EditedClip,
+    output: &Path,
+    kind: Kind,
+    arguments: &Motion,
+) -> Result<(), WriteError> {
     let stem = arguments.motion.file_stem().filter(|stem| *stem != "-");
     let stem = stem.map_or("motion".into(), |stem| stem.to_string_lossy());
     match kind {
@@ -175,7 +180,7 @@ fn write(edited: &Edited, output: &Path, kind: Kind, arguments: &Motion) -> Resu
         Kind::Chart => write_atomic(output, |out| out.write_all(edited.chart(&stem).as_bytes())),
         Kind::Model(exporter) => {
             let exposure = edited.exposure.as_ref();
-            let scene = stick_figure(&edited.clip, exposure, &stem, edited.to_model);
+            let scene = skeleton_model(&edited.clip, exposure, &stem, edited.to_model);
             write_atomic(output, |out| {
                 export::write(exporter, &scene, out, None).map(|_| ())
             })
@@ -183,7 +188,7 @@ fn write(edited: &Edited, output: &Path, kind: Kind, arguments: &Motion) -> Resu
     }
 }
 
-/// A clip in a line.
+/// Describes a clip in one line.
 fn describe(clip: &Clip) -> String {
     let joints = clip.skeleton.joints.len();
     format!(
@@ -201,18 +206,18 @@ fn frames(count: usize) -> String {
     }
 }
 
-/// A number with at most two decimals.
+/// Rounds to two decimals.
 fn round(number: f64) -> f64 {
     (number * 100.0).round() / 100.0
 }
 
-/// What was omitted and held, and how far that is from the source.
-fn report(edited: &Edited, arguments: &Motion) -> String {
+/// Reports what was omitted and held, and the error against the source.
+fn report(edited: &EditedClip, arguments: &Motion) -> String {
     let mut out = String::new();
     let count = edited.clip.frames();
     let fps = round(rate(edited.clip.frame_time));
     let _ = writeln!(out, "  {} at {fps} a second", frames(count));
-    let Some(bindings) = &edited.exposure else {
+    let Some(exposure) = &edited.exposure else {
         return out;
     };
     if let Some(cut) = &edited.cut {
@@ -232,45 +237,45 @@ fn report(edited: &Edited, arguments: &Motion) -> String {
         if omit.shortfall() > 0 {
             let _ = writeln!(
                 out,
-                "  warning: {} were to be omitted: no more can be, with the length kept",
+                "  warning: {} omissions were asked for: no more are possible while the length is kept",
                 omit.asked
             );
         }
         if hold.shortfall() > 0 {
             let _ = writeln!(
                 out,
-                "  warning: {} were to be held: no pose may stand for more than {} frames",
+                "  warning: {} holds were asked for: no pose may be held for more than {} frames",
                 hold.asked,
-                limited::LONGEST_COPIED
+                limited::MAX_COPIED_FRAMES
             );
         }
-        if cut.gathered > limited::MOST_GATHERED {
+        if cut.omitted_run > limited::MAX_OMITTED_RUN {
             let _ = writeln!(
                 out,
-                "  warning: {} were omitted in one place, which tears a motion apart: 4 to 6 look right, of one action a clip",
-                cut.gathered
+                "  warning: {} were omitted in a row, which tears a motion apart: 4 to 6 look right, in a clip of one action",
+                cut.omitted_run
             );
         }
     }
     if let Some(drawn) = edited
-        .drawn
+        .best_drawings
         .as_ref()
         .filter(|drawn| drawn.asked != drawn.drawings)
     {
         let _ = writeln!(
             out,
-            "  warning: {} drawings were asked for: {} to {} are possible, for one stands for {} frames at most",
+            "  warning: {} drawings were asked for: {} to {} are possible, because a drawing is held for at most {} frames",
             drawn.asked,
             drawn.fewest,
             drawn.most,
-            limited::LONGEST
+            limited::MAX_HOLD
         );
     }
-    let shown = bindings.len();
+    let shown = exposure.len();
     let _ = writeln!(
         out,
         "  {} drawings for {}",
-        bindings.drawings().count(),
+        exposure.drawings().count(),
         frames(shown)
     );
     let compares = arguments.compare || arguments.every.is_some() || arguments.drawings.is_some();
@@ -301,7 +306,7 @@ fn report(edited: &Edited, arguments: &Motion) -> String {
     out
 }
 
-/// How far joints are off.
+/// The error of the joints.
 fn off(error: &Error) -> String {
     match error.percent {
         Some(percent) => format!("{percent:.2} % of the height (RMS)"),
@@ -309,13 +314,13 @@ fn off(error: &Error) -> String {
     }
 }
 
-/// The joints as a tree, each with what it is.
+/// The joints as a tree, each with its label.
 fn joints(clip: &Clip, anatomy: &Anatomy) -> String {
     let mut depth: Vec<usize> = Vec::new();
     let mut rows: Vec<[String; 2]> = Vec::new();
     for (index, joint) in clip.skeleton.joints.iter().enumerate() {
         depth.push(joint.parent.map_or(0, |parent| depth[parent] + 1));
-        // Deep chains would run off any page.
+        // Limited, because deep chains would become wider than any terminal.
         let indent = "  ".repeat(depth[index].min(40));
         let what = anatomy
             .labels

@@ -46,7 +46,7 @@ pub struct Compiled {
     /// The tile maps.
     pub layers: Vec<terrain::Layer>,
     /// The clips that figures play.
-    pub shots: Vec<rig::Shot>,
+    pub clips: Vec<rig::FigureClip>,
     /// The drawing. Its outlines and texts are shared with the bindings.
     pub drawing: Arc<Drawing>,
     /// What is wrong, in the order of the text.
@@ -67,7 +67,7 @@ impl Compiled {
 
     /// The nodes of the model with the clips of limited animation as they were before they were cut; `None` if none was.
     pub fn originals(&self) -> Option<Scene> {
-        rig::originals(&self.scene, &self.shots)
+        rig::originals(&self.scene, &self.clips)
     }
 
     /// Whether there are errors, which keep the model from being written.
@@ -152,7 +152,7 @@ impl Reading {
         let Assembled {
             scene,
             layers,
-            shots,
+            clips,
         } = assemble::assemble(&drawing, &bindings, &recorder, things, &mut diagnostics);
         diagnostic::sort(&mut diagnostics);
         dependencies.extend(recorder.followed().into_iter().map(|(link, _)| link));
@@ -162,7 +162,7 @@ impl Reading {
             scene,
             bindings,
             layers,
-            shots,
+            clips,
             drawing,
             diagnostics,
             dependencies,

@@ -1,4 +1,4 @@
-//! What is told about clips: which joint drives a part, what a clip is, how it was cut, what a joint is.
+//! Hover texts about motion: the joint that drives a part, clips and how they are limited, joints.
 
 use std::fmt::Write as _;
 
@@ -9,71 +9,71 @@ use crate::bind::PartKind;
 use crate::lang::ast::ArgumentKind;
 use crate::lang::keyword::Keyword;
 use crate::report::{cut_frames, ranges, undriven};
-use crate::rig::Shot;
+use crate::rig::FigureClip;
 use crate::source::Span;
 
-/// How many clips are told of one by one.
-const MOST_CLIPS: usize = 8;
-/// How many stretches of frames are told one by one.
-const MOST_RANGES: usize = 12;
-/// How many joints that hang on another are named.
-const MOST_JOINTS: usize = 8;
+/// How many clips are listed individually.
+const MAX_CLIPS: usize = 8;
+/// How many runs of frames are listed individually.
+const MAX_RANGES: usize = 12;
+/// How many children of a joint are listed.
+const MAX_JOINTS: usize = 8;
 
 impl Analysis {
-    /// The clips of the drawing, those of a part's figure first.
-    pub(super) fn clips_for(&self, part: Option<usize>) -> Vec<&Shot> {
+    /// The clips of the drawing, those of the part's figure first.
+    pub(super) fn clips_for(&self, part: Option<usize>) -> Vec<&FigureClip> {
         let main = part.map(|part| self.bindings().parts[part].main);
-        let mut shots: Vec<&Shot> = self.compiled.shots.iter().collect();
-        shots.sort_by_key(|shot| main.is_none_or(|main| shot.driven(main).is_none()));
-        shots
+        let mut clips: Vec<&FigureClip> = self.compiled.clips.iter().collect();
+        clips.sort_by_key(|clip| main.is_none_or(|main| clip.part_drive(main).is_none()));
+        clips
     }
 
-    /// Which joint drives a part, and why, in each clip of its figure: one paragraph for clips that agree. Nothing for
+    /// The joint that drives a part, and why, in each clip of its figure: one paragraph for all clips that agree. `None` for
     /// parts of figures that do not move.
     pub(super) fn driven_card(&self, part: usize) -> Option<String> {
         if self.bindings().parts[part].kind != PartKind::Main {
             return None;
         }
         let mut lines: Vec<(String, Vec<&str>)> = vec![];
-        for shot in &self.compiled.shots {
-            let Some(driven) = shot.driven(part) else {
+        for clip in &self.compiled.clips {
+            let Some(drive) = clip.part_drive(part) else {
                 continue;
             };
-            let line = match driven.joint {
+            let line = match drive.joint {
                 Some(joint) => {
-                    format!("driven by {}: {}", code(shot.joint_name(joint)), driven.why)
+                    format!("driven by {}: {}", code(clip.joint_name(joint)), drive.why)
                 }
-                None => undriven(shot, driven),
+                None => undriven(clip, drive),
             };
             match lines.iter_mut().find(|(known, _)| *known == line) {
-                Some((_, names)) => names.push(&shot.name),
-                None => lines.push((line, vec![&shot.name])),
+                Some((_, names)) => names.push(&clip.name),
+                None => lines.push((line, vec![&clip.name])),
             }
         }
         let mut out = String::new();
-        for (line, names) in lines.iter().take(MOST_CLIPS) {
-            let shown = names.iter().take(MOST_CLIPS).map(|name| code(name));
+        for (line, names) in lines.iter().take(MAX_CLIPS) {
+            let shown = names.iter().take(MAX_CLIPS).map(|name| code(name));
             let shown: Vec<String> = shown.collect();
             let clips = if names.len() == 1 { "clip" } else { "clips" };
-            let more = match names.len().saturating_sub(MOST_CLIPS) {
+            let more = match names.len().saturating_sub(MAX_CLIPS) {
                 0 => String::new(),
                 more => format!(" and {more} more"),
             };
             let _ = writeln!(out, "In {clips} {}{more}: {line}.\n", shown.join(", "));
         }
-        let others = lines.iter().skip(MOST_CLIPS);
+        let others = lines.iter().skip(MAX_CLIPS);
         match others.map(|(_, names)| names.len()).sum() {
             0 => {}
-            1 => out.push_str("And in 1 clip more.\n"),
+            1 => out.push_str("And in 1 more clip.\n"),
             more => {
-                let _ = writeln!(out, "And in {more} clips more.");
+                let _ = writeln!(out, "And in {more} more clips.");
             }
         }
         let out = out.trim_end();
         (!out.is_empty()).then(|| format!("{out}\n"))
     }
 
-    /// What the clips are that attribute `index` of a string asks for or cuts, or which joint drives its part.
+    /// The clips that attribute `index` of a string asks for or limits, or the joint that drives its part.
     pub(super) fn motion_card(&self, string: usize, index: usize) -> Option<String> {
         let string_of = &self.bindings().strings[string];
         let attribute = &attributes(&string_of.annotation)[index];
@@ -87,79 +87,82 @@ impl Analysis {
     }
 
     fn asked_card(&self, span: Span) -> String {
-        let shots = self.compiled.shots.iter().filter(|shot| shot.asked == span);
-        let lines = shots.map(|shot| {
-            let driven = shot
+        let clips = self
+            .compiled
+            .clips
+            .iter()
+            .filter(|clip| clip.requested_at == span);
+        let lines = clips.map(|clip| {
+            let driven = clip
                 .parts
                 .iter()
-                .filter(|driven| driven.joint.is_some())
+                .filter(|drive| drive.joint.is_some())
                 .count();
             format!(
                 "clip {} of {}: {:.2} s, {}, {}; {} of {} are driven by the {} of {}",
-                code(&shot.name),
-                self.figure_of(shot),
-                shot.seconds(),
-                counted(shot.frames(), "frame"),
-                counted(shot.drawings(), "drawing"),
+                code(&clip.name),
+                self.figure_of(clip),
+                clip.seconds(),
+                counted(clip.frames(), "frame"),
+                counted(clip.drawings(), "drawing"),
                 driven,
-                counted(shot.parts.len(), "part"),
-                counted(shot.skeleton.joints.len(), "joint"),
-                code(&shot.file),
+                counted(clip.parts.len(), "part"),
+                counted(clip.skeleton().joints.len(), "joint"),
+                code(&clip.file),
             )
         });
         list(lines.collect()).unwrap_or_else(|| "No figure plays it.\n".to_owned())
     }
 
     fn limited_card(&self, span: Span) -> Option<String> {
-        let shots = self
+        let clips = self
             .compiled
-            .shots
+            .clips
             .iter()
-            .filter(|shot| shot.limited == Some(span));
-        let lines = shots.map(|shot| {
-            let (omitted, held) = cut_frames(shot);
+            .filter(|clip| clip.limited_at == Some(span));
+        let lines = clips.map(|clip| {
+            let (omitted, held) = cut_frames(clip);
             let what = |frames: &[u32]| match frames.is_empty() {
                 true => String::new(),
-                false => format!(" ({})", ranges(frames, MOST_RANGES)),
+                false => format!(" ({})", ranges(frames, MAX_RANGES)),
             };
             format!(
                 "clip {} of {}: of {} {} omitted{} and {} held{}; {}",
-                code(&shot.name),
-                self.figure_of(shot),
-                counted(shot.speeds.len(), "frame"),
+                code(&clip.name),
+                self.figure_of(clip),
+                counted(clip.source_frames(), "frame"),
                 are(omitted.len()),
                 what(&omitted),
                 are(held.len()),
                 what(&held),
-                counted(shot.drawings(), "drawing"),
+                counted(clip.drawings(), "drawing"),
             )
         });
         list(lines.collect())
     }
 
-    /// What the joint is that argument `argument` of a `Bone` names, in each motion of the part's figure; in those of the whole
-    /// drawing where its part has none.
+    /// The joint that a `Bone` names, in each motion of the part's figure, or of the whole drawing if its figure has none.
     pub(super) fn joint_card(&self, string: usize, name: &str) -> Option<String> {
         let part = self.part_of_string(string);
-        let shots = self.clips_for(part);
-        let is_own = |shot: &&&Shot| {
-            part.is_some_and(|part| shot.driven(self.bindings().parts[part].main).is_some())
+        let clips = self.clips_for(part);
+        let is_own = |clip: &&&FigureClip| {
+            part.is_some_and(|part| clip.part_drive(self.bindings().parts[part].main).is_some())
         };
-        let own = shots.iter().filter(is_own).count();
-        let shots = if own > 0 { &shots[..own] } else { &shots[..] };
+        let own = clips.iter().filter(is_own).count();
+        let clips = if own > 0 { &clips[..own] } else { &clips[..] };
         let mut files: Vec<&str> = vec![];
         let mut cards: Vec<String> = vec![];
-        for shot in shots {
-            if files.contains(&shot.file.as_str()) {
+        for clip in clips {
+            if files.contains(&clip.file.as_str()) {
                 continue;
             }
-            files.push(&shot.file);
-            if files.len() <= MOST_CLIPS {
-                cards.push(match shot.joint_named(name) {
-                    Some(joint) => joint_of(shot, joint),
+            files.push(&clip.file);
+            if files.len() <= MAX_CLIPS {
+                cards.push(match clip.joint_named(name) {
+                    Some(joint) => joint_of(clip, joint),
                     None => format!(
                         "The motion {} has no joint {}.",
-                        code(&shot.file),
+                        code(&clip.file),
                         code(name)
                     ),
                 });
@@ -168,11 +171,11 @@ impl Analysis {
         (!cards.is_empty()).then(|| cards.join("\n\n"))
     }
 
-    fn figure_of(&self, shot: &Shot) -> String {
-        code(&self.bindings().parts[shot.root].name)
+    fn figure_of(&self, clip: &FigureClip) -> String {
+        code(&self.bindings().parts[clip.root].name)
     }
 
-    /// The name that an argument of `Bone` gives.
+    /// The joint name in an argument of `Bone`.
     pub(super) fn bone_name(&self, string: usize, index: usize, argument: usize) -> Option<&str> {
         let attribute = &attributes(&self.bindings().strings[string].annotation)[index];
         match &attribute.arguments.get(argument)?.kind {
@@ -186,15 +189,15 @@ impl Analysis {
     }
 }
 
-/// A joint: what it is, why, and what it hangs on.
-fn joint_of(shot: &Shot, joint: usize) -> String {
-    let joints = &shot.skeleton.joints;
+/// Describes a joint: its label, the reason for it, its parent and its children.
+fn joint_of(clip: &FigureClip, joint: usize) -> String {
+    let joints = &clip.skeleton().joints;
     let mut out = format!(
         "**{}**, a joint of {}",
         escaped(&joints[joint].name),
-        code(&shot.file)
+        code(&clip.file)
     );
-    match shot.label(joint) {
+    match clip.label(joint) {
         Some(label) => {
             let _ = write!(out, ": {}\n\n{}.", label.describe(), label.why);
         }
@@ -202,9 +205,9 @@ fn joint_of(shot: &Shot, joint: usize) -> String {
     }
     match joints[joint].parent {
         Some(parent) => {
-            let _ = write!(out, " It hangs on {}", code(&joints[parent].name));
+            let _ = write!(out, " It is a child of {}", code(&joints[parent].name));
         }
-        None => out.push_str(" It hangs on nothing"),
+        None => out.push_str(" It is a root"),
     }
     let carried: Vec<&str> = joints
         .iter()
@@ -213,13 +216,13 @@ fn joint_of(shot: &Shot, joint: usize) -> String {
         .collect();
     let names: Vec<String> = carried
         .iter()
-        .take(MOST_JOINTS)
+        .take(MAX_JOINTS)
         .map(|name| code(name))
         .collect();
     if !names.is_empty() {
-        let _ = write!(out, " and carries {}", names.join(", "));
+        let _ = write!(out, " and the parent of {}", names.join(", "));
     }
-    match carried.len().saturating_sub(MOST_JOINTS) {
+    match carried.len().saturating_sub(MAX_JOINTS) {
         0 => out.push('.'),
         more => {
             let _ = write!(out, " and {more} more.");
@@ -228,14 +231,14 @@ fn joint_of(shot: &Shot, joint: usize) -> String {
     out
 }
 
-/// A list in Markdown; what is too much is counted.
+/// A list in Markdown, shortened if it is long.
 fn list(lines: Vec<String>) -> Option<String> {
     let mut out = String::new();
-    for line in lines.iter().take(MOST_CLIPS) {
+    for line in lines.iter().take(MAX_CLIPS) {
         let _ = writeln!(out, "- {line}");
     }
-    if lines.len() > MOST_CLIPS {
-        let _ = writeln!(out, "- and {} more", lines.len() - MOST_CLIPS);
+    if lines.len() > MAX_CLIPS {
+        let _ = writeln!(out, "- and {} more", lines.len() - MAX_CLIPS);
     }
     (!out.is_empty()).then_some(out)
 }
@@ -266,7 +269,7 @@ mod tests {
     use super::super::samples::{figure, moving};
     use super::*;
 
-    /// Tells of the place marked in the right arm's string or in the one for the whole drawing.
+    /// The hover text at the place that is marked in the right arm's string or in the string for the whole drawing.
     fn hover(right: &str, defaults: &str) -> String {
         let (analysis, at) = moving(&figure(["Body", right, "Larm@Body", "", defaults]));
         analysis
@@ -275,13 +278,13 @@ mod tests {
     }
 
     #[test]
-    fn parts_tell_what_drives_them() {
+    fn part_names_show_their_joint() {
         let card = hover("Rar¦m@Body", "%Motion \"kick.bvh\"");
         assert!(
             card.contains("In clip `kick`: driven by `RightArm`: `Rarm` is an arm by its name, and its side is right; it points"),
             "{card}"
         );
-        // Clips that agree are told in one line.
+        // Clips that agree share a line.
         let card = hover(
             "Rar¦m@Body",
             "%Motion \"kick.bvh\" Motion \"kick.bvh\" again",
@@ -299,7 +302,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_tell_what_drives_them() {
+    fn shapes_show_their_joint() {
         let source = figure(["Body", "Rarm@Body", "Larm@Body", "", "%Motion \"kick.bvh\""]);
         let (analysis, at) = moving(&source.replace("<rect id=\"left\"", "<re¦ct id=\"left\""));
         let card = analysis
@@ -309,7 +312,7 @@ mod tests {
     }
 
     #[test]
-    fn what_no_joint_drives_follows() {
+    fn a_part_without_a_joint_follows_its_parent() {
         // A button in the middle of the body.
         let swatch =
             "<rect id=\"swatch\" x=\"2\" y=\"2\" width=\"5\" height=\"5\" fill=\"#ffcc99\"/>";
@@ -327,20 +330,20 @@ mod tests {
     }
 
     #[test]
-    fn clips_tell_what_they_are() {
+    fn motions_show_their_clips() {
         for defaults in [
             "%Mo¦tion \"kick.bvh\" high Limited 0 3",
             "%Motion \"kick¦.bvh\" high Limited 0 3",
         ] {
             let card = hover("Rarm@Body", defaults);
-            let told = "- clip `high` of `Body`: 0.54 s, 13 frames, 10 drawings; 4 of 4 parts are driven by the 14 joints of `kick.bvh`";
-            assert!(card.contains(told), "{card}");
+            let expected = "- clip `high` of `Body`: 0.54 s, 13 frames, 10 drawings; 4 of 4 parts are driven by the 14 joints of `kick.bvh`";
+            assert!(card.contains(expected), "{card}");
         }
         assert!(hover("Rarm@Body", "%Mo¦tion \"none.bvh\"").starts_with("No figure plays it."));
     }
 
     #[test]
-    fn cuts_tell_their_frames() {
+    fn limits_show_their_frames() {
         for defaults in [
             "%Motion \"kick.bvh\" Limi¦ted 2 3",
             "%Motion \"kick.bvh\" Limited ¦2 3",
@@ -355,17 +358,17 @@ mod tests {
     }
 
     #[test]
-    fn joints_tell_what_they_are() {
+    fn joints_show_their_labels() {
         let card = hover("Rarm@Body$Bone Right¦Arm", "%Motion \"kick.bvh\"");
-        for told in [
+        for expected in [
             "**RightArm**, a joint of `kick.bvh`: right arm, upper",
-            "It hangs on `Spine` and carries `RightForeArm`.",
+            "It is a child of `Spine` and the parent of `RightForeArm`.",
         ] {
-            assert!(card.contains(told), "{card}");
+            assert!(card.contains(expected), "{card}");
         }
         let card = hover("Rarm@Body$Bone Right¦Am", "%Motion \"kick.bvh\"");
         assert_eq!(card, "The motion `kick.bvh` has no joint `RightAm`.");
-        // A joint's name is no part's name, even if a part is called so.
+        // The name of a joint is not a reference to a part of the same name.
         let card = hover("Rarm@Body$Bone Bo¦dy", "");
         assert!(!card.contains("**Body**"), "{card}");
     }

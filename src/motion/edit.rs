@@ -1,110 +1,110 @@
-//! A motion edited by itself: made ready, cut, and compared with other ways to cut it.
+//! Edits a motion by itself: prepares it, limits it, and compares the ways to limit it.
 
 use glam::{DQuat, DVec3};
 
 use super::bvh::{self, Decimals};
-use super::carry::{self, Landmarks};
 use super::chart::{Chart, chart};
 use super::labels::Anatomy;
-use super::limited::{self, Camera, Cut, Drawn, Error, Exposure, Length, Method};
-use super::ready::{self, Ready};
+use super::limited::{self, BestDrawings, Camera, Cut, Error, Exposure, Length, Method};
+use super::prepare::{self, PreparedClip};
 use super::resample;
+use super::retarget::{self, Landmarks};
 use super::skeleton::{Clip, height};
 
-/// How a motion is cut.
+/// How a motion is thinned out.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum How {
+pub enum ExposureMethod {
     /// Not at all.
     Full,
-    /// As limited animation: how many drawings are omitted and how many frames are held; what is right for most motions where
-    /// nothing is said.
+    /// As limited animation; `None` stands for the defaults of [`limited::Options`].
     Limited {
         /// Drawings to omit.
         omit: Option<usize>,
         /// Frames to hold.
         hold: Option<usize>,
-        /// What becomes of the length.
+        /// Whether the clip keeps its length.
         length: Length,
     },
-    /// On twos, on threes: a drawing for every so many frames.
+    /// On twos, on threes: one drawing for each of this many frames.
     Every(u32),
-    /// The best drawings of this number.
+    /// The best drawings, this many.
     Drawings(usize),
 }
 
-/// A motion that was edited.
+/// An edited motion.
 #[derive(Debug)]
-pub struct Edited {
-    /// The clip before it was cut.
+pub struct EditedClip {
+    /// The prepared clip, with all its frames.
     pub clip: Clip,
     /// What its joints are.
     pub anatomy: Anatomy,
-    /// What was done to it before it was cut, for people.
+    /// What was done to prepare it, for people to read.
     pub notes: Vec<String>,
-    /// What is shown when; `None` for a motion that was not cut.
+    /// Which source frame each frame shows; `None` for a motion that was not thinned out.
     pub exposure: Option<Exposure>,
-    /// How it was limited.
+    /// The omissions and holds of limited animation.
     pub cut: Option<Cut>,
-    /// The best drawings, where they were asked for.
-    pub drawn: Option<Drawn>,
-    /// The clip's world, turned so that it stands upright and faces +z.
+    /// The best drawings, if they were requested.
+    pub best_drawings: Option<BestDrawings>,
+    /// Rotates the clip's world so that it stands upright and faces +z.
     pub to_model: DQuat,
     is_resampled: bool,
-    /// Where the joints are: frames × joints, the file's unit; upright where a camera looks.
+    /// Joint positions: frames × joints, in the file's unit; upright if there is a camera.
     positions: Vec<DVec3>,
-    /// The same as it counts for what is fast and slow.
-    seen: Option<Vec<DVec3>>,
+    /// The same positions in the camera's picture, where speed is measured then.
+    projected: Option<Vec<DVec3>>,
 }
 
-/// Makes a clip ready and cuts it. With a camera, what is fast and slow in its picture counts.
+/// Prepares a clip and thins it out. With a camera, speed is measured in its picture.
 ///
 /// # Errors
-/// A rate or a range that the clip cannot have.
+/// Returns an error for a frame rate or a range that is not possible for the clip.
 pub fn edit(
     clip: Clip,
-    options: &ready::Options,
-    how: How,
+    options: &prepare::Options,
+    method: ExposureMethod,
     camera: Option<Camera>,
-) -> Result<Edited, resample::Error> {
-    let Ready {
+) -> Result<EditedClip, resample::Error> {
+    let PreparedClip {
         clip,
         mut positions,
         is_resampled,
         anatomy,
         notes,
-    } = ready::ready(clip, options)?;
-    let to_model = carry::to_drawing(&clip, &Landmarks::of(&anatomy));
+        ..
+    } = prepare::prepare(clip, options)?;
+    let to_model = retarget::to_drawing(&clip, &Landmarks::of(&anatomy));
     if camera.is_some() {
-        // Sums of squares do not change by a turn, so it is left out where nobody looks.
+        // A rotation does not change sums of squares, so only a camera needs upright positions.
         positions
             .iter_mut()
             .for_each(|position| *position = to_model * *position);
     }
-    let seen = camera.map(|camera| camera.seen(&positions));
-    let mut edited = Edited {
+    let projected = camera.map(|camera| camera.project(&positions));
+    let mut edited = EditedClip {
         exposure: None,
         cut: None,
-        drawn: None,
+        best_drawings: None,
         clip,
         anatomy,
         notes,
         to_model,
         is_resampled,
         positions,
-        seen,
+        projected,
     };
-    edited.shoot(how);
+    edited.expose(method);
     Ok(edited)
 }
 
-impl Edited {
-    fn shoot(&mut self, how: How) {
+impl EditedClip {
+    fn expose(&mut self, method: ExposureMethod) {
         let frames = self.clip.frames();
         let joints = self.clip.skeleton.joints.len();
-        self.exposure = match how {
-            How::Full => None,
-            How::Limited { omit, hold, length } => {
-                let usual = limited::Options::usual(frames);
+        self.exposure = match method {
+            ExposureMethod::Full => None,
+            ExposureMethod::Limited { omit, hold, length } => {
+                let usual = limited::Options::recommended(frames);
                 let options = limited::Options {
                     omit: omit.unwrap_or(usual.omit),
                     hold: hold.unwrap_or(usual.hold),
@@ -115,56 +115,57 @@ impl Edited {
                 self.cut = Some(cut);
                 Some(exposure)
             }
-            How::Every(n) => Some(limited::every(frames as u32, n)),
-            How::Drawings(count) => {
-                let drawn = limited::drawings(self.measured(), joints, count, limited::LONGEST);
-                let exposure = drawn.exposure.clone();
-                self.drawn = Some(drawn);
+            ExposureMethod::Every(n) => Some(limited::every(frames as u32, n)),
+            ExposureMethod::Drawings(count) => {
+                let best_drawings =
+                    limited::drawings(self.measured(), joints, count, limited::MAX_HOLD);
+                let exposure = best_drawings.exposure.clone();
+                self.best_drawings = Some(best_drawings);
                 Some(exposure)
             }
         };
     }
 
-    /// Where the joints are, as it counts for what is fast and slow.
+    /// The positions by which speed is measured.
     fn measured(&self) -> &[DVec3] {
-        self.seen.as_deref().unwrap_or(&self.positions)
+        self.projected.as_deref().unwrap_or(&self.positions)
     }
 
-    /// How far what is shown is from the source, beside other ways to cut it.
+    /// The error of what is shown against the source, and those of other ways to thin it out.
     pub fn compared(&self) -> Option<[(Method, Error); 4]> {
         let joints = self.clip.skeleton.joints.len();
-        let sheet = self.exposure.as_ref()?;
+        let exposure = self.exposure.as_ref()?;
         Some(limited::compare(
             &self.positions,
             joints,
             self.height(),
-            sheet,
+            exposure,
         ))
     }
 
-    /// How far what is shown is from the source.
+    /// The error of what is shown against the source.
     pub fn error(&self) -> Option<Error> {
         let joints = self.clip.skeleton.joints.len();
-        let sheet = self.exposure.as_ref()?;
+        let exposure = self.exposure.as_ref()?;
         Some(limited::error(
             &self.positions,
             joints,
             self.height(),
-            sheet,
+            exposure,
         ))
     }
 
-    /// How high the body is in the first frame, the file's unit.
+    /// The height of the body in the first frame, in the file's unit.
     fn height(&self) -> f64 {
         let joints = self.clip.skeleton.joints.len();
-        let upright = |position: &DVec3| match self.seen {
+        let upright = |position: &DVec3| match self.projected {
             Some(_) => *position,
             None => self.to_model * *position,
         };
         height(self.positions.iter().take(joints).map(upright))
     }
 
-    /// A chart of how fast the motion is, and of what was omitted and held.
+    /// A chart of the motion's speed, and of what was omitted and held.
     pub fn chart(&self, title: &str) -> String {
         let joints = self.clip.skeleton.joints.len();
         let full;
@@ -191,10 +192,10 @@ impl Edited {
         })
     }
 
-    /// Writes the clip as it is shown, as BVH: frames that were not resampled with the very numbers that were read.
+    /// Writes what is shown as BVH. Frames that were not resampled keep the very numbers that were read.
     ///
     /// # Errors
-    /// What the output answers.
+    /// Those of the output.
     pub fn write_bvh(
         &self,
         out: &mut (impl std::io::Write + Send + ?Sized),
@@ -204,7 +205,7 @@ impl Edited {
             false => Decimals::All,
         };
         match &self.exposure {
-            Some(sheet) => bvh::write_shown(&self.clip, sheet.sources(), decimals, out),
+            Some(exposure) => bvh::write_frames(&self.clip, exposure.sources(), decimals, out),
             None => bvh::write(&self.clip, decimals, out),
         }
     }

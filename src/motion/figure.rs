@@ -1,30 +1,30 @@
-//! What motion has to know of a figure: its parts, as they are drawn.
+//! The motion system's view of a figure: its parts as they are drawn.
 
 use glam::DVec2;
 
-/// A figure: parts that hang together.
+/// A figure: connected parts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Figure {
     /// The parts, in any order.
-    pub parts: Vec<Part>,
+    pub parts: Vec<FigurePart>,
 }
 
-/// A part of a figure. Points in the drawing's plane, x to the drawing's right, y up, in any one unit; the figure faces the
+/// A part of a figure. Points are in the drawing's plane, x to the drawing's right, y up, in any one unit; the figure faces the
 /// viewer.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Part {
+pub struct FigurePart {
     /// Its name.
     pub name: String,
-    /// Index of the part it hangs on. Several parts may hang on nothing.
+    /// Index of its parent. Several parts may have none.
     pub parent: Option<usize>,
     /// Where it turns.
     pub joint: DVec2,
-    /// The far end along its axis.
+    /// The far end of its axis.
     pub tip: DVec2,
-    /// The lower left and the upper right corner of its box.
+    /// The lower left and the upper right corner of its bounding box.
     pub bounds: [DVec2; 2],
-    /// Its place in the drawing order: what is greater was drawn later and lies nearer.
-    pub drawn: usize,
-    /// The joints that drive it, as its string says (`Bone`); empty where it says nothing.
+    /// Its place in the drawing order: parts with a greater number were drawn later and lie nearer to the viewer.
+    pub drawing_order: usize,
+    /// The joints that its string names with `Bone`; empty if it names none.
     pub bones: Vec<String>,
 }

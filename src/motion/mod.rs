@@ -1,18 +1,18 @@
-//! Motion capture: read, matched with figures, carried over, and cut like hand-drawn animation.
+//! Motion capture: read, matched with figures, retargeted to them, and turned into limited animation.
 //!
 //! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, chapter 5. Knows skeletons and abstract figures, no drawings
 //! and no files. Frames and joints count from 0; angles in files are degrees, lengths are in the file's unit.
 
 pub mod bvh;
-pub mod carry;
 pub mod chart;
 pub mod edit;
 pub mod figure;
 pub mod labels;
-pub mod lead;
+pub mod lead_in;
 pub mod limited;
 pub mod matching;
-pub mod ready;
+pub mod prepare;
 pub mod resample;
+pub mod retarget;
 pub mod skeleton;
-pub mod stick;
+pub mod skeleton_model;

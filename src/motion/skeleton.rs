@@ -4,45 +4,46 @@ use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-/// A hierarchy of joints. A parent stands before its children; several joints may be roots.
+/// A hierarchy of joints. Parents precede their children (a parent that does not is ignored); there may be several roots.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Skeleton {
     /// The joints, in the order of the file.
     pub joints: Vec<Joint>,
 }
 
-/// A joint, and how its numbers stand in a frame.
+/// A joint, with its channels.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Joint {
-    /// Its name; two joints may have the same.
+    /// Its name, which need not be unique.
     pub name: String,
-    /// Index of the joint it hangs on.
+    /// Index of its parent.
     pub parent: Option<usize>,
-    /// Where it stands in its parent's frame while it has no position of its own.
+    /// Its position in its parent's frame, unless position channels replace it.
     pub offset: DVec3,
-    /// What its numbers in a frame mean, in their order.
+    /// Its channels, in the order of their numbers in a frame.
     pub channels: Vec<Channel>,
-    /// The ends of bones that lead to no joint (`End Site`), in its frame.
+    /// End sites: the ends of bones that lead to no joint, in its frame.
     pub ends: Vec<DVec3>,
 }
 
-/// What a number of a frame means.
+/// The meaning of a number in a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Channel {
-    /// Where the joint stands in its parent's frame, in place of the offset's component.
+    /// A coordinate of the joint in its parent's frame, which replaces that of the offset.
     Position(Axis),
-    /// A turn, degrees. Rotations apply in the order of the channels, each about axes that those before it have turned.
+    /// A rotation, degrees. Rotations apply in the order of the channels, each about an axis that those before it have rotated
+    /// (intrinsic rotations).
     Rotation(Axis),
 }
 
 /// An axis of a joint's frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
-    /// The first.
+    /// The first one.
     X,
-    /// The second.
+    /// The second one.
     Y,
-    /// The third.
+    /// The third one.
     Z,
 }
 
@@ -54,12 +55,12 @@ impl Axis {
 }
 
 impl Skeleton {
-    /// How many numbers a frame has.
-    pub fn width(&self) -> usize {
+    /// The number of channels: how many numbers a frame has.
+    pub fn channel_count(&self) -> usize {
         self.joints.iter().map(|joint| joint.channels.len()).sum()
     }
 
-    /// Per joint the joints that hang on it, in order.
+    /// Per joint its children, in order.
     pub fn children(&self) -> Vec<Vec<usize>> {
         let mut children = vec![Vec::new(); self.joints.len()];
         for (index, joint) in self.joints.iter().enumerate() {
@@ -70,28 +71,27 @@ impl Skeleton {
         children
     }
 
-    /// Per joint whether it hangs on `joint`, however far down; not on itself.
-    pub fn below(&self, joint: usize) -> Vec<bool> {
-        let mut below: Vec<bool> = Vec::with_capacity(self.joints.len());
+    /// Per joint whether it is a descendant of `joint`.
+    pub fn descendants(&self, joint: usize) -> Vec<bool> {
+        let mut descendants: Vec<bool> = Vec::with_capacity(self.joints.len());
         for other in &self.joints {
-            // Parents stand before their children.
-            below.push(
+            // Parents precede their children.
+            descendants.push(
                 other
                     .parent
-                    .is_some_and(|parent| parent == joint || below[parent]),
+                    .is_some_and(|parent| parent == joint || descendants[parent]),
             );
         }
-        below
+        descendants
     }
 
-    /// Where the joints stand in the world while all channels are 0 and positions are the offsets.
-    pub fn offset_pose(&self) -> Vec<Placed> {
-        let mut pose: Vec<Placed> = Vec::with_capacity(self.joints.len());
+    /// The world transforms of the joints when all channels are 0 and all positions are the offsets.
+    pub fn offset_pose(&self) -> Vec<Transform> {
+        let mut pose: Vec<Transform> = Vec::with_capacity(self.joints.len());
         for joint in &self.joints {
-            let above = joint
-                .parent
-                .map_or(DVec3::ZERO, |parent| pose[parent].position);
-            pose.push(Placed {
+            let parent = joint.parent.and_then(|parent| pose.get(parent));
+            let above = parent.map_or(DVec3::ZERO, |parent| parent.position);
+            pose.push(Transform {
                 rotation: DQuat::IDENTITY,
                 position: above + joint.offset,
             });
@@ -100,16 +100,16 @@ impl Skeleton {
     }
 }
 
-/// Where a joint is in the world: `rotation · p + position` carries a point of its frame there.
+/// A rotation and a translation: `rotation · p + position` takes a point from the local frame to the outer one.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Placed {
-    /// How it is turned.
+pub struct Transform {
+    /// The rotation.
     pub rotation: DQuat,
-    /// Where it stands, in the file's unit.
+    /// The position, in the file's unit.
     pub position: DVec3,
 }
 
-/// How far points reach from the lowest to the highest, along y; 0 without points.
+/// The extent of points along y; 0 without points.
 pub(super) fn height(points: impl Iterator<Item = DVec3>) -> f64 {
     let none = (f64::INFINITY, f64::NEG_INFINITY);
     let (low, high) = points.fold(none, |(low, high), point| {
@@ -118,23 +118,26 @@ pub(super) fn height(points: impl Iterator<Item = DVec3>) -> f64 {
     (high - low).max(0.0)
 }
 
-/// A motion: frames of a skeleton at even steps of time.
+/// A motion: frames of a skeleton at a constant rate.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clip {
-    /// What moves.
+    /// The skeleton that moves.
     pub skeleton: Arc<Skeleton>,
-    /// Seconds from a frame to the next.
+    /// Seconds from one frame to the next.
     pub frame_time: f64,
-    /// All frames, one after the other, each of [`Skeleton::width`] numbers in the order of the file.
+    /// All frames, one after the other, each with a number per channel in the order of the file.
     values: Vec<f64>,
     frames: usize,
 }
 
 impl Clip {
-    /// A clip of whole frames; numbers that fill no frame are dropped. A skeleton without channels has no frames.
+    /// A clip of complete frames; an incomplete last frame is dropped. A skeleton without channels has no frames.
     pub fn new(skeleton: Arc<Skeleton>, frame_time: f64, mut values: Vec<f64>) -> Self {
-        let frames = values.len().checked_div(skeleton.width()).unwrap_or(0);
-        values.truncate(frames * skeleton.width());
+        let frames = values
+            .len()
+            .checked_div(skeleton.channel_count())
+            .unwrap_or(0);
+        values.truncate(frames * skeleton.channel_count());
         Self {
             skeleton,
             frame_time,
@@ -143,32 +146,32 @@ impl Clip {
         }
     }
 
-    /// How many frames there are.
+    /// The number of frames.
     pub fn frames(&self) -> usize {
         self.frames
     }
 
-    /// The numbers of a frame.
+    /// The numbers of a frame, one per channel.
     pub fn row(&self, frame: usize) -> &[f64] {
-        let width = self.skeleton.width();
+        let width = self.skeleton.channel_count();
         &self.values[frame * width..][..width]
     }
 
-    /// The numbers of all frames, one frame after the other.
+    /// The numbers of all frames, frame by frame.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// The clip that shows these frames of this one, in this order.
+    /// The clip that consists of these frames of this one, in this order.
     #[must_use]
-    pub fn picked(&self, frames: impl IntoIterator<Item = usize>) -> Self {
+    pub fn select_frames(&self, frames: impl IntoIterator<Item = usize>) -> Self {
         let rows = frames.into_iter().flat_map(|frame| self.row(frame));
         let values = rows.copied().collect();
         Self::new(Arc::clone(&self.skeleton), self.frame_time, values)
     }
 
-    /// How a joint is turned and where it stands in its parent's frame, from its numbers in a frame.
-    pub fn local(joint: &Joint, numbers: &[f64]) -> Placed {
+    /// The transform of a joint in its parent's frame, from its numbers in a frame.
+    pub fn local(joint: &Joint, numbers: &[f64]) -> Transform {
         let mut position = joint.offset;
         let mut rotation = DQuat::IDENTITY;
         for (channel, number) in joint.channels.iter().zip(numbers) {
@@ -185,19 +188,19 @@ impl Clip {
                 }
             }
         }
-        Placed { rotation, position }
+        Transform { rotation, position }
     }
 
-    /// Where the joints are in a frame; `pose` is emptied first.
-    pub fn pose_into(&self, frame: usize, pose: &mut Vec<Placed>) {
+    /// Writes the world transforms of the joints in a frame to `pose`, which is cleared first.
+    pub fn pose_into(&self, frame: usize, pose: &mut Vec<Transform>) {
         pose.clear();
         let mut numbers = self.row(frame);
         for joint in &self.skeleton.joints {
             let (own, rest) = numbers.split_at(joint.channels.len());
             numbers = rest;
             let local = Self::local(joint, own);
-            pose.push(match joint.parent.map(|parent| pose[parent]) {
-                Some(parent) => Placed {
+            pose.push(match joint.parent.and_then(|parent| pose.get(parent)) {
+                Some(parent) => Transform {
                     rotation: parent.rotation * local.rotation,
                     position: parent.rotation * local.position + parent.position,
                 },
@@ -206,17 +209,17 @@ impl Clip {
         }
     }
 
-    /// Where the joints are in a frame.
-    pub fn pose(&self, frame: usize) -> Vec<Placed> {
+    /// The world transforms of the joints in a frame.
+    pub fn pose(&self, frame: usize) -> Vec<Transform> {
         let mut pose = Vec::with_capacity(self.skeleton.joints.len());
         self.pose_into(frame, &mut pose);
         pose
     }
 
-    /// Where the joints are in all frames: `frames × joints`, one frame after the other.
+    /// The positions of the joints in all frames: `frames × joints`, frame by frame.
     pub fn positions(&self) -> Vec<DVec3> {
         use rayon::prelude::*;
-        /// Frames that a thread takes at once.
+        /// Frames that a thread processes at once.
         const GRAIN: usize = 256;
 
         let joints = self.skeleton.joints.len();

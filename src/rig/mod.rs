@@ -1,13 +1,13 @@
 //! Clips of motion capture on the figures of a drawing (motion.md).
 //!
-//! A figure is what hangs together, by strings or because it touches. Each clip becomes an animation of its parts' nodes; what figures
-//! play under one name is one animation.
+//! A figure is a group of parts that are connected, by strings or because they touch. Each clip becomes an animation of the nodes
+//! of a figure's parts; figures that play clips of the same name share one animation.
 
-mod cast;
-mod clips;
-mod puppet;
-mod shot;
-mod told;
+mod diagnostics;
+mod figure_clip;
+mod figures;
+mod motion_files;
+mod rigging;
 mod tracks;
 
 use std::sync::Arc;
@@ -19,55 +19,57 @@ use crate::kept::{Kept, Same};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
-use crate::motion::carry::{self, Carried, Landmarks, Puppet};
 use crate::motion::figure::Figure;
 use crate::motion::labels::Class;
 use crate::motion::limited::{self, Cut, Length};
 use crate::motion::matching::{Matching, match_figure};
+use crate::motion::prepare::PreparedClip;
+use crate::motion::retarget::{Landmarks, RetargetedClip, Rig, retarget};
 use crate::resolver::Resolver;
 use crate::scene::{Scene, WorldTransform};
 use crate::source::Span;
 use crate::svg::Drawing;
 
-use cast::Group;
-use clips::{Prepared, Stock};
-use puppet::Nodes;
-pub use puppet::RestNode;
-pub use shot::{Driven, Shot, originals};
-use tracks::Shown;
+use diagnostics::MatchProblems;
+pub use figure_clip::{FigureClip, PartDrive, originals};
+use figures::FigureGroup;
+use motion_files::MotionFiles;
+pub use rigging::RestNode;
+use rigging::RestNodes;
+use tracks::{AnimatedNodes, KeyTimes};
 
 /// The most keys of all clips of a drawing: frames × parts.
-const MOST_KEYS: usize = 1 << 24;
+const MAX_KEYS: usize = 1 << 24;
 
-/// The most figures that are looked at, once for each motion that is meant for them.
-const MOST_CASTS: usize = 1 << 18;
+/// How often a figure is matched with a motion at most.
+const MAX_MATCHES: usize = 1 << 18;
 
-/// A clip carried over, with the figure and the clip.
-type KeptCarried = Kept<(Puppet, Same<Prepared>), Arc<Carried>>;
-/// A clip cut, with how many drawings were to be omitted and how many frames held.
-type KeptCut = Kept<([usize; 2], Same<Prepared>), Arc<Cut>>;
+/// A clip retargeted to a rig.
+type CachedRetarget = Kept<(Rig, Same<PreparedClip>), Arc<RetargetedClip>>;
+/// A clip as limited animation, for a number of drawings to omit and of frames to hold.
+type CachedCut = Kept<([usize; 2], Same<PreparedClip>), Arc<Cut>>;
 
-/// What the next drawing may have use for.
+/// Results kept between compiles.
 #[derive(Debug, Default)]
 pub struct Memory {
-    clips: clips::Memory,
-    carried: Vec<KeptCarried>,
-    cuts: Vec<KeptCut>,
+    files: motion_files::Memory,
+    retargeted: Vec<CachedRetarget>,
+    cuts: Vec<CachedCut>,
 }
 
-/// A clip that somebody asks for.
-struct Wish<'a> {
-    /// The part whose string does; `None` for a string that speaks to all figures.
+/// A clip that a string asks for with `Motion`.
+struct ClipRequest<'a> {
+    /// The part of the string; `None` for a string that applies to all figures.
     part: Option<usize>,
     file: &'a str,
     name: Option<&'a str>,
     span: Span,
 }
 
-/// What strings ask for, in their order.
-fn wishes(bindings: &Bindings) -> Vec<Wish<'_>> {
+/// The clips that strings ask for, in the order of the strings.
+fn clip_requests(bindings: &Bindings) -> Vec<ClipRequest<'_>> {
     let strings = bindings.strings.iter();
-    let wishes = strings.flat_map(|string| {
+    let requests = strings.flat_map(|string| {
         let part = match string.annotation {
             Annotation::Defaults(_) => Some(None),
             _ => string
@@ -78,7 +80,7 @@ fn wishes(bindings: &Bindings) -> Vec<Wish<'_>> {
             .settings
             .iter()
             .filter_map(move |setting| match &setting.value {
-                Value::Motion { file, clip } => Some(Wish {
+                Value::Motion { file, clip } => Some(ClipRequest {
                     part: part?,
                     file,
                     name: clip.as_deref(),
@@ -87,16 +89,16 @@ fn wishes(bindings: &Bindings) -> Vec<Wish<'_>> {
                 _ => None,
             })
     });
-    wishes.collect()
+    requests.collect()
 }
 
-/// What is known of a drawing's figures when clips are put on them.
-pub struct Stage<'a> {
+/// The drawing whose figures are animated.
+pub struct Context<'a> {
     /// The drawing.
     pub drawing: &'a Drawing,
     /// Its bindings.
     pub bindings: &'a Bindings,
-    /// How it lies in the world.
+    /// From the drawing's axes to the world's.
     pub world: &'a WorldTransform,
     /// Per part its rest frame.
     pub frames: &'a [Frame],
@@ -104,191 +106,211 @@ pub struct Stage<'a> {
     pub members: &'a [Vec<usize>],
 }
 
-/// A figure cast for a clip.
-struct Role {
-    group: Group,
+/// A figure matched with a clip.
+struct MatchedFigure {
+    group: FigureGroup,
     figure: Figure,
     matching: Matching,
 }
 
-/// Adds the clips that strings ask for to the scene, and tells of each what it is. `nodes` are the scene's first ones, parents
-/// before children.
-pub fn perform(
-    stage: &Stage<'_>,
+/// Adds the clips that strings ask for to the scene, and returns what they are. `nodes` are the scene's first nodes, parents before
+/// children.
+pub fn add_clips(
+    context: &Context<'_>,
     nodes: impl Iterator<Item = RestNode>,
     resolver: &dyn Resolver,
     memory: &mut Memory,
     scene: &mut Scene,
     diagnostics: &mut Vec<Diagnostic>,
-) -> Vec<Shot> {
-    let wishes = wishes(stage.bindings);
-    if wishes.is_empty() {
+) -> Vec<FigureClip> {
+    let requests = clip_requests(context.bindings);
+    if requests.is_empty() {
         *memory = Memory::default();
-        told::without_motion(stage.bindings, diagnostics);
+        diagnostics::without_motion(context.bindings, diagnostics);
         return Vec::new();
     }
-    let nodes = Nodes::new(stage.frames, nodes);
-    let groups = cast::groups(stage.bindings);
+    let nodes: Vec<RestNode> = nodes.collect();
+    let rest = RestNodes::new(context.frames, &nodes);
+    let groups = figures::find(context.bindings);
     let before = std::mem::take(memory);
-    let mut theatre = Theatre {
-        stage,
-        nodes: &nodes,
-        carried: before.carried.into_iter(),
+    let mut builder = ClipBuilder {
+        context,
+        rest: &rest,
+        animated: Arc::new(AnimatedNodes {
+            nodes,
+            world: *context.world,
+        }),
+        retargeted: before.retargeted.into_iter(),
         cuts: before.cuts.into_iter(),
         now: Memory::default(),
-        gathered: told::Gathered::default(),
-        shots: Vec::new(),
+        problems: MatchProblems::default(),
+        clips: Vec::new(),
     };
-    let mut stock = Stock::new(before.clips);
-    let (mut keys, mut casts) = (0_usize, 0_usize);
-    for wish in &wishes {
-        let Some(clip) = stock.get(wish.file, wish.span, resolver, diagnostics) else {
+    let mut files = MotionFiles::new(before.files);
+    let (mut keys, mut matches) = (0_usize, 0_usize);
+    for request in &requests {
+        let Some(motion) = files.get(request.file, request.span, resolver, diagnostics) else {
             continue;
         };
         let mut is_played = false;
-        for group in groups.iter().filter(|group| group.hears(wish.part)) {
-            casts += 1;
-            if casts > MOST_CASTS {
-                diagnostics.push(told::too_many_casts(wish.span));
+        for group in groups
+            .iter()
+            .filter(|group| group.is_addressed_by(request.part))
+        {
+            matches += 1;
+            if matches > MAX_MATCHES {
+                diagnostics.push(diagnostics::too_many_matches(request.span));
                 is_played = true;
                 break;
             }
-            let Some(role) = theatre.cast(group, &clip) else {
+            let Some(matched) = builder.match_figure(group, &motion) else {
                 continue;
             };
             is_played = true;
-            keys = keys.saturating_add(clip.clip.frames().saturating_mul(group.parts.len()));
-            if keys > MOST_KEYS {
-                diagnostics.push(told::too_many_keys(wish.span));
+            keys = keys.saturating_add(motion.clip.frames().saturating_mul(group.parts.len()));
+            if keys > MAX_KEYS {
+                diagnostics.push(diagnostics::too_many_keys(request.span));
                 break;
             }
-            theatre.play(wish, &role, &clip, scene, diagnostics);
+            builder.add_clip(request, &matched, &motion, scene, diagnostics);
         }
         if !is_played {
-            diagnostics.push(told::nobody(wish.span, wish.file));
+            diagnostics.push(diagnostics::idle_motion(request.span, request.file));
         }
     }
-    let skeleton = theatre.shots.last().map(|shot| &*shot.skeleton);
-    theatre.gathered.tell(stage, skeleton, diagnostics);
-    *memory = theatre.now;
-    memory.clips = stock.into_memory();
-    theatre.shots
+    let skeleton = builder.clips.last().map(|clip| clip.skeleton());
+    builder.problems.report(context, skeleton, diagnostics);
+    *memory = builder.now;
+    memory.files = files.into_memory();
+    builder.clips
 }
 
-/// Clips on their way to figures.
-struct Theatre<'a> {
-    stage: &'a Stage<'a>,
-    nodes: &'a Nodes,
-    carried: std::vec::IntoIter<KeptCarried>,
-    cuts: std::vec::IntoIter<KeptCut>,
+/// Builds the clips of a drawing, one after the other.
+struct ClipBuilder<'a> {
+    context: &'a Context<'a>,
+    rest: &'a RestNodes,
+    animated: Arc<AnimatedNodes>,
+    retargeted: std::vec::IntoIter<CachedRetarget>,
+    cuts: std::vec::IntoIter<CachedCut>,
     now: Memory,
-    gathered: told::Gathered,
-    shots: Vec<Shot>,
+    problems: MatchProblems,
+    clips: Vec<FigureClip>,
 }
 
-impl Theatre<'_> {
-    /// Matches a figure with a clip; `None` if no joint drives any part.
-    fn cast(&mut self, group: &Group, clip: &Prepared) -> Option<Role> {
-        let matched = |group: Group| {
-            let figure = puppet::figure(self.stage, &group);
-            let matching = match_figure(&figure, &clip.clip.skeleton, &clip.anatomy);
-            Role {
+impl ClipBuilder<'_> {
+    /// Matches a figure with a motion; `None` if no joint drives any part.
+    fn match_figure(
+        &mut self,
+        group: &FigureGroup,
+        motion: &PreparedClip,
+    ) -> Option<MatchedFigure> {
+        let matched = |group: FigureGroup| {
+            let figure = rigging::drawn_figure(self.context, &group);
+            let matching = match_figure(&figure, &motion.clip.skeleton, &motion.anatomy);
+            MatchedFigure {
                 group,
                 figure,
                 matching,
             }
         };
-        let mut role = matched(group.clone());
+        let mut found = matched(group.clone());
         let is_hips = |part: &usize| {
-            let label = role.matching.labels[*part].as_ref();
+            let label = found.matching.parts[*part].label.as_ref();
             label.is_some_and(|label| label.class == Class::Hips) && group.is_rooted(*part)
         };
-        // The hips carry the rest, if no string says otherwise: their travel is the figure's.
+        // Unless strings say otherwise, the hips become the root, because their travel is the figure's.
         let hips = (0..group.parts.len()).find(is_hips);
         let hips = hips.map(|part| group.parts[part]);
         if let Some(hips) = hips.filter(|hips| *hips != group.root) {
-            role = matched(group.clone().rooted_at(hips));
+            found = matched(group.clone().rooted_at(hips));
         }
-        if role.matching.drives.iter().all(Option::is_none) {
+        let mut parts = found.matching.parts.iter();
+        if parts.all(|part| part.drive.is_none()) {
             return None;
         }
-        self.gathered.add(&role.group, &role.matching);
-        Some(role)
+        self.problems.add(&found.group, &found.matching);
+        Some(found)
     }
 
-    fn play(
+    fn add_clip(
         &mut self,
-        wish: &Wish<'_>,
-        role: &Role,
-        clip: &Arc<Prepared>,
+        request: &ClipRequest<'_>,
+        matched: &MatchedFigure,
+        motion: &Arc<PreparedClip>,
         scene: &mut Scene,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
-        let group = &role.group;
-        let carried = self.carried(role, clip);
+        let group = &matched.group;
+        let retargeted = self.retargeted(matched, motion);
         let limits = self.limits(group);
         let cut = limits.map(|(amounts, span)| {
-            let cut = self.cut(amounts, clip);
-            told::too_limited(&cut, clip.clip.frames(), span, diagnostics);
+            let cut = self.cut(amounts, motion);
+            diagnostics::too_limited(&cut, motion.clip.frames(), span, diagnostics);
             cut
         });
-        let wanted = wish.name.unwrap_or_else(|| shot::stem(wish.file));
-        let name = shot::free_name(&self.shots, group.root, wanted);
-        let step = clip.clip.frame_time;
-        let (world, nodes) = (self.stage.world, self.nodes);
-        let animation =
-            |shown: &Shown| tracks::animation(world, nodes, &name, &group.parts, &carried, shown);
-        let full = animation(&Shown::full(clip.clip.frames(), step));
-        let (shown, full) = match &cut {
-            Some(cut) => (animation(&Shown::held(&cut.exposure, step)), Some(full)),
-            None => (full, None),
-        };
-        tracks::add(&mut scene.animations, shown);
-        self.shots.push(Shot {
-            name,
-            file: wish.file.to_owned(),
-            asked: wish.span,
+        let wanted = request
+            .name
+            .unwrap_or_else(|| figure_clip::stem(request.file));
+        let clip = FigureClip {
+            name: figure_clip::free_name(&self.clips, group.root, wanted),
+            file: request.file.to_owned(),
+            requested_at: request.span,
             root: group.root,
-            parts: shot::driven(&group.parts, &role.matching),
-            skeleton: Arc::clone(&clip.clip.skeleton),
-            anatomy: Arc::clone(&clip.anatomy),
-            frame_time: step,
-            speeds: Arc::clone(&clip.speeds),
+            parts: figure_clip::part_drives(&group.parts, &matched.matching),
+            motion: Arc::clone(motion),
             cut,
-            limited: limits.map(|(_, span)| span),
-            full,
-        });
+            limited_at: limits.map(|(_, span)| span),
+            order: group.parts.clone(),
+            retargeted,
+            animated: Arc::clone(&self.animated),
+        };
+        let keys = match &clip.cut {
+            Some(cut) => KeyTimes::stepped(&cut.exposure, clip.frame_time()),
+            None => KeyTimes::full(motion.clip.frames(), clip.frame_time()),
+        };
+        tracks::add(&mut scene.animations, clip.animation(&keys));
+        self.clips.push(clip);
     }
 
-    fn carried(&mut self, role: &Role, clip: &Arc<Prepared>) -> Arc<Carried> {
-        let puppet = puppet::puppet(&role.figure, &role.group, &role.matching, self.nodes);
-        let mut kept = self.carried.next().unwrap_or_default();
-        let carried = kept.get((puppet, Same(Arc::clone(clip))), |(puppet, clip)| {
-            let landmarks = Landmarks::of(&clip.0.anatomy);
-            Arc::new(carry::carry(&clip.0.clip, puppet, &landmarks))
+    fn retargeted(
+        &mut self,
+        matched: &MatchedFigure,
+        motion: &Arc<PreparedClip>,
+    ) -> Arc<RetargetedClip> {
+        let rig = rigging::rig(
+            &matched.figure,
+            &matched.group,
+            &matched.matching,
+            self.rest,
+        );
+        let mut cached = self.retargeted.next().unwrap_or_default();
+        let retargeted = cached.get((rig, Same(Arc::clone(motion))), |(rig, motion)| {
+            let landmarks = Landmarks::of(&motion.0.anatomy);
+            Arc::new(retarget(&motion.0.clip, rig, &landmarks))
         });
-        self.now.carried.push(kept);
-        carried
+        self.now.retargeted.push(cached);
+        retargeted
     }
 
-    fn cut(&mut self, amounts: [usize; 2], clip: &Arc<Prepared>) -> Arc<Cut> {
-        let mut kept = self.cuts.next().unwrap_or_default();
-        let cut = kept.get((amounts, Same(Arc::clone(clip))), |([omit, hold], clip)| {
+    fn cut(&mut self, amounts: [usize; 2], motion: &Arc<PreparedClip>) -> Arc<Cut> {
+        let mut cached = self.cuts.next().unwrap_or_default();
+        let key = (amounts, Same(Arc::clone(motion)));
+        let cut = cached.get(key, |([omit, hold], motion)| {
             let options = limited::Options {
                 omit: *omit,
                 hold: *hold,
                 length: Length::Kept,
             };
-            Arc::new(clip.0.cut(&options))
+            Arc::new(motion.0.limit(&options))
         });
-        self.now.cuts.push(kept);
+        self.now.cuts.push(cached);
         cut
     }
 
-    /// How many drawings of a figure's clips are omitted and how many frames held, and where that is said.
-    fn limits(&self, group: &Group) -> Option<([usize; 2], Span)> {
-        let bindings = self.stage.bindings;
-        let said = |part: usize| {
+    /// How many drawings of a figure's clips to omit and how many frames to hold, and where `Limited` says so.
+    fn limits(&self, group: &FigureGroup) -> Option<([usize; 2], Span)> {
+        let bindings = self.context.bindings;
+        let limits_of = |part: usize| {
             let source = bindings.setting(part, Keyword::Limited)?;
             let Value::Pair(amounts) = source.setting.value else {
                 return None;
@@ -298,10 +320,10 @@ impl Theatre<'_> {
                 .span(source.setting.range.clone());
             Some((amounts.map(|amount| amount as usize), span, source.from))
         };
-        // What the string of any part of the figure says counts more than what is said to all.
+        // The string of any part of the figure takes precedence over a string for all figures.
         let all = std::iter::once(group.root)
             .chain(group.parts.iter().copied())
-            .filter_map(said);
+            .filter_map(limits_of);
         let (amounts, span, _) = all.min_by_key(|(_, _, from)| *from as usize)?;
         Some((amounts, span))
     }

@@ -1,26 +1,26 @@
-//! What was carried over, as animations of the scene's nodes.
+//! Retargeted clips as animations of the scene's nodes.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use crate::motion::carry::{Carried, continuous};
 use crate::motion::limited::Exposure;
+use crate::motion::retarget::{RetargetedClip, continuous};
 use crate::scene::{Animation, Interpolation, Timing, Track, Values, WorldTransform};
 
-use super::puppet::Nodes;
+use super::RestNode;
 
-/// When the frames of a clip are shown.
-pub(super) struct Shown {
+/// The keys of an animation: their times, and the frames that they show.
+pub(super) struct KeyTimes {
     timing: Arc<Timing>,
-    /// Per key the frame.
+    /// Per key the frame of the clip.
     frames: Vec<usize>,
     seconds: f64,
 }
 
-impl Shown {
-    /// Every frame, and the way from each to the next.
+impl KeyTimes {
+    /// A key for every frame, interpolated linearly.
     pub(super) fn full(frames: usize, frame_time: f64) -> Self {
         Self {
             timing: Arc::new(Timing {
@@ -34,8 +34,8 @@ impl Shown {
         }
     }
 
-    /// The drawings of an exposure sheet, each held until the next.
-    pub(super) fn held(exposure: &Exposure, frame_time: f64) -> Self {
+    /// A key for every drawing of an exposure sheet, held until the next one.
+    pub(super) fn stepped(exposure: &Exposure, frame_time: f64) -> Self {
         let drawings = exposure.drawings();
         let keys = drawings.map(|drawing| {
             (
@@ -55,74 +55,78 @@ impl Shown {
     }
 }
 
-/// The animation of the figure whose parts, in the order of `carried`, are these parts of the drawing.
-pub(super) fn animation(
-    world: &WorldTransform,
-    nodes: &Nodes,
-    name: &str,
-    parts: &[usize],
-    carried: &Carried,
-    shown: &Shown,
-) -> Animation {
-    let index: BTreeMap<usize, usize> = parts.iter().copied().zip(0..).collect();
-    let mut tracks = Vec::new();
-    for (node, link) in nodes.links.iter().enumerate() {
-        let Some(&index) = index.get(&link.part).filter(|_| !shown.frames.is_empty()) else {
-            continue;
-        };
-        let mut add = |values| {
-            tracks.push(Track {
-                node,
-                timing: Arc::clone(&shown.timing),
-                values,
-            });
-        };
-        // Only nodes that hang on the model's root move, and only they stand in the world's axes.
-        if let Some(places) = carried.moves[index].as_ref().filter(|_| link.is_rooted) {
-            let places = shown.frames.iter().map(|frame| {
-                let place = places[*frame];
-                let place = if link.is_mirrored {
-                    place * MIRROR
-                } else {
-                    place
-                };
-                world.point(place)
-            });
-            add(Values::Translations(places.collect()));
+/// The nodes that a drawing's clips animate.
+#[derive(Debug)]
+pub(super) struct AnimatedNodes {
+    /// The first nodes of the scene, in its order.
+    pub(super) nodes: Vec<RestNode>,
+    pub(super) world: WorldTransform,
+}
+
+impl AnimatedNodes {
+    /// The animation of a figure. `parts` are its parts in the order of `clip`.
+    pub(super) fn animation(
+        &self,
+        name: &str,
+        parts: &[usize],
+        clip: &RetargetedClip,
+        keys: &KeyTimes,
+    ) -> Animation {
+        let index: BTreeMap<usize, usize> = parts.iter().copied().zip(0..).collect();
+        let mut tracks = Vec::new();
+        for (node, rest) in self.nodes.iter().enumerate() {
+            let Some(&index) = index.get(&rest.part).filter(|_| !keys.frames.is_empty()) else {
+                continue;
+            };
+            let mut add = |values| {
+                tracks.push(Track {
+                    node,
+                    timing: Arc::clone(&keys.timing),
+                    values,
+                });
+            };
+            // Only children of the model's root change their position, and only they are in the world's axes.
+            if let Some(positions) = clip.translations[index].as_ref().filter(|_| rest.is_rooted) {
+                let positions = keys.frames.iter().map(|frame| {
+                    let position = positions[*frame];
+                    self.world.point(match rest.is_mirrored {
+                        true => position * MIRROR,
+                        false => position,
+                    })
+                });
+                add(Values::Translations(positions.collect()));
+            }
+            if let Some(rotations) = &clip.rotations[index] {
+                let rotations = keys.frames.iter().map(|frame| {
+                    let rotation = match rest.is_mirrored {
+                        true => mirrored(rotations[*frame]),
+                        false => rotations[*frame],
+                    };
+                    match rest.is_rooted {
+                        true => self.world.rotate(rotation),
+                        false => rotation,
+                    }
+                });
+                add(Values::Rotations(continuous(rotations.collect())));
+            }
         }
-        if let Some(turns) = &carried.turns[index] {
-            let turns = shown.frames.iter().map(|frame| {
-                let turn = turns[*frame];
-                let turn = if link.is_mirrored {
-                    mirrored(turn)
-                } else {
-                    turn
-                };
-                if link.is_rooted {
-                    world.rotate(turn)
-                } else {
-                    turn
-                }
-            });
-            add(Values::Rotations(continuous(turns.collect())));
+        Animation {
+            name: name.to_owned(),
+            seconds: keys.seconds,
+            tracks,
         }
-    }
-    Animation {
-        name: name.to_owned(),
-        seconds: shown.seconds,
-        tracks,
     }
 }
 
 /// Mirrors in the drawing plane.
 const MIRROR: DVec3 = DVec3::new(1.0, 1.0, -1.0);
 
-/// A turn as the copy of a part makes it on the other side of the drawing plane.
-fn mirrored(turn: DQuat) -> DQuat {
-    DQuat::from_xyzw(-turn.x, -turn.y, turn.z, turn.w)
+/// The rotation of a part's copy on the other side of the drawing plane.
+fn mirrored(rotation: DQuat) -> DQuat {
+    DQuat::from_xyzw(-rotation.x, -rotation.y, rotation.z, rotation.w)
 }
 
-/// Adds an animation to others: what moves under one name is one.
+/// Adds an animation to others. Animations of the same name are merged.
 pub(super) fn add(animations: &mut Vec<Animation>, animation: Animation) {
     match animations
         .iter_mut()

@@ -8,8 +8,8 @@ use okoshi::motion::bvh::read_bytes;
 use okoshi::motion::limited::{Cut, Options, limit};
 use okoshi::motion::skeleton::Clip;
 
-use crate::carry::clips::clip;
 use crate::common::program::{Room, Run};
+use crate::retarget::clips::clip;
 
 /// A room with the kick in it: 169 frames at 60 a second, 68 at 24.
 fn room() -> Room {
@@ -34,14 +34,14 @@ fn drawings(clip: &Clip) -> usize {
 
 /// How the library cuts the kick as usual.
 fn usual() -> (Clip, Cut) {
-    let ready = clip("examples/motion/kick.bvh");
-    let joints = ready.clip.skeleton.joints.len();
+    let prepared = clip("examples/motion/kick.bvh");
+    let joints = prepared.clip.skeleton.joints.len();
     let cut = limit(
-        &ready.positions,
+        &prepared.positions,
         joints,
-        &Options::usual(ready.clip.frames()),
+        &Options::recommended(prepared.clip.frames()),
     );
-    (ready.clip, cut)
+    (prepared.clip, cut)
 }
 
 #[test]
@@ -308,9 +308,9 @@ fn wrong_use_is_refused() {
         (&["--range", "9:3"], "ends before it begins"),
         (&["--range", "0:3"], "frame 0"),
         (&["--range", "all"], "--range"),
-        (&["--fps", "0"], "0 is no frame rate"),
-        (&["--fps=-24"], "-24 is no frame rate"),
-        (&["--fps", "NaN"], "NaN is no frame rate"),
+        (&["--fps", "0"], "0 is not a possible frame rate"),
+        (&["--fps=-24"], "-24 is not a possible frame rate"),
+        (&["--fps", "NaN"], "NaN is not a possible frame rate"),
         (&["--every", "0"], "0 is not in 1..=24"),
         (&["--every", "2", "--omit", "3"], "cannot be used with"),
         (&["--drawings", "9", "--every", "3"], "cannot be used with"),
@@ -334,7 +334,7 @@ fn what_cannot_be_done_is_told() {
     run.ends(
         0,
         "",
-        "warning: 500 were to be held: no pose may stand for more than 3 frames",
+        "warning: 500 holds were asked for: no pose may be held for more than 3 frames",
     );
     let run = room.run(&["motion", "kick.bvh", "--drawings", "2", "-o", "out.bvh"]);
     run.ends(
@@ -364,7 +364,11 @@ fn a_damaged_file() {
         "motion", "bad.bvh", "--full", "--fps", "60", "-o", "out.bvh",
     ]);
     assert!(run.err.contains(&place), "{}", run.err);
-    run.ends(2, "", "--keep-going goes on with the 100 frames before it");
+    run.ends(
+        2,
+        "",
+        "--keep-going continues with the 100 frames before it",
+    );
     assert_eq!(room.files(), ["bad.bvh", "kick.bvh"]);
 
     let run = room.run(&[
@@ -378,7 +382,7 @@ fn a_damaged_file() {
         "out.bvh",
     ]);
     assert!(run.err.contains(&place), "{}", run.err);
-    run.ends(0, "", "going on with the 100 frames before it");
+    run.ends(0, "", "continuing with the 100 frames before it");
     assert_eq!(written(&room, "out.bvh").frames(), 100);
 
     room.write("empty.bvh", "");

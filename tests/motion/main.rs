@@ -6,7 +6,7 @@
 #[path = "../common/mod.rs"]
 mod common;
 
-mod carry;
 mod cli;
 mod limited;
 mod model;
+mod retarget;

@@ -6,14 +6,14 @@ use std::path::Path;
 use glam::{DQuat, DVec2, DVec3};
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::disk::FolderResolver;
-use okoshi::motion::carry::Landmarks;
 use okoshi::motion::labels::Facing;
-use okoshi::motion::skeleton::{Clip, Placed};
-use okoshi::rig::Shot;
+use okoshi::motion::retarget::Landmarks;
+use okoshi::motion::skeleton::{Clip, Transform};
+use okoshi::rig::FigureClip;
 use okoshi::scene::{Animation, Interpolation, Scene, Values};
 
-use crate::carry::clips::clip;
-use crate::carry::{Body, angle};
+use crate::retarget::clips::clip;
+use crate::retarget::{Body, angle};
 
 /// The drawings of the examples, and the way each faces.
 const DRAWINGS: [(&str, Facing); 7] = [
@@ -40,11 +40,11 @@ fn compiled(text: &str) -> Compiled {
 }
 
 /// How nodes are turned in the world, and where they are, at a key of a clip.
-fn world(scene: &Scene, clip: &Animation, key: usize) -> Vec<Placed> {
-    let mut local: Vec<Placed> = scene
+fn world(scene: &Scene, clip: &Animation, key: usize) -> Vec<Transform> {
+    let mut local: Vec<Transform> = scene
         .nodes
         .iter()
-        .map(|node| Placed {
+        .map(|node| Transform {
             rotation: node.rotation,
             position: node.translation,
         })
@@ -60,7 +60,7 @@ fn world(scene: &Scene, clip: &Animation, key: usize) -> Vec<Placed> {
     while let Some(node) = stack.pop() {
         for &child in &scene.nodes[node].children {
             let above = world[node];
-            world[child] = Placed {
+            world[child] = Transform {
                 rotation: above.rotation * local[child].rotation,
                 position: above.position + above.rotation * local[child].position,
             };
@@ -79,7 +79,7 @@ fn joint(clip: &Clip, name: &str) -> usize {
 }
 
 /// The direction of the chain that a part follows by the reason that is told.
-fn chain(clip: &Clip, pose: &[Placed], why: &str) -> Option<DVec3> {
+fn chain(clip: &Clip, pose: &[Transform], why: &str) -> Option<DVec3> {
     let (_, way) = why.split_once("it points from `")?;
     let (from, to) = way.split_once("` to ")?;
     let from = pose[joint(clip, from)].position;
@@ -108,20 +108,12 @@ fn axis(compiled: &Compiled, part: usize) -> DVec3 {
 }
 
 /// The worst angle between what parts of a drawing point at and their bones; `turn` takes drawings' axes to the world's.
-fn worst(compiled: &Compiled, shot: &Shot, facing: Facing, turn: DQuat) -> f64 {
-    let ready = clip(&format!("examples/motion/{}", shot.file));
-    let clip = &ready.clip;
-    let body = Body::of(clip, &Landmarks::of(&ready.anatomy), facing);
+fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQuat) -> f64 {
+    let prepared = clip(&format!("examples/motion/{}", figure_clip.file));
+    let clip = &prepared.clip;
+    let body = Body::of(clip, &Landmarks::of(&prepared.anatomy), facing);
     let first = clip.pose(0);
-    let full = match &shot.full {
-        Some(full) => full,
-        None => compiled
-            .scene
-            .animations
-            .iter()
-            .find(|one| one.name == shot.name)
-            .expect("the clip"),
-    };
+    let full = &figure_clip.full_animation();
     let names: BTreeMap<&str, usize> = compiled
         .scene
         .nodes
@@ -142,14 +134,14 @@ fn worst(compiled: &Compiled, shot: &Shot, facing: Facing, turn: DQuat) -> f64 {
     for frame in 0..clip.frames() {
         let pose = clip.pose(frame);
         let now = world(&compiled.scene, full, frame);
-        for driven in &shot.parts {
-            let name = &*compiled.bindings.parts[driven.part].name;
-            let Some(way) = chain(clip, &pose, &driven.why) else {
+        for drive in &figure_clip.parts {
+            let name = &*compiled.bindings.parts[drive.part].name;
+            let Some(way) = chain(clip, &pose, &drive.why) else {
                 continue;
             };
             let node = names[name];
             // What the axis is in the node's own frame, by how the node stands while nothing plays.
-            let own = rest[node].rotation.inverse() * (turn * axis(compiled, driven.part));
+            let own = rest[node].rotation.inverse() * (turn * axis(compiled, drive.part));
             worst = worst.max(angle(
                 now[node].rotation * own,
                 turn * body.drawn(&first, way),
@@ -164,7 +156,7 @@ fn worst(compiled: &Compiled, shot: &Shot, facing: Facing, turn: DQuat) -> f64 {
                 let frame = now[above].rotation;
                 let mirrored =
                     frame.inverse() * (now[node].rotation * own) * DVec3::new(1.0, 1.0, -1.0);
-                let own = rest[*copy].rotation.inverse() * (turn * axis(compiled, driven.part));
+                let own = rest[*copy].rotation.inverse() * (turn * axis(compiled, drive.part));
                 worst = worst.max(angle(now[*copy].rotation * own, frame * mirrored));
             }
         }
@@ -181,14 +173,14 @@ fn nodes_point_where_bones_do() {
     for (name, facing) in DRAWINGS {
         let compiled = compiled(&text(name));
         assert!(
-            !compiled.shots.is_empty(),
+            !compiled.clips.is_empty(),
             "{name}: {:?}",
             compiled.diagnostics
         );
-        for shot in &compiled.shots {
-            let off = worst(&compiled, shot, facing, DQuat::IDENTITY);
-            eprintln!("{name}, {}: {off:.2e}°", shot.name);
-            assert!(off < OFF, "{name}, {}: {off}°", shot.name);
+        for figure_clip in &compiled.clips {
+            let off = worst(&compiled, figure_clip, facing, DQuat::IDENTITY);
+            eprintln!("{name}, {}: {off:.2e}°", figure_clip.name);
+            assert!(off < OFF, "{name}, {}: {off}°", figure_clip.name);
         }
     }
 }
@@ -209,10 +201,10 @@ fn however_the_drawing_stands() {
             assert!(changed != text, "{name} has no scale");
             let compiled = compiled(&changed);
             assert!(!compiled.has_errors(), "{name}: {:?}", compiled.diagnostics);
-            for shot in &compiled.shots {
-                let off = worst(&compiled, shot, facing, *turn);
-                eprintln!("{name}, {}, {axes}: {off:.2e}°", shot.name);
-                assert!(off < OFF, "{name}, {}, {axes}: {off}°", shot.name);
+            for figure_clip in &compiled.clips {
+                let off = worst(&compiled, figure_clip, facing, *turn);
+                eprintln!("{name}, {}, {axes}: {off:.2e}°", figure_clip.name);
+                assert!(off < OFF, "{name}, {}, {axes}: {off}°", figure_clip.name);
             }
         }
     }
@@ -230,9 +222,9 @@ fn doubled_limbs_are_mirrored() {
         .filter(|node| node.name.ends_with(".back"));
     // With what hangs on them: shin and foot, forearm.
     assert_eq!(copies.count(), 5, "{:?}", compiled.diagnostics);
-    for shot in &compiled.shots {
-        let off = worst(&compiled, shot, Facing::Viewer, DQuat::IDENTITY);
-        assert!(off < OFF, "{}: {off}°", shot.name);
+    for figure_clip in &compiled.clips {
+        let off = worst(&compiled, figure_clip, Facing::Viewer, DQuat::IDENTITY);
+        assert!(off < OFF, "{}: {off}°", figure_clip.name);
     }
 }
 
@@ -242,14 +234,14 @@ fn a_key_for_each_drawing() {
     let mut limited = 0;
     for (name, _) in DRAWINGS {
         let compiled = compiled(&text(name));
-        for shot in &compiled.shots {
+        for figure_clip in &compiled.clips {
             let shown = compiled
                 .scene
                 .animations
                 .iter()
-                .find(|one| one.name == shot.name)
+                .find(|one| one.name == figure_clip.name)
                 .expect("the clip");
-            let Some((full, cut)) = shot.full.as_ref().zip(shot.cut.as_ref()) else {
+            let Some(cut) = figure_clip.cut.as_ref() else {
                 let is_linear = |track: &okoshi::scene::Track| {
                     track.timing.interpolation == Interpolation::Linear
                 };
@@ -257,6 +249,7 @@ fn a_key_for_each_drawing() {
                 continue;
             };
             limited += 1;
+            let full = figure_clip.full_animation();
             assert_eq!(shown.tracks.len(), full.tracks.len());
             for (track, whole) in shown.tracks.iter().zip(&full.tracks) {
                 assert_eq!(
@@ -266,7 +259,7 @@ fn a_key_for_each_drawing() {
                 let drawings: Vec<_> = cut.exposure.drawings().collect();
                 assert_eq!(track.timing.times.len(), drawings.len(), "{name}");
                 for (key, drawing) in drawings.iter().enumerate() {
-                    let time = (drawing.start as f64 * shot.frame_time) as f32;
+                    let time = (drawing.start as f64 * figure_clip.frame_time()) as f32;
                     assert_eq!(track.timing.times[key], time);
                     let source = drawing.source as usize;
                     match (&track.values, &whole.values) {
@@ -280,7 +273,7 @@ fn a_key_for_each_drawing() {
                     }
                 }
             }
-            let seconds = cut.exposure.len() as f64 * shot.frame_time;
+            let seconds = cut.exposure.len() as f64 * figure_clip.frame_time();
             assert!((shown.seconds - seconds).abs() < 1e-9, "{name}");
         }
     }

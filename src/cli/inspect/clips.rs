@@ -1,4 +1,4 @@
-//! What figures play, and which joint drives which part.
+//! The clips that figures play, and which joint drives which part.
 
 use std::fmt::Write as _;
 
@@ -6,28 +6,28 @@ use super::columns;
 use crate::compile::Compiled;
 use crate::report::{cut_frames, ranges, undriven};
 
-/// How many stretches of frames are listed one by one.
-const MOST_RANGES: usize = 12;
+/// How many runs of frames are listed individually.
+const MAX_RANGES: usize = 12;
 
-/// Each clip with its length and drawings, and per part what drives it and why.
+/// Each clip with its length and its drawings, and per part the joint that drives it and why.
 pub(super) fn clips(compiled: &Compiled) -> String {
     let parts = &compiled.bindings.parts;
     let mut out = String::new();
-    for shot in &compiled.shots {
+    for clip in &compiled.clips {
         let _ = writeln!(
             out,
             "clip {} of {}, from {}: {:.2} s, {}, {}",
-            shot.name,
-            parts[shot.root].name,
-            shot.file,
-            shot.seconds(),
-            counted(shot.frames(), "frame"),
-            counted(shot.drawings(), "drawing"),
+            clip.name,
+            parts[clip.root].name,
+            clip.file,
+            clip.seconds(),
+            counted(clip.frames(), "frame"),
+            counted(clip.drawings(), "drawing"),
         );
-        let (omitted, held) = cut_frames(shot);
+        let (omitted, held) = cut_frames(clip);
         for (what, frames) in [("omitted", omitted), ("held", held)] {
             if !frames.is_empty() {
-                let ranges = ranges(&frames, MOST_RANGES);
+                let ranges = ranges(&frames, MAX_RANGES);
                 let _ = writeln!(
                     out,
                     "   {what} {}: {ranges}",
@@ -35,11 +35,11 @@ pub(super) fn clips(compiled: &Compiled) -> String {
                 );
             }
         }
-        let rows = shot.parts.iter().map(|driven| {
-            let name = format!("   {}", parts[driven.part].name);
-            match driven.joint {
-                Some(joint) => [name, shot.joint_name(joint).to_owned(), driven.why.clone()],
-                None => [name, "-".to_owned(), undriven(shot, driven)],
+        let rows = clip.parts.iter().map(|drive| {
+            let name = format!("   {}", parts[drive.part].name);
+            match drive.joint {
+                Some(joint) => [name, clip.joint_name(joint).to_owned(), drive.why.clone()],
+                None => [name, "-".to_owned(), undriven(clip, drive)],
             }
         });
         out.push_str(&columns(&rows.collect::<Vec<_>>()));

@@ -3,7 +3,7 @@
 use super::{Cursor, Proposal, ProposalKind, own_name_of, simple};
 use crate::ide::quoting::{Role, written};
 use crate::lang::ast::{ArgumentKind, Attribute};
-use crate::rig::Shot;
+use crate::rig::FigureClip;
 
 impl Cursor<'_> {
     /// The joints of the drawing's motions, those of the part's figure first; as a second name the joints that hang on the first
@@ -24,40 +24,40 @@ impl Cursor<'_> {
             .and_then(|string| analysis.part_of_string(string));
         let mut proposals = vec![];
         let mut files: Vec<&str> = vec![];
-        for shot in analysis.clips_for(own.or_else(typed)) {
-            if files.contains(&shot.file.as_str()) {
+        for clip in analysis.clips_for(own.or_else(typed)) {
+            if files.contains(&clip.file.as_str()) {
                 continue;
             }
-            files.push(&shot.file);
+            files.push(&clip.file);
             let below = match first {
-                None => vec![true; shot.skeleton.joints.len()],
-                Some(name) => match shot.joint_named(name) {
-                    Some(joint) => shot.skeleton.below(joint),
+                None => vec![true; clip.skeleton().joints.len()],
+                Some(name) => match clip.joint_named(name) {
+                    Some(joint) => clip.skeleton().descendants(joint),
                     None => continue,
                 },
             };
             let joints = (0..below.len()).filter(|joint| below[*joint]);
             let (known, others): (Vec<usize>, Vec<usize>) =
-                joints.partition(|joint| shot.label(*joint).is_some());
+                joints.partition(|joint| clip.label(*joint).is_some());
             proposals.extend(
                 known
                     .into_iter()
                     .chain(others)
-                    .filter_map(|joint| self.joint(shot, joint)),
+                    .filter_map(|joint| self.joint(clip, joint)),
             );
         }
         proposals
     }
 
-    fn joint(&self, shot: &Shot, joint: usize) -> Option<Proposal> {
-        let name = shot.joint_name(joint);
+    fn joint(&self, clip: &FigureClip, joint: usize) -> Option<Proposal> {
+        let name = clip.joint_name(joint);
         // No string can hold quotes or lines within a name.
         if name.is_empty() || name.contains(['"', '＂']) || name.contains(char::is_control) {
             return None;
         }
-        let detail = match (shot.label(joint), shot.skeleton.joints[joint].parent) {
+        let detail = match (clip.label(joint), clip.skeleton().joints[joint].parent) {
             (Some(label), _) => label.describe(),
-            (None, Some(parent)) => format!("on {}", shot.joint_name(parent)),
+            (None, Some(parent)) => format!("on {}", clip.joint_name(parent)),
             (None, None) => "a root".to_owned(),
         };
         Some(Proposal {

@@ -1,23 +1,23 @@
-//! What a file is refused with, and what was put right in it.
+//! Errors of files that cannot be read, and notes on what was corrected.
 
 use std::fmt;
 
 use crate::motion::skeleton::Clip;
 
-use super::MOST_NOTES;
+use super::MAX_NOTES;
 
 /// Why a file cannot be read, and where.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Error {
-    /// The line, from 1.
+    /// The line, counted from 1.
     pub line: usize,
-    /// The place in the line, in characters from 1; behind the last one where something is missing.
+    /// The column in characters, counted from 1; after the last one if something is missing there.
     pub column: usize,
     /// What is wrong.
     pub message: String,
-    /// What to do about it.
+    /// How to fix it.
     pub help: String,
-    /// The whole frames before that place, where there are any.
+    /// The complete frames before that place, if there are any.
     pub partial: Option<Box<Clip>>,
 }
 
@@ -46,12 +46,12 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// Something that was put right while a file was read.
+/// A problem that was corrected while reading.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
-    /// The line, from 1.
+    /// The line, counted from 1.
     pub line: usize,
-    /// What was found, and how it was taken.
+    /// What was found, and how it was read.
     pub message: String,
 }
 
@@ -61,7 +61,7 @@ impl fmt::Display for Note {
     }
 }
 
-/// Notes, as many as anyone reads.
+/// Notes, limited to as many as anyone reads.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
     kept: Vec<Note>,
@@ -71,7 +71,7 @@ pub(super) struct Notes {
 impl Notes {
     /// Adds a note.
     pub(super) fn add(&mut self, line: usize, message: impl Into<String>) {
-        if self.kept.len() < MOST_NOTES {
+        if self.kept.len() < MAX_NOTES {
             let message = message.into();
             self.kept.push(Note { line, message });
         } else {
@@ -79,7 +79,7 @@ impl Notes {
         }
     }
 
-    /// The notes; a last one tells how many are not among them.
+    /// The notes; the last one says how many were left out.
     pub(super) fn done(mut self) -> Vec<Note> {
         if let (1.., Some(last)) = (self.left_out, self.kept.last()) {
             let (line, message) = (
@@ -92,15 +92,15 @@ impl Notes {
     }
 }
 
-/// The column of a byte of a line, from 1: in characters, or in bytes where the line is not UTF-8.
+/// The column of a byte of a line, counted from 1: in characters, or in bytes if the line is not UTF-8.
 pub(super) fn column(text: &[u8], byte: usize) -> usize {
     let before = text.get(..byte).unwrap_or(text);
     1 + std::str::from_utf8(before).map_or(before.len(), |before| before.chars().count())
 }
 
-/// A word of the file as messages quote it: with care for what is no text, and not at any length.
+/// A word of the file as messages quote it: shortened, and without control characters or invalid UTF-8.
 pub(super) fn quoted(word: &[u8]) -> String {
-    /// Characters that are enough to know a word by.
+    /// Enough characters to recognize a word.
     const SHOWN: usize = 40;
 
     let text = String::from_utf8_lossy(word.get(..4 * SHOWN).unwrap_or(word));

@@ -1,16 +1,16 @@
-//! What stands within the braces of a joint: OFFSET and CHANNELS.
+//! The fields of a joint: OFFSET and CHANNELS.
 
 use glam::DVec3;
 
 use crate::motion::skeleton::{Axis, Channel};
 
-use super::MOST_CHANNELS;
+use super::MAX_CHANNELS;
 use super::error::{Error, Notes, quoted};
-use super::header::{Header, Line, limit, unexpected};
-use super::number::{explain, whole};
-use super::words::{Word, Words};
+use super::hierarchy::{HierarchyParser, Line, limit, unexpected};
+use super::number::{explain, parse_word};
+use super::tokens::{Token, Tokens};
 
-/// The channels, as they are written.
+/// The channels, by their names in the file.
 pub(super) const CHANNELS: [(&str, Channel); 6] = [
     ("Xposition", Channel::Position(Axis::X)),
     ("Yposition", Channel::Position(Axis::Y)),
@@ -20,25 +20,25 @@ pub(super) const CHANNELS: [(&str, Channel); 6] = [
     ("Zrotation", Channel::Rotation(Axis::Z)),
 ];
 
-impl Header {
+impl HierarchyParser {
     pub(super) fn offset(
         &mut self,
         line: Line<'_>,
-        keyword: Word<'_>,
-        words: &mut Words<'_>,
+        keyword: Token<'_>,
+        tokens: &mut Tokens<'_>,
         notes: &mut Notes,
     ) -> Result<(), Error> {
         let mut offset = DVec3::ZERO;
         for axis in 0..3 {
-            let Some(word) = words
+            let Some(word) = tokens
                 .peek()
                 .filter(|word| !matches!(word.text, b"{" | b"}"))
             else {
                 let message = format!("OFFSET has {axis} numbers, but it takes 3");
-                return Err(line.error(words.at(), message, "write OFFSET with x, y and z"));
+                return Err(line.error(tokens.at(), message, "write OFFSET with x, y and z"));
             };
-            words.next();
-            offset[axis] = whole(word.text).ok_or_else(|| {
+            tokens.next();
+            offset[axis] = parse_word(word.text).ok_or_else(|| {
                 let (message, help) = explain(word.text);
                 line.error(word.at, message, help)
             })?;
@@ -48,9 +48,10 @@ impl Header {
         };
         match open.offset {
             None => open.offset = Some(offset),
-            Some(before) if before == offset => {
-                notes.add(line.number, "OFFSET stands here twice: taken once")
-            }
+            Some(before) if before == offset => notes.add(
+                line.number,
+                "a second OFFSET with the same numbers: ignored",
+            ),
             Some(_) => {
                 let help =
                     "A joint has one OFFSET. Is the beginning of a joint missing before this one?";
@@ -67,29 +68,29 @@ impl Header {
     pub(super) fn channels(
         &mut self,
         line: Line<'_>,
-        keyword: Word<'_>,
-        words: &mut Words<'_>,
+        keyword: Token<'_>,
+        tokens: &mut Tokens<'_>,
         notes: &mut Notes,
     ) -> Result<(), Error> {
-        let count = words
+        let count = tokens
             .next()
             .filter(|word| !matches!(word.text, b"{" | b"}"));
         let stated =
             count.and_then(|word| std::str::from_utf8(word.text).ok()?.parse::<usize>().ok());
         let Some(stated) = stated else {
-            let at = count.map_or(words.at(), |word| word.at);
-            let help = "behind CHANNELS comes how many there are, and then their names";
+            let at = count.map_or(tokens.at(), |word| word.at);
+            let help = "CHANNELS is followed by their number and their names";
             return Err(line.error(at, "CHANNELS has no count".to_owned(), help));
         };
         let mut channels = Vec::new();
-        while let Some(word) = words
+        while let Some(word) = tokens
             .peek()
             .filter(|word| !matches!(word.text, b"{" | b"}"))
         {
-            words.next();
+            tokens.next();
             let known = CHANNELS.iter().find(|(name, _)| word.is(name));
             let Some((_, channel)) = known else {
-                let message = format!("{} is no channel", quoted(word.text));
+                let message = format!("{} is not a channel", quoted(word.text));
                 let help = "the channels are Xposition, Yposition, Zposition, Xrotation, Yrotation and Zrotation";
                 return Err(line.error(word.at, message, help));
             };
@@ -97,8 +98,7 @@ impl Header {
         }
         if channels.len() != stated {
             let message = format!("CHANNELS says {stated}, but {} follow", channels.len());
-            let help =
-                "put the count right, or the names back; a frame has one number for each of them";
+            let help = "correct the count or the names; a frame has one number for each of them";
             return Err(line.error(count.map_or(keyword.at, |word| word.at), message, help));
         }
         self.set_channels(line, keyword, channels, notes)
@@ -107,7 +107,7 @@ impl Header {
     fn set_channels(
         &mut self,
         line: Line<'_>,
-        keyword: Word<'_>,
+        keyword: Token<'_>,
         channels: Vec<Channel>,
         notes: &mut Notes,
     ) -> Result<(), Error> {
@@ -121,12 +121,15 @@ impl Header {
             if channels.is_empty() {
                 return Ok(());
             }
-            let help = "only joints have channels; make it a JOINT, or take the line out";
+            let help = "only joints have channels; make it a JOINT, or remove the line";
             return Err(line.error(keyword.at, "CHANNELS in an `End Site`".to_owned(), help));
         }
         if open.channels {
             if joint.channels == channels {
-                notes.add(line.number, "CHANNELS stands here twice: taken once");
+                notes.add(
+                    line.number,
+                    "a second CHANNELS with the same names: ignored",
+                );
                 return Ok(());
             }
             let help = "A joint has one line of CHANNELS. Is the beginning of a joint missing before this one?";
@@ -137,8 +140,8 @@ impl Header {
             ));
         }
         self.width += channels.len();
-        if self.width > MOST_CHANNELS {
-            return Err(limit(line, keyword, "numbers in a frame", MOST_CHANNELS));
+        if self.width > MAX_CHANNELS {
+            return Err(limit(line, keyword, "numbers in a frame", MAX_CHANNELS));
         }
         open.channels = true;
         joint.channels = channels;

@@ -1,50 +1,50 @@
-//! BVH, the text format that motion capture is exchanged in: read as it is found in the wild, and written plainly.
+//! BVH, the text format in which motion capture is exchanged: reads what real programs write, and writes it plainly.
 //!
-//! Source: the Biovision hierarchy as described by Meredith and Maddock, *Motion Capture File Formats Explained* (2001). The
-//! text is never whole in memory: it passes by in blocks of whole lines, whose numbers are read in parallel.
+//! LineReader: the Biovision hierarchy as described by Meredith and Maddock, *Motion Capture File Formats Explained* (2001). The
+//! text is never in memory as a whole: it is read in blocks of complete lines, whose numbers are parsed in parallel.
 
 mod error;
 mod fields;
-mod header;
+mod frames;
+mod hierarchy;
+mod line_reader;
+mod motion_header;
 mod number;
 mod read;
-mod rows;
-mod source;
-mod timing;
-mod words;
+mod tokens;
 mod write;
 
 #[cfg(test)]
-mod damaged;
+mod corrupted_tests;
 #[cfg(test)]
-mod malformed;
+mod malformed_tests;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
-mod written;
+mod write_tests;
 
 pub use error::{Error, Note};
+pub use motion_header::DEFAULT_FRAME_TIME;
 pub use read::{Reading, read, read_bytes};
-pub use timing::DEFAULT_FRAME_TIME;
-pub use write::{Decimals, write, write_shown};
+pub use write::{Decimals, write, write_frames};
 
-/// How many joints a skeleton may have; bones' ends are counted by themselves, to the same limit.
-pub const MOST_JOINTS: usize = 1 << 16;
+/// The most joints of a skeleton; end sites are counted separately, with the same limit.
+pub const MAX_JOINTS: usize = 1 << 16;
 
-/// How many numbers a frame may have.
-pub const MOST_CHANNELS: usize = 1 << 20;
+/// The most channels of a skeleton, that is, numbers in a frame.
+pub const MAX_CHANNELS: usize = 1 << 20;
 
-/// How many numbers a clip may have, all frames together.
-pub const MOST_NUMBERS: usize = 1 << 28;
+/// The most numbers of a clip, all frames together.
+pub const MAX_NUMBERS: usize = 1 << 28;
 
-/// How long a line may be, bytes. Lines as long as a block of reading (4 MiB) are read whatever this says.
-pub const LONGEST_LINE: usize = 16 << 20;
+/// The longest line, bytes. A line that fits into one read (4 MiB) is accepted regardless.
+pub const MAX_LINE_BYTES: usize = 16 << 20;
 
-/// How long a joint's name may be, bytes.
-pub const LONGEST_NAME: usize = 1024;
+/// The longest name of a joint, bytes.
+pub const MAX_NAME_BYTES: usize = 1024;
 
-/// The largest number that may stand in a file, in either direction: squares of it, summed over a clip, stay finite.
-pub const LARGEST: f64 = 1e12;
+/// The largest magnitude of a number in a file: sums of squares over a clip stay finite.
+pub const MAX_MAGNITUDE: f64 = 1e12;
 
-/// How many notes a reading has at most. One more tells how many were left out.
-pub const MOST_NOTES: usize = 100;
+/// The most notes of a reading. One more says how many were left out.
+pub const MAX_NOTES: usize = 100;

@@ -102,7 +102,11 @@ fn real_files_are_read_whole() {
             ends,
             "{name}"
         );
-        assert_eq!((skeleton.width(), clip.frames()), (width, frames), "{name}");
+        assert_eq!(
+            (skeleton.channel_count(), clip.frames()),
+            (width, frames),
+            "{name}"
+        );
         assert_eq!(clip.frame_time, frame_time, "{name}");
         let ours: f64 = clip.values().iter().sum();
         assert!(
@@ -381,14 +385,14 @@ fn several_roots_and_joints_without_channels_are_read() {
 #[test]
 fn deep_hierarchies_are_read_and_written() {
     let mut text = "HIERARCHY\n".to_owned();
-    for _ in 0..MOST_JOINTS {
+    for _ in 0..MAX_JOINTS {
         text.push_str("JOINT a{OFFSET 0 1 0\nCHANNELS 0\n");
     }
-    let ends = "}".repeat(MOST_JOINTS);
+    let ends = "}".repeat(MAX_JOINTS);
     let whole = format!("{text}{ends}\nMOTION\n");
     let Reading { clip, notes } = read_bytes(whole.as_bytes()).unwrap();
-    assert_eq!(clip.skeleton.joints.len(), MOST_JOINTS);
-    assert!(notes.len() < MOST_NOTES);
+    assert_eq!(clip.skeleton.joints.len(), MAX_JOINTS);
+    assert!(notes.len() < MAX_NOTES);
     let again = written(&clip, Decimals::All);
     assert!(again.len() < 1 << 24);
     assert_eq!(read_bytes(&again).unwrap().clip, clip);

@@ -1,4 +1,4 @@
-//! Writing, in the layout that readers agree on: one keyword a line, braces on lines of their own, one line a frame.
+//! Writes files in the layout that all readers accept: one keyword per line, braces on lines of their own, one line per frame.
 
 use std::io;
 use std::io::Write;
@@ -8,50 +8,51 @@ use rayon::prelude::*;
 
 use crate::motion::skeleton::{Clip, Joint, Skeleton};
 
-use super::LONGEST_NAME;
+use super::MAX_NAME_BYTES;
 use super::fields::CHANNELS;
-use super::header::made_name;
+use super::hierarchy::made_name;
 
-/// Levels that are indented; deeper ones stand below the last, so that a chain of joints does not grow with its square.
+/// How many levels are indented; deeper ones are not indented further, so that the size of a long chain of joints stays linear.
 const INDENTED: usize = 40;
 
-/// Numbers that a thread formats at once, and such portions that are in memory at a time.
+/// How many numbers a thread formats at once, and how many such portions are in memory at a time.
 const PORTION: usize = 1 << 14;
 const PORTIONS: usize = 32;
 
 /// How many decimals are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Decimals {
-    /// As many as it takes to read the same double back, and no more.
+    /// As many as needed to read the same double back, and no more.
     #[default]
     All,
-    /// At most six, as capture systems write: a millionth of a degree, or of the file's unit.
+    /// At most six, like capture systems: a millionth of a degree, or of the file's unit.
     Six,
 }
 
 /// Writes a clip as BVH.
 ///
-/// With [`Decimals::All`] reading gives an equal clip, if its joints stand depth first, as in a file (otherwise they and their
-/// numbers are put in that order), its names are such as a file can hold (braces and control characters become `_`; spaces at the
-/// ends and what is longer than [`LONGEST_NAME`] bytes go; a joint without a name gets one), and its numbers are such as reading
-/// takes.
+/// With [`Decimals::All`], reading the result gives an equal clip if its joints are in depth-first order as in a file
+/// (otherwise they and their channels are put into that order), if a file can hold its names (braces and control characters
+/// become `_`, spaces at the ends and everything after [`MAX_NAME_BYTES`] bytes are removed, a joint without a name gets one),
+/// and if reading accepts its numbers.
 ///
 /// # Errors
-/// Where the output fails, and `InvalidData` for a number that is not finite.
+/// Those of the output, and `InvalidData` for a number that is not finite.
 pub fn write(
     clip: &Clip,
     decimals: Decimals,
     out: &mut (impl Write + Send + ?Sized),
 ) -> io::Result<()> {
     let frames: Vec<u32> = (0..clip.frames() as u32).collect();
-    write_shown(clip, &frames, decimals, out)
+    write_frames(clip, &frames, decimals, out)
 }
 
-/// Writes frames of a clip, in this order, as [`write()`] writes all of them. A frame that stands for several is made once.
+/// Writes a selection of a clip's frames, in this order, as [`write()`] writes all of them. Consecutive repetitions are
+/// formatted once.
 ///
 /// # Errors
-/// As [`write()`].
-pub fn write_shown(
+/// Those of [`write()`].
+pub fn write_frames(
     clip: &Clip,
     frames: &[u32],
     decimals: Decimals,
@@ -64,7 +65,7 @@ pub fn write_shown(
     number(clip.frame_time, Decimals::All, &mut head)?;
     head.push(b'\n');
 
-    let width = clip.skeleton.width().max(1);
+    let width = clip.skeleton.channel_count().max(1);
     let rows = (PORTION / width).max(1);
     let columns = order.columns(&clip.skeleton);
     let portion = |frames: &[u32]| {
@@ -89,7 +90,7 @@ pub fn write_shown(
     loop {
         let batch = batches.next();
         let next = || batch.map(|batch| batch.par_chunks(rows).map(portion).collect());
-        // The system takes one batch while the next is made.
+        // One batch is written while the next is formatted.
         let (written, next) = rayon::join(|| put(done, out), next);
         written?;
         match next {
@@ -122,7 +123,7 @@ fn frame(
     Ok(())
 }
 
-/// The joints depth first, as they are nested in the text, with how deep each is.
+/// The joints in depth-first order, as they are nested in the text, each with its depth.
 struct Order {
     joints: Vec<[usize; 2]>,
 }
@@ -152,7 +153,7 @@ impl Order {
         Self { joints }
     }
 
-    /// Per number of a written frame which of the clip's it is; `None` where they are in order.
+    /// Per number of a written frame the index of the clip's channel; `None` if the order is the same.
     fn columns(&self, skeleton: &Skeleton) -> Option<Vec<usize>> {
         if self
             .joints
@@ -236,7 +237,7 @@ fn offset(text: &mut Vec<u8>, depth: usize, offset: DVec3, decimals: Decimals) -
     Ok(())
 }
 
-/// A joint's name as the text can hold it.
+/// A joint's name in a form that the file can hold.
 fn name(joint: &Joint, index: usize) -> String {
     let clean = |c: char| {
         if c.is_control() || matches!(c, '{' | '}') {
@@ -246,7 +247,7 @@ fn name(joint: &Joint, index: usize) -> String {
         }
     };
     let mut name: String = joint.name.chars().map(clean).collect();
-    let mut long = name.len().min(LONGEST_NAME);
+    let mut long = name.len().min(MAX_NAME_BYTES);
     while !name.is_char_boundary(long) {
         long -= 1;
     }
@@ -259,13 +260,15 @@ fn name(joint: &Joint, index: usize) -> String {
     }
 }
 
-/// Writes a number in its shortest form.
+/// Writes a number in its shortest form that reads back as the same double.
 ///
-/// A decimal of up to 15 digits is the only one of that length that reads as its double, so where a number of millionths reads
-/// back as the value, it is the shortest form already; that is most of what capture systems write, and far faster.
+/// Written by hand because shortest-form libraries (`ryu`, `zmij`) have another notation and no limit of six decimals. A
+/// decimal of up to 15 digits is the only one of its length that reads as its double, so a whole number of millionths that
+/// reads back as the value is already the shortest form. That covers most of what capture systems write; the rest is left to
+/// the standard library.
 fn number(value: f64, decimals: Decimals, text: &mut Vec<u8>) -> io::Result<()> {
     const MILLION: f64 = 1e6;
-    /// Up to here 15 digits hold all millionths.
+    /// Below this, 15 digits hold all millionths.
     const EXACT: f64 = 1e15;
 
     if !value.is_finite() {
@@ -285,7 +288,7 @@ fn number(value: f64, decimals: Decimals, text: &mut Vec<u8>) -> io::Result<()> 
     }
 }
 
-/// Writes millionths without zeros at the end.
+/// Writes millionths without trailing zeros.
 fn digits(millionths: u64, negative: bool, text: &mut Vec<u8>) {
     let mut buffer = [0u8; 24];
     let mut at = buffer.len();

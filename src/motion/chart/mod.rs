@@ -1,5 +1,5 @@
-//! A chart of a cut motion (Kitamura, figures 5.3 and 5.10): how fast the source is, what was omitted and held, and the exposure
-//! sheet below.
+//! A chart of a limited motion (Kitamura, figures 5.3 and 5.10): the speed of the source, what was omitted and held, and the
+//! exposure sheet below.
 
 mod scale;
 #[cfg(test)]
@@ -12,13 +12,13 @@ use scale::{BOTTOM, LEFT, RIGHT, Scale, TOP, columns, number, step};
 
 /// The picture's size, pixels.
 const SIZE: [f64; 2] = [960.0, 444.0];
-/// Where the exposure sheet stands: top and bottom.
+/// The top and bottom of the exposure sheet.
 const SHEET: [f64; 2] = [328.0, 368.0];
-/// Frames are marked one by one where they are at least this wide.
+/// Frames are marked individually if they are at least this wide, pixels.
 const APART: f64 = 4.0;
-/// The greatest speed that is told apart, so that the axis stays finite.
+/// The highest speed on the axis, so that it stays finite.
 const HIGHEST: f64 = 1e300;
-/// An axis has fewer ticks than this.
+/// The most ticks of an axis.
 const TICKS: usize = 32;
 /// The longest title, characters.
 const TITLE: usize = 80;
@@ -32,26 +32,26 @@ const HELD: &str = "#9a6700";
 const DRAWING: &str = "#0969da";
 const SHOWN: &str = "#d6e6fa";
 
-/// What a chart shows. Numbers of frames that the source does not have are left out.
+/// The contents of a chart. Frame numbers that the source does not have are ignored.
 #[derive(Debug, Clone, Copy)]
 pub struct Chart<'a> {
-    /// What stands above it.
+    /// Its title.
     pub title: &'a str,
-    /// Frames a second; where it is not a positive number, no seconds are shown.
+    /// Frames per second; seconds are only shown if this is a positive number.
     pub fps: f64,
     /// Per source frame its SSD to the frame before.
     pub speeds: &'a [f64],
-    /// Source frames that were omitted.
+    /// Omitted source frames.
     pub omitted: &'a [u32],
-    /// Source frames that stand for one frame longer each in place of what was omitted.
+    /// Source frames that are shown for one frame more in place of omitted ones.
     pub duplicated: &'a [u32],
-    /// Source frames that the pose before covers.
+    /// Source frames that are covered by holding the pose before.
     pub held: &'a [u32],
-    /// What is shown when.
+    /// Which source frame each frame shows.
     pub exposure: &'a Exposure,
 }
 
-/// The chart as an SVG. However long the motion is, it has few bytes, and no peak is lost.
+/// Draws the chart as an SVG. Its size is bounded however long the motion is, and every peak stays visible.
 pub fn chart(chart: &Chart<'_>) -> String {
     let frames = chart.speeds.len().max(chart.exposure.len()).max(1);
     let finite = chart.speeds.iter().filter(|speed| speed.is_finite());
@@ -86,7 +86,7 @@ fn escaped(text: &str) -> String {
             '&' => out.push_str("&amp;"),
             '<' => out.push_str("&lt;"),
             '>' => out.push_str("&gt;"),
-            // What XML does not allow.
+            // Characters that XML does not allow.
             _ if letter.is_control() || matches!(letter, '\u{fffe}' | '\u{ffff}') => out.push(' '),
             _ => out.push(letter),
         }
@@ -134,7 +134,7 @@ fn heights(out: &mut String, scale: &Scale, step: f64) {
 }
 
 fn curve(out: &mut String, speeds: &[f64], scale: &Scale) {
-    // The first frame has none before it.
+    // The first frame has no speed.
     let Some((_, speeds)) = speeds.split_first() else {
         return;
     };
@@ -175,7 +175,7 @@ fn curve(out: &mut String, speeds: &[f64], scale: &Scale) {
     );
 }
 
-/// Frames that can be told apart in the picture; of those in one pixel the fastest.
+/// The frames to mark: of those in the same pixel only the fastest.
 fn apart(frames: &[u32], speeds: &[f64], scale: &Scale) -> Vec<usize> {
     let mut all: Vec<(i64, f64, usize)> = frames
         .iter()
@@ -187,7 +187,7 @@ fn apart(frames: &[u32], speeds: &[f64], scale: &Scale) -> Vec<usize> {
     all.into_iter().map(|mark| mark.2).collect()
 }
 
-/// Points, as subpaths without length.
+/// Dots, as subpaths of zero length.
 fn points(frames: &[usize], speeds: &[f64], scale: &Scale) -> String {
     let mut points = String::new();
     for frame in frames {
@@ -218,7 +218,7 @@ fn marks(out: &mut String, chart: &Chart<'_>, scale: &Scale) {
     dots(out, &points(&omitted, speeds, scale), 7.0, OMITTED);
     let mut longer = String::new();
     for frame in apart(chart.duplicated, speeds, scale) {
-        // The pose stands again where the next one would come.
+        // The pose is shown once more in the place of its successor.
         let _ = write!(
             longer,
             "{}",
@@ -239,7 +239,8 @@ fn triangle(x: f64, y: f64) -> String {
     format!("M{x:.1} {:.1}l4 8h-8Z", y - 8.0)
 }
 
-/// The exposure sheet: a bar for each drawing in its first frame; of columns of frames, as high as their share of drawings.
+/// The exposure sheet: a bar at the first frame of each drawing. If a column stands for several frames, its height is the share
+/// of drawings.
 fn sheet(out: &mut String, exposure: &Exposure, scale: &Scale) {
     let [top, bottom] = SHEET;
     let mut key = vec![false; exposure.len()];
@@ -275,7 +276,7 @@ fn sheet(out: &mut String, exposure: &Exposure, scale: &Scale) {
     );
 }
 
-/// The axes of time: frames, and seconds.
+/// The time axes: frames and seconds.
 fn times(out: &mut String, frames: usize, fps: f64, scale: &Scale) {
     let [_, sheet] = SHEET;
     axis(
@@ -284,13 +285,13 @@ fn times(out: &mut String, frames: usize, fps: f64, scale: &Scale) {
         sheet + 6.0,
         [1.0, step(frames as f64 / 10.0).max(1.0)],
         frames,
-        // People count them from 1.
+        // Frames are counted from 1.
         |frame| scale.x(frame - 0.5),
     );
     if fps > 0.0 && fps.is_finite() {
         let seconds = frames as f64 / fps;
         let step = step(seconds / 10.0);
-        // Time 0 is where the first frame is.
+        // Time 0 is at the first frame.
         let at = |second: f64| scale.x(second * fps + 0.5);
         axis(
             out,
@@ -303,7 +304,7 @@ fn times(out: &mut String, frames: usize, fps: f64, scale: &Scale) {
     }
 }
 
-/// An axis with a mark at its first value and at each multiple of the step.
+/// An axis with a tick at its first value and at each multiple of the step.
 fn axis(
     out: &mut String,
     name: &str,
@@ -315,7 +316,7 @@ fn axis(
     let mut ticks = String::new();
     let mut labels = String::new();
     let multiples = (1..=most).take(TICKS).map(|index| index as f64 * step);
-    // Two marks need room for their numbers.
+    // Two ticks need room for their numbers.
     let multiples = multiples.filter(|value| value - first >= step / 2.0);
     for value in std::iter::once(first).chain(multiples) {
         let x = at(value);
@@ -350,7 +351,7 @@ fn legend(out: &mut String, chart: &Chart<'_>, scale: &Scale) {
             out,
             r#"<g transform="translate({x:.0} {y})">{mark}<text x="22" y="4">{text}</text></g>"#
         );
-        // About as wide as the letters of most fonts.
+        // Approximately the width of letters in most fonts.
         x += 44.0 + 6.4 * text.chars().count() as f64;
     };
     let line = format!(r#"<path d="M0 0h16" stroke="{CURVE}" stroke-width="2"/>"#);
@@ -374,7 +375,7 @@ fn legend(out: &mut String, chart: &Chart<'_>, scale: &Scale) {
         );
     }
     if !chart.held.is_empty() {
-        // Where frames are too narrow for marks, the exposure sheet alone shows what is held.
+        // If frames are too narrow for marks, only the exposure sheet shows holds.
         let mark = match scale.wide >= APART {
             true => dot(6.5, HELD) + &dot(3.5, "#ffffff"),
             false => format!(r#"<path d="M2 -6h12v12h-12Z" fill="{SHOWN}"/>"#),

@@ -1,31 +1,31 @@
-//! Where frames and speeds stand in the picture.
+//! Positions of frames and speeds in the picture.
 
 use std::ops::Range;
 
-/// Where the curve stands: left, right, top, bottom.
+/// The edges of the curve's area.
 pub(super) const LEFT: f64 = 84.0;
 pub(super) const RIGHT: f64 = 936.0;
 pub(super) const TOP: f64 = 92.0;
 pub(super) const BOTTOM: f64 = 312.0;
-/// Columns of frames that are drawn as one where there are more frames.
+/// The number of columns if there are more frames than fit.
 const COLUMNS: usize = 852;
 
-/// Where frames and speeds stand.
+/// Maps frames and speeds to positions.
 pub(super) struct Scale {
-    /// Of a frame.
+    /// The width of a frame.
     pub(super) wide: f64,
     /// The speed at the top.
     pub(super) top: f64,
 }
 
 impl Scale {
-    /// Where a frame begins.
+    /// The left edge of a frame.
     pub(super) fn x(&self, frame: f64) -> f64 {
         LEFT + frame * self.wide
     }
 
     pub(super) fn y(&self, speed: f64) -> f64 {
-        // What is no number is taken as infinite.
+        // NaN counts as infinite.
         let share = if speed.is_nan() {
             1.0
         } else {
@@ -39,9 +39,9 @@ impl Scale {
     }
 }
 
-/// The step of 1, 2 or 5 times a power of ten that is next above.
+/// The next larger number of the form 1, 2 or 5 times a power of ten.
 pub(super) fn step(least: f64) -> f64 {
-    // What is smaller cannot be divided by without trouble.
+    // Dividing by smaller numbers would overflow.
     let least = if least > 1e-280 { least } else { 1.0 };
     let power = 10_f64.powi(least.log10().floor() as i32);
     let steps = [1.0, 2.0, 5.0].map(|step| step * power);
@@ -49,7 +49,7 @@ pub(super) fn step(least: f64) -> f64 {
     next.unwrap_or(10.0 * power)
 }
 
-/// A number without more digits than it needs.
+/// A number with no more digits than necessary.
 pub(super) fn number(value: f64) -> String {
     let rounded = format!("{value:.4e}").parse().unwrap_or(value);
     match rounded {
@@ -59,7 +59,7 @@ pub(super) fn number(value: f64) -> String {
     }
 }
 
-/// The frames by columns: each frame for itself, or those of one pixel.
+/// Splits the frames into columns: one frame each, or all those of one pixel.
 pub(super) fn columns(frames: usize) -> impl Iterator<Item = Range<usize>> {
     let count = if frames > 2 * COLUMNS {
         COLUMNS

@@ -1,40 +1,40 @@
-//! The parts of a figure, labelled: by their names, and where those say nothing by their shape.
+//! Labels the parts of a figure: by name, and where names say nothing by shape.
 
 use glam::DVec2;
 
-use super::place::{self, Front};
-use super::shape::Shape;
-use super::words::{self, Term};
+use super::part_tree::PartTree;
+use super::placement::{self, Front};
+use super::vocabulary::{self, Term};
 use super::{Class, Facing, Label, Piece, Side, pieces};
 use crate::motion::figure::Figure;
 
-/// An arm without a name reaches at least this share of the figure's height.
+/// An unnamed arm is at least this share of the figure's height long.
 const ARM_LENGTH: f64 = 0.1;
-/// It points outward by at least this share.
+/// It points outward by at least this share of the height.
 const OUTWARD: f64 = 0.02;
-/// Two parts this share of the height apart from each other's mirror image are a pair, and so no head.
+/// Two parts whose mirrored centres are within this share of the height are a pair, so neither is the head.
 const TWIN: f64 = 0.1;
-/// Candidates for a head that are looked at.
+/// How many candidates for a head are tried.
 const MAX_HEADS: usize = 16;
 
-/// What is known of a part.
+/// What is known of a part so far.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Draft {
+pub(super) struct PartDraft {
     pub(super) class: Option<Class>,
     pub(super) side: Option<Side>,
-    /// What its name says.
+    /// What its name says about it.
     pub(super) terms: Vec<Term>,
-    /// Whether its name tells its class.
+    /// Whether its name gives its class.
     pub(super) named: bool,
-    /// Worn, held or a feature of a face: follows what it hangs on.
+    /// Worn, held or part of a face: it follows its parent.
     pub(super) detail: bool,
     pub(super) piece: Option<Piece>,
     pub(super) pair: usize,
-    /// Why it has its class, and why its side.
+    /// The reasons for its class and for its side.
     pub(super) why: [String; 2],
 }
 
-impl Draft {
+impl PartDraft {
     pub(super) fn says(&self, wanted: &[Term]) -> bool {
         self.terms.iter().any(|term| wanted.contains(term))
     }
@@ -45,29 +45,30 @@ impl Draft {
     }
 }
 
-/// Labels the parts of a figure; nothing for what follows the part that it hangs on.
+/// Labels the parts of a figure; `None` for a part that follows its parent.
 ///
-/// Class by word, else: a child of a limb is its next piece, what stands on the ground is a leg, the topmost part the head, what
-/// points outward an arm. Side by word, else by place: what is drawn left is Right, since the figure faces the viewer; if the
-/// head lies more beside the body than above it, what was drawn later is on the near side.
+/// Class by word. Otherwise a child of a limb is its next piece, what stands on the ground is a leg, the topmost part is the
+/// head, and what points outward is an arm. Side by word. Otherwise by place: the drawn left is the figure's right, since it
+/// faces the viewer. If the head lies more beside the body than above it, the figure is seen in profile, and limbs drawn later
+/// are on its near side.
 pub fn label_figure(figure: &Figure) -> Vec<Option<Label>> {
     label_facing(figure).0
 }
 
-/// The labels of a figure's parts, and the way that it faces.
+/// The labels of a figure's parts, and the direction that the figure faces.
 pub(crate) fn label_facing(figure: &Figure) -> (Vec<Option<Label>>, Facing) {
-    let shape = Shape::new(figure);
-    let mut drafts: Vec<Draft> = shape.parts.iter().map(|part| by_name(&part.name)).collect();
-    trunk(&shape, &mut drafts);
-    head(&shape, &mut drafts);
-    by_shape(&shape, &mut drafts);
-    hips(&shape, &mut drafts);
-    let facing = Front::of(&shape, &drafts);
-    let limbs = pieces::limbs(&shape, &drafts);
-    place::sides(&shape, &facing, &limbs, &mut drafts);
-    place::pairs(&shape, &facing, &limbs, &mut drafts);
-    pieces::name(&shape, &limbs, &mut drafts);
-    let label = |draft: Draft| {
+    let tree = PartTree::new(figure);
+    let mut drafts: Vec<PartDraft> = tree.parts.iter().map(|part| by_name(&part.name)).collect();
+    trunk(&tree, &mut drafts);
+    head(&tree, &mut drafts);
+    by_shape(&tree, &mut drafts);
+    hips(&tree, &mut drafts);
+    let facing = Front::of(&tree, &drafts);
+    let limbs = pieces::limbs(&tree, &drafts);
+    placement::sides(&tree, &facing, &limbs, &mut drafts);
+    placement::pairs(&tree, &facing, &limbs, &mut drafts);
+    pieces::name(&tree, &limbs, &mut drafts);
+    let label = |draft: PartDraft| {
         let class = draft.class?;
         let [class_why, side_why] = draft.why;
         Some(Label {
@@ -81,12 +82,12 @@ pub(crate) fn label_facing(figure: &Figure) -> (Vec<Option<Label>>, Facing) {
     (drafts.into_iter().map(label).collect(), facing.facing())
 }
 
-fn by_name(name: &str) -> Draft {
+fn by_name(name: &str) -> PartDraft {
     use Term as T;
-    let terms = words::terms(name);
-    let mut draft = Draft {
+    let terms = vocabulary::terms(name);
+    let mut draft = PartDraft {
         terms,
-        ..Draft::default()
+        ..PartDraft::default()
     };
     draft.side = match (draft.says(&[T::Left]), draft.says(&[T::Right])) {
         (true, false) => Some(Side::Left),
@@ -128,20 +129,19 @@ fn by_name(name: &str) -> Draft {
     draft
 }
 
-/// What carries the rest: of the parts that hang on nothing, those that carry something; without a trunk by name, the one that
-/// carries most.
-fn trunk(shape: &Shape<'_>, drafts: &mut [Draft]) {
+/// Finds the trunk: roots that have children. If no name tells a trunk, the root with the most descendants is one.
+fn trunk(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
     let bare = |part: &usize| {
         let draft = &drafts[*part];
-        shape.parents[*part].is_none() && draft.class.is_none() && !draft.detail
+        tree.parents[*part].is_none() && draft.class.is_none() && !draft.detail
     };
-    let roots: Vec<usize> = shape.order.iter().copied().filter(bare).collect();
+    let roots: Vec<usize> = tree.order.iter().copied().filter(bare).collect();
     let known = drafts.iter().any(|draft| is_trunk(draft.class));
     let most = roots
         .iter()
         .copied()
         .reduce(|best, root| {
-            if shape.carried[root] > shape.carried[best] {
+            if tree.descendants[root] > tree.descendants[best] {
                 root
             } else {
                 best
@@ -149,18 +149,18 @@ fn trunk(shape: &Shape<'_>, drafts: &mut [Draft]) {
         })
         .filter(|_| !known);
     for root in roots {
-        if Some(root) == most || shape.carried[root] > 0 {
+        if Some(root) == most || tree.descendants[root] > 0 {
             let why = format!(
                 "`{}` carries the others, so it is a body",
-                shape.parts[root].name
+                tree.parts[root].name
             );
             drafts[root].set(Class::Body, why);
         }
     }
     for part in 0..drafts.len() {
         let on_head =
-            shape.parents[part].is_some_and(|parent| drafts[parent].class == Some(Class::Head));
-        // A face on a head is a part of it.
+            tree.parents[part].is_some_and(|parent| drafts[parent].class == Some(Class::Head));
+        // A face on a head is a feature of it.
         if on_head && drafts[part].says(&[Term::Face]) {
             drafts[part].class = None;
             drafts[part].detail = true;
@@ -172,46 +172,45 @@ pub(super) fn is_trunk(class: Option<Class>) -> bool {
     matches!(class, Some(Class::Body | Class::Hips))
 }
 
-/// Whether a part's shape may tell its class: it has none, and hangs on the trunk or on nothing.
-fn open(shape: &Shape<'_>, drafts: &[Draft], part: usize) -> bool {
+/// Whether a part's class may be told by its shape: it has none yet, and is attached to the trunk or is a root.
+fn open(tree: &PartTree<'_>, drafts: &[PartDraft], part: usize) -> bool {
     let draft = &drafts[part];
-    let above = shape.parents[part].map(|parent| drafts[parent].class);
+    let above = tree.parents[part].map(|parent| drafts[parent].class);
     let on_trunk = above.is_none_or(|class| is_trunk(class) || class == Some(Class::Neck));
     draft.class.is_none() && !draft.detail && on_trunk
 }
 
-/// The topmost part as the head, where no name tells one. It stands out of the trunk and is not one of a pair.
-fn head(shape: &Shape<'_>, drafts: &mut [Draft]) {
+/// Takes the topmost part as the head if no name tells one. It sticks out of the trunk and is not one of a pair.
+fn head(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
     if drafts.iter().any(|draft| draft.class == Some(Class::Head)) {
         return;
     }
-    let trunk = shape.around(
-        shape
-            .order
+    let trunk = tree.around(
+        tree.order
             .iter()
             .copied()
             .filter(|part| is_trunk(drafts[*part].class)),
     );
     let axis = trunk[0].midpoint(trunk[1]);
     let mut heads: Vec<usize> = (0..drafts.len())
-        .filter(|part| open(shape, drafts, *part) && !shape.stands(*part))
+        .filter(|part| open(tree, drafts, *part) && !tree.stands(*part))
         .filter(|part| !drafts[*part].says(&[Term::Skirt, Term::Left, Term::Right]))
         .filter(|part| {
-            let middle = shape.middle(*part);
+            let middle = tree.middle(*part);
             middle.cmplt(trunk[0]).any() || middle.cmpgt(trunk[1]).any()
         })
         .collect();
-    // The middle of a part: a raised hand may be higher than the top of a head.
+    // Compares centres, because a raised hand may be higher than the top of a head.
     let rise = |part: usize| {
-        let off = shape.middle(part) - axis;
+        let off = tree.middle(part) - axis;
         off.y - off.x.abs() / 2.0
     };
     heads.sort_by(|a, b| rise(*b).total_cmp(&rise(*a)).then(a.cmp(b)));
-    let near = TWIN * shape.height;
+    let near = TWIN * tree.height;
     let twin = |part: usize| {
-        let off = shape.middle(part) - axis;
+        let off = tree.middle(part) - axis;
         let mirrored = |other: &&usize| {
-            let other = shape.middle(**other) - axis;
+            let other = tree.middle(**other) - axis;
             (other.x + off.x).abs() <= near && (other.y - off.y).abs() <= near
         };
         off.x.abs() > near / 2.0
@@ -228,41 +227,41 @@ fn head(shape: &Shape<'_>, drafts: &mut [Draft]) {
     if let Some(head) = found {
         let why = format!(
             "`{}` is the topmost part, so it is the head",
-            shape.parts[head].name
+            tree.parts[head].name
         );
         drafts[head].set(Class::Head, why);
     }
 }
 
-fn by_shape(shape: &Shape<'_>, drafts: &mut [Draft]) {
-    let facing = Front::of(shape, drafts);
-    let trunk = shape
+fn by_shape(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
+    let facing = Front::of(tree, drafts);
+    let trunk = tree
         .order
         .iter()
         .copied()
         .filter(|part| is_trunk(drafts[*part].class));
-    let trunk = shape.around(trunk);
-    for part in shape.order.iter().copied() {
-        let name = &shape.parts[part].name;
+    let trunk = tree.around(trunk);
+    for part in tree.order.iter().copied() {
+        let name = &tree.parts[part].name;
         if drafts[part].class.is_some() || drafts[part].detail {
             continue;
         }
-        let above = shape.parents[part];
+        let above = tree.parents[part];
         let class_above = above.and_then(|above| drafts[above].class);
         if let (Some(above), Some(class @ (Class::Arm | Class::Leg | Class::Tail))) =
             (above, class_above)
         {
-            let above = &shape.parts[above].name;
+            let above = &tree.parts[above].name;
             let why = format!(
-                "`{name}` hangs on `{above}`, so it is the next piece of the same {}",
+                "`{name}` is attached to `{above}`, so it is the next piece of the same {}",
                 class.name()
             );
             drafts[part].set(class, why);
-        } else if !open(shape, drafts, part) || drafts[part].says(&[Term::Skirt]) {
+        } else if !open(tree, drafts, part) || drafts[part].says(&[Term::Skirt]) {
             continue;
-        } else if shape.stands(part) {
-            let legs = shape.children[part].iter().filter(|child| {
-                shape.stands(**child)
+        } else if tree.stands(part) {
+            let legs = tree.children[part].iter().filter(|child| {
+                tree.stands(**child)
                     && matches!(drafts[**child].class, None | Some(Class::Leg))
                     && !drafts[**child].detail
             });
@@ -277,7 +276,7 @@ fn by_shape(shape: &Shape<'_>, drafts: &mut [Draft]) {
                     format!("`{name}` stands on the ground, so it is a leg"),
                 );
             }
-        } else if let Some(class) = outward(shape, &facing, drafts, trunk, part) {
+        } else if let Some(class) = outward(tree, &facing, drafts, trunk, part) {
             let why = match class {
                 Class::Tail => format!("`{name}` points away from the head, so it is a tail"),
                 _ => format!("`{name}` points outward, so it is an arm"),
@@ -287,36 +286,36 @@ fn by_shape(shape: &Shape<'_>, drafts: &mut [Draft]) {
     }
 }
 
-/// An arm points away from the middle of the trunk; in a figure seen from the side, what points away behind is a tail.
+/// An arm points away from the middle of the trunk; in profile, what points away from the head is a tail.
 fn outward(
-    shape: &Shape<'_>,
+    tree: &PartTree<'_>,
     facing: &Front,
-    drafts: &[Draft],
+    drafts: &[PartDraft],
     trunk: [DVec2; 2],
     part: usize,
 ) -> Option<Class> {
-    let body = shape.parents[part].filter(|parent| is_trunk(drafts[*parent].class));
-    let around = body.map_or(trunk, |body| shape.around(std::iter::once(body)));
+    let body = tree.parents[part].filter(|parent| is_trunk(drafts[*parent].class));
+    let around = body.map_or(trunk, |body| tree.around(std::iter::once(body)));
     let axis = around[0].midpoint(around[1]).x;
-    let (joint, tip) = (shape.joint(part), shape.tip(part));
+    let (joint, tip) = (tree.joint(part), tree.tip(part));
     let reach = (tip.x - axis).abs();
-    let points = reach > (joint.x - axis).abs() + OUTWARD * shape.height;
-    let beside = !(around[0].x..=around[1].x).contains(&shape.middle(part).x);
-    if joint.distance(tip) < ARM_LENGTH * shape.height || !points && !beside {
+    let points = reach > (joint.x - axis).abs() + OUTWARD * tree.height;
+    let beside = !(around[0].x..=around[1].x).contains(&tree.middle(part).x);
+    if joint.distance(tip) < ARM_LENGTH * tree.height || !points && !beside {
         return None;
     }
     match facing {
-        Front::Beside { toward, .. } if (shape.middle(part).x - axis) * toward < 0.0 => {
+        Front::Beside { toward, .. } if (tree.middle(part).x - axis) * toward < 0.0 => {
             Some(Class::Tail)
         }
         _ => Some(Class::Arm),
     }
 }
 
-/// A trunk piece or a skirt that carries legs below a piece that carries head or arms is the hips.
-fn hips(shape: &Shape<'_>, drafts: &mut [Draft]) {
-    let carries = |drafts: &[Draft], part: usize, classes: &[Class]| {
-        let mut carried = shape.children[part]
+/// A piece of the trunk, or a skirt, that carries legs but neither head nor arms is the hips.
+fn hips(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
+    let carries = |drafts: &[PartDraft], part: usize, classes: &[Class]| {
+        let mut carried = tree.children[part]
             .iter()
             .filter_map(|child| drafts[*child].class);
         carried.any(|class| classes.contains(&class))
@@ -334,14 +333,14 @@ fn hips(shape: &Shape<'_>, drafts: &mut [Draft]) {
         {
             let why = format!(
                 "`{}` carries the legs, so it is the hips",
-                shape.parts[part].name
+                tree.parts[part].name
             );
             drafts[part].set(Class::Hips, why);
         }
     }
 }
 
-/// A class with its article.
+/// The name of a class with its article.
 fn a(class: Class) -> String {
     match class {
         Class::Arm => "an arm".to_owned(),

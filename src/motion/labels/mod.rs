@@ -1,34 +1,34 @@
-//! What the joints of a skeleton and the parts of a figure are: head, arm, leg, which side, which piece of it.
+//! Labels for the joints of a skeleton and the parts of a figure: head, arm or leg, which side, which piece of it.
 //!
-//! Both are read by their names first, and where names say nothing by their shape: [`label_skeleton`] and [`label_figure`].
-//! Labels keep their reason. Every table of words is in `words`.
+//! Both are labelled by name first, and by shape where names say nothing: [`label_skeleton`] and [`label_figure`]. A label
+//! keeps the reason for it. All tables of words are in `words`.
 
 mod figure;
-mod names;
+mod joint_names;
+mod joint_tree;
+mod name_words;
+mod part_tree;
 mod pieces;
-mod place;
-mod roles;
-mod shape;
+mod placement;
 mod sides;
 mod skeleton;
 mod topology;
-mod tree;
 mod trunk;
-mod words;
+mod vocabulary;
 
 #[cfg(test)]
 pub(crate) mod tests;
 
 use glam::DVec3;
 
-use super::skeleton::{Placed, Skeleton};
+use super::skeleton::{Skeleton, Transform};
 
 pub(crate) use figure::label_facing;
 pub use figure::label_figure;
 pub use skeleton::{Anatomy, Limb, label_clip, label_skeleton};
 
+pub(crate) use joint_tree::JointTree;
 pub(crate) use skeleton::plain_names;
-pub(crate) use tree::Tree;
 
 /// What a joint or a part belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,7 +50,7 @@ pub enum Class {
 }
 
 impl Class {
-    /// What it is called.
+    /// Its name in messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Head => "head",
@@ -69,7 +69,7 @@ impl Class {
     }
 }
 
-/// A side as the figure or the actor has it, not as the viewer sees it.
+/// A side from the figure's or the actor's own point of view, not the viewer's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Side {
     /// Left.
@@ -82,7 +82,7 @@ impl Side {
     /// Both.
     pub const BOTH: [Self; 2] = [Self::Left, Self::Right];
 
-    /// The other one.
+    /// The opposite side.
     #[must_use]
     pub fn other(self) -> Self {
         match self {
@@ -91,7 +91,7 @@ impl Side {
         }
     }
 
-    /// What it is called.
+    /// Its name in messages.
     pub fn name(self) -> &'static str {
         match self {
             Self::Left => "left",
@@ -100,7 +100,7 @@ impl Side {
     }
 }
 
-/// The way that a figure faces.
+/// The direction that a figure faces.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Facing {
     /// Towards the viewer.
@@ -113,7 +113,7 @@ pub enum Facing {
 }
 
 impl Facing {
-    /// From a body's own axes (its left, up, its front) to the drawing's.
+    /// The rotation from a body's own axes (x its left, y up, z its front) to the drawing's.
     pub fn turn(self) -> glam::DQuat {
         match self {
             Self::Viewer => glam::DQuat::IDENTITY,
@@ -123,10 +123,10 @@ impl Facing {
     }
 }
 
-/// Which piece of a limb.
+/// A piece of a limb.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Piece {
-    /// The limb in one, without its hand or foot if that is a piece of its own.
+    /// The whole limb, without a hand or foot that is a piece of its own.
     Whole,
     /// The collar bone; only in skeletons.
     Collar,
@@ -136,12 +136,12 @@ pub enum Piece {
     Lower,
     /// Hand, foot.
     End,
-    /// What follows hand or foot: fingers, toes.
+    /// What follows the hand or foot: fingers, toes.
     Beyond,
 }
 
 impl Piece {
-    /// What it is called in something of this class.
+    /// Its name in messages, for a limb of this class.
     pub fn name(self, class: Class) -> &'static str {
         match (self, class) {
             (Self::Collar, Class::Arm) => "collar bone",
@@ -166,17 +166,17 @@ pub struct Label {
     pub class: Class,
     /// The side of a limb.
     pub side: Option<Side>,
-    /// Which piece of a limb it is; [`Piece::Whole`] for all else.
+    /// Which piece of a limb; [`Piece::Whole`] for everything else.
     pub piece: Piece,
-    /// Which of the limbs of its class and side: 0 is the hindmost or lowest. In a figure also which piece of the trunk, counted
-    /// from the hips, and of neck and tail, counted from the trunk.
+    /// Which limb of its class and side: 0 is the rearmost or lowest. In a figure also which piece of the trunk, counted from
+    /// the hips, and of neck and tail, counted from the trunk.
     pub pair: usize,
-    /// Why, for people to read: "`Rarm` is a right arm by its name".
+    /// The reason, for people to read: "`Rarm` is a right arm by its name".
     pub why: String,
 }
 
 impl Label {
-    /// What it is, in short: `right arm, upper`.
+    /// A short description: `right arm, upper`.
     pub fn describe(&self) -> String {
         let side = self.side.map_or("", Side::name);
         let space = if side.is_empty() { "" } else { " " };
@@ -197,9 +197,9 @@ impl Label {
 pub enum Tip {
     /// A joint.
     Joint(usize),
-    /// An end that is no joint.
+    /// The end of a bone that leads to no joint.
     End {
-        /// The joint that has it.
+        /// The joint that the bone begins at.
         joint: usize,
         /// Its index in [`Joint::ends`](super::skeleton::Joint::ends).
         end: usize,
@@ -207,8 +207,8 @@ pub enum Tip {
 }
 
 impl Tip {
-    /// Where it is in a pose of the skeleton.
-    pub(crate) fn place(self, skeleton: &Skeleton, pose: &[Placed]) -> DVec3 {
+    /// Its position in a pose of the skeleton.
+    pub(crate) fn place(self, skeleton: &Skeleton, pose: &[Transform]) -> DVec3 {
         match self {
             Self::Joint(joint) => pose[joint].position,
             Self::End { joint, end } => {

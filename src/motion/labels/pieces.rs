@@ -1,35 +1,35 @@
-//! Limbs of a figure, and which piece of them a part is.
+//! The limbs of a figure, and which piece of its limb each part is.
 
-use super::figure::Draft;
-use super::shape::Shape;
-use super::words::Term;
+use super::figure::PartDraft;
+use super::part_tree::PartTree;
+use super::vocabulary::Term;
 use super::{Class, Piece};
 
 /// A limb of a figure.
 #[derive(Debug)]
 pub(super) struct Limb {
     pub(super) class: Class,
-    /// Its parts, each behind the one that it hangs on, with the number of parts between it and the trunk.
+    /// Its parts, parents before children, each with the number of parts between it and the trunk.
     pub(super) parts: Vec<(usize, usize)>,
 }
 
 impl Limb {
-    /// The part that hangs on the trunk.
+    /// The part that is attached to the trunk.
     pub(super) fn root(&self) -> usize {
         self.parts[0].0
     }
 }
 
-/// The limbs of a figure, in its order. A part of the same class and no other side goes on with the limb that it hangs on.
-pub(super) fn limbs(shape: &Shape<'_>, drafts: &[Draft]) -> Vec<Limb> {
+/// The limbs of a figure, in its order. A part continues its parent's limb if it has the same class and no other side.
+pub(super) fn limbs(tree: &PartTree<'_>, drafts: &[PartDraft]) -> Vec<Limb> {
     let mut limbs: Vec<Limb> = Vec::new();
-    // Per part its limb and its place there.
+    // Per part its limb and its depth in it.
     let mut places: Vec<Option<(usize, usize)>> = vec![None; drafts.len()];
-    for part in shape.order.iter().copied() {
+    for part in tree.order.iter().copied() {
         let Some(class) = drafts[part].class.filter(|class| class.is_limb()) else {
             continue;
         };
-        let above = shape.parents[part].and_then(|parent| {
+        let above = tree.parents[part].and_then(|parent| {
             let same_side = drafts[part].side.is_none()
                 || drafts[part].side == drafts[parent].side
                 || drafts[parent].side.is_none();
@@ -51,9 +51,9 @@ pub(super) fn limbs(shape: &Shape<'_>, drafts: &[Draft]) -> Vec<Limb> {
     limbs
 }
 
-/// Says which piece each part of a limb is. Hands and feet by name stay what they are: arm and hand are the whole arm and a hand,
-/// not upper arm and forearm. A shoulder that carries an arm is the collar bone.
-pub(super) fn name(shape: &Shape<'_>, limbs: &[Limb], drafts: &mut [Draft]) {
+/// Sets which piece of its limb each part is. Parts that are hands or feet by name stay so: an arm with a hand is a whole arm
+/// and a hand, not an upper arm and a forearm. A shoulder that carries an arm is the collar bone.
+pub(super) fn name(tree: &PartTree<'_>, limbs: &[Limb], drafts: &mut [PartDraft]) {
     for limb in limbs {
         let root = limb.root();
         let arm = [Term::Arm, Term::UpperArm];
@@ -73,7 +73,7 @@ pub(super) fn name(shape: &Shape<'_>, limbs: &[Limb], drafts: &mut [Draft]) {
         let end = limb
             .parts
             .iter()
-            .filter(|(part, depth)| *depth > first && is_end(shape, drafts, *part))
+            .filter(|(part, depth)| *depth > first && is_end(tree, drafts, *part))
             .map(|(_, depth)| *depth)
             .min();
         for (part, depth) in &limb.parts {
@@ -98,10 +98,10 @@ fn piece(depth: usize, deepest: usize, end: Option<usize>) -> Piece {
     }
 }
 
-fn is_end(shape: &Shape<'_>, drafts: &[Draft], part: usize) -> bool {
+fn is_end(tree: &PartTree<'_>, drafts: &[PartDraft], part: usize) -> bool {
     let draft = &drafts[part];
     let on_a_leg = || {
-        shape.parents[part].is_some_and(|parent| {
+        tree.parents[part].is_some_and(|parent| {
             drafts[parent].says(&[Term::Leg, Term::Shin])
                 && !drafts[parent].says(&[Term::LegOrFoot])
         })

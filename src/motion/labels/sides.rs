@@ -1,34 +1,34 @@
-//! Left and right of a skeleton whose names do not tell them.
+//! Tells left from right in a skeleton whose names do not.
 
 use glam::DVec3;
 
 use super::Tip;
-use super::roles::Found;
-use super::tree::Tree;
-use crate::motion::skeleton::{Placed, Skeleton};
+use super::joint_names::LimbJoints;
+use super::joint_tree::JointTree;
+use crate::motion::skeleton::{Skeleton, Transform};
 
-/// A front shorter than this share of a leg tells nothing: so much comes from a trunk that is not quite upright.
+/// A front vector shorter than this share of a leg says nothing: a trunk that leans a little gives as much.
 const UNDECIDED: f64 = 0.03;
 
-/// What tells front from behind.
+/// What tells the front of a body from its back.
 #[derive(Debug)]
 pub(super) struct Sides<'a> {
     pub(super) skeleton: &'a Skeleton,
-    pub(super) tree: &'a Tree,
-    pub(super) arms: &'a [Found],
-    pub(super) legs: &'a [Found],
-    /// The joints at the lower and the upper end of the trunk.
+    pub(super) tree: &'a JointTree,
+    pub(super) arms: &'a [LimbJoints],
+    pub(super) legs: &'a [LimbJoints],
+    /// The joints at the lower and upper end of the trunk.
     pub(super) trunk: [usize; 2],
 }
 
 impl Sides<'_> {
-    /// Whether the first of two mirrored limbs, told by a joint of each, is the left one.
+    /// Whether the first of two mirrored limbs, each given by one of its joints, is the left one.
     ///
-    /// Up runs from the feet to the trunk, front is where the feet point, where the knees bend to and, half as much, where the
-    /// elbows bend from; left is up × front. Each pose has a vote of the strength of its front. Where nothing tells, left is +x,
-    /// as most BVH files have it.
-    pub(super) fn first_is_left(&self, pair: [usize; 2], poses: &[Vec<Placed>]) -> bool {
-        let across = |pose: &[Placed]| pose[pair[0]].position - pose[pair[1]].position;
+    /// Up points from the feet to the trunk. Front is where the feet point and the knees bend to, and, with half the weight,
+    /// opposite to where the elbows bend. Left is up × front. Each pose votes with the length of its front vector. Without any
+    /// vote left is +x, as in most BVH files.
+    pub(super) fn first_is_left(&self, pair: [usize; 2], poses: &[Vec<Transform>]) -> bool {
+        let across = |pose: &[Transform]| pose[pair[0]].position - pose[pair[1]].position;
         let votes: f64 = poses
             .iter()
             .map(|pose| {
@@ -50,7 +50,7 @@ impl Sides<'_> {
         to_the_left.filter(|x| x.is_finite()).sum::<f64>() >= 0.0
     }
 
-    fn up(&self, pose: &[Placed]) -> DVec3 {
+    fn up(&self, pose: &[Transform]) -> DVec3 {
         let feet: Vec<DVec3> = self
             .legs
             .iter()
@@ -64,7 +64,7 @@ impl Sides<'_> {
         (pose[self.trunk[1]].position - low).normalize_or_zero()
     }
 
-    fn front(&self, pose: &[Placed], up: DVec3) -> DVec3 {
+    fn front(&self, pose: &[Transform], up: DVec3) -> DVec3 {
         let mut front = DVec3::ZERO;
         for leg in self.legs {
             front += self.foot(leg, pose).unwrap_or_default() + bend(leg, pose);
@@ -75,8 +75,8 @@ impl Sides<'_> {
         front - up * front.dot(up)
     }
 
-    /// The foot up to the toes' end as a vector, in lengths of its leg.
-    fn foot(&self, leg: &Found, pose: &[Placed]) -> Option<DVec3> {
+    /// The vector from the ankle to the end of the toes, in leg lengths.
+    fn foot(&self, leg: &LimbJoints, pose: &[Transform]) -> Option<DVec3> {
         let [hip, ankle] = [leg.upper?, leg.end?];
         let last = self.tree.chain(ankle).last()?;
         let toes = self.tree.own_end(last).unwrap_or(Tip::Joint(last));
@@ -87,8 +87,8 @@ impl Sides<'_> {
     }
 }
 
-/// How far the middle joint of a limb stands off the line from its first to its last, in lengths of that line.
-fn bend(limb: &Found, pose: &[Placed]) -> DVec3 {
+/// The offset of a limb's middle joint from the line between its ends, in lengths of that line.
+fn bend(limb: &LimbJoints, pose: &[Transform]) -> DVec3 {
     let (Some(upper), Some(lower), Some(end)) = (limb.upper, limb.lower, limb.end) else {
         return DVec3::ZERO;
     };

@@ -1,41 +1,39 @@
-//! The joints of a skeleton, labelled: by their names, and where those fail by the skeleton's shape.
+//! Labels the joints of a skeleton: by name, and where names fail by the skeleton's shape.
 
-use glam::DQuat;
-
-use super::roles::{self, Found, Named};
+use super::joint_names::{self, JointName, LimbJoints};
+use super::joint_tree::JointTree;
 use super::sides::Sides;
 use super::topology;
-use super::tree::Tree;
 use super::trunk;
-use super::words::Term;
-use super::{Class, Label, Piece, Side, Tip, names, words};
-use crate::motion::skeleton::{Clip, Joint, Placed, Skeleton};
+use super::vocabulary::Term;
+use super::{Class, Label, Piece, Side, Tip, name_words, vocabulary};
+use crate::motion::skeleton::{Clip, Skeleton, Transform};
 
-/// Frames of a clip that are looked at where the shape has to tell left from right.
+/// How many frames of a clip are used where its shape has to tell left from right.
 const FRAMES: usize = 32;
 
 /// What the joints of a skeleton are.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Anatomy {
-    /// Per joint what it is; nothing for helpers, fingers and faces.
+    /// Per joint its label; `None` for helpers, fingers and faces.
     pub labels: Vec<Option<Label>>,
-    /// The limbs: left arm, right arm, left leg, right leg, as far as there are.
+    /// The limbs that were found: left arm, right arm, left leg, right leg.
     pub limbs: Vec<Limb>,
     /// The joint that carries the legs.
     pub hips: Option<usize>,
-    /// The joints of the trunk from above the hips up to the chest, which carries the arms. Empty in a skeleton that has arms and
-    /// legs on one joint.
+    /// The joints of the trunk, from above the hips up to the chest, which carries the arms. Empty if arms and legs are
+    /// attached to the same joint.
     pub spine: Vec<usize>,
-    /// The joints of the neck, from below.
+    /// The joints of the neck, bottom up.
     pub neck: Vec<usize>,
     /// The head's joint.
     pub head: Option<usize>,
-    /// The joints of the tail, from the trunk.
+    /// The joints of the tail, starting at the trunk.
     pub tail: Vec<usize>,
 }
 
 impl Anatomy {
-    /// The joint that carries the arms: the last of the spine, else the hips.
+    /// The joint that carries the arms: the last one of the spine, else the hips.
     pub fn chest(&self) -> Option<usize> {
         self.spine.last().copied().or(self.hips)
     }
@@ -55,7 +53,7 @@ pub struct Limb {
     pub class: Class,
     /// Its side.
     pub side: Side,
-    /// Where the collar bone begins, or what carries the thigh.
+    /// Where the collar bone begins, or the bone that carries the thigh.
     pub collar: Option<usize>,
     /// The shoulder or hip: where upper arm or thigh begins.
     pub upper: usize,
@@ -65,80 +63,43 @@ pub struct Limb {
     pub end: Option<usize>,
     /// The joint of the toes.
     pub toe: Option<usize>,
-    /// The far end of its last bone: of hand or foot, else of what there is.
+    /// The far end of its last bone: the hand or foot, or the last piece that exists.
     pub tip: Option<Tip>,
 }
 
-/// Labels the joints of a skeleton. Where the names do not tell left from right, its offset pose has to.
+/// Labels the joints of a skeleton. If names do not tell left from right, its offset pose does.
 pub fn label_skeleton(skeleton: &Skeleton) -> Anatomy {
-    anatomy(skeleton, || {
-        vec![offset_pose(&Tree::new(skeleton), skeleton)]
-    })
+    anatomy(skeleton, || vec![skeleton.offset_pose()])
 }
 
-/// Labels the joints of a clip's skeleton. Where the names do not tell left from right, its offset pose and frames have to, at
-/// most 32 of them evenly chosen.
+/// Labels the joints of a clip's skeleton. If names do not tell left from right, its offset pose and up to 32 evenly spaced
+/// frames do.
 pub fn label_clip(clip: &Clip) -> Anatomy {
     let skeleton = &*clip.skeleton;
-    let tree = Tree::new(skeleton);
     anatomy(skeleton, || {
-        let mut poses = vec![offset_pose(&tree, skeleton)];
+        let mut poses = vec![skeleton.offset_pose()];
         let count = clip.frames().min(FRAMES);
-        poses
-            .extend((0..count).map(|index| frame_pose(&tree, clip, index * clip.frames() / count)));
+        poses.extend((0..count).map(|index| clip.pose(index * clip.frames() / count)));
         poses
     })
 }
 
-/// The joints' names without the prefixes that most of them share.
+/// The joint names without the prefixes that most of them share.
 pub(crate) fn plain_names(skeleton: &Skeleton) -> Vec<&str> {
     let names: Vec<&str> = skeleton
         .joints
         .iter()
         .map(|joint| joint.name.as_str())
         .collect();
-    names::without_prefixes(&names, |prefix| !words::terms(prefix).is_empty())
+    name_words::without_prefixes(&names, |prefix| !vocabulary::terms(prefix).is_empty())
 }
 
-fn offset_pose(tree: &Tree, skeleton: &Skeleton) -> Vec<Placed> {
-    let local = |joint: &Joint| Placed {
-        rotation: DQuat::IDENTITY,
-        position: joint.offset,
-    };
-    placed(tree, skeleton.joints.iter().map(local))
-}
-
-fn frame_pose(tree: &Tree, clip: &Clip, frame: usize) -> Vec<Placed> {
-    let mut numbers = clip.row(frame);
-    let locals = clip.skeleton.joints.iter().map(|joint| {
-        let (own, rest) = numbers.split_at(joint.channels.len());
-        numbers = rest;
-        Clip::local(joint, own)
-    });
-    placed(tree, locals)
-}
-
-/// Where joints are in the world that stand so in their parents' frames.
-fn placed(tree: &Tree, locals: impl Iterator<Item = Placed>) -> Vec<Placed> {
-    let mut pose: Vec<Placed> = Vec::with_capacity(tree.len());
-    for (local, parent) in locals.zip(&tree.parents) {
-        pose.push(match parent.map(|parent| pose[parent]) {
-            Some(parent) => Placed {
-                rotation: parent.rotation * local.rotation,
-                position: parent.rotation * local.position + parent.position,
-            },
-            None => local,
-        });
-    }
-    pose
-}
-
-fn anatomy(skeleton: &Skeleton, poses: impl FnOnce() -> Vec<Vec<Placed>>) -> Anatomy {
-    let tree = Tree::new(skeleton);
+fn anatomy(skeleton: &Skeleton, poses: impl FnOnce() -> Vec<Vec<Transform>>) -> Anatomy {
+    let tree = JointTree::new(skeleton);
     if tree.len() == 0 {
         return Anatomy::default();
     }
-    let named = roles::named(skeleton);
+    let named = joint_names::named(skeleton);
     let limbs = limbs(skeleton, &tree, &named, poses);
     let mut anatomy = Anatomy {
         labels: vec![None; tree.len()],
@@ -147,7 +108,7 @@ fn anatomy(skeleton: &Skeleton, poses: impl FnOnce() -> Vec<Vec<Placed>>) -> Ana
     };
     trunk::fill(&tree, &named, &mut anatomy);
     anatomy.tail = (0..tree.len())
-        .filter(|joint| named[*joint] == Some(Named::Tail))
+        .filter(|joint| named[*joint] == Some(JointName::Tail))
         .collect();
     write_labels(skeleton, &named, &limbs, &mut anatomy);
     anatomy
@@ -157,15 +118,15 @@ fn anatomy(skeleton: &Skeleton, poses: impl FnOnce() -> Vec<Vec<Placed>>) -> Ana
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Source {
     Name,
-    Shape,
+    PartTree,
 }
 
-/// The limbs, by name; a class of which no name tells any, by shape.
+/// The limbs, by name; if no name tells any of a class, by shape.
 fn limbs(
     skeleton: &Skeleton,
-    tree: &Tree,
-    named: &[Option<Named>],
-    poses: impl FnOnce() -> Vec<Vec<Placed>>,
+    tree: &JointTree,
+    named: &[Option<JointName>],
+    poses: impl FnOnce() -> Vec<Vec<Transform>>,
 ) -> Vec<(Limb, Source)> {
     let names: Vec<&str> = skeleton
         .joints
@@ -173,9 +134,9 @@ fn limbs(
         .map(|joint| joint.name.as_str())
         .collect();
     let by_name =
-        |class: Class| Side::BOTH.map(|side| roles::limb(tree, &names, named, class, side));
+        |class: Class| Side::BOTH.map(|side| joint_names::limb(tree, &names, named, class, side));
     let [arms, legs] = [Class::Arm, Class::Leg].map(by_name);
-    let has = |pair: &[Option<Found>; 2]| pair.iter().any(Option::is_some);
+    let has = |pair: &[Option<LimbJoints>; 2]| pair.iter().any(Option::is_some);
     let mut found = vec![
         (Class::Arm, arms, Source::Name),
         (Class::Leg, legs, Source::Name),
@@ -188,7 +149,7 @@ fn limbs(
             .flatten()
             .filter_map(|limb| limb.upper)
             .collect();
-        // A pair that names have told already is not the other class as well.
+        // A pair that names have already assigned is not the other class as well.
         let free = |pair: &[usize; 2]| {
             !pair.iter().any(|start| {
                 known
@@ -204,7 +165,7 @@ fn limbs(
         let pairs = sides_of_pairs(skeleton, tree, [arm_pair, leg_pair], &poses());
         for (slot, pair) in found.iter_mut().zip(pairs) {
             if let Some(pair) = pair {
-                (slot.1, slot.2) = (pair.map(Some), Source::Shape);
+                (slot.1, slot.2) = (pair.map(Some), Source::PartTree);
             }
         }
     }
@@ -224,10 +185,10 @@ fn limbs(
 /// Pairs of chains as limbs, the left one first.
 fn sides_of_pairs(
     skeleton: &Skeleton,
-    tree: &Tree,
+    tree: &JointTree,
     pairs: [Option<[usize; 2]>; 2],
-    poses: &[Vec<Placed>],
-) -> [Option<[Found; 2]>; 2] {
+    poses: &[Vec<Transform>],
+) -> [Option<[LimbJoints; 2]>; 2] {
     let found = pairs.map(|pair| pair.map(|pair| pair.map(|start| topology::pieces(tree, start))));
     let [arms, legs] = found.map(|pair| pair.map_or(Vec::new(), Vec::from));
     let branch = |limbs: Option<[usize; 2]>| limbs.and_then(|[start, _]| tree.parents[start]);
@@ -252,17 +213,17 @@ fn sides_of_pairs(
     sorted
 }
 
-/// A limb with all its joints: those that no name tells, by shape.
+/// Completes a limb: joints that no name tells are found by shape.
 fn completed(
     skeleton: &Skeleton,
-    tree: &Tree,
-    named: &[Option<Named>],
+    tree: &JointTree,
+    named: &[Option<JointName>],
     class: Class,
     side: Side,
-    found: Found,
+    found: LimbJoints,
 ) -> Option<Limb> {
     let upper = found.upper?;
-    let useful = |joint: &usize| named[*joint] != Some(Named::Helper);
+    let useful = |joint: &usize| named[*joint] != Some(JointName::Helper);
     let (mut lower, mut end) = (found.lower, found.end);
     if lower.is_none() {
         match end {
@@ -304,19 +265,19 @@ fn completed(
     })
 }
 
-/// The joint of the middle finger: a hand points to it.
-fn middle_finger(skeleton: &Skeleton, tree: &Tree, hand: usize) -> Option<usize> {
+/// The joint of the middle finger, which a hand points to.
+fn middle_finger(skeleton: &Skeleton, tree: &JointTree, hand: usize) -> Option<usize> {
     let name = |joint: usize| skeleton.joints[joint].name.as_str();
     tree.children[hand]
         .iter()
         .copied()
         .filter(|joint| tree.bones[*joint] > 0.0 && !name(*joint).starts_with("__"))
-        .find(|joint| words::terms(name(*joint)).contains(&Term::Middle))
+        .find(|joint| vocabulary::terms(name(*joint)).contains(&Term::Middle))
 }
 
 fn write_labels(
     skeleton: &Skeleton,
-    named: &[Option<Named>],
+    named: &[Option<JointName>],
     limbs: &[(Limb, Source)],
     anatomy: &mut Anatomy,
 ) {
@@ -333,7 +294,7 @@ fn write_labels(
         });
     };
     let by = |joint: usize| match named[joint] {
-        Some(Named::Helper | Named::Limb(..)) | None => "by where it hangs",
+        Some(JointName::Helper | JointName::Limb(..)) | None => "by its place in the skeleton",
         Some(_) => "by its name",
     };
     for joint in &anatomy.tail {
@@ -361,9 +322,9 @@ fn write_labels(
         for (joint, piece) in pieces {
             if let Some(joint) = joint {
                 let why = match (source, named[joint]) {
-                    (Source::Name, Some(Named::Limb(..))) => "by its name",
-                    (Source::Name, _) => "by where it hangs",
-                    (Source::Shape, _) => "by the skeleton's shape: its names do not tell",
+                    (Source::Name, Some(JointName::Limb(..))) => "by its name",
+                    (Source::Name, _) => "by its place in the skeleton",
+                    (Source::PartTree, _) => "by the skeleton's shape: its names do not tell",
                 };
                 put(joint, limb.class, Some(limb.side), piece, why);
             }

@@ -1,19 +1,20 @@
-//! Limbs of a skeleton by its shape: the two longest mirrored pairs of chains.
+//! Finds the limbs of a skeleton by its shape: the two longest mirrored pairs of chains.
 
-use super::roles::Found;
-use super::tree::Tree;
+use super::joint_names::LimbJoints;
+use super::joint_tree::JointTree;
 
-/// Two chains are mirrored when the lengths of their bones differ by at most this share of the chain, all in all.
+/// Two chains are mirrored if the lengths of their bones differ by at most this share of the chain, summed up.
 const MIRRORED: f64 = 0.1;
-/// Bones of a chain that are compared, from the trunk: those beyond are fingers and toes, where the longest may differ by chance.
+/// How many bones of a chain are compared, from the trunk outward: those beyond are fingers and toes, where the longest may
+/// differ by chance.
 const COMPARED: usize = 4;
-/// Chains of nearly one length that a chain is compared with; bounds the work at a joint with very many branches.
+/// How many chains of similar length a chain is compared with; bounds the work at joints with very many branches.
 const NEIGHBOURS: usize = 8;
-/// Joints of a chain that are looked at. No limb has so many; a thread of thousands is none.
+/// The most joints of a chain. No limb has so many; a longer thread is not one.
 const MAX_CHAIN: usize = 64;
-/// Bones shorter than this share of their chain only move a joint elsewhere.
+/// Bones shorter than this share of their chain are only offsets.
 const SHORT: f64 = 0.02;
-/// A single pair that branches at most so many joints below the root is the legs.
+/// A single pair that branches off at most this many joints below the root is the legs.
 const LEGS_DEPTH: usize = 1;
 
 /// Two mirrored chains.
@@ -23,7 +24,7 @@ pub(super) struct Pair {
     branch: usize,
     /// The first joint of each.
     starts: [usize; 2],
-    /// Length of the shorter.
+    /// The length of the shorter one.
     length: f64,
 }
 
@@ -34,9 +35,9 @@ pub(super) struct Limbs {
     pub(super) legs: Option<[usize; 2]>,
 }
 
-/// The two longest mirrored pairs of chains; that which branches nearer the root is the legs, the longer one of two that branch
-/// equally near.
-pub(super) fn limbs(tree: &Tree) -> Limbs {
+/// The two longest mirrored pairs of chains. The pair that branches off nearer to the root is the legs; of two at the same
+/// depth, the longer one.
+pub(super) fn limbs(tree: &JointTree) -> Limbs {
     let mut pairs: Vec<Pair> = (0..tree.len())
         .flat_map(|joint| pairs_at(tree, joint))
         .collect();
@@ -72,8 +73,9 @@ pub(super) fn limbs(tree: &Tree) -> Limbs {
     }
 }
 
-/// The mirrored pairs that branch at a joint, each child in one at most; the two longest, since there are no more limbs.
-fn pairs_at(tree: &Tree, branch: usize) -> Vec<Pair> {
+/// The mirrored pairs that branch off at a joint, each child in at most one; only the two longest, since there are no more
+/// limbs.
+fn pairs_at(tree: &JointTree, branch: usize) -> Vec<Pair> {
     let mut children = tree.children[branch].clone();
     children.retain(|child| tree.reaches[*child] > 0.0);
     children.sort_by(|a, b| tree.reaches[*b].total_cmp(&tree.reaches[*a]).then(a.cmp(b)));
@@ -100,7 +102,7 @@ fn pairs_at(tree: &Tree, branch: usize) -> Vec<Pair> {
     pairs
 }
 
-fn mirrored(tree: &Tree, a: usize, b: usize) -> bool {
+fn mirrored(tree: &JointTree, a: usize, b: usize) -> bool {
     let longer = tree.reaches[a].max(tree.reaches[b]);
     let allowed = MIRRORED * longer;
     let [small, large] = {
@@ -122,8 +124,8 @@ fn mirrored(tree: &Tree, a: usize, b: usize) -> bool {
     a.len().min(COMPARED) == b.len().min(COMPARED) && differences.sum::<f64>() <= allowed
 }
 
-/// Whether no chain of a pair hangs on a chain of the other, so that both can be limbs.
-fn apart(tree: &Tree, a: &Pair, b: &Pair) -> bool {
+/// Whether neither pair is attached to a chain of the other, so that both can be limbs.
+fn apart(tree: &JointTree, a: &Pair, b: &Pair) -> bool {
     let on = |inner: &Pair, outer: &Pair| {
         outer.starts.iter().any(|start| {
             tree.is_below(inner.branch, *start) || inner.starts.iter().any(|inner| inner == start)
@@ -132,16 +134,17 @@ fn apart(tree: &Tree, a: &Pair, b: &Pair) -> bool {
     !on(a, b) && !on(b, a)
 }
 
-/// A bone of a chain: where it begins and how long it is.
+/// A bone of a chain: its first joint and its length.
 #[derive(Debug, Clone, Copy)]
 struct Bone {
     joint: usize,
     length: f64,
 }
 
-/// The bones of the longest chain that begins at a joint. Where a short bone stands before a long one they are one, that begins
-/// where the short one does; at the chain's start, where the long one does. Nothing for a chain of too many joints.
-fn bones(tree: &Tree, start: usize) -> Option<Vec<Bone>> {
+/// The bones of the longest chain that begins at a joint. A short bone is merged with the long one that follows it: the result
+/// begins where the short one does, except at the start of the chain, where it begins where the long one does. `None` for a
+/// chain of too many joints.
+fn bones(tree: &JointTree, start: usize) -> Option<Vec<Bone>> {
     let short = SHORT * tree.reaches[start];
     let chain: Vec<usize> = tree.chain(start).take(MAX_CHAIN + 1).collect();
     if chain.len() > MAX_CHAIN {
@@ -165,11 +168,11 @@ fn bones(tree: &Tree, start: usize) -> Option<Vec<Bone>> {
     Some(bones)
 }
 
-/// Which bone is which on the chain that begins at a joint: upper and lower are the two neighbours that are longest together.
-/// What begins before them is a collar bone.
-pub(super) fn pieces(tree: &Tree, start: usize) -> Found {
+/// Assigns the bones of the chain that begins at a joint: upper and lower are the two neighbours with the greatest total
+/// length. A bone before them is a collar bone.
+pub(super) fn pieces(tree: &JointTree, start: usize) -> LimbJoints {
     let Some(bones) = bones(tree, start) else {
-        return Found::default();
+        return LimbJoints::default();
     };
     let upper = (1..bones.len())
         .max_by(|a, b| {
@@ -179,11 +182,11 @@ pub(super) fn pieces(tree: &Tree, start: usize) -> Found {
         })
         .map_or(0, |index| index - 1);
     let joint = |index: usize| bones.get(index).map(|bone| bone.joint);
-    Found {
+    LimbJoints {
         collar: (upper > 0).then(|| bones[upper - 1].joint),
         upper: joint(upper),
         lower: joint(upper + 1),
-        // A limb that ends in a joint without an end bone has its hand there.
+        // A limb that ends in a joint without an end site has its hand there.
         end: joint(upper + 2).or_else(|| {
             let last = tree.chain(start).take(MAX_CHAIN).last()?;
             (joint(upper + 1)? != last).then_some(last)

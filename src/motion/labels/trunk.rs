@@ -1,28 +1,28 @@
-//! Hips, spine, neck and head of a skeleton whose limbs are known.
+//! Finds hips, spine, neck and head of a skeleton whose limbs are known.
 
 use super::Class;
-use super::roles::Named;
+use super::joint_names::JointName;
+use super::joint_tree::JointTree;
 use super::skeleton::{Anatomy, Limb};
-use super::tree::Tree;
 
-/// Joints of a neck that no name tells; longer chains are hair or a trunk.
+/// The most joints of an unnamed neck; longer chains are hair or a trunk.
 const MAX_NECK: usize = 16;
 
 /// Finds hips, spine, neck and head.
-pub(super) fn fill(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy) {
+pub(super) fn fill(tree: &JointTree, named: &[Option<JointName>], anatomy: &mut Anatomy) {
     let hips = hips(tree, named, anatomy);
     anatomy.hips = Some(hips);
-    let head_by_name = first(tree, named, Named::Head);
+    let head_by_name = first(tree, named, JointName::Head);
     let chest = chest(tree, named, anatomy, head_by_name);
     if let Some(chest) = chest.filter(|chest| *chest != hips) {
         let top = tree.common([hips, chest]);
         anatomy.spine = tree
             .upward(chest)
             .take_while(|joint| Some(*joint) != top)
-            .filter(|joint| *joint == chest || named[*joint] != Some(Named::Helper))
+            .filter(|joint| *joint == chest || named[*joint] != Some(JointName::Helper))
             .collect();
         anatomy.spine.reverse();
-        // The chest is above the hips in the tree where the file hangs the hips on it.
+        // In files that attach the hips to the chest, the chest is above the hips in the tree.
         if anatomy.spine.is_empty() {
             anatomy.spine.push(chest);
         }
@@ -32,12 +32,12 @@ pub(super) fn fill(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy) 
             let trunk = |joint: &usize| *joint == hips || anatomy.spine.contains(joint);
             let below = tree.upward(head).skip(1).take_while(|joint| !trunk(joint));
             let mut neck: Vec<usize> = below
-                .filter(|joint| !matches!(named[*joint], Some(Named::Helper | Named::Head)))
+                .filter(|joint| !matches!(named[*joint], Some(JointName::Helper | JointName::Head)))
                 .take(MAX_NECK)
                 .collect();
             neck.reverse();
             let on_trunk = tree.upward(head).any(|joint| trunk(&joint));
-            neck.retain(|joint| on_trunk || named[*joint] == Some(Named::Neck));
+            neck.retain(|joint| on_trunk || named[*joint] == Some(JointName::Neck));
             anatomy.neck = neck;
             anatomy.head = Some(head);
         }
@@ -46,7 +46,7 @@ pub(super) fn fill(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy) 
 }
 
 /// The joint of a name that is nearest to the root.
-fn first(tree: &Tree, named: &[Option<Named>], wanted: Named) -> Option<usize> {
+fn first(tree: &JointTree, named: &[Option<JointName>], wanted: JointName) -> Option<usize> {
     (0..tree.len())
         .filter(|joint| named[*joint] == Some(wanted))
         .min_by_key(|joint| (tree.depths[*joint], *joint))
@@ -59,56 +59,56 @@ fn roots<'a>(anatomy: &'a Anatomy, class: Class) -> impl Iterator<Item = usize> 
 }
 
 /// The joint that carries all limbs of a class.
-fn carrier(tree: &Tree, anatomy: &Anatomy, class: Class) -> Option<usize> {
+fn carrier(tree: &JointTree, anatomy: &Anatomy, class: Class) -> Option<usize> {
     tree.common(roots(anatomy, class).filter_map(|root| tree.parents[root]))
 }
 
-fn hips(tree: &Tree, named: &[Option<Named>], anatomy: &Anatomy) -> usize {
+fn hips(tree: &JointTree, named: &[Option<JointName>], anatomy: &Anatomy) -> usize {
     let carrier = carrier(tree, anatomy, Class::Leg);
     let above_legs = carrier.and_then(|carrier| {
         tree.upward(carrier)
-            .find(|joint| named[*joint] == Some(Named::Hips))
+            .find(|joint| named[*joint] == Some(JointName::Hips))
     });
     above_legs
         .or(carrier)
-        .or_else(|| first(tree, named, Named::Hips))
+        .or_else(|| first(tree, named, JointName::Hips))
         .unwrap_or(0)
 }
 
 fn chest(
-    tree: &Tree,
-    named: &[Option<Named>],
+    tree: &JointTree,
+    named: &[Option<JointName>],
     anatomy: &Anatomy,
     head: Option<usize>,
 ) -> Option<usize> {
     let last_spine = || {
         (0..tree.len())
-            .filter(|joint| named[*joint] == Some(Named::Spine))
+            .filter(|joint| named[*joint] == Some(JointName::Spine))
             .max_by_key(|joint| (tree.depths[*joint], std::cmp::Reverse(*joint)))
     };
     let carrier = carrier(tree, anatomy, Class::Arm)
         .or_else(|| tree.parents[head?])
-        .or_else(|| tree.parents[first(tree, named, Named::Neck)?])
+        .or_else(|| tree.parents[first(tree, named, JointName::Neck)?])
         .or_else(last_spine)?;
-    // Some files hang the collar bones on the neck, or on helpers.
+    // Some files attach the collar bones to the neck, or to helpers.
     tree.upward(carrier).find(|joint| {
         !matches!(
             named[*joint],
-            Some(Named::Neck | Named::Head | Named::Helper | Named::Limb(..))
+            Some(JointName::Neck | JointName::Head | JointName::Helper | JointName::Limb(..))
         )
     })
 }
 
-/// Neck and head without a name for the head: the longest chain that the chest carries beside the limbs, up to where it branches
-/// or ends.
-fn by_shape(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy, hips: usize) {
+/// Finds neck and head if no name tells the head: the longest chain at the chest that is not a limb, up to where it branches or
+/// ends.
+fn by_shape(tree: &JointTree, named: &[Option<JointName>], anatomy: &mut Anatomy, hips: usize) {
     let mut carries = vec![false; tree.len()];
     for limb in &anatomy.limbs {
         for joint in tree.upward(limb.upper) {
             carries[joint] = true;
         }
     }
-    let neck_by_name = first(tree, named, Named::Neck);
+    let neck_by_name = first(tree, named, JointName::Neck);
     let carrier = anatomy.spine.last().copied().unwrap_or(hips);
     let start = neck_by_name.or_else(|| {
         tree.children[carrier]
@@ -136,7 +136,7 @@ fn by_shape(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy, hips: u
         let (Some(next), None) = (next.next(), next.next()) else {
             break;
         };
-        // Where ends are written, a joint without is itself the end of the head.
+        // In files with end sites, a joint without one is itself the end of the head.
         let bare = tree.reaches[*next] <= 0.0 && tree.children[*next].is_empty();
         if bare && named[*next].is_none() && tree.has_ends() {
             break;
@@ -144,7 +144,7 @@ fn by_shape(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy, hips: u
         chain.push(*next);
         last = *next;
     }
-    if named[last] != Some(Named::Neck) {
+    if named[last] != Some(JointName::Neck) {
         chain.pop();
         anatomy.head = Some(last);
     }
@@ -159,6 +159,9 @@ fn by_shape(tree: &Tree, named: &[Option<Named>], anatomy: &mut Anatomy, hips: u
     }
 }
 
-fn usable(named: Option<Named>) -> bool {
-    !matches!(named, Some(Named::Helper | Named::Limb(..) | Named::Tail))
+fn usable(named: Option<JointName>) -> bool {
+    !matches!(
+        named,
+        Some(JointName::Helper | JointName::Limb(..) | JointName::Tail)
+    )
 }

@@ -3,47 +3,53 @@
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
-/// Points that a thread takes at once.
+/// Points that a thread processes at once.
 const GRAIN: usize = 4096;
-/// The least depth of a point, as a share of the camera's distance: what is nearer, or behind the camera, is taken as this near.
+/// The least depth of a point, as a share of the camera's distance; points nearer to the camera, or behind it, are moved to
+/// this depth.
 const NEAREST: f64 = 0.01;
 
-/// A camera that looks at the middle of a motion.
+/// A camera that looks at the centre of a motion.
 ///
 /// Axes: x to the right, y up, z towards a camera of yaw 0 and pitch 0, which looks along −z.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Camera {
-    /// How far it goes round the motion about y, degrees: at 90 it stands on the side of +x and looks along −x.
+    /// Its angle around the motion about y, degrees: at 90 it stands on the side of +x and looks along −x.
     pub yaw: f64,
-    /// How far it is raised, degrees: at 90 it looks straight down.
+    /// Its elevation, degrees: at 90 it looks straight down.
     pub pitch: f64,
-    /// How far it is from the middle of the motion, in the positions' unit; none for an orthographic picture.
+    /// Its distance from the centre of the motion, in the positions' unit; `None` for an orthographic picture.
     pub distance: Option<f64>,
 }
 
 impl Camera {
-    /// The positions in the camera's picture: x to the right, y up, z = 0, from the middle of the motion (of the box of all finite
-    /// positions). Lengths at that depth stay as they are; in perspective, what is twice as far is half as large. A distance that
-    /// is not a positive number is none, an angle that is no number is 0.
-    pub fn seen(&self, positions: &[DVec3]) -> Vec<DVec3> {
+    /// The positions in the camera's picture: x to the right, y up, z = 0, relative to the centre of the motion (of the
+    /// bounding box of all finite positions). Lengths at the depth of the centre keep their size; in perspective, an object
+    /// twice as far away appears half as large. A distance that is not a positive number counts as `None`, an angle that is not
+    /// finite as 0.
+    pub fn project(&self, positions: &[DVec3]) -> Vec<DVec3> {
         let [yaw, pitch] = [self.yaw, self.pitch].map(|angle| match angle.is_finite() {
             true => (angle % 360.0).to_radians(),
             false => 0.0,
         });
-        // The camera's turn taken back: about y first, then about the picture's x.
+        // The camera's rotation undone: about y first, then about the picture's x.
         let turn = DMat3::from_rotation_x(pitch) * DMat3::from_rotation_y(-yaw);
         let middle = middle(positions);
         let distance = self
             .distance
             .filter(|distance| *distance > 0.0 && distance.is_finite());
-        let seen = |position: &DVec3| {
+        let project = |position: &DVec3| {
             let point = turn * (*position - middle);
             let scale = distance.map_or(1.0, |distance| {
                 distance / (distance - point.z).max(distance * NEAREST)
             });
             DVec3::new(point.x * scale, point.y * scale, 0.0)
         };
-        positions.par_iter().with_min_len(GRAIN).map(seen).collect()
+        positions
+            .par_iter()
+            .with_min_len(GRAIN)
+            .map(project)
+            .collect()
     }
 }
 
@@ -53,7 +59,7 @@ fn middle(positions: &[DVec3]) -> DVec3 {
         let [low, high] = corners.unwrap_or([*position; 2]);
         Some([low.min(*position), high.max(*position)])
     });
-    // Halved first, since the sum might be infinite.
+    // Halved first, because the sum might be infinite.
     corners.map_or(DVec3::ZERO, |[low, high]: [DVec3; 2]| {
         low * 0.5 + high * 0.5
     })

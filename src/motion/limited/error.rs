@@ -1,42 +1,42 @@
-//! How far a cut motion is from its source.
+//! The error of a thinned-out motion against its source.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::drawings::{LONGEST, drawings};
+use super::drawings::{MAX_HOLD, drawings};
 use super::exposure::{Exposure, every};
 use super::ssd::Frames;
 
-/// Frames that are added up by themselves, so that the sum does not depend on the number of threads.
+/// Frames that are summed separately, so that the sum does not depend on the number of threads.
 const GRAIN: usize = 1024;
 
-/// How a motion was cut.
+/// A way to thin out a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
-    /// As asked.
+    /// The requested way.
     Asked,
-    /// On twos: each second frame.
+    /// On twos: every second frame.
     Twos,
-    /// On threes: each third frame.
+    /// On threes: every third frame.
     Threes,
-    /// The best drawings, as many as asked for.
+    /// The best drawings, as many as the requested way has.
     Best,
 }
 
-/// How far a cut motion is from its source.
+/// The error of a thinned-out motion against its source.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Error {
-    /// How many drawings there are.
+    /// The number of drawings.
     pub drawings: usize,
-    /// The root of the mean square of the joints' distances, over all joints and frames, in the positions' unit.
+    /// The root mean square of the joints' distances, over all joints and frames, in the positions' unit.
     pub rms: f64,
-    /// The same in percent of the figure's height; none where that is not a positive number.
+    /// The same in percent of the figure's height; `None` if that is not a positive number.
     pub percent: Option<f64>,
 }
 
-/// How far what is shown is from the source at the same time: each shown frame is compared with the source frame of the same
-/// number. `positions` are `frames × joints`; of a shortened clip only as many frames as it has are compared. What an exposure
-/// shows that the source does not have is left out. `height` is the figure's, in the positions' unit.
+/// The error of what is shown against the source at the same time: each shown frame is compared with the source frame of the
+/// same number. `positions` are `frames × joints`. Of a shortened clip only its own frames are compared; source frames that do
+/// not exist are skipped. `height` is the figure's, in the positions' unit.
 pub fn error(positions: &[DVec3], joints: usize, height: f64, exposure: &Exposure) -> Error {
     let frames = Frames::new(positions, joints);
     let shown = exposure.sources();
@@ -72,8 +72,8 @@ pub fn error(positions: &[DVec3], joints: usize, height: f64, exposure: &Exposur
     }
 }
 
-/// The error of an exposure beside those of other methods: on twos, on threes, and the best drawings of the same number (or the
-/// nearest possible), each for at most [`LONGEST`] frames.
+/// The error of an exposure sheet next to those of other ways: on twos, on threes, and the best drawings of the same number (or
+/// the nearest possible), each held for at most [`MAX_HOLD`] frames.
 pub fn compare(
     positions: &[DVec3],
     joints: usize,
@@ -81,7 +81,7 @@ pub fn compare(
     asked: &Exposure,
 ) -> [(Method, Error); 4] {
     let frames = Frames::new(positions, joints).count() as u32;
-    let best = drawings(positions, joints, asked.drawings().count(), LONGEST);
+    let best = drawings(positions, joints, asked.drawings().count(), MAX_HOLD);
     [
         (Method::Asked, asked),
         (Method::Twos, &every(frames, 2)),

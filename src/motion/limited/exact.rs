@@ -1,108 +1,115 @@
-//! The best way through a motion in a given number of stretches.
+//! The best segmentation of a motion into a given number of segments.
 //!
-//! A table of frames × stretches would grow with the square of a motion's length. Instead a price is put on each stretch
-//! (Lagrangian relaxation): the best way at a price is found in one pass, and it is the best of all ways with as many stretches.
-//! The price is sought at which that number is the one asked for. Some numbers are best at no price, since costs are not convex in
-//! the number; for these the best ways at the last price bound the cost from below, and only those parts of the table are filled
-//! that the bound does not rule out.
+//! A full dynamic-programming table of frames × segments grows with the square of a motion's length. Instead each segment is
+//! charged a penalty, the Lagrange multiplier of the constraint on their number (Lagrangian relaxation): one pass of dynamic
+//! programming finds the best segmentation at a penalty, and that is the best of all with as many segments. The penalty is
+//! searched for at which this number is the requested one. Costs are not convex in the number, so some numbers are optimal at
+//! no penalty (a duality gap). For those the last penalty gives a lower bound of the cost, and only the entries of the table
+//! are filled that this bound does not rule out (branch and bound).
 
 use std::collections::BinaryHeap;
 
-use super::stretches::{Rest, Stretches, Way};
+use super::segments::{Remainder, Segmentation, Segments};
 
-/// The greatest number of entries of the table that are kept.
-const MOST_ENTRIES: usize = 1 << 24;
-/// Costs that differ by less than this share of what was added up for them are equal.
+/// The most entries of the table that are stored.
+const MAX_ENTRIES: usize = 1 << 24;
+/// Costs that differ by less than this share of their sum are equal.
 const ROUNDING: f64 = 1e-12;
 
-/// A way, and what each way of as many stretches costs at least.
-pub(super) struct Found {
-    pub(super) way: Way,
+/// A segmentation, and a lower bound of the cost of every segmentation into as many segments.
+pub(super) struct Solution {
+    pub(super) segmentation: Segmentation,
     pub(super) bound: f64,
 }
 
-impl Found {
-    fn proved(way: Way) -> Self {
-        let bound = way.cost;
-        Self { way, bound }
+impl Solution {
+    fn optimal(segmentation: Segmentation) -> Self {
+        let bound = segmentation.cost;
+        Self {
+            segmentation,
+            bound,
+        }
     }
 }
 
-/// The best way in `count` stretches, or as near to that number as can be; and the fewest stretches there can be.
-pub(super) fn find(stretches: &Stretches, count: usize) -> (Found, usize) {
-    let (mut low, _) = stretches.best(|rest| (rest.count, rest.cost));
+/// The best segmentation into `count` segments, or the nearest possible number of them; and the smallest possible number.
+pub(super) fn find(segments: &Segments, count: usize) -> (Solution, usize) {
+    let (mut low, _) = segments.best(|rest| (rest.count, rest.cost));
     let fewest = low.count();
     if count <= fewest {
-        return (Found::proved(low), fewest);
+        return (Solution::optimal(low), fewest);
     }
-    let (mut high, _) = stretches.best(|rest| (rest.cost, rest.count));
+    let (mut high, _) = segments.best(|rest| (rest.cost, rest.count));
     if count >= high.count() {
-        return (Found::proved(high), fewest);
+        return (Solution::optimal(high), fewest);
     }
     loop {
-        let price = (low.cost - high.cost) / (high.count() - low.count()) as f64;
-        let (way, rest) = stretches.best(|rest| rest.cost + price * rest.count as f64);
-        if way.count() == count {
-            return (Found::proved(way), fewest);
+        let penalty = (low.cost - high.cost) / (high.count() - low.count()) as f64;
+        let (segmentation, rest) = segments.best(|rest| rest.cost + penalty * rest.count as f64);
+        if segmentation.count() == count {
+            return (Solution::optimal(segmentation), fewest);
         }
-        let line = low.cost + price * low.count() as f64;
-        let below = line - (way.cost + price * way.count() as f64);
-        if below <= ROUNDING * line || !(low.count() + 1..high.count()).contains(&way.count()) {
-            let edge = Edge {
-                stretches,
+        let line = low.cost + penalty * low.count() as f64;
+        let below = line - (segmentation.cost + penalty * segmentation.count() as f64);
+        if below <= ROUNDING * line
+            || !(low.count() + 1..high.count()).contains(&segmentation.count())
+        {
+            let gap = DualityGap {
+                segments,
                 count,
-                price,
+                penalty,
                 rest,
-                bound: line - price * count as f64,
+                bound: line - penalty * count as f64,
                 slack: ROUNDING * line,
             };
-            return (edge.between(&low, &high), fewest);
+            return (gap.between(&low, &high), fewest);
         }
-        if way.count() < count {
-            low = way;
+        if segmentation.count() < count {
+            low = segmentation;
         } else {
-            high = way;
+            high = segmentation;
         }
     }
 }
 
-/// Two numbers of stretches with a price at which both are best, and a number between them that is not.
-struct Edge<'a> {
-    stretches: &'a Stretches,
+/// Two numbers of segments that are both optimal at one penalty, and a requested number between them that is optimal at none.
+struct DualityGap<'a> {
+    segments: &'a Segments,
     count: usize,
-    price: f64,
-    /// Per frame what is left of the best way at this price.
-    rest: Vec<Rest>,
-    /// What a way of so many stretches costs at least.
+    penalty: f64,
+    /// Per frame the best rest of the motion from there on, at this penalty.
+    rest: Vec<Remainder>,
+    /// Lower bound of the cost of a segmentation into `count` segments.
     bound: f64,
     slack: f64,
 }
 
-impl Edge<'_> {
-    fn between(&self, low: &Way, high: &Way) -> Found {
-        let ways = [&[low, high], &[high, low]].map(|[a, b]| self.split(&self.crossed(a, b)));
-        let [split, other] = ways;
+impl DualityGap<'_> {
+    fn between(&self, low: &Segmentation, high: &Segmentation) -> Solution {
+        let crossovers =
+            [&[low, high], &[high, low]].map(|[a, b]| self.split(&self.crossover(a, b)));
+        let [split, other] = crossovers;
         let split = if other.cost < split.cost {
             other
         } else {
             split
         };
         if split.cost <= self.bound + self.slack {
-            return Found::proved(split);
+            return Solution::optimal(split);
         }
-        match self.cheaper(split.cost) {
-            Table::Cheaper(way) => Found::proved(way),
-            Table::NoneCheaper => Found::proved(split),
-            Table::TooLarge => Found {
-                way: split,
+        match self.search_table(split.cost) {
+            TableResult::Cheaper(segmentation) => Solution::optimal(segmentation),
+            TableResult::NoneCheaper => Solution::optimal(split),
+            TableResult::TooLarge => Solution {
+                segmentation: split,
                 bound: self.bound,
             },
         }
     }
 
-    /// Where each stretch of the first way ends up to some frame, and of the second from there on: with the most stretches that
-    /// are not too many. Such a way is best at the price as both are.
-    fn crossed(&self, a: &Way, b: &Way) -> Vec<usize> {
+    /// Follows the first segmentation up to a frame where both have a boundary, and the second from there on; of all such
+    /// frames the one that gives the most segments without exceeding `count`. The result is as good at the penalty as both are.
+    fn crossover(&self, a: &Segmentation, b: &Segmentation) -> Vec<usize> {
         let [mut i, mut j] = [0, 0];
         let mut best: Option<[usize; 2]> = None;
         loop {
@@ -111,7 +118,7 @@ impl Edge<'_> {
             if count <= self.count && more {
                 best = Some([i, j]);
             }
-            // On to the next frame in which a stretch ends on both.
+            // On to the next boundary that both have.
             loop {
                 match (a.ends.get(i), b.ends.get(j)) {
                     (Some(end), Some(other)) if end == other => break,
@@ -127,14 +134,14 @@ impl Edge<'_> {
         }
     }
 
-    /// A good way, from the ends of one with too few stretches: always the stretch is split that becomes cheapest by it.
-    fn split(&self, low: &[usize]) -> Way {
+    /// A good segmentation, from one with too few segments: repeatedly splits the segment whose split saves most.
+    fn split(&self, low: &[usize]) -> Segmentation {
         let cut = |start: usize, end: usize| {
             let mut best = (0.0, start);
             for middle in start + 1..end {
                 let [a, b] =
-                    [(start, middle), (middle, end)].map(|(a, b)| self.stretches.cost(a, b));
-                let saved = self.stretches.cost(start, end) - (a + b);
+                    [(start, middle), (middle, end)].map(|(a, b)| self.segments.cost(a, b));
+                let saved = self.segments.cost(start, end) - (a + b);
                 if best.1 == start || saved > best.0 {
                     best = (saved, middle);
                 }
@@ -144,8 +151,8 @@ impl Edge<'_> {
         let mut queue = BinaryHeap::new();
         let mut start = 0;
         let push = |queue: &mut BinaryHeap<Split>, start, end| {
-            // A still stretch has nothing to save, and may be long.
-            if end - start > 1 && self.stretches.cost(start, end) > 0.0 {
+            // A still segment has nothing to save, and may be long.
+            if end - start > 1 && self.segments.cost(start, end) > 0.0 {
                 let (saved, middle) = cut(start, end);
                 queue.push(Split {
                     saved,
@@ -169,7 +176,7 @@ impl Edge<'_> {
         ends.sort_unstable();
         let mut start = 0;
         let costs = ends.iter().map(|end| {
-            let cost = self.stretches.cost(start, *end);
+            let cost = self.segments.cost(start, *end);
             start = *end;
             cost
         });
@@ -177,22 +184,22 @@ impl Edge<'_> {
             true => costs.sum(),
             false => f64::INFINITY,
         };
-        Way { ends, cost }
+        Segmentation { ends, cost }
     }
 
-    /// A way that is cheaper than `known`, the cheapest there is.
-    fn cheaper(&self, known: f64) -> Table {
-        let frames = self.stretches.frames();
-        let mut rows: Vec<Row> = vec![Row {
+    /// Searches the table for the cheapest segmentation that costs less than `known`.
+    fn search_table(&self, known: f64) -> TableResult {
+        let frames = self.segments.frames();
+        let mut rows: Vec<TableRow> = vec![TableRow {
             first: 0,
             at: 0,
             width: 1,
         }];
         let mut costs = vec![0.0];
         let mut row: Vec<f64> = Vec::new();
-        let mut before: Vec<(Row, f64)> = Vec::new();
+        let mut before: Vec<(TableRow, f64)> = Vec::new();
         for end in 1..=frames {
-            let all = self.stretches.ending(end);
+            let all = self.segments.ending(end);
             let all = all.map(|(start, cost)| (rows[start], cost));
             before.clear();
             before.extend(all.filter(|(row, _)| row.width > 0));
@@ -212,30 +219,30 @@ impl Edge<'_> {
                 }
             }
             let rest = self.rest[end];
-            let rest = rest.cost + self.price * rest.count as f64;
+            let rest = rest.cost + self.penalty * rest.count as f64;
             for (index, entry) in row.iter_mut().enumerate() {
                 let left = (self.count - (first + index)) as f64;
-                if *entry + rest - self.price * left >= known - self.slack {
+                if *entry + rest - self.penalty * left >= known - self.slack {
                     *entry = f64::INFINITY;
                 }
             }
             let kept = |entry: &f64| entry.is_finite();
             let skipped = row.iter().position(kept).unwrap_or(row.len());
             let until = row.iter().rposition(kept).map_or(skipped, |last| last + 1);
-            rows.push(Row {
+            rows.push(TableRow {
                 first: first.saturating_add(skipped),
                 at: costs.len(),
                 width: until - skipped,
             });
             costs.extend_from_slice(&row[skipped..until]);
-            if costs.len() > MOST_ENTRIES {
-                return Table::TooLarge;
+            if costs.len() > MAX_ENTRIES {
+                return TableResult::TooLarge;
             }
         }
         self.trace(&rows, &costs)
     }
 
-    fn trace(&self, rows: &[Row], costs: &[f64]) -> Table {
+    fn trace(&self, rows: &[TableRow], costs: &[f64]) -> TableResult {
         let entry = |frame: usize, count: usize| -> Option<f64> {
             let row = rows[frame];
             let index = count
@@ -243,43 +250,43 @@ impl Edge<'_> {
                 .filter(|index| *index < row.width)?;
             Some(costs[row.at + index]).filter(|cost| cost.is_finite())
         };
-        let (mut frame, mut count) = (self.stretches.frames(), self.count);
+        let (mut frame, mut count) = (self.segments.frames(), self.count);
         let Some(cost) = entry(frame, count) else {
-            return Table::NoneCheaper;
+            return TableResult::NoneCheaper;
         };
         let mut ends = Vec::with_capacity(count);
         while frame > 0 {
             ends.push(frame);
             let here = entry(frame, count);
-            let mut before = self.stretches.ending(frame);
+            let mut before = self.segments.ending(frame);
             let Some((start, _)) = before.find(|(start, cost)| {
                 count > 0 && entry(*start, count - 1).map(|before| before + cost) == here
             }) else {
-                return Table::NoneCheaper;
+                return TableResult::NoneCheaper;
             };
             (frame, count) = (start, count - 1);
         }
         ends.reverse();
-        Table::Cheaper(Way { ends, cost })
+        TableResult::Cheaper(Segmentation { ends, cost })
     }
 }
 
-/// What the table showed.
-enum Table {
-    Cheaper(Way),
+/// The result of searching the table.
+enum TableResult {
+    Cheaper(Segmentation),
     NoneCheaper,
     TooLarge,
 }
 
-/// The entries of a frame: from which number of stretches on, where they stand, and how many they are.
+/// The stored entries of a frame: the first number of segments, their offset in the list of costs, and how many there are.
 #[derive(Debug, Clone, Copy)]
-struct Row {
+struct TableRow {
     first: usize,
     at: usize,
     width: usize,
 }
 
-/// A stretch, where it would be split, and what that saves.
+/// A segment, where it would be split, and what that saves.
 struct Split {
     saved: f64,
     start: usize,

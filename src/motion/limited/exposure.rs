@@ -1,44 +1,44 @@
-//! Exposure sheets: which drawing is shown when.
+//! Exposure sheets: which drawing is shown in which frame.
 
-/// An exposure sheet: per shown frame the source frame that it shows.
+/// An exposure sheet: for each shown frame the source frame whose drawing it shows.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Exposure {
     sources: Vec<u32>,
 }
 
-/// A drawing on an exposure sheet: shown frames, one after the other, that show one source frame.
+/// A drawing on an exposure sheet: consecutive shown frames that show the same source frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Drawing {
     /// The source frame.
     pub source: u32,
     /// The first frame that shows it.
     pub start: usize,
-    /// How many frames it stands for; at least 1.
+    /// For how many frames it is held; at least 1.
     pub length: usize,
 }
 
 impl Exposure {
-    /// A sheet from the source frame of each shown frame.
+    /// An exposure sheet from the source frame of each shown frame.
     pub fn new(sources: Vec<u32>) -> Self {
         Self { sources }
     }
 
-    /// Per shown frame its source frame.
+    /// The source frame of each shown frame.
     pub fn sources(&self) -> &[u32] {
         &self.sources
     }
 
-    /// How many frames are shown.
+    /// The number of shown frames.
     pub fn len(&self) -> usize {
         self.sources.len()
     }
 
-    /// Whether nothing is shown.
+    /// Whether no frame is shown.
     pub fn is_empty(&self) -> bool {
         self.sources.is_empty()
     }
 
-    /// The drawings in the order in which they are shown.
+    /// The drawings, in the order in which they are shown.
     pub fn drawings(&self) -> impl Iterator<Item = Drawing> + '_ {
         let mut start = 0;
         self.sources.chunk_by(|a, b| a == b).map(move |run| {
@@ -52,14 +52,14 @@ impl Exposure {
         })
     }
 
-    /// The frames in which a new drawing comes: where a `STEP` key has to stand.
+    /// The frames in which a new drawing begins: those that need a `STEP` key.
     pub fn keys(&self) -> impl Iterator<Item = usize> + '_ {
         self.drawings().map(|drawing| drawing.start)
     }
 }
 
-/// Shoots on twos, on threes, or on any other number: every `n`-th of `frames` frames is a drawing and stands for `n` frames, the
-/// last for what is left. 0 is taken as 1.
+/// Shoots on twos, on threes, or on any other number: every `n`-th of `frames` frames is a drawing that is held for `n` frames,
+/// the last one for the remaining frames. 0 is taken as 1.
 pub fn every(frames: u32, n: u32) -> Exposure {
     let n = n.max(1);
     Exposure::new((0..frames).map(|frame| frame - frame % n).collect())

@@ -1,41 +1,41 @@
-//! Holds (koma-dori): what hardly moves stands (Kitamura 5.2.3, Algorithm 3).
+//! Holds (koma-dori): where the motion is slow, the pose before is held (Kitamura 5.2.3, Algorithm 3).
 
+use super::pose_list::PoseList;
 use super::queue::{Queue, rising};
-use super::strip::Strip;
-use super::{Held, LONGEST_COPIED};
+use super::{Hold, MAX_COPIED_FRAMES};
 
-/// Holds up to `asked` poses for one frame more each; what each covered, in the order in which it was done.
-pub(super) fn hold(strip: &mut Strip<'_>, asked: usize) -> Vec<Held> {
+/// Holds up to `asked` poses for one frame more each. Returns which pose each of them covers, in the order of the steps.
+pub(super) fn hold(list: &mut PoseList<'_>, asked: usize) -> Vec<Hold> {
     let mut held = Vec::new();
     if asked == 0 {
         return held;
     }
-    let keys = (0..strip.poses()).map(|pose| key(strip, pose)).collect();
+    let keys = (0..list.len()).map(|pose| key(list, pose)).collect();
     let mut slowest = Queue::new(keys);
     while held.len() < asked {
         let Some(pose) = slowest.first() else { break };
-        let Some(before) = strip.before(pose) else {
+        let Some(before) = list.before(pose) else {
             break;
         };
-        held.push(Held {
-            covered: strip.source(pose),
-            by: strip.source(before),
+        held.push(Hold {
+            covered: list.source(pose),
+            by: list.source(before),
         });
-        strip.take(pose);
-        strip.shown[before] += 1;
+        list.remove(pose);
+        list.shown[before] += 1;
         slowest.set(pose, Queue::OUT);
-        slowest.set(before, key(strip, before));
-        if let Some(after) = strip.after(pose) {
-            slowest.set(after, key(strip, after));
+        slowest.set(before, key(list, before));
+        if let Some(after) = list.after(pose) {
+            slowest.set(after, key(list, after));
         }
     }
     held
 }
 
-fn key(strip: &Strip<'_>, pose: usize) -> u64 {
-    match strip.before(pose) {
-        Some(before) if strip.shown[pose] == 1 && strip.shown[before] < LONGEST_COPIED => {
-            rising(strip.speed[pose])
+fn key(list: &PoseList<'_>, pose: usize) -> u64 {
+    match list.before(pose) {
+        Some(before) if list.shown[pose] == 1 && list.shown[before] < MAX_COPIED_FRAMES => {
+            rising(list.speed[pose])
         }
         _ => Queue::OUT,
     }

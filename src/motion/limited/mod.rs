@@ -1,7 +1,7 @@
-//! Limited animation: a motion cut as if it were drawn by hand (Kitamura, chapter 5).
+//! Limited animation: thins a motion out as if it were drawn by hand (Kitamura, chapter 5).
 //!
-//! Sees nothing but where the joints are, frame by frame, and answers with an exposure sheet: per shown frame the source frame
-//! that it shows.
+//! The input is nothing but joint positions, frame by frame; the output is an exposure sheet that gives the source frame of
+//! each shown frame.
 
 mod camera;
 mod drawings;
@@ -10,94 +10,94 @@ mod exact;
 mod exposure;
 mod hold;
 mod omit;
+mod pose_list;
 mod queue;
+mod segments;
 mod ssd;
-mod stretches;
-mod strip;
 #[cfg(test)]
 mod tests;
 
 use glam::DVec3;
 
 pub use camera::Camera;
-pub use drawings::{Drawn, LONGEST, drawings};
+pub use drawings::{BestDrawings, MAX_HOLD, drawings};
 pub use error::{Error, Method, compare, error};
 pub use exposure::{Drawing, Exposure, every};
 pub use ssd::{speeds, ssd};
 
+use pose_list::PoseList;
 use ssd::Frames;
-use strip::Strip;
 
-/// For how many frames a pose may stand that is shown by copying (5.2.2, 5.2.3).
-pub const LONGEST_COPIED: u32 = 3;
-/// How many poses are omitted where nothing is said (5.3: 4 to 6 are right).
-pub const OMITTED: usize = 4;
-/// Of how many frames one is held where nothing is said (5.3: a third of the frames).
-pub const HELD: usize = 3;
-/// More poses omitted in one place than this tear a motion apart (5.3).
-pub const MOST_GATHERED: usize = 6;
+/// For how many frames a copied pose may be shown (5.2.2, 5.2.3).
+pub const MAX_COPIED_FRAMES: u32 = 3;
+/// Omitted poses by default (5.3: 4 to 6 look right).
+pub const DEFAULT_OMITTED: usize = 4;
+/// One of this many frames is held by default (5.3: a third of the frames).
+pub const DEFAULT_HELD: usize = 3;
+/// More omitted poses in a row than this tear a motion apart (5.3).
+pub const MAX_OMITTED_RUN: usize = 6;
 
-/// How much is cut.
+/// How much a motion is limited.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Options {
-    /// How many poses are omitted (N_io).
+    /// How many poses to omit (N_io).
     pub omit: usize,
-    /// How many poses are covered by the one before (N_hf).
+    /// How many poses to replace by holding the one before (N_hf).
     pub hold: usize,
-    /// What becomes of the clip's length.
+    /// Whether the clip keeps its length.
     pub length: Length,
 }
 
 impl Options {
-    /// What is right for most motions of so many frames: 4 poses omitted, a third of the frames held, the length kept.
-    pub fn usual(frames: usize) -> Self {
+    /// The defaults, right for most motions: 4 poses omitted, a third of the frames held, the length kept.
+    pub fn recommended(frames: usize) -> Self {
         Self {
-            omit: OMITTED,
-            hold: frames / HELD,
+            omit: DEFAULT_OMITTED,
+            hold: frames / DEFAULT_HELD,
             length: Length::Kept,
         }
     }
 }
 
-/// What becomes of a clip's length when poses are omitted.
+/// What happens to a clip's length when poses are omitted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub enum Length {
-    /// For each pose that is omitted another stands for one frame more.
+    /// For each omitted pose another one is held for one frame more.
     #[default]
     Kept,
-    /// The clip gets shorter by one frame for each pose that is omitted.
+    /// The clip gets one frame shorter for each omitted pose.
     Shortened,
 }
 
-/// What [`limit`] made of a motion.
+/// The result of [`limit`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Cut {
-    /// What is shown when.
+    /// Which source frame each frame shows.
     pub exposure: Exposure,
-    /// The source frames that were omitted, in the order in which it was done.
+    /// The omitted source frames, in the order in which they were chosen.
     pub omitted: Vec<u32>,
-    /// The source frames that stand for one frame more each, one for each of `omitted`; empty where the length is not kept.
+    /// The source frames that are shown for one frame more, one for each of `omitted`; empty if the length is not kept.
     pub duplicated: Vec<u32>,
-    /// What was held, in the order in which it was done.
-    pub held: Vec<Held>,
-    /// How many omissions were asked for and done.
+    /// The holds, in the order in which they were chosen.
+    pub held: Vec<Hold>,
+    /// How many omissions were requested and done.
     pub omissions: Steps,
-    /// How many holds were asked for and done.
+    /// How many holds were requested and done.
     pub holds: Steps,
-    /// The most poses that were omitted in one place. More than [`MOST_GATHERED`] are worth a warning.
-    pub gathered: usize,
+    /// The most poses that were omitted in a row. More than [`MAX_OMITTED_RUN`] deserve a warning.
+    pub omitted_run: usize,
 }
 
-/// A hold: a pose that is not shown any more, since another stands in its place.
+/// A hold: a pose that is no longer shown because the one before is held in its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Held {
-    /// The source frame that was covered.
+pub struct Hold {
+    /// The source frame that is covered.
     pub covered: u32,
-    /// The source frame that stands in its place.
+    /// The source frame that is shown instead.
     pub by: u32,
 }
 
-/// How many steps were asked for, and how many were possible.
+/// How many steps were requested, and how many were possible.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Steps {
     /// Asked for.
@@ -107,39 +107,39 @@ pub struct Steps {
 }
 
 impl Steps {
-    /// How many were asked for in vain.
+    /// How many requested steps were not possible.
     pub fn shortfall(self) -> usize {
         self.asked - self.done
     }
 }
 
-/// Omits what is fast, then holds what is slow (5.2, Algorithms 2 and 3). `positions` are `frames × joints`, one frame after the
-/// other, in any unit; positions that fill no frame are left out, and more than 2³² − 2 frames are.
+/// Omits the fastest poses, then holds the slowest (5.2, Algorithms 2 and 3). `positions` are `frames × joints`, frame by
+/// frame, in any unit; an incomplete last frame is ignored, and so are frames beyond 2³² − 2.
+/// A frame's identity is its source frame. Neighbouring source frames whose [`ssd`] is 0 are one pose from the start; its
+/// source frame is the first of them, and it may be shown for any time. Frames that become neighbours later remain two poses.
+/// The speed of a pose is its [`ssd`] to the pose shown before it. Only poses that are shown for a single frame are omitted or
+/// covered, and never the first one.
 ///
-/// A frame's identity is its source frame. Neighbours in the source whose [`ssd`] is 0 are one pose from the start, with the first
-/// of them as its source frame, and may stand for any time; frames that become neighbours later stay two poses. The speed of a
-/// pose is its [`ssd`] to the pose shown before it. Only poses that are shown for one frame are omitted or covered, never the
-/// first.
+/// - *Omission*: removes the fastest pose. To keep the length, the pose before the slowest one is then shown for one frame
+///   more. Only poses shown for fewer than [`MAX_COPIED_FRAMES`] frames qualify, and never the last one, which has no
+///   successor. The slowest pose is searched for after the fastest was removed, and may itself be shown for several frames. If
+///   no pose qualifies, the omission is undone and omitting ends.
+/// - *Hold*: the slowest pose whose predecessor is shown for fewer than [`MAX_COPIED_FRAMES`] frames is covered by it, which
+///   saves one drawing.
 ///
-/// - *Omission*: the fastest pose is taken out. Then, where the length is kept, the pose before the slowest one stands for one
-///   frame more; only poses that stand for less than [`LONGEST_COPIED`] frames do, and the last, which has none after it, never.
-///   The slowest is sought after the fastest was taken out, and it may stand for several frames itself. Where there is no such
-///   place, the omission is not done and there is no further one.
-/// - *Hold*: the slowest pose whose predecessor stands for less than [`LONGEST_COPIED`] frames is covered by it: one drawing less.
+/// All searches resolve ties to the lowest source frame. Steps that are not possible are reported as shortfall.
 ///
-/// Of equally fast poses the one of the lowest source frame is taken, in all searches. What cannot be done is told as shortfall.
-///
-/// Each step costs O(log frames), after O(frames · joints) at the start.
+/// Each step costs O(log frames), after O(frames · joints) for the setup.
 pub fn limit(positions: &[DVec3], joints: usize, options: &Options) -> Cut {
-    let mut strip = Strip::new(Frames::new(positions, joints));
+    let mut list = PoseList::new(Frames::new(positions, joints));
     let omit::Omitted {
         omitted,
         duplicated,
-        gathered,
-    } = omit::omit(&mut strip, options.omit, options.length);
-    let held = hold::hold(&mut strip, options.hold);
+        omitted_run,
+    } = omit::omit(&mut list, options.omit, options.length);
+    let held = hold::hold(&mut list, options.hold);
     Cut {
-        exposure: strip.exposure(),
+        exposure: list.exposure(),
         omissions: Steps {
             asked: options.omit,
             done: omitted.len(),
@@ -151,6 +151,6 @@ pub fn limit(positions: &[DVec3], joints: usize, options: &Options) -> Cut {
         omitted,
         duplicated,
         held,
-        gathered,
+        omitted_run,
     }
 }

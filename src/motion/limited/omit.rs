@@ -1,83 +1,83 @@
-//! Omission (naka-nashi): what is fast becomes faster (Kitamura 5.2.2, Algorithm 2).
+//! Omission (naka-nashi): makes fast motion faster (Kitamura 5.2.2, Algorithm 2).
 
+use super::pose_list::PoseList;
 use super::queue::{Queue, falling, rising};
-use super::strip::Strip;
-use super::{LONGEST_COPIED, Length};
+use super::{Length, MAX_COPIED_FRAMES};
 
-/// What was done, as source frames in the order in which it was done.
+/// The omissions, as source frames in the order in which they were chosen.
 pub(super) struct Omitted {
     pub(super) omitted: Vec<u32>,
     pub(super) duplicated: Vec<u32>,
-    /// The most poses that are missing between two that are left.
-    pub(super) gathered: usize,
+    /// The most poses that are missing between two remaining ones.
+    pub(super) omitted_run: usize,
 }
 
 /// Omits up to `asked` poses.
-pub(super) fn omit(strip: &mut Strip<'_>, asked: usize, length: Length) -> Omitted {
+pub(super) fn omit(list: &mut PoseList<'_>, asked: usize, length: Length) -> Omitted {
     let mut done = Omitted {
         omitted: Vec::new(),
         duplicated: Vec::new(),
-        gathered: 0,
+        omitted_run: 0,
     };
     if asked == 0 {
         return done;
     }
-    let poses = 0..strip.poses();
-    let mut fastest = Queue::new(poses.clone().map(|pose| fast(strip, pose)).collect());
+    let poses = 0..list.len();
+    let mut fastest = Queue::new(poses.clone().map(|pose| fast(list, pose)).collect());
     let mut slowest = match length {
-        Length::Kept => Some(Queue::new(poses.map(|pose| slow(strip, pose)).collect())),
+        Length::Kept => Some(Queue::new(poses.map(|pose| slow(list, pose)).collect())),
         Length::Shortened => None,
     };
     while done.omitted.len() < asked {
         let Some(pose) = fastest.first() else { break };
-        let after = strip.after(pose);
-        strip.take(pose);
+        let after = list.after(pose);
+        list.remove(pose);
         fastest.set(pose, Queue::OUT);
         if let Some(after) = after {
-            fastest.set(after, fast(strip, after));
+            fastest.set(after, fast(list, after));
         }
         if let Some(slowest) = &mut slowest {
             slowest.set(pose, Queue::OUT);
             if let Some(after) = after {
-                slowest.set(after, slow(strip, after));
+                slowest.set(after, slow(list, after));
             }
             let place = slowest.first();
-            let Some((place, twice)) = place.and_then(|place| Some((place, strip.before(place)?)))
+            let Some((place, twice)) = place.and_then(|place| Some((place, list.before(place)?)))
             else {
-                strip.put_back(pose);
+                list.restore(pose);
                 break;
             };
-            strip.shown[twice] += 1;
-            fastest.set(twice, fast(strip, twice));
-            slowest.set(place, slow(strip, place));
-            done.duplicated.push(strip.source(twice));
+            list.shown[twice] += 1;
+            fastest.set(twice, fast(list, twice));
+            slowest.set(place, slow(list, place));
+            done.duplicated.push(list.source(twice));
         }
-        done.omitted.push(strip.source(pose));
+        done.omitted.push(list.source(pose));
     }
-    done.gathered = gathered(strip);
+    done.omitted_run = omitted_run(list);
     done
 }
 
-fn fast(strip: &Strip<'_>, pose: usize) -> u64 {
-    match strip.before(pose) {
-        Some(_) if strip.shown[pose] == 1 => falling(strip.speed[pose]),
+fn fast(list: &PoseList<'_>, pose: usize) -> u64 {
+    match list.before(pose) {
+        Some(_) if list.shown[pose] == 1 => falling(list.speed[pose]),
         _ => Queue::OUT,
     }
 }
 
-fn slow(strip: &Strip<'_>, pose: usize) -> u64 {
-    match strip.before(pose) {
-        Some(before) if strip.shown[before] < LONGEST_COPIED => rising(strip.speed[pose]),
+fn slow(list: &PoseList<'_>, pose: usize) -> u64 {
+    match list.before(pose) {
+        Some(before) if list.shown[before] < MAX_COPIED_FRAMES => rising(list.speed[pose]),
         _ => Queue::OUT,
     }
 }
 
-/// The most poses that are missing in one place. Before anything is held, what is missing was omitted.
-fn gathered(strip: &Strip<'_>) -> usize {
+/// The most poses that were removed in a row. Nothing has been held yet, so every missing pose was omitted.
+fn omitted_run(list: &PoseList<'_>) -> usize {
     let (mut most, mut next) = (0, 0);
-    for pose in strip.left() {
+    for pose in list.remaining() {
         most = most.max(pose - next);
         next = pose + 1;
     }
-    most.max(strip.poses() - next)
+    most.max(list.len() - next)
 }

@@ -1,16 +1,16 @@
-//! A queue whose keys change: a tournament tree.
+//! A priority queue whose keys change: a tournament tree.
 
-/// Finds the least of many keys, O(log n) for each change.
+/// Finds the smallest of many keys, O(log n) for each change.
 ///
-/// Unlike a heap it changes a key in place, so that nothing stale piles up.
+/// Unlike a binary heap it changes a key in place, so no stale entries pile up.
 pub(super) struct Queue {
     keys: Vec<u64>,
-    /// The winner of each match: node i plays its children 2i and 2i + 1 against each other, the entries are the last `n` nodes.
+    /// The winner of each match: node i matches its children 2i and 2i + 1; the entries are the last `n` nodes.
     winners: Vec<u32>,
 }
 
 impl Queue {
-    /// The key of what cannot be chosen.
+    /// The key of an entry that cannot be chosen.
     pub(super) const OUT: u64 = u64::MAX;
 
     pub(super) fn new(keys: Vec<u64>) -> Self {
@@ -34,7 +34,7 @@ impl Queue {
         if (key_a, a) <= (key_b, b) { a } else { b }
     }
 
-    /// The entry of the least key, of equal ones the first.
+    /// The entry with the smallest key, the first of equal ones.
     pub(super) fn first(&self) -> Option<usize> {
         let first = *self.winners.get(1)? as usize;
         (self.keys[first] != Self::OUT).then_some(first)
@@ -48,7 +48,7 @@ impl Queue {
         let mut node = (self.keys.len() + entry) / 2;
         while node > 0 {
             let winner = self.winner(node);
-            // A match that another entry won before and wins now ends the matter: nothing above has seen the changed key.
+            // If another entry won this match before and still does, nothing above depends on the changed key.
             if self.winners[node] == winner && winner as usize != entry {
                 return;
             }
@@ -58,12 +58,12 @@ impl Queue {
     }
 }
 
-/// A key by which the least comes first. `value` is at least 0 and no NaN, so its bits are ordered as it is.
+/// A key that orders small values first. `value` is at least 0 and not NaN, so its bits are ordered like the number.
 pub(super) fn rising(value: f64) -> u64 {
     value.to_bits()
 }
 
-/// A key by which the greatest comes first; never [`Queue::OUT`].
+/// A key that orders large values first; never [`Queue::OUT`].
 pub(super) fn falling(value: f64) -> u64 {
     (1 << 63) - value.to_bits()
 }

@@ -1,17 +1,16 @@
-//! How far apart two poses are.
+//! The distance between two poses.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-/// Pairs that a thread takes at once.
+/// Pairs that a thread processes at once.
 const GRAIN: usize = 512;
 
-/// The sum of squared distances between the joints of two poses (Kitamura 5.2.1, equation 5.1), in the square of the positions'
-/// unit.
+/// The sum of squared distances (SSD) between the joints of two poses (Kitamura 5.2.1, equation 5.1), in the square of the
+/// positions' unit.
 ///
-/// The joints are added in their order, of each x² + y² + z², so the same pair gives the same bits everywhere, whichever pose
-/// comes first. A sum that is no number, as of infinite positions, counts as infinite. Joints that only one pose has are left
-/// out.
+/// Joints are added in order, each as x² + y² + z², so the same pair gives the same bits everywhere, whichever pose comes
+/// first. A sum that is NaN, as of infinite positions, counts as infinite. Joints that only one pose has are ignored.
 pub fn ssd(a: &[DVec3], b: &[DVec3]) -> f64 {
     let mut sum = 0.0;
     for (a, b) in a.iter().zip(b) {
@@ -20,8 +19,8 @@ pub fn ssd(a: &[DVec3], b: &[DVec3]) -> f64 {
     if sum.is_nan() { f64::INFINITY } else { sum }
 }
 
-/// The speed of every frame: its [`ssd`] to the frame before it; 0 for the first. `positions` are `frames × joints`, one frame
-/// after the other.
+/// The speed of every frame: its [`ssd`] to the frame before; 0 for the first. `positions` are `frames × joints`, frame by
+/// frame.
 pub fn speeds(positions: &[DVec3], joints: usize) -> Vec<f64> {
     Frames::new(positions, joints).speeds()
 }
@@ -34,14 +33,14 @@ pub(super) struct Frames<'a> {
 }
 
 impl<'a> Frames<'a> {
-    /// Without joints there are no frames; positions that fill no frame are left out.
+    /// Without joints there are no frames; an incomplete last frame is ignored.
     pub(super) fn new(positions: &'a [DVec3], joints: usize) -> Self {
         Self { positions, joints }
     }
 
     pub(super) fn count(self) -> usize {
         let whole = self.positions.len().checked_div(self.joints).unwrap_or(0);
-        // The greatest number stands for no pose.
+        // `u32::MAX` marks the absence of a pose.
         whole.min(u32::MAX as usize - 1)
     }
 
@@ -61,7 +60,7 @@ impl<'a> Frames<'a> {
         self.speeds_of(self.count(), |index| index)
     }
 
-    /// The same for those frames alone that `frame` gives for 0…count.
+    /// The speeds within a selection of frames: `frame` maps 0…count to frame numbers.
     pub(super) fn speeds_of(self, count: usize, frame: impl Fn(usize) -> usize + Sync) -> Vec<f64> {
         let mut speeds = vec![0.0; count];
         speeds

@@ -2,8 +2,8 @@ use fastrand::Rng;
 use glam::DVec3;
 
 use super::queue::{Queue, falling, rising};
+use super::segments::{Segments, drawing};
 use super::ssd::Frames;
-use super::stretches::{Stretches, drawing};
 use super::{drawings, every, exact};
 
 /// A motion of one joint, of `frames` frames; some stand still.
@@ -74,8 +74,8 @@ fn keys_are_ordered_as_the_numbers_are() {
     assert!(keys.max() < Some(Queue::OUT));
 }
 
-/// What any choice of drawings costs at least, by their number: all stretches, all drawings of each, no shortcut.
-fn least(motion: &[DVec3], longest: usize) -> Vec<f64> {
+/// The least cost of any choice of drawings, by their number: all segments, all drawings of each, no shortcut.
+fn least(motion: &[DVec3], max_hold: usize) -> Vec<f64> {
     let cost = |start: usize, end: usize| {
         let all = start..end;
         let of = |drawing: usize| -> f64 {
@@ -85,7 +85,7 @@ fn least(motion: &[DVec3], longest: usize) -> Vec<f64> {
             apart.sum()
         };
         let least = all.clone().map(of).fold(f64::INFINITY, f64::min);
-        if end - start > longest && least > 0.0 {
+        if end - start > max_hold && least > 0.0 {
             return f64::INFINITY;
         }
         least
@@ -109,14 +109,14 @@ fn no_other_drawings_are_better() {
     let mut random = Rng::with_seed(11);
     for round in 0..400 {
         let frames = 1 + random.u64(..30) as usize;
-        let longest = 1 + random.u64(..9) as usize;
+        let max_hold = 1 + random.u64(..9) as usize;
         let places = [2, 3, 10, 1_000_000][round % 4];
         let motion = self::motion(&mut random, frames, places);
-        let least = least(&motion, longest);
+        let least = least(&motion, max_hold);
         let fewest = least.iter().position(|cost| cost.is_finite()).unwrap_or(0);
         let poses = motion.chunk_by(|a, b| a == b).count();
         for asked in 0..frames + 3 {
-            let drawn = drawings(&motion, 1, asked, longest);
+            let drawn = drawings(&motion, 1, asked, max_hold);
             let count = asked.clamp(fewest, poses);
             assert_eq!([drawn.fewest, drawn.most], [fewest, poses]);
             assert_eq!([drawn.asked, drawn.drawings], [asked, count]);
@@ -138,7 +138,7 @@ fn no_other_drawings_are_better() {
                 let frames = drawing.start..drawing.start + drawing.length;
                 assert!(frames.contains(&(drawing.source as usize)));
                 let still = motion[frames].windows(2).all(|pair| pair[0] == pair[1]);
-                assert!(drawing.length <= longest || still);
+                assert!(drawing.length <= max_hold || still);
             }
         }
     }
@@ -146,7 +146,7 @@ fn no_other_drawings_are_better() {
 
 #[test]
 fn numbers_that_no_price_gives_are_found() {
-    // Two drawings are no better than one here, so no price on a drawing yields two.
+    // Two drawings are no better than one here, so no penalty yields two.
     let motion = [0.0, 1.0, 0.0].map(DVec3::splat);
     let costs = [1, 2, 3].map(|count| drawings(&motion, 1, count, 8).cost);
     assert_eq!(costs, [3.0, 3.0, 0.0]);
@@ -156,14 +156,14 @@ fn numbers_that_no_price_gives_are_found() {
     for _ in 0..200 {
         let motion = self::motion(&mut random, 24, 1000);
         let frames = Frames::new(&motion, 1);
-        let stretches = Stretches::new(frames, 5);
+        let segments = Segments::new(frames, 5);
         let best: Vec<f64> = (5..20)
-            .map(|count| exact::find(&stretches, count).0.way.cost)
+            .map(|count| exact::find(&segments, count).0.segmentation.cost)
             .collect();
         let convex = |costs: &[f64]| costs[0] + costs[2] >= 2.0 * costs[1] * (1.0 - 1e-12);
         tables += best.windows(3).filter(|costs| !convex(costs)).count();
     }
-    assert!(tables > 20, "only {tables} numbers that no price gives");
+    assert!(tables > 20, "only {tables} numbers that no penalty gives");
 }
 
 #[test]
@@ -171,8 +171,8 @@ fn odd_motions_have_drawings() {
     assert!(drawings(&[], 0, 3, 8).exposure.is_empty());
     assert!(drawings(&[DVec3::ONE], 2, 3, 8).exposure.is_empty());
     let odd = [f64::NAN, f64::INFINITY, 1e300, -1e300, 0.0, f64::NAN, 2.0].map(DVec3::splat);
-    for (count, longest) in [(0, 0), (1, 3), (4, 8), (usize::MAX, usize::MAX)] {
-        let drawn = drawings(&odd, 1, count, longest);
+    for (count, max_hold) in [(0, 0), (1, 3), (4, 8), (usize::MAX, usize::MAX)] {
+        let drawn = drawings(&odd, 1, count, max_hold);
         assert_eq!(drawn.exposure.len(), odd.len());
         assert!(drawn.cost.is_finite());
     }
@@ -196,14 +196,14 @@ fn each_second_or_third_frame_is_a_drawing() {
 
 #[test]
 fn where_very_many_choices_are_equally_good_the_bound_says_how_good_they_are() {
-    // Prices yield each second number only, and what lies between is too much to look through.
+    // Penalties yield even numbers only, and the table between them would be too large.
     let motion: Vec<DVec3> = (0..100_000)
         .map(|frame| DVec3::X * f64::from(frame % 2))
         .collect();
     let drawn = drawings(&motion, 1, 50_001, 8);
     assert_eq!(drawn.exposure.drawings().count(), 50_001);
     assert_eq!([drawn.cost, drawn.bound], [25_000.0, 24_999.5]);
-    // Of even numbers a price yields the best at once.
+    // An even number is found by a penalty at once.
     let drawn = drawings(&motion, 1, 50_000, 8);
     assert_eq!([drawn.cost, drawn.bound], [25_000.0; 2]);
 }
@@ -213,14 +213,14 @@ fn the_same_stretches_are_found_from_either_end() {
     let mut random = Rng::with_seed(8);
     for _ in 0..100 {
         let motion = self::motion(&mut random, 40, 9);
-        let longest = 1 + random.u64(..5) as usize;
-        let stretches = Stretches::new(Frames::new(&motion, 1), longest);
+        let max_hold = 1 + random.u64(..5) as usize;
+        let segments = Segments::new(Frames::new(&motion, 1), max_hold);
         let starting = (0..40).flat_map(|start| {
-            let ends = stretches.starting(start);
+            let ends = segments.starting(start);
             ends.map(move |(end, cost)| (start, end, cost.to_bits()))
         });
         let ending = (1..=40).flat_map(|end| {
-            let starts = stretches.ending(end);
+            let starts = segments.ending(end);
             starts.map(move |(start, cost)| (start, end, cost.to_bits()))
         });
         let [mut starting, mut ending] = [starting.collect::<Vec<_>>(), ending.collect()];

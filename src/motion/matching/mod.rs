@@ -11,56 +11,61 @@ use super::labels::{Anatomy, Class, Facing, Label, Limb, Piece, Side, Tip, label
 use super::skeleton::Skeleton;
 use names::Names;
 
-/// A figure joined with a skeleton.
+/// A figure matched with a skeleton.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Matching {
-    /// Per part what it is.
-    pub labels: Vec<Option<Label>>,
-    /// Per part the joint that drives it; a part without follows the part that it hangs on.
-    pub drives: Vec<Option<Drive>>,
-    /// Per part that no joint drives why that is so; empty for the others.
-    pub follows: Vec<String>,
-    /// The way that the figure faces.
+    /// The parts, in the figure's order.
+    pub parts: Vec<MatchedPart>,
+    /// The direction that the figure faces.
     pub facing: Facing,
-    /// What stood in the way.
+    /// What was wrong or missing.
     pub problems: Vec<Problem>,
 }
 
-/// The joint that drives a part.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Drive {
-    /// The joint.
-    pub joint: usize,
-    /// The far end of the bone or chain that begins at the joint; always there where the part follows a direction.
-    pub tip: Option<Tip>,
-    /// What the part takes from it.
-    pub follow: Follow,
-    /// Why, for people to read.
+/// A part of a figure, matched with a joint.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct MatchedPart {
+    /// What the part is; `None` if neither its name nor its place tells.
+    pub label: Option<Label>,
+    /// What drives it; a part without a drive follows its parent.
+    pub drive: Option<Drive>,
+    /// Why that drive, or why none, for people to read.
     pub why: String,
 }
 
-/// What a part takes from its joint.
+/// How a joint drives a part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Drive {
+    /// The joint.
+    pub joint: usize,
+    /// The far end of the bone or chain that begins at the joint; always present if the part follows a direction.
+    pub tip: Option<Tip>,
+    /// What the part takes over from it.
+    pub follow: Follow,
+}
+
+/// What a part takes over from its joint.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Follow {
-    /// Its axis points as the bone or chain does, from the joint to the tip: limbs.
+    /// Its axis points like the bone or chain, from the joint to the tip: limbs.
     Direction,
-    /// It turns by as much as the joint has turned from its rest, its drawn pose kept: trunk, neck, head.
+    /// It turns by as much as the joint has turned from its rest, starting from the drawn pose: trunk, neck, head.
     Change,
 }
 
-/// What stands in the way of a match.
+/// A problem that was found while matching.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Problem {
-    /// A part's string names a joint that the skeleton has not. The part is matched as if it named none.
+    /// A part's string names a joint that the skeleton does not have. The part is matched as if it named none.
     UnknownBone {
         /// The part.
         part: usize,
         /// The name as written.
         name: String,
-        /// Names of joints that are spelled nearly so, the nearest first.
+        /// Joint names with a similar spelling, the most similar first.
         nearest: Vec<String>,
     },
-    /// A part's string names a joint, and several have that name. The first is taken.
+    /// A part's string names a joint, and several joints have that name. The first one is used.
     AmbiguousBone {
         /// The part.
         part: usize,
@@ -69,7 +74,8 @@ pub enum Problem {
         /// The joints that have it.
         joints: Vec<usize>,
     },
-    /// A part's string names two joints, and the second does not hang on the first. The part is matched as if it named none.
+    /// A part's string names two joints, and the second is not a descendant of the first. The part is matched as if it named
+    /// none.
     NotAChain {
         /// The part.
         part: usize,
@@ -78,89 +84,82 @@ pub enum Problem {
         /// The second joint.
         to: usize,
     },
-    /// A part's string names more than two joints. Those after the second are left out.
+    /// A part's string names more than two joints. Those after the second are ignored.
     TooManyBones {
         /// The part.
         part: usize,
     },
-    /// The figure has a limb that the skeleton has not.
+    /// The figure has a limb that the skeleton does not have.
     NoSuchLimb {
         /// Arm or leg.
         class: Class,
-        /// The skeleton's side that lacks it.
+        /// The side of the skeleton that lacks it.
         side: Side,
-        /// The parts that would follow it.
+        /// The parts that it would drive.
         parts: Vec<usize>,
     },
     /// No joint drives any part.
     NothingMatched,
 }
 
-/// Joins a figure with a skeleton on their labels; `Bone` overrides.
+/// Matches a figure with a skeleton: parts and joints with equal labels belong together; `Bone` overrides.
 ///
-/// A limb of one piece follows the whole chain, shoulder to wrist or hip to ankle, and takes a hand or foot along; of two, upper and
-/// lower bone; a third is hand or foot. Legs of odd pairs, counted from the hind, take the other side's leg; arms never swap. A single trunk follows the
-/// chest, since head and arms hang there; several pieces are spread over the spine, the topmost on the chest; hips follow the
-/// hips. `anatomy` belongs to the skeleton.
+/// A limb of one piece follows the whole chain, shoulder to wrist or hip to ankle, and takes a hand or foot along. Of two
+/// pieces one follows the upper and one the lower bone; a third is the hand or foot. Every second pair of legs, counted from
+/// the hind end, follows the other side's leg; arms never swap sides. A trunk of one piece follows the chest, to which head and
+/// arms are attached; several pieces are spread over the spine, the topmost on the chest. Hips follow the hips. `anatomy`
+/// belongs to the skeleton.
 pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> Matching {
     let (labels, facing) = label_facing(figure);
     let mut problems = Vec::new();
     let names = Names::new(skeleton);
-    let mut drives = Vec::with_capacity(labels.len());
-    let mut follows = Vec::with_capacity(labels.len());
+    let mut parts = Vec::with_capacity(labels.len());
     let mut lacking = Vec::new();
-    let joining = Joining::new(skeleton, anatomy, &labels);
-    for (part, label) in labels.iter().enumerate() {
+    let matcher = Matcher::new(skeleton, anatomy, &labels);
+    for (part, label) in labels.into_iter().enumerate() {
         let bones = &figure.parts[part].bones;
         let class = label.as_ref().map(|label| label.class);
         let found = match names.bones(part, bones, class, anatomy, &mut problems) {
             Some(drive) => Ok(drive),
-            None => match label {
-                Some(label) => joining.drive(part, label, &mut lacking),
+            None => match &label {
+                Some(label) => matcher.drive(part, label, &mut lacking),
                 None => Err("no limb, head or trunk by its name or place".to_owned()),
             },
         };
-        match found {
-            Ok(drive) => {
-                drives.push(Some(drive));
-                follows.push(String::new());
-            }
-            Err(why) => {
-                drives.push(None);
-                follows.push(why);
-            }
-        }
+        let (drive, why) = match found {
+            Ok((drive, why)) => (Some(drive), why),
+            Err(why) => (None, why),
+        };
+        parts.push(MatchedPart { label, drive, why });
     }
     problems.append(&mut lacking);
-    if drives.iter().all(Option::is_none) {
+    if parts.iter().all(|part| part.drive.is_none()) {
         problems.push(Problem::NothingMatched);
     }
     Matching {
-        labels,
-        drives,
-        follows,
+        parts,
         facing,
         problems,
     }
 }
 
-/// The joints that `Bone` can mean by a name: compared exactly, else without regard to case, else without the prefixes that most
-/// joints share.
+/// The joints that `Bone` can mean by a name: an exact match, else one that ignores case, else one that also ignores the
+/// prefixes that most joints share.
 pub fn joints_named(skeleton: &Skeleton, name: &str) -> Vec<usize> {
     Names::new(skeleton).joints(name).to_vec()
 }
 
-/// Both sides of the join.
-struct Joining<'a> {
+/// Both sides of the match.
+struct Matcher<'a> {
     skeleton: &'a Skeleton,
     anatomy: &'a Anatomy,
-    /// How many pieces trunk, neck and tail of the figure have.
+    /// How many pieces the figure's trunk, neck and tail have.
     pieces: [usize; 3],
     /// The limbs of one piece: class, side and pair.
     whole: BTreeSet<(Class, Option<Side>, usize)>,
 }
 
-impl<'a> Joining<'a> {
+impl<'a> Matcher<'a> {
     fn new(skeleton: &'a Skeleton, anatomy: &'a Anatomy, labels: &[Option<Label>]) -> Self {
         let count = |class| {
             labels
@@ -187,7 +186,7 @@ impl<'a> Joining<'a> {
         part: usize,
         label: &Label,
         lacking: &mut Vec<Problem>,
-    ) -> Result<Drive, String> {
+    ) -> Result<(Drive, String), String> {
         let anatomy = self.anatomy;
         let [body, neck, tail] = self.pieces;
         let joint = match label.class {
@@ -201,12 +200,12 @@ impl<'a> Joining<'a> {
         let name = label.class.name();
         let joint = joint.ok_or_else(|| format!("{}; the motion has no {name}", label.why))?;
         let why = format!("{}; it turns with `{}`", label.why, self.name(joint));
-        Ok(Drive {
+        let drive = Drive {
             joint,
             tip: None,
             follow: Follow::Change,
-            why,
-        })
+        };
+        Ok((drive, why))
     }
 
     fn limb(
@@ -214,12 +213,12 @@ impl<'a> Joining<'a> {
         part: usize,
         label: &Label,
         lacking: &mut Vec<Problem>,
-    ) -> Result<Drive, String> {
+    ) -> Result<(Drive, String), String> {
         let why = &label.why;
         let own = label.side.ok_or_else(|| why.clone())?;
         let is_last = matches!(label.piece, Piece::End | Piece::Beyond);
         if is_last && self.whole.contains(&(label.class, label.side, label.pair)) {
-            return Err(format!("{why}; a limb of one piece takes it along"));
+            return Err(format!("{why}; it follows a limb of one piece"));
         }
         let crossed = label.class == Class::Leg && label.pair % 2 == 1;
         let side = if crossed { own.other() } else { own };
@@ -235,7 +234,7 @@ impl<'a> Joining<'a> {
             .ok_or_else(|| format!("{why}; the motion has no {}", label.piece.name(label.class)))?;
         let mut why = why.clone();
         if crossed {
-            why += "; an odd pair from the hind takes the other side's leg";
+            why += "; every second pair of legs follows the other side's leg";
         }
         let (follow, way) = match tip {
             Some(tip) => (
@@ -251,12 +250,8 @@ impl<'a> Joining<'a> {
                 format!("; it turns with `{}`", self.name(joint)),
             ),
         };
-        Ok(Drive {
-            joint,
-            tip,
-            follow,
-            why: why + &way,
-        })
+        let drive = Drive { joint, tip, follow };
+        Ok((drive, why + &way))
     }
 
     fn name(&self, joint: usize) -> &str {
@@ -271,13 +266,13 @@ impl<'a> Joining<'a> {
     }
 }
 
-/// The joint of a chain for a piece of several; the last piece has the last joint.
+/// The joint of a chain that drives one of several pieces; the last piece gets the last joint.
 fn spread(chain: &[usize], piece: usize, pieces: usize) -> Option<usize> {
     let place = ((piece + 1) * chain.len()).div_ceil(pieces.max(1));
     chain.get(place.checked_sub(1)?).copied()
 }
 
-/// Where the bone or chain of a piece begins and ends. Hand and foot without a bone, and toes, turn with their joint.
+/// Where the bone or chain that drives a piece begins and ends. Toes, and a hand or foot without a bone, turn with their joint.
 fn bone(limb: &Limb, piece: Piece) -> Option<(usize, Option<Tip>)> {
     let [lower, end] = [limb.lower, limb.end].map(|joint| joint.map(Tip::Joint));
     let pointing = |joint: Option<usize>, tip: Option<Tip>| Some((joint?, Some(tip?)));

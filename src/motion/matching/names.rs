@@ -1,25 +1,25 @@
-//! Joints that a part's string names.
+//! Joints that a part's string names with `Bone`.
 
 use rustc_hash::FxHashMap;
 
 use super::{Drive, Follow, Problem, bone};
-use crate::motion::labels::{Anatomy, Class, Piece, Tip, Tree, plain_names};
+use crate::motion::labels::{Anatomy, Class, JointTree, Piece, Tip, plain_names};
 use crate::motion::skeleton::Skeleton;
 
-/// Names offered in place of an unknown one, at most.
+/// How many names are suggested for an unknown one.
 const MAX_OFFERED: usize = 3;
-/// Unknown names for which others are looked for; a figure with more has another fault.
+/// For how many unknown names suggestions are searched; a figure with more has another problem.
 const MAX_UNKNOWN: usize = 32;
-/// Letters up to which names are compared with an unknown one: that takes the product of both lengths.
+/// Up to this many letters a name is compared with others, because that takes the product of both lengths.
 const MAX_LETTERS: usize = 64;
 
-/// The joints' names, to look up those that `Bone` gives.
+/// An index of joints by name.
 pub(super) struct Names<'a> {
     skeleton: &'a Skeleton,
-    tree: Tree,
-    /// Without the prefixes that most share.
+    tree: JointTree,
+    /// The names without the prefixes that most of them share.
     plain: Vec<&'a str>,
-    /// The joints of a name: as it is written, in lower case, and without prefixes in lower case.
+    /// The joints of a name: as written, in lower case, and without prefixes in lower case.
     joints: [FxHashMap<String, Vec<usize>>; 3],
 }
 
@@ -36,13 +36,13 @@ impl<'a> Names<'a> {
         }
         Self {
             skeleton,
-            tree: Tree::new(skeleton),
+            tree: JointTree::new(skeleton),
             plain,
             joints,
         }
     }
 
-    /// The joints of a name: compared exactly, else without regard to case, else without prefixes.
+    /// The joints of a name: an exact match, else one that ignores case, else one that also ignores prefixes.
     pub(super) fn joints(&self, name: &str) -> &[usize] {
         let [exact, lower, plain] = &self.joints;
         let in_lower = name.to_lowercase();
@@ -53,7 +53,7 @@ impl<'a> Names<'a> {
             .map_or(&[], Vec::as_slice)
     }
 
-    /// The drive that a part's string names; nothing where it names none that can be used.
+    /// The drive that a part's string names; `None` if it names none that is usable.
     pub(super) fn bones(
         &self,
         part: usize,
@@ -61,7 +61,7 @@ impl<'a> Names<'a> {
         class: Option<Class>,
         anatomy: &Anatomy,
         problems: &mut Vec<Problem>,
-    ) -> Option<Drive> {
+    ) -> Option<(Drive, String)> {
         if bones.len() > 2 {
             problems.push(Problem::TooManyBones { part });
         }
@@ -104,15 +104,11 @@ impl<'a> Names<'a> {
         } else {
             Follow::Change
         };
-        Some(Drive {
-            joint,
-            tip,
-            follow,
-            why: "its string names the joint with `Bone`".to_owned(),
-        })
+        let why = "its string names the joint with `Bone`".to_owned();
+        Some((Drive { joint, tip, follow }, why))
     }
 
-    /// Where the bone of a joint ends: as its limb has it, else where its longest chain goes on.
+    /// The end of a joint's bone: as its limb has it, else where its longest chain continues.
     fn own_bone(&self, joint: usize, anatomy: &Anatomy) -> Option<Tip> {
         let pieces = [Piece::Collar, Piece::Upper, Piece::Lower, Piece::End];
         let of_limbs = anatomy

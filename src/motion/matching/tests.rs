@@ -1,4 +1,4 @@
-use super::{Drive, Follow, Problem, match_figure};
+use super::{Follow, MatchedPart, Problem, match_figure};
 use crate::motion::bvh;
 use crate::motion::figure::Figure;
 use crate::motion::labels::tests::figures::{ANT, DOG, figure};
@@ -14,7 +14,7 @@ fn boxing() -> Clip {
 fn drives(figure: &Figure, clip: &Clip) -> (Vec<String>, Vec<Problem>) {
     let skeleton = &clip.skeleton;
     let matching = match_figure(figure, skeleton, &label_clip(clip));
-    let short = |drive: &Option<Drive>| match drive {
+    let short = |part: &MatchedPart| match part.drive {
         None => "-".to_owned(),
         Some(drive) => {
             assert_eq!(drive.tip.is_some(), drive.follow == Follow::Direction);
@@ -29,7 +29,7 @@ fn drives(figure: &Figure, clip: &Clip) -> (Vec<String>, Vec<Problem>) {
         }
     };
     (
-        matching.drives.iter().map(short).collect(),
+        matching.parts.iter().map(short).collect(),
         matching.problems,
     )
 }

@@ -1,26 +1,27 @@
-//! Rotations between frames, as the angles of a joint's own channels.
+//! Interpolated rotations as angles of a joint's own channels: Euler-angle extraction for all twelve axis orders, as in
+//! Shoemake, *Euler Angle Conversion* (Graphics Gems IV, 1994).
 
 use glam::{DMat3, DQuat};
 
 use crate::motion::skeleton::{Axis, Channel, Clip, Joint};
 
-/// Below this sine or cosine of the second angle the first and the third turn about one line, and only their sum is known: the
-/// first then stays as it was.
+/// If the sine or cosine of the second angle is below this, the first and the third rotate about the same line (gimbal lock)
+/// and only their sum is determined. The first one then keeps its value.
 const LOCKED: f64 = 1e-12;
 
-/// Three axes that express each rotation: R = R_i(α) · R_j(β) · R_l(γ), where l is i or the third axis k.
+/// Three axes that can express every rotation: R = R_i(α) · R_j(β) · R_l(γ), where l is i or the third axis k.
 #[derive(Debug, Clone, Copy)]
-struct Order {
+struct AxisOrder {
     i: usize,
     j: usize,
     k: usize,
     /// Whether l = i (proper Euler angles, such as Z X Z); else Tait-Bryan angles.
     proper: bool,
-    /// 1 where i, j, k are in cyclic order, else −1.
+    /// 1 if i, j, k are in cyclic order, else −1.
     sign: f64,
 }
 
-impl Order {
+impl AxisOrder {
     fn of(axes: &[Axis]) -> Option<Self> {
         let [i, j, l] = axes else {
             return None;
@@ -38,10 +39,10 @@ impl Order {
         })
     }
 
-    /// The angles of a rotation, degrees; `before` is the first angle where all that do are as good.
+    /// The angles of a rotation, degrees; `before` is the first angle in a gimbal lock.
     ///
-    /// The second and third are read from what is left after the first is undone, so that together they are exact however badly
-    /// the first is known near the pole.
+    /// The second and third angles are extracted from the rotation with the first one undone, so that all three together are
+    /// exact, however imprecise the first one is near the pole.
     fn angles(self, rotation: DQuat, before: f64) -> [f64; 3] {
         let matrix = DMat3::from_quat(rotation);
         let at = |row: usize, column: usize| matrix.col(column)[row];
@@ -73,7 +74,7 @@ impl Order {
         [alpha, beta, gamma].map(f64::to_degrees)
     }
 
-    /// The other angles within a turn that are the same rotation.
+    /// The second solution: other angles, within one turn, of the same rotation.
     fn flipped(self, [a, b, c]: [f64; 3]) -> [f64; 3] {
         [
             a + 180.0,
@@ -83,20 +84,20 @@ impl Order {
     }
 }
 
-/// The rotations of a joint through time.
-pub(super) struct Track {
+/// The rotation channels of a joint over time.
+pub(super) struct RotationTrack {
     joint: Joint,
-    /// Places of the rotations among the joint's numbers.
+    /// Indices of the rotation channels among the joint's channels.
     places: Vec<usize>,
-    order: Option<Order>,
-    /// The angles given last.
+    order: Option<AxisOrder>,
+    /// The angles of the previous sample.
     angles: Vec<f64>,
-    /// Frames whose rotation is known: the two of the sample before.
+    /// Cached rotations of frames: the two that the previous sample lies between.
     known: [Option<(usize, DQuat)>; 2],
 }
 
-impl Track {
-    /// A track that begins with a joint's numbers in the first frame, as they are.
+impl RotationTrack {
+    /// A track that begins with a joint's numbers in the first frame, unchanged.
     pub(super) fn new(channels: &[Channel], first: &[f64]) -> Self {
         let rotations = channels
             .iter()
@@ -115,14 +116,14 @@ impl Track {
                 channels: channels.to_vec(),
                 ..Joint::default()
             },
-            order: Order::of(&axes),
+            order: AxisOrder::of(&axes),
             places,
             angles,
             known: [None; 2],
         }
     }
 
-    /// The rotation of a frame, by its index and its numbers.
+    /// The rotation in a frame, from the frame's index and the joint's numbers.
     fn rotation(&self, (frame, numbers): (usize, &[f64])) -> DQuat {
         let known = self
             .known
@@ -135,8 +136,8 @@ impl Track {
         )
     }
 
-    /// Puts the rotation at `t` (0…1) of the way between two frames, each by its index and its numbers, into the numbers of a new
-    /// frame: the representation that is nearest to the one given last.
+    /// Writes the rotation at fraction `t` (0…1) between two frames, each given by index and numbers, to the numbers of a new
+    /// frame. Of all equivalent angles it takes the ones nearest to the previous sample's.
     pub(super) fn rotations(&mut self, between: [(usize, &[f64]); 2], t: f64, out: &mut [f64]) {
         let [(first, from), (second, to)] = between;
         match (self.order, self.angles.as_slice()) {
@@ -157,7 +158,7 @@ impl Track {
             _ => {
                 for (place, angle) in self.places.iter().zip(&mut self.angles) {
                     if let (Some(from), Some(to)) = (from.get(*place), to.get(*place)) {
-                        *angle = nearest(from + turn(to - from) * t, *angle);
+                        *angle = nearest(from + shorter_turn(to - from) * t, *angle);
                     }
                 }
             }
@@ -170,10 +171,10 @@ impl Track {
     }
 }
 
-/// Spherical interpolation by the shorter way, which keeps its precision for the smallest angles.
+/// Spherical linear interpolation along the shorter arc, precise for the smallest angles too.
 fn slerp(from: DQuat, to: DQuat, t: f64) -> DQuat {
     let to = if from.dot(to) < 0.0 { -to } else { to };
-    // Twice the arc tangent of half the chords: the arc cosine of the dot product loses half the digits near 1.
+    // The angle from the chords by arc tangent: the arc cosine of the dot product loses half the digits near 1.
     let angle = 2.0 * (to - from).length().atan2((to + from).length());
     let sin = angle.sin();
     if sin < 1e-9 {
@@ -182,12 +183,12 @@ fn slerp(from: DQuat, to: DQuat, t: f64) -> DQuat {
     (from * (((1.0 - t) * angle).sin() / sin) + to * ((t * angle).sin() / sin)).normalize()
 }
 
-/// A difference of angles by the shorter way, degrees: −180…180.
-fn turn(angle: f64) -> f64 {
+/// The equivalent angle difference of the shorter way, degrees: −180…180.
+fn shorter_turn(angle: f64) -> f64 {
     angle - 360.0 * (angle / 360.0).round()
 }
 
-/// The angle that differs from `angle` by whole turns and is nearest to `to`.
+/// The angle that is equivalent to `angle` and nearest to `to`.
 fn nearest(angle: f64, to: f64) -> f64 {
     angle - 360.0 * ((angle - to) / 360.0).round()
 }

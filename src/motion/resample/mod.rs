@@ -1,7 +1,7 @@
-//! Another frame rate, and parts of a clip.
+//! Changes the frame rate of a clip, and cuts out ranges.
 //!
-//! The thesis works at 24 frames a second (section 5.2.1). Rotations go by slerp (Shoemake 1985) and back to each joint's own
-//! angles, so that what is written has the skeleton that was read.
+//! The thesis works at 24 frames a second (section 5.2.1). Rotations are interpolated by slerp (Shoemake 1985) and converted
+//! back to each joint's own channels by Euler-angle extraction, so that the result has the skeleton that was read.
 
 mod euler;
 mod range;
@@ -13,43 +13,43 @@ use std::sync::Arc;
 
 use rayon::prelude::*;
 
-use super::bvh::MOST_NUMBERS;
+use super::bvh::MAX_NUMBERS;
 use super::skeleton::Clip;
 
-use euler::Track;
+use euler::RotationTrack;
 pub use range::{Range, parse_range, range};
 
-/// How far a clip's rate may be from the wanted one to be left as it is, as a fraction.
-const AS_IT_IS: f64 = 0.005;
+/// A clip whose rate differs from the requested one by at most this fraction keeps its rate.
+const RATE_TOLERANCE: f64 = 0.005;
 
-/// How far a rate may be from a whole one to be taken for it, as a fraction: frame times are written with few digits (0.033333
-/// is 30 frames a second), and rates such as 29.97 are farther off.
-const WHOLE_WITHIN: f64 = 1e-4;
+/// A rate that differs from an integer by at most this fraction is rounded to it: frame times have few digits (0.033333 is 30
+/// frames a second), and rates such as 29.97 differ by more.
+const ROUNDING_TOLERANCE: f64 = 1e-4;
 
-/// The rates that can be asked for, frames a second: those whose frame times a file can hold.
+/// The frame rates that can be requested: those whose frame times a file can hold.
 const RATES: std::ops::RangeInclusive<f64> = 0.1..=1e5;
 
-/// Why a clip cannot be brought to another rate, or cut.
+/// Why a clip cannot be resampled or cut.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Error {
-    /// The rate makes no sense.
+    /// An impossible frame rate.
     Rate(f64),
-    /// There would be so many frames, and only so many are allowed.
+    /// More frames than allowed.
     Frames {
         /// How many there would be.
         wanted: f64,
-        /// How many there may be.
+        /// How many are allowed.
         most: usize,
     },
-    /// A text that is no range of frames.
+    /// A text that is not a range of frames.
     NotARange(String),
-    /// The range ends before it begins: first, last.
+    /// A range that ends before it begins: first, last.
     Backwards(usize, usize),
-    /// A frame that is not there, in a clip of so many.
+    /// A frame that does not exist.
     NoFrame {
-        /// The frame, from 1.
+        /// The frame, counted from 1.
         frame: usize,
-        /// How many there are.
+        /// The number of frames of the clip.
         frames: usize,
     },
 }
@@ -59,7 +59,7 @@ impl fmt::Display for Error {
         match self {
             Self::Rate(fps) => write!(
                 f,
-                "{fps} is no frame rate: it takes {} to {} frames a second",
+                "{fps} is not a possible frame rate: use {} to {} frames a second",
                 RATES.start(),
                 RATES.end()
             ),
@@ -70,7 +70,7 @@ impl fmt::Display for Error {
             Self::NotARange(text) => {
                 write!(
                     f,
-                    "`{text}` is no range of frames: write first:last, counted from 1, such as 10:48, 10: or :48"
+                    "`{text}` is not a range of frames: write first:last, counted from 1, such as 10:48, 10: or :48"
                 )
             }
             Self::Backwards(first, last) => {
@@ -86,38 +86,38 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// The frames a second that a frame time stands for.
+/// The frame rate for a frame time.
 pub fn rate(frame_time: f64) -> f64 {
     let rate = 1.0 / frame_time;
     let whole = rate.round();
-    if whole > 0.0 && (rate / whole - 1.0).abs() <= WHOLE_WITHIN {
+    if whole > 0.0 && (rate / whole - 1.0).abs() <= ROUNDING_TOLERANCE {
         whole
     } else {
         rate
     }
 }
 
-/// Brings a clip to another rate, frames a second. The first frame stays at time 0, the last is the last that does not lie behind
-/// the clip's own; positions go straight, rotations by slerp along the shorter way. Angles are continuous in time. Where they
-/// cannot express each rotation (one or two, the same axis twice in a row, more than three) they are led over by themselves, by
-/// the shorter way. A clip within 0.5 % of the rate, or with fewer than two frames, stays bit for bit as it is.
+/// Resamples a clip to another frame rate. The first frame stays at time 0; the last one is the last that does not lie after
+/// the clip's end. Positions are interpolated linearly, rotations by slerp along the shorter arc. Angles are continuous in
+/// time. A joint whose channels cannot express every rotation (one or two, the same axis twice in a row, more than three) has
+/// its angles interpolated separately, each by the shorter way. A clip within 0.5 % of the rate, or with fewer than two frames,
+/// is returned unchanged.
 ///
 /// # Errors
-/// [`Error::Rate`] for a rate that makes no sense, [`Error::Frames`] where the clip would have more numbers than
-/// [`MOST_NUMBERS`].
+/// [`Error::Rate`] for an impossible frame rate, [`Error::Frames`] if the clip would have more numbers than [`MAX_NUMBERS`].
 pub fn resample(clip: Clip, fps: f64) -> Result<Clip, Error> {
     if !RATES.contains(&fps) {
         return Err(Error::Rate(fps));
     }
     let own = rate(clip.frame_time);
-    let stays = (own / fps - 1.0).abs() <= AS_IT_IS
-        || (1.0 / clip.frame_time / fps - 1.0).abs() <= AS_IT_IS;
+    let stays = (own / fps - 1.0).abs() <= RATE_TOLERANCE
+        || (1.0 / clip.frame_time / fps - 1.0).abs() <= RATE_TOLERANCE;
     if clip.frames() < 2 || !own.is_finite() || own <= 0.0 || stays {
         return Ok(clip);
     }
     let last = clip.frames() - 1;
-    let width = clip.skeleton.width();
-    let most = MOST_NUMBERS / width.max(1);
+    let width = clip.skeleton.channel_count();
+    let most = MAX_NUMBERS / width.max(1);
     let wanted = (last as f64 * fps / own + 1e-9).floor() + 1.0;
     if wanted > most as f64 {
         return Err(Error::Frames { wanted, most });
@@ -135,7 +135,7 @@ pub fn resample(clip: Clip, fps: f64) -> Result<Clip, Error> {
     ))
 }
 
-/// Where the new frames lie among the old ones.
+/// The positions of the new frames among the old ones.
 struct Samples {
     count: usize,
     last: usize,
@@ -144,7 +144,7 @@ struct Samples {
 }
 
 impl Samples {
-    /// The frame before a sample, and how far it is to the next: below 1.
+    /// The old frame before a sample, and the fraction of the way to the next one, below 1.
     fn place(&self, sample: usize) -> (usize, f64) {
         let place = sample as f64 * self.own / self.fps;
         let frame = (place as usize).min(self.last);
@@ -159,33 +159,34 @@ impl Samples {
     }
 }
 
-/// A joint, and its numbers in some new frames.
-struct Column {
-    track: Track,
-    /// The first of its numbers in a frame, and how many they are.
+/// The channels of a joint, and their numbers in some of the new frames.
+struct JointChannels {
+    track: RotationTrack,
+    /// The index of its first channel, and the number of its channels.
     start: usize,
     count: usize,
     numbers: Vec<f64>,
 }
 
-/// The numbers of the new frames: some frames at a time, in these joint by joint, since angles follow on each other.
+/// The numbers of the new frames. Processed in blocks of frames, and joint by joint within a block, because each angle depends
+/// on the one before.
 fn values(clip: &Clip, samples: &Samples) -> Vec<f64> {
-    /// New frames at a time: they and the old ones stay in the cache while joint after joint goes over them.
+    /// New frames per block: they and the old ones stay in the processor's cache while all joints are processed.
     const GRAIN: usize = 512;
 
     let mut columns = Vec::with_capacity(clip.skeleton.joints.len());
     let mut start = 0;
     for joint in &clip.skeleton.joints {
         let count = joint.channels.len();
-        columns.push(Column {
-            track: Track::new(&joint.channels, &clip.row(0)[start..start + count]),
+        columns.push(JointChannels {
+            track: RotationTrack::new(&joint.channels, &clip.row(0)[start..start + count]),
             start,
             count,
             numbers: Vec::new(),
         });
         start += count;
     }
-    let width = clip.skeleton.width();
+    let width = clip.skeleton.channel_count();
     let mut values = vec![0.0; samples.count * width];
     for (chunk, rows) in values.chunks_mut(GRAIN * width).enumerate() {
         let first = chunk * GRAIN;
@@ -195,7 +196,7 @@ fn values(clip: &Clip, samples: &Samples) -> Vec<f64> {
             .for_each(|column| column.fill(clip, samples, part.clone()));
         for (sample, row) in rows.chunks_mut(width).enumerate() {
             for column in &columns {
-                let Column {
+                let JointChannels {
                     start,
                     count,
                     numbers,
@@ -208,8 +209,8 @@ fn values(clip: &Clip, samples: &Samples) -> Vec<f64> {
     values
 }
 
-impl Column {
-    /// Works out the numbers of some samples, which follow on those before.
+impl JointChannels {
+    /// Computes the numbers of some samples, which continue those before.
     fn fill(&mut self, clip: &Clip, samples: &Samples, part: std::ops::Range<usize>) {
         let columns = self.start..self.start + self.count;
         self.numbers.clear();

@@ -1,19 +1,19 @@
-//! Parts of a clip.
+//! Ranges of frames.
 
 use crate::motion::skeleton::Clip;
 
 use super::Error;
 
-/// A range of frames as an animator writes it: from 1, the last one within.
+/// A range of frames as animators write it: counted from 1, including the last one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Range {
     /// The first frame.
     pub first: usize,
-    /// The last frame; none for the clip's last.
+    /// The last frame; `None` for the clip's last.
     pub last: Option<usize>,
 }
 
-/// Reads `first:last`, `first:` or `:last`.
+/// Parses `first:last`, `first:` or `:last`.
 ///
 /// # Errors
 /// [`Error::NotARange`], [`Error::Backwards`], and [`Error::NoFrame`] for frame 0.
@@ -44,11 +44,11 @@ pub fn parse_range(text: &str) -> Result<Range, Error> {
     }
 }
 
-/// The part of a clip that a range names. Ranges are meant in frames of the resampled clip, after the lead-in went: those that
-/// are shown.
+/// The part of a clip that a range names. Ranges count the frames that are shown: those of the resampled clip, without the
+/// lead-in.
 ///
 /// # Errors
-/// [`Error::NoFrame`] for a frame behind the clip's last, and for frame 0; [`Error::Backwards`].
+/// [`Error::NoFrame`] for a frame after the clip's last, and for frame 0; [`Error::Backwards`].
 pub fn range(clip: &Clip, range: Range) -> Result<Clip, Error> {
     let frames = clip.frames();
     let last = range.last.unwrap_or(frames.max(range.first));
@@ -60,5 +60,5 @@ pub fn range(clip: &Clip, range: Range) -> Result<Clip, Error> {
     if last < range.first {
         return Err(Error::Backwards(range.first, last));
     }
-    Ok(clip.picked(range.first - 1..last))
+    Ok(clip.select_frames(range.first - 1..last))
 }

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use crate::motion::figure::{Figure, Part};
+use crate::motion::figure::{Figure, FigurePart};
 use crate::motion::labels::{Class, Label, Piece, Side, label_figure};
 
 /// A part: its name, what it hangs on, its joint, its tip, and half its width.
@@ -16,13 +16,13 @@ pub(crate) fn figure(rows: &[Row<'_>]) -> Figure {
         .map(|(drawn, (name, parent, joint, tip, half))| {
             let (joint, tip) = (DVec2::from_array(*joint), DVec2::from_array(*tip));
             let across = (tip - joint).perp().normalize_or_zero().abs() * *half;
-            Part {
+            FigurePart {
                 name: (*name).to_owned(),
                 parent: rows.iter().position(|row| row.0 == *parent),
                 joint,
                 tip,
                 bounds: [joint.min(tip) - across, joint.max(tip) + across],
-                drawn,
+                drawing_order: drawn,
                 bones: Vec::new(),
             }
         });

@@ -4,7 +4,7 @@ mod conventions;
 pub(crate) mod figures;
 mod files;
 mod programs;
-mod wild;
+mod random;
 
 use glam::DVec3;
 

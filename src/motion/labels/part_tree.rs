@@ -1,0 +1,141 @@
+//! A figure as a tree of bounding boxes: parents, children, and what stands on the ground.
+
+use glam::DVec2;
+
+use crate::motion::figure::{Figure, FigurePart};
+
+/// Parts whose lowest point is at most this share of the figure's height above the ground stand on it (motion.md).
+const GROUND: f64 = 0.12;
+
+/// The parts of a figure as a tree.
+#[derive(Debug)]
+pub(super) struct PartTree<'a> {
+    pub(super) parts: &'a [FigurePart],
+    /// Parents; a part that would be its own ancestor has none.
+    pub(super) parents: Vec<Option<usize>>,
+    pub(super) children: Vec<Vec<usize>>,
+    /// All parts, parents before children.
+    pub(super) order: Vec<usize>,
+    /// Per part the number of its descendants.
+    pub(super) descendants: Vec<usize>,
+    /// Per part the lowest point of itself and its descendants.
+    lowest: Vec<f64>,
+    ground: f64,
+    pub(super) height: f64,
+}
+
+impl<'a> PartTree<'a> {
+    pub(super) fn new(figure: &'a Figure) -> Self {
+        let parts = figure.parts.as_slice();
+        let parents = parents(parts);
+        let mut children = vec![Vec::new(); parts.len()];
+        for (index, parent) in parents.iter().enumerate() {
+            if let Some(parent) = parent {
+                children[*parent].push(index);
+            }
+        }
+        let mut order: Vec<usize> = (0..parts.len())
+            .filter(|part| parents[*part].is_none())
+            .collect();
+        let mut next = 0;
+        while let Some(part) = order.get(next) {
+            order.extend(&children[*part]);
+            next += 1;
+        }
+        let mut descendants = vec![0; parts.len()];
+        let mut lowest: Vec<f64> = parts.iter().map(|part| corners(part)[0].y).collect();
+        for part in order.iter().rev() {
+            if let Some(parent) = parents[*part] {
+                descendants[parent] += descendants[*part] + 1;
+                lowest[parent] = lowest[parent].min(lowest[*part]);
+            }
+        }
+        let ground = parts
+            .iter()
+            .map(|part| corners(part)[0].y)
+            .fold(f64::INFINITY, f64::min);
+        let top = parts
+            .iter()
+            .map(|part| corners(part)[1].y)
+            .fold(f64::NEG_INFINITY, f64::max);
+        Self {
+            parts,
+            parents,
+            children,
+            order,
+            descendants,
+            lowest,
+            ground,
+            height: top - ground,
+        }
+    }
+
+    /// Whether a part or one of its descendants stands on the figure's ground.
+    pub(super) fn stands(&self, part: usize) -> bool {
+        self.lowest[part] <= self.ground + GROUND * self.height
+    }
+
+    /// The bounding box of some parts; an empty box at the origin if there are none.
+    pub(super) fn around(&self, parts: impl Iterator<Item = usize>) -> [DVec2; 2] {
+        parts
+            .map(|part| corners(&self.parts[part]))
+            .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
+            .unwrap_or_default()
+    }
+
+    /// The centre of a part's bounding box.
+    pub(super) fn middle(&self, part: usize) -> DVec2 {
+        let [low, high] = corners(&self.parts[part]);
+        low.midpoint(high)
+    }
+
+    /// Where a part turns.
+    pub(super) fn joint(&self, part: usize) -> DVec2 {
+        finite(self.parts[part].joint)
+    }
+
+    /// The far end of a part.
+    pub(super) fn tip(&self, part: usize) -> DVec2 {
+        finite(self.parts[part].tip)
+    }
+}
+
+/// A part's bounding box, lower left corner first, with finite numbers.
+fn corners(part: &FigurePart) -> [DVec2; 2] {
+    let [a, b] = part.bounds.map(finite);
+    [a.min(b), a.max(b)]
+}
+
+fn finite(point: DVec2) -> DVec2 {
+    /// Beyond every drawing; sums and products of such numbers stay finite.
+    const FAR: f64 = 1e100;
+    DVec2::from_array(point.to_array().map(|number| {
+        if number.is_nan() {
+            0.0
+        } else {
+            number.clamp(-FAR, FAR)
+        }
+    }))
+}
+
+fn parents(parts: &[FigurePart]) -> Vec<Option<usize>> {
+    let mut parents: Vec<Option<usize>> = parts
+        .iter()
+        .map(|part| part.parent.filter(|parent| *parent < parts.len()))
+        .collect();
+    // The walk that visited a part last: 0 for none, else the index of its start plus one.
+    let mut seen = vec![0; parts.len()];
+    for start in 0..parts.len() {
+        let mut part = start;
+        while seen[part] == 0 {
+            seen[part] = start + 1;
+            match parents[part] {
+                // Back on the same walk: a cycle, cut where it closes.
+                Some(parent) if seen[parent] == start + 1 => parents[part] = None,
+                Some(parent) => part = parent,
+                None => break,
+            }
+        }
+    }
+    parents
+}

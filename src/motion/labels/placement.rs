@@ -1,0 +1,292 @@
+//! Sides and pairs of a figure's limbs, by where they are drawn.
+
+use glam::DVec2;
+
+use super::figure::{PartDraft, is_trunk};
+use super::part_tree::PartTree;
+use super::pieces::Limb;
+use super::vocabulary::Term;
+use super::{Class, Facing, Side};
+
+/// The direction that a figure faces, and the middle of its trunk.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum Front {
+    /// Towards the viewer.
+    Viewer {
+        /// The middle of its trunk.
+        axis: DVec2,
+    },
+    /// To one side of the drawing: the head lies more beside the trunk than above it.
+    Beside {
+        /// The middle of its trunk.
+        axis: DVec2,
+        /// −1 for the drawing's left, 1 for its right.
+        toward: f64,
+    },
+}
+
+impl Front {
+    pub(super) fn facing(self) -> Facing {
+        match self {
+            Self::Viewer { .. } => Facing::Viewer,
+            Self::Beside { toward, .. } if toward < 0.0 => Facing::Left,
+            Self::Beside { .. } => Facing::Right,
+        }
+    }
+
+    pub(super) fn of(tree: &PartTree<'_>, drafts: &[PartDraft]) -> Self {
+        let all = |wanted: &dyn Fn(&PartDraft) -> bool| {
+            let parts = tree
+                .order
+                .iter()
+                .copied()
+                .filter(|part| wanted(&drafts[*part]));
+            let [low, high] = tree.around(parts);
+            low.midpoint(high)
+        };
+        let axis = all(&|draft| is_trunk(draft.class));
+        let head = |draft: &PartDraft| draft.class == Some(Class::Head);
+        let trunk = drafts.iter().any(|draft| is_trunk(draft.class));
+        let off = all(&head) - axis;
+        if trunk && drafts.iter().any(head) && off.x.abs() > off.y {
+            Self::Beside {
+                axis,
+                toward: off.x.signum(),
+            }
+        } else {
+            Self::Viewer { axis }
+        }
+    }
+
+    /// The position of a limb along the way from the figure's hind end to its head.
+    fn place_of(self, tree: &PartTree<'_>, part: usize) -> f64 {
+        match self {
+            Self::Viewer { .. } => tree.joint(part).y,
+            Self::Beside { toward, .. } => tree.joint(part).x * toward,
+        }
+    }
+}
+
+/// What a limb's name says about its place between hind end and head.
+fn rank(draft: &PartDraft) -> u8 {
+    if draft.says(&[Term::Hind, Term::Back]) {
+        0
+    } else if draft.says(&[Term::Fore]) {
+        2
+    } else {
+        1
+    }
+}
+
+fn sorted_from_hind(
+    tree: &PartTree<'_>,
+    facing: &Front,
+    drafts: &[PartDraft],
+    roots: &mut [usize],
+) {
+    roots.sort_by(|a, b| {
+        let place = |part: usize| facing.place_of(tree, part);
+        rank(&drafts[*a])
+            .cmp(&rank(&drafts[*b]))
+            .then(place(*a).total_cmp(&place(*b)))
+            .then(a.cmp(b))
+    });
+}
+
+/// Sets the sides of limbs: by the name of one of their parts, else by place.
+pub(super) fn sides(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts: &mut [PartDraft]) {
+    for class in [Class::Arm, Class::Leg] {
+        let limbs: Vec<&Limb> = limbs.iter().filter(|limb| limb.class == class).collect();
+        let mut open = Vec::new();
+        for limb in &limbs {
+            let named = limb.parts.iter().find_map(|(part, _)| drafts[*part].side);
+            match named {
+                Some(side) => {
+                    let why = match drafts[limb.root()].named {
+                        true => format!(", and its side is {}", side.name()),
+                        false => format!("; it is the {} one by its name", side.name()),
+                    };
+                    give(drafts, limb, side, &why);
+                }
+                None => open.push(*limb),
+            }
+        }
+        let others: Vec<Side> = limbs
+            .iter()
+            .filter_map(|limb| drafts[limb.root()].side)
+            .collect();
+        match (open.as_slice(), others.as_slice(), facing) {
+            ([limb], [side], _) => {
+                let side = side.other();
+                give(
+                    drafts,
+                    limb,
+                    side,
+                    &format!(
+                        "; the other one is the {}, so it is the {}",
+                        side.other().name(),
+                        side.name()
+                    ),
+                );
+            }
+            (_, _, Front::Viewer { axis }) => from_front(tree, axis.x, &open, drafts),
+            (_, _, Front::Beside { toward, .. }) => from_side(tree, facing, *toward, &open, drafts),
+        }
+    }
+}
+
+fn give(drafts: &mut [PartDraft], limb: &Limb, side: Side, why: &str) {
+    for (part, _) in &limb.parts {
+        drafts[*part].side = Some(side);
+        drafts[*part].why[1] = why.to_owned();
+    }
+}
+
+/// The drawn left is the figure's right. Of two limbs the further left one, wherever the middle of the trunk is.
+fn from_front(tree: &PartTree<'_>, axis: f64, open: &[&Limb], drafts: &mut [PartDraft]) {
+    let place = |limb: &Limb| tree.joint(limb.root()).midpoint(tree.tip(limb.root())).x;
+    let axis = match open {
+        [a, b] if place(a) != place(b) => f64::midpoint(place(a), place(b)),
+        _ => axis,
+    };
+    for limb in open {
+        let (drawn, side) = if place(limb) < axis {
+            ("left", Side::Right)
+        } else {
+            ("right", Side::Left)
+        };
+        let why = format!(
+            "; drawn on the {drawn}, so it is the {} one, since the figure faces us",
+            side.name()
+        );
+        give(drafts, limb, side, &why);
+    }
+}
+
+/// In profile, neighbours counted from the hind end are pairs, and the limb drawn later is on the near side: the left one if
+/// the figure faces the drawing's left. An odd number of limbs without words for fore and hind is taken as the legs of one
+/// side.
+fn from_side(
+    tree: &PartTree<'_>,
+    facing: &Front,
+    toward: f64,
+    open: &[&Limb],
+    drafts: &mut [PartDraft],
+) {
+    let near = if toward < 0.0 {
+        Side::Left
+    } else {
+        Side::Right
+    };
+    let way = if toward < 0.0 { "left" } else { "right" };
+    let mut roots: Vec<usize> = open.iter().map(|limb| limb.root()).collect();
+    sorted_from_hind(tree, facing, drafts, &mut roots);
+    let ranks: Vec<u8> = roots.iter().map(|root| rank(&drafts[*root])).collect();
+    let ranked = ranks.iter().any(|rank| *rank != 1);
+    let pair = if ranked || roots.len().is_multiple_of(2) {
+        2
+    } else {
+        1
+    };
+    let mut far = vec![false; drafts.len()];
+    let mut start = 0;
+    for group in ranks.chunk_by(|a, b| a == b) {
+        for pair in roots[start..start + group.len()].chunks(pair) {
+            if let [a, b] = pair {
+                let later = |part: usize| (tree.parts[part].drawing_order, part);
+                far[if later(*a) < later(*b) { *a } else { *b }] = true;
+            }
+        }
+        start += group.len();
+    }
+    for limb in open {
+        let (side, drawn) = if far[limb.root()] {
+            (near.other(), "first, so on the far side")
+        } else {
+            (near, "last, so on the near side")
+        };
+        let why = format!(
+            "; the figure faces the drawing's {way} and it was drawn {drawn}: the {} one",
+            side.name()
+        );
+        give(drafts, limb, side, &why);
+    }
+}
+
+/// Numbers the limbs of each class and side from the hind end, the pieces of the trunk from the hips, those of neck and tail
+/// from the trunk.
+pub(super) fn pairs(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts: &mut [PartDraft]) {
+    let mut pieces: Vec<usize> = tree.order.clone();
+    let height = |draft: &PartDraft| match draft.class {
+        Some(Class::Body) if draft.says(&[Term::Belly]) => 0,
+        Some(Class::Body) if draft.says(&[Term::Chest]) => 2,
+        _ => 1,
+    };
+    let middle = |part: usize| match (drafts[part].class, facing) {
+        (Some(Class::Body), Front::Viewer { .. }) => tree.middle(part).y,
+        (Some(Class::Body), Front::Beside { toward, .. }) => tree.middle(part).x * toward,
+        // What is attached to the trunk is already sorted, parents first.
+        _ => 0.0,
+    };
+    pieces.sort_by(|a, b| {
+        let heights = height(&drafts[*a]).cmp(&height(&drafts[*b]));
+        heights.then(middle(*a).total_cmp(&middle(*b)))
+    });
+    for class in [Class::Body, Class::Neck, Class::Tail] {
+        let of_class = pieces
+            .iter()
+            .filter(|part| drafts[**part].class == Some(class));
+        let found: Vec<usize> = of_class.copied().collect();
+        for (place, part) in found.into_iter().enumerate() {
+            drafts[part].pair = place;
+        }
+    }
+    for class in [Class::Arm, Class::Leg] {
+        count_limbs(tree, facing, limbs, class, drafts);
+    }
+}
+
+/// Numbers the limbs of a class from the hind end. If one side has fewer, each of its limbs joins the nearest pair.
+fn count_limbs(
+    tree: &PartTree<'_>,
+    facing: &Front,
+    limbs: &[Limb],
+    class: Class,
+    drafts: &mut [PartDraft],
+) {
+    let mut sides = Side::BOTH.map(|side| {
+        let of_side = |limb: &&Limb| limb.class == class && drafts[limb.root()].side == Some(side);
+        let mut roots: Vec<usize> = limbs.iter().filter(of_side).map(Limb::root).collect();
+        sorted_from_hind(tree, facing, drafts, &mut roots);
+        roots
+    });
+    sides.sort_by_key(|roots| std::cmp::Reverse(roots.len()));
+    let [more, fewer] = sides;
+    let mut pair_of = vec![0; drafts.len()];
+    for (pair, root) in more.iter().enumerate() {
+        pair_of[*root] = pair;
+    }
+    let place = |root: usize| facing.place_of(tree, root);
+    let mut by_place: Vec<(f64, usize)> = more
+        .iter()
+        .map(|root| (place(*root), pair_of[*root]))
+        .collect();
+    by_place.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (pair, root) in fewer.iter().enumerate() {
+        let here = place(*root);
+        let next = by_place.partition_point(|(place, _)| *place < here);
+        let around = &by_place[next.saturating_sub(1)..by_place.len().min(next + 1)];
+        let nearest = around
+            .iter()
+            .min_by(|a, b| (a.0 - here).abs().total_cmp(&(b.0 - here).abs()));
+        pair_of[*root] = match nearest {
+            Some((_, nearest)) if fewer.len() < more.len() => *nearest,
+            _ => pair,
+        };
+    }
+    for limb in limbs.iter().filter(|limb| limb.class == class) {
+        for (part, _) in &limb.parts {
+            drafts[*part].pair = pair_of[limb.root()];
+        }
+    }
+}

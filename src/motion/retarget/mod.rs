@@ -1,0 +1,173 @@
+//! Retargets a clip to a figure: how its parts turn, and where it goes (motion.md, Carrying it over).
+//!
+//! All results are in the drawing's axes: x to the drawing's right, y up, z towards the viewer, in the figure's unit. The body
+//! axes of the clip's first frame are mapped to them, so the figure starts in the direction in which it is drawn.
+
+mod axes;
+mod rest_pose;
+mod root_motion;
+mod rotations;
+
+use glam::{DQuat, DVec3};
+
+use super::labels::Facing;
+use super::matching::Drive;
+use super::skeleton::{Clip, Transform};
+
+pub use axes::Landmarks;
+pub use rest_pose::RestSource;
+
+/// A figure as motion sees it: its nodes at rest, and the joints that drive them.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Rig {
+    /// The parts, in any order; parents are indices.
+    pub parts: Vec<RigPart>,
+    /// The direction that it faces.
+    pub facing: Facing,
+}
+
+/// A part of a rig.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RigPart {
+    /// Its parent. One part has none: the root, whose travel is the figure's.
+    pub parent: Option<usize>,
+    /// Whether its node is a child of the model's root and not of its parent's node: parts that are connected only because they
+    /// touch.
+    pub is_rooted: bool,
+    /// Its node at rest.
+    pub node: Transform,
+    /// Where it turns. The node of a rooted part is elsewhere, in the middle of the part.
+    pub joint: DVec3,
+    /// Its far end.
+    pub tip: DVec3,
+    /// The points of its lower edge that touch the ground, if it is the end of a leg; else empty.
+    pub sole: Vec<DVec3>,
+    /// The joint that drives it.
+    pub drive: Option<Drive>,
+    /// Whether it belongs to a leg and follows the direction of a bone.
+    pub is_leg: bool,
+}
+
+/// A clip retargeted to a rig, frame by frame.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RetargetedClip {
+    /// Per part the rotation of its node in its parent's frame, of rooted nodes in the drawing's axes; `None` if it does not
+    /// change.
+    pub rotations: Vec<Option<Vec<DQuat>>>,
+    /// Per part the position of its node; for rooted nodes only.
+    pub translations: Vec<Option<Vec<DVec3>>>,
+    /// Per frame whether a foot is in contact with the ground.
+    pub grounded: Vec<bool>,
+    /// The rest pose from which the clip's rotations were measured.
+    pub rest: RestSource,
+}
+
+/// Retargets a clip to a rig. Every index in `rig` and `landmarks` must be valid. Nothing moves if no part is driven; parts
+/// whose parents form a cycle stay in place.
+pub fn retarget(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> RetargetedClip {
+    let count = rig.parts.len();
+    let order = order(rig);
+    if rig.parts.iter().all(|part| part.drive.is_none()) || order.is_empty() {
+        return RetargetedClip {
+            rotations: vec![None; count],
+            translations: vec![None; count],
+            grounded: vec![false; clip.frames()],
+            rest: RestSource::default(),
+        };
+    }
+    let mut poses = PoseBuffer::new(clip);
+    let axes = axes::Axes::of(clip, landmarks, rig.facing);
+    let rest = rest_pose::choose(clip, rig, landmarks, &axes, &mut poses);
+    let rotations = rotations::rotations(clip, rig, &axes, &rest, &mut poses, &order);
+    let root_motion =
+        root_motion::root_motion(clip, rig, landmarks, &axes, &rotations, &order, &mut poses);
+    let frames = 0..clip.frames();
+    let mut local = vec![None; count];
+    for part in &order {
+        let own = &rig.parts[*part];
+        let turned: Vec<DQuat> = match (own.is_rooted, own.parent) {
+            (true, _) | (false, None) => frames
+                .clone()
+                .map(|frame| rotations.at(*part, frame))
+                .collect(),
+            (false, Some(parent)) if rotations.is_own(*part) => {
+                let inner =
+                    |frame| rotations.at(parent, frame).inverse() * rotations.at(*part, frame);
+                frames
+                    .clone()
+                    .map(|frame| inner(frame).normalize())
+                    .collect()
+            }
+            _ => continue,
+        };
+        local[*part] = Some(continuous(turned));
+    }
+    RetargetedClip {
+        rotations: local,
+        translations: root_motion.positions,
+        grounded: root_motion.grounded,
+        rest: rest.source,
+    }
+}
+
+/// From a clip's world to the axes of a drawing whose figure faces the viewer: y up, and z to the front of the body in the
+/// first frame.
+pub fn to_drawing(clip: &Clip, landmarks: &Landmarks) -> DQuat {
+    axes::Axes::of(clip, landmarks, Facing::Viewer)
+        .first
+        .inverse()
+}
+
+/// Flips signs so that consecutive quaternions are as near to each other as possible; the rotations are the same.
+pub(crate) fn continuous(mut turns: Vec<DQuat>) -> Vec<DQuat> {
+    for at in 1..turns.len() {
+        if turns[at].dot(turns[at - 1]) < 0.0 {
+            turns[at] = -turns[at];
+        }
+    }
+    turns
+}
+
+/// The parts, parents before children; those in cycles are missing.
+fn order(rig: &Rig) -> Vec<usize> {
+    let count = rig.parts.len();
+    let mut children = vec![Vec::new(); count];
+    let mut order: Vec<usize> = Vec::with_capacity(count);
+    for (index, part) in rig.parts.iter().enumerate() {
+        match part.parent {
+            Some(parent) => children[parent].push(index),
+            None => order.push(index),
+        }
+    }
+    let mut next = 0;
+    while let Some(part) = order.get(next) {
+        order.extend_from_slice(&children[*part]);
+        next += 1;
+    }
+    order
+}
+
+/// The poses of a clip, of which the one that was used last is stored.
+struct PoseBuffer<'a> {
+    clip: &'a Clip,
+    frame: Option<usize>,
+    pose: Vec<Transform>,
+}
+
+impl<'a> PoseBuffer<'a> {
+    fn new(clip: &'a Clip) -> Self {
+        Self {
+            clip,
+            frame: None,
+            pose: Vec::new(),
+        }
+    }
+
+    fn at(&mut self, frame: usize) -> &[Transform] {
+        if self.frame != Some(frame) {
+            self.clip.pose_into(frame, &mut self.pose);
+            self.frame = Some(frame);
+        }
+        &self.pose
+    }
+}

@@ -1,0 +1,224 @@
+//! Diagnostics of motions on figures.
+
+use std::collections::BTreeMap;
+
+use crate::bind::Bindings;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lang::ast::Annotation;
+use crate::lang::keyword::Keyword;
+use crate::motion::bvh;
+use crate::motion::limited::{Cut, MAX_OMITTED_RUN};
+use crate::motion::matching::{Matching, Problem};
+use crate::motion::skeleton::Skeleton;
+use crate::source::Span;
+
+use super::figures::FigureGroup;
+use super::{Context, MAX_KEYS, MAX_MATCHES};
+
+/// A file that cannot be read, or only its first `frames` complete frames.
+pub(super) fn broken_file(link: &str, error: &bvh::Error, frames: usize, span: Span) -> Diagnostic {
+    let message = format!(
+        "the motion `{link}` cannot be read: line {}, column {}: {}",
+        error.line, error.column, error.message
+    );
+    let help = match frames {
+        0 => error.help.clone(),
+        frames => format!(
+            "{}; --keep-going uses the {frames} complete frames before the error",
+            error.help
+        ),
+    };
+    Diagnostic::new(Code::BrokenMotion, span, message).help(help)
+}
+
+/// A note about a file that was read nevertheless, or about frames that were left out.
+pub(super) fn note(link: &str, note: &str, span: Span) -> Diagnostic {
+    let message = format!("the motion `{link}`: {note}");
+    Diagnostic::new(Code::MotionRepaired, span, message)
+}
+
+/// A drawing whose clips have too many keys.
+pub(super) fn too_many_keys(span: Span) -> Diagnostic {
+    let message =
+        format!("the clips have more than {MAX_KEYS} keys together (frames times parts)");
+    let help =
+        "use shorter motions; `okoshi motion IN.bvh -o OUT.bvh --range 1:240` cuts a part out";
+    Diagnostic::new(Code::LimitPassed, span, message).help(help)
+}
+
+/// A drawing with too many combinations of figures and motions.
+pub(super) fn too_many_matches(span: Span) -> Diagnostic {
+    let message = format!("there are more than {MAX_MATCHES} pairs of a motion and a figure");
+    let help =
+        "write `Motion` in the strings of the figures that should move, instead of in a `%` string";
+    Diagnostic::new(Code::LimitPassed, span, message).help(help)
+}
+
+/// A motion that no figure plays.
+pub(super) fn idle_motion(span: Span, link: &str) -> Diagnostic {
+    let message = format!("the motion `{link}` moves nothing: none of its joints drives a part");
+    let help = "name parts after what they are (Head, Rarm, Lleg …), or say which joint drives a part: `Bone RightArm`";
+    Diagnostic::new(Code::IdleMotion, span, message).help(help)
+}
+
+/// `Limited` and `Bone` in a drawing without a motion, each reported once.
+pub(super) fn without_motion(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
+    for keyword in [Keyword::Limited, Keyword::Bone] {
+        let found = bindings.strings.iter().find_map(|string| {
+            let counts = !matches!(string.annotation, Annotation::Legend(_));
+            let mut settings = string.settings.iter().filter(|_| counts);
+            let setting = settings.find(|setting| setting.keyword == keyword)?;
+            Some(string.text.span(setting.range.clone()))
+        });
+        if let Some(span) = found {
+            let name = keyword.name();
+            let message = format!("`{name}` has no effect: the drawing has no motion");
+            let help = "write `Motion \"file.bvh\"` in a `%` string, or in the string of a figure's root part";
+            diagnostics.push(Diagnostic::new(Code::IdleMotion, span, message).help(help));
+        }
+    }
+}
+
+/// Omissions and holds that were not possible, and too many omissions in a row.
+pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mut Vec<Diagnostic>) {
+    let mut report = |message: String, help: String| {
+        diagnostics.push(Diagnostic::new(Code::TooLimited, span, message).help(help));
+    };
+    let (omit, hold) = (cut.omissions, cut.holds);
+    // Numbers that look right in most motions, and are possible in all but the shortest.
+    let [less, shorter] = [
+        omit.asked.min(4).min(frames / 4),
+        hold.asked.min(frames / 3),
+    ];
+    if omit.shortfall() > 0 {
+        report(
+            format!(
+                "only {} of {} drawings can be omitted from {frames} frames",
+                omit.done, omit.asked
+            ),
+            format!("4 to 6 look right: write `Limited {less} {shorter}`, or take a longer motion"),
+        );
+    }
+    if hold.shortfall() > 0 {
+        report(
+            format!(
+                "only {} of {} frames can be held: no pose may be held for more than three of the {frames} frames",
+                hold.done, hold.asked
+            ),
+            format!("up to a third of the frames looks right: write `Limited {less} {shorter}`"),
+        );
+    }
+    if cut.omitted_run > MAX_OMITTED_RUN {
+        report(
+            format!(
+                "{} drawings in a row are omitted where the motion is fastest, which tears it apart",
+                cut.omitted_run
+            ),
+            "4 to 6 look right; if the motion has several actions, cut it into one file for each"
+                .to_owned(),
+        );
+    }
+}
+
+/// Problems of matching parts with joints, over all clips: a problem is only reported if every clip of the figure has it.
+#[derive(Debug, Default)]
+pub(super) struct MatchProblems {
+    /// Per part, and the name that its string gives or an empty one, how often the problem occurred, and its last occurrence.
+    problems: BTreeMap<(usize, String), (usize, Problem)>,
+    /// Per part how many clips its figure has.
+    clips: BTreeMap<usize, usize>,
+}
+
+impl MatchProblems {
+    pub(super) fn add(&mut self, group: &FigureGroup, matching: &Matching) {
+        for part in &group.parts {
+            *self.clips.entry(*part).or_default() += 1;
+        }
+        for problem in &matching.problems {
+            let keys: Vec<(usize, String)> = match problem {
+                Problem::UnknownBone { part, name, .. }
+                | Problem::AmbiguousBone { part, name, .. } => {
+                    vec![(group.parts[*part], name.clone())]
+                }
+                Problem::NotAChain { part, .. } | Problem::TooManyBones { part } => {
+                    vec![(group.parts[*part], String::new())]
+                }
+                Problem::NoSuchLimb { parts, .. } => parts
+                    .iter()
+                    .map(|part| (group.parts[*part], String::new()))
+                    .collect(),
+                Problem::NothingMatched => Vec::new(),
+            };
+            for key in keys {
+                let entry = self
+                    .problems
+                    .entry(key)
+                    .or_insert_with(|| (0, problem.clone()));
+                *entry = (entry.0 + 1, problem.clone());
+            }
+        }
+    }
+
+    /// Reports the problems that all clips of a figure have.
+    pub(super) fn report(
+        &self,
+        context: &Context<'_>,
+        skeleton: Option<&Skeleton>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) {
+        for ((part, _), (count, problem)) in &self.problems {
+            if self.clips.get(part).is_none_or(|clips| count >= clips) {
+                diagnostics.push(match_problem(context, *part, problem, skeleton));
+            }
+        }
+    }
+}
+
+fn match_problem(
+    context: &Context<'_>,
+    part: usize,
+    problem: &Problem,
+    skeleton: Option<&Skeleton>,
+) -> Diagnostic {
+    let bindings = context.bindings;
+    let element = context.drawing.shapes[bindings.parts[part].shape]
+        .element
+        .span;
+    let bone = bindings.setting(part, Keyword::Bone);
+    let span = bone.map_or(element, |source| {
+        bindings.strings[source.string]
+            .text
+            .span(source.setting.range.clone())
+    });
+    let called = |joint: usize| {
+        let joint = skeleton.and_then(|skeleton| skeleton.joints.get(joint));
+        joint.map_or_else(String::new, |joint| format!("`{}`", joint.name))
+    };
+    let unclear = |message: String| Diagnostic::new(Code::UnclearJoint, span, message);
+    let name = bindings.describe(context.drawing, part);
+    match problem {
+        Problem::UnknownBone { name, nearest, .. } => {
+            let diagnostic = unclear(format!("the motion has no joint `{name}`"));
+            match nearest.as_slice() {
+                [] => diagnostic.help("`okoshi motion FILE` lists the joints of a motion"),
+                nearest => {
+                    let names: Vec<String> = nearest.iter().map(|name| format!("`{name}`")).collect();
+                    diagnostic.help(format!("did you mean {}?", names.join(" or ")))
+                }
+            }
+        }
+        Problem::AmbiguousBone { name, joints, .. } => unclear(format!("{} joints of the motion are called `{name}`", joints.len()))
+            .help("the first of them is used; `Bone first second` names a chain"),
+        Problem::NotAChain { from, to, .. } => {
+            unclear(format!("the joint {} is not below {}", called(*to), called(*from)))
+                .help("name the joint where the chain begins first, then the one where it ends: `Bone RightArm RightHand`")
+        }
+        Problem::TooManyBones { .. } => unclear("`Bone` names more than two joints".to_owned())
+            .help("name the joint where the chain begins and the one where it ends: `Bone RightArm RightHand`"),
+        Problem::NoSuchLimb { class, side, .. } => {
+            let message = format!("the motion has no {} {} for {name}, so it moves along with its parent", side.name(), class.name());
+            Diagnostic::new(Code::NoJoint, element, message).help("use `Bone` to say which joint drives the part")
+        }
+        Problem::NothingMatched => unclear("no joint drives any part".to_owned()),
+    }
+}

@@ -1,0 +1,182 @@
+//! A clip that a figure plays, as reports and editors see it.
+
+use std::sync::Arc;
+
+use crate::motion::labels::Label;
+use crate::motion::limited::Cut;
+use crate::motion::matching::{Matching, joints_named};
+use crate::motion::prepare::PreparedClip;
+use crate::motion::retarget::RetargetedClip;
+use crate::motion::skeleton::Skeleton;
+use crate::scene::{Animation, Node, Scene};
+use crate::source::Span;
+
+use super::tracks::{self, AnimatedNodes, KeyTimes};
+
+/// A clip that a figure plays.
+#[derive(Debug)]
+pub struct FigureClip {
+    /// The animation's name; figures that play at the same time share it.
+    pub name: String,
+    /// The file, as the string names it.
+    pub file: String,
+    /// Where a string asks for the clip.
+    pub requested_at: Span,
+    /// The root of the figure, an index into the bindings' parts.
+    pub root: usize,
+    /// What drives which part: all parts of the figure that are in the hierarchy, in drawing order.
+    pub parts: Vec<PartDrive>,
+    /// The motion of the file, with all its frames.
+    pub motion: Arc<PreparedClip>,
+    /// The omissions and holds of limited animation; `None` for full animation.
+    pub cut: Option<Arc<Cut>>,
+    /// Where a string limits the clip; `None` for full animation.
+    pub limited_at: Option<Span>,
+    /// The parts in the order of `retargeted`.
+    pub(super) order: Vec<usize>,
+    pub(super) retargeted: Arc<RetargetedClip>,
+    pub(super) animated: Arc<AnimatedNodes>,
+}
+
+/// A part of a figure, and the joint that drives it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PartDrive {
+    /// Index of the part.
+    pub part: usize,
+    /// Index of the joint; `None` for a part that follows its parent.
+    pub joint: Option<usize>,
+    /// Why, for people to read.
+    pub why: String,
+}
+
+impl FigureClip {
+    /// The skeleton of the motion.
+    pub fn skeleton(&self) -> &Skeleton {
+        &self.motion.clip.skeleton
+    }
+
+    /// Seconds from one frame to the next.
+    pub fn frame_time(&self) -> f64 {
+        self.motion.clip.frame_time
+    }
+
+    /// How many frames the motion has before anything is omitted.
+    pub fn source_frames(&self) -> usize {
+        self.motion.clip.frames()
+    }
+
+    /// How many frames are shown.
+    pub fn frames(&self) -> usize {
+        match &self.cut {
+            Some(cut) => cut.exposure.len(),
+            None => self.source_frames(),
+        }
+    }
+
+    /// How many different poses are shown.
+    pub fn drawings(&self) -> usize {
+        match &self.cut {
+            Some(cut) => cut.exposure.drawings().count(),
+            None => self.source_frames(),
+        }
+    }
+
+    /// How long it is.
+    pub fn seconds(&self) -> f64 {
+        match &self.cut {
+            Some(cut) => cut.exposure.len() as f64 * self.frame_time(),
+            None => self.source_frames().saturating_sub(1) as f64 * self.frame_time(),
+        }
+    }
+
+    /// What drives a part of the figure, or why nothing does; `None` for parts of other figures.
+    pub fn part_drive(&self, part: usize) -> Option<&PartDrive> {
+        let index = self.parts.binary_search_by_key(&part, |drive| drive.part);
+        index.ok().map(|index| &self.parts[index])
+    }
+
+    /// The name of a joint.
+    pub fn joint_name(&self, joint: usize) -> &str {
+        &self.skeleton().joints[joint].name
+    }
+
+    /// The label of a joint; `None` for helpers, fingers and faces.
+    pub fn label(&self, joint: usize) -> Option<&Label> {
+        self.motion.anatomy.labels.get(joint)?.as_ref()
+    }
+
+    /// The joint that `Bone` means by a name; of several the first.
+    pub fn joint_named(&self, name: &str) -> Option<usize> {
+        joints_named(self.skeleton(), name).first().copied()
+    }
+
+    /// The animation with a key for every frame of the motion, whether the clip is limited or not.
+    pub fn full_animation(&self) -> Animation {
+        self.animation(&KeyTimes::full(self.source_frames(), self.frame_time()))
+    }
+
+    pub(super) fn animation(&self, keys: &KeyTimes) -> Animation {
+        self.animated
+            .animation(&self.name, &self.order, &self.retargeted, keys)
+    }
+}
+
+/// The nodes of a scene without their meshes, and the full animations of limited clips under the names that they have in the scene.
+/// `None` if no clip is limited.
+pub fn originals(scene: &Scene, clips: &[FigureClip]) -> Option<Scene> {
+    let mut animations = Vec::new();
+    for clip in clips.iter().filter(|clip| clip.cut.is_some()) {
+        tracks::add(&mut animations, clip.full_animation());
+    }
+    if animations.is_empty() {
+        return None;
+    }
+    let bare = |node: &Node| Node {
+        mesh: None,
+        provenance: None,
+        ..node.clone()
+    };
+    Some(Scene {
+        nodes: scene.nodes.iter().map(bare).collect(),
+        roots: scene.roots.clone(),
+        animations,
+        ..Scene::default()
+    })
+}
+
+/// What drives these parts of the drawing, which are those of the matched figure, in the same order.
+pub(super) fn part_drives(parts: &[usize], matching: &Matching) -> Vec<PartDrive> {
+    let drives = parts.iter().zip(&matching.parts);
+    let drives = drives.map(|(part, matched)| PartDrive {
+        part: *part,
+        joint: matched.drive.map(|drive| drive.joint),
+        why: matched.why.clone(),
+    });
+    let mut drives: Vec<PartDrive> = drives.collect();
+    drives.sort_by_key(|drive| drive.part);
+    drives
+}
+
+/// A clip's name by its file: the text between the last slash and the last dot.
+pub(super) fn stem(file: &str) -> &str {
+    let name = file.rsplit(['/', '\\']).next().unwrap_or(file);
+    match name.rsplit_once('.') {
+        Some((stem, _)) if !stem.is_empty() => stem,
+        _ => name,
+    }
+}
+
+/// A name that no clip of the figure has yet: the wanted one, followed by a number if necessary.
+pub(super) fn free_name(clips: &[FigureClip], root: usize, wanted: &str) -> String {
+    let is_free = |name: &str| {
+        !clips
+            .iter()
+            .any(|clip| clip.root == root && clip.name == name)
+    };
+    if is_free(wanted) {
+        return wanted.to_owned();
+    }
+    let numbered = (2..).map(|number| format!("{wanted}-{number}"));
+    let mut free = numbered.filter(|name| is_free(name));
+    free.next().unwrap_or_default()
+}

@@ -1,0 +1,231 @@
+//! Finds the figures of a drawing: groups of parts that are connected, by strings or because they touch.
+
+use glam::DVec2;
+use rstar::{AABB, RTree, primitives::GeomWithData, primitives::Rectangle};
+
+use crate::bind::{Bindings, Part, PartKind};
+use crate::geometry::{area, distance_squared};
+
+/// Roots of one figure may be this far apart, as a share of the larger one's height with all its descendants.
+const GAP: f64 = 0.02;
+
+/// How many distances between points and edges are computed to find parts that touch. After that, bounding boxes decide.
+const MAX_DISTANCES: usize = 1 << 28;
+
+/// With how many others a part is found to touch at most; a heap of shapes is not a figure.
+const MAX_TOUCHED: usize = 256;
+
+/// The parts of one figure.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct FigureGroup {
+    /// Its parts, indices into the bindings' parts.
+    pub(super) parts: Vec<usize>,
+    /// Per part its parent, an index into `parts`: by its string, or because they touch.
+    pub(super) parents: Vec<Option<usize>>,
+    /// The root of the figure.
+    pub(super) root: usize,
+    /// The parts without a parent by their strings, each with the parts that it touches; indices into `parts`.
+    touching: Vec<(usize, Vec<usize>)>,
+}
+
+impl FigureGroup {
+    /// Whether the motion that a part's string asks for is meant for this figure; `None` addresses all figures.
+    pub(super) fn is_addressed_by(&self, part: Option<usize>) -> bool {
+        part.is_none_or(|part| self.parts.contains(&part))
+    }
+
+    /// Whether a part, an index into `parts`, has no parent by its string.
+    pub(super) fn is_rooted(&self, part: usize) -> bool {
+        self.touching.iter().any(|(rooted, _)| *rooted == part)
+    }
+
+    /// The same figure with another root, which must be a part without a parent by its string.
+    pub(super) fn rooted_at(mut self, part: usize) -> Self {
+        let Some(root) = self.parts.iter().position(|own| *own == part) else {
+            return self;
+        };
+        for (root, _) in &self.touching {
+            self.parents[*root] = None;
+        }
+        let mut reached = vec![false; self.parts.len()];
+        reached[root] = true;
+        let mut order = vec![root];
+        let mut next = 0;
+        while let Some(&at) = order.get(next) {
+            next += 1;
+            let touched = self.touching.iter().find(|(root, _)| *root == at);
+            for &other in touched.into_iter().flat_map(|(_, others)| others) {
+                if !std::mem::replace(&mut reached[other], true) {
+                    self.parents[other] = Some(at);
+                    order.push(other);
+                }
+            }
+        }
+        self.root = part;
+        self
+    }
+}
+
+/// The figures of a drawing, in the drawing order of their first parts.
+pub(super) fn find(bindings: &Bindings) -> Vec<FigureGroup> {
+    let trees = trees(bindings);
+    let near = touching(bindings, &trees);
+    let mut taken = vec![false; trees.len()];
+    let mut groups = Vec::new();
+    for first in 0..trees.len() {
+        if std::mem::replace(&mut taken[first], true) {
+            continue;
+        }
+        let mut members = vec![first];
+        let mut next = 0;
+        while let Some(&at) = members.get(next) {
+            next += 1;
+            for &other in &near[at] {
+                if !std::mem::replace(&mut taken[other], true) {
+                    members.push(other);
+                }
+            }
+        }
+        members.sort_unstable();
+        groups.push(group(bindings, &trees, &near, &members));
+    }
+    groups
+}
+
+/// A part without a parent, first, and its descendants.
+struct Tree {
+    parts: Vec<usize>,
+    low: DVec2,
+    high: DVec2,
+}
+
+fn trees(bindings: &Bindings) -> Vec<Tree> {
+    let is_main = |part: &Part| part.kind == PartKind::Main;
+    let mut children = vec![Vec::new(); bindings.parts.len()];
+    let mut trees = Vec::new();
+    let mains = bindings
+        .parts
+        .iter()
+        .enumerate()
+        .filter(|(_, part)| is_main(part));
+    for (index, part) in mains {
+        match part.parent {
+            Some(parent) => children[parent].push(index),
+            None => trees.push(Tree {
+                parts: vec![index],
+                low: DVec2::INFINITY,
+                high: DVec2::NEG_INFINITY,
+            }),
+        }
+    }
+    for tree in &mut trees {
+        let mut next = 0;
+        while let Some(&part) = tree.parts.get(next) {
+            next += 1;
+            tree.parts.extend_from_slice(&children[part]);
+            let (low, high) = bindings.parts[part].measure.bounds;
+            tree.low = tree.low.min(low);
+            tree.high = tree.high.max(high);
+        }
+    }
+    trees
+}
+
+/// Per tree the other trees whose roots touch its own root.
+fn touching(bindings: &Bindings, trees: &[Tree]) -> Vec<Vec<usize>> {
+    let first = |tree: &Tree| &bindings.parts[tree.parts[0]];
+    let boxes = trees.iter().enumerate().map(|(index, tree)| {
+        let (low, high) = first(tree).measure.bounds;
+        GeomWithData::new(
+            Rectangle::from_corners(low.to_array(), high.to_array()),
+            index,
+        )
+    });
+    let boxes = RTree::bulk_load(boxes.collect());
+    let slack = |tree: &Tree| GAP * (tree.high.y - tree.low.y);
+    let mut left = MAX_DISTANCES;
+    let mut near = |index: usize| -> Vec<usize> {
+        let (own, slack) = (first(&trees[index]), slack(&trees[index]));
+        let (low, high) = own.measure.bounds;
+        let reach = AABB::from_corners((low - slack).to_array(), (high + slack).to_array());
+        let found = boxes.locate_in_envelope_intersecting(reach);
+        let others = found.map(|found| found.data);
+        let others = others.filter(|other| {
+            *other != index && are_near(own, first(&trees[*other]), slack, &mut left)
+        });
+        let mut others: Vec<usize> = others.take(MAX_TOUCHED).collect();
+        others.sort_unstable();
+        others
+    };
+    let mut all: Vec<Vec<usize>> = (0..trees.len()).map(&mut near).collect();
+    // The larger tree's height counts for both.
+    for index in 0..trees.len() {
+        for other in all[index].clone() {
+            if let Err(place) = all[other].binary_search(&index) {
+                all[other].insert(place, index);
+            }
+        }
+    }
+    all
+}
+
+/// Whether the distance between two outlines is at most `gap`; `true` if too few computations of distances are left to tell.
+fn are_near(a: &Part, b: &Part, gap: f64, left: &mut usize) -> bool {
+    let count = |part: &Part| -> usize { rings(part).map(<[DVec2]>::len).sum() };
+    let work = count(a).saturating_mul(count(b)).saturating_mul(2);
+    let Some(rest) = left.checked_sub(work) else {
+        return true;
+    };
+    *left = rest;
+    let reaches = |from: &Part, to: &Part| {
+        let mut points = rings(from).flatten();
+        points.any(|point| distance_squared(&to.outline, *point) <= gap * gap)
+    };
+    reaches(a, b) || reaches(b, a)
+}
+
+fn rings(part: &Part) -> impl Iterator<Item = &[DVec2]> {
+    let polygons = part.outline.polygons.iter();
+    polygons
+        .flat_map(|polygon| &polygon.rings)
+        .map(Vec::as_slice)
+}
+
+fn group(
+    bindings: &Bindings,
+    trees: &[Tree],
+    near: &[Vec<usize>],
+    members: &[usize],
+) -> FigureGroup {
+    let parts: Vec<usize> = members
+        .iter()
+        .flat_map(|tree| &trees[*tree].parts)
+        .copied()
+        .collect();
+    let place: std::collections::BTreeMap<usize, usize> = parts.iter().copied().zip(0..).collect();
+    let parents = parts
+        .iter()
+        .map(|part| bindings.parts[*part].parent.map(|parent| place[&parent]));
+    let first = |tree: &usize| trees[*tree].parts[0];
+    let touching = members.iter().map(|tree| {
+        let others = near[*tree].iter().map(|other| place[&first(other)]);
+        (place[&first(tree)], others.collect())
+    });
+    let size = |part: &usize| area(&bindings.parts[*part].outline);
+    // The first of the largest ones, so that equal parts do not swap roles.
+    let largest = members
+        .iter()
+        .map(first)
+        .rev()
+        .max_by(|a, b| size(a).total_cmp(&size(b)));
+    let group = FigureGroup {
+        parents: parents.collect(),
+        touching: touching.collect(),
+        root: parts[0],
+        parts,
+    };
+    match largest {
+        Some(root) => group.rooted_at(root),
+        None => group,
+    }
+}

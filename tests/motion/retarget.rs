@@ -1,0 +1,247 @@
+//! Retargeted clips against the poses of their source: the laws of motion on figures.
+
+pub(crate) mod clips;
+mod random;
+mod rewritten;
+mod rigs;
+mod walks;
+
+use glam::{DQuat, DVec3};
+use okoshi::motion::labels::{Facing, Tip};
+use okoshi::motion::matching::{Drive, Follow};
+use okoshi::motion::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retarget};
+use okoshi::motion::skeleton::{Clip, Transform};
+
+use clips::{FILES, clip};
+use rigs::{Limbs, biped, dog};
+
+/// Tolerance of directions, degrees.
+const OFF: f64 = 0.05;
+
+/// From a clip's world to a drawing's axes, computed from positions of joints only.
+pub(crate) struct Body {
+    landmarks: Landmarks,
+    up: DVec3,
+    facing: Facing,
+}
+
+impl Body {
+    pub(crate) fn of(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> Self {
+        let poses = (0..clip.frames()).map(|frame| clip.pose(frame));
+        let rise = |pose: Vec<Transform>| {
+            let [left, right] = landmarks.feet.expect("feet");
+            let head = landmarks.head.expect("a head");
+            pose[head].position - (pose[left].position + pose[right].position) / 2.0
+        };
+        let rise: DVec3 = poses.map(rise).sum();
+        let axis = rise.abs().max_position();
+        Self {
+            landmarks: landmarks.clone(),
+            up: DVec3::AXES[axis] * rise[axis].signum(),
+            facing,
+        }
+    }
+
+    /// The left and the front of the body in a pose, horizontal, in the clip's world.
+    fn left_and_front(&self, pose: &[Transform]) -> [DVec3; 2] {
+        let line = |pair: Option<[usize; 2]>| {
+            let [left, right] = pair.expect("hips and shoulders");
+            (pose[left].position - pose[right].position).normalize()
+        };
+        let sum = line(self.landmarks.thighs) + line(self.landmarks.shoulders);
+        let left = (sum - self.up * sum.dot(self.up)).normalize();
+        [left, left.cross(self.up)]
+    }
+
+    /// A direction of the clip's world in the axes of a drawing of the body in a pose.
+    pub(crate) fn drawn(&self, pose: &[Transform], way: DVec3) -> DVec3 {
+        let [left, front] = self.left_and_front(pose).map(|axis| axis.dot(way));
+        let up = self.up.dot(way);
+        match self.facing {
+            Facing::Viewer => DVec3::new(left, up, front),
+            // Its right side is near the viewer.
+            Facing::Right => DVec3::new(front, up, -left),
+            Facing::Left => DVec3::new(-front, up, left),
+        }
+    }
+
+    /// The same as a rotation.
+    fn turn(&self, pose: &[Transform]) -> DQuat {
+        let columns = DVec3::AXES.map(|axis| self.drawn(pose, axis));
+        DQuat::from_mat3(&glam::DMat3::from_cols(columns[0], columns[1], columns[2]))
+    }
+}
+
+/// The far end of a chain.
+fn end(clip: &Clip, pose: &[Transform], tip: Tip) -> DVec3 {
+    match tip {
+        Tip::Joint(joint) => pose[joint].position,
+        Tip::End { joint, end } => {
+            let placed = pose[joint];
+            placed.position + placed.rotation * clip.skeleton.joints[joint].ends[end]
+        }
+    }
+}
+
+/// The direction of a drive's chain in a pose, in the clip's world; `None` if it has no length.
+fn direction(clip: &Clip, pose: &[Transform], drive: &Drive) -> Option<DVec3> {
+    (end(clip, pose, drive.tip?) - pose[drive.joint].position).try_normalize()
+}
+
+/// The transforms of a rig's nodes in a frame, in the drawing's axes.
+pub(crate) fn placed(rig: &Rig, retargeted: &RetargetedClip, frame: usize) -> Vec<Transform> {
+    let mut done: Vec<Option<Transform>> = vec![None; rig.parts.len()];
+    fn place(
+        rig: &Rig,
+        retargeted: &RetargetedClip,
+        frame: usize,
+        part: usize,
+        done: &mut Vec<Option<Transform>>,
+    ) -> Transform {
+        if let Some(placed) = done[part] {
+            return placed;
+        }
+        let own = &rig.parts[part];
+        let turn = retargeted.rotations[part]
+            .as_ref()
+            .map(|turns| turns[frame]);
+        let place_ = retargeted.translations[part]
+            .as_ref()
+            .map(|moves| moves[frame]);
+        let found = match own.parent.filter(|_| !own.is_rooted) {
+            Some(parent) => {
+                let above = place(rig, retargeted, frame, parent, done);
+                let rest = rig.parts[parent].node;
+                let back = rest.rotation.inverse();
+                Transform {
+                    rotation: above.rotation * turn.unwrap_or(back * own.node.rotation),
+                    position: above.position
+                        + above.rotation * (back * (own.node.position - rest.position)),
+                }
+            }
+            None => Transform {
+                rotation: turn.unwrap_or(own.node.rotation),
+                position: place_.unwrap_or(own.node.position),
+            },
+        };
+        done[part] = Some(found);
+        found
+    }
+    (0..rig.parts.len())
+        .map(|part| place(rig, retargeted, frame, part, &mut done))
+        .collect()
+}
+
+/// The position of a point of the drawing that belongs to a part.
+fn moved_point(rig: &Rig, placed: &[Transform], part: usize, point: DVec3) -> DVec3 {
+    let rest = rig.parts[part].node;
+    placed[part].position
+        + placed[part].rotation * (rest.rotation.inverse() * (point - rest.position))
+}
+
+/// The angle between directions, degrees; precise for small ones too.
+pub(crate) fn angle(a: DVec3, b: DVec3) -> f64 {
+    a.cross(b).length().atan2(a.dot(b)).to_degrees()
+}
+
+/// The angle between rotations, degrees.
+pub(crate) fn apart(a: DQuat, b: DQuat) -> f64 {
+    let turn = a * b.inverse();
+    let sin = DVec3::new(turn.x, turn.y, turn.z).length();
+    2.0 * sin.atan2(turn.w.abs()).to_degrees()
+}
+
+/// The worst deviations, by kind.
+#[derive(Debug, Default)]
+struct Worst {
+    limbs: f64,
+    bodies: f64,
+    joints: f64,
+    checked: usize,
+}
+
+/// Checks every key of every part.
+fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
+    let retargeted = retarget(clip, rig, landmarks);
+    let body = Body::of(clip, landmarks, rig.facing);
+    let first = clip.pose(0);
+    let rest = match retargeted.rest {
+        RestSource::Offsets => clip.skeleton.offset_pose(),
+        RestSource::Frame(frame) => clip.pose(frame),
+    };
+    let size = rig.parts.iter().map(|part| part.tip.y).fold(0.0, f64::max);
+    let mut worst = Worst::default();
+    for frame in 0..clip.frames() {
+        let pose = clip.pose(frame);
+        let placed = placed(rig, &retargeted, frame);
+        for (index, part) in rig.parts.iter().enumerate() {
+            assert!(placed[index].rotation.is_finite() && placed[index].position.is_finite());
+            if let Some(parent) = part.parent {
+                let [own, above] =
+                    [index, parent].map(|part_| moved_point(rig, &placed, part_, part.joint));
+                worst.joints = worst.joints.max(own.distance(above) / size);
+            }
+            let Some(drive) = &part.drive else {
+                let parent = part.parent.expect("all but the first hang on something");
+                let now = placed[parent].rotation.inverse() * placed[index].rotation;
+                let drawn = rig.parts[parent].node.rotation.inverse() * part.node.rotation;
+                worst.bodies = worst.bodies.max(apart(now, drawn));
+                continue;
+            };
+            worst.checked += 1;
+            match (drive.follow, direction(clip, &pose, drive)) {
+                (Follow::Direction, Some(way)) => {
+                    let axis = part.node.rotation.inverse() * (part.tip - part.joint);
+                    let off = angle(placed[index].rotation * axis, body.drawn(&first, way));
+                    worst.limbs = worst.limbs.max(off);
+                }
+                (Follow::Direction, None) => worst.checked -= 1,
+                (Follow::Change, _) => {
+                    // C₀ᵀ R(k) R(r)ᵀ C_r · D
+                    let change = pose[drive.joint].rotation * rest[drive.joint].rotation.inverse();
+                    let due = body.turn(&first)
+                        * change
+                        * body.turn(&rest).inverse()
+                        * part.node.rotation;
+                    worst.bodies = worst.bodies.max(apart(placed[index].rotation, due));
+                }
+            }
+        }
+    }
+    worst
+}
+
+#[test]
+fn parts_point_where_bones_do() {
+    let mut all = Worst::default();
+    for file in FILES {
+        let prepared = clip(file);
+        let clip = &prepared.clip;
+        let landmarks = Landmarks::of(&prepared.anatomy);
+        let mut rigs: Vec<(String, Rig)> = Vec::new();
+        for limbs in Limbs::ALL {
+            for pieces in 1..=3 {
+                rigs.push((
+                    format!("{limbs:?} {pieces}"),
+                    biped(&prepared.anatomy, limbs, pieces),
+                ));
+            }
+        }
+        for facing in [Facing::Left, Facing::Right] {
+            rigs.push((format!("dog {facing:?}"), dog(&prepared.anatomy, facing)));
+        }
+        for (name, rig) in rigs {
+            let worst = check(clip, &rig, &landmarks);
+            assert!(worst.limbs < OFF, "{file}, {name}: {worst:?}");
+            assert!(worst.bodies < OFF, "{file}, {name}: {worst:?}");
+            assert!(worst.joints < 1e-9, "{file}, {name}: {worst:?}");
+            let parts = rig.parts.iter().filter(|part| part.drive.is_some()).count();
+            assert_eq!(worst.checked, parts * clip.frames(), "{file}, {name}");
+            assert!(parts >= 6, "{file}, {name}: {parts}");
+            all.limbs = all.limbs.max(worst.limbs);
+            all.bodies = all.bodies.max(worst.bodies);
+            all.joints = all.joints.max(worst.joints);
+        }
+    }
+    eprintln!("worst of all: {all:?}");
+}

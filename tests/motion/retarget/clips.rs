@@ -1,0 +1,153 @@
+//! The clips of the project, made ready, and written in other ways.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::{DQuat, DVec3, EulerRot};
+use okoshi::motion::bvh;
+use okoshi::motion::prepare::{Options, PreparedClip, prepare};
+use okoshi::motion::skeleton::{Axis, Channel, Clip, Skeleton, Transform};
+
+pub(crate) const FILES: [&str; 6] = [
+    "examples/motion/boxing.bvh",
+    "examples/motion/kick.bvh",
+    "examples/motion/walk.bvh",
+    "examples/motion/zombie-walk.bvh",
+    "tests/motion/data/mocapbank.bvh",
+    "tests/motion/data/mixed_orders.bvh",
+];
+
+pub(crate) fn clip(file: &str) -> PreparedClip {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(file);
+    let bytes = std::fs::read(path).unwrap_or_else(|error| panic!("{file}: {error}"));
+    let reading = bvh::read_bytes(&bytes).unwrap_or_else(|error| panic!("{file}: {error}"));
+    prepare(reading.clip, &Options::default()).expect("24 frames a second")
+}
+
+/// The order in which a joint's turns are written.
+pub(crate) const ORDERS: [(EulerRot, [Axis; 3]); 6] = [
+    (EulerRot::XYZ, [Axis::X, Axis::Y, Axis::Z]),
+    (EulerRot::XZY, [Axis::X, Axis::Z, Axis::Y]),
+    (EulerRot::YXZ, [Axis::Y, Axis::X, Axis::Z]),
+    (EulerRot::YZX, [Axis::Y, Axis::Z, Axis::X]),
+    (EulerRot::ZXY, [Axis::Z, Axis::X, Axis::Y]),
+    (EulerRot::ZYX, [Axis::Z, Axis::Y, Axis::X]),
+];
+
+/// A clip as turns and places, to be written anew.
+pub(crate) struct Moving {
+    pub(crate) skeleton: Skeleton,
+    frame_time: f64,
+    /// Per frame and joint.
+    locals: Vec<Vec<Transform>>,
+}
+
+impl Moving {
+    pub(crate) fn of(clip: &Clip) -> Self {
+        let frames = (0..clip.frames()).map(|frame| {
+            let mut numbers = clip.row(frame);
+            let joints = clip.skeleton.joints.iter().map(|joint| {
+                let (own, rest) = numbers.split_at(joint.channels.len());
+                numbers = rest;
+                Clip::local(joint, own)
+            });
+            joints.collect()
+        });
+        Self {
+            skeleton: Skeleton::clone(&clip.skeleton),
+            frame_time: clip.frame_time,
+            locals: frames.collect(),
+        }
+    }
+
+    /// Another unit.
+    pub(crate) fn scaled(mut self, by: f64) -> Self {
+        for joint in &mut self.skeleton.joints {
+            joint.offset *= by;
+            joint.ends.iter_mut().for_each(|end| *end *= by);
+        }
+        let all = self.locals.iter_mut().flatten();
+        all.for_each(|local| local.position *= by);
+        self
+    }
+
+    /// The world turned about the roots, the skeleton's offsets as they were.
+    pub(crate) fn turned(mut self, by: DQuat) -> Self {
+        let joints = self.skeleton.joints.iter();
+        let roots: Vec<bool> = joints.map(|joint| joint.parent.is_none()).collect();
+        for frame in &mut self.locals {
+            for (local, _) in frame
+                .iter_mut()
+                .zip(&roots)
+                .filter(|(_, is_root)| **is_root)
+            {
+                local.rotation = by * local.rotation;
+                local.position = by * local.position;
+            }
+        }
+        self
+    }
+
+    /// The frame of each joint turned: what a point was in it, the inverse turn of that it is.
+    pub(crate) fn reoriented(mut self, by: &[DQuat]) -> Self {
+        let above: Vec<DQuat> = self
+            .skeleton
+            .joints
+            .iter()
+            .map(|joint| {
+                joint
+                    .parent
+                    .map_or(DQuat::IDENTITY, |parent| by[parent].inverse())
+            })
+            .collect();
+        for (index, joint) in self.skeleton.joints.iter_mut().enumerate() {
+            joint.offset = above[index] * joint.offset;
+            joint
+                .ends
+                .iter_mut()
+                .for_each(|end| *end = by[index].inverse() * *end);
+        }
+        for frame in &mut self.locals {
+            for (index, local) in frame.iter_mut().enumerate() {
+                local.rotation = above[index] * local.rotation * by[index];
+                local.position = above[index] * local.position;
+            }
+        }
+        self
+    }
+
+    /// World and skeleton turned alike, as a program with other axes has both.
+    pub(crate) fn in_other_axes(self, by: DQuat) -> Self {
+        let back = vec![by.inverse(); self.skeleton.joints.len()];
+        let mut out = self.turned(by).reoriented(&back);
+        for joint in &mut out.skeleton.joints {
+            if joint.parent.is_none() {
+                joint.offset = by * joint.offset;
+            }
+        }
+        out
+    }
+
+    /// The clip, turns written in the order that a number stands for: that of the joint's, counted on.
+    pub(crate) fn written(mut self, order: usize) -> Clip {
+        let order_of = |joint: usize| ORDERS[(order + joint) % ORDERS.len()];
+        for (index, joint) in self.skeleton.joints.iter_mut().enumerate() {
+            let places = [Axis::Z, Axis::X, Axis::Y].map(Channel::Position);
+            let turns = order_of(index).1.map(Channel::Rotation);
+            joint.channels = places.into_iter().chain(turns).collect();
+        }
+        let mut values = Vec::new();
+        for local in self
+            .locals
+            .iter()
+            .flat_map(|frame| frame.iter().enumerate())
+        {
+            let (index, Transform { rotation, position }) = local;
+            let DVec3 { x, y, z } = *position;
+            let (a, b, c) = rotation.normalize().to_euler(order_of(index).0);
+            values.extend([z, x, y]);
+            values.extend([a, b, c].map(f64::to_degrees));
+        }
+        Clip::new(Arc::new(self.skeleton), self.frame_time, values)
+    }
+}

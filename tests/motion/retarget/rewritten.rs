@@ -1,0 +1,200 @@
+//! The same motion, written in another way, moves a figure in the same way.
+
+use glam::{DQuat, DVec3};
+use okoshi::motion::bvh::{Decimals, read_bytes, write};
+use okoshi::motion::labels::{Facing, label_clip};
+use okoshi::motion::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retarget};
+use okoshi::motion::skeleton::Clip;
+
+use fastrand::Rng;
+
+use super::clips::{FILES, Moving, clip};
+use super::rigs::{Limbs, biped};
+use super::{Body, apart, placed};
+
+/// A figure that is retargeted, as the labels of the clip itself say.
+fn play(clip: &Clip, pieces: usize) -> (Rig, RetargetedClip) {
+    let anatomy = label_clip(clip);
+    let rig = biped(&anatomy, Limbs::Bound, pieces);
+    let retargeted = retarget(clip, &rig, &Landmarks::of(&anatomy));
+    (rig, retargeted)
+}
+
+/// How far two motions of a figure are apart: degrees, and drawing units.
+fn differences(a: &(Rig, RetargetedClip), b: &(Rig, RetargetedClip)) -> [f64; 2] {
+    let frames = a.1.grounded.len();
+    assert_eq!(frames, b.1.grounded.len());
+    assert_eq!(a.1.rest, b.1.rest, "the rest pose");
+    assert_eq!(a.1.grounded, b.1.grounded, "feet on the ground");
+    let mut worst = [0.0_f64; 2];
+    for frame in 0..frames {
+        let [a, b] = [a, b].map(|(rig, retargeted)| placed(rig, retargeted, frame));
+        for (a, b) in a.iter().zip(&b) {
+            worst[0] = worst[0].max(apart(a.rotation, b.rotation));
+            worst[1] = worst[1].max(a.position.distance(b.position));
+        }
+    }
+    worst
+}
+
+#[track_caller]
+fn same(file: &str, what: &str, a: &Clip, b: &Clip) {
+    for pieces in 1..=3 {
+        let [degrees, units] = differences(&play(a, pieces), &play(b, pieces));
+        eprintln!("{file} {what} {pieces}: {degrees:.2e}° {units:.2e}");
+        // The figure is 200 units high.
+        assert!(
+            degrees < 1e-3,
+            "{file}, {what}, {pieces} pieces: {degrees}°"
+        );
+        assert!(
+            units < 1e-3,
+            "{file}, {what}, {pieces} pieces: {units} units"
+        );
+    }
+}
+
+fn random_turns(count: usize, seed: u64) -> Vec<DQuat> {
+    let mut random = Rng::with_seed(seed);
+    let turns = (0..count).map(|_| {
+        if random.u8(..100) < 20 {
+            return DQuat::IDENTITY;
+        }
+        let mut number = || f64::from(random.i32(-1000..=1000)) / 1000.0;
+        let [x, y, z, w] = [(); 4].map(|()| number());
+        DQuat::from_xyzw(x, y, z, w + 1.5).normalize()
+    });
+    turns.collect()
+}
+
+#[test]
+fn however_turns_are_written() {
+    for file in FILES {
+        let clip = clip(file).clip;
+        for order in 0..6 {
+            same(file, "order", &clip, &Moving::of(&clip).written(order));
+        }
+    }
+}
+
+#[test]
+fn whatever_the_unit() {
+    for file in FILES {
+        let clip = clip(file).clip;
+        for unit in [0.0254, 100.0] {
+            same(
+                file,
+                "unit",
+                &clip,
+                &Moving::of(&clip).scaled(unit).written(0),
+            );
+        }
+    }
+}
+
+/// The axis of a clip's world that is up.
+fn up(clip: &Clip) -> DVec3 {
+    let landmarks = Landmarks::of(&label_clip(clip));
+    Body::of(clip, &landmarks, Facing::Viewer).up
+}
+
+#[test]
+fn wherever_the_actor_faces() {
+    for file in FILES {
+        let clip = clip(file).clip;
+        for yaw in [37.0_f64, 90.0, 180.0, -101.0] {
+            let turn = DQuat::from_axis_angle(up(&clip), yaw.to_radians());
+            same(
+                file,
+                "yaw",
+                &clip,
+                &Moving::of(&clip).turned(turn).written(1),
+            );
+        }
+    }
+}
+
+#[test]
+fn whatever_axis_is_up() {
+    for file in FILES {
+        let clip = clip(file).clip;
+        for (axis, degrees) in [
+            (DVec3::X, 90.0_f64),
+            (DVec3::X, -90.0),
+            (DVec3::Z, 90.0),
+            (DVec3::X, 180.0),
+        ] {
+            let turn = DQuat::from_axis_angle(axis, degrees.to_radians());
+            same(
+                file,
+                "up",
+                &clip,
+                &Moving::of(&clip).in_other_axes(turn).written(2),
+            );
+        }
+    }
+}
+
+/// A skeleton whose offsets do not stand, in a world with another up.
+#[test]
+fn whatever_axis_is_up_for_the_motion_alone() {
+    for file in FILES {
+        let clip = clip(file).clip;
+        let joints = clip.skeleton.joints.len();
+        let fallen = |seed| Moving::of(&clip).reoriented(&random_turns(joints, seed));
+        let turn = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
+        same(
+            file,
+            "up alone",
+            &fallen(3).written(0),
+            &fallen(3).turned(turn).written(0),
+        );
+    }
+}
+
+/// The rest pose of the file is another: frames of joints are turned by constants, which the motion takes up.
+#[test]
+fn whatever_the_rest_pose() {
+    for file in FILES {
+        let clip = clip(file).clip;
+        let joints = clip.skeleton.joints.len();
+        let fallen = |seed| {
+            Moving::of(&clip)
+                .reoriented(&random_turns(joints, seed))
+                .written(0)
+        };
+        // Turned at random, a few stand by chance; then the offsets are the rest pose.
+        let falls = |clip: &Clip| matches!(play(clip, 2).1.rest, RestSource::Frame(_));
+        let mut fallen = (1..20).map(fallen).filter(falls);
+        let base = fallen.next().expect("most fall");
+        for (frame, clip_) in [(0, &clip), (clip.frames() - 1, &clip)] {
+            for (a, b) in clip_.pose(frame).iter().zip(base.pose(frame)) {
+                let size = clip_
+                    .skeleton
+                    .joints
+                    .iter()
+                    .map(|joint| joint.offset.length())
+                    .sum::<f64>();
+                assert!(
+                    a.position.distance(b.position) < 1e-9 * size,
+                    "{file}: it is another motion"
+                );
+            }
+        }
+        let others: Vec<Clip> = fallen.take(3).collect();
+        assert_eq!(others.len(), 3, "{file}");
+        for other in others {
+            same(file, "rest", &base, &other);
+        }
+    }
+}
+
+#[test]
+fn after_a_file_and_back() {
+    for file in FILES {
+        let clip = clip(file).clip;
+        let mut text = Vec::new();
+        write(&clip, Decimals::All, &mut text).expect("written");
+        same(file, "file", &clip, &read_bytes(&text).expect("read").clip);
+    }
+}

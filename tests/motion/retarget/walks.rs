@@ -1,0 +1,231 @@
+//! Walking legs: the direction that they face, and feet that do not slide.
+
+use glam::{DVec3, dvec3};
+use okoshi::motion::labels::Facing;
+use okoshi::motion::retarget::{Landmarks, RetargetedClip, Rig, retarget};
+use okoshi::motion::skeleton::{Clip, Transform};
+
+use super::clips::{FILES, clip};
+use super::rigs::{Limbs, biped, dog};
+use super::{Body, angle, direction, end, moved_point, placed};
+
+/// The figure's leg is about this long, drawing units.
+const LEG: f64 = 97.0;
+
+#[test]
+fn thighs_face_forward_in_walks() {
+    for file in [
+        "examples/motion/walk.bvh",
+        "examples/motion/zombie-walk.bvh",
+        "tests/motion/data/mocapbank.bvh",
+    ] {
+        let prepared = clip(file);
+        let landmarks = Landmarks::of(&prepared.anatomy);
+        let body = Body::of(&prepared.clip, &landmarks, Facing::Viewer);
+        let first = prepared.clip.pose(0);
+        for pieces in 1..=3 {
+            let rig = biped(&prepared.anatomy, Limbs::Bound, pieces);
+            let retargeted = retarget(&prepared.clip, &rig, &landmarks);
+            // In space, and seen from above: a swinging leg tips its front up or down.
+            let mut worst = [0.0_f64; 2];
+            let mut checked = 0;
+            for frame in 0..prepared.clip.frames() {
+                let pose = prepared.clip.pose(frame);
+                let [_, front] = body.left_and_front(&pose);
+                let front = body.drawn(&first, front);
+                let placed = placed(&rig, &retargeted, frame);
+                for (index, part) in rig.parts.iter().enumerate() {
+                    let drive = part.drive.filter(|_| part.is_leg);
+                    let thighs = landmarks.thighs.expect("legs");
+                    let Some(drive) = drive.filter(|drive| thighs.contains(&drive.joint)) else {
+                        continue;
+                    };
+                    // Walking never lifts a thigh so high: the clip contains other actions as well.
+                    let way = direction(&prepared.clip, &pose, &drive).expect("a bone");
+                    if angle(way, -body.up) < 60.0 {
+                        checked += 1;
+                        let own =
+                            placed[index].rotation * (part.node.rotation.inverse() * DVec3::Z);
+                        let above = angle(own * dvec3(1.0, 0.0, 1.0), front);
+                        worst = [worst[0].max(angle(own, front)), worst[1].max(above)];
+                    }
+                }
+            }
+            assert!(
+                checked >= prepared.clip.frames(),
+                "{file}: of two thighs only {checked} in all frames"
+            );
+            eprintln!("{file} {pieces}: thighs {worst:.1?}° from the front");
+            assert!(worst[1] < 45.0, "{file}, {pieces} pieces: {worst:?}°");
+            if file.starts_with("examples") {
+                assert!(worst[0] < 45.0, "{file}, {pieces} pieces: {worst:?}°");
+            }
+        }
+    }
+}
+
+/// The feet of a rig: per foot of the clip the parts with soles that follow it.
+fn feet(rig: &Rig) -> Vec<Vec<usize>> {
+    let mut feet: Vec<(usize, Vec<usize>)> = Vec::new();
+    for (index, part) in rig.parts.iter().enumerate() {
+        let Some(drive) = part.drive.filter(|_| !part.sole.is_empty()) else {
+            continue;
+        };
+        match feet.iter_mut().find(|(joint, _)| *joint == drive.joint) {
+            Some((_, parts)) => parts.push(index),
+            None => feet.push((drive.joint, vec![index])),
+        }
+    }
+    feet.into_iter().map(|(_, parts)| parts).collect()
+}
+
+/// Where the points of a foot's soles are.
+fn soles(rig: &Rig, placed: &[Transform], foot: &[usize]) -> Vec<DVec3> {
+    let points = foot.iter().flat_map(|part| {
+        let soles = rig.parts[*part].sole.iter();
+        soles.map(move |point| moved_point(rig, placed, *part, *point))
+    });
+    points.collect()
+}
+
+/// How long a leg of the clip is, foot not counted.
+fn leg(clip: &Clip, landmarks: &Landmarks) -> f64 {
+    let [thighs, knees, feet] =
+        [landmarks.thighs, landmarks.knees, landmarks.feet].map(|pair| pair.expect("legs"));
+    let pose = clip.pose(0);
+    let length = |a: usize, b: usize| pose[a].position.distance(pose[b].position);
+    let legs =
+        [0, 1].map(|side| length(thighs[side], knees[side]) + length(knees[side], feet[side]));
+    (legs[0] + legs[1]) / 2.0
+}
+
+/// The worst of all grounded frames: how far the locked foot slides, and how far the lowest sole is off the ground, drawing units;
+/// and the number of steps between frames that were checked.
+fn standing(
+    clip: &Clip,
+    rig: &Rig,
+    landmarks: &Landmarks,
+    retargeted: &RetargetedClip,
+) -> ([f64; 2], usize) {
+    let leg = leg(clip, landmarks);
+    let feet = feet(rig);
+    let mean = |points: Vec<DVec3>| points.iter().sum::<DVec3>() / points.len() as f64;
+    let ground = rig
+        .parts
+        .iter()
+        .flat_map(|part| &part.sole)
+        .map(|point| point.y);
+    let ground = ground.fold(f64::INFINITY, f64::min);
+    let mut worst = [0.0_f64; 2];
+    let mut checked = 0;
+    for frame in 0..clip.frames() {
+        let now = placed(rig, retargeted, frame);
+        if !retargeted.grounded[frame] {
+            continue;
+        }
+        let all = feet
+            .iter()
+            .flat_map(|foot| soles(rig, &now, foot))
+            .map(|point| point.y);
+        worst[1] = worst[1].max((all.fold(f64::INFINITY, f64::min) - ground).abs());
+        if frame == 0 {
+            continue;
+        }
+        checked += 1;
+        let before = placed(rig, retargeted, frame - 1);
+        let slides = feet.iter().map(|foot| {
+            let [from, to] = [&before, &now].map(|placed| mean(soles(rig, placed, foot)));
+            ((to - from) * dvec3(1.0, 0.0, 1.0)).length()
+        });
+        let slides: Vec<f64> = slides.collect();
+        let (still, slide) =
+            slides
+                .iter()
+                .copied()
+                .enumerate()
+                .fold((0, f64::INFINITY), |best, next| {
+                    if next.1 < best.1 { next } else { best }
+                });
+        worst[0] = worst[0].max(slide);
+        // The locked foot is slow in the clip, too.
+        let drive = rig.parts[feet[still][0]].drive.expect("a foot is driven");
+        let point = |frame: usize| {
+            let pose = clip.pose(frame);
+            let far = end(clip, &pose, drive.tip.expect("it points"));
+            match landmarks.feet.expect("feet").contains(&drive.joint) {
+                true => (far + pose[drive.joint].position) / 2.0,
+                false => far,
+            }
+        };
+        let speed = point(frame).distance(point(frame - 1)) / clip.frame_time / leg;
+        assert!(
+            speed < 0.6,
+            "frame {frame}: the locked foot moves at {speed} legs a second"
+        );
+    }
+    (worst, checked)
+}
+
+#[test]
+fn standing_feet_stay() {
+    for file in FILES {
+        let prepared = clip(file);
+        let landmarks = Landmarks::of(&prepared.anatomy);
+        let mut rigs: Vec<Rig> = Vec::new();
+        for limbs in Limbs::ALL {
+            rigs.extend((1..=3).map(|pieces| biped(&prepared.anatomy, limbs, pieces)));
+        }
+        rigs.push(dog(&prepared.anatomy, Facing::Right));
+        for (number, rig) in rigs.iter().enumerate() {
+            let retargeted = retarget(&prepared.clip, rig, &landmarks);
+            let grounded = retargeted
+                .grounded
+                .iter()
+                .filter(|grounded| **grounded)
+                .count();
+            let ([slide, height], checked) = standing(&prepared.clip, rig, &landmarks, &retargeted);
+            eprintln!(
+                "{file} {number}: {grounded} of {} grounded, slides {slide:.1e}, {:.2} % of the leg off the ground",
+                prepared.clip.frames(),
+                height / LEG * 100.0
+            );
+            assert!(
+                slide < 1e-9 * LEG,
+                "{file}, figure {number}: slides {slide}"
+            );
+            assert!(height < 1e-9 * LEG, "{file}, figure {number}: {height}");
+            // Someone who walks, boxes or kicks has a foot on the ground most of the time.
+            assert!(
+                2 * checked >= prepared.clip.frames(),
+                "{file}, figure {number}: only {checked} steps of {grounded} grounded frames"
+            );
+        }
+    }
+}
+
+/// A walker moves ahead as far as in the clip, scaled by the length of the legs.
+#[test]
+fn walks_get_ahead() {
+    let prepared = clip("examples/motion/walk.bvh");
+    let landmarks = Landmarks::of(&prepared.anatomy);
+    let rig = biped(&prepared.anatomy, Limbs::Bound, 2);
+    let retargeted = retarget(&prepared.clip, &rig, &landmarks);
+    let places = retargeted.translations[0].as_ref().expect("it goes");
+    let way = places[places.len() - 1] - places[0];
+    let pose = |frame: usize| prepared.clip.pose(frame)[landmarks.hips].position;
+    let body = Body::of(&prepared.clip, &landmarks, Facing::Viewer);
+    let clip_way = body.drawn(
+        &prepared.clip.pose(0),
+        pose(prepared.clip.frames() - 1) - pose(0),
+    );
+    let due = clip_way * LEG / leg(&prepared.clip, &landmarks);
+    eprintln!("walked {way}, the clip {due}");
+    assert!(
+        angle(way * dvec3(1.0, 0.0, 1.0), due * dvec3(1.0, 0.0, 1.0)) < 15.0,
+        "{way} {due}"
+    );
+    assert!(
+        (way.length() / due.length() - 1.0).abs() < 0.25,
+        "{way} {due}"
+    );
+}
