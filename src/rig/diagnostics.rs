@@ -39,8 +39,7 @@ pub(super) fn note(link: &str, note: &str, span: Span) -> Diagnostic {
 
 /// A drawing whose clips have too many keys.
 pub(super) fn too_many_keys(span: Span) -> Diagnostic {
-    let message =
-        format!("the clips have more than {MAX_KEYS} keys together (frames times parts)");
+    let message = format!("the clips have more than {MAX_KEYS} keys together (frames times parts)");
     let help =
         "use shorter motions; `okoshi motion IN.bvh -o OUT.bvh --range 1:240` cuts a part out";
     Diagnostic::new(Code::LimitPassed, span, message).help(help)
