@@ -1,5 +1,5 @@
-//! Puts the preview's page into the program. It is built by npm from its lock file, unless it is there already; where
-//! npm is missing or fails, the program has a plain page that says so.
+//! Embeds the preview page in the program. npm builds it from its lock file unless it is up to date; if npm is missing or
+//! fails, the program gets a plain page that says so.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -7,7 +7,7 @@ use std::time::SystemTime;
 use std::{env, fs};
 
 const FILES: [&str; 3] = ["page.html", "page.js", "page.css"];
-/// What it is made from.
+/// What the page is built from.
 const SOURCES: [&str; 4] = ["src", "scripts", "package.json", "package-lock.json"];
 
 fn main() {
@@ -34,7 +34,7 @@ fn main() {
     }
 }
 
-/// The page's files, or why there are none.
+/// The files of the page, or why there are none.
 fn built(folder: &Path) -> Result<Vec<Vec<u8>>, String> {
     if env::var_os("OKOSHI_NO_PAGE").is_some() {
         return Err("OKOSHI_NO_PAGE is set".to_owned());
@@ -55,7 +55,7 @@ fn built(folder: &Path) -> Result<Vec<Vec<u8>>, String> {
     FILES.iter().map(read).collect()
 }
 
-/// Whether the page is missing, or older than what it is made from.
+/// Whether the page is missing or older than its sources.
 fn is_old(folder: &Path) -> bool {
     let time = |path: PathBuf| fs::metadata(path).and_then(|found| found.modified()).ok();
     let dist = FILES
@@ -69,7 +69,7 @@ fn is_old(folder: &Path) -> bool {
         .any(|name| newest(&folder.join(name)) > Some(oldest))
 }
 
-/// When a file, or the youngest file in a folder, was written.
+/// The modification time of a file, or of the newest file in a folder.
 fn newest(path: &Path) -> Option<SystemTime> {
     let metadata = fs::metadata(path).ok()?;
     if !metadata.is_dir() {

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use glam::{DAffine3, DVec2, DVec3};
 use okoshi::diagnostic::{Code, Diagnostic};
 use okoshi::disk::FolderResolver;
-use okoshi::geometry::{FillRule, area, clean, intersect};
+use okoshi::geometry::{FillRule, area, intersect, resolve_overlaps};
 use okoshi::scene::{Piece, Scene};
 use okoshi::solid::{Sides, Solid};
 
@@ -79,7 +79,7 @@ fn faces(scene: &Scene) -> Vec<Face> {
 }
 
 fn outline(face: &Face) -> okoshi::geometry::Outline {
-    clean(vec![face.corners.to_vec()], FillRule::NonZero)
+    resolve_overlaps(vec![face.corners.to_vec()], FillRule::NonZero)
 }
 
 /// Pairs of faces of different solids that would flicker.

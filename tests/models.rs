@@ -236,10 +236,10 @@ fn what_is_no_model_is_said() {
     let empty = br#"{"asset":{"version":"2.0"}}"#;
     let cut = &whole[..whole.len() / 2];
     for (bytes, says) in [
-        (&b"no model"[..], "is no glTF that can be read"),
-        (cut, "is no glTF that can be read"),
+        (&b"no model"[..], "is not a readable glTF file"),
+        (cut, "is not a readable glTF file"),
         (empty, "has no triangles"),
-        (&[], "is no glTF that can be read"),
+        (&[], "is not a readable glTF file"),
     ] {
         let compiled = compiled("model \"a.glb\"", &[("a.glb", bytes)]);
         assert_eq!(codes(&compiled).len(), 1, "{:?}", compiled.diagnostics);

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use image::RgbaImage;
 use okoshi::disk::FolderResolver;
-use okoshi::render::{Options, Stage, read, write_png};
+use okoshi::render::{Options, PosedModel, read, write_png};
 use okoshi::resolver::MemoryResolver;
 
 /// The side of the pictures, pixels.
@@ -26,13 +26,13 @@ fn folder(name: &str) -> PathBuf {
 
 fn picture(glb: &[u8]) -> RgbaImage {
     let model = read(glb, &MemoryResolver::default()).expect("a model");
-    let stage = Stage::new(&model, &model.rest()).expect("triangles");
+    let posed = PosedModel::new(&model, &model.rest()).expect("triangles");
     let options = Options {
         size: [SIDE, SIDE],
         background: Some([255, 255, 255]),
         ..Options::default()
     };
-    stage.picture(&options).expect("a picture")
+    posed.picture(&options).expect("a picture")
 }
 
 fn example(name: &str) -> Vec<u8> {

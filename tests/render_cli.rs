@@ -255,7 +255,7 @@ fn wrong_use_is_told() {
         &room,
         "render no.glb",
         2,
-        "error: `no.glb` is no glTF that can be read",
+        "error: `no.glb` is not a readable glTF file",
     );
     let link = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":4,"uri":"../x.bin"}]}"#;
     fs::write(room.path("out.gltf"), link).expect("written");

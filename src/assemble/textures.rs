@@ -15,7 +15,7 @@ use crate::scene::{self, Image, Texture, Wrap};
 use crate::svg::{Drawing, PaintKey, broken_link};
 use crate::terrain::Layer;
 use crate::texture::{
-    self, Alpha, Baked, Baker, Picture, PictureError, Plan, PlanKey, Server, Source,
+    self, Alpha, Baked, Baker, Holes, PaintServer, Picture, PictureError, Plan, PlanKey, Source,
 };
 
 /// Pixels of a tile along as much of the drawing as the page's diagonal is long.
@@ -45,7 +45,7 @@ pub(super) struct Textured {
 /// A part that is to be textured.
 struct Wish {
     part: usize,
-    server: Arc<Server>,
+    server: Arc<PaintServer>,
     plan: usize,
     is_file: bool,
 }
@@ -151,7 +151,7 @@ impl<'a> Collector<'a> {
                 let place = DAffine2::from_translation(low) * DAffine2::from_scale(high - low);
                 let source = Source::Picture(picture, scene::Filter::Linear);
                 (
-                    Arc::new(Server { source, place }),
+                    Arc::new(PaintServer { source, place }),
                     Some(file_name(link).to_owned()),
                 )
             }
@@ -198,7 +198,7 @@ impl<'a> Collector<'a> {
             let Some((link, picture)) = self.files.picture(&source, diagnostics) else {
                 continue;
             };
-            let server = Server {
+            let server = PaintServer {
                 source: Source::Picture(picture, scene::Filter::Linear),
                 place: DAffine2::IDENTITY,
             };
@@ -381,7 +381,7 @@ fn read(resolver: &dyn Resolver, link: &str, last: &Pictures) -> Result<Held, Li
         return Ok(held.clone());
     }
     let picture = match texture::decode(&bytes) {
-        Ok(decoded) => texture::picture(decoded, &bytes, false).ok_or_else(|| {
+        Ok(decoded) => texture::picture(decoded, &bytes, Holes::Alpha).ok_or_else(|| {
             let message = "cannot be written as PNG".to_owned();
             (Code::LimitPassed, message)
         }),

@@ -10,7 +10,9 @@ use super::progress::{counting, spinning};
 use super::{Outcome, fail, style};
 use crate::disk::{FolderResolver, read_drawing, write_atomic};
 use crate::export::{self, GLB};
-use crate::render::{self, Animation, Clip, Model, Options, Palette, Stage, TURN, write_png};
+use crate::render::{
+    self, AnimationWriter, Clip, Model, Options, Palette, PosedModel, TURNTABLE_SECONDS, write_png,
+};
 
 mod clips;
 
@@ -82,15 +84,15 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
                 Some((clip, time)) => model.pose_at(clip, time),
                 None => model.rest(),
             };
-            let stage = match spinning("posing", || Stage::new(&model, &pose)) {
-                Ok(stage) => stage,
+            let posed = match spinning("posing", || PosedModel::new(&model, &pose)) {
+                Ok(posed) => posed,
                 // What is wrong is the drawing's, not the call's.
                 Err(error) => {
                     fail(&format!("`{name}` {error}"));
                     return Outcome::Errors;
                 }
             };
-            draw(&stage, arguments, &output, (form, subject))
+            draw(&posed, arguments, &output, (form, subject))
         }
     };
     match written {
@@ -222,19 +224,19 @@ fn same_look([width, height]: [u32; 2], triangles: usize) -> String {
 
 /// Draws and writes; says what was written.
 fn draw(
-    stage: &Stage<'_>,
+    posed: &PosedModel<'_>,
     arguments: &Render,
     output: &Path,
     what: (Form, Subject),
 ) -> Result<String, Failure> {
     let options = options(arguments);
-    let look = same_look(options.size, stage.triangles());
+    let look = same_look(options.size, posed.triangles());
     let name = output.display();
     match what {
         (Form::Png, Subject::Turning(frames)) => {
             let mut number = 0;
             counting("drawing", frames, |done| {
-                stage.turntable(&options, frames, |image| {
+                posed.turntable(&options, frames, |image| {
                     number += 1;
                     write_atomic(&numbered(output, number, frames), |out| {
                         write_png(&image, out)
@@ -253,14 +255,14 @@ fn draw(
                 write_atomic(output, |out| {
                     let mut animation = match form {
                         Form::Gif => {
-                            let palette = palette(stage, &options, frames)?;
-                            Animation::gif(out, options.size, palette)?
+                            let palette = palette(posed, &options, frames)?;
+                            AnimationWriter::gif(out, options.size, palette)?
                         }
-                        Form::Png | Form::Apng => Animation::apng(out, options.size, frames)?,
+                        Form::Png | Form::Apng => AnimationWriter::apng(out, options.size, frames)?,
                     };
                     let mut number = 0;
-                    stage.turntable(&options, frames, |image| -> io::Result<()> {
-                        animation.push(&image, TURN / f64::from(frames))?;
+                    posed.turntable(&options, frames, |image| -> io::Result<()> {
+                        animation.push(&image, TURNTABLE_SECONDS / f64::from(frames))?;
                         number += 1;
                         done(number);
                         Ok(())
@@ -272,7 +274,7 @@ fn draw(
             Ok(format!("{name}: {frames} frames, {look} each"))
         }
         _ => {
-            let image = spinning("drawing", || stage.picture(&options))?;
+            let image = spinning("drawing", || posed.picture(&options))?;
             write_atomic(output, |out| write_png(&image, out)).map_err(Failure::written)?;
             Ok(format!("{name}: {look}"))
         }
@@ -323,10 +325,10 @@ fn sketched(size: [u32; 2]) -> [u32; 2] {
 }
 
 /// The colours of a GIF, from a few small pictures of what it will show.
-fn palette(stage: &Stage<'_>, options: &Options, frames: u32) -> io::Result<Palette> {
+fn palette(posed: &PosedModel<'_>, options: &Options, frames: u32) -> io::Result<Palette> {
     let size = sketched(options.size);
     let mut sketches = Vec::new();
-    stage.turntable(
+    posed.turntable(
         &Options { size, ..*options },
         frames.min(SKETCHES),
         |image| -> io::Result<()> {

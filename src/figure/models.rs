@@ -8,7 +8,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::bind::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Frame, Outline};
-use crate::import::{Asset, ImportError, read_asset};
+use crate::import::{ImportError, StaticModel, read_static_model};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Shape, ShapeKind, Value};
 use crate::resolver::{LinkError, Resolver};
@@ -25,7 +25,7 @@ pub(super) struct Models {
 }
 
 struct Loaded {
-    asset: Arc<Asset>,
+    asset: Arc<StaticModel>,
     /// The number of its first material in the scene.
     first_material: usize,
 }
@@ -36,7 +36,7 @@ pub(super) type Memory = FxHashMap<String, Known>;
 /// A model that was read.
 #[derive(Debug)]
 pub(super) struct Known {
-    asset: Arc<Asset>,
+    asset: Arc<StaticModel>,
     /// The links that were followed to read it, and where they led.
     followed: Vec<Followed>,
 }
@@ -225,7 +225,7 @@ fn load(link: &str, resolver: &dyn Resolver) -> Result<Known, Trouble> {
         folder,
         followed: Mutex::new(vec![(link.to_owned(), Ok(Arc::clone(&bytes)))]),
     };
-    let asset = read_asset(&bytes, &beside).map_err(Trouble::Import)?;
+    let asset = read_static_model(&bytes, &beside).map_err(Trouble::Import)?;
     Ok(Known {
         asset: Arc::new(asset),
         followed: beside.followed.into_inner().unwrap_or_default(),

@@ -1,37 +1,35 @@
-//! Curves become rings of points.
+//! Flattens curves to rings of points.
 //!
-//! The number of points follows the curvature: a chord of length `L` on a curve of curvature `κ`
-//! is off by `κ L² / 8`, so the points are spread evenly over `∫ √(κ / 8 tolerance) ds`. Units are
-//! those of the path.
+//! The number of points follows the curvature: a chord of length `L` on a curve of curvature `κ` is off by `κ L² / 8`,
+//! so the points are spread evenly over `∫ √(κ / 8 tolerance) ds`. Units are those of the path.
 
 use glam::DVec2;
 use kurbo::{BezPath, PathEl, Point};
 
 use super::Ring;
 
-/// Chords may be off by this much more than the tolerance, so that a circle of eight quadratic
-/// curves is not given one point too many in every one of them.
+/// How much more than the tolerance chords may be off. Without it a circle of eight quadratic curves would get one point
+/// too many in each.
 const SLACK: f64 = 1.1;
 /// The smallest tolerance, relative to the path's larger extent.
-const FINEST: f64 = 1e-5;
-/// Points this close, relative to the path's larger extent, are one.
+const MIN_TOLERANCE: f64 = 1e-5;
+/// Points this close are merged, relative to the path's larger extent.
 const SAME: f64 = 1e-9;
-/// The most points that one curve becomes.
-const MOST: f64 = 1024.0;
-/// Steps in which a curve is integrated.
+/// The largest number of points per curve.
+const MAX_POINTS: f64 = 1024.0;
+/// Steps of the numerical integration along a curve.
 const STEPS: usize = 8;
 
 /// Every subpath of a path as a closed ring, off by at most about `tolerance`.
 ///
-/// Points that are not finite are skipped, repeated points dropped, and so are subpaths with
-/// fewer than three points.
+/// Points that are not finite and repeated points are dropped, and so are subpaths with fewer than three points left.
 pub fn flatten(path: &BezPath, tolerance: f64) -> Vec<Ring> {
     let extent = extent(path);
-    let tolerance = tolerance.max(FINEST * extent) * SLACK;
+    let tolerance = tolerance.max(MIN_TOLERANCE * extent) * SLACK;
     let same = SAME * extent;
     let mut rings = Vec::new();
     let mut ring = Ring::with_capacity(64);
-    // Where the subpath starts, which is also where the pen is after it was closed.
+    // The start of the subpath, and the current point after it was closed.
     let mut start = None;
     for element in path.elements() {
         match *element {
@@ -99,7 +97,7 @@ fn finish(ring: &mut Ring, rings: &mut Vec<Ring>, same: f64) {
         ring.pop();
     }
     if ring.len() > 2 {
-        // A list of its own that is as long as it needs to be: there may be a hundred thousand.
+        // Copied to a list without spare capacity: there may be a hundred thousand.
         rings.push(Ring::from(&ring[..]));
     }
     ring.clear();
@@ -126,7 +124,7 @@ fn cubic(ring: &mut Ring, [a, b, c, d]: [DVec2; 4], tolerance: f64) {
         let second = 2.0 * ((d1 - d0) * u + (d2 - d1) * t);
         let speed = first.length();
         let bend = first.perp_dot(second).abs();
-        // At a cusp the speed vanishes with the bend.
+        // At a cusp both the speed and the bend are zero.
         if speed > 0.0 && bend.is_finite() {
             (bend / speed).sqrt()
         } else {
@@ -143,7 +141,7 @@ fn cubic(ring: &mut Ring, [a, b, c, d]: [DVec2; 4], tolerance: f64) {
     let total = sums[STEPS];
     let count = (total / (8.0 * tolerance).sqrt()).ceil();
     if count > 1.0 {
-        let count = count.min(MOST) as usize;
+        let count = count.min(MAX_POINTS) as usize;
         let mut i = 1;
         for k in 1..count {
             let goal = total * k as f64 / count as f64;

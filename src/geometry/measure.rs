@@ -1,48 +1,46 @@
 //! Axis, centre and end points of a part (Arai & Horry, section 3.3; figure.md, Parts).
 //!
-//! Drawing units, y down. The paper fits a regression line to the vertices; here the axis is the
-//! principal axis of the area within the borders, which does not depend on how curves were
-//! flattened nor on the frame.
+//! Drawing units, y down. The paper fits a regression line to the vertices; here the axis is the principal axis of the
+//! area within the borders, so that it depends neither on how curves are flattened nor on the frame.
 
 use glam::DVec2;
 
 use super::{Outline, query};
 
-/// Up on the drawing.
+/// Up in the drawing.
 const UP: DVec2 = DVec2::new(0.0, -1.0);
-/// Moments this close, relative to the larger, leave the axis open.
-const EQUAL: f64 = 0.01;
-/// Directions this close to level or upright are taken for it.
-const STRAIGHT: f64 = 1e-9;
+/// Principal moments this close, relative to the larger, leave the axis undetermined.
+const EQUAL_MOMENTS: f64 = 0.01;
+/// Directions this close to horizontal or vertical are snapped to it.
+const SNAP_TO_AXIS: f64 = 1e-9;
 
-/// How an outline lies.
+/// Position, direction and size of an outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measure {
-    /// Unit vector along the axis; it points up on the drawing, or right when level.
+    /// Unit vector along the axis; it points up in the drawing, or right if horizontal.
     pub axis: DVec2,
-    /// The middle of the extents along the axis and across it.
+    /// The middle of the extents along and across the axis.
     pub center: DVec2,
-    /// The ends of the extent along the axis, on the line through the centre; the first is the one
-    /// that the axis points to.
+    /// The ends of the extent along the axis, on the line through the centre; the axis points to the first.
     pub ends: [DVec2; 2],
     /// Half the extent along the axis.
     pub half_along: f64,
     /// Half the extent across the axis.
     pub half_across: f64,
-    /// The box along the page's axes: the least and the greatest corner.
+    /// The bounding box along the page's axes: the lower and the upper corner.
     pub bounds: (DVec2, DVec2),
-    /// False where the moments leave the axis open, as for a circle or a square.
+    /// False if the moments do not determine the axis, as for a circle or a square.
     pub certain: bool,
 }
 
-/// The measure of an outline, `None` where there is no area.
+/// The measure of an outline along its principal axis; `None` if it has no area.
 pub fn measure(outline: &Outline) -> Option<Measure> {
     let (low, high) = query::bounds(outline)?;
     let extent = (high - low).max_element();
     if !(extent > 0.0 && extent.is_finite()) {
         return None;
     }
-    // Moments in units of the extent about the middle, so that no digits are lost far out.
+    // Moments about the middle in units of the extent, for accuracy far from the origin.
     let middle = low.midpoint(high);
     let (mut area, mut first, mut second, mut mixed) = (0.0, DVec2::ZERO, DVec2::ZERO, 0.0);
     for border in outline.polygons.iter().filter_map(|p| p.rings.first()) {
@@ -67,7 +65,7 @@ pub fn measure(outline: &Outline) -> Option<Measure> {
     let difference = square.x - square.y;
     let spread = difference.hypot(2.0 * mixed);
     let larger = (square.x + square.y + spread) / 2.0;
-    let certain = spread > EQUAL * larger;
+    let certain = spread > EQUAL_MOMENTS * larger;
     let axis = if certain {
         DVec2::from_angle((2.0 * mixed).atan2(difference) / 2.0)
     } else {
@@ -78,12 +76,12 @@ pub fn measure(outline: &Outline) -> Option<Measure> {
     Some(measure)
 }
 
-/// The measure of an outline about a given axis, `None` where either is empty.
+/// The measure of an outline along a given axis; `None` if either is empty.
 pub fn measure_along(outline: &Outline, axis: DVec2) -> Option<Measure> {
     within(outline, axis, query::bounds(outline)?)
 }
 
-/// The measure of an outline with the given box about a given axis.
+/// The measure of an outline with the given bounding box along a given axis.
 fn within(outline: &Outline, axis: DVec2, (low, high): (DVec2, DVec2)) -> Option<Measure> {
     let axis = upright(axis.try_normalize()?);
     let middle = low.midpoint(high);
@@ -113,9 +111,9 @@ fn within(outline: &Outline, axis: DVec2, (low, high): (DVec2, DVec2)) -> Option
 }
 
 fn upright(axis: DVec2) -> DVec2 {
-    if axis.y.abs() < STRAIGHT {
+    if axis.y.abs() < SNAP_TO_AXIS {
         DVec2::X
-    } else if axis.x.abs() < STRAIGHT {
+    } else if axis.x.abs() < SNAP_TO_AXIS {
         UP
     } else if axis.y > 0.0 {
         -axis
@@ -127,11 +125,11 @@ fn upright(axis: DVec2) -> DVec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{FillRule, Ring, clean::clean};
+    use crate::geometry::{FillRule, Ring, resolve_overlaps};
     use proptest::prelude::*;
 
     fn outline(ring: Ring) -> Outline {
-        clean(vec![ring], FillRule::NonZero)
+        resolve_overlaps(vec![ring], FillRule::NonZero)
     }
 
     fn rectangle(w: f64, h: f64, turn: f64, at: DVec2) -> Outline {

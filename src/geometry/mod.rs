@@ -1,20 +1,20 @@
-//! Plane geometry of parts: outlines, their clean polygons, axes and frames.
+//! Plane geometry of parts: outlines as valid polygons, their axes and bounds.
 //!
-//! Conventions, stated once: outlines as drawn are in drawing units, x right and y **down**, f64.
-//! [`Outline`]s are clean: rings do not cross or touch themselves or each other but in points, the
-//! first ring of a polygon is its border and runs counter-clockwise in a frame with y **up**, the
-//! others are holes and run clockwise; no ring repeats its first point at its end, has fewer than
-//! three points or no area.
+//! Conventions, stated once: outlines are in drawing units, x right and y **down**, `f64`. Every [`Outline`] is valid
+//! in the sense of OGC Simple Features: rings do not cross, and touch themselves or each other at most in points. The
+//! first ring of a polygon is its border and runs counter-clockwise in a frame with y **up**; the others are holes and
+//! run clockwise. A ring does not repeat its first point at its end, has at least three points and encloses some area.
 
-pub mod clean;
-pub mod flatten;
+mod boolean;
+mod disjoint;
+mod flatten;
 mod frame;
-pub mod measure;
-mod plain;
+mod measure;
 mod query;
-mod touch;
+mod touching;
 
-pub use clean::{clean, intersect, union};
+pub use boolean::{intersect, resolve_overlaps, union};
+pub(crate) use boolean::{is_convex, remove_collinear};
 pub use flatten::flatten;
 pub use frame::{Frame, y_up};
 pub use measure::{Measure, measure, measure_along};
@@ -23,16 +23,16 @@ pub use query::{area, bounds, contains, distance_squared};
 
 use glam::DVec2;
 
-/// A ring of points without repetition of the first.
+/// A closed ring of points; the first point is not repeated at the end.
 pub type Ring = Vec<DVec2>;
 
-/// Which side of a path is filled.
+/// Which points a path fills.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum FillRule {
-    /// Points that the path winds around.
+    /// Points with a winding number other than zero.
     #[default]
     NonZero,
-    /// Points that the path winds around an odd number of times.
+    /// Points with an odd winding number.
     EvenOdd,
 }
 
@@ -43,9 +43,9 @@ pub struct Polygon {
     pub rings: Vec<Ring>,
 }
 
-/// A clean filled area.
+/// A filled area made of valid polygons.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Outline {
-    /// Polygons without common area.
+    /// Polygons that do not overlap.
     pub polygons: Vec<Polygon>,
 }

@@ -1,10 +1,10 @@
-//! Questions about clean outlines. They hold for either direction of y.
+//! Queries on outlines. They hold for either direction of y.
 
 use glam::DVec2;
 
 use super::{Outline, Ring};
 
-/// The filled area, square units.
+/// The filled area in square units.
 pub fn area(outline: &Outline) -> f64 {
     outline
         .polygons
@@ -16,13 +16,13 @@ pub fn area(outline: &Outline) -> f64 {
         .sum()
 }
 
-/// Whether a point is filled. Points on a border may fall either way.
+/// Whether a point is filled (even-odd ray casting). Points on a border may be either.
 pub fn contains(outline: &Outline, point: DVec2) -> bool {
     let rings = outline.polygons.iter().flat_map(|p| &p.rings);
     rings.fold(false, |inside, ring| inside != is_inside(ring, point))
 }
 
-/// Whether a ring goes around a point.
+/// Whether a ring encloses a point.
 pub(super) fn is_inside(ring: &Ring, point: DVec2) -> bool {
     let Some(mut a) = ring.last().copied() else {
         return false;
@@ -41,7 +41,7 @@ pub(crate) fn crosses([a, b]: [DVec2; 2], point: DVec2) -> bool {
         && point.x < (b.x - a.x) * ((point.y - a.y) / (b.y - a.y)) + a.x
 }
 
-/// The square of the distance from a point to the filled area: 0 inside, infinite where there is none.
+/// The square of the distance from a point to the filled area: 0 inside, infinite if there is no area.
 pub fn distance_squared(outline: &Outline, point: DVec2) -> f64 {
     if contains(outline, point) {
         return 0.0;
@@ -53,7 +53,7 @@ pub fn distance_squared(outline: &Outline, point: DVec2) -> f64 {
     })
 }
 
-/// The least and the greatest coordinates, `None` where there are no points.
+/// The lower and the upper corner of the bounding box; `None` without points.
 pub fn bounds(outline: &Outline) -> Option<(DVec2, DVec2)> {
     let mut points = outline
         .polygons
@@ -64,8 +64,8 @@ pub fn bounds(outline: &Outline) -> Option<(DVec2, DVec2)> {
     Some(points.fold((first, first), |(low, high), &p| (low.min(p), high.max(p))))
 }
 
-/// The signed area of a ring, positive where it runs from x to y. Relative to its
-/// first point, so that small rings far out keep their digits.
+/// The signed area of a ring (shoelace formula), positive where it runs from x to y. Computed relative to the first
+/// point, so that small rings far from the origin keep their precision.
 pub(crate) fn shoelace(ring: &Ring) -> f64 {
     let Some(&origin) = ring.first() else {
         return 0.0;

@@ -1,4 +1,4 @@
-//! Clips: glTF's animations, read whole and asked for one pose at a time. Weights of morph targets are passed over.
+//! Clips: glTF's animations, read completely and sampled one pose at a time. Morph target weights are ignored.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -9,26 +9,26 @@ use ::gltf::json::validation::Checked;
 use ::gltf::{Accessor, Animation, Document};
 use glam::{DMat4, DQuat, DVec3, DVec4};
 
-use super::data::{Buffers, F32, I8, I16, SCALAR, U8, U16, VEC3, VEC4};
+use super::buffers::{Buffers, F32, I8, I16, SCALAR, U8, U16, VEC3, VEC4};
 use super::pose::Pose;
 use super::{ImportError, malformed};
 
-/// The most keys of a file, those of a list once for each channel that has it.
-pub const KEY_LIMIT: usize = 32 << 20;
+/// The largest number of keys in a file; those of an accessor count once for each channel that uses it.
+pub const MAX_KEYS: usize = 32 << 20;
 
-/// A clip: how nodes move for a while.
+/// An animation of nodes.
 #[derive(Debug)]
 pub struct Clip {
     /// Its name, empty if it has none.
     pub name: String,
-    /// How long it is: to its last key, or longer where the file says so as `extras.okoshi.seconds`.
+    /// Its length: up to its last key, or longer if the file says so in `extras.okoshi.seconds`.
     pub seconds: f64,
-    moved: Vec<Moved>,
+    animated: Vec<AnimatedNode>,
 }
 
-/// A node that moves. What has no curve stays as it is at rest.
+/// The tracks of one node. A property without a track keeps its rest value.
 #[derive(Debug)]
-struct Moved {
+struct AnimatedNode {
     node: usize,
     rest: (DVec3, DQuat, DVec3),
     translation: Option<Curve<3>>,
@@ -36,34 +36,34 @@ struct Moved {
     scale: Option<Curve<3>>,
 }
 
-/// Rows of numbers that change in time.
+/// Keys of one property.
 #[derive(Debug)]
 struct Curve<const N: usize> {
-    /// Seconds, ascending, never empty.
+    /// Key times in seconds, ascending, never empty.
     times: Arc<[f32]>,
     interpolation: Interpolation,
-    /// One a moment; for splines three: what comes in, what is there, what goes out.
+    /// One row for each key; for cubic splines three: in-tangent, value, out-tangent.
     rows: Vec<[f32; N]>,
 }
 
 impl Clip {
-    /// The pose at a moment, seconds from the beginning: `rest` with the nodes moved that the clip moves. Before the first key
-    /// of a curve its first holds, after the last its last.
+    /// The pose at a time, in seconds from the beginning: `rest` with the clip's nodes moved. Before the first key of a
+    /// track its first value holds, after the last key its last.
     pub(crate) fn pose_at(&self, rest: &Pose, time: f64) -> Pose {
         let mut pose = rest.clone();
-        for moved in &self.moved {
-            let (mut translation, mut rotation, mut scale) = moved.rest;
-            if let Some(curve) = &moved.translation {
+        for animated in &self.animated {
+            let (mut translation, mut rotation, mut scale) = animated.rest;
+            if let Some(curve) = &animated.translation {
                 translation = curve.at(time, lerp).into();
             }
-            if let Some(curve) = &moved.rotation {
+            if let Some(curve) = &animated.rotation {
                 let turn = DQuat::from_array(curve.at(time, slerp));
-                rotation = turn_of(turn);
+                rotation = unit_quaternion(turn);
             }
-            if let Some(curve) = &moved.scale {
+            if let Some(curve) = &animated.scale {
                 scale = curve.at(time, lerp).into();
             }
-            if let Some(local) = pose.locals.get_mut(moved.node) {
+            if let Some(local) = pose.locals.get_mut(animated.node) {
                 *local = DMat4::from_scale_rotation_translation(scale, rotation, translation);
             }
         }
@@ -71,8 +71,8 @@ impl Clip {
     }
 }
 
-/// The turn that a quaternion of any length means; one of no length means none.
-fn turn_of(quaternion: DQuat) -> DQuat {
+/// The rotation of a quaternion of any length; the identity for length zero.
+fn unit_quaternion(quaternion: DQuat) -> DQuat {
     match quaternion.length() > 0.0 {
         true => quaternion.normalize(),
         false => DQuat::IDENTITY,
@@ -83,27 +83,27 @@ fn lerp(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
     DVec3::from(a).lerp(b.into(), share).to_array()
 }
 
-/// The shorter way round.
+/// Spherical interpolation along the shorter arc.
 fn slerp(a: [f64; 4], b: [f64; 4], share: f64) -> [f64; 4] {
-    let [a, b] = [a, b].map(|row| turn_of(DQuat::from_array(row)));
+    let [a, b] = [a, b].map(|row| unit_quaternion(DQuat::from_array(row)));
     a.slerp(b, share).to_array()
 }
 
 impl<const N: usize> Curve<N> {
-    /// What it is at a moment, with `between` what lies on the way from one row to the next.
+    /// The value at a time; `between` interpolates two rows.
     fn at(&self, time: f64, between: impl Fn([f64; N], [f64; N], f64) -> [f64; N]) -> [f64; N] {
         let row = |index: usize| self.rows[index].map(f64::from);
         let moment = |key: usize| f64::from(self.times[key]);
         let last = self.times.len() - 1;
         let before = |time: f64| {
-            let behind = self
+            let after = self
                 .times
                 .partition_point(|moment| f64::from(*moment) <= time);
-            behind.checked_sub(1)
+            after.checked_sub(1)
         };
         match self.interpolation {
-            // Moments are of single precision: who asks for the very moment of a key must not get the one before.
-            Interpolation::Step => row(before(time + slack(time)).unwrap_or(0)),
+            // Key times have single precision: a caller that asks for a key's own time must not get the key before it.
+            Interpolation::Step => row(before(time + key_tolerance(time)).unwrap_or(0)),
             Interpolation::Linear => match before(time) {
                 None => row(0),
                 Some(key) if key == last => row(last),
@@ -129,12 +129,12 @@ impl<const N: usize> Curve<N> {
     }
 }
 
-/// How much earlier than a key a moment may be that is meant to be the key's own, seconds.
-fn slack(time: f64) -> f64 {
+/// How much earlier than a key a time may be that is meant as the key's own, in seconds.
+fn key_tolerance(time: f64) -> f64 {
     1e-5 + time.abs() * 1e-6
 }
 
-/// How much the start, the tangent out of it, the end and the tangent into it count (glTF 2.0, appendix C.5).
+/// The Hermite weights of the start, the tangent out of it, the end and the tangent into it (glTF 2.0, appendix C.5).
 fn hermite(t: f64, span: f64) -> DVec4 {
     let (t2, t3) = (t * t, t * t * t);
     DVec4::new(
@@ -148,19 +148,19 @@ fn hermite(t: f64, span: f64) -> DVec4 {
 /// Reads all clips of a file.
 ///
 /// # Errors
-/// Nodes that are not there, lists that do not fit, moments out of order, what is no number, more than [`KEY_LIMIT`] keys.
+/// Missing nodes, accessors that do not match, times out of order, numbers that are not finite, too many keys.
 pub(crate) fn read(document: &Document, buffers: &Buffers) -> Result<Vec<Clip>, ImportError> {
     check_targets(document)?;
     let channels = || document.animations().flat_map(|clip| clip.channels());
     let keys = channels()
         .map(|channel| channel.sampler().output().count())
         .fold(0_usize, usize::saturating_add);
-    if keys > KEY_LIMIT {
+    if keys > MAX_KEYS {
         return Err(ImportError::TooManyKeys(keys));
     }
     let mut reader = Reader {
         buffers,
-        moments: BTreeMap::new(),
+        key_times: BTreeMap::new(),
     };
     document
         .animations()
@@ -168,7 +168,7 @@ pub(crate) fn read(document: &Document, buffers: &Buffers) -> Result<Vec<Clip>, 
         .collect()
 }
 
-/// The `gltf` crate takes for granted that channels move nodes that are there in ways that it knows.
+/// Checks channel targets, which the `gltf` crate takes for valid.
 fn check_targets(document: &Document) -> Result<(), ImportError> {
     let nodes = document.nodes().len();
     for (index, animation) in document.as_json().animations.iter().enumerate() {
@@ -181,7 +181,7 @@ fn check_targets(document: &Document) -> Result<(), ImportError> {
             }
             if matches!(channel.target.path, Checked::Invalid) {
                 return Err(malformed(format!(
-                    "animation {index} changes something of node {node} that no node has"
+                    "animation {index} changes a property of node {node} that nodes do not have"
                 )));
             }
         }
@@ -191,31 +191,35 @@ fn check_targets(document: &Document) -> Result<(), ImportError> {
 
 struct Reader<'a> {
     buffers: &'a Buffers,
-    /// Of accessors that were read before: channels share them.
-    moments: BTreeMap<usize, Arc<[f32]>>,
+    /// Key times by accessor: channels share them.
+    key_times: BTreeMap<usize, Arc<[f32]>>,
 }
 
 impl<'a> Reader<'a> {
     fn clip(&mut self, animation: &Animation<'a>) -> Result<Clip, ImportError> {
-        let mut moved: BTreeMap<usize, Moved> = BTreeMap::new();
-        let mut seconds = said_seconds(animation);
+        let mut animated: BTreeMap<usize, AnimatedNode> = BTreeMap::new();
+        let mut seconds = declared_seconds(animation);
         for channel in animation.channels() {
             let target = channel.target();
             if target.property() == Property::MorphTargetWeights {
                 continue;
             }
-            let times = self.moments(&channel)?;
+            let times = self.key_times(&channel)?;
             seconds = times
                 .last()
                 .map_or(seconds, |last| seconds.max(f64::from(*last)));
             let node = target.node();
-            let moved = moved.entry(node.index()).or_insert_with(|| {
+            let animated = animated.entry(node.index()).or_insert_with(|| {
                 let (translation, rotation, scale) = node.transform().decomposed();
                 let vector = |v: [f32; 3]| DVec3::from(v.map(f64::from));
                 let rotation = DQuat::from_array(rotation.map(f64::from));
-                Moved {
+                AnimatedNode {
                     node: node.index(),
-                    rest: (vector(translation), turn_of(rotation), vector(scale)),
+                    rest: (
+                        vector(translation),
+                        unit_quaternion(rotation),
+                        vector(scale),
+                    ),
                     translation: None,
                     rotation: None,
                     scale: None,
@@ -224,21 +228,21 @@ impl<'a> Reader<'a> {
             let twice = match target.property() {
                 Property::Translation => {
                     let curve = self.curve(&channel, times)?;
-                    moved.translation.replace(curve).is_some()
+                    animated.translation.replace(curve).is_some()
                 }
                 Property::Rotation => {
-                    let curve = self.turns(&channel, times)?;
-                    moved.rotation.replace(curve).is_some()
+                    let curve = self.rotation_curve(&channel, times)?;
+                    animated.rotation.replace(curve).is_some()
                 }
                 Property::Scale => {
                     let curve = self.curve(&channel, times)?;
-                    moved.scale.replace(curve).is_some()
+                    animated.scale.replace(curve).is_some()
                 }
                 Property::MorphTargetWeights => false,
             };
             if twice {
                 return Err(malformed(format!(
-                    "animation {} moves node {} in one way twice",
+                    "animation {} has two channels for the same property of node {}",
                     animation.index(),
                     node.index()
                 )));
@@ -247,46 +251,50 @@ impl<'a> Reader<'a> {
         Ok(Clip {
             name: animation.name().unwrap_or_default().to_owned(),
             seconds,
-            moved: moved.into_values().collect(),
+            animated: animated.into_values().collect(),
         })
     }
 
-    /// When a channel's keys are.
-    fn moments(&mut self, channel: &Channel<'a>) -> Result<Arc<[f32]>, ImportError> {
+    /// The key times of a channel.
+    fn key_times(&mut self, channel: &Channel<'a>) -> Result<Arc<[f32]>, ImportError> {
         let input = channel.sampler().input();
-        if let Some(times) = self.moments.get(&input.index()) {
+        if let Some(times) = self.key_times.get(&input.index()) {
             return Ok(times.clone());
         }
         let times: Arc<[f32]> = self.buffers.list(&input, &[(F32, SCALAR)])?.collect();
-        // Two keys at one moment are a leap.
+        // Two keys may have the same time: a jump.
         let ascending = times.windows(2).all(|pair| pair[0] <= pair[1]);
         let numbers = times.iter().all(|time| time.is_finite());
         if times.is_empty() || !ascending || !numbers {
             return Err(malformed(format!(
-                "the moments of animation {} do not follow each other (accessor {})",
+                "the key times of animation {} are not in ascending order (accessor {})",
                 channel.animation().index(),
                 input.index()
             )));
         }
-        self.moments.insert(input.index(), times.clone());
+        self.key_times.insert(input.index(), times.clone());
         Ok(times)
     }
 
-    /// A channel of vectors.
+    /// The keys of a translation or scale.
     fn curve(&self, channel: &Channel<'a>, times: Arc<[f32]>) -> Result<Curve<3>, ImportError> {
         let output = channel.sampler().output();
         let rows: Vec<[f32; 3]> = self.buffers.list(&output, &[(F32, VEC3)])?.collect();
         curve(channel, &output, times, rows)
     }
 
-    /// A channel of turns.
-    fn turns(&self, channel: &Channel<'a>, times: Arc<[f32]>) -> Result<Curve<4>, ImportError> {
+    /// The keys of a rotation.
+    fn rotation_curve(
+        &self,
+        channel: &Channel<'a>,
+        times: Arc<[f32]>,
+    ) -> Result<Curve<4>, ImportError> {
         let output = channel.sampler().output();
         let types = [F32, I8, U8, I16, U16].map(|component| (component, VEC4));
         self.buffers.check(&output, &types)?;
         let reader = channel.reader(|buffer| self.buffers.of(&buffer));
         let rows = match reader.read_outputs() {
-            Some(ReadOutputs::Rotations(turns)) => turns.into_f32().collect(),
+            Some(ReadOutputs::Rotations(rotations)) => rotations.into_f32().collect(),
             _ => Vec::new(),
         };
         curve(channel, &output, times, rows)
@@ -323,8 +331,8 @@ fn curve<const N: usize>(
     }
 }
 
-/// The length that `extras.okoshi.seconds` says, which counts where it is longer than the keys.
-fn said_seconds(animation: &Animation<'_>) -> f64 {
+/// The length in `extras.okoshi.seconds`, 0 if there is none.
+fn declared_seconds(animation: &Animation<'_>) -> f64 {
     let said = animation.extras().as_ref().and_then(|extras| {
         let extras: serde_json::Value = serde_json::from_str(extras.get()).ok()?;
         extras.get("okoshi")?.get("seconds")?.as_f64()

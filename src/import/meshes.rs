@@ -1,15 +1,15 @@
-//! Meshes: triangles and what their corners carry.
+//! Meshes: triangles and their vertex attributes.
 
 use ::gltf::mesh::Mode;
 use ::gltf::texture::TextureTransform;
 use ::gltf::{Accessor, Material, Primitive as Source, Semantic};
 use glam::{DMat3, DVec3, Vec2, Vec4};
 
-use super::data::{Buffers, F32, SCALAR, U8, U16, U32, VEC2, VEC3, VEC4};
+use super::buffers::{Buffers, F32, SCALAR, U8, U16, U32, VEC2, VEC3, VEC4};
 use super::pose::Primitive;
 use super::{ImportError, malformed};
 
-/// The primitives of a mesh that are made of triangles.
+/// The primitives of a mesh that consist of triangles.
 pub(super) fn read(
     mesh: &::gltf::Mesh<'_>,
     buffers: &Buffers,
@@ -52,10 +52,11 @@ fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>
 
     let material = source.material();
     let mut uvs = Vec::new();
-    if let Some((set, moved)) = coordinates(&material) {
+    if let Some((set, transform)) = coordinates(&material) {
         let types = [(F32, VEC2), (U8, VEC2), (U16, VEC2)];
         if check(source.get(&Semantic::TexCoords(set)), &types)?.is_some() {
-            let matrix = moved.map_or(DMat3::IDENTITY, |moved| transform(&moved));
+            let matrix =
+                transform.map_or(DMat3::IDENTITY, |transform| transform_matrix(&transform));
             let apply = |[u, v]: [f32; 2]| {
                 let moved = matrix * DVec3::new(f64::from(u), f64::from(v), 1.0);
                 Vec2::new(moved.x as f32, moved.y as f32)
@@ -127,8 +128,8 @@ fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>
     }))
 }
 
-/// The set of texture coordinates that a material's first texture uses, the base colour's before others, and how it
-/// moves them.
+/// The set of texture coordinates of a material's first texture, the base colour's before others, and its texture
+/// transform.
 fn coordinates<'a>(material: &Material<'a>) -> Option<(u32, Option<TextureTransform<'a>>)> {
     let base = material.pbr_metallic_roughness();
     let info = base
@@ -140,12 +141,12 @@ fn coordinates<'a>(material: &Material<'a>) -> Option<(u32, Option<TextureTransf
         let occlusion = || material.occlusion_texture().map(|map| map.tex_coord());
         return normal.or_else(occlusion).map(|set| (set, None));
     };
-    let moved = info.texture_transform();
-    let other = moved.as_ref().and_then(TextureTransform::tex_coord);
-    Some((other.unwrap_or_else(|| info.tex_coord()), moved))
+    let transform = info.texture_transform();
+    let other = transform.as_ref().and_then(TextureTransform::tex_coord);
+    Some((other.unwrap_or_else(|| info.tex_coord()), transform))
 }
 
-/// Three corners a triangle, in the order that glTF gives each mode.
+/// The corners of each triangle, in the order that glTF specifies for the mode.
 fn triangles(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {
     match mode {
         Mode::TriangleStrip => {
@@ -167,11 +168,11 @@ fn triangles(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {
     }
 }
 
-/// Moves texture coordinates: `KHR_texture_transform`, translation × rotation × scale.
-fn transform(moved: &TextureTransform<'_>) -> DMat3 {
-    let [x, y] = moved.offset().map(f64::from);
-    let [width, height] = moved.scale().map(f64::from);
-    let (sin, cos) = f64::from(moved.rotation()).sin_cos();
+/// The matrix of `KHR_texture_transform`: translation × rotation × scale.
+fn transform_matrix(transform: &TextureTransform<'_>) -> DMat3 {
+    let [x, y] = transform.offset().map(f64::from);
+    let [width, height] = transform.scale().map(f64::from);
+    let (sin, cos) = f64::from(transform.rotation()).sin_cos();
     DMat3::from_cols(
         DVec3::new(cos * width, -sin * width, 0.0),
         DVec3::new(sin * height, cos * height, 0.0),

@@ -1,15 +1,15 @@
-//! glTF 2.0 that others made, taken apart: for pictures of it, and for models that drawings link to.
+//! Reads glTF 2.0 files made by other programs: for pictures of them, and for models that drawings link to.
 //!
-//! Read are the hierarchy, triangles (lists, strips, fans), normals, one set of texture coordinates, vertex colours
-//! and skins, which nodes bend with the view, and clips; materials and images are left to whoever wants them. Morph targets are
-//! not read.
+//! It reads the node hierarchy, triangles (lists, strips, fans), normals, one set of texture coordinates, vertex
+//! colours, skins, clips, and which nodes bend with the view; [`StaticModel`] adds materials and images. Morph targets
+//! are ignored.
 
 mod animations;
-mod asset;
-mod bend;
-mod data;
+mod buffers;
 mod meshes;
 mod pose;
+mod static_model;
+mod view_dependent;
 
 use ::gltf::{Document, Gltf};
 use glam::DMat4;
@@ -17,53 +17,53 @@ use glam::DMat4;
 use crate::resolver::{LinkError, Resolver};
 
 pub(crate) use animations::read as read_clips;
-pub use animations::{Clip, KEY_LIMIT};
-pub use asset::{Asset, read_asset};
-pub(crate) use data::{Buffers, fetch};
+pub use animations::{Clip, MAX_KEYS};
+pub(crate) use buffers::Buffers;
 pub use pose::Pose;
-pub(crate) use pose::{Geometry, Soup};
+pub(crate) use pose::{Geometry, TriangleSoup};
 use pose::{Node, Skin};
+pub use static_model::{StaticModel, read_static_model};
 
-/// The most triangles of a file, those of a mesh once for each node that has it.
-pub const TRIANGLE_LIMIT: usize = 32 << 20;
+/// The largest number of triangles in a file; those of a mesh count once for each node that uses it.
+pub const MAX_TRIANGLES: usize = 32 << 20;
 
-/// Why a file cannot be read. Messages go behind the name of the file.
+/// Why a file cannot be read. Messages follow the name of the file.
 #[derive(Debug, thiserror::Error)]
 pub enum ImportError {
-    /// The bytes are no glTF, or break its rules.
+    /// The bytes are not glTF, or violate the specification.
     #[error(
         "is not a readable glTF file: {0}; export it again, or check it with the Khronos glTF validator"
     )]
     Malformed(String),
-    /// It needs an extension of glTF that is not known here.
+    /// It requires an extension that is not supported.
     #[error(
         "needs the glTF extension `{0}`, which okoshi does not support; export it without that extension"
     )]
     Extension(String),
-    /// A file that it links to cannot be had.
+    /// A file that it links to cannot be read.
     #[error("links to `{link}`, which {error}")]
     Link {
-        /// As the file names it.
+        /// The link as written in the file.
         link: String,
-        /// What is wrong with it.
+        /// Why it cannot be read.
         error: LinkError,
     },
     /// An image cannot be decoded.
     #[error("has an image that cannot be read ({0}); use PNG or JPEG")]
     Image(String),
-    /// No triangle to be seen.
+    /// There is no visible triangle.
     #[error("has no triangles: there is nothing to see")]
     Empty,
-    /// More than [`TRIANGLE_LIMIT`] triangles.
-    #[error("has {0} triangles, more than the limit of {TRIANGLE_LIMIT}")]
+    /// More than [`MAX_TRIANGLES`] triangles.
+    #[error("has {0} triangles, more than the limit of {MAX_TRIANGLES}")]
     TooManyTriangles(usize),
-    /// More than [`KEY_LIMIT`] keys.
-    #[error("has clips with {0} keys, more than the limit of {KEY_LIMIT}")]
+    /// More than [`MAX_KEYS`] keys.
+    #[error("has clips with {0} keys, more than the limit of {MAX_KEYS}")]
     TooManyKeys(usize),
 }
 
-/// A file, taken apart.
-pub(crate) struct File {
+/// The content of a file.
+pub(crate) struct ParsedFile {
     pub(crate) document: Document,
     pub(crate) buffers: Buffers,
     pub(crate) geometry: Geometry,
@@ -72,14 +72,16 @@ pub(crate) struct File {
 /// Reads a `.glb` or `.gltf`; what it links to comes from `resolver`.
 ///
 /// # Errors
-/// Bytes that are no glTF, that break its rules, or need what is not known; links that lead nowhere.
-pub(crate) fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<File, ImportError> {
+/// Bytes that are not glTF, that violate the specification or require an unsupported extension; broken links.
+pub(crate) fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<ParsedFile, ImportError> {
     let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(|error| {
         let unknown = Gltf::from_slice_without_validation(bytes)
             .ok()
             .and_then(|file| {
                 let mut needed = file.extensions_required();
-                needed.find(|name| !KNOWN.contains(name)).map(str::to_owned)
+                needed
+                    .find(|name| !SUPPORTED_EXTENSIONS.contains(name))
+                    .map(str::to_owned)
             });
         unknown.map_or_else(|| malformed(error.to_string()), ImportError::Extension)
     })?;
@@ -87,7 +89,7 @@ pub(crate) fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<File, Import
     let nodes = nodes(&document)?;
     let geometry = Geometry {
         order: order(&document, &nodes)?,
-        drawn: drawn(&document, &nodes),
+        visible: visible(&document, &nodes),
         meshes: document
             .meshes()
             .map(|mesh| meshes::read(&mesh, &buffers))
@@ -98,15 +100,15 @@ pub(crate) fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<File, Import
             .collect::<Result<_, _>>()?,
         nodes,
     };
-    Ok(File {
+    Ok(ParsedFile {
         document,
         buffers,
         geometry,
     })
 }
 
-/// The extensions that a file may need.
-const KNOWN: &[&str] = &[
+/// The extensions that a file may require.
+const SUPPORTED_EXTENSIONS: &[&str] = &[
     "KHR_texture_transform",
     "KHR_materials_unlit",
     "KHR_materials_emissive_strength",
@@ -133,7 +135,7 @@ fn nodes(document: &Document) -> Result<Vec<Node>, ImportError> {
                 local: matrix(&node),
                 mesh: node.mesh().map(|mesh| mesh.index()),
                 skin: node.skin().map(|skin| skin.index()),
-                bent: bend::asked(&node)?,
+                bends: view_dependent::has_bend(&node)?,
             })
         })
         .collect::<Result<_, ImportError>>()?;
@@ -167,23 +169,23 @@ fn order(document: &Document, nodes: &[Node]) -> Result<Vec<usize>, ImportError>
     }
 }
 
-/// Which nodes the file's scene shows; all of them where there is no scene.
-fn drawn(document: &Document, nodes: &[Node]) -> Vec<bool> {
+/// Which nodes belong to the file's scene; all of them if there is no scene.
+fn visible(document: &Document, nodes: &[Node]) -> Vec<bool> {
     let Some(scene) = document
         .default_scene()
         .or_else(|| document.scenes().next())
     else {
         return vec![true; nodes.len()];
     };
-    let mut drawn = vec![false; nodes.len()];
+    let mut visible = vec![false; nodes.len()];
     let mut stack: Vec<::gltf::Node<'_>> = scene.nodes().collect();
     while let Some(node) = stack.pop() {
         // A scene may name a node twice, but shows it once.
-        if !std::mem::replace(&mut drawn[node.index()], true) {
+        if !std::mem::replace(&mut visible[node.index()], true) {
             stack.extend(node.children());
         }
     }
-    drawn
+    visible
 }
 
 fn skin(skin: &::gltf::Skin<'_>, buffers: &Buffers) -> Result<Skin, ImportError> {
@@ -191,7 +193,7 @@ fn skin(skin: &::gltf::Skin<'_>, buffers: &Buffers) -> Result<Skin, ImportError>
     let inverse = match skin.inverse_bind_matrices() {
         None => vec![DMat4::IDENTITY; joints.len()],
         Some(accessor) => buffers
-            .list::<[[f32; 4]; 4]>(&accessor, &[(data::F32, data::MAT4)])?
+            .list::<[[f32; 4]; 4]>(&accessor, &[(buffers::F32, buffers::MAT4)])?
             .map(|matrix| DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from))))
             .collect(),
     };

@@ -1,32 +1,32 @@
-//! Nodes, meshes and skins, and where they are in a pose.
+//! Nodes, meshes and skins, and their positions in a pose.
 
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
 
-use super::bend::bend;
-use super::{ImportError, TRIANGLE_LIMIT};
+use super::view_dependent::bend_matrix;
+use super::{ImportError, MAX_TRIANGLES};
 
-/// What a file shows, not yet posed.
+/// The geometry of a file, not yet posed.
 #[derive(Debug)]
 pub(crate) struct Geometry {
     pub(super) nodes: Vec<Node>,
     /// All nodes, parents before children.
     pub(super) order: Vec<usize>,
-    /// Which nodes are to be seen.
-    pub(super) drawn: Vec<bool>,
+    /// Which nodes are visible.
+    pub(super) visible: Vec<bool>,
     pub(super) meshes: Vec<Vec<Primitive>>,
     pub(super) skins: Vec<Skin>,
 }
 
-/// Posed triangles in one frame, the world's. Lists of corners are as long as `positions`, or empty.
+/// Posed triangles in world space. Lists of vertex attributes are as long as `positions`, or empty.
 #[derive(Debug, Default)]
-pub(crate) struct Soup {
+pub(crate) struct TriangleSoup {
     pub(crate) positions: Vec<DVec3>,
-    /// Unit vectors; zero where the file has none.
+    /// Unit vectors; zero if the file has none.
     pub(crate) normals: Vec<Vec3>,
     pub(crate) uvs: Vec<Vec2>,
     pub(crate) colours: Vec<Vec4>,
     pub(crate) triangles: Vec<[u32; 3]>,
-    /// The material of each triangle; none for those that have none.
+    /// The material of each triangle, if it has one.
     pub(crate) materials: Vec<Option<u32>>,
 }
 
@@ -37,42 +37,41 @@ pub(super) struct Node {
     pub(super) local: DMat4,
     pub(super) mesh: Option<usize>,
     pub(super) skin: Option<usize>,
-    /// What it shows is bent with the view.
-    pub(super) bent: bool,
+    /// Whether it bends with the view.
+    pub(super) bends: bool,
 }
 
 #[derive(Debug)]
 pub(super) struct Skin {
-    /// Nodes.
+    /// Indices of nodes.
     pub(super) joints: Vec<usize>,
-    /// From the mesh's frame into each joint's, as bound.
+    /// Inverse bind matrices: from the mesh's frame into each joint's.
     pub(super) inverse: Vec<DMat4>,
 }
 
-/// Triangles of one material. A list of corners is as long as `positions`, or empty.
+/// Triangles of one material. Lists of vertex attributes are as long as `positions`, or empty.
 #[derive(Debug)]
 pub(super) struct Primitive {
     pub(super) positions: Vec<[f32; 3]>,
     pub(super) normals: Vec<[f32; 3]>,
     pub(super) uvs: Vec<Vec2>,
     pub(super) colours: Vec<Vec4>,
-    /// Sets of four joints and their weights.
+    /// Sets of four joints and their weights, per vertex.
     pub(super) influences: Vec<Vec<([u16; 4], [f32; 4])>>,
     pub(super) triangles: Vec<[u32; 3]>,
     pub(super) material: Option<usize>,
 }
 
-/// Where every node stands in its parent's frame, and from where it is seen.
+/// The transform of every node in its parent's frame, and the direction of the viewer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pose {
     pub(super) locals: Vec<DMat4>,
-    /// Towards the viewer, in the world; without one, nothing follows the viewer.
+    /// Towards the viewer in the world; if `None`, nothing bends.
     towards: Option<DVec3>,
 }
 
 impl Pose {
-    /// The same pose, with what follows the viewer as it is seen from a direction: the vector towards the viewer, in the
-    /// world.
+    /// The same pose, bent for a viewer in the direction `towards`, in the world.
     #[must_use]
     pub(crate) fn seen_from(&self, towards: Option<DVec3>) -> Self {
         Self {
@@ -83,7 +82,7 @@ impl Pose {
 }
 
 impl Geometry {
-    /// The pose that the file is in.
+    /// The pose in which the file stores the model.
     pub(crate) fn rest(&self) -> Pose {
         Pose {
             locals: self.nodes.iter().map(|node| node.local).collect(),
@@ -91,28 +90,28 @@ impl Geometry {
         }
     }
 
-    /// Whether anything looks otherwise from elsewhere.
-    pub(crate) fn follows_viewer(&self) -> bool {
-        self.nodes.iter().any(|node| node.bent)
+    /// Whether any node bends with the view.
+    pub(crate) fn is_view_dependent(&self) -> bool {
+        self.nodes.iter().any(|node| node.bends)
     }
 
-    /// From each node's frame into the world.
+    /// The world transform of each node.
     fn globals(&self, pose: &Pose) -> Vec<DMat4> {
         let mut globals = vec![DMat4::IDENTITY; self.nodes.len()];
-        // Below a node that is bent nothing is bent again.
-        let mut bent = vec![false; self.nodes.len()];
+        // A node below a bent one is not bent a second time.
+        let mut bends = vec![false; self.nodes.len()];
         for index in &self.order {
             let node = &self.nodes[*index];
             let local = pose.locals[*index];
             let (mut global, within) = match node.parent {
-                Some(parent) => (globals[parent] * local, bent[parent]),
+                Some(parent) => (globals[parent] * local, bends[parent]),
                 None => (local, false),
             };
-            if let Some(towards) = pose.towards.filter(|_| node.bent && !within) {
-                global *= bend(global, towards);
+            if let Some(towards) = pose.towards.filter(|_| node.bends && !within) {
+                global *= bend_matrix(global, towards);
             }
             globals[*index] = global;
-            bent[*index] = within || node.bent;
+            bends[*index] = within || node.bends;
         }
         globals
     }
@@ -120,15 +119,15 @@ impl Geometry {
     /// All triangles in a pose.
     ///
     /// # Errors
-    /// No triangle, or too many.
-    pub(crate) fn triangles(&self, pose: &Pose) -> Result<Soup, ImportError> {
+    /// No triangles, or too many.
+    pub(crate) fn triangles(&self, pose: &Pose) -> Result<TriangleSoup, ImportError> {
         let globals = self.globals(pose);
         let seen = || {
             let nodes = self
                 .nodes
                 .iter()
                 .enumerate()
-                .filter(|(index, _)| self.drawn[*index]);
+                .filter(|(index, _)| self.visible[*index]);
             nodes.filter_map(|(index, node)| Some((index, node, &self.meshes[node.mesh?])))
         };
         let triangles =
@@ -136,12 +135,12 @@ impl Geometry {
         let count = seen().fold(0_usize, |sum, (_, _, mesh)| {
             sum.saturating_add(triangles(mesh))
         });
-        if count > TRIANGLE_LIMIT {
+        if count > MAX_TRIANGLES {
             return Err(ImportError::TooManyTriangles(count));
         }
-        let mut out = Soup::default();
+        let mut out = TriangleSoup::default();
         for (index, node, mesh) in seen() {
-            // The node of a skinned mesh does not move it: its joints do.
+            // A skinned mesh follows its joints only, not its node.
             let skin = node
                 .skin
                 .map(|skin| self.joints(&self.skins[skin], &globals));
@@ -156,7 +155,7 @@ impl Geometry {
         }
     }
 
-    /// From the mesh's frame as bound into the world, for each joint.
+    /// The matrix of each joint that takes bound vertices into the world.
     fn joints(&self, skin: &Skin, globals: &[DMat4]) -> Vec<DMat4> {
         let pairs = skin.joints.iter().zip(&skin.inverse);
         pairs
@@ -165,13 +164,13 @@ impl Geometry {
     }
 }
 
-/// Appends a primitive where its node or its joints take it.
-fn append(primitive: &Primitive, global: DMat4, skin: Option<&[DMat4]>, out: &mut Soup) {
+/// Appends a primitive, transformed by its node or its joints.
+fn append(primitive: &Primitive, global: DMat4, skin: Option<&[DMat4]>, out: &mut TriangleSoup) {
     let first = out.positions.len() as u32;
     let material = primitive.material.map(|material| material as u32);
     let blended = skin.map(|joints| {
         (0..primitive.positions.len())
-            .map(|corner| blend(&primitive.influences, corner, joints))
+            .map(|corner| blended_joint_matrix(&primitive.influences, corner, joints))
             .collect::<Vec<_>>()
     });
     let matrix = |corner: usize| blended.as_ref().map_or(global, |matrices| matrices[corner]);
@@ -194,12 +193,12 @@ fn append(primitive: &Primitive, global: DMat4, skin: Option<&[DMat4]>, out: &mu
         false => out.uvs.extend(&primitive.uvs),
     }
     if !primitive.colours.is_empty() || !out.colours.is_empty() {
-        // Most models have no colours at corners: the list begins with the first primitive that has.
+        // Few models have vertex colours: the list stays empty until the first primitive that has them.
         out.colours.resize(first as usize, Vec4::ONE);
         out.colours.extend(&primitive.colours);
         out.colours.resize(corners, Vec4::ONE);
     }
-    // A mirrored node turns its triangles inside out, and glTF turns them back.
+    // glTF reverses the winding of triangles under a mirrored node.
     let mirrored = skin.is_none() && global.determinant() < 0.0;
     out.triangles.extend(primitive.triangles.iter().map(|t| {
         let [a, b, c] = t.map(|corner| corner + first);
@@ -208,7 +207,7 @@ fn append(primitive: &Primitive, global: DMat4, skin: Option<&[DMat4]>, out: &mu
     out.materials.resize(out.triangles.len(), material);
 }
 
-/// The matrix that turns normals: the inverse transpose, up to a factor that is never zero.
+/// The matrix for normals: the inverse transpose, up to a positive factor, as the matrix of cofactors.
 fn normal_matrix(matrix: DMat4) -> DMat3 {
     let m = DMat3::from_mat4(matrix);
     let cofactors = DMat3::from_cols(
@@ -223,8 +222,12 @@ fn normal_matrix(matrix: DMat4) -> DMat3 {
     }
 }
 
-/// The weighted mean of a corner's joints; weights that do not add up to one are made to.
-fn blend(influences: &[Vec<([u16; 4], [f32; 4])>], corner: usize, joints: &[DMat4]) -> DMat4 {
+/// The weighted mean of a vertex's joint matrices (linear blend skinning); weights are normalised.
+fn blended_joint_matrix(
+    influences: &[Vec<([u16; 4], [f32; 4])>],
+    corner: usize,
+    joints: &[DMat4],
+) -> DMat4 {
     let mut sum = DMat4::ZERO;
     let mut total = 0.0;
     for set in influences {

@@ -10,7 +10,7 @@ use tokio::sync::{Semaphore, watch};
 use super::message::{Build, Listed, ToPage, findings};
 use crate::compile::Compiled;
 use crate::export::{self, GLB};
-use crate::render::{self, Options, Stage, write_png};
+use crate::render::{self, Options, PosedModel, write_png};
 use crate::report::{Reader, clips, landscapes, parts};
 use crate::resolver::MemoryResolver;
 use crate::watch::Steps;
@@ -92,13 +92,13 @@ impl Kept {
     pub(super) fn picture(&self) -> Option<Bytes> {
         let drawn = || {
             let model = render::read(&self.bytes, &MemoryResolver::default()).ok()?;
-            let stage = Stage::new(&model, &model.rest()).ok()?;
+            let posed = PosedModel::new(&model, &model.rest()).ok()?;
             let options = Options {
                 size: [PICTURE; 2],
                 ..Options::default()
             };
             let mut png = Vec::new();
-            write_png(&stage.picture(&options).ok()?, &mut png).ok()?;
+            write_png(&posed.picture(&options).ok()?, &mut png).ok()?;
             Some(Bytes::from(png))
         };
         self.picture.get_or_init(drawn).clone()

@@ -1,28 +1,27 @@
-//! Where the camera stands and what it sees.
+//! The camera: its direction, its projection, and how it is framed.
 
 use std::borrow::Cow;
 
 use glam::{DVec3, Vec2, Vec3};
 
-/// How far the camera can be lifted or lowered, degrees.
-pub const PITCH_LIMIT: f64 = 90.0;
-/// Half the picture's longer side at distance 1: that of an 85 mm lens on film of 36 mm, which flatters without
-/// flattening.
+/// How far the camera can be raised or lowered, in degrees.
+pub const MAX_PITCH: f64 = 90.0;
+/// Half the picture's longer side at distance 1: that of an 85 mm lens on 36 mm film, a usual portrait lens.
 const LENS: f32 = 18.0 / 85.0;
 /// The empty border, as a share of the picture's shorter side.
 pub(super) const MARGIN: f32 = 0.06;
-/// The smallest half extent that is framed, so that a flat thing seen edge-on has a scale.
+/// The smallest half extent of a framing, so that a flat model seen edge-on has a scale.
 const LEAST: f32 = 1e-4;
 
-/// How often the picture is centred; each time leaves a small part of what the last one left.
+/// Iterations of the centring; each removes most of the remaining offset.
 const CENTRINGS: usize = 3;
 
-/// The direction that the camera looks from, degrees.
+/// The direction of the camera, in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// Turns the camera about the model to the model's left; 0 looks at its front.
+    /// Turns the camera around the model, to the model's left; 0 faces its front.
     pub yaw: f64,
-    /// Lifts the camera; 90 looks down on the model.
+    /// Raises the camera; 90 looks down on the model.
     pub pitch: f64,
 }
 
@@ -48,17 +47,17 @@ impl View {
     }
 }
 
-/// How space becomes a plane.
+/// The projection of a camera.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Projection {
-    /// What is farther away is smaller.
+    /// Distant things are smaller.
     #[default]
     Perspective,
-    /// Parallels stay parallel.
+    /// Parallel lines stay parallel.
     Orthographic,
 }
 
-/// The axes of a view, unit vectors.
+/// The axes of a camera, unit vectors.
 #[derive(Debug, Clone, Copy)]
 struct Axes {
     right: Vec3,
@@ -86,23 +85,23 @@ impl Axes {
     }
 }
 
-/// Where the picture's edges lie, in the coordinates of the camera (right, up, depth).
+/// The extent of the picture, in camera coordinates (right, up, depth).
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Framing {
     projection: Projection,
     size: [u32; 2],
     middle: Vec2,
-    /// Depth of the eye, or of the plane that parallel rays start from.
+    /// Depth of the eye, or of the plane where parallel rays start.
     depth: f32,
-    /// Half the picture's longer side: at distance 1, or for parallel rays anywhere.
+    /// Half the picture's longer side: at distance 1, or at any distance for parallel rays.
     half: f32,
 }
 
 impl Framing {
-    /// Has all points in the picture at each of the sights, with a margin, as large as they can be. A sight is a view and
-    /// something that tells the sights of one view apart; `points` tells what is to be seen there, and may fail.
+    /// The closest framing that shows the points of all shots, with a margin. A shot is a view and something that
+    /// distinguishes the shots of one view; `points` gives what is visible in a shot, and may fail.
     pub(super) fn new<'p, S: Copy, E>(
-        sights: &[(View, S)],
+        shots: &[(View, S)],
         projection: Projection,
         size: [u32; 2],
         points: impl Fn(View, S) -> Result<Cow<'p, [Vec3]>, E>,
@@ -114,13 +113,13 @@ impl Framing {
             Projection::Perspective => inner * LENS,
             Projection::Orthographic => Vec2::ZERO,
         };
-        // How far the four planes that bound the picture lie out: right, top, left, bottom.
+        // The largest offsets of the four planes that bound the picture: right and top, left and bottom.
         let mut high = Vec2::NEG_INFINITY;
         let mut low = Vec2::NEG_INFINITY;
         let mut nearest = f32::INFINITY;
-        for (view, sight) in sights {
+        for (view, shot) in shots {
             let axes = Axes::new(*view);
-            for point in &*points(*view, *sight)? {
+            for point in &*points(*view, *shot)? {
                 let seen = axes.of(*point);
                 let slope = tangents * seen.z;
                 high = high.max(seen.truncate() - slope);
@@ -146,35 +145,35 @@ impl Framing {
         };
         if projection == Projection::Perspective {
             for _ in 0..CENTRINGS {
-                framing.centre(sights, &points)?;
+                framing.centre(shots, &points)?;
             }
         }
         Ok(framing)
     }
 
-    /// Moves the eye sideways, so that the border is as wide on the left as on the right, and above as below.
+    /// Moves the eye sideways, so that opposite margins become equal.
     fn centre<'p, S: Copy, E>(
         &mut self,
-        sights: &[(View, S)],
+        shots: &[(View, S)],
         points: impl Fn(View, S) -> Result<Cow<'p, [Vec3]>, E>,
     ) -> Result<(), E> {
         let mut high = Vec2::NEG_INFINITY;
         let mut low = Vec2::NEG_INFINITY;
-        for (view, sight) in sights {
+        for (view, shot) in shots {
             let axes = Axes::new(*view);
-            for point in &*points(*view, *sight)? {
+            for point in &*points(*view, *shot)? {
                 let seen = axes.of(*point);
                 let place = (seen.truncate() - self.middle) / (seen.z - self.depth);
                 high = high.max(place);
                 low = low.max(-place);
             }
         }
-        // The model's middle lies at depth 0.
+        // The middle of the model lies at depth 0.
         self.middle += (high - low) / 2.0 * -self.depth;
         Ok(())
     }
 
-    /// The camera that sees one of the views so.
+    /// The camera for one of the views.
     pub(super) fn camera(&self, view: View) -> Camera {
         let axes = Axes::new(view);
         let eye = axes.right * self.middle.x + axes.up * self.middle.y + axes.forward * self.depth;
@@ -190,12 +189,12 @@ impl Framing {
     }
 }
 
-/// A camera.
+/// A camera, framed for a picture.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Camera {
     axes: Axes,
     projection: Projection,
-    /// The degrees that it is turned by; the lights turn with it.
+    /// The yaw of the view in degrees; the lights turn with it.
     pub(super) yaw: f64,
     eye: Vec3,
     half: f32,
@@ -203,7 +202,7 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// Where the ray through a place in the picture starts, and its direction. Pixels, from the top left.
+    /// The origin and direction of the ray through a point of the picture, in pixels from the top left.
     pub(super) fn ray(&self, place: Vec2) -> (Vec3, Vec3) {
         let longer = self.size.max_element();
         let across = (place * 2.0 - self.size) / longer * self.half;
@@ -214,7 +213,7 @@ impl Camera {
         }
     }
 
-    /// How wide a pixel is on something that a ray meets after `distance`.
+    /// The width of a pixel on a surface at a distance along its ray.
     pub(super) fn pixel(&self, distance: f32) -> f32 {
         let width = 2.0 * self.half / self.size.max_element();
         match self.projection {
@@ -223,7 +222,7 @@ impl Camera {
         }
     }
 
-    /// How much of what lies at the picture's border is left: 1 inside, 0 at the edge.
+    /// A factor that fades shadows towards the picture's border: 1 inside, 0 at the edge (smoothstep).
     pub(super) fn border(&self, place: Vec2) -> f32 {
         let to_edge = place.min(self.size - place).min_element();
         let share = (to_edge / (MARGIN * self.size.min_element())).clamp(0.0, 1.0);

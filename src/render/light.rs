@@ -1,28 +1,28 @@
-//! Where light comes from: three soft lights that turn with the camera, and a sky.
+//! Lighting: three soft lamps that turn with the camera, and a sky.
 
 use glam::{Quat, Vec2, Vec3};
 
-use super::fragment::{Fragment, Matter};
+use super::fragment::{Fragment, FragmentKind};
 use super::trace::Tracer;
 
-/// Pixels in a block share their rays: `BLOCK` × `BLOCK` of them.
+/// `BLOCK` × `BLOCK` pixels share their rays.
 pub(super) const BLOCK: u32 = 4;
-const SHARES: usize = (BLOCK * BLOCK) as usize;
-/// Rays of a pixel to each light.
-const RAYS: [usize; 3] = [3, 1, 1];
-/// Rays of a pixel to the sky: from the model, and from the ground, where faint shadows are seen on white.
+const BLOCK_PIXELS: usize = (BLOCK * BLOCK) as usize;
+/// Rays of a pixel to each lamp.
+const LAMP_RAYS: [usize; 3] = [3, 1, 1];
+/// Rays of a pixel to the sky: from the model, and from the ground, where faint shadows show on white.
 const SKY_RAYS: [usize; 2] = [6, 16];
-/// Light from below, that the ground gives back, where the sky's is 1.
+/// Light that the ground reflects from below, relative to the sky.
 const GROUND: f32 = 0.5;
 
 /// A distant lamp.
 struct Lamp {
-    /// Towards it; the camera looks along -Z.
+    /// Towards the lamp; the camera looks along -Z.
     direction: Vec3,
     strength: f32,
-    /// The tangent of half the angle that it fills.
+    /// The tangent of half its angular size.
     spread: f32,
-    /// How far its light reaches round a surface that turns away.
+    /// How far its light reaches around surfaces that face away (wrapped diffuse).
     wrap: f32,
 }
 
@@ -50,15 +50,15 @@ const LAMPS: [Lamp; 3] = [
 /// The strength of the sky.
 const SKY: f32 = 0.5;
 
-/// How much of each light arrives at a place; 1 is all that could.
+/// The share of each light that reaches a point, 0 to 1.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Arriving {
+pub(super) struct IncidentLight {
     pub(super) lamps: [f32; 3],
-    /// Of the sky and the ground, weighted by the angle.
+    /// Of sky and ground together, weighted by the cosine.
     pub(super) sky: f32,
 }
 
-impl Arriving {
+impl IncidentLight {
     pub(super) fn add(&mut self, other: &Self) {
         for (sum, one) in self.lamps.iter_mut().zip(other.lamps) {
             *sum += one;
@@ -74,24 +74,24 @@ impl Arriving {
     }
 }
 
-/// The lights of a view.
-pub(super) struct Rig {
+/// The lights for a view.
+pub(super) struct Lights {
     pub(super) directions: [Vec3; 3],
-    /// Directions to each lamp, the rays of one pixel of a block after the other.
+    /// Directions to each lamp, grouped by the pixels of a block.
     lamps: [Vec<Vec3>; 3],
-    /// Directions about +Z, the denser the nearer, of each of [`SKY_RAYS`].
+    /// Cosine-weighted directions around +Z, for each of [`SKY_RAYS`].
     sky: [Vec<Vec3>; 2],
 }
 
-impl Rig {
-    /// Lights that are turned with the camera by `yaw` degrees.
+impl Lights {
+    /// Lights that turn with the camera by `yaw` degrees.
     pub(super) fn new(yaw: f64) -> Self {
         let turn = Quat::from_rotation_y(yaw.to_radians() as f32);
         let directions = LAMPS.map(|lamp| turn * lamp.direction.normalize());
         let lamps = [0, 1, 2].map(|index| {
             let towards = directions[index];
             let turn = Quat::from_rotation_arc(Vec3::Z, towards);
-            spread(RAYS[index], |share| {
+            spread(LAMP_RAYS[index], |share| {
                 (turn * disk(share, LAMPS[index].spread).extend(1.0)).normalize()
             })
         });
@@ -107,14 +107,19 @@ impl Rig {
         }
     }
 
-    /// The light that arrives at a piece, by the rays of the pixel `share` of its block.
-    pub(super) fn arriving(&self, tracer: &Tracer<'_>, piece: &Fragment, share: usize) -> Arriving {
+    /// The light that reaches a fragment, by the rays of pixel `share` of its block.
+    pub(super) fn incident(
+        &self,
+        tracer: &Tracer<'_>,
+        piece: &Fragment,
+        share: usize,
+    ) -> IncidentLight {
         let Fragment { place, normal, .. } = *piece;
-        let mut arriving = Arriving::default();
+        let mut incident = IncidentLight::default();
         for (index, rays) in self.lamps.iter().enumerate() {
-            let count = RAYS[index];
-            // No ray to a lamp that the surface turns away from: there is nothing to shade.
-            arriving.lamps[index] = match self.facing(index, normal) > 0.0 {
+            let count = LAMP_RAYS[index];
+            // A surface that faces away from the lamp needs no shadow rays.
+            incident.lamps[index] = match self.facing(index, normal) > 0.0 {
                 true => {
                     let rays = &rays[share * count..][..count];
                     rays.iter()
@@ -126,26 +131,26 @@ impl Rig {
             };
         }
         let turn = Quat::from_rotation_arc(Vec3::Z, normal);
-        let kind = usize::from(piece.matter == Matter::Ground);
+        let kind = usize::from(piece.kind == FragmentKind::Ground);
         let count = SKY_RAYS[kind];
         let rays = &self.sky[kind][share * count..][..count];
         let light = rays.iter().map(|ray| {
             let ray = turn * *ray;
             sky(ray) * tracer.light_through(place, ray)
         });
-        arriving.sky = light.sum::<f32>() / count as f32;
-        arriving
+        incident.sky = light.sum::<f32>() / count as f32;
+        incident
     }
 
-    /// How far a surface faces a lamp, 0 to 1.
+    /// How much a surface faces a lamp, 0 to 1.
     fn facing(&self, lamp: usize, normal: Vec3) -> f32 {
         let wrap = LAMPS[lamp].wrap;
         ((normal.dot(self.directions[lamp]) + wrap) / (1.0 + wrap)).max(0.0)
     }
 
-    /// The light of each lamp on a white surface.
-    pub(super) fn on(&self, lamp: usize, normal: Vec3, arriving: &Arriving) -> f32 {
-        LAMPS[lamp].strength * self.facing(lamp, normal) * arriving.lamps[lamp]
+    /// The light of a lamp on a white surface.
+    pub(super) fn on(&self, lamp: usize, normal: Vec3, incident: &IncidentLight) -> f32 {
+        LAMPS[lamp].strength * self.facing(lamp, normal) * incident.lamps[lamp]
     }
 
     /// The strength of a lamp.
@@ -159,27 +164,27 @@ impl Rig {
     }
 }
 
-/// The light that comes from a direction where nothing stands, the sky's being 1.
+/// The light from an unobstructed direction, relative to the sky.
 pub(super) fn sky(direction: Vec3) -> f32 {
     let share = (direction.y * 0.9 + 0.45).clamp(0.0, 1.0);
     GROUND + (1.0 - GROUND) * share * share * (3.0 - 2.0 * share)
 }
 
-/// The mean of [`sky`] over what a surface sees.
+/// The mean of [`sky`] over the hemisphere of a normal.
 pub(super) fn open_sky(normal: Vec3) -> f32 {
     GROUND + (1.0 - GROUND) * (0.5 + 0.5 * normal.y).clamp(0.0, 1.0)
 }
 
-/// `count` rays for each pixel of a block, so that those of a pixel and those of a block are both evenly spread.
+/// `count` rays for each pixel of a block, evenly distributed within a pixel and within the block.
 fn spread(count: usize, ray: impl Fn(Vec2) -> Vec3) -> Vec<Vec3> {
-    let mut rays = Vec::with_capacity(SHARES * count);
-    for share in 0..SHARES {
-        rays.extend((0..count).map(|index| ray(even(index * SHARES + share))));
+    let mut rays = Vec::with_capacity(BLOCK_PIXELS * count);
+    for share in 0..BLOCK_PIXELS {
+        rays.extend((0..count).map(|index| ray(even(index * BLOCK_PIXELS + share))));
     }
     rays
 }
 
-/// The place `index` of a sequence that fills the unit square evenly, however long it gets (Roberts's R2).
+/// Point `index` of a low-discrepancy sequence in the unit square (Roberts's R2).
 pub(super) fn even(index: usize) -> Vec2 {
     let place = |step: f64| (0.5 + step * index as f64).fract() as f32;
     Vec2::new(
@@ -188,13 +193,13 @@ pub(super) fn even(index: usize) -> Vec2 {
     )
 }
 
-/// A place in a disk, evenly.
+/// A uniformly distributed point in a disk.
 fn disk(share: Vec2, radius: f32) -> Vec2 {
     let (sin, cos) = (share.x * std::f32::consts::TAU).sin_cos();
     Vec2::new(cos, sin) * share.y.sqrt() * radius
 }
 
-/// Which pixel of its block a pixel is: neighbours are far apart in this order (Bayer).
+/// The position of a pixel in its block's order, in which neighbours are far apart (Bayer matrix).
 pub(super) fn share(x: u32, y: u32) -> usize {
     const ORDER: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
     usize::from(ORDER[(y % BLOCK) as usize][(x % BLOCK) as usize])

@@ -1,23 +1,23 @@
-//! Materials and their images.
+//! Reads materials and their images.
 
 use std::io::Cursor;
 
 use ::gltf::texture::{MagFilter, WrappingMode};
-use ::gltf::{Document, image, material};
+use ::gltf::{Document, material};
 use ::image::{ImageReader, Limits, RgbaImage};
 use glam::{Vec3, Vec4};
 
 use super::surface::{Alpha, Material};
 use super::texture::{Sampler, Texture, Wrap};
-use crate::import::{Buffers, ImportError, fetch, malformed};
+use crate::import::{Buffers, ImportError};
 use crate::resolver::Resolver;
 
-/// The longest side of an image, texels.
-const SIDE_LIMIT: u32 = 16_384;
-/// The memory that one image may take, bytes.
-const IMAGE_LIMIT: u64 = 512 << 20;
+/// The largest width and height of an image, in texels.
+const MAX_IMAGE_SIDE: u32 = 16_384;
+/// The memory that an image may take, in bytes.
+const MAX_IMAGE_BYTES: u64 = 512 << 20;
 
-/// The file's materials, and behind them the one of what has none.
+/// The file's materials, followed by the one for triangles without a material.
 pub(super) fn read(document: &Document) -> Vec<Material> {
     let mut materials: Vec<Material> = document
         .materials()
@@ -69,7 +69,7 @@ fn material(source: &::gltf::Material<'_>) -> Material {
     }
 }
 
-/// The images that base colours use, each at its index; none for the others, which are not even decoded.
+/// The images of base colour textures, by index; images with other uses are not decoded.
 pub(super) fn textures(
     document: &Document,
     buffers: &Buffers,
@@ -81,28 +81,15 @@ pub(super) fn textures(
             used[info.texture().source().index()] = true;
         }
     }
-    let sources = &document.as_json().images;
     document
         .images()
         .zip(used)
-        .map(|(image, used)| {
-            if !used {
-                return Ok(None);
+        .map(|(image, used)| match used {
+            true => {
+                let bytes = buffers.image(document, &image, resolver)?;
+                Ok(Some(Texture::new(decode(&bytes)?)))
             }
-            let source = &sources[image.index()];
-            if source.buffer_view.is_some() && source.mime_type.is_none()
-                || source.buffer_view.is_none() && source.uri.is_none()
-            {
-                return Err(malformed(format!(
-                    "image {} does not say where or what it is",
-                    image.index()
-                )));
-            }
-            let pixels = match image.source() {
-                image::Source::View { view, .. } => decode(buffers.view(&view)?)?,
-                image::Source::Uri { uri, .. } => decode(&fetch(uri, resolver)?)?,
-            };
-            Ok(Some(Texture::new(pixels)))
+            false => Ok(None),
         })
         .collect()
 }
@@ -113,9 +100,9 @@ fn decode(bytes: &[u8]) -> Result<RgbaImage, ImportError> {
         .with_guessed_format()
         .map_err(|error| failed(error.to_string()))?;
     let mut limits = Limits::default();
-    limits.max_image_width = Some(SIDE_LIMIT);
-    limits.max_image_height = Some(SIDE_LIMIT);
-    limits.max_alloc = Some(IMAGE_LIMIT);
+    limits.max_image_width = Some(MAX_IMAGE_SIDE);
+    limits.max_image_height = Some(MAX_IMAGE_SIDE);
+    limits.max_alloc = Some(MAX_IMAGE_BYTES);
     reader.limits(limits);
     let image = reader.decode().map_err(|error| failed(error.to_string()))?;
     Ok(image.into_rgba8())

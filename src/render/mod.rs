@@ -1,63 +1,76 @@
-//! Pictures of a model: glTF in, pixels out. Knows no drawing, opens no file, prints nothing.
+//! Renders pictures of a glTF model. Knows no drawing, opens no file, prints nothing.
 //!
-//! [`read`] takes a file's bytes apart, [`Model::rest`] and [`Stage::new`] pose it, [`Stage::picture`] draws it;
-//! [`Stage::seen`] tells what is seen where, without light. A [`Film`] is a clip that is drawn from one place:
+//! [`read`] parses a file, [`Model::rest`] and [`PosedModel::new`] pose the model, [`PosedModel::picture`] renders it.
+//! [`PosedModel::visible_surfaces`] reports which surface each pixel shows, without light. A [`Film`] is a stretch of a
+//! clip that one camera renders:
 //!
 //! ```text
-//!  bytes ─► Model ─► (Pose) ─► Stage ─► Image ─► encode
-//!                     surface · bvh     camera · tiles: fragments, light, shade
+//!  bytes ─► Model ─► (Pose) ─► PosedModel ─► Image ─► PNG, GIF
+//!                     surface · BVH     camera · tiles: fragments, light, shade
 //! ```
 //!
-//! Pictures are ray traced. Shadows, ambient occlusion, order of transparent surfaces and thin solids are then one
-//! question, asked of one tree, where a rasteriser such as `euc` would need a shadow map, a screen-space guess and a
-//! sort. The tree is `obvhs`: small, kept up, on the glam that okoshi is on, and the fastest on the processor of those
-//! that need neither a GPU nor C. Noise is kept out without a random number: each pixel of a block of four by four
-//! takes its own sixteenth of one fixed set of directions, and gathers the rest from its neighbours on the same
+//! Pictures are ray traced. Shadows, ambient occlusion, the order of transparent surfaces and thin solids are then the
+//! same query of one tree, where a rasteriser such as `euc` would need a shadow map, a screen-space estimate and a sort.
+//! The ray tracer is written by hand on `obvhs`, which builds and traverses the bounding volume hierarchy: it is small,
+//! maintained, fast on a CPU and shares our version of `glam`, while complete renderers need a GPU or C++ (Embree) and
+//! do not give the same picture on every machine. There is no noise and no random number: each pixel of a block of four
+//! by four sends its own sixteenth of one fixed set of rays, and gathers the rest from its neighbours on the same
 //! surface (interleaved sampling: Keller and Heidrich 2001). Same input, same picture, on any number of threads.
 //!
-//! Conventions: the model's axes are glTF's (right-handed, +Y up, its front looks along +Z). A [`Stage`] is moved and
-//! scaled so that the model's box is centred at the origin and its longest side is 1. Colours are linear until
-//! they become pixels. Pictures have their first row at the top.
+//! Conventions: the model's axes are glTF's (right-handed, +Y up, its front looks along +Z). Rendering happens in
+//! normalised space: the world moved and scaled so that the model's bounding box is centred at the origin and its longest side is 1.
+//! Colours are linear until they become pixels. The first row of a picture is the top one.
 
 mod camera;
-mod encode;
 mod error;
 mod film;
 mod fragment;
+mod image_files;
+mod image_tile;
 mod light;
 mod materials;
 mod model;
-mod seen;
+mod posed_model;
 mod shade;
-mod stage;
 mod surface;
 #[cfg(test)]
 mod tests;
 mod texture;
-mod tile;
 mod trace;
+mod visibility;
 
-pub use crate::import::{Clip, Pose, TRIANGLE_LIMIT};
-pub use camera::{PITCH_LIMIT, Projection, View};
-pub use encode::{Animation, GIF_FPS_LIMIT, Palette, write_png};
+use glam::DVec3;
+
+use crate::threads;
+
+pub use crate::import::{Clip, MAX_TRIANGLES, Pose};
+pub use camera::{MAX_PITCH, Projection, View};
 pub use error::RenderError;
-pub use film::{Film, Shot};
+pub use film::{Film, HeldFrame};
+pub use image_files::{AnimationWriter, MAX_GIF_FPS, Palette, write_png};
 pub use model::{Model, read};
-pub use seen::{Seen, Window};
-pub use stage::{Image, Stage};
+pub use posed_model::{Image, PosedModel};
+pub use visibility::{VisibleSurface, Window};
 
-/// The longest side of a picture, pixels.
-pub const SIZE_LIMIT: u32 = 8192;
-/// The most frames of a turntable.
-pub const FRAME_LIMIT: u32 = 1000;
-/// How long a turn of a turntable takes, seconds.
-pub const TURN: f64 = 4.0;
-/// The most frames of a clip: seven minutes at 24 frames a second.
-pub const CLIP_FRAME_LIMIT: u32 = 10_000;
-/// The most moments of a strip.
-pub const CELL_LIMIT: u32 = 1000;
-/// The most pixels of a strip: those of the largest picture.
-pub const STRIP_LIMIT: u64 = SIZE_LIMIT as u64 * SIZE_LIMIT as u64;
+/// The largest width and height of a picture, in pixels.
+pub const MAX_SIDE: u32 = 8192;
+/// The largest number of frames of a turntable.
+pub const MAX_TURNTABLE_FRAMES: u32 = 1000;
+/// The duration of a full turn of a turntable, in seconds.
+pub const TURNTABLE_SECONDS: f64 = 4.0;
+/// The largest number of frames of a clip: seven minutes at 24 frames a second.
+pub const MAX_CLIP_FRAMES: u32 = 10_000;
+/// The largest number of pictures in a film strip.
+pub const MAX_FILM_STRIP_CELLS: u32 = 1000;
+/// The largest number of pixels of a film strip: that of the largest picture.
+pub const MAX_FILM_STRIP_PIXELS: u64 = MAX_SIDE as u64 * MAX_SIDE as u64;
+
+/// Runs `work` on the program's thread pool.
+fn on_pool<T: Send>(
+    work: impl FnOnce() -> Result<T, RenderError> + Send,
+) -> Result<T, RenderError> {
+    threads::run(work).unwrap_or(Err(RenderError::Broken))
+}
 
 /// How surfaces are shaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -65,26 +78,33 @@ pub enum Shading {
     /// By the file's normals.
     #[default]
     Smooth,
-    /// Each triangle as the flat piece that it is.
+    /// Each triangle is flat.
     Flat,
 }
 
-/// What a picture is to be.
+/// Settings of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
-    /// Width and height, pixels, each from 1 to [`SIZE_LIMIT`].
+    /// Width and height in pixels, each from 1 to [`MAX_SIDE`].
     pub size: [u32; 2],
-    /// Where the camera stands.
+    /// The direction of the camera.
     pub view: View,
-    /// How it sees.
+    /// The projection of the camera.
     pub projection: Projection,
     /// How surfaces are shaded.
     pub shading: Shading,
-    /// Whether nodes with the extension `OKOSHI_view_dependent` are bent as it says (docs/view-dependent.md); else they
-    /// are shown as they are.
+    /// Whether nodes with the extension `OKOSHI_view_dependent` bend with the view (docs/view-dependent.md).
     pub bend: bool,
-    /// sRGB; transparent if there is none.
+    /// The background colour in sRGB; `None` is transparent.
     pub background: Option<[u8; 3]>,
+}
+
+impl Options {
+    /// The direction to the viewer for which view-dependent nodes are bent; `None` leaves them unbent.
+    fn viewer(&self, view: View) -> Option<DVec3> {
+        let [_, _, towards] = view.axes();
+        self.bend.then_some(towards)
+    }
 }
 
 impl Default for Options {

@@ -1,18 +1,18 @@
-//! A model as a file has it, with what it takes to draw it.
+//! A model as read from a file.
 
 use super::RenderError;
 use super::materials;
-use super::surface::{Frame, Material, Surface};
+use super::surface::{Material, Normalization, Surface};
 use super::texture::Texture;
 use crate::import::{self, Clip, Geometry, Pose};
 use crate::resolver::Resolver;
 
-/// A model as a file has it, not yet posed.
+/// A model as read from a file, not yet posed.
 #[derive(Debug)]
 pub struct Model {
     geometry: Geometry,
     clips: Vec<Clip>,
-    /// The last is the one of what has none.
+    /// The file's materials, followed by the one for triangles without a material.
     pub(super) materials: Vec<Material>,
     pub(super) textures: Vec<Option<Texture>>,
 }
@@ -20,8 +20,8 @@ pub struct Model {
 /// Reads a `.glb` or `.gltf`; what it links to comes from `resolver`.
 ///
 /// # Errors
-/// Bytes that are no glTF, that break its rules, or need what is not known; links that lead nowhere; images that
-/// cannot be decoded.
+/// Bytes that are not glTF, that violate the specification or require an unsupported extension; broken links; images
+/// that cannot be decoded.
 pub fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<Model, RenderError> {
     let file = import::read(bytes, resolver)?;
     Ok(Model {
@@ -33,7 +33,7 @@ pub fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<Model, RenderError>
 }
 
 impl Model {
-    /// The pose that the file is in.
+    /// The pose in which the file stores the model.
     pub fn rest(&self) -> Pose {
         self.geometry.rest()
     }
@@ -43,25 +43,23 @@ impl Model {
         &self.clips
     }
 
-    /// The pose at a moment of one of its clips, seconds from the beginning.
+    /// The pose at a time of one of its clips, in seconds from the beginning.
     pub fn pose_at(&self, clip: &Clip, time: f64) -> Pose {
         clip.pose_at(&self.rest(), time)
     }
 
-    /// Whether anything looks otherwise from elsewhere.
-    pub(super) fn follows_viewer(&self) -> bool {
-        self.geometry.follows_viewer()
+    /// Whether the geometry depends on the view.
+    pub(super) fn is_view_dependent(&self) -> bool {
+        self.geometry.is_view_dependent()
     }
 
-    /// All triangles in a pose.
-    ///
-    /// They are moved into the frame, or where there is none into one that they fill.
+    /// All triangles of a pose, moved by `normalization`, or by their own if it is `None`.
     pub(super) fn surface(
         &self,
         pose: &Pose,
-        frame: Option<Frame>,
+        normalization: Option<Normalization>,
     ) -> Result<Surface, RenderError> {
         let soup = self.geometry.triangles(pose)?;
-        Ok(Surface::new(soup, self.materials.len() - 1, frame))
+        Ok(Surface::new(soup, self.materials.len() - 1, normalization))
     }
 }

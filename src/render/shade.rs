@@ -1,84 +1,89 @@
-//! From the light that arrives to the light that is seen.
+//! Shading: from incident light to the colour of a fragment.
 
 use glam::{Vec3, Vec4};
 
-use super::fragment::{Fragment, Matter, ground_fade};
-use super::light::{Arriving, Rig, open_sky, sky};
+use super::fragment::{Fragment, FragmentKind, ground_fade};
+use super::light::{IncidentLight, Lights, open_sky, sky};
 use super::surface::Material;
 use super::trace::Tracer;
 
-/// What a surface that is no metal mirrors when it is looked at squarely.
-const MIRRORED: f32 = 0.04;
-/// Light up to here is shown as it is; what is brighter is bent to stay below 1.
+/// The reflectance of a dielectric at normal incidence.
+const DIELECTRIC_REFLECTANCE: f32 = 0.04;
+/// Light up to here is unchanged; brighter light is compressed to stay below 1.
 const SHOULDER: f32 = 0.6;
 /// The darkest shadow on the ground.
 const SHADOW: f32 = 0.62;
 
-/// Colour times alpha, and alpha, of a piece; its weight is not in it yet.
+/// Premultiplied colour and alpha of a fragment, not yet multiplied by its weight.
 pub(super) fn shade(
     fragment: &Fragment,
-    arriving: &Arriving,
+    incident: &IncidentLight,
     tracer: &Tracer<'_>,
-    rig: &Rig,
+    lights: &Lights,
 ) -> Vec4 {
-    match fragment.matter {
-        Matter::Ground => {
+    match fragment.kind {
+        FragmentKind::Ground => {
             let fade = ground_fade(fragment.place, &tracer.surface);
-            Vec4::new(0.0, 0.0, 0.0, shadow(arriving, rig) * fade)
+            Vec4::new(0.0, 0.0, 0.0, shadow(incident, lights) * fade)
         }
-        Matter::Of(material) => {
+        FragmentKind::Model(material) => {
             let material = &tracer.materials[material];
             let light = match material.unlit {
                 true => fragment.colour,
-                false => bent(lit(fragment, material, arriving, rig)),
+                false => tone_mapped(lit(fragment, material, incident, lights)),
             };
             light.extend(1.0)
         }
     }
 }
 
-/// How dark the ground is, 0 where nothing stands.
-fn shadow(arriving: &Arriving, rig: &Rig) -> f32 {
-    let key = rig.strength(0) * rig.directions[0].y;
-    let sky = rig.sky_strength();
-    let light = (key * arriving.lamps[0] + sky * arriving.sky / open_sky(Vec3::Y)) / (key + sky);
-    // The last trace is left out, so that clear pixels stay quite clear.
+/// The opacity of the ground's shadow, 0 in full light.
+fn shadow(incident: &IncidentLight, lights: &Lights) -> f32 {
+    let key = lights.strength(0) * lights.directions[0].y;
+    let sky = lights.sky_strength();
+    let light = (key * incident.lamps[0] + sky * incident.sky / open_sky(Vec3::Y)) / (key + sky);
+    // The faintest shadow is cut off, so that the background stays fully transparent.
     ((1.0 - light) * 1.05 - 0.05).clamp(0.0, 1.0) * SHADOW
 }
 
-fn lit(fragment: &Fragment, material: &Material, arriving: &Arriving, rig: &Rig) -> Vec3 {
+fn lit(
+    fragment: &Fragment,
+    material: &Material,
+    incident: &IncidentLight,
+    lights: &Lights,
+) -> Vec3 {
     let normal = fragment.normal;
     let towards = fragment.towards;
     let metal = material.metallic.clamp(0.0, 1.0);
     let roughness = material.roughness.clamp(0.05, 1.0);
     let dull = fragment.colour * (1.0 - metal);
-    let squarely = Vec3::splat(MIRRORED).lerp(fragment.colour, metal);
+    let reflectance = Vec3::splat(DIELECTRIC_REFLECTANCE).lerp(fragment.colour, metal);
     let facing = normal.dot(towards).clamp(0.001, 1.0);
 
-    let open = (arriving.sky / open_sky(normal)).clamp(0.0, 1.0);
-    let mut light = dull * bounced(open, dull) * open_sky(normal) * rig.sky_strength();
+    let open = (incident.sky / open_sky(normal)).clamp(0.0, 1.0);
+    let mut light =
+        dull * multi_bounce_occlusion(open, dull) * open_sky(normal) * lights.sky_strength();
     for lamp in 0..3 {
-        let strength = rig.on(lamp, normal, arriving);
+        let strength = lights.on(lamp, normal, incident);
         if strength > 0.0 {
             light += dull * strength;
-            let gloss = gloss(normal, towards, rig.directions[lamp], roughness.max(0.2));
-            light += fresnel(squarely, towards, rig.directions[lamp]) * gloss * strength;
+            let gloss = gloss(normal, towards, lights.directions[lamp], roughness.max(0.2));
+            light += fresnel(reflectance, towards, lights.directions[lamp]) * gloss * strength;
         }
     }
     let mirrored =
         (2.0 * normal * normal.dot(towards) - towards).lerp(normal, roughness * roughness);
-    let (scale, bias) = surroundings(roughness, facing);
-    light += (squarely * scale + bias)
+    let (scale, bias) = environment_brdf(roughness, facing);
+    light += (reflectance * scale + bias)
         * sky(mirrored.normalize_or(normal))
-        * rig.sky_strength()
+        * lights.sky_strength()
         * open
         * 1.6;
     light + material.emissive
 }
 
-/// How much light there is in a hollow, where surfaces of that colour give light to each other (Jimenez and others
-/// 2016).
-fn bounced(open: f32, colour: Vec3) -> Vec3 {
+/// Ambient occlusion with light that bounces between surfaces of the same colour (Jimenez and others 2016).
+fn multi_bounce_occlusion(open: f32, colour: Vec3) -> Vec3 {
     let colour = colour.clamp(Vec3::ZERO, Vec3::ONE);
     let a = 2.0404 * colour - 0.3324;
     let b = -4.7951 * colour + 0.6417;
@@ -86,7 +91,8 @@ fn bounced(open: f32, colour: Vec3) -> Vec3 {
     (((a * open + b) * open + c) * open).max(Vec3::splat(open))
 }
 
-/// The highlight of a lamp over the lamp's own light (GGX, visibility after Karis 2013), capped: lamps have a size.
+/// The highlight of a lamp relative to its diffuse light (GGX, visibility after Karis 2013), capped because lamps have a
+/// size.
 fn gloss(normal: Vec3, towards: Vec3, lamp: Vec3, roughness: f32) -> f32 {
     let half = (towards + lamp).normalize_or(normal);
     let alpha = roughness * roughness;
@@ -99,14 +105,14 @@ fn gloss(normal: Vec3, towards: Vec3, lamp: Vec3, roughness: f32) -> f32 {
     (density * visible * std::f32::consts::PI).min(12.0)
 }
 
-fn fresnel(squarely: Vec3, towards: Vec3, lamp: Vec3) -> Vec3 {
+fn fresnel(reflectance: Vec3, towards: Vec3, lamp: Vec3) -> Vec3 {
     let half = (towards + lamp).normalize_or(towards);
     let grazing = (1.0 - half.dot(towards).clamp(0.0, 1.0)).powi(5);
-    squarely + (Vec3::ONE - squarely) * grazing
+    reflectance + (Vec3::ONE - reflectance) * grazing
 }
 
-/// What a surface mirrors of its surroundings: a factor and a summand (Karis 2014).
-fn surroundings(roughness: f32, facing: f32) -> (f32, f32) {
+/// The reflection of the environment: a factor and an offset for the reflectance (Karis 2014).
+fn environment_brdf(roughness: f32, facing: f32) -> (f32, f32) {
     let x = 1.0 - roughness;
     let y = roughness * -0.0275 + 0.0425;
     let z = roughness * -0.572 + 1.04;
@@ -115,8 +121,8 @@ fn surroundings(roughness: f32, facing: f32) -> (f32, f32) {
     (edge * -1.04 + z, edge * 1.04 + w)
 }
 
-/// Keeps bright light below 1 without changing its hue.
-fn bent(light: Vec3) -> Vec3 {
+/// Compresses bright light to stay below 1 without changing its hue.
+fn tone_mapped(light: Vec3) -> Vec3 {
     let most = light.max_element();
     if most <= SHOULDER {
         return light.max(Vec3::ZERO);

@@ -1,17 +1,17 @@
-//! A posed model: one list of triangles, and what they are made of.
+//! The triangles of a posed model and their materials.
 
 use glam::{DVec3, Vec2, Vec3, Vec4};
 
 use super::texture::Sampler;
-use crate::import::Soup;
+use crate::import::TriangleSoup;
 
-/// How a material's alpha is meant.
+/// The meaning of a material's alpha.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Alpha {
     Opaque,
-    /// There, where alpha is at least this.
+    /// Opaque if alpha is at least this.
     Mask(f32),
-    /// As far as alpha says.
+    /// Alpha is coverage.
     Blend,
 }
 
@@ -26,46 +26,50 @@ pub(super) struct Material {
     pub(super) metallic: f32,
     pub(super) roughness: f32,
     pub(super) emissive: Vec3,
-    /// Shown as it is, without light.
+    /// Shown in its base colour, without light.
     pub(super) unlit: bool,
 }
 
-/// How the world is put on the stage: to `(point - middle) * scale`.
+/// From the world into normalised space: `(point - middle) * scale`.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Frame {
+pub(super) struct Normalization {
     pub(super) middle: DVec3,
     pub(super) scale: f64,
 }
 
-impl Frame {
-    /// Where a point of the world goes.
-    pub(super) fn place(&self, point: DVec3) -> DVec3 {
+impl Normalization {
+    /// A point of the world in normalised space.
+    pub(super) fn apply(&self, point: DVec3) -> DVec3 {
         (point - self.middle) * self.scale
     }
 }
 
-/// Triangles on the stage: unless they keep to a frame from before, their box is centred at the origin and its longest
-/// side is 1.
+/// Triangles in normalised space: their bounding box is centred at the origin and its longest side is 1, unless the
+/// normalization of another pose is used.
 #[derive(Debug, Default)]
 pub(super) struct Surface {
     pub(super) positions: Vec<Vec3>,
-    /// Unit vectors; zero where the file has none.
+    /// Unit vectors; zero if the file has none.
     pub(super) normals: Vec<Vec3>,
     pub(super) uvs: Vec<Vec2>,
-    /// One a corner, or empty.
+    /// One per corner, or empty.
     pub(super) colours: Vec<Vec4>,
     pub(super) triangles: Vec<[u32; 3]>,
     /// The material of each triangle.
     pub(super) materials: Vec<u32>,
-    /// The least and the greatest corner of the box.
+    /// The lower corner of the bounding box.
     pub(super) low: Vec3,
     pub(super) high: Vec3,
-    pub(super) frame: Frame,
+    pub(super) normalization: Normalization,
 }
 
 impl Surface {
-    /// The triangles that stand somewhere and have an area. What has no material has the one behind the `materials`.
-    pub(super) fn new(soup: Soup, materials: usize, frame: Option<Frame>) -> Self {
+    /// The triangles that are finite and have an area. Those without a material get the one at index `materials`.
+    pub(super) fn new(
+        soup: TriangleSoup,
+        materials: usize,
+        normalization: Option<Normalization>,
+    ) -> Self {
         let mut surface = Self {
             normals: soup.normals,
             uvs: soup.uvs,
@@ -78,12 +82,12 @@ impl Surface {
                 .collect(),
             ..Self::default()
         };
-        surface.place(&soup.positions, frame);
+        surface.place(&soup.positions, normalization);
         surface
     }
 
-    /// Takes over the positions; drops triangles that stand nowhere or have no area.
-    fn place(&mut self, world: &[DVec3], frame: Option<Frame>) {
+    /// Sets the positions, and drops triangles that are not finite or have no area.
+    fn place(&mut self, world: &[DVec3], normalization: Option<Normalization>) {
         let mut low = DVec3::INFINITY;
         let mut high = DVec3::NEG_INFINITY;
         let mut kept = self
@@ -110,19 +114,19 @@ impl Surface {
         let middle = (low + high) / 2.0;
         let size = (high - low).max_element();
         let scale = if size > 0.0 { 1.0 / size } else { 1.0 };
-        let frame = frame.unwrap_or(Frame { middle, scale });
+        let normalization = normalization.unwrap_or(Normalization { middle, scale });
         self.positions = world
             .iter()
-            .map(|point| frame.place(*point).as_vec3())
+            .map(|point| normalization.apply(*point).as_vec3())
             .collect();
-        let half = ((high - low) / 2.0 * frame.scale).as_vec3();
-        let middle = frame.place(middle).as_vec3();
+        let half = ((high - low) / 2.0 * normalization.scale).as_vec3();
+        let middle = normalization.apply(middle).as_vec3();
         (self.low, self.high) = (middle - half, middle + half);
-        self.frame = frame;
+        self.normalization = normalization;
     }
 
-    /// The corners that triangles have.
-    pub(super) fn used(&self) -> Vec<Vec3> {
+    /// The positions that triangles use.
+    pub(super) fn used_positions(&self) -> Vec<Vec3> {
         let mut used = vec![false; self.positions.len()];
         self.triangles
             .iter()

@@ -186,8 +186,8 @@ fn front(side: u32) -> Options {
 #[track_caller]
 fn picture(file: &[u8], options: &Options) -> Image {
     let model = read(file, &MemoryResolver::default()).unwrap();
-    let stage = Stage::new(&model, &model.rest()).unwrap();
-    stage.picture(options).unwrap()
+    let posed = PosedModel::new(&model, &model.rest()).unwrap();
+    posed.picture(options).unwrap()
 }
 
 #[track_caller]
@@ -269,7 +269,7 @@ fn clear_surfaces_are_laid_over_each_other_in_order() {
         square(Vec3::Z * 0.5, 1.0, unlit(0.0, 1.0, 0.0, 0.5)),
     ];
     let image = of(&shapes, &front(60));
-    let [half, quarter] = [0.5, 0.25].map(texture::encode);
+    let [half, quarter] = [0.5, 0.25].map(texture::linear_to_srgb);
     near(image.get_pixel(30, 30), [quarter, quarter, half, 255]);
     let glass = of(
         &[square(Vec3::ZERO, 1.0, unlit(0.0, 0.0, 1.0, 0.25))],
@@ -284,7 +284,7 @@ fn clear_surfaces_are_laid_over_each_other_in_order() {
         &[square(Vec3::ZERO, 1.0, unlit(0.0, 0.0, 1.0, 0.25))],
         &white,
     );
-    let rest = texture::encode(0.75);
+    let rest = texture::linear_to_srgb(0.75);
     near(glass.get_pixel(30, 30), [rest, rest, 255, 255]);
 }
 
@@ -371,7 +371,7 @@ fn a_turntable_goes_once_round() {
         sphere(plain(0.2, 0.5, 0.8, 1.0)),
     ];
     let model = read(&file(&shapes, &json!({})), &MemoryResolver::default()).unwrap();
-    let stage = Stage::new(&model, &model.rest()).unwrap();
+    let posed = PosedModel::new(&model, &model.rest()).unwrap();
     let turn = |frames: u32, view: View| {
         let mut images: Vec<Image> = vec![];
         let options = Options {
@@ -379,7 +379,7 @@ fn a_turntable_goes_once_round() {
             size: [64, 64],
             ..Options::default()
         };
-        let done = stage.turntable(&options, frames, |image| -> Result<(), RenderError> {
+        let done = posed.turntable(&options, frames, |image| -> Result<(), RenderError> {
             images.push(image);
             Ok(())
         });
@@ -421,17 +421,17 @@ fn threads_make_no_difference() {
         &json!({}),
     );
     let model = read(&file, &MemoryResolver::default()).unwrap();
-    let stage = Stage::new(&model, &model.rest()).unwrap();
+    let posed = PosedModel::new(&model, &model.rest()).unwrap();
     let options = Options {
         size: [150, 150],
         ..Options::default()
     };
-    let image = stage.picture(&options).unwrap();
+    let image = posed.picture(&options).unwrap();
     let alone = rayon::ThreadPoolBuilder::new()
         .num_threads(1)
         .build()
         .unwrap();
-    assert!(alone.install(|| stage.drawn_here(&options).unwrap()) == image);
+    assert!(alone.install(|| posed.drawn_here(&options).unwrap()) == image);
 }
 
 #[test]

@@ -1,10 +1,10 @@
-//! Images on surfaces, read at any fineness.
+//! Images on surfaces, with mipmaps.
 
 use glam::{Vec2, Vec4};
 use image::RgbaImage;
 use std::sync::LazyLock;
 
-/// Linear light of each sRGB byte.
+/// The linear light of each sRGB byte.
 static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
     std::array::from_fn(|byte| {
         let value = byte as f64 / 255.0;
@@ -17,12 +17,12 @@ static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
 });
 
 /// The linear light of an sRGB byte.
-pub(super) fn linear(byte: u8) -> f32 {
+pub(super) fn srgb_to_linear(byte: u8) -> f32 {
     LINEAR[usize::from(byte)]
 }
 
-/// The sRGB byte of linear light.
-pub(super) fn encode(light: f32) -> u8 {
+/// The nearest sRGB byte of linear light.
+pub(super) fn linear_to_srgb(light: f32) -> u8 {
     let value = match light <= 0.003_130_8 {
         true => 12.92 * light,
         false => 1.055 * light.powf(1.0 / 2.4) - 0.055,
@@ -30,7 +30,7 @@ pub(super) fn encode(light: f32) -> u8 {
     (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8
 }
 
-/// What lies beyond an image's edge.
+/// How texture coordinates outside an image are mapped into it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wrap {
     Clamp,
@@ -53,17 +53,17 @@ impl Wrap {
     }
 }
 
-/// How an image is laid on.
+/// How an image is sampled.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Sampler {
     /// Index of the image.
     pub(super) image: usize,
     pub(super) wrap: [Wrap; 2],
-    /// Texels keep their edges when they are larger than pixels.
+    /// Whether magnified texels have sharp edges.
     pub(super) nearest: bool,
 }
 
-/// An image in sizes that halve, down to one texel.
+/// An image and its mipmaps, down to one texel.
 #[derive(Debug)]
 pub(super) struct Texture {
     levels: Vec<RgbaImage>,
@@ -78,13 +78,13 @@ impl Texture {
         Self { levels }
     }
 
-    /// Width and height, texels.
+    /// Width and height in texels.
     pub(super) fn size(&self) -> Vec2 {
         let (width, height) = self.levels[0].dimensions();
         Vec2::new(width as f32, height as f32)
     }
 
-    /// Linear colour and alpha at `uv` (origin at the image's top left), where a pixel covers `texels` texels.
+    /// Linear colour and alpha at `uv` (origin at the image's top left), for a pixel that covers `texels` texels.
     pub(super) fn at(&self, uv: Vec2, texels: f32, sampler: &Sampler) -> Vec4 {
         let level = texels.max(1.0).log2().round() as usize;
         let image = &self.levels[level.min(self.levels.len() - 1)];
@@ -122,10 +122,15 @@ fn texel(image: &RgbaImage, x: i64, y: i64, wrap: [Wrap; 2]) -> Vec4 {
             wrap[1].apply(y, image.height()),
         )
         .0;
-    Vec4::new(linear(r), linear(g), linear(b), f32::from(a) / 255.0)
+    Vec4::new(
+        srgb_to_linear(r),
+        srgb_to_linear(g),
+        srgb_to_linear(b),
+        f32::from(a) / 255.0,
+    )
 }
 
-/// The image at half its size, each side rounded up; none of a single texel.
+/// The next mipmap: half the size, each side rounded up; `None` for a single texel.
 fn half(image: &RgbaImage) -> Option<RgbaImage> {
     let (width, height) = image.dimensions();
     if width.max(height) <= 1 {
@@ -139,12 +144,12 @@ fn half(image: &RgbaImage) -> Option<RgbaImage> {
             for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
                 let (x, y) = ((2 * x + dx).min(width - 1), (2 * y + dy).min(height - 1));
                 let texel = texel(image, i64::from(x), i64::from(y), [Wrap::Clamp; 2]);
-                // Weighted by alpha: what is clear has no colour to give.
+                // Weighted by alpha, so that transparent texels do not bleed.
                 colour += (texel.truncate() * texel.w).extend(texel.w);
             }
             let alpha = colour.w / 4.0;
             let colour = colour.truncate() / colour.w.max(1e-6);
-            let [r, g, b] = colour.to_array().map(encode);
+            let [r, g, b] = colour.to_array().map(linear_to_srgb);
             image::Rgba([r, g, b, (alpha * 255.0 + 0.5) as u8])
         },
     ))
@@ -157,9 +162,9 @@ mod tests {
     #[test]
     fn bytes_survive_the_way_to_light_and_back() {
         for byte in 0..=255 {
-            assert_eq!(encode(linear(byte)), byte);
+            assert_eq!(linear_to_srgb(srgb_to_linear(byte)), byte);
         }
-        assert_eq!(encode(f32::INFINITY), 255);
+        assert_eq!(linear_to_srgb(f32::INFINITY), 255);
     }
 
     #[test]

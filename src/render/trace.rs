@@ -1,4 +1,4 @@
-//! Rays: what they meet, and how much light passes.
+//! Traces rays: what they hit, and how much light passes.
 
 use std::time::Duration;
 
@@ -12,34 +12,34 @@ use obvhs::rt_triangle::RtTriangle;
 use super::surface::{Alpha, Material, Surface};
 use super::texture::Texture;
 
-/// How far triangles reach over their edges, as a share of their extent, so that no ray slips through between two.
+/// How far triangles extend beyond their edges, relative to their size, so that no ray slips through between two.
 const EDGE: f32 = 1e-5;
 
-/// A surface that rays can be sent at.
+/// A surface in a bounding volume hierarchy.
 pub(super) struct Tracer<'a> {
     pub(super) surface: Surface,
     pub(super) materials: &'a [Material],
     textures: &'a [Option<Texture>],
     tree: Bvh2,
-    /// In the order of the tree, as are the surface's.
+    /// In the order of the tree, like the surface's.
     triangles: Vec<RtTriangle>,
-    /// Whether light passes through any material.
+    /// Whether any material is transparent.
     clear: bool,
 }
 
-/// Where a ray meets a triangle.
+/// The intersection of a ray with a triangle.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Hit {
     pub(super) triangle: usize,
     pub(super) distance: f32,
-    /// Shares of the three corners.
+    /// Barycentric coordinates.
     pub(super) shares: Vec3,
 }
 
-/// How many rays will be sent, which says how good a tree is worth its time.
+/// How many rays will be traced: a better tree pays off only for many.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Rays {
-    /// One a pixel of a small picture.
+    /// One for each pixel of a small picture.
     Few,
     /// Those of a lit picture.
     Many,
@@ -87,7 +87,7 @@ impl<'a> Tracer<'a> {
         self.surface.materials[triangle] as usize
     }
 
-    /// The first triangle beyond `nearest` that shows itself to the ray. Single-sided ones do not from behind.
+    /// The first triangle beyond `nearest` that is visible to the ray; single-sided ones are invisible from behind.
     pub(super) fn closest(&self, origin: Vec3, direction: Vec3, nearest: f32) -> Option<Hit> {
         let ray = Ray::new(origin.into(), direction.into(), nearest, f32::INFINITY);
         let mut found = RayHit::none();
@@ -116,7 +116,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// The share of light that comes through from a direction, 0 to 1.
+    /// The share of light that arrives from a direction, 0 to 1.
     pub(super) fn light_through(&self, origin: Vec3, direction: Vec3) -> f32 {
         let ray = Ray::new(origin.into(), direction.into(), 0.0, f32::INFINITY);
         let mut light = 1.0;
@@ -139,7 +139,7 @@ impl<'a> Tracer<'a> {
         if missed { light } else { 0.0 }
     }
 
-    /// How much of a surface is there, of which the material's alpha is known.
+    /// The opacity of a surface whose material has this alpha at the hit.
     pub(super) fn cover(&self, hit: &Hit, alpha: f32) -> f32 {
         match self.materials[self.material(hit.triangle)].alpha {
             Alpha::Opaque => 1.0,
@@ -148,7 +148,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// Colour and alpha of a material at a place; `width` is that of a sample there.
+    /// Base colour and alpha at a hit, for a sample of this width.
     pub(super) fn base(&self, hit: &Hit, width: f32) -> Vec4 {
         let material = &self.materials[self.material(hit.triangle)];
         let corners = self.surface.triangles[hit.triangle];
@@ -168,7 +168,7 @@ impl<'a> Tracer<'a> {
         if !uv.is_finite() || uv.abs().max_element() > 1e6 {
             return base;
         }
-        // How densely texels lie on this triangle.
+        // The density of texels on this triangle.
         let [a, b, c] = corners.map(|corner| uvs[corner as usize] * texture.size());
         let texels = (b - a).perp_dot(c - a).abs();
         let area = self.triangles[hit.triangle].ng.length();
@@ -184,15 +184,15 @@ impl<'a> Tracer<'a> {
         self.triangles[triangle].compute_normal().into()
     }
 
-    /// The file's normal at a place; none where it has none.
+    /// The interpolated normal of the file, if it has any.
     pub(super) fn normal(&self, hit: &Hit) -> Option<Vec3> {
         let normals = &self.surface.normals;
         let corners = self.surface.triangles[hit.triangle];
         blend(corners, hit.shares, |corner| normals[corner]).try_normalize()
     }
 
-    /// A place for shadow rays to start from: lifted off the triangle as far as the rounding that it stands for bulges
-    /// out of it, so that smooth things cast no jagged shadows on themselves (Hanika 2021).
+    /// The origin of shadow rays on a smooth surface: lifted off the triangle to the curved surface that it approximates, so
+    /// that smooth objects cast no jagged shadows on themselves (Hanika 2021).
     pub(super) fn lifted(&self, hit: &Hit, place: Vec3, side: f32) -> Vec3 {
         let (positions, normals) = (&self.surface.positions, &self.surface.normals);
         let corners = self.surface.triangles[hit.triangle];
@@ -205,9 +205,9 @@ impl<'a> Tracer<'a> {
     }
 }
 
-/// The distance at which a ray meets a triangle, infinite if it does not (Möller and Trumbore).
+/// The distance at which a ray hits a triangle, infinite if it does not (Möller and Trumbore 1997).
 ///
-/// The tree's library has this too, but lets rays slip through between two triangles.
+/// `obvhs` has this test too, but lets rays slip through between two triangles.
 #[inline]
 fn meet(triangle: &RtTriangle, ray: &Ray) -> f32 {
     let to = triangle.v0 - ray.origin;

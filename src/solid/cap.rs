@@ -14,7 +14,7 @@ use i_triangle::int::validation::Validation;
 
 use super::ears;
 use super::rings::Rings;
-use crate::geometry::clean::winds_once;
+use crate::geometry::is_convex;
 
 /// Polygons with more points than this are cut by a sweep.
 const SWEEP: usize = 200;
@@ -28,7 +28,7 @@ pub(super) fn triangles(rings: &Rings) -> Vec<[u32; 3]> {
         let polygon = &rings.rings[polygon.clone()];
         let count: usize = polygon.iter().map(Range::len).sum();
         match polygon {
-            [ring] if winds_once(&rings.points[ring.clone()]) => strip(ring, &mut triangles),
+            [ring] if is_convex(&rings.points[ring.clone()]) => strip(ring, &mut triangles),
             _ if count > SWEEP && sweep(&rings.points, polygon, &mut triangles) => {}
             _ => ears::clip(&rings.points, polygon, &mut triangles),
         }
@@ -39,7 +39,7 @@ pub(super) fn triangles(rings: &Rings) -> Vec<[u32; 3]> {
 /// A distance that all points are known to keep from each other; 0 where that is not plain to see.
 pub(super) fn least_gap(rings: &Rings) -> f64 {
     let points = &rings.points;
-    if rings.rings.len() != 1 || !winds_once(points) {
+    if rings.rings.len() != 1 || !is_convex(points) {
         return 0.0;
     }
     let edges = rings.next.iter().zip(points);

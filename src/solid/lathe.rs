@@ -16,8 +16,7 @@ use super::layers::steps_per_half_turn;
 use super::rings::Rings;
 use super::shade::shade;
 use super::stack::Put;
-use crate::geometry::clean::tidy;
-use crate::geometry::{Outline, Polygon, bounds, intersect, union};
+use crate::geometry::{Outline, Polygon, bounds, intersect, remove_collinear, union};
 use crate::scene::Surface;
 
 /// Points nearer to the axis than this, relative to the extent, lie on it.
@@ -133,7 +132,7 @@ fn profile(outline: &Outline, [extent, same]: [f64; 2], step: f64, whole: bool) 
             let i = place - 1;
             !(on_axis[(i + n - 1) % n] && on_axis[i] && on_axis[(i + 1) % n])
         });
-        tidy(&mut ring, same);
+        remove_collinear(&mut ring, same);
         ring
     };
     let polygon = |polygon: &Polygon| {

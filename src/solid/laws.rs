@@ -7,7 +7,7 @@ use proptest::test_runner::FileFailurePersistence;
 use super::check::{closed, volume};
 use super::tests::{kinds, options, outline};
 use super::*;
-use crate::geometry::Ring;
+use crate::geometry::{Ring, area, bounds};
 
 fn point() -> impl Strategy<Value = DVec2> {
     (-1.0..1.0f64, -1.0..1.0f64).prop_map(|(x, y)| DVec2::new(x, y))
@@ -128,7 +128,7 @@ fn expected_volume(outline: &Outline, kind: &ShapeKind, options: &Options) -> Op
     ) {
         return None;
     }
-    let (low, high) = clean::bounds(outline)?;
+    let (low, high) = bounds(outline)?;
     let half = low.abs().max(high.abs());
     let stack = layers::layers(kind, half.x, half.y, options)?;
     // What has hardly any thickness has it by rounding.
@@ -148,7 +148,7 @@ fn expected_volume(outline: &Outline, kind: &ShapeKind, options: &Options) -> Op
         (pair[1].z - pair[0].z) * (a * a + a * b + b * b) / 3.0
     };
     let sum: f64 = stack.windows(2).map(frustum).sum();
-    Some(sum * clean::area(outline) * options.placement.scale.powi(3))
+    Some(sum * area(outline) * options.placement.scale.powi(3))
 }
 
 /// How many triangles of the front turn their back to the viewer.

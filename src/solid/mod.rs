@@ -24,7 +24,7 @@ mod stack;
 
 use glam::{DMat2, DVec3};
 
-use crate::geometry::{Outline, clean};
+use crate::geometry::{Outline, bounds};
 use crate::lang::value::ShapeKind;
 use crate::scene::Surface;
 use layers::layers;
@@ -75,7 +75,7 @@ impl Placement {
 /// The solid of an outline in its part's frame. `Model` is built as `Default` without parameters; `None`, and
 /// an outline without area, as nothing.
 pub fn build(outline: &Outline, kind: &ShapeKind, options: &Options) -> Surface {
-    let Some((low, high)) = clean::bounds(outline) else {
+    let Some((low, high)) = bounds(outline) else {
         return Surface::default();
     };
     let half = low.abs().max(high.abs());

@@ -2,7 +2,7 @@ use glam::{DVec2, DVec3, Vec3};
 
 use super::check::{closed, volume};
 use super::*;
-use crate::geometry::{FillRule, Ring, clean};
+use crate::geometry::{FillRule, Ring, bounds, resolve_overlaps};
 use ShapeKind::{Cone, ConeH, ConeV, Default, Flat, Inflate, Lathe, Round, RoundH, RoundV};
 
 pub(super) fn options(segments: u32) -> Options {
@@ -19,8 +19,8 @@ pub(super) fn outline(rings: Vec<Ring>) -> Outline {
     let down = rings
         .into_iter()
         .map(|r| r.into_iter().map(|p| DVec2::new(p.x, -p.y)).collect());
-    let mut outline = clean::clean(down.collect(), FillRule::EvenOdd);
-    if let Some((low, high)) = clean::bounds(&outline) {
+    let mut outline = resolve_overlaps(down.collect(), FillRule::EvenOdd);
+    if let Some((low, high)) = bounds(&outline) {
         let center = low.midpoint(high);
         for p in outline
             .polygons

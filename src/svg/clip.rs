@@ -3,7 +3,7 @@
 use glam::{DAffine2, DVec2};
 
 use super::paths::{affine, bez_path, rings};
-use crate::geometry::{FillRule, Outline, bounds, clean, intersect, union};
+use crate::geometry::{FillRule, Outline, bounds, intersect, resolve_overlaps, union};
 
 /// A clip path in user units.
 #[derive(Debug, Clone)]
@@ -66,7 +66,7 @@ fn collect(group: &usvg::Group, transform: DAffine2, tolerance: f64, out: &mut V
                     _ => FillRule::NonZero,
                 };
                 let bez = bez_path(path.data(), transform * affine(path.abs_transform()));
-                out.push(clean(rings(&bez, tolerance), rule));
+                out.push(resolve_overlaps(rings(&bez, tolerance), rule));
             }
             _ => {}
         }

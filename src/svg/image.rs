@@ -7,9 +7,9 @@ use rustc_hash::FxHashMap;
 
 use super::clip::Clip;
 use crate::diagnostic::Code;
-use crate::geometry::{FillRule, Outline, Ring, clean};
+use crate::geometry::{FillRule, Outline, Ring, resolve_overlaps};
 use crate::scene::Filter;
-use crate::texture::{self, Decoded, PictureError, Server, Source};
+use crate::texture::{self, Decoded, Holes, PaintServer, PictureError, Source};
 
 /// Pixels along the longer side of a picture that is SVG itself.
 const SVG_SIDE: u32 = 1024;
@@ -44,7 +44,7 @@ pub(super) struct Traced {
     /// Its mean colour, sRGB.
     pub(super) color: [u8; 3],
     /// What is seen on it, if that can be told.
-    pub(super) server: Option<Server>,
+    pub(super) server: Option<PaintServer>,
 }
 
 impl PictureSource {
@@ -114,9 +114,10 @@ impl PictureSource {
         };
         let rings = rings.into_iter().map(to_drawing).collect();
         let clips = self.clips.iter().flat_map(|clips| clips.iter());
-        clips.fold(clean(rings, FillRule::EvenOdd), |outline, clip| {
-            clip.cut(outline)
-        })
+        clips.fold(
+            resolve_overlaps(rings, FillRule::EvenOdd),
+            |outline, clip| clip.cut(outline),
+        )
     }
 
     /// The picture as a part: its area is where alpha is over one half, the whole rectangle where it has no alpha.
@@ -157,11 +158,11 @@ impl PictureSource {
         };
         let scale = self.size / DVec2::new(width.into(), height.into());
         rings.iter_mut().flatten().for_each(|point| *point *= scale);
-        let picture = texture::picture(decoded, &bytes, true);
+        let picture = texture::picture(decoded, &bytes, Holes::Outline);
         Ok(Traced {
             outline: self.outline(rings),
             color: sum.map(|channel| (channel / count.max(1)) as u8),
-            server: picture.map(|picture| Server {
+            server: picture.map(|picture| PaintServer {
                 source: Source::Picture(picture, self.filter),
                 place: self.place(),
             }),

@@ -36,7 +36,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Outline;
 use crate::resolver::Resolver;
 use crate::source::{Span, Text};
-use crate::texture::Server;
+use crate::texture::PaintServer;
 
 /// A drawing.
 #[derive(Debug, Clone, Default)]
@@ -98,7 +98,7 @@ pub struct Paint {
     /// Its colour, or the mean of its colours, sRGB, each 0 to 255.
     pub color: [u8; 3],
     /// What it looks like, if it is more than a colour.
-    pub server: Option<Arc<Server>>,
+    pub server: Option<Arc<PaintServer>>,
 }
 
 /// Paint identity.

@@ -8,7 +8,7 @@ use roxmltree::Node;
 use super::paths::affine;
 use super::shapes::Context;
 use super::{Paint, PaintKey};
-use crate::texture::{Focus, Gradient, Server, Source, Spread, Stop};
+use crate::texture::{Focus, Gradient, PaintServer, Source, Spread, Stop};
 
 impl Context<'_, '_> {
     /// What a paint of a path is; `transform` leads from the path to the drawing.
@@ -102,7 +102,7 @@ impl Context<'_, '_> {
 }
 
 /// A paint in its own plane, and where that lies in the drawing.
-fn server(paint: &usvg::Paint, transform: DAffine2) -> Option<Server> {
+fn server(paint: &usvg::Paint, transform: DAffine2) -> Option<PaintServer> {
     let point = |x: f32, y: f32| DVec2::new(x.into(), y.into());
     let (source, own) = match paint {
         usvg::Paint::Color(_) => return None,
@@ -134,7 +134,7 @@ fn server(paint: &usvg::Paint, transform: DAffine2) -> Option<Server> {
             (Source::Pattern(Arc::clone(pattern)), own)
         }
     };
-    Some(Server {
+    Some(PaintServer {
         source,
         place: transform * own,
     })

@@ -6,7 +6,7 @@ use roxmltree::Node;
 use usvg::tiny_skia_path as skia;
 
 use super::{Line, Paint};
-use crate::geometry::{FillRule, Outline, Ring, clean, flatten};
+use crate::geometry::{FillRule, Outline, Ring, flatten, resolve_overlaps};
 
 /// How far straight pieces may always lie off a curve, as a share of its path's extent: bounds their number.
 const FINEST: f64 = 1e-5;
@@ -74,7 +74,7 @@ impl StrokeSource {
             None => Outline::default(),
             Some(path) => {
                 let path = bez_path(&path, self.transform);
-                clean(rings(&path, self.tolerance), FillRule::NonZero)
+                resolve_overlaps(rings(&path, self.tolerance), FillRule::NonZero)
             }
         }
     }

@@ -14,7 +14,7 @@ use super::style::Styles;
 use super::walk::{Leaf, Task, Walk};
 use super::{Drawing, Element, Paint, PaintKey, PictureSource, Shape, growth};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::{FillRule, Outline, clean};
+use crate::geometry::{FillRule, Outline, resolve_overlaps};
 use crate::resolver::Resolver;
 
 /// Joins what usvg and the XML know.
@@ -168,7 +168,7 @@ impl Context<'_, '_> {
             return None;
         }
         let whole = bez_path(path.data(), self.page * affine(path.abs_transform()));
-        let whole = clean(rings(&whole, self.tolerance), FillRule::NonZero);
+        let whole = resolve_overlaps(rings(&whole, self.tolerance), FillRule::NonZero);
         (!whole.polygons.is_empty()).then(|| {
             Diagnostic::new(
                 Code::Vanishes,
@@ -201,7 +201,7 @@ impl Context<'_, '_> {
                 usvg::FillRule::NonZero => FillRule::NonZero,
                 usvg::FillRule::EvenOdd => FillRule::EvenOdd,
             };
-            outline = clean(rings(&bez, self.tolerance), rule);
+            outline = resolve_overlaps(rings(&bez, self.tolerance), rule);
             outline = task.clip(outline);
         } else if stroke.is_some() {
             line = open_line(&bez, node);

@@ -1,22 +1,22 @@
-//! Textures that were drawn, for the next time that they are wanted.
+//! A cache of the textures that the last compile drew.
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::{Baked, Plan, PlanKey};
 
-/// Draws plans, and remembers what it drew the last time.
+/// Draws plans, except those that the last call drew.
 #[derive(Debug, Default)]
 pub struct Baker {
     last: FxHashMap<Wanted, (Plan, Result<Baked, &'static str>)>,
 }
 
-/// What two plans have in common of which the same is drawn.
+/// Plans with equal keys give equal textures.
 #[derive(Debug, PartialEq, Eq, Hash)]
 struct Wanted {
     key: PlanKey,
     size: [u32; 2],
-    given_up: bool,
+    abandoned: bool,
 }
 
 impl Wanted {
@@ -24,13 +24,13 @@ impl Wanted {
         Self {
             key: plan.key(),
             size: plan.size,
-            given_up: plan.work.is_infinite(),
+            abandoned: plan.work.is_infinite(),
         }
     }
 }
 
 impl Baker {
-    /// Draws plans, as [`Plan::bake`] does.
+    /// Draws plans like [`Plan::bake`].
     pub fn bake(&mut self, plans: &[Plan]) -> Vec<Result<Baked, &'static str>> {
         let last = &self.last;
         let baked: Vec<_> = plans
@@ -40,7 +40,7 @@ impl Baker {
                 None => plan.bake(),
             })
             .collect();
-        // The plans hold on to what keys know only by its place in memory.
+        // Keys contain addresses; the plans keep what is stored there alive.
         let both = plans.iter().zip(&baked);
         self.last = both
             .map(|(plan, baked)| (Wanted::of(plan), (plan.clone(), baked.clone())))

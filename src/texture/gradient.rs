@@ -1,68 +1,68 @@
-//! Gradients drawn in their own plane (SVG 2, section 14.2).
+//! Draws gradients in their own plane (SVG 2, section 14.2).
 //!
-//! The colours are reckoned here rather than by a rasteriser: straight alpha keeps its colours, and the few
-//! operations used give the same bits on every machine.
+//! Colours are computed here rather than by a rasteriser: transparent pixels keep their colours, because alpha is not
+//! premultiplied, and the few operations used give the same bits on every machine.
 
 use glam::{DAffine2, DVec2};
 use image::{Rgba, RgbaImage};
 
-/// Rows of a linear gradient's image: block compression takes four.
+/// Rows of a linear gradient's image: the block size of texture compression.
 pub(super) const ROWS: u32 = 4;
-/// Pixels along a linear gradient, and how many where stops lie close.
+/// Pixels along a linear gradient: normally, and with sharp edges.
 const ROW: [u32; 2] = [256, 1024];
-/// Pixels across the end circle of a radial gradient, and how many where stops lie close.
+/// Pixels across the end circle of a radial gradient: normally, and with sharp edges.
 const SIDE: [u32; 2] = [128, 512];
-/// Most pixels along a side.
-const MOST_SIDE: u32 = 1024;
-/// How far, in radii of its end circle, a radial gradient that goes on beyond it is drawn.
-const MOST_REACH: f64 = 32.0;
-/// Stops nearer than this are taken for a sharp edge.
+/// The largest number of pixels along a side.
+const MAX_SIDE: u32 = 1024;
+/// How far a radial gradient is drawn beyond its end circle at most, in its radii.
+const MAX_REACH: f64 = 32.0;
+/// Different stops nearer than this are a sharp edge.
 const SHARP: f64 = 1.0 / 64.0;
 
-/// What lies beyond a gradient's ends.
+/// How a gradient continues beyond its ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Spread {
-    /// The colour of the end.
+    /// With the colour of the end.
     Pad,
-    /// The gradient again, every other time backwards.
+    /// Repeated, alternately reversed.
     Reflect,
-    /// The gradient again.
+    /// Repeated.
     Repeat,
 }
 
-/// A colour at a place between 0 and 1.
+/// A colour stop.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stop {
-    /// Where.
+    /// Its offset, 0 to 1.
     pub offset: f64,
     /// sRGB and straight alpha, each 0 to 255.
     pub color: [f64; 4],
 }
 
-/// The colours of a gradient.
+/// A gradient without its position.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gradient {
-    /// In rising order, at least one.
+    /// In ascending order, at least one.
     pub stops: Vec<Stop>,
-    /// What lies beyond its ends.
+    /// How it continues beyond its ends.
     pub spread: Spread,
 }
 
 /// The circle that a radial gradient starts from; the one it ends at is the unit circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Focus {
-    /// Its centre.
+    /// The x coordinate of its centre.
     pub x: f64,
-    /// Its centre.
+    /// The y coordinate of its centre.
     pub y: f64,
     /// Its radius.
     pub radius: f64,
 }
 
-/// How far a gradient is drawn that reaches `far`: powers of two, so that parts of many sizes share images.
+/// The extent to draw for a gradient that must reach `far`: powers of two, so that parts of many sizes share images.
 pub(super) fn reach(far: f64) -> f64 {
     let mut reach = 1.0;
-    while reach < far && reach < MOST_REACH {
+    while reach < far && reach < MAX_REACH {
         reach *= 2.0;
     }
     reach
@@ -84,7 +84,7 @@ impl Gradient {
         self.stops.windows(2).any(near)
     }
 
-    /// Pixels of the row of a linear gradient.
+    /// Pixels along a linear gradient.
     pub(super) fn row(&self) -> u32 {
         ROW[usize::from(self.is_sharp())]
     }
@@ -92,26 +92,26 @@ impl Gradient {
     /// Pixels along a side of a radial gradient's square.
     pub(super) fn side(&self, reach: f64) -> u32 {
         let side = SIDE[usize::from(self.is_sharp())];
-        (side * reach.min(16.0) as u32).min(MOST_SIDE)
+        (side * reach.min(16.0) as u32).min(MAX_SIDE)
     }
 
-    /// Whether nothing of a radial gradient changes outside its end circle.
+    /// Whether a radial gradient has a constant colour outside its end circle.
     pub(super) fn is_bounded(&self, focus: Focus) -> bool {
         let inside = focus.x.hypot(focus.y) + focus.radius < 1.0;
         self.spread == Spread::Pad && inside
     }
 
-    /// From a linear gradient's own plane to its row.
+    /// From a linear gradient's own plane to its image.
     pub(super) fn row_map(&self, width: f64) -> DAffine2 {
         let (scale, start) = match self.spread {
-            // The middles of the outermost pixels are the ends: beyond them the sampler goes on with them.
+            // The ends lie at the centres of the outermost pixels, which the sampler repeats.
             Spread::Pad => ((width - 1.0) / width, 0.5 / width),
             Spread::Reflect | Spread::Repeat => (1.0, 0.0),
         };
         DAffine2::from_cols(DVec2::new(scale, 0.0), DVec2::ZERO, DVec2::new(start, 0.5))
     }
 
-    /// The row of a linear gradient's colours.
+    /// The image of a linear gradient.
     pub(super) fn bake_row(&self, width: u32, height: u32) -> RgbaImage {
         let to_row = self.row_map(f64::from(width));
         let (scale, start) = (to_row.matrix2.x_axis.x, to_row.translation.x);
@@ -124,25 +124,25 @@ impl Gradient {
         RgbaImage::from_fn(width, height, |x, _| row[x as usize])
     }
 
-    /// The square around a radial gradient's end circle.
+    /// The image of a radial gradient.
     pub(super) fn bake_square(&self, focus: Focus, reach: f64, side: u32) -> RgbaImage {
         let own = |pixel: u32| ((f64::from(pixel) + 0.5) / f64::from(side) * 2.0 - 1.0) * reach;
         let last = self.color(1.0);
         RgbaImage::from_fn(side, side, |x, y| {
-            // The outermost pixels are what lies beyond, for good.
+            // The sampler repeats the outermost pixels.
             let border = [x, y].iter().any(|at| *at == 0 || *at == side - 1);
             if border && self.is_bounded(focus) {
                 return last;
             }
             match focus.along(DVec2::new(own(x), own(y))) {
                 Some(t) => self.color(self.spread(t)),
-                // Beside the cone of two circles none of which holds the other.
+                // Outside the cone of two circles neither of which contains the other.
                 None => last,
             }
         })
     }
 
-    /// A place brought back to between 0 and 1.
+    /// Maps an offset to between 0 and 1.
     fn spread(&self, t: f64) -> f64 {
         match self.spread {
             Spread::Pad => t.clamp(0.0, 1.0),
@@ -154,7 +154,7 @@ impl Gradient {
         }
     }
 
-    /// The colour at a place between 0 and 1.
+    /// The colour at an offset between 0 and 1.
     fn color(&self, t: f64) -> Rgba<u8> {
         let next = self.stops.partition_point(|stop| stop.offset <= t);
         let color = match (next.checked_sub(1), self.stops.get(next)) {
@@ -174,16 +174,15 @@ impl Gradient {
 }
 
 impl Focus {
-    /// How far along the gradient a point lies: the largest `t` whose circle, between this one and the unit
-    /// circle, passes through it.
+    /// The offset of a point: the largest `t` whose circle, between this one and the unit circle, passes through it.
     fn along(self, point: DVec2) -> Option<f64> {
         let focus = DVec2::new(self.x, self.y);
         let from = point - focus;
-        let (grows, moves) = (1.0 - self.radius, -focus);
-        let a = moves.dot(moves) - grows * grows;
-        let b = from.dot(moves) + self.radius * grows;
+        let (scale_of, moves) = (1.0 - self.radius, -focus);
+        let a = moves.dot(moves) - scale_of * scale_of;
+        let b = from.dot(moves) + self.radius * scale_of;
         let c = from.dot(from) - self.radius * self.radius;
-        let fits = |t: &f64| t.is_finite() && self.radius + t * grows >= 0.0;
+        let fits = |t: &f64| t.is_finite() && self.radius + t * scale_of >= 0.0;
         if a.abs() < 1e-9 {
             return Some(c / (2.0 * b)).filter(fits);
         }

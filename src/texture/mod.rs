@@ -1,18 +1,17 @@
-//! Gradients, patterns and pictures as images that lie on parts.
+//! Gradients, patterns and pictures as textures of parts.
 //!
-//! A gradient is baked in its own plane and not over its part: a linear one is a row of colours along itself, a
-//! radial one a square around its circle. So parts that share a gradient share its image, whatever their size,
-//! and a part is textured by one affine map from the drawing to the image. Patterns are one tile that the sampler
-//! repeats.
+//! A gradient is baked in its own plane, not over its part: a linear one as a row of colours, a radial one as a square
+//! around its circle. So parts that share a gradient share its image, whatever their size, and each part is textured by
+//! one affine map from the drawing to the image. A pattern is one tile that the sampler repeats.
 //!
-//! Conventions, stated once: images have their first row at v = 0; a paint's *own plane* is the plane in which a
-//! linear gradient runs from x = 0 to 1, the end circle of a radial one is the unit circle, and the tile of a
-//! pattern, as a picture, fills the unit square, y down.
+//! Conventions, stated once: the first row of an image is at v = 0. In a paint's *own plane* a linear gradient runs from
+//! x = 0 to 1, the end circle of a radial one is the unit circle, and a picture or the tile of a pattern fills the unit
+//! square, y down.
 
 mod baker;
 mod gradient;
+mod pattern;
 mod picture;
-mod tile;
 
 use std::sync::Arc;
 
@@ -20,102 +19,102 @@ use glam::{DAffine2, DMat2, DVec2};
 
 pub use baker::Baker;
 pub use gradient::{Focus, Gradient, Spread, Stop};
-pub use picture::{Decoded, PictureError, decode, picture, pixels};
+pub use picture::{Decoded, Holes, PictureError, decode, picture, pixels};
 
 use crate::scene::{Filter, MediaType, Wrap};
 
-pub(crate) use tile::render_tree;
+pub(crate) use pattern::render_tree;
 
-/// Most pixels of all textures that are drawn for a model: where there are many, each becomes smaller.
-const MOST_PIXELS: f64 = (16 << 20) as f64;
-/// Fewest pixels along a side of a texture that became smaller.
-const LEAST_SIDE: u32 = 16;
+/// The largest number of pixels of all textures drawn for a model: if there would be more, each becomes smaller.
+const MAX_PIXELS: f64 = (16 << 20) as f64;
+/// The smallest side of a texture made smaller, in pixels.
+const MIN_SIDE: u32 = 16;
 
-/// Most pixels that may be touched on the way to all patterns of a model.
-const MOST_WORK: f64 = (4_u64 << 30) as f64;
+/// The largest number of pixels that all patterns of a model may touch while they are drawn.
+const MAX_WORK: f64 = (4_u64 << 30) as f64;
 
-/// What a part is painted with, other than a colour.
+/// A paint server of SVG: a paint other than a solid colour.
 #[derive(Debug, Clone)]
-pub struct Server {
-    /// What it shows.
+pub struct PaintServer {
+    /// Its content.
     pub source: Source,
     /// From its own plane to the drawing.
     pub place: DAffine2,
 }
 
-/// What a paint shows in its own plane.
+/// The content of a paint in its own plane.
 #[derive(Debug, Clone)]
 pub enum Source {
-    /// Colours along a line.
+    /// A linear gradient.
     Linear(Gradient),
-    /// Colours around a point.
+    /// A radial gradient.
     Radial(Gradient, Focus),
-    /// A tile.
+    /// A pattern.
     Pattern(Arc<usvg::Pattern>),
-    /// A picture, and what lies between its pixels.
+    /// A picture and how it is filtered.
     Picture(Picture, Filter),
 }
 
-/// An image file and what its alpha says.
+/// An image file and a summary of its alpha.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Picture {
-    /// What the bytes are.
+    /// The format of the file.
     pub media_type: MediaType,
     /// The file.
     pub bytes: Arc<[u8]>,
-    /// Where it can be seen through.
+    /// Where it is transparent.
     pub alpha: Alpha,
 }
 
-/// Where an image can be seen through.
+/// Where an image is transparent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Alpha {
     /// Nowhere.
     #[default]
     Opaque,
-    /// It has holes with sharp borders.
+    /// In holes with sharp borders.
     Holes,
-    /// It has half-tones.
+    /// Partly, with intermediate values.
     Blended,
 }
 
-/// A texture that is to be drawn: parts with equal ones share it.
+/// A texture to be drawn. Parts with equal plans share it.
 #[derive(Debug, Clone)]
 pub struct Plan {
     source: Source,
-    /// How far a radial gradient reaches in its own plane.
+    /// How far a radial gradient extends in its own plane.
     reach: f64,
-    /// Pixels.
+    /// Width and height in pixels.
     size: [u32; 2],
-    /// Pixels that are touched on the way, where that may be much.
+    /// An estimate of the pixels touched while drawing it, if it is a pattern; infinite if it is not to be drawn.
     work: f64,
 }
 
-/// What makes two plans one.
+/// Equal for plans that give the same texture.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct PlanKey(Vec<u64>);
 
-/// A texture that was drawn.
+/// A drawn texture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Baked {
     /// Its image.
     pub picture: Picture,
-    /// What lies beyond the image.
+    /// How it continues beyond its edges.
     pub wrap: [Wrap; 2],
-    /// What lies between its pixels.
+    /// How it is filtered.
     pub filter: Filter,
 }
 
-impl Server {
-    /// How the server is drawn for a part whose box in the drawing goes from `low` to `high`, where a drawing unit
-    /// is worth `density` pixels.
+impl PaintServer {
+    /// Plans the texture for a part with the bounding box `low` to `high` in the drawing, at `density` pixels per drawing
+    /// unit.
     ///
     /// # Errors
-    /// Why it cannot be drawn, for people.
+    /// The reason why it cannot be drawn, for a diagnostic.
     pub fn plan(&self, [low, high]: [DVec2; 2], density: f64) -> Result<Plan, &'static str> {
         let to_own = self.place.inverse();
         if !to_own.is_finite() || self.place.matrix2.determinant() == 0.0 {
-            return Err("it is squeezed to a line");
+            return Err("it is scaled to a line");
         }
         let (mut reach, mut work) = (1.0, 0.0);
         let size = match &self.source {
@@ -136,8 +135,8 @@ impl Server {
             }
             Source::Pattern(pattern) => {
                 let DMat2 { x_axis, y_axis } = self.place.matrix2;
-                let size = tile::size([x_axis.length() * density, y_axis.length() * density]);
-                work = tile::check(pattern, size)?;
+                let size = pattern::size([x_axis.length() * density, y_axis.length() * density]);
+                work = pattern::check(pattern, size)?;
                 size
             }
             Source::Picture(..) => [0; 2],
@@ -152,7 +151,7 @@ impl Server {
 }
 
 impl Plan {
-    /// What makes it the same as another one.
+    /// The key of this plan.
     pub fn key(&self) -> PlanKey {
         let mut key = Vec::new();
         match &self.source {
@@ -165,7 +164,7 @@ impl Plan {
                 key.extend([focus.x, focus.y, focus.radius].map(f64::to_bits));
                 gradient.key(&mut key);
             }
-            // These are told apart by where they are in memory; what is written knows nothing of it.
+            // Patterns and pictures are compared by address, which does not influence the output.
             Source::Pattern(pattern) => {
                 let [width, height] = self.size;
                 key.extend([2, Arc::as_ptr(pattern).addr() as u64]);
@@ -179,8 +178,8 @@ impl Plan {
         PlanKey(key)
     }
 
-    /// From the drawing to texture coordinates, for a server of this plan.
-    pub fn map(&self, server: &Server) -> DAffine2 {
+    /// From the drawing to texture coordinates, for a paint server with this plan.
+    pub fn map(&self, server: &PaintServer) -> DAffine2 {
         let [width, _] = self.size.map(f64::from);
         let own = match &self.source {
             Source::Linear(gradient) => gradient.row_map(width),
@@ -196,10 +195,10 @@ impl Plan {
     /// Draws it.
     ///
     /// # Errors
-    /// Why it cannot be drawn, for people.
+    /// The reason why it cannot be drawn, for a diagnostic.
     pub fn bake(&self) -> Result<Baked, &'static str> {
         if self.work.is_infinite() {
-            return Err("all patterns of the drawing together hold too much");
+            return Err("the patterns of the drawing are too complex together");
         }
         let [width, height] = self.size;
         let clamped = [Wrap::ClampToEdge; 2];
@@ -211,15 +210,15 @@ impl Plan {
                     Spread::Repeat => Wrap::Repeat,
                 };
                 let pixels = gradient.bake_row(width, height);
-                (picture::encode(pixels), [along, Wrap::ClampToEdge])
+                (picture::encode_png(pixels), [along, Wrap::ClampToEdge])
             }
             Source::Radial(gradient, focus) => {
                 let pixels = gradient.bake_square(*focus, self.reach, width);
-                (picture::encode(pixels), clamped)
+                (picture::encode_png(pixels), clamped)
             }
             Source::Pattern(pattern) => {
-                let pixels = tile::render(pattern, self.size)?;
-                (picture::encode(pixels), [Wrap::Repeat; 2])
+                let pixels = pattern::render(pattern, self.size)?;
+                (picture::encode_png(pixels), [Wrap::Repeat; 2])
             }
             Source::Picture(picture, _) => (Some(picture.clone()), clamped),
         };
@@ -234,23 +233,23 @@ impl Plan {
     }
 }
 
-/// Makes plans smaller until all of them together keep to the limit; those that there is no time left for are
-/// given up.
+/// Makes the textures smaller until all together are within the limits; patterns that would take too long are
+/// abandoned.
 ///
-/// Rows of colours stay as they are; they are small, and their length is part of the map onto them.
+/// Linear gradients keep their size: they are small, and their map depends on it.
 pub fn fit(plans: &mut [Plan]) {
     let drawn = |plan: &&mut Plan| matches!(plan.source, Source::Radial(..) | Source::Pattern(_));
     let pixels = |plan: &mut Plan| f64::from(plan.size[0]) * f64::from(plan.size[1]);
     let total: f64 = plans.iter_mut().filter(drawn).map(pixels).sum();
-    let share = (MOST_PIXELS / total).min(1.0);
+    let share = (MAX_PIXELS / total).min(1.0);
     let mut work = 0.0;
     for plan in plans.iter_mut().filter(drawn) {
         let shrunk = |side: u32| (f64::from(side) * share.sqrt()) as u32;
         if share < 1.0 {
-            plan.size = plan.size.map(|side| shrunk(side).max(LEAST_SIDE).min(side));
+            plan.size = plan.size.map(|side| shrunk(side).max(MIN_SIDE).min(side));
         }
         work += plan.work * share;
-        if work > MOST_WORK {
+        if work > MAX_WORK {
             plan.work = f64::INFINITY;
         }
     }

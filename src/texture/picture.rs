@@ -1,4 +1,4 @@
-//! Pictures: read, judged by their alpha, and written so that filtering shows no fringe.
+//! Pictures: decoding, classification by alpha, and encoding without fringes.
 
 use std::io::Cursor;
 use std::sync::Arc;
@@ -9,31 +9,31 @@ use image::{DynamicImage, ExtendedColorType, ImageEncoder as _, RgbaImage};
 use super::{Alpha, Picture};
 use crate::scene::MediaType;
 
-/// Most pixels along one side of a picture.
+/// The largest width and height of a picture in pixels.
 const MAX_SIDE: u32 = 16_384;
-/// How far colours reach into what cannot be seen, pixels. Behind it lies the mean colour.
+/// How far colours are extended into transparent pixels; farther away they get the mean colour.
 const BLEED: usize = 16;
-/// How wide the seam of half-tones along a sharp border may be, pixels to either side.
+/// The largest width of antialiasing along a sharp border, in pixels to either side.
 const SEAM: i64 = 2;
-/// One pixel in so many may break the rule.
-const STRAY: usize = 1000;
+/// One pixel in this many may be an exception.
+const STRAY_SHARE: usize = 1000;
 
-/// A picture that was read.
+/// A decoded picture.
 #[derive(Debug, Clone)]
 pub struct Decoded {
     /// Its pixels, sRGB with straight alpha.
     pub pixels: RgbaImage,
-    /// What the file is, if glTF can hold it as it stands.
+    /// The format of the file, if glTF supports it.
     pub media_type: Option<MediaType>,
 }
 
-/// Why a picture cannot be read. Messages go behind `the picture`.
+/// Why a picture cannot be read. Messages follow `the picture`.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// It is too large.
     #[error("has more than {MAX_SIDE} pixels along one side, or needs more than 512 MiB")]
     TooLarge,
-    /// It is none, or broken.
+    /// It is not a picture, or broken.
     #[error("cannot be read: {0}")]
     Unreadable(image::ImageError),
 }
@@ -45,6 +45,15 @@ impl From<image::ImageError> for PictureError {
             other => Self::Unreadable(other),
         }
     }
+}
+
+/// What shows the holes of a picture with sharp borders.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Holes {
+    /// The outline of the part; its texture is opaque, so that walls have colour up to the edge.
+    Outline,
+    /// The alpha of the texture.
+    Alpha,
 }
 
 /// Reads a PNG, JPEG, GIF (its first frame) or WebP.
@@ -59,7 +68,7 @@ pub fn decode(bytes: &[u8]) -> Result<Decoded, PictureError> {
     })
 }
 
-/// Reads a picture as it is stored, and what the file is, if glTF can hold it as it stands.
+/// Decodes a picture in its stored pixel format; also returns the format of the file, if glTF supports it.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -79,11 +88,8 @@ pub fn pixels(bytes: &[u8]) -> Result<(DynamicImage, Option<MediaType>), Picture
     Ok((reader.decode()?, media_type))
 }
 
-/// The file that a picture becomes in the model: its own where nothing of it can be seen through.
-///
-/// `cut` says that the part ends where the picture does: sharp borders are left to its outline, so that its walls
-/// are whole. None where memory does not suffice.
-pub fn picture(decoded: Decoded, bytes: &Arc<[u8]>, cut: bool) -> Option<Picture> {
+/// The image file for a picture in the model: the original if it is opaque. `None` if there is not enough memory.
+pub fn picture(decoded: Decoded, bytes: &Arc<[u8]>, holes: Holes) -> Option<Picture> {
     let Decoded {
         mut pixels,
         media_type,
@@ -96,18 +102,18 @@ pub fn picture(decoded: Decoded, bytes: &Arc<[u8]>, cut: bool) -> Option<Picture
             alpha,
         });
     }
-    if cut && alpha == Alpha::Holes {
+    if holes == Holes::Outline && alpha == Alpha::Holes {
         for pixel in pixels.pixels_mut() {
             pixel.0[3] = if pixel.0[3] > 127 { 255 } else { 0 };
         }
         bleed(&mut pixels);
         pixels.pixels_mut().for_each(|pixel| pixel.0[3] = 255);
     }
-    encode(pixels)
+    encode_png(pixels)
 }
 
-/// Pixels as a PNG; what cannot be seen takes the colours beside it.
-pub(super) fn encode(mut pixels: RgbaImage) -> Option<Picture> {
+/// Encodes pixels as a PNG; transparent pixels get the colours next to them.
+pub(super) fn encode_png(mut pixels: RgbaImage) -> Option<Picture> {
     let alpha = alpha(&pixels);
     let (width, height) = pixels.dimensions();
     let mut bytes = Vec::new();
@@ -131,7 +137,7 @@ pub(super) fn encode(mut pixels: RgbaImage) -> Option<Picture> {
     })
 }
 
-/// Where a picture can be seen through.
+/// Classifies the transparency of a picture.
 fn alpha(pixels: &RgbaImage) -> Alpha {
     let (width, height) = pixels.dimensions();
     let at = |x: i64, y: i64| {
@@ -141,7 +147,7 @@ fn alpha(pixels: &RgbaImage) -> Alpha {
     if pixels.pixels().all(|pixel| pixel.0[3] == 255) {
         return Alpha::Opaque;
     }
-    let most = pixels.pixels().len() / STRAY;
+    let most = pixels.pixels().len() / STRAY_SHARE;
     let mut strays = 0;
     for (x, y, pixel) in pixels.enumerate_pixels() {
         if matches!(pixel.0[3], 0 | 255) {
@@ -164,7 +170,7 @@ fn alpha(pixels: &RgbaImage) -> Alpha {
     Alpha::Holes
 }
 
-/// Gives pixels that cannot be seen the colours of those beside them, and the mean colour further off.
+/// Gives transparent pixels the colours of their neighbours, and the mean colour farther away.
 fn bleed(pixels: &mut RgbaImage) {
     let (width, height) = pixels.dimensions();
     let (mut sum, mut count) = ([0_u64; 3], 0_u64);

@@ -9,8 +9,8 @@ fn stop(offset: f64, red: f64, alpha: f64) -> Stop {
     }
 }
 
-fn linear(spread: Spread) -> Server {
-    Server {
+fn linear(spread: Spread) -> PaintServer {
+    PaintServer {
         source: Source::Linear(Gradient {
             stops: vec![stop(0.0, 0.0, 255.0), stop(1.0, 255.0, 255.0)],
             spread,
@@ -75,7 +75,7 @@ fn many_textures_become_small_ones() {
             y: 0.0,
             radius: 0.0,
         };
-        Server {
+        PaintServer {
             source: Source::Radial(gradient, focus),
             place: DAffine2::IDENTITY,
         }
@@ -88,8 +88,8 @@ fn many_textures_become_small_ones() {
     };
     let pixels = |plans: &[Plan]| -> u32 { plans.iter().map(|p| p.size[0] * p.size[1]).sum() };
     assert_eq!(pixels(&plans(10)), 10 * 128 * 128);
-    assert!(f64::from(pixels(&plans(20_000))) <= MOST_PIXELS);
-    assert_eq!(plans(300_000)[7].size, [LEAST_SIDE; 2]);
+    assert!(f64::from(pixels(&plans(20_000))) <= MAX_PIXELS);
+    assert_eq!(plans(300_000)[7].size, [MIN_SIDE; 2]);
 }
 
 fn disc(soft: f64) -> RgbaImage {
@@ -100,34 +100,34 @@ fn disc(soft: f64) -> RgbaImage {
     })
 }
 
-fn read(pixels: &RgbaImage, cut: bool) -> Picture {
+fn read(pixels: &RgbaImage, holes: Holes) -> Picture {
     let mut bytes = std::io::Cursor::new(Vec::new());
     pixels
         .write_to(&mut bytes, image::ImageFormat::Png)
         .unwrap();
     let bytes: Arc<[u8]> = bytes.into_inner().into();
-    picture(decode(&bytes).unwrap(), &bytes, cut).unwrap()
+    picture(decode(&bytes).unwrap(), &bytes, holes).unwrap()
 }
 
 #[test]
 fn smoothed_borders_are_holes_and_half_tones_are_not() {
-    assert_eq!(read(&disc(1.0), false).alpha, Alpha::Holes);
-    assert_eq!(read(&disc(2.0), false).alpha, Alpha::Holes);
-    assert_eq!(read(&disc(20.0), false).alpha, Alpha::Blended);
+    assert_eq!(read(&disc(1.0), Holes::Alpha).alpha, Alpha::Holes);
+    assert_eq!(read(&disc(2.0), Holes::Alpha).alpha, Alpha::Holes);
+    assert_eq!(read(&disc(20.0), Holes::Alpha).alpha, Alpha::Blended);
     // The outline cuts sharp borders; what glows is left.
-    assert_eq!(read(&disc(1.0), true).alpha, Alpha::Opaque);
-    assert_eq!(read(&disc(20.0), true).alpha, Alpha::Blended);
+    assert_eq!(read(&disc(1.0), Holes::Outline).alpha, Alpha::Opaque);
+    assert_eq!(read(&disc(20.0), Holes::Outline).alpha, Alpha::Blended);
 }
 
 #[test]
 fn colours_reach_into_what_cannot_be_seen() {
-    let pixels = image::load_from_memory(&read(&disc(1.0), false).bytes)
+    let pixels = image::load_from_memory(&read(&disc(1.0), Holes::Alpha).bytes)
         .unwrap()
         .to_rgba8();
     // Black, but clear, pixels would darken the border when they are filtered.
     assert!(pixels.pixels().all(|pixel| pixel.0[0] == 200));
     assert_eq!(pixels.get_pixel(0, 0).0[3], 0);
-    let cut = image::load_from_memory(&read(&disc(1.0), true).bytes)
+    let cut = image::load_from_memory(&read(&disc(1.0), Holes::Outline).bytes)
         .unwrap()
         .to_rgba8();
     assert!(cut.pixels().all(|pixel| pixel.0 == [200, 10, 20, 255]));
@@ -141,7 +141,7 @@ fn files_without_holes_are_kept_as_they_are() {
         .write_to(&mut bytes, image::ImageFormat::Png)
         .unwrap();
     let bytes: Arc<[u8]> = bytes.into_inner().into();
-    let kept = picture(decode(&bytes).unwrap(), &bytes, true).unwrap();
+    let kept = picture(decode(&bytes).unwrap(), &bytes, Holes::Outline).unwrap();
     assert!(Arc::ptr_eq(&kept.bytes, &bytes));
     let mut webp = std::io::Cursor::new(Vec::new());
     image::DynamicImage::ImageRgba8(pixels)
@@ -149,7 +149,7 @@ fn files_without_holes_are_kept_as_they_are() {
         .write_to(&mut webp, image::ImageFormat::WebP)
         .unwrap();
     let bytes: Arc<[u8]> = webp.into_inner().into();
-    let converted = picture(decode(&bytes).unwrap(), &bytes, true).unwrap();
+    let converted = picture(decode(&bytes).unwrap(), &bytes, Holes::Outline).unwrap();
     assert_eq!(converted.media_type, MediaType::Png);
     assert!(converted.bytes.starts_with(b"\x89PNG"));
 }

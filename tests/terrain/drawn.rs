@@ -8,7 +8,7 @@ use std::path::Path;
 use okoshi::compile::{Compiled, Options, compile};
 use okoshi::disk::FolderResolver;
 use okoshi::export::{GLB, to_memory};
-use okoshi::render::{self, Stage, View, Window};
+use okoshi::render::{self, PosedModel, View, Window};
 use okoshi::resolver::{MemoryResolver, Resolver};
 use okoshi::terrain::{EDGE_BELOW, EDGE_RIGHT, Map, Tile};
 
@@ -57,7 +57,7 @@ fn drawn(map: &Map) -> String {
 fn hidden(compiled: &Compiled, resolver: &dyn Resolver) -> Vec<String> {
     let written = to_memory(&GLB, &compiled.scene, None).expect("written");
     let model = render::read(&written.bytes, resolver).expect("a model");
-    let stage = Stage::new(&model, &model.rest()).expect("something to see");
+    let posed = PosedModel::new(&model, &model.rest()).expect("something to see");
     let mut wrong = vec![];
     for layer in &compiled.layers {
         let node = compiled
@@ -74,13 +74,15 @@ fn hidden(compiled: &Compiled, resolver: &dyn Resolver) -> Vec<String> {
             width: columns as f64 * tile,
             height: rows as f64 * tile,
         };
-        let view = View {
-            yaw: 0.0,
-            pitch: 45.0,
+        let options = render::Options {
+            view: View {
+                yaw: 0.0,
+                pitch: 45.0,
+            },
+            size: [columns as u32, rows as u32],
+            ..render::Options::default()
         };
-        let seen = stage
-            .seen(view, true, window, [columns as u32, rows as u32])
-            .expect("seen");
+        let seen = posed.visible_surfaces(&options, window).expect("seen");
         let mut material_of: BTreeMap<u8, BTreeMap<Option<usize>, usize>> = BTreeMap::new();
         for (look, seen) in layer.map.cells.iter().zip(&seen) {
             let material = seen.as_ref().and_then(|seen| seen.material);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 
 use super::Reading;
-use crate::render::{CELL_LIMIT, FRAME_LIMIT, PITCH_LIMIT, SIZE_LIMIT, View};
+use crate::render::{MAX_FILM_STRIP_CELLS, MAX_PITCH, MAX_SIDE, MAX_TURNTABLE_FRAMES, View};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -130,12 +130,12 @@ fn view(text: &str) -> Result<View, String> {
     });
     match numbers {
         // Whole turns are no news, and would cost digits.
-        Some((yaw, pitch)) if pitch.abs() <= PITCH_LIMIT => Ok(View {
+        Some((yaw, pitch)) if pitch.abs() <= MAX_PITCH => Ok(View {
             yaw: yaw % 360.0,
             pitch,
         }),
         Some(_) => Err(format!(
-            "the camera is lifted by at most {PITCH_LIMIT} degrees, up or down"
+            "the camera is lifted by at most {MAX_PITCH} degrees, up or down"
         )),
         None => Err("two numbers with a comma between them are due, 30,15 for example".to_owned()),
     }
@@ -151,8 +151,8 @@ fn size(text: &str) -> Result<[u32; 2], String> {
             ])
         });
     match sides {
-        Some(sides) if sides.iter().all(|side| (1..=SIZE_LIMIT).contains(side)) => Ok(sides),
-        Some(_) => Err(format!("each side may have 1 to {SIZE_LIMIT} pixels")),
+        Some(sides) if sides.iter().all(|side| (1..=MAX_SIDE).contains(side)) => Ok(sides),
+        Some(_) => Err(format!("each side may have 1 to {MAX_SIDE} pixels")),
         None => {
             Err("two whole numbers with an x between them are due, 800x800 for example".to_owned())
         }
@@ -174,9 +174,9 @@ fn background(text: &str) -> Result<[u8; 3], String> {
 
 fn frames(text: &str) -> Result<u32, String> {
     match text.parse::<u32>() {
-        Ok(frames) if (2..=FRAME_LIMIT).contains(&frames) => Ok(frames),
+        Ok(frames) if (2..=MAX_TURNTABLE_FRAMES).contains(&frames) => Ok(frames),
         _ => Err(format!(
-            "a whole number from 2 to {FRAME_LIMIT} is due, 36 for example"
+            "a whole number from 2 to {MAX_TURNTABLE_FRAMES} is due, 36 for example"
         )),
     }
 }
@@ -190,9 +190,9 @@ fn seconds(text: &str) -> Result<f64, String> {
 
 fn cells(text: &str) -> Result<u32, String> {
     match text.parse::<u32>() {
-        Ok(cells) if (2..=CELL_LIMIT).contains(&cells) => Ok(cells),
+        Ok(cells) if (2..=MAX_FILM_STRIP_CELLS).contains(&cells) => Ok(cells),
         _ => Err(format!(
-            "a whole number from 2 to {CELL_LIMIT} is due, 6 for example"
+            "a whole number from 2 to {MAX_FILM_STRIP_CELLS} is due, 6 for example"
         )),
     }
 }

@@ -8,7 +8,7 @@ use crate::cli::args::Render;
 use crate::cli::progress::{counting, spinning};
 use crate::disk::write_atomic;
 use crate::render::{
-    Animation, Clip, Film, GIF_FPS_LIMIT, Model, Options, Palette, Shot, write_png,
+    AnimationWriter, Clip, Film, HeldFrame, MAX_GIF_FPS, Model, Options, Palette, write_png,
 };
 
 /// Frames a second where nothing else is asked for: film's, and that of the clips that okoshi makes.
@@ -99,8 +99,10 @@ pub(super) fn strip(
     output: &Path,
 ) -> Result<String, Failure> {
     let options = options(arguments);
-    let image = counting("drawing", cells, |done| film.strip(&options, cells, done))
-        .map_err(|error| Failure::of(arguments, &error))?;
+    let image = counting("drawing", cells, |done| {
+        film.film_strip(&options, cells, done)
+    })
+    .map_err(|error| Failure::of(arguments, &error))?;
     write_atomic(output, |out| write_png(&image, out)).map_err(Failure::written)?;
     let look = same_look(options.size, film.triangles());
     let name = output.display();
@@ -115,24 +117,24 @@ pub(super) fn moving(
     output: &Path,
 ) -> Result<String, Failure> {
     let options = options(arguments);
-    let shots = film
-        .shots(arguments.fps.unwrap_or(FPS))
+    let pictures = film
+        .held_frames(arguments.fps.unwrap_or(FPS))
         .map_err(|error| Failure::of(arguments, &error))?;
-    let times = || shots.iter().map(|shot| shot.time);
-    let count = shots.len() as u32;
+    let times = || pictures.iter().map(|picture| picture.time);
+    let count = pictures.len() as u32;
     let look = same_look(options.size, film.triangles());
     if form == Form::Png {
-        let frames: u32 = shots.iter().map(|shot| shot.frames).sum();
+        let frames: u32 = pictures.iter().map(|picture| picture.frames).sum();
         counting("drawing", count, |done| {
             let mut number = 0;
-            let mut left = shots.iter().zip(1..);
+            let mut left = pictures.iter().zip(1..);
             film.draw(&options, times(), |image| {
                 let mut png = Vec::new();
                 write_png(&image, &mut png).map_err(|error| Failure(error.to_string()))?;
-                let Some((shot, drawn)) = left.next() else {
+                let Some((picture, drawn)) = left.next() else {
                     return Ok(());
                 };
-                for _ in 0..shot.frames {
+                for _ in 0..picture.frames {
                     number += 1;
                     let name = numbered(output, number, frames);
                     write_atomic(&name, |out| out.write_all(&png)).map_err(Failure::written)?;
@@ -148,13 +150,15 @@ pub(super) fn moving(
     counting("drawing", count, |done| {
         write_atomic(output, |out| {
             let mut animation = match form {
-                Form::Gif => Animation::gif(out, options.size, palette(film, &options, &shots)?)?,
-                Form::Png | Form::Apng => Animation::apng(out, options.size, count)?,
+                Form::Gif => {
+                    AnimationWriter::gif(out, options.size, palette(film, &options, &pictures)?)?
+                }
+                Form::Png | Form::Apng => AnimationWriter::apng(out, options.size, count)?,
             };
-            let mut left = shots.iter().zip(1..);
+            let mut left = pictures.iter().zip(1..);
             film.draw(&options, times(), |image| -> io::Result<()> {
-                if let Some((shot, drawn)) = left.next() {
-                    animation.push(&image, shot.seconds)?;
+                if let Some((picture, drawn)) = left.next() {
+                    animation.push(&image, picture.seconds)?;
                     done(drawn);
                 }
                 Ok(())
@@ -163,7 +167,7 @@ pub(super) fn moving(
         })
     })
     .map_err(Failure::written)?;
-    let seconds = rounded(shots.iter().map(|shot| shot.seconds).sum());
+    let seconds = rounded(pictures.iter().map(|picture| picture.seconds).sum());
     let name = output.display();
     Ok(format!(
         "{name}: {count} pictures in {seconds} seconds, {look} each"
@@ -171,10 +175,10 @@ pub(super) fn moving(
 }
 
 /// The colours of a GIF, from a few small pictures of what it will show.
-fn palette(film: &Film<'_>, options: &Options, shots: &[Shot]) -> io::Result<Palette> {
+fn palette(film: &Film<'_>, options: &Options, pictures: &[HeldFrame]) -> io::Result<Palette> {
     let size = super::sketched(options.size);
-    let step = shots.len().div_ceil(SKETCHES as usize).max(1);
-    let times = shots.iter().step_by(step).map(|shot| shot.time);
+    let step = pictures.len().div_ceil(SKETCHES as usize).max(1);
+    let times = pictures.iter().step_by(step).map(|picture| picture.time);
     let mut sketches = Vec::new();
     film.draw(
         &Options { size, ..*options },
@@ -190,8 +194,8 @@ fn palette(film: &Film<'_>, options: &Options, shots: &[Shot]) -> io::Result<Pal
 /// Refuses more frames a second than a form has.
 pub(super) fn check_fps(arguments: &Render, form: Form) -> Result<(), String> {
     match arguments.fps {
-        Some(fps) if form == Form::Gif && fps > GIF_FPS_LIMIT => Err(format!(
-            "GIFs show at most {GIF_FPS_LIMIT} frames a second: ask for --fps {GIF_FPS_LIMIT} or fewer, or write .apng"
+        Some(fps) if form == Form::Gif && fps > MAX_GIF_FPS => Err(format!(
+            "GIFs show at most {MAX_GIF_FPS} frames a second: ask for --fps {MAX_GIF_FPS} or fewer, or write .apng"
         )),
         _ => Ok(()),
     }

@@ -2,7 +2,7 @@ use base64::Engine as _;
 use serde_json::{Value, json};
 
 use super::*;
-use crate::import::File;
+use crate::import::ParsedFile;
 use crate::resolver::MemoryResolver;
 
 /// A list: component type, element, and its bytes.
@@ -60,7 +60,7 @@ fn moving(node: usize, path: &str, interpolation: &str) -> Value {
     })
 }
 
-fn opened(file: &Value) -> Result<(File, Vec<Clip>), ImportError> {
+fn opened(file: &Value) -> Result<(ParsedFile, Vec<Clip>), ImportError> {
     let bytes = serde_json::to_vec(file).unwrap();
     let file = crate::import::read(&bytes, &MemoryResolver::default())?;
     let clips = read(&file.document, &file.buffers)?;
@@ -207,7 +207,7 @@ fn broken_animations_are_refused() {
     let places = || floats("VEC3", &[0.0; 6]);
     let refused = |lists: &[List], clip: Value, message: &str| {
         let error = error_of(&gltf(lists, &json!([clip])));
-        assert!(error.contains("is no glTF that can be read"), "{error}");
+        assert!(error.contains("is not a readable glTF file"), "{error}");
         assert!(error.contains(message), "{error}");
     };
     let good = || moving(0, "translation", "LINEAR");
@@ -219,7 +219,7 @@ fn broken_animations_are_refused() {
     refused(
         &[times(), places()],
         moving(0, "colour", "STEP"),
-        "that no node has",
+        "that nodes do not have",
     );
     refused(
         &[times(), places()],
@@ -231,7 +231,7 @@ fn broken_animations_are_refused() {
         refused(
             &[floats("SCALAR", wrong), places()],
             good(),
-            "do not follow each other",
+            "not in ascending order",
         );
     }
     let spline = moving(0, "translation", "CUBICSPLINE");
@@ -250,12 +250,16 @@ fn broken_animations_are_refused() {
     let mut twice = good();
     let first = twice["channels"][0].clone();
     twice["channels"].as_array_mut().unwrap().push(first);
-    refused(&[times(), places()], twice, "moves node 0 in one way twice");
+    refused(
+        &[times(), places()],
+        twice,
+        "two channels for the same property of node 0",
+    );
     let mut beyond = gltf(&[times(), places()], &json!([good()]));
     beyond["accessors"][1]["count"] = json!(1000);
     let error = error_of(&beyond);
     assert!(error.contains("longer than its buffer view"), "{error}");
-    beyond["accessors"][1]["count"] = json!(KEY_LIMIT + 1);
+    beyond["accessors"][1]["count"] = json!(MAX_KEYS + 1);
     let error = error_of(&beyond);
     assert!(
         error.contains("has clips with 33554433 keys, more than the limit"),
@@ -270,7 +274,7 @@ fn many_channels_share_one_list_of_moments() {
     let second = json!({ "sampler": 0, "target": { "node": 1, "path": "scale" } });
     clip["channels"].as_array_mut().unwrap().push(second);
     let (_, clips) = opened(&gltf(&lists, &json!([clip]))).unwrap();
-    let [first, second] = &clips[0].moved[..] else {
+    let [first, second] = &clips[0].animated[..] else {
         panic!("two nodes move")
     };
     let (a, b) = (first.translation.as_ref(), second.scale.as_ref());

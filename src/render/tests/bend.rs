@@ -114,7 +114,7 @@ fn nothing_is_bent_at_the_ground_from_above_or_by_another_wish() {
 fn a_turn_is_framed_for_all_its_views_in_both_projections() {
     let file = file(&cube(), &used());
     let model = read(&file, &MemoryResolver::default()).unwrap();
-    let stage = Stage::new(&model, &model.rest()).unwrap();
+    let posed = PosedModel::new(&model, &model.rest()).unwrap();
     for projection in [Projection::Perspective, Projection::Orthographic] {
         let options = Options {
             projection,
@@ -132,7 +132,7 @@ fn a_turn_is_framed_for_all_its_views_in_both_projections() {
             ];
             Ok::<_, RenderError>(())
         };
-        stage.turntable(&options, 8, each).unwrap();
+        posed.turntable(&options, 8, each).unwrap();
         let [left, top, right, bottom] = reaches;
         assert!(
             left >= 13 && top >= 13 && right <= 227 && bottom <= 227,
@@ -151,7 +151,7 @@ fn seen(
     size: [u32; 2],
 ) -> Vec<Vec<Option<usize>>> {
     let model = read(file, &MemoryResolver::default()).unwrap();
-    let stage = Stage::new(&model, &model.rest()).unwrap();
+    let posed = PosedModel::new(&model, &model.rest()).unwrap();
     let [left, top, width, height] = window;
     let window = Window {
         left,
@@ -159,7 +159,17 @@ fn seen(
         width,
         height,
     };
-    let seen = stage.seen(view, bend, window, size).unwrap();
+    let seen = posed
+        .visible_surfaces(
+            &Options {
+                view,
+                bend,
+                size,
+                ..Options::default()
+            },
+            window,
+        )
+        .unwrap();
     let numbers: Vec<_> = seen
         .iter()
         .map(|seen| seen.and_then(|seen| seen.material))
@@ -254,26 +264,31 @@ fn what_is_seen_has_its_own_colour_and_lamps_change_nothing() {
     let clear = square(Vec3::new(0.0, 0.0, 1.0), 1.0, plain(1.0, 1.0, 1.0, 0.0));
     let file = file(&[shape, behind, clear], &json!({}));
     let model = read(&file, &MemoryResolver::default()).unwrap();
-    let stage = Stage::new(&model, &model.rest()).unwrap();
+    let posed = PosedModel::new(&model, &model.rest()).unwrap();
     let window = Window {
         left: -1.0,
         top: 1.0,
         width: 4.0,
         height: 2.0,
     };
-    let found = stage.seen(FRONT, true, window, [4, 1]).unwrap();
-    let near = Some(Seen {
+    let sized = |size| Options {
+        view: FRONT,
+        size,
+        ..Options::default()
+    };
+    let found = posed.visible_surfaces(&sized([4, 1]), window).unwrap();
+    let near = Some(VisibleSurface {
         material: Some(0),
         base: [0.25, 0.25, 1.0, 1.0],
     });
-    let far = Some(Seen {
+    let far = Some(VisibleSurface {
         material: Some(1),
         base: [0.0, 1.0, 0.0, 1.0],
     });
     assert_eq!(found, [near, near, far, None]);
-    let sizes = [[0, 1], [1, SIZE_LIMIT + 1]];
+    let sizes = [[0, 1], [1, MAX_SIDE + 1]];
     for size in sizes {
-        let error = stage.seen(FRONT, true, window, size).unwrap_err();
+        let error = posed.visible_surfaces(&sized(size), window).unwrap_err();
         assert!(matches!(error, RenderError::Size(..)));
     }
 }

@@ -101,7 +101,7 @@ fn skins_follow_their_joints_and_not_their_node() {
 fn refused(file: &[u8], message: &str) {
     let model = read(file, &MemoryResolver::default());
     let error = model
-        .and_then(|model| Stage::new(&model, &model.rest()).map(|_| ()))
+        .and_then(|model| PosedModel::new(&model, &model.rest()).map(|_| ()))
         .unwrap_err()
         .to_string();
     assert!(error.contains(message), "{error}");
@@ -109,10 +109,10 @@ fn refused(file: &[u8], message: &str) {
 
 #[test]
 fn broken_files_are_refused() {
-    refused(b"", "is no glTF that can be read");
+    refused(b"", "is not a readable glTF file");
     refused(
         b"glTF\x02\0\0\0\xff\xff\xff\xff",
-        "is no glTF that can be read",
+        "is not a readable glTF file",
     );
     refused(&file(&[], &json!({})), "");
     let quad = || square(Vec3::ZERO, 1.0, unlit(1.0, 1.0, 1.0, 1.0));
@@ -161,8 +161,8 @@ fn broken_files_are_refused() {
     refused(&file(&[nowhere], &json!({})), "has no triangles");
     let size = |size| {
         let model = read(&file(&[quad()], &json!({})), &MemoryResolver::default()).unwrap();
-        let stage = Stage::new(&model, &model.rest()).unwrap();
-        stage
+        let posed = PosedModel::new(&model, &model.rest()).unwrap();
+        posed
             .picture(&Options {
                 size,
                 ..Options::default()

@@ -116,18 +116,18 @@ fn who_walks_stays_in_the_picture() {
 fn frames_that_show_the_same_are_one_picture() {
     let linear = model(&walker("LINEAR"));
     let film = Film::new(&linear, &linear.clips()[0], [0.0, 3.0]).unwrap();
-    let shots = film.shots(24).unwrap();
-    assert_eq!(shots.len(), 49);
-    assert_eq!((shots[48].frames, shots[48].time), (24, 2.0));
-    assert!((shots[48].seconds - 1.0).abs() < 1e-9);
+    let held = film.held_frames(24).unwrap();
+    assert_eq!(held.len(), 49);
+    assert_eq!((held[48].frames, held[48].time), (24, 2.0));
+    assert!((held[48].seconds - 1.0).abs() < 1e-9);
     let step = model(&walker("STEP"));
     let whole = |fps: u32, span: [f64; 2]| {
         let film = Film::new(&step, &step.clips()[0], span).unwrap();
-        film.shots(fps).unwrap()
+        film.held_frames(fps).unwrap()
     };
     let frames: Vec<u32> = whole(24, [0.0, 3.0])
         .iter()
-        .map(|shot| shot.frames)
+        .map(|frame| frame.frames)
         .collect();
     assert_eq!(frames, [24, 24, 24]);
     // A length that is no number of frames is kept all the same.
@@ -136,9 +136,9 @@ fn frames_that_show_the_same_are_one_picture() {
         (7, [0.0, 3.0], 21),
         (10, [0.0, 0.0], 1),
     ] {
-        let shots = whole(fps, span);
-        assert_eq!(shots.iter().map(|shot| shot.frames).sum::<u32>(), frames);
-        let seconds: f64 = shots.iter().map(|shot| shot.seconds).sum();
+        let held = whole(fps, span);
+        assert_eq!(held.iter().map(|frame| frame.frames).sum::<u32>(), frames);
+        let seconds: f64 = held.iter().map(|frame| frame.seconds).sum();
         let wanted = if span[1] > span[0] {
             span[1] - span[0]
         } else {
@@ -146,11 +146,11 @@ fn frames_that_show_the_same_are_one_picture() {
         };
         assert!((seconds - wanted).abs() < 1e-9, "{seconds}");
     }
-    let shots = whole(24, [0.0, 400.0]);
-    assert!(shots.iter().all(|shot| shot.seconds <= 60.0));
-    assert_eq!(shots.iter().map(|shot| shot.frames).sum::<u32>(), 9600);
+    let held = whole(24, [0.0, 400.0]);
+    assert!(held.iter().all(|frame| frame.seconds <= 60.0));
+    assert_eq!(held.iter().map(|frame| frame.frames).sum::<u32>(), 9600);
     let film = Film::new(&step, &step.clips()[0], [0.0, 1e9]).unwrap();
-    let error = film.shots(24).unwrap_err().to_string();
+    let error = film.held_frames(24).unwrap_err().to_string();
     assert!(
         error.contains("would be 24000000000 frames, more than the limit of 10000"),
         "{error}"
@@ -162,7 +162,9 @@ fn a_strip_shows_moments_side_by_side() {
     let model = model(&walker("STEP"));
     let film = Film::new(&model, &model.clips()[0], [0.0, 3.0]).unwrap();
     let told = std::cell::Cell::new(0);
-    let strip = film.strip(&wide(100), 4, |done| told.set(done)).unwrap();
+    let strip = film
+        .film_strip(&wide(100), 4, |done| told.set(done))
+        .unwrap();
     assert_eq!((strip.dimensions(), told.get()), ((400, 40), 4));
     let cells = drawn(&film, &wide(100), &[0.0, 1.0, 2.0, 3.0]);
     for (index, cell) in cells.iter().enumerate() {
@@ -174,8 +176,8 @@ fn a_strip_shows_moments_side_by_side() {
         size: [8192, 8192],
         ..wide(1)
     };
-    let error = film.strip(&large, 2, |_| ()).unwrap_err();
-    assert!(matches!(error, RenderError::Strip(16384, 8192)));
+    let error = film.film_strip(&large, 2, |_| ()).unwrap_err();
+    assert!(matches!(error, RenderError::FilmStripTooLarge(16384, 8192)));
 }
 
 #[test]

@@ -1,32 +1,30 @@
-//! A ready model that a part is made of: its triangles at rest, and all its looks.
-
-use std::sync::Arc;
+//! A finished model that a part is made of: its triangles at rest, its materials and their images.
 
 use ::gltf::texture::{MagFilter, WrappingMode};
 use ::gltf::{Document, image, material};
 use glam::{DMat3, DVec3};
 
-use super::{Buffers, File, ImportError, Soup, fetch, malformed, read};
+use super::{Buffers, ImportError, ParsedFile, TriangleSoup, read};
 use crate::resolver::Resolver;
 use crate::scene::{
     AlphaMode, Filter, Image, Material, MediaType, Surface, Texture, TextureUse, Wrap,
 };
 
-/// A model with everything that it shows. Vertex colours are not kept.
+/// A model at rest with its materials. Vertex colours are dropped.
 #[derive(Debug)]
-pub struct Asset {
+pub struct StaticModel {
     /// Its materials.
     pub materials: Vec<Material>,
-    /// The textures that they use.
+    /// The textures that the materials use.
     pub textures: Vec<Texture>,
-    /// The images that these show.
+    /// The images that the textures use.
     pub images: Vec<Image>,
-    /// The least and the greatest corner of its box, in the file's axes: +Y up, its front towards +Z.
+    /// The lower and the upper corner of its bounding box, in the file's axes: +Y up, front towards +Z.
     pub bounds: [DVec3; 2],
     pieces: Vec<Piece>,
 }
 
-/// Triangles of one material.
+/// The triangles of one material.
 #[derive(Debug, Default)]
 struct Piece {
     material: usize,
@@ -36,19 +34,22 @@ struct Piece {
     triangles: Vec<[u32; 3]>,
 }
 
-/// Reads a model as it rests; what it links to comes from `resolver`.
+/// Reads a model in its rest pose; what it links to comes from `resolver`.
 ///
 /// # Errors
-/// What cannot be read, has no triangles or too many, or shows images that are neither PNG nor JPEG.
-pub fn read_asset(bytes: &[u8], resolver: &dyn Resolver) -> Result<Asset, ImportError> {
-    let File {
+/// A file that cannot be read, has no triangles or too many, or has images that are neither PNG nor JPEG.
+pub fn read_static_model(
+    bytes: &[u8],
+    resolver: &dyn Resolver,
+) -> Result<StaticModel, ImportError> {
+    let ParsedFile {
         document,
         buffers,
         geometry,
     } = read(bytes, resolver)?;
     let soup = geometry.triangles(&geometry.rest())?;
     let mut materials: Vec<Material> = document.materials().map(|m| self::material(&m)).collect();
-    // What glTF gives to triangles without a material.
+    // The default material of glTF.
     materials.push(Material {
         name: "default".to_owned(),
         metallic: 1.0,
@@ -59,25 +60,25 @@ pub fn read_asset(bytes: &[u8], resolver: &dyn Resolver) -> Result<Asset, Import
     let points = || pieces.iter().flat_map(|piece| &piece.positions).copied();
     let first = points().next().ok_or(ImportError::Empty)?;
     let bounds = points().fold([first; 2], |[low, high], p| [low.min(p), high.max(p)]);
-    let mut asset = Asset {
+    let mut asset = StaticModel {
         textures: textures(&document),
         images: images(&document, &buffers, resolver)?,
         materials,
         bounds,
         pieces,
     };
-    asset.forget_unused();
+    asset.remove_unused();
     Ok(asset)
 }
 
-impl Asset {
-    /// How many triangles it has.
+impl StaticModel {
+    /// The number of triangles.
     pub fn triangles(&self) -> usize {
         self.pieces.iter().map(|piece| piece.triangles.len()).sum()
     }
 
-    /// Its surfaces, one a material and each with that material's number, with every point at
-    /// `turn · point + translation`; `turn` may scale, but evenly.
+    /// One surface for each material, with the material's index. Every point is moved to `turn · point + translation`;
+    /// `turn` may contain a uniform scale.
     pub fn placed(
         &self,
         turn: DMat3,
@@ -97,22 +98,22 @@ impl Asset {
         })
     }
 
-    /// Leaves out materials, textures and images that nothing shows.
-    fn forget_unused(&mut self) {
+    /// Removes unused materials, textures and images.
+    fn remove_unused(&mut self) {
         let of_pieces = self.pieces.iter_mut().map(|piece| &mut piece.material);
-        keep_used(&mut self.materials, of_pieces.collect());
+        retain_used(&mut self.materials, of_pieces.collect());
         let of_materials = self.materials.iter_mut().flat_map(Material::textures_mut);
-        keep_used(
+        retain_used(
             &mut self.textures,
             of_materials.map(|used| &mut used.texture).collect(),
         );
         let of_textures = self.textures.iter_mut().map(|texture| &mut texture.image);
-        keep_used(&mut self.images, of_textures.collect());
+        retain_used(&mut self.images, of_textures.collect());
     }
 }
 
-/// Keeps what is referred to, and has the references follow.
-fn keep_used<T>(list: &mut Vec<T>, references: Vec<&mut usize>) {
+/// Removes the items that nothing refers to, and renumbers the references.
+fn retain_used<T>(list: &mut Vec<T>, references: Vec<&mut usize>) {
     let mut used = vec![false; list.len()];
     references.iter().for_each(|index| used[**index] = true);
     let mut next = 0;
@@ -130,12 +131,12 @@ fn keep_used<T>(list: &mut Vec<T>, references: Vec<&mut usize>) {
     list.retain(|_| used.next().unwrap_or(false));
 }
 
-/// The triangles that have an area, a piece a material.
-fn pieces(soup: &Soup, materials: &[Material]) -> Vec<Piece> {
+/// The triangles that have an area, grouped by material.
+fn pieces(soup: &TriangleSoup, materials: &[Material]) -> Vec<Piece> {
     let mut pieces: Vec<Piece> = Vec::new();
     let mut piece_of: Vec<Option<usize>> = vec![None; materials.len()];
-    // Per corner of the soup the piece that has it, and its number there.
-    let mut moved: Vec<Option<(usize, u32)>> = vec![None; soup.positions.len()];
+    // For each corner: the piece that it was copied to, and its index there.
+    let mut copies: Vec<Option<(usize, u32)>> = vec![None; soup.positions.len()];
     for (triangle, material) in soup.triangles.iter().zip(&soup.materials) {
         let corners = triangle.map(|corner| soup.positions[corner as usize]);
         let facet = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
@@ -166,7 +167,7 @@ fn pieces(soup: &Soup, materials: &[Material]) -> Vec<Piece> {
             }
             piece.positions.len() as u32 - 1
         };
-        // Without normals triangles are flat (glTF 2.0, 3.7.2.1), so their corners are their own.
+        // Triangles without normals are shaded flat (glTF 2.0, 3.7.2.1), so they cannot share corners.
         let flat = triangle
             .iter()
             .any(|corner| soup.normals[*corner as usize].length_squared() < 0.5);
@@ -175,11 +176,11 @@ fn pieces(soup: &Soup, materials: &[Material]) -> Vec<Piece> {
             if flat {
                 return push(corner, facet.normalize());
             }
-            match moved[corner] {
+            match copies[corner] {
                 Some((owner, number)) if owner == slot => number,
                 _ => {
                     let number = push(corner, soup.normals[corner].as_dvec3());
-                    moved[corner] = Some((slot, number));
+                    copies[corner] = Some((slot, number));
                     number
                 }
             }
@@ -248,22 +249,11 @@ fn images(
     buffers: &Buffers,
     resolver: &dyn Resolver,
 ) -> Result<Vec<Image>, ImportError> {
-    let sources = &document.as_json().images;
     let read = |image: image::Image<'_>| {
+        let bytes = buffers.image(document, &image, resolver)?;
         let index = image.index();
-        let source = &sources[index];
-        // The `gltf` crate takes for granted that one of them is there.
-        let in_view = source.buffer_view.is_some() && source.mime_type.is_some();
-        if !in_view && (source.buffer_view.is_some() || source.uri.is_none()) {
-            let message = format!("image {index} does not say where or what it is");
-            return Err(malformed(message));
-        }
-        let bytes: Arc<[u8]> = match image.source() {
-            image::Source::View { view, .. } => Arc::from(buffers.view(&view)?),
-            image::Source::Uri { uri, .. } => fetch(uri, resolver)?,
-        };
         let media_type = MediaType::of(&bytes)
-            .ok_or_else(|| ImportError::Image(format!("image {index} is something else")))?;
+            .ok_or_else(|| ImportError::Image(format!("image {index} is neither PNG nor JPEG")))?;
         Ok(Image {
             name: image.name().unwrap_or_default().to_owned(),
             media_type,

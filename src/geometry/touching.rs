@@ -1,23 +1,23 @@
-//! Rings that touch in a point are pulled apart there.
+//! Separates rings that touch in a point.
 //!
-//! The solid over two squares that share a corner would have four faces on the edge above that
-//! corner. A gap too small to be seen keeps every edge between exactly two faces. Corners are cut
-//! rather than moved: edges then stay on their lines and cross nothing that they did not before.
+//! The solid over two squares that share a corner would have four faces on the edge above that corner. An invisibly
+//! small gap keeps every edge between exactly two faces. Corners are cut rather than moved, so that edges stay on their
+//! lines and cannot cross others.
 
 use glam::DVec2;
 
 use super::Polygon;
-use super::clean::GridShapes;
+use super::boolean::GridShapes;
 
 /// How far from its tip a corner is cut, relative to the outline's extent.
 const GAP: f64 = 1e-4;
-/// How much of an edge may be cut away at each end.
-const MOST: f64 = 0.25;
-/// By how much less the next corner in the same place is cut, relative to the first: edges may
-/// leave a place in almost one direction.
-const LESS: f64 = 0.1;
+/// The largest share of an edge that may be cut off at each end.
+const MAX_CUT: f64 = 0.25;
+/// By how much less the next corner in the same place is cut, relative to the first: edges may leave a place in almost
+/// the same direction.
+const CUT_DECREASE: f64 = 0.1;
 
-/// A point of a ring that another one lies on, or the same ring once more.
+/// A point of a ring that coincides with another one of the same or another ring.
 #[derive(Clone, Copy)]
 struct Corner {
     /// Polygon, ring and point.
@@ -28,9 +28,9 @@ struct Corner {
     on: DVec2,
 }
 
-/// Pulls points of clean polygons that coincide on the grid apart. `shapes` are the same rings on
-/// the grid. Returns whether there were any.
-pub(super) fn pull_apart(shapes: &GridShapes, polygons: &mut [Polygon], extent: f64) -> bool {
+/// Separates points of polygons that coincide on the grid. `shapes` are the same rings on the grid. Returns whether
+/// there were any.
+pub(super) fn separate(shapes: &GridShapes, polygons: &mut [Polygon], extent: f64) -> bool {
     let places = places(shapes);
     let mut cuts: Vec<([usize; 3], f64)> = Vec::new();
     for shared in places.chunk_by(|a, b| a.0 == b.0).filter(|c| c.len() > 1) {
@@ -50,7 +50,7 @@ pub(super) fn pull_apart(shapes: &GridShapes, polygons: &mut [Polygon], extent: 
         let first = cuts.len();
         choose(corners.collect(), &mut cuts);
         for (k, cut) in cuts[first..].iter_mut().enumerate() {
-            cut.1 = (1.0 - LESS).powi(k as i32);
+            cut.1 = (1.0 - CUT_DECREASE).powi(k as i32);
         }
     }
     cuts.sort_unstable_by_key(|cut| cut.0);
@@ -64,7 +64,7 @@ pub(super) fn pull_apart(shapes: &GridShapes, polygons: &mut [Polygon], extent: 
             if let Some((_, share)) = cuts.next_if(|cut| cut.0[2] == i) {
                 for end in [ring[(i + n - 1) % n], ring[(i + 1) % n]] {
                     let edge = end - ring[i];
-                    let part = share * (GAP * extent / edge.length()).min(MOST);
+                    let part = share * (GAP * extent / edge.length()).min(MAX_CUT);
                     cut.push(ring[i] + edge * part);
                 }
             } else {
@@ -81,7 +81,7 @@ pub(super) fn touches(shapes: &GridShapes) -> bool {
     places(shapes).windows(2).any(|w| w[0].0 == w[1].0)
 }
 
-/// All points in order, with their polygons, rings and numbers there.
+/// All points, sorted, each with the indices of its polygon, ring and point.
 fn places(shapes: &GridShapes) -> Vec<([i64; 2], [usize; 3])> {
     let mut places = Vec::new();
     for (s, shape) in shapes.iter().enumerate() {
@@ -93,8 +93,8 @@ fn places(shapes: &GridShapes) -> Vec<([i64; 2], [usize; 3])> {
     places
 }
 
-/// Which of the corners in one place are cut: again and again those that no other one reaches
-/// into on the side where they are convex, until one is left.
+/// Chooses which of the corners in one place are cut: repeatedly those into whose convex side no other corner reaches,
+/// until one is left.
 fn choose(mut corners: Vec<Corner>, cuts: &mut Vec<([usize; 3], f64)>) {
     while corners.len() > 1 {
         let free = |i: usize| {
@@ -116,7 +116,7 @@ fn choose(mut corners: Vec<Corner>, cuts: &mut Vec<([usize; 3], f64)>) {
         let mut kept = None;
         corners.retain(|corner| {
             let cut = free.next() == Some(true);
-            // The last one can stay where it is.
+            // The last corner can stay.
             if cut {
                 cuts.extend(kept.replace((corner.place, 1.0)));
             }

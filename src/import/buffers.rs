@@ -1,8 +1,9 @@
-//! Buffers, and lists in them. The `gltf` crate reads lists but trusts that they fit; here that is seen to first.
+//! Buffers and accessors. The `gltf` crate reads accessors without checking that they fit; they are checked here first.
 
 use std::sync::Arc;
 
 use ::gltf::accessor::{DataType, Dimensions, Item, Iter};
+use ::gltf::image::{Image, Source};
 use ::gltf::{Accessor, Buffer, Document, buffer};
 use base64::Engine as _;
 
@@ -21,10 +22,10 @@ pub(super) const VEC3: Dimensions = Dimensions::Vec3;
 pub(super) const VEC4: Dimensions = Dimensions::Vec4;
 pub(super) const MAT4: Dimensions = Dimensions::Mat4;
 
-/// No length or place in a file is larger than this, so that sums of a few of them do not overflow.
-const LARGEST: usize = 1 << 40;
+/// No length or offset in a file may be larger, so that sums of a few of them do not overflow.
+const MAX_EXTENT: usize = 1 << 40;
 
-/// The data of a file.
+/// The buffers of a file.
 pub(crate) struct Buffers(Vec<Vec<u8>>);
 
 impl Buffers {
@@ -51,8 +52,8 @@ impl Buffers {
         self.0.get(buffer.index()).map(Vec::as_slice)
     }
 
-    /// The bytes of a view.
-    pub(crate) fn view(&self, view: &buffer::View<'_>) -> Result<&[u8], ImportError> {
+    /// The bytes of a buffer view.
+    fn view(&self, view: &buffer::View<'_>) -> Result<&[u8], ImportError> {
         let end = view.offset().checked_add(view.length());
         let bytes = end.and_then(|end| self.of(&view.buffer())?.get(view.offset()..end));
         bytes.ok_or_else(|| {
@@ -63,7 +64,32 @@ impl Buffers {
         })
     }
 
-    /// Refuses a list that is not of one of these types or does not lie in its buffer.
+    /// The encoded bytes of an image.
+    ///
+    /// # Errors
+    /// An image without a source, or one whose source cannot be read.
+    pub(crate) fn image(
+        &self,
+        document: &Document,
+        image: &Image<'_>,
+        resolver: &dyn Resolver,
+    ) -> Result<Arc<[u8]>, ImportError> {
+        let index = image.index();
+        let source = &document.as_json().images[index];
+        // The `gltf` crate panics if there is neither.
+        let in_view = source.buffer_view.is_some() && source.mime_type.is_some();
+        if !in_view && (source.buffer_view.is_some() || source.uri.is_none()) {
+            let message =
+                format!("image {index} has neither data with a media type nor an address");
+            return Err(malformed(message));
+        }
+        match image.source() {
+            Source::View { view, .. } => Ok(self.view(&view)?.into()),
+            Source::Uri { uri, .. } => fetch(uri, resolver),
+        }
+    }
+
+    /// Checks that an accessor has one of these types and lies in its buffer.
     pub(super) fn check(
         &self,
         accessor: &Accessor<'_>,
@@ -80,7 +106,7 @@ impl Buffers {
         let fits = |view: buffer::View<'_>, offset: usize, count: usize, size: usize| {
             let stride = view.stride().unwrap_or(size);
             let length = self.view(&view)?.len();
-            let sound = count > 0 && stride >= size && offset.max(count).max(stride) < LARGEST;
+            let sound = count > 0 && stride >= size && offset.max(count).max(stride) < MAX_EXTENT;
             match sound && stride.saturating_mul(count - 1) + size + offset <= length {
                 true => Ok(()),
                 false => Err(short()),
@@ -88,8 +114,8 @@ impl Buffers {
         };
         match accessor.view() {
             Some(view) => fits(view, accessor.offset(), accessor.count(), accessor.size())?,
-            // Without a view it is zeros, as many as it likes to claim.
-            None if accessor.count() > super::TRIANGLE_LIMIT * 3 => return Err(short()),
+            // Without a view it is all zeros, of any count it claims.
+            None if accessor.count() > super::MAX_TRIANGLES * 3 => return Err(short()),
             None => {}
         }
         if let Some(sparse) = accessor.sparse() {
@@ -111,7 +137,7 @@ impl Buffers {
         Ok(())
     }
 
-    /// A list of one of these types.
+    /// The items of an accessor that has one of these types.
     pub(super) fn list<'a, T: Item>(
         &'a self,
         accessor: &Accessor<'a>,
@@ -123,8 +149,8 @@ impl Buffers {
     }
 }
 
-/// The bytes behind an address: in itself, or beside the file.
-pub(crate) fn fetch(uri: &str, resolver: &dyn Resolver) -> Result<Arc<[u8]>, ImportError> {
+/// The bytes at an address: a data URI, or a file beside this one.
+fn fetch(uri: &str, resolver: &dyn Resolver) -> Result<Arc<[u8]>, ImportError> {
     let Some(data) = uri.strip_prefix("data:") else {
         return resolver.read(uri).map_err(|error| ImportError::Link {
             link: uri.to_owned(),

@@ -1,3 +1,4 @@
+use super::super::query::{area, contains, distance_squared};
 use super::*;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
@@ -39,15 +40,15 @@ fn check(outline: &Outline) {
     assert_eq!(seen.len(), count, "points coincide: {outline:?}");
 }
 
-fn cleaned(rings: Vec<Ring>, rule: FillRule) -> Outline {
-    let outline = clean(rings, rule);
+fn checked(rings: Vec<Ring>, rule: FillRule) -> Outline {
+    let outline = resolve_overlaps(rings, rule);
     check(&outline);
     outline
 }
 
 fn assert_area(rings: &[Ring], nonzero: f64, even_odd: f64) {
     for (rule, expected) in [(FillRule::NonZero, nonzero), (FillRule::EvenOdd, even_odd)] {
-        let found = area(&cleaned(rings.to_vec(), rule));
+        let found = area(&checked(rings.to_vec(), rule));
         assert!(
             (found - expected).abs() <= 1e-3 * expected,
             "{rule:?} {found} {expected}"
@@ -67,7 +68,7 @@ fn simple_rings_keep_their_points() {
     ]);
     for points in [square(0.1, 0.3, 7.7), l] {
         for reversed in [points.clone(), points.iter().rev().copied().collect()] {
-            let outline = cleaned(vec![reversed], FillRule::NonZero);
+            let outline = checked(vec![reversed], FillRule::NonZero);
             let mut found = outline.polygons[0].rings[0].clone();
             let mut expected = points.clone();
             found.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
@@ -113,7 +114,7 @@ fn superfluous_points_go() {
         (0., 10.),
     ]);
     for rough in [rough, spike] {
-        let outline = cleaned(vec![rough], FillRule::NonZero);
+        let outline = checked(vec![rough], FillRule::NonZero);
         assert_eq!(outline.polygons[0].rings[0].len(), 4);
         assert!((area(&outline) - 100.0).abs() < 1e-3);
     }
@@ -122,7 +123,7 @@ fn superfluous_points_go() {
 #[test]
 fn holes_and_islands() {
     let nested = [square(0., 0., 9.), square(1., 1., 7.), square(2., 2., 5.)];
-    let outline = cleaned(nested.to_vec(), FillRule::EvenOdd);
+    let outline = checked(nested.to_vec(), FillRule::EvenOdd);
     assert_eq!(shape(&outline), [1, 2]);
     assert!((area(&outline) - (81.0 - 49.0 + 25.0)).abs() < 1e-3);
     let at = |x| contains(&outline, DVec2::new(x, 4.5));
@@ -130,27 +131,30 @@ fn holes_and_islands() {
     assert!((distance_squared(&outline, DVec2::new(1.75, 4.5)) - 0.0625).abs() < 1e-6);
     assert_eq!(distance_squared(&outline, DVec2::new(4.0, 4.5)), 0.0);
     assert_eq!(bounds(&outline), Some((DVec2::ZERO, DVec2::splat(9.0))));
-    assert_eq!(shape(&clean(nested.to_vec(), FillRule::NonZero)), [1]);
+    assert_eq!(
+        shape(&resolve_overlaps(nested.to_vec(), FillRule::NonZero)),
+        [1]
+    );
 }
 
 #[test]
 fn touching_rings_are_pulled_apart() {
-    let corners = cleaned(
+    let corners = checked(
         vec![square(0., 0., 1.), square(1., 1., 1.)],
         FillRule::NonZero,
     );
     assert_eq!(shape(&corners), [1, 1]);
     let tip = ring(&[(0., 4.), (3., 2.), (3., 6.)]);
-    let on_edge = cleaned(vec![square(0., 0., 9.), tip], FillRule::EvenOdd);
+    let on_edge = checked(vec![square(0., 0., 9.), tip], FillRule::EvenOdd);
     assert!((area(&on_edge) - 75.0).abs() < 0.01);
     let on_corner = ring(&[(0., 0.), (5., 2.), (2., 5.)]);
-    let on_corner = cleaned(vec![square(0., 0., 9.), on_corner], FillRule::EvenOdd);
+    let on_corner = checked(vec![square(0., 0., 9.), on_corner], FillRule::EvenOdd);
     assert!((area(&on_corner) - (81.0 - 10.5)).abs() < 0.01);
     let checks = (0..16).filter(|i| (i / 4 + i) % 2 == 0);
     let checks: Vec<_> = checks
         .map(|i| square((i % 4) as f64, (i / 4) as f64, 1.))
         .collect();
-    assert!((area(&cleaned(checks, FillRule::EvenOdd)) - 8.0).abs() < 0.01);
+    assert!((area(&checked(checks, FillRule::EvenOdd)) - 8.0).abs() < 0.01);
 }
 
 #[test]
@@ -168,7 +172,7 @@ fn nothing_comes_of_nothing() {
     ] {
         for rule in [FillRule::NonZero, FillRule::EvenOdd] {
             assert_eq!(
-                cleaned(rings.clone(), rule),
+                checked(rings.clone(), rule),
                 Outline::default(),
                 "{rings:?}"
             );
@@ -195,18 +199,21 @@ fn sizes_do_not_matter() {
                 .map(|r| r.iter().map(|p| p * size).collect())
                 .collect();
             let (a, b) = (
-                cleaned(rings, FillRule::EvenOdd),
-                cleaned(scaled, FillRule::EvenOdd),
+                checked(rings, FillRule::EvenOdd),
+                checked(scaled, FillRule::EvenOdd),
             );
             assert!((area(&b) / (size * size) / area(&a) - 1.0).abs() < 1e-3);
         }
     }
     for size in [1e-300, 1e100, 1e300] {
         let scaled = star(7, 3).iter().map(|p| p * size).collect();
-        clean(vec![scaled], FillRule::NonZero);
+        resolve_overlaps(vec![scaled], FillRule::NonZero);
     }
     let far = star(7, 3).iter().map(|p| 1e30 + p).collect();
-    assert_eq!(clean(vec![far], FillRule::NonZero), Outline::default());
+    assert_eq!(
+        resolve_overlaps(vec![far], FillRule::NonZero),
+        Outline::default()
+    );
     let mixed = ring(&[
         (0., 0.),
         (1., 0.),
@@ -215,12 +222,12 @@ fn sizes_do_not_matter() {
         (-1e30, 4e29),
         (0., 2.),
     ]);
-    cleaned(vec![mixed], FillRule::NonZero);
+    checked(vec![mixed], FillRule::NonZero);
 }
 
 #[test]
 fn clips_and_unions() {
-    let one = |points: Ring| clean(vec![points], FillRule::NonZero);
+    let one = |points: Ring| resolve_overlaps(vec![points], FillRule::NonZero);
     let (a, b) = (one(square(0., 0., 10.)), one(square(5., 5., 10.)));
     for (outline, expected) in [(intersect(&a, &b), 25.0), (union(&[a.clone(), b]), 175.0)] {
         check(&outline);
@@ -245,10 +252,10 @@ proptest! {
         let point = |&(x, y): &(i32, i32)| turn.rotate(DVec2::new(x.into(), y.into()));
         let rings: Vec<Ring> = rings.iter().map(|r| r.iter().map(point).collect()).collect();
         for rule in [FillRule::NonZero, FillRule::EvenOdd] {
-            let outline = cleaned(rings.clone(), rule);
+            let outline = checked(rings.clone(), rule);
             // Clean outlines stay what they are.
             let again = outline.polygons.iter().flat_map(|p| p.rings.clone()).collect();
-            let again = cleaned(again, rule);
+            let again = checked(again, rule);
             prop_assert!((area(&again) - area(&outline)).abs() <= 1e-3 * area(&outline));
         }
     }
@@ -274,11 +281,11 @@ fn nested_rings_need_no_overlay() {
     for reversed in 0..1 << rings.len() {
         for rule in [FillRule::NonZero, FillRule::EvenOdd] {
             let rings = ways(&rings, reversed);
-            let plain = cleaned(rings.clone(), rule);
+            let plain = checked(rings.clone(), rule);
             // A ring that crosses itself sends all of them to the overlay.
             let mut crossed = rings;
             crossed.push(ring(&[(40., 0.), (42., 2.), (42., 0.), (40., 2.)]));
-            let overlaid = cleaned(crossed, rule);
+            let overlaid = checked(crossed, rule);
             let bow_tie = 2.0;
             assert!(
                 (area(&plain) + bow_tie - area(&overlaid)).abs() < 1e-3,
@@ -297,7 +304,7 @@ fn shared_points_are_touches() {
     let squares = vec![square(0., 0., 2.), square(2., 2., 2.)];
     for rings in [vec![bow], squares] {
         for rule in [FillRule::NonZero, FillRule::EvenOdd] {
-            assert_eq!(shape(&cleaned(rings.clone(), rule)), [1, 1]);
+            assert_eq!(shape(&checked(rings.clone(), rule)), [1, 1]);
         }
     }
 }

@@ -1,5 +1,5 @@
-//! The bend of the extension `OKOSHI_view_dependent` (docs/view-dependent.md): what it is for a viewer, and which nodes
-//! ask for it.
+//! The extension `OKOSHI_view_dependent` (docs/view-dependent.md): which nodes bend with the view, and the matrix that
+//! bends them for a viewer.
 
 use ::gltf::Node;
 use glam::{DMat3, DMat4, DVec3};
@@ -7,14 +7,14 @@ use glam::{DMat3, DMat4, DVec3};
 use super::{ImportError, malformed};
 
 const EXTENSION: &str = "OKOSHI_view_dependent";
-/// Degrees above the ground from which the content is stretched most.
-const MOST: f64 = 45.0;
+/// The elevation with the largest stretch, in degrees above the ground.
+const STEEPEST: f64 = 45.0;
 
-/// Whether a node asks for the bend.
+/// Whether a node bends with the view.
 ///
 /// # Errors
-/// The extension, or the bend in it, is no object. Ways of following the viewer that are not known are passed over.
-pub(super) fn asked(node: &Node<'_>) -> Result<bool, ImportError> {
+/// The extension, or its `bend`, is not an object. Other kinds of view dependence are ignored.
+pub(super) fn has_bend(node: &Node<'_>) -> Result<bool, ImportError> {
     let Some(extension) = node.extension_value(EXTENSION) else {
         return Ok(false);
     };
@@ -30,26 +30,27 @@ pub(super) fn asked(node: &Node<'_>) -> Result<bool, ImportError> {
     }
 }
 
-/// The bend of a node that stands so in the world, in the node's own frame, for a viewer in a direction of the world.
+/// The bend in a node's own frame. `global` takes that frame into the world, `towards` points to the viewer in the
+/// world.
 ///
-/// What cannot be bent (a node that is flat, a viewer nowhere) is left as it is.
-pub(super) fn bend(global: DMat4, towards: DVec3) -> DMat4 {
+/// The identity if there is no bend, because the node is flat or the direction is zero.
+pub(super) fn bend_matrix(global: DMat4, towards: DVec3) -> DMat4 {
     let into = DMat3::from_mat4(global).inverse();
     match (into * towards).try_normalize() {
-        Some(towards) => DMat4::from_mat3(of(towards)),
+        Some(towards) => DMat4::from_mat3(bend_for(towards)),
         None => DMat4::IDENTITY,
     }
 }
 
-/// The bend for the unit vector towards the viewer, +Y being up: a scale by R along u = (up − h)/√2, where h is the
-/// viewer's horizontal direction (Kitamura, equation 3.2 with the ranges for negative θ, which are swapped in print, put right).
-fn of(towards: DVec3) -> DMat3 {
+/// The bend for the unit vector towards the viewer, with +Y up: a scale by R along u = (up − h)/√2, where h is the
+/// viewer's horizontal direction (Kitamura, equation 3.2; the ranges for negative θ, swapped in print, are corrected).
+fn bend_for(towards: DVec3) -> DMat3 {
     let Some(horizontal) = DVec3::new(towards.x, 0.0, towards.z).try_normalize() else {
         // From straight above R is 1.
         return DMat3::IDENTITY;
     };
     let elevation = towards.y.clamp(-1.0, 1.0).asin().to_degrees().abs();
-    let more = (std::f64::consts::SQRT_2 - 1.0) * (1.0 - (elevation - MOST).abs() / MOST);
+    let more = (std::f64::consts::SQRT_2 - 1.0) * (1.0 - (elevation - STEEPEST).abs() / STEEPEST);
     let along = (DVec3::Y - horizontal) * std::f64::consts::FRAC_1_SQRT_2;
     DMat3::IDENTITY
         + DMat3::from_cols(
@@ -69,9 +70,9 @@ mod tests {
         DVec3::new(cos * yaw_sin, sin, cos * yaw_cos)
     }
 
-    /// How much is stretched, and along what.
+    /// The ratio R.
     fn stretched(yaw: f64, pitch: f64) -> f64 {
-        of(towards(yaw, pitch)).determinant()
+        bend_for(towards(yaw, pitch)).determinant()
     }
 
     #[test]
@@ -97,22 +98,22 @@ mod tests {
             let turn = DMat3::from_rotation_x(std::f64::consts::FRAC_PI_4);
             let scale = DMat3::from_diagonal(DVec3::new(1.0, ratio, 1.0));
             let of_thesis = turn.transpose() * scale * turn;
-            assert!(of(towards(0.0, pitch)).abs_diff_eq(of_thesis, 1e-12));
-            // From elsewhere it is the same, turned with the viewer.
+            assert!(bend_for(towards(0.0, pitch)).abs_diff_eq(of_thesis, 1e-12));
+            // From another side it is the same matrix, rotated with the viewer.
             let round = DMat3::from_rotation_y(2.0);
-            let turned = of(towards(2.0_f64.to_degrees(), pitch));
+            let turned = bend_for(towards(2.0_f64.to_degrees(), pitch));
             assert!(turned.abs_diff_eq(round * of_thesis * round.transpose(), 1e-12));
         }
     }
 
     #[test]
     fn the_viewer_is_seen_from_the_nodes_own_frame() {
-        // The node's up is the world's -Z, to which a viewer in front looks straight up.
+        // The node's up is the world's -Z, so a viewer in front is straight above it.
         let lying = DMat4::from_rotation_x(-std::f64::consts::FRAC_PI_2);
-        assert!(bend(lying, towards(0.0, 0.0)).abs_diff_eq(DMat4::IDENTITY, 1e-12));
-        let bent = bend(lying, towards(0.0, 45.0));
+        assert!(bend_matrix(lying, towards(0.0, 0.0)).abs_diff_eq(DMat4::IDENTITY, 1e-12));
+        let bent = bend_matrix(lying, towards(0.0, 45.0));
         assert!((bent.determinant() - std::f64::consts::SQRT_2).abs() < 1e-12);
         let flat = DMat4::from_scale(DVec3::new(1.0, 0.0, 1.0));
-        assert_eq!(bend(flat, DVec3::Z), DMat4::IDENTITY);
+        assert_eq!(bend_matrix(flat, DVec3::Z), DMat4::IDENTITY);
     }
 }

@@ -1,22 +1,22 @@
-//! Pictures as files: PNG, animated PNG, GIF.
+//! Writes pictures as PNG, animated PNG and GIF.
 
 use std::io::{self, Write};
 
 use color_quant::NeuQuant;
 use rustc_hash::FxHashMap;
 
-use super::stage::Image;
+use super::posed_model::Image;
 
-/// The most frames a second that viewers of GIFs show.
-pub const GIF_FPS_LIMIT: u32 = 50;
-/// The shortest delay that viewers of GIFs keep, hundredths of a second.
-const SHORTEST: u16 = 2;
-/// The colours of a GIF, the clear one not counted.
-const COLOURS: usize = 255;
-/// How many pixels the colours of a GIF are chosen from, at the most.
-const SAMPLES: usize = 200_000;
-/// Which pixels of eight by eight stay when some must be dropped (Bayer).
-const THRESHOLDS: [[u8; 8]; 8] = [
+/// The highest frame rate that viewers of GIFs show.
+pub const MAX_GIF_FPS: u32 = 50;
+/// The shortest delay that viewers of GIFs respect, in hundredths of a second.
+const MIN_GIF_DELAY: u16 = 2;
+/// The number of colours in a GIF, without the transparent one.
+const PALETTE_SIZE: usize = 255;
+/// How many pixels the palette of a GIF is computed from, at most.
+const MAX_PALETTE_SAMPLES: usize = 200_000;
+/// Thresholds for ordered dithering of alpha (Bayer matrix).
+const BAYER_8X8: [[u8; 8]; 8] = [
     [0, 32, 8, 40, 2, 34, 10, 42],
     [48, 16, 56, 24, 50, 18, 58, 26],
     [12, 44, 4, 36, 14, 46, 6, 38],
@@ -30,7 +30,7 @@ const THRESHOLDS: [[u8; 8]; 8] = [
 /// Writes a picture as PNG.
 ///
 /// # Errors
-/// What `out` answers.
+/// Those of `out`.
 pub fn write_png(image: &Image, out: &mut (impl Write + ?Sized)) -> io::Result<()> {
     let mut encoder = png::Encoder::new(out, image.width(), image.height());
     encoder.set_color(png::ColorType::Rgba);
@@ -40,68 +40,68 @@ pub fn write_png(image: &Image, out: &mut (impl Write + ?Sized)) -> io::Result<(
     Ok(writer.finish()?)
 }
 
-/// The colours of a GIF: one list for all frames, so that nothing flickers.
+/// The colours of a GIF: one palette for all frames avoids flicker.
 pub struct Palette {
     chosen: NeuQuant,
 }
 
 impl Palette {
-    /// Chooses colours for pictures like these.
+    /// Computes the palette of sample pictures (NeuQuant).
     pub fn new(samples: &[Image]) -> Self {
         let solid = samples
             .iter()
             .flat_map(|image| image.pixels())
             .filter(|pixel| pixel.0[3] > 127);
-        let step = (solid.clone().count() / SAMPLES).max(1);
+        let step = (solid.clone().count() / MAX_PALETTE_SAMPLES).max(1);
         let mut pixels: Vec<u8> = solid
             .step_by(step)
             .flat_map(|pixel| [pixel.0[0], pixel.0[1], pixel.0[2], 255])
             .collect();
-        // Shadows are black, and a list of nothing would not do.
-        pixels.extend([0, 0, 0, 255].repeat(1 + pixels.len() / 4 / COLOURS));
+        // Black for shadows, which also keeps the list from being empty.
+        pixels.extend([0, 0, 0, 255].repeat(1 + pixels.len() / 4 / PALETTE_SIZE));
         Self {
-            chosen: NeuQuant::new(1, COLOURS, &pixels),
+            chosen: NeuQuant::new(1, PALETTE_SIZE, &pixels),
         }
     }
 
-    /// Red, green, blue of each, the clear one last.
+    /// Red, green and blue of each colour, the transparent one last.
     fn table(&self) -> Vec<u8> {
         let mut table = self.chosen.color_map_rgb();
-        table.resize(3 * COLOURS, 0);
+        table.resize(3 * PALETTE_SIZE, 0);
         table.extend([0, 0, 0]);
         table
     }
 }
 
-/// A moving picture that is being written, one frame after the other. It runs for ever.
-pub struct Animation<W: Write> {
+/// Writes an animated picture frame by frame. It loops forever.
+pub struct AnimationWriter<W: Write> {
     file: Format<W>,
-    /// When the last frame ends, seconds.
+    /// When the last frame ends, in seconds.
     until: f64,
-    /// The sum of the delays so far, in the file's own unit.
-    told: f64,
+    /// The sum of the delays written so far, in the file's own unit.
+    written: f64,
 }
 
-/// How it is written.
+/// The format of the file.
 enum Format<W: Write> {
-    /// 256 colours; a pixel is there or clear. Half-clear ones are scattered.
+    /// 256 colours; a pixel is opaque or transparent, so partial alpha is dithered.
     Gif {
-        /// What writes it.
+        /// Encodes the file.
         encoder: gif::Encoder<W>,
-        /// Its colours.
+        /// The colours of all frames.
         palette: Palette,
-        /// Colours that were looked up before.
+        /// Palette indices that were looked up before.
         known: FxHashMap<[u8; 3], u8>,
     },
-    /// PNG with frames: all colours, all transparency.
+    /// Animated PNG: all colours, full alpha.
     Apng(png::Writer<W>),
 }
 
-impl<W: Write> Animation<W> {
-    /// A GIF.
+impl<W: Write> AnimationWriter<W> {
+    /// Starts a GIF.
     ///
     /// # Errors
-    /// What `out` answers.
+    /// Those of `out`.
     pub fn gif(out: W, size: [u32; 2], palette: Palette) -> io::Result<Self> {
         let sides = size.map(|side| u16::try_from(side).unwrap_or(u16::MAX));
         let mut encoder = gif::Encoder::new(out, sides[0], sides[1], &palette.table())
@@ -116,10 +116,10 @@ impl<W: Write> Animation<W> {
         }))
     }
 
-    /// An animated PNG of `frames` frames.
+    /// Starts an animated PNG of `frames` frames.
     ///
     /// # Errors
-    /// What `out` answers.
+    /// Those of `out`.
     pub fn apng(out: W, [width, height]: [u32; 2], frames: u32) -> io::Result<Self> {
         let mut encoder = png::Encoder::new(out, width, height);
         encoder.set_color(png::ColorType::Rgba);
@@ -132,29 +132,29 @@ impl<W: Write> Animation<W> {
         Self {
             file,
             until: 0.0,
-            told: 0.0,
+            written: 0.0,
         }
     }
 
-    /// How long a frame stands that is to stand so many seconds, in units of which a second has `units`: what is lost by
-    /// rounding one frame the next ones make up for.
+    /// The delay of a frame that lasts `seconds`, rounded to `1 / units` seconds. Later frames make up for the rounding
+    /// error.
     fn delay(&mut self, seconds: f64, units: f64, least: u16) -> u16 {
         self.until += seconds;
-        let delay = (self.until * units).round() - self.told;
+        let delay = (self.until * units).round() - self.written;
         let delay = delay.clamp(f64::from(least), f64::from(u16::MAX)) as u16;
-        self.told += f64::from(delay);
+        self.written += f64::from(delay);
         delay
     }
 
-    /// Appends a frame that stands for some seconds, in a GIF to the hundredth and for two of them at least, else to the
-    /// thousandth.
+    /// Appends a frame that lasts some seconds: rounded to milliseconds, in a GIF to hundredths of a second and at least
+    /// two of them.
     ///
     /// # Errors
-    /// What the output answers.
+    /// Those of the output.
     pub fn push(&mut self, image: &Image, seconds: f64) -> io::Result<()> {
         let delay = match self.file {
             Format::Apng(_) => self.delay(seconds, 1000.0, 0),
-            Format::Gif { .. } => self.delay(seconds, 100.0, SHORTEST),
+            Format::Gif { .. } => self.delay(seconds, 100.0, MIN_GIF_DELAY),
         };
         match &mut self.file {
             Format::Apng(writer) => {
@@ -166,10 +166,10 @@ impl<W: Write> Animation<W> {
                 palette,
                 known,
             } => {
-                let clear = COLOURS as u8;
+                let clear = PALETTE_SIZE as u8;
                 let pixels = image.enumerate_pixels().map(|(x, y, pixel)| {
                     let [r, g, b, alpha] = pixel.0;
-                    let threshold = THRESHOLDS[(y % 8) as usize][(x % 8) as usize];
+                    let threshold = BAYER_8X8[(y % 8) as usize][(x % 8) as usize];
                     match alpha > threshold * 4 + 1 {
                         true => *known
                             .entry([r, g, b])
@@ -189,10 +189,10 @@ impl<W: Write> Animation<W> {
         }
     }
 
-    /// Ends the file.
+    /// Completes the file.
     ///
     /// # Errors
-    /// What the output answers, or that frames are missing.
+    /// Those of the output, or missing frames.
     pub fn finish(self) -> io::Result<()> {
         match self.file {
             Format::Apng(writer) => Ok(writer.finish()?),

@@ -1,58 +1,60 @@
-//! Tiles of patterns and pictures in SVG, drawn by resvg.
+//! Draws tiles of patterns, and pictures in SVG, with resvg.
 //!
-//! A drawing may ask its renderer for more than there is time or memory for, so it is looked through before.
+//! A drawing may ask for more than there is time or memory for, so the cost is estimated first.
 
 use image::RgbaImage;
 use resvg::tiny_skia::{Pixmap, Transform};
 use usvg::{Node, Paint};
 
-/// Fewest and most pixels along a side of a tile; the longer side has at least [`CLEAR`].
+/// The smallest and the largest side of a tile in pixels; the longer side has at least [`MIN_LONG_SIDE`].
 const SIDES: [f64; 2] = [4.0, 512.0];
-/// Pixels along the longer side that show a tile well.
-const CLEAR: f64 = 64.0;
-/// Most things in a tile, with those in patterns, clips and masks that it uses counted each time.
-const MOST_NODES: usize = 4096;
-/// How deep patterns, clips, masks and groups may hold each other.
-const MOST_DEPTH: usize = 64;
-/// Most pixels of pictures, layers and inner patterns that are made on the way to a tile.
-const MOST_PIXELS: f64 = (256 << 20) as f64;
-/// Most pixels of one of them.
-const MOST_INNER: f64 = (64 << 20) as f64;
-/// How much larger a layer may be than the tile.
-const LAYER: f64 = 4.0;
+/// The smallest longer side that shows a tile well, in pixels.
+const MIN_LONG_SIDE: f64 = 64.0;
+/// The largest number of elements in a tile; those in patterns, clips and masks count for each use.
+const MAX_NODES: usize = 4096;
+/// The deepest nesting of patterns, clips, masks and groups.
+const MAX_DEPTH: usize = 64;
+/// The largest number of pixels in intermediate pictures, layers and inner patterns together.
+const MAX_PIXELS: f64 = (256 << 20) as f64;
+/// The largest number of pixels in one of them.
+const MAX_INNER_PIXELS: f64 = (64 << 20) as f64;
+/// The size of a layer relative to the tile, at most.
+const LAYER_TO_TILE: f64 = 4.0;
 
-const TOO_MUCH: &str = "it holds too much";
+const TOO_MUCH: &str = "it is too complex";
 
-/// Pixels of a tile that covers so many pixels of the page.
+/// The size in pixels of a tile that covers `wanted` pixels of the page.
 pub(super) fn size(wanted: [f64; 2]) -> [u32; 2] {
     let [least, most] = SIDES;
     let longer = wanted[0].max(wanted[1]).max(1e-9);
-    let scale = (CLEAR / longer).max(1.0).min(most / longer.min(most));
+    let scale = (MIN_LONG_SIDE / longer)
+        .max(1.0)
+        .min(most / longer.min(most));
     wanted.map(|side| (side * scale).round().clamp(least, most) as u32)
 }
 
-/// Whether a pattern can be drawn, and how many pixels are touched by it, about.
+/// Checks whether a pattern can be drawn, and estimates how many pixels that touches.
 ///
 /// # Errors
-/// Why not, for people.
+/// The reason why it cannot be drawn, for a diagnostic.
 pub(super) fn check(
     pattern: &usvg::Pattern,
     [width, height]: [u32; 2],
 ) -> Result<f64, &'static str> {
     let rect = pattern.rect();
     let scale = (width as f32 / rect.width()).max(height as f32 / rect.height());
-    search(pattern.root(), f64::from(scale), width, height)
+    estimate(pattern.root(), f64::from(scale), width, height)
 }
 
-fn search(group: &usvg::Group, scale: f64, width: u32, height: u32) -> Result<f64, &'static str> {
+fn estimate(group: &usvg::Group, scale: f64, width: u32, height: u32) -> Result<f64, &'static str> {
     let tile = f64::from(width) * f64::from(height);
-    let mut search = Search {
+    let mut estimate = CostEstimate {
         tile,
         nodes: 0,
         pixels: 0.0,
     };
-    search.group(group, scale, 0)?;
-    Ok(search.pixels + search.nodes as f64 * tile)
+    estimate.group(group, scale, 0)?;
+    Ok(estimate.pixels + estimate.nodes as f64 * tile)
 }
 
 /// Draws a pattern's tile.
@@ -65,15 +67,15 @@ pub(super) fn render(
     draw(pattern.root(), scale, width, height)
 }
 
-/// A picture in SVG as pixels, `side` along the longer side.
+/// Rasterises a picture in SVG, with `side` pixels along the longer side.
 ///
 /// # Errors
-/// Why it cannot be drawn, for people.
+/// The reason why it cannot be drawn, for a diagnostic.
 pub(crate) fn render_tree(tree: &usvg::Tree, side: u32) -> Result<RgbaImage, &'static str> {
     let (width, height) = (tree.size().width(), tree.size().height());
     let scale = side as f32 / width.max(height);
     let [wide, high] = [width, height].map(|length| ((length * scale).round() as u32).max(1));
-    search(tree.root(), f64::from(scale), wide, high)?;
+    estimate(tree.root(), f64::from(scale), wide, high)?;
     let scale = Transform::from_scale(wide as f32 / width, high as f32 / height);
     draw(tree.root(), scale, wide, high)
 }
@@ -85,11 +87,11 @@ fn draw(
     height: u32,
 ) -> Result<RgbaImage, &'static str> {
     let mut pixmap = Pixmap::new(width, height).ok_or("it is too large")?;
-    // What is drawn alone is moved to the corner: back to where it stands.
+    // resvg moves a node that is drawn alone to the corner; this moves it back.
     let corner = group.abs_layer_bounding_box();
     let transform = transform.pre_translate(corner.x(), corner.y());
     let node = Node::Group(Box::new(group.clone()));
-    resvg::render_node(&node, transform, &mut pixmap.as_mut()).ok_or("there is nothing in it")?;
+    resvg::render_node(&node, transform, &mut pixmap.as_mut()).ok_or("it is empty")?;
     let straight = pixmap.pixels().iter().flat_map(|pixel| {
         let color = pixel.demultiply();
         [color.red(), color.green(), color.blue(), color.alpha()]
@@ -97,57 +99,57 @@ fn draw(
     RgbaImage::from_raw(width, height, straight.collect()).ok_or("it is too large")
 }
 
-/// Looks a tile through.
-struct Search {
+/// The estimated cost of drawing a tile.
+struct CostEstimate {
     /// Pixels of the tile.
     tile: f64,
     nodes: usize,
-    /// Pixels of everything else.
+    /// Pixels of intermediate pictures, layers and inner patterns.
     pixels: f64,
 }
 
-/// How much a transform makes larger, at most about.
-fn grows(transform: usvg::Transform) -> f64 {
+/// The scale of a transform, approximately and at most.
+fn scale_of(transform: usvg::Transform) -> f64 {
     let (x, y) = transform.get_scale();
     f64::from(x.max(y))
 }
 
-impl Search {
-    /// `scale` is what a user unit outside the group is worth in pixels.
+impl CostEstimate {
+    /// Adds a group; `scale` is the number of pixels per user unit outside of it.
     fn group(&mut self, group: &usvg::Group, scale: f64, depth: usize) -> Result<(), &'static str> {
-        if depth > MOST_DEPTH {
+        if depth > MAX_DEPTH {
             return Err(TOO_MUCH);
         }
-        // A filter's work has no bound that could be told from its size.
+        // The work of a filter is not bounded by its size.
         if !group.filters().is_empty() {
-            return Err("it holds a filter");
+            return Err("it contains a filter");
         }
-        // The renderer reckons these only roughly, and differently on different machines.
+        // resvg approximates these, with different results on different machines.
         if matches!(
             group.blend_mode(),
             usvg::BlendMode::ColorDodge | usvg::BlendMode::ColorBurn
         ) {
-            return Err("it holds a colour that is dodged or burnt");
+            return Err("it uses the blend mode color-dodge or color-burn");
         }
         if group.should_isolate() {
-            self.made(LAYER * self.tile)?;
+            self.add_pixels(LAYER_TO_TILE * self.tile)?;
         }
-        let scale = scale * grows(group.transform());
+        let scale = scale * scale_of(group.transform());
         let mut clip = group.clip_path();
         while let Some(path) = clip {
-            self.made(LAYER * self.tile)?;
-            self.group(path.root(), scale * grows(path.transform()), depth + 1)?;
+            self.add_pixels(LAYER_TO_TILE * self.tile)?;
+            self.group(path.root(), scale * scale_of(path.transform()), depth + 1)?;
             clip = path.clip_path();
         }
         let mut mask = group.mask();
         while let Some(inner) = mask {
-            self.made(LAYER * self.tile)?;
+            self.add_pixels(LAYER_TO_TILE * self.tile)?;
             self.group(inner.root(), scale, depth + 1)?;
             mask = inner.mask();
         }
         for node in group.children() {
             self.nodes += 1;
-            if self.nodes > MOST_NODES {
+            if self.nodes > MAX_NODES {
                 return Err(TOO_MUCH);
             }
             match node {
@@ -166,14 +168,14 @@ impl Search {
         Ok(())
     }
 
-    /// Counts what is made on the way.
-    fn made(&mut self, pixels: f64) -> Result<(), &'static str> {
+    /// Adds intermediate pixels.
+    fn add_pixels(&mut self, pixels: f64) -> Result<(), &'static str> {
         self.pixels += pixels;
-        // Written so that what is no number is refused as well.
-        if pixels <= MOST_INNER && self.pixels <= MOST_PIXELS {
+        // Written so that NaN is refused too.
+        if pixels <= MAX_INNER_PIXELS && self.pixels <= MAX_PIXELS {
             Ok(())
         } else {
-            Err("it holds something too large")
+            Err("it contains something too large")
         }
     }
 
@@ -181,9 +183,9 @@ impl Search {
         let Paint::Pattern(pattern) = paint else {
             return Ok(());
         };
-        let scale = scale * grows(pattern.transform());
+        let scale = scale * scale_of(pattern.transform());
         let rect = pattern.rect();
-        self.made(f64::from(rect.width()) * scale * f64::from(rect.height()) * scale)?;
+        self.add_pixels(f64::from(rect.width()) * scale * f64::from(rect.height()) * scale)?;
         self.group(pattern.root(), scale, depth + 1)
     }
 
@@ -192,10 +194,10 @@ impl Search {
         match image.kind() {
             usvg::ImageKind::SVG(tree) => {
                 let grown = f64::from(size.width() / tree.size().width());
-                self.made(LAYER * self.tile)?;
+                self.add_pixels(LAYER_TO_TILE * self.tile)?;
                 self.group(tree.root(), scale * grown, depth + 1)
             }
-            _ => self.made(f64::from(size.width()) * f64::from(size.height())),
+            _ => self.add_pixels(f64::from(size.width()) * f64::from(size.height())),
         }
     }
 }

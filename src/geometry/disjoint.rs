@@ -1,6 +1,6 @@
-//! Rings that plainly neither cross nor touch, which most drawn ones do not, without the grid.
+//! A fast path for rings that clearly neither cross nor touch, as most drawn ones: they need no grid.
 //!
-//! Everything here errs on one side: what is not plain to see in a bounded number of steps is left to the overlay.
+//! The answers are conservative: what a bounded number of steps cannot decide is left to the overlay (`boolean.rs`).
 
 use std::cell::RefCell;
 
@@ -9,13 +9,12 @@ use glam::DVec2;
 use super::query::{is_inside, shoelace};
 use super::{FillRule, Outline, Polygon, Ring};
 
-/// Pairs of edges that are looked at, per edge: where more lie above each other, sweeping from left to right is no
-/// quick way.
-const MOST_PAIRS: usize = 24;
-/// Rings of a path whose nesting is found by looking at all pairs.
-pub(super) const MOST_RINGS: usize = 64;
+/// Pairs of edges that are compared, per edge. Where more edges lie above each other the sweep would become slow.
+const MAX_PAIRS_PER_EDGE: usize = 24;
+/// The largest number of rings whose nesting is found by comparing all pairs.
+pub(super) const MAX_NESTED_RINGS: usize = 64;
 
-/// An edge and the interval that it covers across.
+/// An edge with its bounding box.
 #[derive(Clone, Copy)]
 struct Edge {
     low: DVec2,
@@ -23,7 +22,7 @@ struct Edge {
     from: DVec2,
     to: DVec2,
     number: u32,
-    /// The number of the edge that begins where this one ends.
+    /// The number of the following edge.
     next: u32,
 }
 
@@ -31,8 +30,8 @@ thread_local! {
     static EDGES: RefCell<Vec<Edge>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Whether edges that do not follow each other plainly keep more than `gap` apart.
-pub(super) fn keep_apart(rings: &[Ring], gap: f64) -> bool {
+/// Whether all edges that do not follow each other are clearly more than `gap` apart: sweep and prune along x.
+pub(super) fn are_disjoint(rings: &[Ring], gap: f64) -> bool {
     EDGES.with_borrow_mut(|edges| {
         edges.clear();
         for ring in rings {
@@ -56,7 +55,7 @@ pub(super) fn keep_apart(rings: &[Ring], gap: f64) -> bool {
             }
         }
         edges.sort_unstable_by(|a, b| a.low.x.total_cmp(&b.low.x));
-        let mut pairs = MOST_PAIRS * edges.len();
+        let mut pairs = MAX_PAIRS_PER_EDGE * edges.len();
         for (i, a) in edges.iter().enumerate() {
             for b in &edges[i + 1..] {
                 if b.low.x > a.high.x + gap {
@@ -68,7 +67,7 @@ pub(super) fn keep_apart(rings: &[Ring], gap: f64) -> bool {
                 pairs -= 1;
                 let level = b.low.y <= a.high.y + gap && a.low.y <= b.high.y + gap;
                 let follow = a.next == b.number || b.next == a.number;
-                if level && !follow && !a.is_beside(b, gap) && !b.is_beside(a, gap) {
+                if level && !follow && !a.is_on_one_side(b, gap) && !b.is_on_one_side(a, gap) {
                     return false;
                 }
             }
@@ -78,8 +77,8 @@ pub(super) fn keep_apart(rings: &[Ring], gap: f64) -> bool {
 }
 
 impl Edge {
-    /// Whether both ends of `other` lie on one side of this edge's line, further away than `gap`.
-    fn is_beside(&self, other: &Edge, gap: f64) -> bool {
+    /// Whether both ends of `other` lie on the same side of this edge's line, farther away than `gap`.
+    fn is_on_one_side(&self, other: &Edge, gap: f64) -> bool {
         let along = self.to - self.from;
         let from = along.perp_dot(other.from - self.from);
         let to = along.perp_dot(other.to - self.from);
@@ -88,7 +87,7 @@ impl Edge {
     }
 }
 
-/// The area that rings enclose which keep apart. Takes the square of their number.
+/// The area that disjoint rings enclose. Takes time quadratic in their number.
 pub(super) fn nest(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
     let runs_down: Vec<bool> = rings.iter().map(|ring| shoelace(ring) > 0.0).collect();
     let around: Vec<Vec<usize>> = rings
@@ -109,7 +108,7 @@ pub(super) fn nest(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
             FillRule::EvenOdd => all.count() % 2 == 1,
         }
     };
-    // What is filled inside and outside of each ring.
+    // Whether the inside and the outside of each ring are filled.
     let sides: Vec<[bool; 2]> = (0..rings.len())
         .map(|ring| {
             [
@@ -123,24 +122,24 @@ pub(super) fn nest(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
     for ring in (0..rings.len()).filter(|ring| sides[*ring] == [true, false]) {
         polygon_of[ring] = outline.polygons.len();
         outline.polygons.push(Polygon {
-            rings: vec![turned(&mut rings[ring], runs_down[ring])],
+            rings: vec![take_ring(&mut rings[ring], runs_down[ring])],
         });
     }
     for ring in (0..rings.len()).filter(|ring| sides[*ring] == [false, true]) {
-        // The innermost border around a hole is its own.
+        // A hole belongs to the innermost border around it.
         let borders = around[ring]
             .iter()
             .filter(|outer| sides[**outer] == [true, false]);
         if let Some(border) = borders.max_by_key(|outer| around[**outer].len()) {
-            let hole = turned(&mut rings[ring], !runs_down[ring]);
+            let hole = take_ring(&mut rings[ring], !runs_down[ring]);
             outline.polygons[polygon_of[*border]].rings.push(hole);
         }
     }
     outline
 }
 
-/// Takes a ring, turned round where that is asked for.
-fn turned(ring: &mut Ring, turn: bool) -> Ring {
+/// Takes a ring out of its place, reversed if `turn` is set.
+fn take_ring(ring: &mut Ring, turn: bool) -> Ring {
     if turn {
         ring.reverse();
     }

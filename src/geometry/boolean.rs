@@ -1,9 +1,9 @@
-//! Clean polygons from rings that may cross, touch, overlap or repeat themselves.
+//! Boolean operations on outlines: valid polygons from rings that may cross, touch, overlap or repeat themselves.
 //!
-//! Input and output have y down, so borders have a negative shoelace sum (the module's
-//! convention: counter-clockwise where y is up). A single ring that is simple already keeps its
-//! points. Everything else is laid on a grid of about 1/4,000,000 of its extent, where crossings
-//! are found with whole numbers; that is fine enough for the `f32` that the model is written in.
+//! Input and output have y down, so borders have a negative shoelace sum (the module's convention: counter-clockwise
+//! where y is up). Rings that are valid already keep their points (`disjoint.rs`). All others are rounded to a grid of
+//! about 1/4,000,000 of their extent, where `i_overlay` finds crossings with integers; that is fine enough for the
+//! `f32` that the model is written in.
 
 use std::cell::RefCell;
 
@@ -13,65 +13,65 @@ use i_overlay::core::overlay::{ContourDirection, IntOverlayOptions, Overlay, Sha
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
-use super::touch::{pull_apart, touches};
-use super::{FillRule, Outline, Polygon, Ring, plain};
+use super::query::{bounds, shoelace};
+use super::touching::{separate, touches};
+use super::{FillRule, Outline, Polygon, Ring, disjoint};
 
-pub(crate) use super::query::shoelace;
-pub use super::query::{area, bounds, contains, distance_squared};
-
-/// The extent of an outline in grid steps. Where rings touch and come close to touching in the
-/// same place the finest is too fine to tell both apart, and the next is tried.
-const GRIDS: [f64; 3] = [
+/// Grid steps per extent of an outline. The finest grid cannot always separate rings that touch from rings that nearly
+/// touch in the same place; then the next coarser one is tried.
+const GRID_STEPS: [f64; 3] = [
     (1u32 << 22) as f64,
     (1u32 << 17) as f64,
     (1u32 << 13) as f64,
 ];
-/// Points closer than this to the line between their neighbours go, relative to the extent.
-const FLAT: f64 = 5e-7;
-/// Edges that keep this distance cannot meet on the finest grid, relative to the extent.
-const APART: f64 = 1e-6;
-/// Rings narrower than this on average go, relative to the extent.
+/// Points closer than this to the line between their neighbours are dropped, relative to the extent.
+const COLLINEAR: f64 = 5e-7;
+/// Edges at this distance from each other cannot meet on the finest grid, relative to the extent.
+const MIN_CLEARANCE: f64 = 1e-6;
+/// Rings with a smaller average width are dropped, relative to the extent.
 const SLIVER: f64 = 1e-6;
-/// Extents outside of this are not geometry: their squares would overflow or vanish.
-const EXTENTS: std::ops::Range<f64> = 1e-60..1e60;
+/// Extents outside of this range are not drawn geometry: their squares would overflow or vanish.
+const VALID_EXTENTS: std::ops::Range<f64> = 1e-60..1e60;
 
-/// The area that rings enclose, as clean polygons.
-pub fn clean(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
+/// The area that rings enclose by a fill rule, as valid polygons.
+pub fn resolve_overlaps(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
     for ring in &mut rings {
         if !ring.iter().all(|p| p.is_finite()) {
             ring.retain(|p| p.is_finite());
         }
     }
     rings.retain(|ring| ring.len() > 2);
-    let Some(grid) = Grid::over(rings.iter().flatten(), GRIDS[0]) else {
+    let Some(grid) = Grid::over(rings.iter().flatten(), GRID_STEPS[0]) else {
         return Outline::default();
     };
-    let flat = FLAT * grid.extent;
+    let flat = COLLINEAR * grid.extent;
     for ring in &mut rings {
-        tidy(ring, flat);
+        remove_collinear(ring, flat);
     }
     rings.retain(|ring| ring.len() > 2);
     let simple = match &rings[..] {
-        [ring] if winds_once(ring) => true,
-        rings => plain::keep_apart(rings, APART * grid.extent) || is_simple(rings, &grid),
+        [ring] if is_convex(ring) => true,
+        rings => {
+            disjoint::are_disjoint(rings, MIN_CLEARANCE * grid.extent) || is_simple(rings, &grid)
+        }
     };
-    if simple && rings.len() <= plain::MOST_RINGS {
+    if simple && rings.len() <= disjoint::MAX_NESTED_RINGS {
         rings.retain(|ring| !is_sliver(ring, grid.extent));
-        return plain::nest(rings, rule);
+        return disjoint::nest(rings, rule);
     }
     let rule = match rule {
         FillRule::NonZero => GridRule::NonZero,
         FillRule::EvenOdd => GridRule::EvenOdd,
     };
     let mut outline = Outline::default();
-    for steps in GRIDS {
+    for steps in GRID_STEPS {
         let Some(coarse) = Grid::over(rings.iter().flatten(), steps) else {
             break;
         };
         let shapes = overlay(rings.iter(), &coarse, rule);
         let touches;
         (outline, touches) = finish(shapes, &coarse);
-        if !touches || keeps_apart(&outline, &grid) {
+        if !touches || is_disjoint(&outline, &grid) {
             break;
         }
     }
@@ -90,8 +90,8 @@ fn overlay<'a>(rings: impl Iterator<Item = &'a Ring>, grid: &Grid, rule: GridRul
     widen(shapes)
 }
 
-/// Whether the rings of an outline neither cross nor touch.
-fn keeps_apart(outline: &Outline, grid: &Grid) -> bool {
+/// Whether no rings of an outline cross or touch.
+fn is_disjoint(outline: &Outline, grid: &Grid) -> bool {
     let rings = || outline.polygons.iter().flat_map(|p| &p.rings);
     let shapes = overlay(rings(), grid, GridRule::NonZero);
     let count = |rings: usize, points: usize| (rings, points);
@@ -118,7 +118,7 @@ pub fn intersect(a: &Outline, b: &Outline) -> Outline {
     combine(&[a], &[b], OverlayRule::Intersect)
 }
 
-/// The area that any of some outlines covers.
+/// The area that at least one of some outlines covers.
 pub fn union(outlines: &[Outline]) -> Outline {
     let filled: Vec<_> = outlines.iter().filter(|o| !o.polygons.is_empty()).collect();
     match filled[..] {
@@ -137,8 +137,8 @@ fn combine(subjects: &[&Outline], clips: &[&Outline], rule: OverlayRule) -> Outl
             .collect()
     };
     let (subject, clip) = (points(subjects), points(clips));
-    // Of a small part under a large clip the part sets the grid.
-    let grids = [&subject, &clip].map(|points| Grid::over(points.iter(), GRIDS[0]));
+    // The finer grid is used: a small part under a large clip must keep its shape.
+    let grids = [&subject, &clip].map(|points| Grid::over(points.iter(), GRID_STEPS[0]));
     let finer = grids
         .into_iter()
         .flatten()
@@ -166,7 +166,7 @@ fn combine(subjects: &[&Outline], clips: &[&Outline], rule: OverlayRule) -> Outl
     let (outline, touches) = finish(shapes.collect(), &grid);
     if touches {
         let rings = outline.polygons.into_iter().flat_map(|p| p.rings);
-        return clean(rings.collect(), FillRule::NonZero);
+        return resolve_overlaps(rings.collect(), FillRule::NonZero);
     }
     outline
 }
@@ -192,13 +192,13 @@ thread_local! {
 fn options<U: i_overlay::i_float::int::number::uint::UIntNumber>() -> IntOverlayOptions<U> {
     IntOverlayOptions {
         output_direction: ContourDirection::Clockwise,
-        // A point where another ring touches an edge has to stay, or the touch would go unseen.
+        // A point where another ring touches an edge has to stay, or the touch would not be found.
         preserve_output_collinear: true,
         ..Default::default()
     }
 }
 
-/// Rings on the grid: polygons, their rings, their points.
+/// Points of rings of polygons, in grid steps.
 pub(super) type GridShapes = Vec<Vec<Vec<[i64; 2]>>>;
 
 fn widen(shapes: Vec<Vec<Vec<IntPoint<i32>>>>) -> GridShapes {
@@ -207,7 +207,7 @@ fn widen(shapes: Vec<Vec<Vec<IntPoint<i32>>>>) -> GridShapes {
     shapes.into_iter().map(shape).collect()
 }
 
-/// The outline of shapes on a grid, and whether they touch, so that it had to be changed.
+/// The outline of shapes on a grid, and whether any of them touched and had to be separated.
 fn finish(shapes: GridShapes, grid: &Grid) -> (Outline, bool) {
     let mut polygons: Vec<Polygon> = shapes
         .iter()
@@ -218,10 +218,10 @@ fn finish(shapes: GridShapes, grid: &Grid) -> (Outline, bool) {
                 .collect(),
         })
         .collect();
-    let touches = pull_apart(&shapes, &mut polygons, grid.extent);
+    let touches = separate(&shapes, &mut polygons, grid.extent);
     for polygon in &mut polygons {
         for ring in &mut polygon.rings {
-            tidy(ring, FLAT * grid.extent);
+            remove_collinear(ring, COLLINEAR * grid.extent);
             if is_sliver(ring, grid.extent) {
                 ring.clear();
             }
@@ -235,9 +235,9 @@ fn finish(shapes: GridShapes, grid: &Grid) -> (Outline, bool) {
     (Outline { polygons }, touches)
 }
 
-/// Drops points that lie, within `flat`, on the line through their neighbours: repeated points,
-/// points on straight edges and the tips of spikes.
-pub(crate) fn tidy(ring: &mut Ring, flat: f64) {
+/// Drops points that lie within `flat` of the line through their neighbours: repeated points, points on straight edges
+/// and the tips of spikes.
+pub(crate) fn remove_collinear(ring: &mut Ring, flat: f64) {
     loop {
         let n = ring.len();
         if n < 3 {
@@ -246,7 +246,7 @@ pub(crate) fn tidy(ring: &mut Ring, flat: f64) {
         }
         if (0..n).all(|i| {
             let (a, c) = (ring[(i + n - 1) % n], ring[(i + 1) % n]);
-            stands_out(a, ring[i], c, flat)
+            is_corner(a, ring[i], c, flat)
         }) {
             return;
         }
@@ -254,7 +254,7 @@ pub(crate) fn tidy(ring: &mut Ring, flat: f64) {
         for i in 0..n {
             let (p, next) = (ring[i], ring[(i + 1) % n]);
             let before = kept.last().copied().unwrap_or(ring[n - 1]);
-            if stands_out(before, p, next, flat) {
+            if is_corner(before, p, next, flat) {
                 kept.push(p);
             }
         }
@@ -262,15 +262,15 @@ pub(crate) fn tidy(ring: &mut Ring, flat: f64) {
     }
 }
 
-fn stands_out(a: DVec2, b: DVec2, c: DVec2, flat: f64) -> bool {
+fn is_corner(a: DVec2, b: DVec2, c: DVec2, flat: f64) -> bool {
     let (ab, bc) = (b - a, c - b);
     let (near, far) = (ab.length_squared(), bc.length_squared());
     let cross = ab.perp_dot(bc);
     near.min(far) > flat * flat && cross * cross > flat * flat * near.max(far)
 }
 
-/// Whether a ring turns one way all the way round, once: it is convex.
-pub(crate) fn winds_once(ring: &[DVec2]) -> bool {
+/// Whether a ring is convex: it turns the same way at every point, once around.
+pub(crate) fn is_convex(ring: &[DVec2]) -> bool {
     let n = ring.len();
     let mut before = ring[n - 1] - ring[n - 2];
     let mut start = ring[n - 1];
@@ -288,7 +288,7 @@ pub(crate) fn winds_once(ring: &[DVec2]) -> bool {
     turns <= 2
 }
 
-/// Whether one ring alone does not cross or touch itself on the grid.
+/// Whether a single ring does not cross or touch itself on the grid.
 fn is_simple(rings: &[Ring], grid: &Grid) -> bool {
     let [ring] = rings else { return false };
     let path: Vec<_> = ring.iter().map(|p| grid.point(*p)).collect();
@@ -314,15 +314,15 @@ struct Grid {
 }
 
 impl Grid {
-    /// `None` where there is nothing that can be measured.
+    /// `None` if the extent is not a usable number.
     fn over<'a>(points: impl Iterator<Item = &'a DVec2>, steps: f64) -> Option<Grid> {
         let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
         let (low, high) = points.fold(none, |(low, high), &p| (low.min(p), high.max(p)));
         let extent = (high - low).max_element();
-        if !EXTENTS.contains(&extent) {
+        if !VALID_EXTENTS.contains(&extent) {
             return None;
         }
-        // A power of two, so that round coordinates come back as they were.
+        // A power of two, so that round coordinates survive the rounding unchanged.
         let step = (extent / steps).log2().ceil().exp2();
         let origin = (low.midpoint(high) / step).round() * step;
         origin.is_finite().then_some(Grid {
@@ -337,7 +337,7 @@ impl Grid {
         IntPoint::new(p.x as i32, p.y as i32)
     }
 
-    /// Points of other outlines may lie far off the grid; there they are pulled in.
+    /// Points of other outlines may lie far off the grid; they are clamped.
     fn far_point(&self, p: DVec2) -> IntPoint<i64> {
         let far = DVec2::splat((1u64 << 60) as f64);
         let p = ((p - self.origin) / self.step).round().clamp(-far, far);
@@ -350,5 +350,5 @@ impl Grid {
 }
 
 #[cfg(test)]
-#[path = "clean_tests.rs"]
+#[path = "boolean_tests.rs"]
 mod tests;

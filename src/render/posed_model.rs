@@ -1,0 +1,229 @@
+//! A posed model, ready to be rendered from any view.
+
+use std::borrow::Cow;
+
+use glam::Vec3;
+use image::RgbaImage;
+use rayon::prelude::*;
+
+use super::camera::{Framing, View};
+use super::fragment::PixelSampler;
+use super::image_tile::{TILE_SIDE, draw_tile};
+use super::light::Lights;
+use super::model::Model;
+use super::surface::{Normalization, Surface};
+use super::trace::{Rays, Tracer};
+use super::{MAX_SIDE, Options, RenderError, on_pool};
+use crate::import::{ImportError, Pose};
+
+/// A picture, sRGB with straight alpha.
+pub type Image = RgbaImage;
+
+/// A posed model.
+pub struct PosedModel<'a> {
+    model: &'a Model,
+    pose: Pose,
+    normalization: Normalization,
+    triangles: usize,
+    /// The geometry for every view; `None` if it depends on the view.
+    view_independent: Option<RayTarget<'a>>,
+}
+
+/// Geometry that rays are traced against.
+pub(super) struct RayTarget<'a> {
+    pub(super) tracer: Tracer<'a>,
+    /// The points that must be in the picture.
+    points: Vec<Vec3>,
+}
+
+impl<'a> RayTarget<'a> {
+    pub(super) fn new(model: &'a Model, surface: Surface, rays: Rays) -> Self {
+        let points = surface.used_positions();
+        Self {
+            tracer: Tracer::new(surface, &model.materials, &model.textures, rays),
+            points,
+        }
+    }
+}
+
+impl<'a> PosedModel<'a> {
+    /// Poses a model.
+    ///
+    /// # Errors
+    /// A model without triangles, or with too many.
+    pub fn new(model: &'a Model, pose: &Pose) -> Result<Self, RenderError> {
+        let build = || {
+            let surface = model.surface(pose, None)?;
+            if surface.triangles.is_empty() {
+                return Err(ImportError::Empty.into());
+            }
+            Ok(Self {
+                model,
+                pose: pose.clone(),
+                normalization: surface.normalization,
+                triangles: surface.triangles.len(),
+                view_independent: (!model.is_view_dependent())
+                    .then(|| RayTarget::new(model, surface, Rays::Many)),
+            })
+        };
+        on_pool(build)
+    }
+
+    /// The number of triangles.
+    pub fn triangles(&self) -> usize {
+        self.triangles
+    }
+
+    /// From the world into normalised space.
+    pub(super) fn normalization(&self) -> Normalization {
+        self.normalization
+    }
+
+    /// The surface of a view-dependent model for one view.
+    fn surface_from(&self, options: &Options, view: View) -> Result<Surface, RenderError> {
+        let pose = self.pose.seen_from(options.viewer(view));
+        self.model.surface(&pose, Some(self.normalization))
+    }
+
+    /// Runs `work` on the geometry for a view, on the thread pool.
+    pub(super) fn with<T: Send>(
+        &self,
+        options: &Options,
+        view: View,
+        rays: Rays,
+        work: impl FnOnce(&RayTarget<'_>) -> Result<T, RenderError> + Send,
+    ) -> Result<T, RenderError> {
+        on_pool(|| match &self.view_independent {
+            Some(target) => work(target),
+            None => {
+                let surface = self.surface_from(options, view)?;
+                work(&RayTarget::new(self.model, surface, rays))
+            }
+        })
+    }
+
+    /// Renders the model, as large as it fits.
+    ///
+    /// # Errors
+    /// A size out of range.
+    pub fn picture(&self, options: &Options) -> Result<Image, RenderError> {
+        let framing = self.framing(options, &[options.view])?;
+        self.draw(options, &framing, options.view)
+    }
+
+    /// Renders the model from `frames` directions all around, starting from the view of the options. `each` gets the
+    /// pictures one by one and may stop with its own error.
+    ///
+    /// # Errors
+    /// A size out of range, or the error of `each`.
+    pub fn turntable<E: From<RenderError>>(
+        &self,
+        options: &Options,
+        frames: u32,
+        mut each: impl FnMut(Image) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let views: Vec<View> = (0..frames)
+            .map(|frame| turned(options.view, frame, frames))
+            .collect();
+        // One framing for all, so that the model keeps its size and position while it turns.
+        let framing = self.framing(options, &views)?;
+        for view in views {
+            each(self.draw(options, &framing, view)?)?;
+        }
+        Ok(())
+    }
+
+    fn framing(&self, options: &Options, views: &[View]) -> Result<Framing, RenderError> {
+        check_size(options.size)?;
+        let shots: Vec<(View, ())> = views.iter().map(|view| (*view, ())).collect();
+        let points = |view: View, ()| match &self.view_independent {
+            Some(target) => Ok(Cow::Borrowed(&*target.points)),
+            None => Ok(Cow::Owned(
+                self.surface_from(options, view)?.used_positions(),
+            )),
+        };
+        on_pool(|| Framing::new(&shots, options.projection, options.size, points))
+    }
+
+    fn draw(&self, options: &Options, framing: &Framing, view: View) -> Result<Image, RenderError> {
+        self.with(options, view, Rays::Many, |target| {
+            draw(target, options, framing, view)
+        })
+    }
+
+    /// [`Self::picture`] on the caller's threads.
+    #[cfg(test)]
+    pub(super) fn drawn_here(&self, options: &Options) -> Result<Image, RenderError> {
+        let framing = self.framing(options, &[options.view])?;
+        let target = self.view_independent.as_ref().ok_or(RenderError::Broken)?;
+        draw(target, options, &framing, options.view)
+    }
+}
+
+/// Checks the width and height of a picture.
+pub(super) fn check_size([width, height]: [u32; 2]) -> Result<(), RenderError> {
+    let fits = |side: u32| (1..=MAX_SIDE).contains(&side);
+    match fits(width) && fits(height) {
+        true => Ok(()),
+        false => Err(RenderError::Size(width, height)),
+    }
+}
+
+/// Renders a picture.
+pub(super) fn draw(
+    target: &RayTarget<'_>,
+    options: &Options,
+    framing: &Framing,
+    view: View,
+) -> Result<Image, RenderError> {
+    let [width, height] = options.size;
+    let camera = framing.camera(view);
+    let lights = Lights::new(camera.yaw);
+    let sampler = PixelSampler {
+        tracer: &target.tracer,
+        camera: &camera,
+        shading: options.shading,
+    };
+    let mut pixels = vec![[0_u8; 4]; width as usize * height as usize];
+    let bands = pixels
+        .par_chunks_mut(width as usize * TILE_SIDE as usize)
+        .enumerate();
+    bands.for_each(|(band, pixels)| {
+        let top = band as u32 * TILE_SIDE;
+        let high = TILE_SIDE.min(height - top);
+        // Tiles within a band run in parallel too, for pictures with fewer bands than threads.
+        let lefts: Vec<u32> = (0..width).step_by(TILE_SIDE as usize).collect();
+        let tiles: Vec<Vec<[u8; 4]>> = lefts
+            .par_iter()
+            .map(|left| {
+                let wide = TILE_SIDE.min(width - left);
+                draw_tile(
+                    &sampler,
+                    &lights,
+                    options.background,
+                    [*left, top],
+                    [wide, high],
+                )
+            })
+            .collect();
+        for (left, tile) in lefts.iter().zip(&tiles) {
+            let wide = TILE_SIDE.min(width - left) as usize;
+            for (line, tile) in pixels
+                .chunks_exact_mut(width as usize)
+                .zip(tile.chunks_exact(wide))
+            {
+                line[*left as usize..][..wide].copy_from_slice(tile);
+            }
+        }
+    });
+    Image::from_raw(width, height, pixels.into_flattened()).ok_or(RenderError::Broken)
+}
+
+/// The view of a frame of a turntable: as if the model turned to its right.
+fn turned(view: View, frame: u32, frames: u32) -> View {
+    let turn = 360.0 * f64::from(frame % frames) / f64::from(frames);
+    View {
+        yaw: view.yaw + turn,
+        ..view
+    }
+}
