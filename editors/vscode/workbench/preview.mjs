@@ -25,7 +25,7 @@ class Panel {
   }
 
   get canvas() {
-    return this.frame.locator(".stage canvas");
+    return this.frame.locator(".viewport canvas");
   }
 
   /** What the page says of its canvas: which build it shows, what is lit and selected. */

@@ -1,4 +1,4 @@
-// The drawing that the page's address names, and the browser's way back.
+// The drawing that the page's address names, and the browser's history.
 
 import type { State } from "./state";
 
@@ -13,7 +13,7 @@ export function followAddress(state: State): void {
   addEventListener("hashchange", choose);
   state.on("drawings", () => {
     if (!state.drawing) return choose();
-    // One that is being looked at stays; where others came, the address says which it is.
+    // The current drawing stays; when others appear, the address names it.
     if (state.list.length > 1 && !state.find(hash())) history.replaceState(null, "", `#${encodeURIComponent(state.drawing.id)}`);
   });
 }

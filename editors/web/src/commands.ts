@@ -1,12 +1,12 @@
-// What buttons and keys do.
+// The commands behind buttons and keys.
 
-import { partNode } from "./stage/model";
-import { screenshot } from "./stage/screenshot";
+import { partNode } from "./viewport/model";
+import { screenshot } from "./viewport/screenshot";
 import type { Host } from "./host/host";
-import type { Pointer } from "./stage/pointer";
+import type { Pointer } from "./viewport/pointer";
 import type { State } from "./state";
-import type { Shading } from "./stage/model";
-import type { Viewer } from "./stage/viewer";
+import type { Shading } from "./viewport/model";
+import type { Viewer } from "./viewport/viewer";
 
 const SHADINGS: readonly Shading[] = ["smooth", "flat", "wire", "edges"];
 
@@ -18,7 +18,7 @@ export class Commands {
 
   constructor(private readonly viewer: Viewer, private readonly state: State, private readonly host: Host) {}
 
-  /** The listener hears when the posing mode is switched. */
+  /** Calls the listener when posing mode is switched. */
   onMode(listener: () => void): void {
     this.listeners.push(listener);
   }
@@ -44,7 +44,7 @@ export class Commands {
     this.viewer.posed();
   }
 
-  /** Takes back one thing: a drag, a pose, the mode, the selection. */
+  /** Undoes one thing: a drag, a pose, the mode, the selection. */
   escape(): void {
     if (this.pointer?.cancel()) return;
     if (!this.viewer.pose.isEmpty) this.resetPose();
@@ -56,12 +56,12 @@ export class Commands {
     this.viewer.setParallel(!this.viewer.view.isParallel);
   }
 
-  /** Whether the model has anything that bends with the view. */
+  /** Whether the model has view-dependent nodes. */
   get bends(): boolean {
     return this.viewer.model?.bend.isEmpty === false;
   }
 
-  /** Goes between the drawn look and true 3D. */
+  /** Switches between the drawn look and true 3D. */
   toggleBend(): void {
     this.viewer.setBent(this.viewer.bent > 0 ? 0 : 1);
   }
@@ -87,7 +87,7 @@ export class Commands {
     else if (document.fullscreenEnabled) await document.documentElement.requestFullscreen();
   }
 
-  /** The drawing's name without folder and ending. */
+  /** The drawing's name without folder and extension. */
   private fileName(): string {
     return (this.state.drawing?.name ?? "").replace(/^.*[\\/]/, "").replace(/\.svgz?$/i, "") || "model";
   }

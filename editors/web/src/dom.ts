@@ -1,4 +1,4 @@
-// Elements, made by calls. Text is only ever set as text: strings from drawings are never read as markup.
+// Creates elements. Text is only ever set as text: strings from drawings are never parsed as markup.
 
 import type { IconNode } from "lucide";
 
@@ -7,7 +7,7 @@ export interface Properties {
   readonly class?: string;
   readonly title?: string;
   readonly hidden?: boolean;
-  /** Attributes by name; null and false leave one out, true writes it empty. */
+  /** Attributes by name; null and false omit one, true sets it without a value. */
   readonly attributes?: Readonly<Record<string, string | number | boolean | null>>;
   readonly on?: { readonly [Name in keyof HTMLElementEventMap]?: (event: HTMLElementEventMap[Name]) => void };
 }
@@ -25,14 +25,14 @@ export function h<Tag extends keyof HTMLElementTagNameMap>(tag: Tag, properties:
   return element;
 }
 
-/** Puts these children in the place of those that are there. */
+/** Replaces the children of an element. */
 export function fill(element: Element, ...children: Child[]): void {
   element.replaceChildren(...children.filter((child): child is Node | string => child !== null && child !== undefined && child !== false && child !== ""));
 }
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** An element of a picture. */
+/** An SVG element. */
 export function svg<Tag extends keyof SVGElementTagNameMap>(tag: Tag, attributes: Readonly<Record<string, string | number>>): SVGElementTagNameMap[Tag] {
   const element = document.createElementNS(SVG, tag);
   for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
@@ -53,7 +53,7 @@ export interface ButtonOptions {
   readonly icon?: IconNode;
   /** What it does, in words; shown beside the icon if `wide`. */
   readonly label: string;
-  /** The key that does the same. */
+  /** The key with the same effect. */
   readonly key?: string;
   readonly wide?: boolean;
   readonly class?: string;
@@ -74,10 +74,10 @@ export function button({ icon: node, label, key, wide, class: name, press }: But
   );
 }
 
-/** Says in numbers and a noun how many there are. */
+/** A number and a noun. */
 export function count(number: number, one: string, many = `${one}s`): string {
   return `${number.toLocaleString("en")} ${number === 1 ? one : many}`;
 }
 
-/** Whether the person asked their system for little movement. */
-export const wantsStillness = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;
+/** Whether the user's system asks for reduced motion. */
+export const prefersReducedMotion = (): boolean => matchMedia("(prefers-reduced-motion: reduce)").matches;

@@ -19,20 +19,20 @@ import { Side } from "./panels/side";
 import { Toolbar } from "./panels/toolbar";
 import { Tree } from "./panels/tree";
 import { listenToKeys } from "./shortcuts";
-import { Pointer } from "./stage/pointer";
-import { Viewer } from "./stage/viewer";
+import { Pointer } from "./viewport/pointer";
+import { Viewer } from "./viewport/viewer";
 import { State } from "./state";
 import { followTheme } from "./theme";
 
 function start(page: HTMLElement): void {
   const state = new State();
   const host = findHost();
-  const place = h("div", { class: "stage" });
+  const place = h("div", { class: "viewport" });
   let viewer: Viewer;
   try {
     viewer = new Viewer(state, host, place);
   } catch {
-    page.append(h("p", { class: "no-3d" }, "This browser draws no 3D: WebGL 2 is switched off or missing. Turn on hardware acceleration, or try another browser."));
+    page.append(h("p", { class: "no-3d" }, "This browser cannot show 3D, because WebGL 2 is disabled or missing. Turn on hardware acceleration, or try another browser."));
     return;
   }
   const commands = new Commands(viewer, state, host);
@@ -51,14 +51,14 @@ function start(page: HTMLElement): void {
     if (part) state.select(part.name);
     if (state.current !== null) host.send({ type: "open", drawing: state.current, line, column });
   });
-  const posebar = new PoseBar(viewer, commands);
-  const pointer = new Pointer(viewer, state, picked, (part, degrees) => posebar.tell(part, degrees));
+  const poseBar = new PoseBar(viewer, commands);
+  const pointer = new Pointer(viewer, state, picked, (part, degrees) => poseBar.show(part, degrees));
   commands.pointer = pointer;
   const clips = new Clips(viewer);
   const help = new Help();
   commands.help = () => help.toggle();
 
-  place.append(new Captions(viewer).element, posebar.element, new Notes(state, viewer).element, findings.element);
+  place.append(new Captions(viewer).element, poseBar.element, new Notes(state, viewer).element, findings.element);
   const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, new BendBar(viewer, commands).element, clips.panel, new Side(state, tree, inspector).element);
   page.append(new Bar(state, viewer).element, studio, new Gallery(state, host).element, help.element);
 

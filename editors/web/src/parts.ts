@@ -6,14 +6,14 @@ export class Parts {
   private readonly byName = new Map<string, Part>();
   private readonly byElement = new Map<string, Part>();
   private readonly below = new Map<string | null, Part[]>();
-  /** Parts that are in no model: legends, and shapes that are left out. */
+  /** Parts that are not in the model: legends, and shapes that are not used. */
   readonly aside: readonly Part[];
-  /** How many parts and landscapes the model has, and how many more shapes belong to them. */
+  /** The number of parts and landscapes in the model, and of the other shapes that belong to them. */
   readonly main: number;
   readonly shapes: number;
 
   constructor(readonly all: readonly Part[]) {
-    // Of parts with the same name the first is meant; the others are a finding.
+    // The first of several parts with the same name counts; the others are reported as a finding.
     for (const part of all) {
       if (!this.byName.has(part.name)) this.byName.set(part.name, part);
       if (!this.byElement.has(part.element)) this.byElement.set(part.element, part);
@@ -39,19 +39,19 @@ export class Parts {
     return this.byElement.get(element);
   }
 
-  /** What hangs on the part of this name, or on the root: parts first, then the shapes that belong to it. */
+  /** The children of a part, or of the root: parts first, then the shapes that belong to it. */
   children(name: string | null): readonly Part[] {
     return this.below.get(name) ?? [];
   }
 
-  /** The names above a part, the nearest first. */
+  /** The names of a part's ancestors, the nearest first. */
   above(name: string): string[] {
     const names: string[] = [];
     for (let part = this.get(name); part && part.parent !== null && !names.includes(part.parent); part = this.get(part.parent)) names.push(part.parent);
     return names;
   }
 
-  /** The part whose node carries this one: itself, or for a shape that belongs to a part, that part. */
+  /** The part whose node shows this one: itself, or for a shape that belongs to a part, that part. */
   carrier(name: string): Part | undefined {
     let part = this.get(name);
     for (let steps = 0; part?.kind === "sub" && steps < this.all.length; steps++) part = this.get(part.parent);
@@ -70,5 +70,5 @@ export class Parts {
 
 export const isAside = (part: Part): boolean => part.kind === "legend" || part.kind === "unused";
 
-/** Whether okoshi made the part's name up, as no string says it. */
+/** Whether okoshi generated the part's name, because no string gives one. */
 export const isAutomatic = (part: Part): boolean => part.string === null && !isAside(part);

@@ -1,5 +1,5 @@
-// What the page and its host say to each other. What comes in is checked once, here: unknown messages are dropped, and what is
-// missing in a known one is empty.
+// The messages between page and host. Incoming messages are checked here, once: unknown ones are dropped, and missing fields become
+// empty.
 
 export type Severity = "error" | "warning" | "hint";
 
@@ -9,7 +9,7 @@ export interface Listed {
   readonly folder: string;
 }
 
-/** A diagnostic. Lines and columns count from 1, `from` and `to` are places in `text` from 0; all in characters. */
+/** A diagnostic. Lines and columns count from 1, `from` and `to` are offsets in `text` from 0; all in characters. */
 export interface Finding {
   readonly severity: Severity;
   readonly code: string;
@@ -28,7 +28,7 @@ export type Source = "own" | "legend" | "default" | "builtin";
 
 export interface Part {
   readonly name: string;
-  /** Null for what hangs on the root, and for what is in no model. */
+  /** Null for children of the root, and for parts that are not in the model. */
   readonly parent: string | null;
   readonly kind: Kind;
   readonly element: string;
@@ -37,32 +37,32 @@ export interface Part {
   readonly joint: string | null;
 }
 
-/** What is known of a figure's clip beyond the animation in the model, which has the same name. */
+/** Facts about a figure's clip that are not in the model's animation of the same name. */
 export interface ClipFacts {
   readonly name: string;
   /** The name of the figure's root part. */
   readonly figure: string;
-  /** The motion file's link. */
+  /** The link to the motion file. */
   readonly file: string;
   readonly seconds: number;
   readonly fps: number;
-  /** As the clip is shown. */
+  /** The number of frames as shown. */
   readonly frames: number;
-  /** Distinct poses that are shown. */
+  /** The number of distinct poses shown. */
   readonly drawings: number;
   /** Whether in-betweens were omitted or poses held. */
   readonly limited: boolean;
-  /** Runs of drawings: the source's frame, and for how many frames it stands. */
+  /** The exposure sheet: source frames, and for how many frames each is shown. */
   readonly exposure: readonly (readonly [source: number, frames: number])[];
-  /** The source's frames that were left out. */
+  /** The omitted source frames. */
   readonly omitted: readonly number[];
-  /** How many frames the pose before was copied over. */
+  /** The number of frames that repeat the pose before. */
   readonly held: number;
-  /** Of each of the source's frames the sum of squared distances of the joints to the frame before, in square metres. */
+  /** For each source frame: the sum of the squared distances of all joints to the frame before, in squares of the motion file's unit. */
   readonly ssd: readonly number[];
-  /** How many of the source's frames an entry of `ssd` stands for, as the largest of them. */
+  /** The number of source frames for which an entry of `ssd` is the maximum. */
   readonly ssdStep: number;
-  /** Which joint drives a part, and why. */
+  /** The joint that drives a part, and why. */
   readonly joints: ReadonlyMap<string, { readonly joint: string; readonly why: string }>;
   /** Parts that no joint drives. */
   readonly unmatched: readonly string[];
@@ -78,7 +78,7 @@ export interface Build {
   readonly findings: readonly Finding[];
   readonly parts: readonly Part[];
   readonly clips: readonly ClipFacts[];
-  /** Where the clips are as they were before they were limited; null if none is limited. */
+  /** The address of the clips before limiting; null if none is limited. */
   readonly originals: string | null;
 }
 
@@ -101,14 +101,14 @@ const text = (value: unknown): string => (typeof value === "string" ? value : ty
 const textOrNull = (value: unknown): string | null => (typeof value === "string" ? value : null);
 const number = (value: unknown): number => (typeof value === "number" && Number.isFinite(value) ? value : 0);
 
-/** A number of things. */
+/** A count. */
 const whole = (value: unknown): number => Math.max(Math.floor(number(value)), 0);
 
 function oneOf<T extends string>(value: unknown, all: readonly T[], otherwise: T): T {
   return all.find((one) => one === value) ?? otherwise;
 }
 
-/** The message that `data` is, or null if it is none that the page knows. */
+/** Parses a message; null if its type is unknown. */
 export function read(data: unknown): FromHost | null {
   const raw = object(data);
   const drawing = text(raw["drawing"]);

@@ -1,7 +1,7 @@
-// Keys.
+// Keyboard shortcuts.
 
 import type { Commands } from "./commands";
-import type { Viewer } from "./stage/viewer";
+import type { Viewer } from "./viewport/viewer";
 
 export interface Places {
   readonly clips: { toggle(): void; step(keys: 1 | -1): void; compare(): void; readonly chart: { toggle(): void } };
@@ -11,7 +11,7 @@ export interface Places {
   readonly gallery: () => void;
 }
 
-/** Degrees for a press of an arrow. */
+/** Degrees per press of an arrow key. */
 const TURN = 10;
 const ZOOM = 1.2;
 const POSE = 5;
@@ -21,7 +21,7 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
   addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
     const target = event.target instanceof Element ? event.target : null;
-    // Keys that a field or an open dialog needs are its own; a button's are space and enter.
+    // A field or an open dialog handles its own keys; buttons handle space and enter.
     if (target?.closest("input, select, textarea, dialog")) return;
     if (event.key === "?") {
       event.preventDefault();
@@ -35,7 +35,7 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
     act();
   });
 
-  /** Keys that are where they are on every keyboard, whatever is printed on them with Shift. */
+  /** Keys by their position on the keyboard, whatever Shift makes of them. */
   function byPlace({ code, shiftKey }: KeyboardEvent): (() => void) | undefined {
     switch (code) {
       case "Digit0":

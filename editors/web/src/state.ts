@@ -1,4 +1,4 @@
-// What the page knows, and who wants to hear of what.
+// The state of the page, and its listeners.
 
 import type { Link } from "./host/host";
 import { Parts } from "./parts";
@@ -7,15 +7,15 @@ import type { Build, FromHost, Listed } from "./protocol";
 export interface Drawing extends Listed {
   readonly build: Build | null;
   readonly parts: Parts;
-  /** Its file is not there at present. */
+  /** Its file is missing at the moment. */
   readonly gone: boolean;
-  /** The connection that its build came through: addresses of models and pictures hold within one. */
+  /** The connection that its build came from: addresses of models and pictures hold within one. */
   readonly connection: number;
 }
 
 /**
- * drawings: the list changed · build: something of the named drawing did · current: another drawing, or none, is shown ·
- * selection, hover: another part is · light: the editor's cursor moved to another part · link: the connection is another
+ * drawings: the list changed · build: that of the named drawing changed · current: another drawing, or none, is shown ·
+ * selection, hover: of another part · light: the editor's cursor moved to another part · link: the connection changed
  */
 export type Topic = "drawings" | "build" | "current" | "selection" | "hover" | "light" | "link";
 
@@ -26,16 +26,16 @@ export class State {
   private readonly listeners = new Map<Topic, ((drawing: string) => void)[]>();
   /** The drawing that is shown; null shows the gallery. */
   current: string | null = null;
-  /** Names of parts of the current drawing. They need not be there: they stay while someone is typing a name. */
+  /** Names of parts of the current drawing. They may not exist: they are kept while a name is being typed. */
   selected: string | null = null;
   hovered: string | null = null;
   lit: string | null = null;
   link: Link = "connecting";
-  /** Why the connection is as it is, in the host's words; empty if it has none. */
+  /** Details about the connection from the host; may be empty. */
   linkNote = "";
-  /** Counts connections. A host may send what the next one has to say before it calls that open. */
+  /** Counts connections. A host may send messages of the next connection before it reports that as open. */
   connection = 0;
-  /** Whether the host has said which drawings there are. */
+  /** Whether the host has sent its list of drawings. */
   known = false;
 
   on(topics: Topic | readonly Topic[], listener: (drawing: string) => void): void {
@@ -72,7 +72,7 @@ export class State {
           this.drawings.set(listed.id, { build: null, parts: NO_PARTS, gone: false, connection: 0, ...before, ...listed });
         }
         this.known = true;
-        return this.tell("drawings");
+        return this.notify("drawings");
       }
       case "build":
         return this.change(message.drawing, { build: message.build, parts: new Parts(message.build.parts), gone: false, connection: this.connection });
@@ -81,7 +81,7 @@ export class State {
       case "light":
         if (message.drawing !== this.current || message.part === this.lit) return;
         this.lit = message.part;
-        return this.tell("light");
+        return this.notify("light");
     }
   }
 
@@ -90,36 +90,36 @@ export class State {
     if (this.link === "open" && link !== "open") this.connection++;
     this.link = link;
     this.linkNote = note;
-    this.tell("link");
+    this.notify("link");
   }
 
   show(id: string | null): void {
     if (id === this.current) return;
     this.current = id;
     this.selected = this.hovered = this.lit = null;
-    this.tell("current");
+    this.notify("current");
   }
 
   select(name: string | null): void {
     if (name === this.selected) return;
     this.selected = name;
-    this.tell("selection");
+    this.notify("selection");
   }
 
   hover(name: string | null): void {
     if (name === this.hovered) return;
     this.hovered = name;
-    this.tell("hover");
+    this.notify("hover");
   }
 
   private change(id: string, change: Partial<Drawing>): void {
     const drawing = this.drawings.get(id);
     if (!drawing) return;
     this.drawings.set(id, { ...drawing, ...change });
-    this.tell("build", id);
+    this.notify("build", id);
   }
 
-  private tell(topic: Topic, drawing = this.current ?? ""): void {
+  private notify(topic: Topic, drawing = this.current ?? ""): void {
     for (const listener of this.listeners.get(topic) ?? []) listener(drawing);
   }
 }

@@ -1,4 +1,4 @@
-// Colours that the stage takes from the page: of the system's light or dark mode, or of the editor's theme.
+// The viewport's colours: of the system's light or dark mode, or of the editor's theme.
 
 export interface Colors {
   readonly accent: string;
@@ -8,7 +8,7 @@ export interface Colors {
 
 export function followTheme(apply: (colors: Colors) => void): void {
   const read = (): void => {
-    // Asked of an element, a colour comes as numbers, however the style sheet or the editor wrote it.
+    // The computed colour of an element is numeric, however the style sheet or the editor wrote it.
     const probe = document.createElement("span");
     document.body.append(probe);
     const color = (name: string): string => {
@@ -19,7 +19,7 @@ export function followTheme(apply: (colors: Colors) => void): void {
     probe.remove();
   };
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", read);
-  // VS Code changes classes and style of body and html with its theme. The probe is a child: it does not set this off.
+  // VS Code changes class and style of body and html with its theme. The probe is a child, so it does not trigger this.
   const observer = new MutationObserver(read);
   for (const element of [document.documentElement, document.body]) observer.observe(element, { attributes: true, attributeFilter: ["class", "style"] });
   read();

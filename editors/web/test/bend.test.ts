@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Matrix4, Vector3 } from "three";
 import type { Page } from "playwright-core";
-import { bendFor, ratioAt } from "../src/stage/bend";
+import { bendFor, ratioAt } from "../src/viewport/bend";
 import { camera, overlaps, picture, project, shown, still, type Colour } from "./browser";
 import { FRONT, island, SIDE, TOP } from "./cube";
 import { browse, build, FIGURE, isLike } from "./setup";

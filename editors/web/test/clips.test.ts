@@ -76,7 +76,7 @@ browse("a limited clip is counted in drawings and frames over its true length, w
 
 browse("a clip that does not repeat stops at its true end", kicking(), async (page) => {
   await shown(page);
-  await page.getByRole("button", { name: "Play again and again" }).click();
+  await page.getByRole("button", { name: "Loop" }).click();
   await page.locator(".slider").fill(String((begins(DRAWINGS - 1) + 0.5) / FPS));
   await page.locator("canvas").focus();
   await page.keyboard.press("Space");
@@ -291,7 +291,7 @@ browse("a clip of an hour is drawn without losing its peaks", (host) => {
   assert.ok(points.length > 200 && points.length <= box.width, `${points.length} points`);
   const top = points.reduce((a, b) => (b[1]! < a[1]! ? b : a));
   assert.ok(Math.abs(top[0]! - (50 + ((box.width - 62) * 7001) / 10_800)) < 2, "the peak is in its place");
-  assert.match((await page.locator(".chart-picture").getAttribute("aria-label"))!, /Most, 3 square metres, in frame 56,?009\./);
+  assert.match((await page.locator(".chart-picture").getAttribute("aria-label"))!, /The fastest is frame 56,?009, with an SSD of 3\./);
 });
 
 browse("the chart and two figures at any width, in the dark", kicking(), async (page) => {

@@ -132,7 +132,7 @@ browse("the pointer lights parts up, a click picks one and tells the host", one(
   await page.waitForFunction(() => document.querySelector(".inspector code")?.textContent === "Arm@Body$Shape default -8 8");
   assert.deepEqual(host.heard.filter(({ type }) => type === "pick"), [{ type: "pick", drawing: "figure.svg", part: "Arm" }]);
   const facts = await page.locator(".inspector").innerText();
-  for (const fact of [/nearest/, /Line\s+6, column/, /Hangs on\s+Body/, /#arm/, /Shape\s+default -8 8\s+its string/, /Color\s+0 0.627 0\s+built in/]) assert.match(facts, fact);
+  for (const fact of [/nearest/, /Line\s+6, column/, /Parent\s+Body/, /#arm/, /Shape\s+default -8 8\s+its string/, /Color\s+0 0.627 0\s+built in/]) assert.match(facts, fact);
   // A drag is no click.
   const body = await at(page, 140, 150, 0.2);
   await page.mouse.move(body.x, body.y);

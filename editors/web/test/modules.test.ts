@@ -7,11 +7,11 @@ import { cssColor, drivenBy } from "../src/panels/inspector";
 import { excerpt, sorted } from "../src/panels/findings";
 import { Parts } from "../src/parts";
 import { read, type ClipFacts, type Finding, type Part } from "../src/protocol";
-import { drawingAt, keysOf } from "../src/stage/clips";
-import { onNodes } from "../src/stage/beside";
-import { Exposure, inWords, peaks } from "../src/stage/exposure";
-import { Newest } from "../src/stage/loading";
-import { directionOf } from "../src/stage/view";
+import { drawingAt, keysOf } from "../src/viewport/clips";
+import { onNodes } from "../src/viewport/side-by-side";
+import { ExposureSheet, describeExposure, peaks } from "../src/viewport/exposure-sheet";
+import { Latest } from "../src/viewport/latest";
+import { directionOf } from "../src/viewport/view";
 import { State } from "../src/state";
 
 test("messages that are not known are dropped, and what is missing in a known one is empty", () => {
@@ -101,7 +101,7 @@ test("of models that come while one is read, only the newest is read next", asyn
   const read: number[] = [];
   const taken: number[] = [];
   const failed: number[] = [];
-  const newest = new Newest<number, number>(
+  const newest = new Latest<number, number>(
     (key) => {
       read.push(key);
       return new Promise((resolve, reject) => finish.set(key, (good) => (good ? resolve(key) : reject(new Error("bad")))));
@@ -188,7 +188,7 @@ test("what is known of clips is read, and what is missing is empty", () => {
 
 test("drawings stand for the source's frames up to the next, without the omitted ones", () => {
   // Frames 5 and 6 are left out; 0 and 9 stand longer for them, and 2 for the frame after it.
-  const exposure = new Exposure(facts({ exposure: [[0, 2], [1, 1], [2, 2], [4, 1], [7, 1], [8, 1], [9, 2], [10, 2]], omitted: [5, 6] }));
+  const exposure = new ExposureSheet(facts({ exposure: [[0, 2], [1, 1], [2, 2], [4, 1], [7, 1], [8, 1], [9, 2], [10, 2]], omitted: [5, 6] }));
   assert.deepEqual(exposure.runs.map(({ start, from, to }) => [start, from, to]), [[0, 0, 1], [2, 1, 2], [3, 2, 4], [5, 4, 5], [6, 7, 8], [7, 8, 9], [8, 9, 10], [10, 10, 12]]);
   assert.deepEqual([exposure.frames, exposure.sources], [12, 12]);
   // Times as single precision has them are those of their own frames.
@@ -196,26 +196,26 @@ test("drawings stand for the source's frames up to the next, without the omitted
   const shows = Array.from({ length: 12 }, (_, source) => exposure.drawingIn(exposure.frameAt(exposure.timeOf(source))));
   assert.deepEqual(shows, [0, 1, 2, 2, 3, 3, 3, 4, 5, 6, 7, 7]);
   assert.deepEqual([5, 6, 3, 7].map((source) => exposure.drawingFor(source)), [-1, -1, 2, 4]);
-  assert.equal(inWords(exposure), "12 frames, 8 drawings, 2 in-betweens omitted");
+  assert.equal(describeExposure(exposure), "12 frames, 8 drawings, 2 in-betweens omitted");
 });
 
 test("where nothing is omitted, a drawing may be any frame of those that it stands for", () => {
-  const exposure = new Exposure(facts({ exposure: [[2, 4], [7, 5], [10, 3]], held: 9 }));
+  const exposure = new ExposureSheet(facts({ exposure: [[2, 4], [7, 5], [10, 3]], held: 9 }));
   assert.deepEqual(exposure.runs.map(({ from, to }) => [from, to]), [[0, 4], [4, 9], [9, 12]]);
   assert.deepEqual([0, 3, 4, 8, 9, 11].map((frame) => exposure.sourceAt((frame + 0.5) / 24)), [0, 3, 4, 8, 9, 11]);
   assert.equal(exposure.drawingIn(exposure.frameAt(exposure.timeOf(8))), 1);
-  assert.equal(inWords(exposure), "12 frames, 3 drawings, 9 held");
+  assert.equal(describeExposure(exposure), "12 frames, 3 drawings, 9 held");
 });
 
 test("a clip that is shorter for what was omitted, one that is not limited, and one of which nothing is known", () => {
-  const short = new Exposure(facts({ frames: 10, exposure: [[0, 1], [1, 1], [2, 2], [4, 1], [7, 1], [8, 1], [9, 1], [10, 2]], omitted: [5, 6] }));
+  const short = new ExposureSheet(facts({ frames: 10, exposure: [[0, 1], [1, 1], [2, 2], [4, 1], [7, 1], [8, 1], [9, 1], [10, 2]], omitted: [5, 6] }));
   assert.deepEqual([short.frames, short.sources, short.sourceAt(9 / 24)], [10, 12, 11]);
-  const full = new Exposure(facts({ limited: false, exposure: Array.from({ length: 12 }, (_, at) => [at, 1] as const) }));
+  const full = new ExposureSheet(facts({ limited: false, exposure: Array.from({ length: 12 }, (_, at) => [at, 1] as const) }));
   assert.deepEqual([full.runs.length, full.frames, full.sources, full.drawingIn(4), full.sourceAt(5 / 24), full.ssd(5)], [0, 12, 12, -1, 5, 5]);
-  assert.equal(inWords(full), "12 frames, as in the motion file");
-  const none = new Exposure(facts({ frames: 0, fps: 0, ssd: [], limited: false }));
+  assert.equal(describeExposure(full), "12 frames, as in the motion file");
+  const none = new ExposureSheet(facts({ frames: 0, fps: 0, ssd: [], limited: false }));
   assert.deepEqual([none.frames, none.sources, none.sourceAt(3), none.timeOf(7) < 0.1, none.ssd(0)], [1, 1, 0, true, null]);
-  const thinned = new Exposure(facts({ frames: 22, limited: false, ssd: [1, 2, 3], ssdStep: 8 }));
+  const thinned = new ExposureSheet(facts({ frames: 22, limited: false, ssd: [1, 2, 3], ssdStep: 8 }));
   assert.deepEqual([thinned.sources, thinned.ssd(7), thinned.ssd(8), thinned.ssd(21)], [22, 1, 2, 3]);
 });
 

@@ -55,7 +55,7 @@ browse("a drawing that never built says so, and appears when it does", (host) =>
 browse("a drawing whose file went is said to be gone, and comes back", one(HUMAN), async (page, host) => {
   await shown(page);
   host.gone("human.svg");
-  await page.getByText("The drawing's file is not there at present. This is its last model.").waitFor();
+  await page.getByText("The drawing's file is missing at the moment. This is its last model.").waitFor();
   host.built("human.svg", build(HUMAN));
   await page.locator(".notes").waitFor({ state: "hidden" });
 });

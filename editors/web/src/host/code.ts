@@ -1,18 +1,18 @@
-// The host inside a VS Code webview: everything goes by posted messages.
+// The host of a VS Code webview: everything goes by posted messages.
 
 import { read, type FromHost, type ToHost } from "../protocol";
 import type { Host, Link } from "./host";
 
 export interface CodeApi {
   postMessage(message: unknown): void;
-  /** What the editor hands to the extension when it brings the panel back in a window that was loaded anew. */
+  /** The state that the editor passes to the extension when it restores the panel after a reload. */
   setState(state: unknown): void;
 }
 
 type Waiting = { readonly resolve: (bytes: ArrayBuffer) => void; readonly reject: (error: Error) => void };
 
 export class CodeHost implements Host {
-  /** Who waits for the bytes of which address. */
+  /** Pending requests by address. */
   private readonly waiting = new Map<string, Waiting[]>();
 
   constructor(private readonly api: CodeApi) {}
@@ -22,7 +22,7 @@ export class CodeHost implements Host {
       const posted = typeof data === "object" && data !== null && "okoshi" in data ? data.okoshi : undefined;
       if (typeof posted !== "object" || posted === null) return;
       if ("type" in posted && posted.type === "modelBytes") return this.arrived(posted);
-      // The extension is always there; the language server behind it may be away, or begin anew.
+      // The extension is always there; the language server behind it may be away, or restart.
       if ("type" in posted && posted.type === "link") {
         const { state, note } = posted as { state?: unknown; note?: unknown };
         return link(state === "lost" || state === "connecting" ? state : "open", typeof note === "string" ? note : "");
@@ -53,7 +53,7 @@ export class CodeHost implements Host {
   }
 
   async save(name: string, content: Blob): Promise<void> {
-    // A webview may not download: the editor asks where to write.
+    // A webview cannot download files: the editor asks where to save.
     this.api.postMessage({ type: "save", name, bytes: toBase64(new Uint8Array(await content.arrayBuffer())) });
   }
 
@@ -70,7 +70,7 @@ export class CodeHost implements Host {
   }
 }
 
-/** Bytes as VS Code hands them over: as such, or as base64. */
+/** Bytes as VS Code passes them: as such, or as base64. */
 export function toBuffer(bytes: unknown): ArrayBuffer | null {
   if (bytes instanceof ArrayBuffer) return bytes;
   if (ArrayBuffer.isView(bytes)) return new Uint8Array(bytes.buffer, bytes.byteOffset, bytes.byteLength).slice().buffer;
@@ -80,7 +80,7 @@ export function toBuffer(bytes: unknown): ArrayBuffer | null {
 
 export function toBase64(bytes: Uint8Array): string {
   let binary = "";
-  // Piece by piece: arguments of a call are limited in number.
+  // In chunks: the number of arguments of a call is limited.
   for (let at = 0; at < bytes.length; at += 8192) binary += String.fromCharCode(...bytes.subarray(at, at + 8192));
   return btoa(binary);
 }

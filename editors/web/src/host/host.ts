@@ -1,4 +1,4 @@
-// The page's one door to whoever shows it.
+// The page's connection to its host.
 
 import type { FromHost, ToHost } from "../protocol";
 import { WebHost } from "./web";
@@ -7,15 +7,15 @@ import { CodeHost, type CodeApi } from "./code";
 export type Link = "connecting" | "open" | "lost";
 
 export interface Host {
-  /** Hands over what the host says, and how the connection to it is, from now on. A note says why it is so, in words. */
+  /** Starts to report messages of the host and the state of the connection, with a note that explains it. */
   listen(handler: (message: FromHost) => void, link: (state: Link, note?: string) => void): void;
-  /** What is sent while there is no connection is lost. */
+  /** Messages are lost while there is no connection. */
   send(message: ToHost): void;
   /** The bytes of a model. */
   model(address: string): Promise<ArrayBuffer>;
   /** The address of a thumbnail, for an `<img>`. */
   picture(address: string): Promise<string>;
-  /** Gives the person a file. */
+  /** Saves a file for the user. */
   save(name: string, content: Blob): Promise<void>;
 }
 

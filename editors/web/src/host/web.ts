@@ -1,12 +1,12 @@
-// The host over http: messages through a WebSocket, models and pictures by GET.
+// The host over HTTP: messages through a WebSocket, models and pictures by GET.
 
 import { read, type FromHost, type ToHost } from "../protocol";
 import type { Host, Link } from "./host";
 
-/** Pauses between attempts to connect, in milliseconds. */
+/** Delays between attempts to connect, in milliseconds. */
 const FIRST_PAUSE = 200;
 const LAST_PAUSE = 5000;
-/** How long an attempt may take before it is given up, in milliseconds. */
+/** How long an attempt may take, in milliseconds. */
 const PATIENCE = 10000;
 
 export class WebHost implements Host {
@@ -21,7 +21,7 @@ export class WebHost implements Host {
     this.link = link;
     this.link("connecting");
     this.connect();
-    // Someone who looks at the page again, or is online again, need not wait out the pause.
+    // Reconnects at once when the user looks at the page again or is online again.
     addEventListener("online", () => this.hurry());
     document.addEventListener("visibilitychange", () => {
       if (!document.hidden) this.hurry();
@@ -33,8 +33,8 @@ export class WebHost implements Host {
   }
 
   model(address: string): Promise<ArrayBuffer> {
-    // Not by fetch(), which hands a megabyte over some 4 ms later. The server forbids to keep models: one that was started again
-    // counts its builds anew, and what was kept under an address may be another model.
+    // Not fetch(), which takes about 4 ms longer for a megabyte. The server forbids caching: after a restart it counts builds from the
+    // beginning, so the same address may be another model.
     return new Promise((resolve, reject) => {
       const request = new XMLHttpRequest();
       request.open("GET", address);
@@ -58,7 +58,7 @@ export class WebHost implements Host {
     link.href = address;
     link.download = name;
     link.click();
-    // The browser reads the blob after the click; a minute is long enough for it to begin.
+    // The browser reads the blob after the click; it has started within a minute.
     setTimeout(() => URL.revokeObjectURL(address), 60_000);
   }
 

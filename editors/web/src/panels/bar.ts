@@ -1,9 +1,9 @@
-// The head of the page: which drawing is shown, how its last build went, and whether the host is there.
+// The header of the page: the drawing, its last build, and the connection.
 
 import { LayoutGrid, WifiOff } from "lucide";
 import { count, fill, h, icon } from "../dom";
 import type { State } from "../state";
-import type { Viewer } from "../stage/viewer";
+import type { Viewer } from "../viewport/viewer";
 
 export class Bar {
   readonly element = h("header", { class: "bar" });

@@ -1,9 +1,9 @@
-// How much of the drawn look terrain keeps, while the model has any that bends with the view.
+// The slider between the drawn look and true 3D, for models with view-dependent terrain.
 
 import { Map } from "lucide";
 import { button, fill, h } from "../dom";
 import type { Commands } from "../commands";
-import type { Viewer } from "../stage/viewer";
+import type { Viewer } from "../viewport/viewer";
 
 export class BendBar {
   readonly element = h("section", { class: "bendbar", hidden: true, attributes: { "aria-label": "Drawn look" } });
@@ -22,7 +22,7 @@ export class BendBar {
       button({ icon: Map, label: "Drawn view", key: "4", wide: true, press: () => viewer.lookAsDrawn() }),
     );
     this.slider.addEventListener("input", () => viewer.setBent(Number(this.slider.value)));
-    viewer.on(["model", "look"], () => this.follow());
+    viewer.on(["model", "display"], () => this.follow());
     this.follow();
   }
 

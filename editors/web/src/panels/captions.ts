@@ -1,8 +1,8 @@
-// What stands where, while a clip and its original are side by side.
+// Captions over the two models of a comparison.
 
 import { Vector3 } from "three";
 import { fill, h } from "../dom";
-import type { Viewer } from "../stage/viewer";
+import type { Viewer } from "../viewport/viewer";
 
 export class Captions {
   readonly element = h("div", { class: "captions", hidden: true });
@@ -10,12 +10,12 @@ export class Captions {
 
   constructor(private readonly viewer: Viewer) {
     fill(this.element, ...this.labels);
-    viewer.on(["beside", "model", "time"], () => this.draw());
+    viewer.on(["sideBySide", "model", "time"], () => this.draw());
     viewer.view.onChange(() => this.place());
   }
 
   private draw(): void {
-    const { boxes } = this.viewer.beside;
+    const { boxes } = this.viewer.sideBySide;
     this.element.hidden = boxes === null;
     if (!boxes) return;
     const own = this.viewer.exposure?.facts.limited === false ? "full" : "limited";
@@ -23,10 +23,10 @@ export class Captions {
     this.place();
   }
 
-  /** Over the middle of what each fills while the clip plays. */
+  /** Above the middle of each one's bounds during the clip. */
   private place(): void {
-    const { beside, view } = this.viewer;
-    beside.boxes?.forEach((box, at) => {
+    const { sideBySide, view } = this.viewer;
+    sideBySide.boxes?.forEach((box, at) => {
       const label = this.labels[at]!;
       const middle = box.getCenter(new Vector3());
       const place = view.onScreen(middle.setY(box.max.y));

@@ -1,22 +1,22 @@
-// The chart of how much moves from frame to frame of a clip's source, which frames were left out, and how long drawings stand.
+// The chart of a clip: the movement between the frames of its source, omitted frames, and how long drawings are held.
 
 import { fill, h, svg } from "../dom";
-import { inWords, peaks, type Exposure } from "../stage/exposure";
-import type { Viewer } from "../stage/viewer";
+import { describeExposure, peaks, type ExposureSheet } from "../viewport/exposure-sheet";
+import type { Viewer } from "../viewport/viewer";
 
-/** Whether the chart was open when the page was last left. */
+/** The key under which the browser stores whether the chart is open. */
 const REMEMBERED = "okoshi.chart";
-/** Room around the curve, in pixels: for the numbers, and for the drawings below it. */
+/** Space around the curve in pixels: for the numbers, and for the drawings below it. */
 const LEFT = 50;
 const RIGHT = 12;
 const TOP = 14;
 const BELOW = 38;
-/** How high a drawing's box is, and how far below the curve. */
+/** The height of the boxes of drawings, and their distance from the curve, in pixels. */
 const BOX = 10;
 const GAP = 5;
-/** Boxes that are narrower have no room between them. */
+/** Narrower boxes have no gaps, in pixels. */
 const NARROW = 4;
-/** Pixels from number to number along the frames, at least. */
+/** The smallest distance between frame numbers, in pixels. */
 const APART = 56;
 
 export class Chart {
@@ -29,13 +29,13 @@ export class Chart {
   private readonly dot = svg("circle", { class: "chart-dot", r: 4 });
   private readonly stand = svg("path", { class: "chart-now" });
   private readonly line = svg("path", { class: "chart-hover" });
-  private drawn: Exposure | null = null;
+  private drawn: ExposureSheet | null = null;
   private size = { width: 0, height: 0 };
   private scale = 1;
   private drags = false;
   private wanted = remembered();
 
-  /** `changed` hears when it is opened or closed. */
+  /** `changed` is called when the chart is opened or closed. */
   constructor(private readonly viewer: Viewer, private readonly changed: () => void) {
     fill(
       this.element,
@@ -92,12 +92,12 @@ export class Chart {
     this.move();
   }
 
-  /** Where a frame of the source is, in pixels from the left. */
+  /** The x coordinate of a source frame, in pixels. */
   private at(source: number): number {
     return LEFT + ((this.size.width - LEFT - RIGHT) * source) / (this.drawn?.sources ?? 1);
   }
 
-  /** How high a movement is, in pixels from above. */
+  /** The y coordinate of a movement, in pixels. */
   private up(ssd: number): number {
     const bottom = this.size.height - BELOW;
     return bottom - ((bottom - TOP) * ssd) / this.scale;
@@ -120,7 +120,7 @@ export class Chart {
     const lines = svg("path", { class: "chart-grid", d: grid.map((value) => `M${LEFT} ${half(this.up(value))}H${right}`).join("") });
     const numbers = grid.map((value) => word(LEFT - 7, this.up(value) + 4, "end", figures(value)));
     const step = niceStep((sources * APART) / (right - LEFT));
-    // The last number needs room; they count from 1, as the bar below does.
+    // Space for the last number; numbers count from 1, like the bar below.
     for (let frame = 0; frame < sources; frame = frame === 0 ? step - 1 || 1 : frame + step) {
       const x = this.at(frame + 0.5);
       if (x < right - 8 || frame === 0) numbers.push(word(x, height - 6, "middle", String(frame + 1)));
@@ -161,16 +161,16 @@ export class Chart {
     );
     fill(this.head, svg("path", { d: `M0 ${TOP - 4}V${bottom + GAP + BOX + 2}` }), svg("path", { class: "chart-grip", d: `M-5 ${TOP - 10}H5V${TOP - 6}L0 ${TOP - 1}L-5 ${TOP - 6}Z` }), this.dot);
     this.element.classList.toggle("limited", facts.limited);
-    const words = inWords(exposure);
+    const words = describeExposure(exposure);
     this.summary.textContent = words;
     this.file.textContent = facts.file;
     this.file.hidden = facts.file === "";
     const top = facts.ssd.indexOf(most) * facts.ssdStep;
-    this.picture.setAttribute("aria-label", `How much the joints of ${facts.name || "the clip"} move from frame to frame: ${words}. ${most > 0 ? `Most, ${figures(most)} square metres, in frame ${top + 1}.` : "Nothing moves."}`);
+    this.picture.setAttribute("aria-label", `How much the joints of ${facts.name || "the clip"} move from frame to frame: ${words}. ${most > 0 ? `The fastest is frame ${top + 1}, with an SSD of ${figures(most)}.` : "Nothing moves."}`);
     this.move();
   }
 
-  /** Puts the playhead where the clip is. */
+  /** Moves the playhead to the time of the clip. */
   private move(): void {
     const { drawn } = this;
     if (!drawn) return;
@@ -205,7 +205,7 @@ export class Chart {
     else if (run) words.push(`drawing ${drawn.drawingFor(source) + 1}`, run.frames > 1 ? `stands for ${run.frames} frames` : "");
     this.tip.textContent = words.filter(Boolean).join(" · ");
     this.tip.hidden = false;
-    // Beside the line, on the side that has room.
+    // Beside the line, on the side with enough space.
     const wide = this.tip.offsetWidth;
     this.tip.style.transform = `translateX(${x + 10 + wide < this.size.width ? x + 10 : Math.max(x - 10 - wide, 0)}px)`;
   }
@@ -224,30 +224,30 @@ const word = (x: number, y: number, anchor: string, text: string): SVGTextElemen
 };
 
 const round = (value: number): number => Math.round(value * 100) / 100;
-/** A line of one pixel is sharp in the middle of one. */
+/** The centre of a pixel, where lines one pixel wide are sharp. */
 const half = (value: number): number => Math.floor(value) + 0.5;
 
 const NUMBERS = new Intl.NumberFormat("en", { maximumSignificantDigits: 3 });
-/** A number with three figures; very small ones with a power of ten. */
+/** A number with three digits; very small ones in scientific notation. */
 export function figures(value: number): string {
   return value !== 0 && Math.abs(value) < 1e-4 ? value.toExponential(1).replace("e-", "e−") : NUMBERS.format(value);
 }
 
-/** The least of 1, 2, 4, 5, 6 or 8 times a power of ten that is not below a number: its half is short too. */
+/** The smallest of 1, 2, 4, 5, 6 or 8 times a power of ten that is not below a number: half of it is a short number too. */
 export function niceAbove(value: number): number {
   const ten = 10 ** Math.floor(Math.log10(value));
   for (const times of [1, 2, 4, 5, 6, 8]) if (value <= times * ten * (1 + 1e-9)) return times * ten;
   return 10 * ten;
 }
 
-/** The least of 1, 2 or 5 times a power of ten that is not below a number, and no fraction. */
+/** The smallest whole number not below another that is 1, 2 or 5 times a power of ten. */
 function niceStep(value: number): number {
   const ten = 10 ** Math.max(Math.floor(Math.log10(Math.max(value, 1))), 0);
   for (const times of [1, 2, 5]) if (value <= times * ten) return times * ten;
   return 10 * ten;
 }
 
-// A page may be forbidden to keep anything.
+// Storage may be forbidden.
 function remembered(): boolean {
   try {
     return localStorage.getItem(REMEMBERED) === "open";
@@ -260,6 +260,6 @@ function remember(open: boolean): void {
   try {
     localStorage.setItem(REMEMBERED, open ? "open" : "closed");
   } catch {
-    // Then it is closed the next time.
+    // Then the chart is closed the next time.
   }
 }

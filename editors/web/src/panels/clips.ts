@@ -1,18 +1,18 @@
-// The clips' bar: which plays, where in it one is, how fast; and above it the chart.
+// The clip bar: which clip plays, at what time and speed, and above it the chart.
 
 import { ChartSpline, Columns2, Pause, Play, Repeat, SkipBack, SkipForward } from "lucide";
 import type { AnimationClip } from "three";
 import { button, fill, h, icon, svg } from "../dom";
-import { drawingAt, keysOf } from "../stage/clips";
-import type { Exposure } from "../stage/exposure";
-import type { Viewer } from "../stage/viewer";
+import { drawingAt, keysOf } from "../viewport/clips";
+import type { ExposureSheet } from "../viewport/exposure-sheet";
+import type { Viewer } from "../viewport/viewer";
 import { Chart } from "./chart";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
-/** More ticks than this cannot be told apart. */
-const MOST_TICKS = 600;
+/** More ticks could not be distinguished. */
+const MAX_TICKS = 600;
 
-/** A stretch of the timeline in which nothing moves, in seconds. */
+/** A held drawing on the timeline, in seconds. */
 interface Box {
   readonly from: number;
   readonly to: number;
@@ -20,22 +20,22 @@ interface Box {
 
 export class Clips {
   readonly element = h("section", { class: "clips", attributes: { "aria-label": "Clips" } });
-  /** The bar, and the chart above it. */
+  /** The bar and the chart above it. */
   readonly panel = h("div", { class: "motion", hidden: true });
   readonly chart: Chart;
   private readonly choice = h("select", { class: "select clip-choice", attributes: { "aria-label": "Clip" } });
-  private readonly figure = h("select", { class: "select figure-choice", title: "Whose drawings are counted", attributes: { "aria-label": "Figure" } });
+  private readonly figure = h("select", { class: "select figure-choice", title: "Figure whose drawings are counted", attributes: { "aria-label": "Figure" } });
   private readonly play = button({ icon: Play, label: "Play", key: "Space", press: () => this.toggle() });
   private readonly slider = h("input", { class: "slider", attributes: { type: "range", min: 0, step: 0.001, "aria-label": "Time" } });
   private readonly ticks = svg("svg", { class: "ticks", viewBox: "0 0 1000 10", preserveAspectRatio: "none", "aria-hidden": "true" });
   private readonly now = svg("path", { class: "now" });
   private readonly readout = h("output", { class: "readout" });
-  private readonly loop = button({ icon: Repeat, label: "Play again and again", press: () => this.viewer.moved(() => (this.player.loops = !this.player.loops)) });
+  private readonly loop = button({ icon: Repeat, label: "Loop", press: () => this.viewer.moved(() => (this.player.loops = !this.player.loops)) });
   private readonly charts = button({ icon: ChartSpline, label: "Chart", key: "C", press: () => this.chart.toggle() });
   private readonly compares = button({ icon: Columns2, label: "Full and limited side by side", key: "O", press: () => this.compare() });
   private readonly speed = h("select", { class: "select", attributes: { "aria-label": "Speed" } }, ...SPEEDS.map((speed) => h("option", { attributes: { value: speed } }, `${speed}×`)));
   private shown: AnimationClip | null = null;
-  private exposure: Exposure | null = null;
+  private exposure: ExposureSheet | null = null;
   private boxes: readonly Box[] = [];
 
   constructor(private readonly viewer: Viewer) {
@@ -46,7 +46,7 @@ export class Clips {
       h(
         "div",
         { class: "transport" },
-        button({ icon: SkipBack, label: "Key before", key: "J", press: () => this.step(-1) }),
+        button({ icon: SkipBack, label: "Previous key", key: "J", press: () => this.step(-1) }),
         this.play,
         button({ icon: SkipForward, label: "Next key", key: "K", press: () => this.step(1) }),
       ),
@@ -70,14 +70,14 @@ export class Clips {
       }),
     );
     viewer.on(["model"], () => this.list());
-    viewer.on(["time", "beside"], () => this.follow());
+    viewer.on(["time", "sideBySide"], () => this.follow());
   }
 
   toggle(): void {
     this.viewer.moved(() => this.player.play(!this.player.playing));
   }
 
-  /** To the drawing before or after, or to the key. */
+  /** Goes to the previous or next drawing or key. */
   step(keys: 1 | -1): void {
     const { clip, time } = this.player;
     const { exposure } = this.viewer;
@@ -86,7 +86,7 @@ export class Clips {
     const { runs } = exposure;
     const frame = exposure.frameAt(time);
     const at = exposure.drawingIn(frame);
-    // Back from within a drawing is to its own beginning.
+    // From within a drawing, back goes to its beginning.
     const next = keys < 0 && frame > runs[at]!.start ? at : (at + keys + runs.length) % runs.length;
     this.viewer.moved(() => {
       this.player.play(false);
@@ -110,7 +110,7 @@ export class Clips {
     this.follow();
   }
 
-  /** A clip in a few words. */
+  /** A short description of a clip. */
   private describe(clip: AnimationClip, at: number): string {
     const figures = this.viewer.exposuresOf(clip);
     const keys = keysOf(clip);
@@ -158,7 +158,7 @@ export class Clips {
     }
   }
 
-  /** Where in the clip a time is. */
+  /** The position in the clip, in words. */
   private words(time: number): string {
     const { clip, keys } = this.player;
     const { exposure } = this.viewer;
@@ -171,13 +171,13 @@ export class Clips {
     return keys.held ? `drawing ${drawingAt(keys, time)} of ${keys.times.length} · ${seconds}` : `${time.toFixed(2)} of ${clip?.duration.toFixed(2)} s`;
   }
 
-  /** A tick at each key; drawings that are held are boxes. */
+  /** Draws a tick for each key, or a box for each held drawing. */
   private draw(clip: AnimationClip, times: readonly number[], held: boolean): void {
     const { exposure } = this.viewer;
     const { duration } = clip;
     if (exposure && exposure.runs.length > 0) this.boxes = exposure.runs.map(({ start, frames }) => ({ from: start / exposure.fps, to: Math.min((start + frames) / exposure.fps, duration) }));
     else this.boxes = held ? times.map((from, at) => ({ from, to: times[at + 1] ?? duration })) : [];
-    const every = Math.ceil((this.boxes.length || times.length) / MOST_TICKS);
+    const every = Math.ceil((this.boxes.length || times.length) / MAX_TICKS);
     const drawn =
       this.boxes.length > 0
         ? this.boxes.filter((_, at) => at % every === 0).map((box) => outline(box, duration))
@@ -189,10 +189,10 @@ export class Clips {
 
 const drawings = (number: number): string => `${number} ${number === 1 ? "drawing" : "drawings"}`;
 
-/** How far along the timeline a time is, in thousandths. */
+/** The position of a time on the timeline, in thousandths. */
 const across = (time: number, duration: number): number => (duration > 0 ? Math.round((time / duration) * 1e5) / 100 : 0);
 
-/** A box on the timeline, with room before the next. */
+/** A box on the timeline, with a gap before the next. */
 function outline({ from, to }: Box, duration: number): string {
   const left = across(from, duration);
   return `M${left} 0H${Math.max(across(to, duration) - 2, left + 0.5)}V10H${left}Z`;

@@ -1,4 +1,4 @@
-// The diagnostics, over the last good model. Errors open the list by themselves, and it closes by itself when they are gone.
+// The diagnostics, over the last good model. The list opens when there are errors, and closes again when they are gone.
 
 import { ChevronDown, CircleX, Lightbulb, TriangleAlert } from "lucide";
 import { count, fill, h, icon } from "../dom";
@@ -6,9 +6,9 @@ import type { Finding, Severity } from "../protocol";
 import type { State } from "../state";
 
 const ICONS = { error: CircleX, warning: TriangleAlert, hint: Lightbulb } as const;
-/** More findings than this are only counted. */
+/** Further findings are only counted. */
 const MOST = 200;
-/** Of a longer line, what is around the marked characters is shown. */
+/** The number of characters of a longer line that are shown around the marked ones. */
 const LINE = 110;
 
 export class Findings {
@@ -17,12 +17,12 @@ export class Findings {
   private readonly toggle = h("button", { class: "findings-head", attributes: { type: "button", "aria-controls": "findings-list" }, on: { click: () => this.set(!this.open, true) } });
   private readonly stale = h("p", { class: "stale", hidden: true, attributes: { role: "status" } });
   private open = false;
-  /** The person opened it: it does not close by itself. */
+  /** The user opened it, so it does not close automatically. */
   private held = false;
   private errors = false;
   private shown = "";
 
-  /** `go` hears of findings that were clicked. */
+  /** `go` is called with findings that are clicked. */
   constructor(private readonly state: State, private readonly go: (finding: Finding) => void) {
     fill(this.element, this.stale, this.toggle, this.list);
     state.on("current", () => {
@@ -113,7 +113,7 @@ export function badge(severity: Severity, findings: readonly Finding[]): HTMLEle
   return number === 0 ? null : h("span", { class: `badge ${severity}`, attributes: { "data-count": number } }, icon(ICONS[severity]), count(number, severity));
 }
 
-/** The source line around its marked characters. Places count characters, not UTF-16 units. */
+/** The source line around its marked characters. Offsets count characters, not UTF-16 units. */
 export function excerpt({ text, from, to }: Pick<Finding, "text" | "from" | "to">): { before: string; marked: string; after: string } {
   const all = Array.from(text);
   const blank = all.findIndex((one) => one.trim() !== "");
@@ -128,7 +128,7 @@ export function excerpt({ text, from, to }: Pick<Finding, "text" | "from" | "to"
   return { before: (start > blank && start > 0 ? "…" : "") + piece(start, from), marked: piece(from, stop), after: piece(stop, end).trimEnd() + (end < all.length ? "…" : "") };
 }
 
-/** What stands between backticks, as code. */
+/** Formats text between backticks as code. */
 export function inCode(text: string): (Node | string)[] {
   return text.split("`").map((piece, at) => (at % 2 === 1 ? h("code", {}, piece) : piece));
 }

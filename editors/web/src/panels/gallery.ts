@@ -1,4 +1,4 @@
-// All drawings of a folder, as cards that follow their builds.
+// All drawings of a folder, as cards that are updated with each build.
 
 import { Image } from "lucide";
 import { count, fill, h, icon } from "../dom";
@@ -24,7 +24,7 @@ export class Gallery {
     fill(this.element, h("header", { class: "gallery-head" }, this.heading, this.title), this.grid);
     state.on(["drawings", "current"], () => this.draw());
     state.on("build", (id) => {
-      // Nobody sees it, and pictures that are asked for are drawn.
+      // Nothing to do while it is hidden: to request pictures would make the host render them.
       if (this.element.hidden) return;
       const drawing = state.find(id);
       const card = this.cards.get(id);
@@ -53,7 +53,7 @@ export class Gallery {
     const { list } = this.state;
     const failing = list.filter(({ build }) => build?.findings.some(({ severity }) => severity === "error")).length;
     this.heading.textContent = count(list.length, "drawing");
-    this.title.textContent = list.length === 0 ? "One that is saved in the folder appears here by itself." : failing > 0 ? `${failing} with errors` : "";
+    this.title.textContent = list.length === 0 ? "Drawings saved in the folder appear here." : failing > 0 ? `${failing} with errors` : "";
   }
 
   private card(drawing: Drawing): Card {
@@ -74,7 +74,7 @@ export class Gallery {
     fill(
       card.facts,
       gone
-        ? h("span", { class: "muted" }, "its file is gone")
+        ? h("span", { class: "muted" }, "its file is missing")
         : build
           ? h("span", { class: "muted" }, count(parts.main, "part"))
           : h("span", { class: "muted" }, "building…"),
@@ -88,7 +88,7 @@ export class Gallery {
       (source) => {
         if (card.address !== address) return;
         const image = h("img", { attributes: { alt: `Model of ${name}`, width: 256, height: 256 } });
-        // The old picture stays until the new one is there.
+        // The old picture stays until the new one is loaded.
         image.addEventListener("load", () => card.address === address && fill(card.picture, image));
         image.src = source;
       },

@@ -1,4 +1,4 @@
-// The keys, and what the pointer does.
+// The help: keys and pointer.
 
 import { X } from "lucide";
 import { button, fill, h } from "../dom";
@@ -6,9 +6,9 @@ import { button, fill, h } from "../dom";
 const KEYS: readonly (readonly [string, readonly (readonly [string, string])[]])[] = [
   ["Look", [["drag", "turn the view"], ["right drag", "move it (or with two fingers)"], ["wheel, + −", "nearer, farther (or pinch)"], ["← → ↑ ↓", "turn the view by 10°"], ["0 1 3 7", "three-quarter, front, side, top (Shift: from the other side)"], ["5", "perspective or parallel"], ["4, B", "terrain: the drawn view; drawn look or true 3D"], ["F", "frame the model"], ["Z", "next shading"]]],
   ["Parts", [["click", "select a part, and jump to its string in the editor"], ["T", "go to the list of parts"], ["E", "open or close the findings"], ["Esc", "select nothing"]]],
-  ["Pose", [["P", "turn posing on or off"], ["drag", "turn a limb about its joint"], ["Shift + drag", "turn it about its own axis"], [", .", "turn the selected part by 5°"], ["Esc", "put all limbs back"]]],
-  ["Clips", [["Space", "play, pause"], ["J K", "drawing or key before, next one"], ["C", "chart of the movement"], ["O", "full and limited side by side"]]],
-  ["Take along", [["S", "screenshot (Shift: transparent)"], ["D", "download the model"], ["Shift + F", "full screen"], ["G", "all drawings"]]],
+  ["Pose", [["P", "turn posing on or off"], ["drag", "turn a limb about its joint"], ["Shift + drag", "turn it about its own axis"], [", .", "turn the selected part by 5°"], ["Esc", "reset all limbs"]]],
+  ["Clips", [["Space", "play, pause"], ["J K", "previous or next drawing or key"], ["C", "movement chart"], ["O", "full and limited side by side"]]],
+  ["Export", [["S", "screenshot (Shift: transparent)"], ["D", "download the model"], ["Shift + F", "full screen"], ["G", "all drawings"]]],
 ];
 
 export class Help {
@@ -23,9 +23,9 @@ export class Help {
         { class: "help-groups" },
         ...KEYS.map(([title, keys]) => h("section", {}, h("h3", {}, title), h("dl", {}, ...keys.flatMap(([key, does]) => [h("dt", {}, h("kbd", {}, key)), h("dd", {}, does)])))),
       ),
-      h("p", { class: "muted" }, "Posing is only a look: nothing is written to the drawing."),
+      h("p", { class: "muted" }, "Posing only changes this view, not the drawing."),
     );
-    // A click beside the dialog is one on its backdrop, which is the element itself.
+    // A click on the backdrop is one on the dialog element itself.
     this.element.addEventListener("click", ({ target }) => {
       if (target === this.element) this.element.close();
     });

@@ -1,10 +1,10 @@
-// What is known of the selected part.
+// The properties of the selected part.
 
 import { count, fill, h } from "../dom";
 import { isAside, isAutomatic } from "../parts";
 import type { ClipFacts, Part, Source } from "../protocol";
 import type { State } from "../state";
-import type { Viewer } from "../stage/viewer";
+import type { Viewer } from "../viewport/viewer";
 
 const BOUND: Readonly<Record<string, string>> = {
   group: "in one group with its shape",
@@ -19,16 +19,16 @@ const KIND: Readonly<Record<Part["kind"], string>> = { main: "part", sub: "shape
 export class Inspector {
   readonly element = h("section", { class: "inspector", attributes: { "aria-label": "Selected part", "aria-live": "polite" } });
 
-  /** The name of the clip that was shown when this was drawn. */
+  /** The clip that was shown when this was drawn. */
   private clip: string | undefined;
 
-  /** `go` shows a part that was clicked here. */
+  /** `go` is called with parts that are clicked here. */
   constructor(private readonly state: State, private readonly viewer: Viewer, private readonly go: (part: string) => void) {
     state.on(["selection", "current"], () => this.draw());
     state.on("build", (drawing) => {
       if (drawing === state.current) this.draw();
     });
-    // Which clip is shown changes with its time at most.
+    // The clip can only change together with the time.
     viewer.on(["model", "time"], () => {
       if (viewer.player.clip?.name !== this.clip) this.draw();
     });
@@ -44,14 +44,14 @@ export class Inspector {
     }
     const part = parts.get(selected);
     if (!part) {
-      return fill(this.element, h("h2", {}, h("span", { class: "part-name" }, selected)), h("p", { class: "muted pad" }, "The drawing has no part of this name at present."));
+      return fill(this.element, h("h2", {}, h("span", { class: "part-name" }, selected)), h("p", { class: "muted pad" }, "The drawing has no part of this name at the moment."));
     }
     fill(this.element, h("h2", {}, h("span", { class: "part-name" }, part.name), h("span", { class: "muted" }, KIND[part.kind])), this.string(part), this.facts(part), this.attributes(part));
   }
 
   private string(part: Part): HTMLElement {
     if (!part.string) {
-      return h("p", { class: "muted pad" }, isAutomatic(part) && part.kind === "main" ? "No string: its name and place are automatic." : "No string of its own.");
+      return h("p", { class: "muted pad" }, isAutomatic(part) && part.kind === "main" ? "No string: its name and parent are automatic." : "No string of its own.");
     }
     return h("p", { class: "string" }, h("code", {}, part.string.text));
   }
@@ -59,10 +59,10 @@ export class Inspector {
   private facts(part: Part): HTMLElement {
     const rows: [string, Node | string][] = [];
     if (part.string) rows.push(["Bound", BOUND[part.string.boundBy] ?? part.string.boundBy], ["Line", `${part.string.line}, column ${part.string.column}`]);
-    if (!isAside(part)) rows.push(["Hangs on", part.parent === null ? "the root" : this.link(part.parent)]);
+    if (!isAside(part)) rows.push(["Parent", part.parent === null ? "the root" : this.link(part.parent)]);
     const children = this.state.parts.children(part.name).filter(({ kind }) => kind !== "sub");
     const shapes = this.state.parts.children(part.name).length - children.length;
-    if (children.length > 0) rows.push(["Carries", this.links(children)]);
+    if (children.length > 0) rows.push(["Children", this.links(children)]);
     if (shapes > 0) rows.push(["Shapes", count(shapes, "more shape")]);
     const driven = drivenBy(part.name, this.state.drawing?.build?.clips ?? [], this.clip);
     if (driven) rows.push(["Driven by", driven]);
@@ -98,8 +98,8 @@ export class Inspector {
 }
 
 /**
- * What makes a part move, in words: the joint that drives it, and why; null for a part of no clip's figure. Where clips differ, the
- * one that is shown is meant, else the first.
+ * The joint that drives a part, and why, in words; null for a part that belongs to no clip's figure. If clips differ, `shown` counts,
+ * otherwise the first.
  */
 export function drivenBy(part: string, clips: readonly Pick<ClipFacts, "name" | "joints" | "unmatched">[], shown?: string): string | null {
   const those = clips.filter(({ joints, unmatched }) => joints.has(part) || unmatched.includes(part));
@@ -110,7 +110,7 @@ export function drivenBy(part: string, clips: readonly Pick<ClipFacts, "name" | 
   return driven.why ? `${driven.joint} — ${driven.why}` : driven.joint;
 }
 
-/** A colour's value as CSS has it: `r g b [a]` from 0 to 1 become one; names and `#rrggbb` are left; anything else is none. */
+/** A colour as CSS: `r g b [a]` with numbers from 0 to 1 is converted, names and `#rrggbb` are kept, anything else is null. */
 export function cssColor(value: string): string | null {
   const numbers = value.trim().split(/\s+/).map(Number);
   if ((numbers.length === 3 || numbers.length === 4) && numbers.every(Number.isFinite)) {

@@ -1,4 +1,4 @@
-// A button that opens a few choices.
+// A button that opens a menu.
 
 import type { IconNode } from "lucide";
 import { button, h } from "../dom";

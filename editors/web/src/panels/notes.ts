@@ -1,15 +1,15 @@
-// What is to be said in the middle of the stage, in words.
+// A status message over the viewport.
 
 import { fill, h } from "../dom";
 import type { State } from "../state";
-import type { Viewer } from "../stage/viewer";
+import type { Viewer } from "../viewport/viewer";
 
 export class Notes {
   readonly element = h("div", { class: "notes", attributes: { role: "status" } });
 
   constructor(private readonly state: State, private readonly viewer: Viewer) {
     state.on(["current", "build", "drawings"], () => this.draw());
-    viewer.on(["model", "beside"], () => this.draw());
+    viewer.on(["model", "sideBySide"], () => this.draw());
     this.draw();
   }
 
@@ -26,10 +26,10 @@ export class Notes {
     const { drawing } = this.state;
     if (!drawing) return "";
     if (this.viewer.failure !== "") return `The model could not be shown: ${this.viewer.failure}`;
-    if (drawing.gone) return this.viewer.model ? "The drawing's file is not there at present. This is its last model." : "The drawing's file is not there at present.";
+    if (drawing.gone) return this.viewer.model ? "The drawing's file is missing at the moment. This is its last model." : "The drawing's file is missing at the moment.";
     if (this.viewer.comparison.failure !== "") return `The full clips could not be shown: ${this.viewer.comparison.failure}`;
     if (this.viewer.model) return "";
     if (!drawing.build) return "Building…";
-    return drawing.build.model === null ? (drawing.build.stale || drawing.build.findings.some(({ severity }) => severity === "error") ? "There is no model yet: the drawing has errors." : "The drawing makes no model: it has no parts.") : "";
+    return drawing.build.model === null ? (drawing.build.stale || drawing.build.findings.some(({ severity }) => severity === "error") ? "There is no model yet: the drawing has errors." : "There is no model: the drawing has no parts.") : "";
   }
 }

@@ -1,9 +1,9 @@
-// What is shown while limbs are posed.
+// The bar that is shown in posing mode.
 
 import { RotateCcw, RotateCw, Undo2, X } from "lucide";
 import { button, fill, h } from "../dom";
 import type { Commands } from "../commands";
-import type { Viewer } from "../stage/viewer";
+import type { Viewer } from "../viewport/viewer";
 
 export class PoseBar {
   readonly element = h("section", { class: "posebar", hidden: true, attributes: { "aria-label": "Posing" } });
@@ -25,7 +25,7 @@ export class PoseBar {
     this.follow(viewer, commands);
   }
 
-  tell(part: string, degrees: number): void {
+  show(part: string, degrees: number): void {
     const rounded = Math.round(degrees);
     fill(this.readout, h("strong", {}, part), ` ${rounded > 0 ? "+" : rounded < 0 ? "−" : ""}${Math.abs(rounded)}°`);
   }

@@ -1,4 +1,4 @@
-// The list of parts and what is known of one of them: beside the stage, or on a narrow page a sheet below it.
+// The side panel with the hierarchy and the inspector: beside the viewport, or on a narrow page a sheet below it.
 
 import { ChevronUp } from "lucide";
 import { fill, h, icon } from "../dom";

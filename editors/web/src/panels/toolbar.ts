@@ -1,10 +1,10 @@
-// The buttons over the stage.
+// The buttons above the viewport.
 
 import { Camera, Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, PersonStanding } from "lucide";
 import { button, fill, h } from "../dom";
 import type { Commands } from "../commands";
-import type { Shading } from "../stage/model";
-import type { Viewer } from "../stage/viewer";
+import type { Shading } from "../viewport/model";
+import type { Viewer } from "../viewport/viewer";
 import { menu } from "./menu";
 
 export class Toolbar {
@@ -14,7 +14,7 @@ export class Toolbar {
     const shadings: [Shading, HTMLButtonElement][] = (
       [
         ["smooth", Circle, "Smooth"],
-        ["flat", Hexagon, "Flat: every triangle as it is"],
+        ["flat", Hexagon, "Flat: no smoothing between triangles"],
         ["wire", Globe, "Wireframe"],
         ["edges", Grid3x3, "Smooth, with the triangles' edges"],
       ] as const
@@ -23,13 +23,13 @@ export class Toolbar {
     const pose = button({ icon: PersonStanding, label: "Pose", key: "P", wide: true, press: () => commands.togglePosing() });
     const picture = menu({ icon: Camera, label: "Screenshot" }, [
       { label: "With background", key: "S", press: () => void commands.screenshot(false) },
-      { label: "Transparent, the model alone", key: "Shift+S", press: () => void commands.screenshot(true) },
+      { label: "Only the model, transparent", key: "Shift+S", press: () => void commands.screenshot(true) },
     ]);
     const download = button({ icon: Download, label: "Download the model (GLB)", key: "D", press: () => void commands.download() });
     fill(
       this.element,
       group(
-        "Look from",
+        "Views",
         ...([["¾", "threeQuarter", "0", "Three-quarter view"], ["Front", "front", "1", "Front view"], ["Side", "side", "3", "Side view"], ["Top", "top", "7", "Top view"]] as const).map(
           ([text, name, key, label]) =>
             h("button", { class: "button text", title: `${label} (${key})`, attributes: { type: "button", "aria-label": label, "aria-keyshortcuts": key }, on: { click: () => viewer.view.look(name) } }, text),
@@ -40,7 +40,7 @@ export class Toolbar {
       group("Pose", pose),
       h("span", { class: "spring" }),
       group(
-        "Take along",
+        "Export",
         picture,
         download,
         document.fullscreenEnabled && button({ icon: Fullscreen, label: "Full screen", key: "Shift+F", press: () => void commands.toggleFullScreen() }),
@@ -53,7 +53,7 @@ export class Toolbar {
       pose.setAttribute("aria-pressed", String(commands.isPosing));
       download.disabled = viewer.model === null;
     };
-    viewer.on(["look", "model"], follow);
+    viewer.on(["display", "model"], follow);
     commands.onMode(follow);
     follow();
   }

@@ -1,4 +1,4 @@
-// The hierarchy: an ARIA tree of the drawing's parts, and below it what is in no model.
+// The hierarchy: an ARIA tree of the drawing's parts, followed by those that are not in the model.
 
 import { ChevronRight } from "lucide";
 import { count, fill, h, icon } from "../dom";
@@ -6,7 +6,7 @@ import { isAside, isAutomatic } from "../parts";
 import type { Part } from "../protocol";
 import type { State } from "../state";
 
-/** Up to so many parts, all are shown at first; in larger drawings, shapes that belong to a part are folded. */
+/** In drawings with more parts, shapes that belong to a part are folded at first. */
 const FEW = 80;
 
 interface Row {
@@ -21,15 +21,15 @@ export class Tree {
   readonly element = h("section", { class: "tree-panel", attributes: { "aria-label": "Parts" } });
   private readonly list = h("div", { class: "tree", attributes: { role: "tree", "aria-label": "Parts of the drawing" } });
   private readonly summary = h("span", { class: "muted" });
-  /** What the person opened and closed; other parts are as they are at first. */
+  /** Parts that the user opened or closed; others have their initial state. */
   private readonly folds = new Map<string, boolean>();
   private rows: Row[] = [];
   private items = new Map<string, HTMLElement>();
   private active: string | null = null;
-  /** What the rows were made from. */
+  /** The content of the rows, to detect changes. */
   private drawn = "";
 
-  /** `picked` hears of parts that were clicked. */
+  /** `picked` is called with parts that are clicked. */
   constructor(private readonly state: State, private readonly picked: (part: string) => void) {
     fill(this.element, h("h2", {}, "Parts", this.summary), this.list);
     this.list.addEventListener("click", (event) => this.click(event));
@@ -72,7 +72,7 @@ export class Tree {
     if (!rows.some(({ part }) => part.name === this.active)) this.active = this.state.selected ?? rows[0]?.part.name ?? null;
     if (!rows.some(({ part }) => part.name === this.active)) this.active = rows[0]?.part.name ?? null;
 
-    // Most saves change no row, and to make them anew takes longer than to read the model.
+    // Most builds change no row, and rebuilding the rows takes longer than loading the model.
     const words = rows.map(({ part, level, open, place, among }) => [part.name, part.kind, part.element, part.string?.text, part.joint, level, open, place, among]);
     const drawn = JSON.stringify([words, this.active, this.state.drawing?.build === null]);
     if (drawn === this.drawn) return this.marks();
@@ -110,7 +110,7 @@ export class Tree {
       },
       h("span", { class: "tree-indent", attributes: { "data-level": Math.min(level - 1, 12) } }),
       open === null ? h("span", { class: "tree-fold" }) : h("span", { class: "tree-fold", attributes: { "data-fold": true } }, icon(ChevronRight)),
-      // Legends have no names of their own: what they say tells them apart.
+      // Legends have no names: their text identifies them.
       h("span", { class: "tree-name" }, isAside(part) && part.string ? part.string.text : name),
       note && h("span", { class: "tree-note" }, note),
     );
@@ -137,7 +137,7 @@ export class Tree {
     }
   }
 
-  /** Opens what is above a part and scrolls it into sight. */
+  /** Expands the ancestors of a part and scrolls it into view. */
   private reveal(name: string | null): void {
     if (name !== null && this.state.parts.get(name)) {
       let opened = false;
@@ -149,7 +149,7 @@ export class Tree {
       }
       if (opened) this.draw();
       this.activate(name);
-      // Within the list alone: the page stays where it is.
+      // Scrolls the list only, not the page.
       this.items.get(name)?.scrollIntoView({ block: "nearest" });
     }
     this.marks();

@@ -1,4 +1,4 @@
-// Turning limbs with the pointer and with keys.
+// Turns limbs with the pointer and with keys.
 
 import { Quaternion, Vector3, type Object3D } from "three";
 import { nodeName } from "./model";
@@ -6,9 +6,9 @@ import type { Hit } from "./picking";
 import type { Pose } from "./pose";
 import type { View } from "./view";
 
-/** So near to the joint, in pixels, the direction of the pointer says little. */
+/** Closer to the joint than this, in pixels, the direction of the pointer is too uncertain. */
 const NEAR = 10;
-/** Radians about the limb's own axis for a pixel to the right. */
+/** Radians about the limb's own axis per pixel to the right. */
 const TWIST = 0.01;
 
 interface Drag {
@@ -17,19 +17,19 @@ interface Drag {
   readonly before: Quaternion | undefined;
   x: number;
   y: number;
-  /** Radians since the drag began. */
+  /** The angle since the drag began, in radians. */
   turned: number;
 }
 
 export class Posing {
   private drag: Drag | null = null;
 
-  /** `told` hears which limb is turned and by how many degrees in this drag. */
+  /** `onTurn` is called with the limb that is turned and the angle of this drag in degrees. */
   constructor(
     private readonly pose: Pose,
     private readonly view: View,
     private readonly canvas: HTMLElement,
-    private readonly told: (name: string, degrees: number) => void,
+    private readonly onTurn: (name: string, degrees: number) => void,
   ) {}
 
   get drags(): boolean {
@@ -39,7 +39,7 @@ export class Posing {
   begin({ node }: Hit, x: number, y: number): void {
     const name = nodeName(node);
     this.drag = { node, name, before: this.pose.get(name), x, y, turned: 0 };
-    this.told(name, 0);
+    this.onTurn(name, 0);
   }
 
   move(x: number, y: number, aboutLimb: boolean): void {
@@ -55,12 +55,12 @@ export class Posing {
       const to = [x - joint.x, joint.y - y] as const;
       if (Math.hypot(...from) < NEAR || Math.hypot(...to) < NEAR) angle = 0;
       else angle = Math.atan2(from[0] * to[1] - from[1] * to[0], from[0] * to[0] + from[1] * to[1]);
-      this.pose.turnInWorld(drag.node, this.towardsViewer(drag.node), angle);
+      this.pose.turnInWorld(drag.node, this.directionToViewer(drag.node), angle);
     }
     drag.x = x;
     drag.y = y;
     drag.turned += angle;
-    this.told(drag.name, (drag.turned * 180) / Math.PI);
+    this.onTurn(drag.name, (drag.turned * 180) / Math.PI);
   }
 
   end(): void {
@@ -73,15 +73,15 @@ export class Posing {
     this.drag = null;
   }
 
-  /** Turns a limb by degrees, counter-clockwise as one sees it, or about its own axis. */
+  /** Turns a limb by degrees, counter-clockwise as seen on the screen, or about its own axis. */
   turn(node: Object3D, degrees: number, aboutLimb: boolean): void {
     const angle = (degrees * Math.PI) / 180;
     if (aboutLimb) this.pose.turnAboutLimb(node, angle);
-    else this.pose.turnInWorld(node, this.towardsViewer(node), angle);
-    this.told(nodeName(node), this.pose.degrees(nodeName(node)));
+    else this.pose.turnInWorld(node, this.directionToViewer(node), angle);
+    this.onTurn(nodeName(node), this.pose.degrees(nodeName(node)));
   }
 
-  /** The model was changed for another: the limb under the pointer is one of the new. */
+  /** The model was replaced: goes on with the same limb of the new one. */
   renew(node: (name: string) => Object3D | undefined): void {
     if (!this.drag) return;
     const again = node(this.drag.name);
@@ -99,7 +99,7 @@ export class Posing {
     return { x: left + ((at.x + 1) / 2) * width, y: top + ((1 - at.y) / 2) * height };
   }
 
-  private towardsViewer(node: Object3D): Vector3 {
+  private directionToViewer(node: Object3D): Vector3 {
     if (this.view.isParallel) return new Vector3(0, 0, 1).applyQuaternion(this.view.camera.quaternion);
     return this.view.camera.position.clone().sub(this.joint(node)).normalize();
   }

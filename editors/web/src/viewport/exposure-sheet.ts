@@ -1,24 +1,24 @@
-// How a clip's drawings lie in time, and which frames of its source they stand for.
+// The exposure sheet of a clip: when its drawings are shown, and which frames of its source they replace.
 
 import type { ClipFacts } from "../protocol";
 
-/** A drawing. It is shown from one of the clip's frames on, and stands for a stretch of the source's frames. */
-export interface Run {
-  /** The source's frame that is shown. */
+/** A drawing. It is shown from frame `start` of the clip on, and replaces some frames of the source. */
+export interface ExposureRun {
+  /** The source frame that is shown. */
   readonly source: number;
   readonly start: number;
   readonly frames: number;
-  /** The source's frames that it stands for, from one up to another. */
+  /** The source frames that it replaces, `to` excluded. */
   readonly from: number;
   readonly to: number;
 }
 
-/** A frame's time read from a file lies a little beside the true one: its times are kept in single precision. */
+/** Tolerance in frames: times in a file have single precision. */
 const NEAR = 0.01;
 
-export class Exposure {
-  readonly runs: readonly Run[];
-  /** Frames of the clip as it is shown, and of its source. */
+export class ExposureSheet {
+  readonly runs: readonly ExposureRun[];
+  /** The number of frames of the clip as shown, and of its source. */
   readonly frames: number;
   readonly sources: number;
   readonly fps: number;
@@ -39,10 +39,10 @@ export class Exposure {
     this.frames = Math.max(frames, runs.length > 0 ? 0 : facts.frames, 1);
     const seen = facts.ssd.length * facts.ssdStep;
     const named = runs.reduce((most, { source }) => Math.max(most, source + 1), facts.omitted.reduce((most, source) => Math.max(most, source + 1), 0));
-    // The last of thinned entries may stand for fewer frames than the others.
+    // If the values are thinned, the last one may stand for fewer frames than the others.
     this.sources = Math.max(named, facts.ssdStep === 1 ? seen : Math.min(seen, Math.max(this.frames, seen - facts.ssdStep + 1)), seen === 0 ? this.frames : 1);
-    // Where no frame was omitted, the clip's frames are the source's. Else a drawing stands for the frames up to the next one,
-    // without those that were omitted.
+    // If no frame was omitted, the clip's frames are the source's. Otherwise a drawing replaces the frames up to the next drawing,
+    // except omitted ones.
     const begins = facts.omitted.length === 0 ? runs.map(({ start }) => start) : runs.map(({ source }) => source);
     this.runs = runs.map((run, at) => {
       const from = begins[at]!;
@@ -57,39 +57,39 @@ export class Exposure {
     return Math.min(Math.max(Math.floor(time * this.fps + NEAR), 0), this.frames - 1);
   }
 
-  /** Which drawing is shown in a frame, from 0; -1 if the clip is not limited. */
+  /** The drawing that is shown in a frame, from 0; -1 if the clip is not limited. */
   drawingIn(frame: number): number {
-    return lastWhere(this.runs, ({ start }) => start <= frame);
+    return lastIndexWhere(this.runs, ({ start }) => start <= frame);
   }
 
-  /** Which drawing stands for a frame of the source, from 0; -1 if none does. */
+  /** The drawing that replaces a source frame, from 0; -1 if there is none. */
   drawingFor(source: number): number {
     if (this.omitted.has(source)) return -1;
-    const at = lastWhere(this.runs, ({ from }) => from <= source);
+    const at = lastIndexWhere(this.runs, ({ from }) => from <= source);
     return at >= 0 && source < this.runs[at]!.to ? at : -1;
   }
 
-  /** The source's frame at a time, as the drawing goes through the frames that it stands for. */
+  /** The source frame at a time. */
   sourceAt(time: number): number {
     const frame = this.frameAt(time);
     const run = this.runs[this.drawingIn(frame)];
     return run ? Math.min(run.from + frame - run.start, run.to - 1) : Math.min(frame, this.sources - 1);
   }
 
-  /** When a frame of the source is shown, or what stands in its place. */
+  /** The time at which a source frame is shown, or the drawing that replaces it. */
   timeOf(source: number): number {
-    const run = this.runs[Math.max(lastWhere(this.runs, ({ from }) => from <= source), 0)];
+    const run = this.runs[Math.max(lastIndexWhere(this.runs, ({ from }) => from <= source), 0)];
     const frame = run ? run.start + Math.min(Math.max(source - run.from, 0), run.frames - 1) : source;
     return (Math.min(frame, this.frames - 1) + NEAR) / this.fps;
   }
 
-  /** The movement in a frame of the source, or null where it is not known. */
+  /** The movement in a source frame, or null if unknown. */
   ssd(source: number): number | null {
     return this.facts.ssd[Math.floor(source / this.facts.ssdStep)] ?? null;
   }
 }
 
-/** The largest entry of each of at most `most` stretches of equal length, so that no peak is lost. */
+/** The maxima of at most `most` stretches of equal length, so that no peak is lost. */
 export function peaks(values: readonly number[], most: number): { readonly step: number; readonly values: readonly number[] } {
   const step = Math.max(Math.ceil(values.length / Math.max(most, 1)), 1);
   if (step === 1) return { step, values };
@@ -102,8 +102,8 @@ export function peaks(values: readonly number[], most: number): { readonly step:
   return { step, values: kept };
 }
 
-/** The facts of a clip in a few words. */
-export function inWords({ runs, frames, facts }: Exposure): string {
+/** A short description of a clip. */
+export function describeExposure({ runs, frames, facts }: ExposureSheet): string {
   const words = [`${frames} ${frames === 1 ? "frame" : "frames"}`];
   if (!facts.limited) return `${words[0]}, as in the motion file`;
   const drawings = facts.drawings || runs.length;
@@ -113,8 +113,8 @@ export function inWords({ runs, frames, facts }: Exposure): string {
   return words.join(", ");
 }
 
-/** The last place in a list that begins with those that are so; -1 if none is. */
-function lastWhere<One>(list: readonly One[], isSo: (one: One) => boolean): number {
+/** The index of the last item for which a condition holds, in a list that begins with all those items; -1 if there is none. */
+function lastIndexWhere<One>(list: readonly One[], isSo: (one: One) => boolean): number {
   let low = 0;
   let high = list.length;
   while (low < high) {

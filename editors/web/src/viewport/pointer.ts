@@ -1,14 +1,14 @@
-// What the pointer does to the model: lights parts up, picks them, and in the posing mode turns them.
+// Pointer input on the model: hovering, picking, and turning limbs in posing mode.
 
 import type { State } from "../state";
 import { pick, type Hit } from "./picking";
 import { Posing } from "./posing";
 import type { Viewer } from "./viewer";
 
-/** A press that moves less, in pixels, is a click. */
+/** A press that moves less than this, in pixels, is a click. */
 const STILL = 5;
-/** In larger models, looking for what is under the pointer at every move takes longer than a frame. */
-const MOST_TRIANGLES = 1_500_000;
+/** In larger models picking at every pointer move takes longer than a frame. */
+const MAX_TRIANGLES = 1_500_000;
 
 export class Pointer {
   readonly posing: Posing;
@@ -16,7 +16,7 @@ export class Pointer {
   private over: { readonly x: number; readonly y: number } | null = null;
   private poses = false;
 
-  /** `picked` hears of clicks on parts, `turned` of limbs that are being turned and by how many degrees. */
+  /** `picked` is called with parts that are clicked, `turned` with limbs that are being turned and the angle in degrees. */
   constructor(
     private readonly viewer: Viewer,
     private readonly state: State,
@@ -29,13 +29,13 @@ export class Pointer {
       viewer.posed();
       turned(node ? viewer.partOf(node) : name, degrees);
     });
-    // Before the orbit's own listeners, which are the canvas's: a press on a limb must not turn the view too.
+    // Before the orbit controls, which listen on the canvas: a press on a limb must not turn the view too.
     canvas.parentElement!.addEventListener("pointerdown", (event) => this.down(event), { capture: true });
     addEventListener("pointermove", (event) => this.move(event));
     addEventListener("pointerup", (event) => this.up(event));
     addEventListener("pointercancel", () => this.stop());
     canvas.addEventListener("pointerleave", () => this.hover(null));
-    viewer.stage.beforeFrame(() => this.look());
+    viewer.renderLoop.beforeFrame(() => this.look());
     viewer.on(["model"], () => this.posing.renew((name) => viewer.model?.node(name)));
   }
 
@@ -49,7 +49,7 @@ export class Pointer {
     this.stop();
   }
 
-  /** Gives up what is being dragged; true if something was. */
+  /** Cancels a drag; true if there was one. */
   cancel(): boolean {
     if (!this.posing.drags) return false;
     this.posing.cancel();
@@ -61,7 +61,7 @@ export class Pointer {
   private down(event: PointerEvent): void {
     if (event.target !== this.viewer.canvas) return;
     if (this.press) {
-      // A second finger: this is a pinch, neither a click nor a turn of a limb.
+      // A second finger: a pinch, neither a click nor a turn of a limb.
       this.press = null;
       this.cancel();
       return;
@@ -102,11 +102,11 @@ export class Pointer {
 
   private hover(place: { readonly x: number; readonly y: number } | null): void {
     const model = this.viewer.model;
-    if (place && (!model || model.triangles > MOST_TRIANGLES)) return;
+    if (place && (!model || model.triangles > MAX_TRIANGLES)) return;
     if (!place) return this.state.hover(null);
-    // Once a frame at most.
+    // At most once per frame.
     this.over = place;
-    this.viewer.stage.ask();
+    this.viewer.renderLoop.ask();
   }
 
   private look(): boolean {
@@ -118,9 +118,9 @@ export class Pointer {
     return false;
   }
 
-  /** Limbs are turned in the model itself; what is beside it for comparison only has names. */
+  /** Only limbs of the model itself can be turned; those of the copy beside it can be picked. */
   private hit(x: number, y: number, toTurn = false): Hit | null {
-    const { model, beside, view, canvas } = this.viewer;
-    return model && pick(toTurn ? model.meshes : [...model.meshes, ...(beside.copy?.meshes ?? [])], view, canvas, x, y);
+    const { model, sideBySide, view, canvas } = this.viewer;
+    return model && pick(toTurn ? model.meshes : [...model.meshes, ...(sideBySide.copy?.meshes ?? [])], view, canvas, x, y);
   }
 }

@@ -19,16 +19,16 @@ import {
 
 /** Cells on each side of the model. */
 const CELLS = 12;
-/** How far from the middle shadows are caught, in sizes of the model: there is room for limbs that are turned, and for the blur. */
+/** The radius in which shadows are caught, relative to the model: with space for limbs that are turned, and for the blur. */
 const ROOM = 1.1;
 
 export class Ground {
   readonly group = new Group();
-  /** What one sees of it. */
+  /** The visible part. */
   private readonly plane = new Group();
   private readonly shadow = new Mesh(new PlaneGeometry(1, 1).rotateX(-Math.PI / 2), new ShadowMaterial({ opacity: 0.22, depthWrite: false }));
   private readonly grid = new LineSegments(gridLines(), new LineBasicMaterial({ vertexColors: true, transparent: true, depthWrite: false }));
-  /** From straight above. It gives no light: only the ground asks what it reaches. */
+  /** Straight above. It gives no light, only the shadow. */
   private readonly sun = new DirectionalLight(0xffffff, 0);
 
   constructor(scene: Scene) {
@@ -39,7 +39,7 @@ export class Ground {
     this.sun.shadow.mapSize.set(512, 512);
     this.sun.shadow.radius = 6;
     this.sun.shadow.blurSamples = 16;
-    // This kind of shadow map holds what receives shadows too: without it the ground would shade itself.
+    // Variance shadow maps contain the shadow's receivers too: without a bias the ground would shade itself.
     this.sun.shadow.bias = -0.003;
     this.plane.matrixAutoUpdate = false;
     this.plane.add(this.grid, this.shadow);
@@ -48,13 +48,13 @@ export class Ground {
     scene.add(this.group);
   }
 
-  /** Lies under a model that fills this box. */
+  /** Fits the ground to a model with this bounding box. */
   fit(box: Box3): void {
     const size = box.getSize(new Vector3());
     const centre = box.getCenter(new Vector3());
     const reach = Math.max(size.x, size.y, size.z, 1e-6);
     const cell = 10 ** Math.round(Math.log10(reach / 5));
-    // A hair lower than the feet, so that soles and ground do not flicker.
+    // Slightly below the feet, so that soles and ground do not flicker.
     this.group.position.set(0, box.min.y - reach * 0.001, 0);
     this.grid.position.set(Math.round(centre.x / cell) * cell, 0, Math.round(centre.z / cell) * cell);
     this.grid.scale.setScalar(cell);
@@ -72,7 +72,7 @@ export class Ground {
     this.bend(new Matrix4());
   }
 
-  /** Bends it as terrain above it is bent, by a matrix of the world. */
+  /** Bends the ground like the terrain above it, by a matrix in the world. */
   bend(inWorld: Matrix4): void {
     this.group.updateMatrix();
     this.plane.matrix.copy(this.group.matrix).invert().multiply(inWorld).multiply(this.group.matrix);
@@ -93,7 +93,7 @@ function gridLines(): BufferGeometry {
     colors.push(1, 1, 1, (1 - far) ** 1.5 * 0.5);
   };
   for (let a = -CELLS; a <= CELLS; a++) {
-    // A line is cut into pieces, each of which can be paler than the last.
+    // Lines are cut into segments that fade out.
     for (let b = -CELLS; b < CELLS; b++) {
       add(a, b);
       add(a, b + 1);

@@ -1,4 +1,4 @@
-// A model that was read: which of its nodes are parts, how it is shaded, and what it takes on the graphics card.
+// A loaded model: which of its nodes are parts, its shading, and its resources on the graphics card.
 
 import { Box3, BufferAttribute, DoubleSide, Group, Mesh, MeshStandardMaterial, SkinnedMesh, Texture, TextureLoader, Vector3, type AnimationClip, type BufferGeometry, type InterleavedBufferAttribute, type Material, type Object3D, type TypedArray } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
@@ -6,17 +6,17 @@ import { Bend } from "./bend";
 
 export type Shading = "smooth" | "flat" | "wire" | "edges";
 
-/** Reads a GLB. Throws with a message for people when it is none. */
+/** Reads a GLB. Throws an error with a readable message if it is invalid. */
 export async function readModel(bytes: ArrayBuffer): Promise<Model> {
   const { scene, animations } = await readFile(bytes);
   return new Model(scene, animations);
 }
 
-/** What a GLB has. */
+/** The scene and the clips of a GLB. */
 export async function readFile(bytes: ArrayBuffer): Promise<{ readonly scene: Group; readonly animations: readonly AnimationClip[] }> {
   const loader = new GLTFLoader();
   loader.register((parser) => {
-    // Textures are read as <img> elements: the other way fetches blobs, which the page's policy forbids.
+    // Textures are read as <img> elements: the other loader fetches blobs, which the page's content security policy forbids.
     parser.textureLoader = new TextureLoader(parser.options.manager);
     return { name: "okoshi-images" };
   });
@@ -25,7 +25,7 @@ export async function readFile(bytes: ArrayBuffer): Promise<{ readonly scene: Gr
   return { scene, animations };
 }
 
-/** How long a clip says that it is: its last drawing stands until then. 0 if it says nothing. */
+/** The declared duration of a clip: its last drawing is held until then. 0 if none is declared. */
 function secondsOf(clip: AnimationClip): number {
   const okoshi: unknown = (clip.userData as Readonly<Record<string, unknown>>)["okoshi"];
   const seconds = typeof okoshi === "object" && okoshi !== null && "seconds" in okoshi ? okoshi.seconds : 0;
@@ -33,14 +33,14 @@ function secondsOf(clip: AnimationClip): number {
 }
 
 export class Model {
-  /** Nodes by the names that the file gives them. */
+  /** Nodes by their names in the file. */
   private readonly nodes = new Map<string, Object3D>();
-  /** Nodes by the element they were made from: a part, and its copies. */
+  /** Nodes by the element that they were made from: a part and its copies. */
   private readonly made = new Map<string, Object3D[]>();
   private readonly materials = new Map<Material, { readonly flat: boolean }>();
   readonly meshes: Mesh[] = [];
-  /** What the next model has taken over. */
-  private readonly handedOn = new Set<BufferGeometry>();
+  /** Geometries that the next model uses too. */
+  private readonly reusedGeometries = new Set<BufferGeometry>();
   readonly box: Box3;
   readonly bend: Bend;
   readonly triangles: number;
@@ -63,8 +63,8 @@ export class Model {
       for (const material of materialsOf(object)) {
         if (this.materials.has(material)) continue;
         this.materials.set(material, { flat: "flatShading" in material && material.flatShading === true });
-        // Through what is not opaque one looks at surfaces from within. Others are seen from both sides if the file says so: the
-        // rest are closed, and half of their triangles need not be drawn.
+        // Transparent surfaces show their inside. Others are double-sided only if the file says so: the rest are closed, and
+        // skipping back faces halves the triangles to draw.
         if (material.transparent || material.alphaTest > 0) material.side = DoubleSide;
         material.polygonOffset = true;
         material.polygonOffsetFactor = material.polygonOffsetUnits = 1;
@@ -81,7 +81,7 @@ export class Model {
     return this.nodes.get(name);
   }
 
-  /** The nodes of a part, its copies included. */
+  /** The nodes of a part, including copies. */
   nodesOf(part: { readonly name: string; readonly element: string }): readonly Object3D[] {
     const made = this.made.get(part.element);
     if (made) return made;
@@ -89,7 +89,7 @@ export class Model {
     return node ? [node] : [];
   }
 
-  /** The meshes of a node, without those of parts that hang on it. */
+  /** The meshes of a node, without those of child parts. */
   meshesOf(node: Object3D): Mesh[] {
     const meshes: Mesh[] = [];
     const collect = (object: Object3D): void => {
@@ -108,13 +108,13 @@ export class Model {
     }
   }
 
-  /** Calls `light` with each material that light falls on. */
+  /** Calls `light` with each lit material. */
   light(light: (material: MeshStandardMaterial) => void): void {
     for (const material of this.materials.keys()) if (material instanceof MeshStandardMaterial) light(material);
   }
 
-  /** Takes over what did not change since another model: it is on the graphics card already. */
-  takeOver(before: Model): void {
+  /** Reuses the geometries that did not change since another model: they are on the graphics card already. */
+  reuseGeometries(before: Model): void {
     const same = new Map<BufferGeometry, BufferGeometry>();
     this.meshes.forEach((mesh, index) => {
       const last = before.meshes[index]?.geometry;
@@ -124,15 +124,15 @@ export class Model {
       const last = same.get(mesh.geometry);
       if (!last) continue;
       mesh.geometry = last;
-      before.handedOn.add(last);
+      before.reusedGeometries.add(last);
     }
   }
 
   dispose(): void {
-    for (const { geometry } of this.meshes) if (!this.handedOn.has(geometry)) geometry.dispose();
+    for (const { geometry } of this.meshes) if (!this.reusedGeometries.has(geometry)) geometry.dispose();
     for (const mesh of this.meshes) if (mesh instanceof SkinnedMesh) mesh.skeleton.dispose();
     for (const material of this.materials.keys()) {
-      // What is mirrored belongs to the stage.
+      // The environment map belongs to the lights.
       if (material instanceof MeshStandardMaterial) material.envMap = null;
       for (const value of Object.values(material)) if (value instanceof Texture) value.dispose();
       material.dispose();
@@ -141,30 +141,30 @@ export class Model {
   }
 }
 
-/** Marks what lies over a model and is no part of it. */
+/** Marks objects that are drawn over a model and are not part of it. */
 const OVER = "isOverlay";
 export const isOverlay = (object: Object3D): boolean => object.userData[OVER] === true;
 
-/** The name as the file has it; three.js takes some characters out of names that its animations use. */
+/** The name in the file; three.js removes some characters from names that its animations use. */
 export function nodeName(object: Object3D): string {
   const name: unknown = object.userData["name"];
   return typeof name === "string" ? name : object.name;
 }
 
-/** The id of the element that a node was made from, or null for a node that is not a part's. */
+/** The id of the element that a node was made from; null if the node is not that of a part. */
 export function elementOf(object: Object3D): string | null {
   const okoshi: unknown = object.userData["okoshi"];
   if (typeof okoshi !== "object" || okoshi === null || !("element" in okoshi)) return null;
   return typeof okoshi.element === "string" ? okoshi.element : null;
 }
 
-/** The part's node that an object belongs to. */
+/** The part node that an object belongs to. */
 export function partNode(object: Object3D): Object3D | null {
   for (let at: Object3D | null = object; at; at = at.parent) if (elementOf(at) !== null) return at;
   return null;
 }
 
-/** Whether two geometries are made of the same numbers. */
+/** Whether two geometries have equal data. */
 function isSame(one: BufferGeometry, other: BufferGeometry): boolean {
   const names = Object.keys(one.attributes);
   if (names.length !== Object.keys(other.attributes).length || Object.keys(one.morphAttributes).length > 0) return false;
@@ -176,7 +176,7 @@ function isSameList(one: BufferAttribute | InterleavedBufferAttribute | null, ot
   if (!(one instanceof BufferAttribute && other instanceof BufferAttribute)) return false;
   if (one.itemSize !== other.itemSize || one.normalized !== other.normalized || one.array.constructor !== other.array.constructor) return false;
   if (one.array.byteLength !== other.array.byteLength) return false;
-  // glTF begins every number at a multiple of its size; four bytes at a time where that is four.
+  // glTF aligns all numbers to their size, so numbers of four bytes can be compared as such.
   const [a, b] = one.array.BYTES_PER_ELEMENT === 4 ? [words(one.array), words(other.array)] : [one.array, other.array];
   for (let at = 0; at < a.length; at++) if (a[at] !== b[at]) return false;
   return true;
@@ -187,7 +187,7 @@ const words = ({ buffer, byteOffset, length }: TypedArray): Uint32Array => new U
 
 const materialsOf = ({ material }: Mesh): Material[] => (Array.isArray(material) ? material : [material]);
 
-/** Another mesh of the same shape and in the same place, to be drawn over it. The pointer does not meet it, and copies leave it out. */
+/** A mesh of the same shape in the same place, to be drawn over another one. The pointer ignores it, and copies leave it out. */
 export function overlay(mesh: Mesh, material: Material, geometry = mesh.geometry): Mesh {
   const copy = mesh instanceof SkinnedMesh ? new SkinnedMesh(geometry, material) : new Mesh(geometry, material);
   if (copy instanceof SkinnedMesh) copy.bind((mesh as SkinnedMesh).skeleton, (mesh as SkinnedMesh).bindMatrix);

@@ -1,21 +1,21 @@
-// Terrain that bends with the view (docs/view-dependent.md): from 45° above, tops and fronts are as large as they are drawn.
+// Terrain that bends with the view (docs/view-dependent.md): from 45° above, tops and fronts are as large as drawn.
 
 import { Box3, Matrix4, Mesh, SkinnedMesh, Vector3, type BufferGeometry, type Object3D } from "three";
 
 const EXTENSION = "OKOSHI_view_dependent";
-/** Radians above the ground from which the content is stretched most. */
+/** The elevation with the largest stretch, in radians. */
 const MOST = Math.PI / 4;
-/** A stretched sphere reaches this much farther than three.js reckons from the lengths of a matrix's columns. */
-const REACH = 2 / Math.sqrt(3);
+/** By how much a bounding sphere must grow: three.js underestimates its radius under a shear. */
+const STRETCHED_RADIUS = 2 / Math.sqrt(3);
 
-/** How many times as long things are along the direction that is stretched, for a viewer so high above the ground, in radians. */
+/** The stretch for a viewer at an elevation in radians. */
 export function ratioAt(elevation: number): number {
   return 1 + (Math.SQRT2 - 1) * (1 - Math.abs(Math.abs(elevation) - MOST) / MOST);
 }
 
 /**
- * The bend for the unit vector towards the viewer in a node's frame, +Y being up: a scale along (up − h)/√2, where h is the viewer's
- * horizontal direction. Of the whole bend only `amount` is done, 0 to 1.
+ * The bend for the unit vector towards the viewer in a node's frame, with +Y up: a scale along (up − h)/√2, where h is the viewer's
+ * horizontal direction. `amount` scales the effect, 0 to 1.
  */
 export function bendFor(towards: Vector3, amount: number): Matrix4 {
   const horizontal = new Vector3(towards.x, 0, towards.z);
@@ -35,25 +35,25 @@ export function bendFor(towards: Vector3, amount: number): Matrix4 {
 
 interface Bent {
   readonly node: Object3D;
-  /** What it shows without the bend, in the world. */
+  /** Its bounds in the world without the bend. */
   readonly box: Box3;
   last: Matrix4;
 }
 
-/** The nodes of a model that bend. */
+/** The view-dependent nodes of a model. */
 export class Bend {
   private readonly bent: Bent[] = [];
-  /** What does not bend. */
+  /** The bounds of everything else. */
   private readonly still = new Box3();
 
-  /** The matrices in the world must be those of the file. */
+  /** World matrices must be up to date. */
   constructor(root: Object3D) {
     const geometries = new Set<BufferGeometry>();
     const walk = (object: Object3D): void => {
       if (asks(object)) {
         object.matrixAutoUpdate = false;
         this.bent.push({ node: object, box: new Box3().setFromObject(object), last: new Matrix4() });
-        // What hangs on it bends with it, and once.
+        // Child nodes bend with it, once.
         object.traverse((below) => {
           if (below instanceof Mesh) geometries.add(below.geometry);
         });
@@ -65,7 +65,7 @@ export class Bend {
     walk(root);
     for (const geometry of geometries) {
       geometry.computeBoundingSphere();
-      if (geometry.boundingSphere) geometry.boundingSphere.radius *= REACH;
+      if (geometry.boundingSphere) geometry.boundingSphere.radius *= STRETCHED_RADIUS;
     }
   }
 
@@ -89,13 +89,13 @@ export class Bend {
     return changed;
   }
 
-  /** What the first node's bend does to the world: the ground under the model bends with it. */
+  /** The first node's bend in the world, for the ground under the model. */
   inWorld(): Matrix4 {
     const [first] = this.bent;
     return first ? inWorld(frameOf(first.node), first.last) : new Matrix4();
   }
 
-  /** Points between which all lies, as it is for a viewer in a direction of the world. */
+  /** Points that enclose the model when it is bent for a viewer in a direction of the world. */
   points(towards: Vector3, amount: number): Vector3[] {
     const points = this.still.isEmpty() ? [] : cornersOf(this.still);
     for (const { node, box } of this.bent) {
@@ -111,7 +111,7 @@ export function cornersOf({ min, max }: Box3): Vector3[] {
   return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => new Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z));
 }
 
-/** Whether a node asks for the bend: loaders keep extensions that they do not know. */
+/** Whether a node bends with the view: the loader keeps unknown extensions. */
 function asks(object: Object3D): boolean {
   const extensions: unknown = object.userData["gltfExtensions"];
   if (typeof extensions !== "object" || extensions === null || !(EXTENSION in extensions)) return false;
@@ -119,20 +119,20 @@ function asks(object: Object3D): boolean {
   return typeof ways === "object" && ways !== null && "bend" in ways && typeof ways.bend === "object" && ways.bend !== null;
 }
 
-/** What a mesh fills of the world, without what hangs on it. */
+/** The bounds of a mesh in the world, without its children. */
 function boxOf(mesh: Mesh): Box3 {
   const bounded = mesh instanceof SkinnedMesh ? mesh : mesh.geometry;
   bounded.computeBoundingBox();
   return (bounded.boundingBox ?? new Box3()).clone().applyMatrix4(mesh.matrixWorld);
 }
 
-/** From the frame of a node, without its bend, into the world. */
+/** The world transform of a node, without its bend. */
 function frameOf({ parent, position, quaternion, scale }: Object3D): Matrix4 {
   const own = new Matrix4().compose(position, quaternion, scale);
   return parent ? own.premultiply(parent.matrixWorld) : own;
 }
 
-/** The same in the world that a matrix does in a frame. */
+/** A matrix in a frame, expressed in the world. */
 const inWorld = (frame: Matrix4, matrix: Matrix4): Matrix4 => frame.clone().multiply(matrix).multiply(frame.clone().invert());
 
 const inFrame = (frame: Matrix4, direction: Vector3): Vector3 => direction.clone().transformDirection(frame.clone().invert());

@@ -1,11 +1,10 @@
-// Models come one after the other, sometimes faster than they can be read. One is read at a time; of those that came meanwhile,
-// only the newest is read next.
+// Processes the latest of a series of requests: one at a time, and requests that are replaced meanwhile are skipped.
 
-export class Newest<Key, Value> {
+export class Latest<Key, Value> {
   private wanted: { readonly key: Key } | null = null;
   private busy = false;
 
-  /** `read` makes a value, `take` gets each in turn, `fail` hears why there is none. */
+  /** `read` produces a value, `take` receives each in turn, `fail` receives errors. */
   constructor(
     private readonly read: (key: Key) => Promise<Value>,
     private readonly take: (value: Value, key: Key) => void,

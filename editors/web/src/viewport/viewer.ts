@@ -1,23 +1,23 @@
-// The model on the stage: which one it is, how it looks, what is marked in it, how it is posed, and the clip that plays.
+// The model in the viewport: loading, display, marks, pose and clips.
 
 import type { Host } from "../host/host";
-import { count, wantsStillness } from "../dom";
+import { count, prefersReducedMotion } from "../dom";
 import type { State } from "../state";
 import type { Build } from "../protocol";
-import { Beside } from "./beside";
+import { SideBySide } from "./side-by-side";
 import { Comparison } from "./comparison";
-import { Exposure } from "./exposure";
+import { ExposureSheet } from "./exposure-sheet";
 import { Ground } from "./ground";
 import { Highlight, type Mark } from "./highlight";
-import { Newest } from "./loading";
+import { Latest } from "./latest";
 import { elementOf, nodeName, readModel, type Model, type Shading } from "./model";
 import { drawingAt, Player } from "./clips";
 import { Pose } from "./pose";
-import { Stage } from "./stage";
+import { RenderLoop } from "./render-loop";
 import { View } from "./view";
 import { Box3, Vector3, type Camera, type Object3D } from "three";
 
-/** A model that was asked for. */
+/** A model that was requested. */
 interface Wanted {
   readonly drawing: string;
   readonly connection: number;
@@ -30,37 +30,37 @@ interface Wanted {
 const isSame = (a: Wanted, b: Wanted | null): boolean => b !== null && a.drawing === b.drawing && a.connection === b.connection && a.address === b.address;
 
 /**
- * model: another is shown, or none · look: shading, projection or mode changed · time: the clip moved · pose: a limb did ·
- * beside: what stands beside the model changed
+ * model: another is shown, or none · display: shading, projection or mode changed · time: the clip moved · pose: a limb moved ·
+ * beside: the copy beside the model changed
  */
-export type ViewerTopic = "model" | "look" | "time" | "pose" | "beside";
+export type ViewerTopic = "model" | "display" | "time" | "pose" | "sideBySide";
 
 export class Viewer {
   readonly canvas = document.createElement("canvas");
   readonly view: View;
-  readonly stage: Stage;
+  readonly renderLoop: RenderLoop;
   readonly pose = new Pose(() => this.model);
   readonly player = new Player();
-  readonly beside: Beside;
+  readonly sideBySide: SideBySide;
   readonly comparison: Comparison;
   private readonly ground: Ground;
   private readonly highlight = new Highlight();
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
-  private readonly loading: Newest<Wanted, { model: Model; bytes: ArrayBuffer }>;
+  private readonly loading: Latest<Wanted, { model: Model; bytes: ArrayBuffer }>;
   private shown: Wanted | null = null;
-  /** What was asked for last and is not shown yet. */
+  /** The last request that is not shown yet. */
   private awaited: Wanted | null = null;
   model: Model | null = null;
-  /** The file that the model was read from. */
+  /** The file of the model. */
   bytes: ArrayBuffer | null = null;
-  /** Why the newest model is not shown, in words. */
+  /** Why the newest model is not shown, as a message. */
   failure = "";
   shading: Shading = "smooth";
-  /** What is known of the shown model's clips. */
-  exposures: readonly Exposure[] = [];
-  /** The figure whose drawings are counted, where a clip moves several. */
+  /** The exposure sheets of the model's clips. */
+  exposures: readonly ExposureSheet[] = [];
+  /** The figure whose drawings are counted, if a clip moves several. */
   figure: string | null = null;
-  /** How much of the bend of terrain is done: 1 is as drawn, 0 true 3D. */
+  /** The share of the bend of terrain: 1 is as drawn, 0 true 3D. */
   bent = 1;
 
   constructor(private readonly state: State, host: Host, place: HTMLElement) {
@@ -69,35 +69,35 @@ export class Viewer {
     this.canvas.setAttribute("aria-label", "No model yet");
     place.prepend(this.canvas);
     this.view = new View(this.canvas);
-    this.stage = new Stage(place, this.canvas, this.view);
-    this.ground = new Ground(this.stage.scene);
-    this.beside = new Beside(this.stage.scene);
-    this.loading = new Newest(
+    this.renderLoop = new RenderLoop(place, this.canvas, this.view);
+    this.ground = new Ground(this.renderLoop.scene);
+    this.sideBySide = new SideBySide(this.renderLoop.scene);
+    this.loading = new Latest(
       async ({ address }) => {
         const bytes = await host.model(address);
         const model = await readModel(bytes);
         model.shade(this.shading);
-        model.light((material) => this.stage.lights.reach(material));
-        // The first model's shaders are made before it is put in, so that nothing stalls; those after it mostly use the same.
-        if (!this.model) await this.stage.renderer.compileAsync(model.root, this.view.camera, this.stage.scene);
+        model.light((material) => this.renderLoop.lights.reach(material));
+        // The first model's shaders are compiled before it is added, so that the page does not stall; later models mostly share them.
+        if (!this.model) await this.renderLoop.renderer.compileAsync(model.root, this.view.camera, this.renderLoop.scene);
         return { model, bytes };
       },
       ({ model, bytes }, wanted) => this.take(model, bytes, wanted),
       (error, wanted) => this.failed(error, wanted),
     );
-    this.comparison = new Comparison(this.beside, this, {
+    this.comparison = new Comparison(this.sideBySide, this, {
       read: (address) => host.model(address),
       mayAsk: (connection) => this.state.link === "open" && connection === this.state.connection,
       changed: () => {
         this.surround();
         this.markAll();
         this.drawEdges();
-        this.stage.moved();
-        this.tell("beside");
+        this.renderLoop.moved();
+        this.notify("sideBySide");
       },
     });
-    this.stage.beforeFrame((seconds) => this.step(seconds));
-    this.stage.follow = (camera) => this.bend(camera);
+    this.renderLoop.beforeFrame((seconds) => this.step(seconds));
+    this.renderLoop.follow = (camera) => this.bend(camera);
     state.on(["current", "build", "link"], () => this.update());
     state.on("selection", () => this.mark("selected"));
     state.on("hover", () => this.mark("hovered"));
@@ -108,7 +108,7 @@ export class Viewer {
     for (const topic of topics) this.listeners.set(topic, [...(this.listeners.get(topic) ?? []), listener]);
   }
 
-  /** The part that a node stands for. */
+  /** The name of the part of a node. */
   partOf(node: Object3D): string {
     const element = elementOf(node);
     const part = element === null ? undefined : this.state.parts.at(element);
@@ -122,80 +122,80 @@ export class Viewer {
     return node ? [node] : [];
   }
 
-  /** What is known of a clip, for each figure that it moves. */
-  exposuresOf(clip: { readonly name: string } | null): readonly Exposure[] {
+  /** The exposure sheets of a clip, one for each figure that it moves. */
+  exposuresOf(clip: { readonly name: string } | null): readonly ExposureSheet[] {
     return clip ? this.exposures.filter(({ facts }) => facts.name === clip.name) : [];
   }
 
-  /** What is known of the clip that is shown: of the chosen figure, else of one whose clip is limited. */
-  get exposure(): Exposure | null {
+  /** The exposure sheet to display: that of the chosen figure, otherwise of one whose clip is limited. */
+  get exposure(): ExposureSheet | null {
     const all = this.exposuresOf(this.player.clip);
     return all.find(({ facts }) => facts.figure === this.figure) ?? all.find(({ facts }) => facts.limited) ?? all[0] ?? null;
   }
 
   chooseFigure(figure: string): void {
     this.figure = figure;
-    this.tell("time");
+    this.notify("time");
   }
 
-  /** Shows the clip as it was before it was limited beside it as it is, or no longer. */
+  /** Switches the comparison with the full clip on or off. */
   compare(on: boolean): void {
     this.comparison.want(on);
-    this.tell("beside");
+    this.notify("sideBySide");
   }
 
   setShading(shading: Shading): void {
     this.shading = shading;
     this.model?.shade(shading);
     this.drawEdges();
-    this.stage.invalidate();
+    this.renderLoop.invalidate();
     this.canvas.dataset["shading"] = shading;
-    this.tell("look");
+    this.notify("display");
   }
 
   setParallel(parallel: boolean): void {
     this.view.setParallel(parallel);
-    this.tell("look");
+    this.notify("display");
   }
 
   setBent(amount: number): void {
     this.bent = amount;
-    this.stage.invalidate();
-    this.tell("look");
+    this.renderLoop.invalidate();
+    this.notify("display");
   }
 
-  /** Puts the camera where terrain looks as it is drawn. */
+  /** Moves the camera to where terrain looks as it is drawn. */
   lookAsDrawn(): void {
     this.setBent(1);
     this.setParallel(true);
     this.view.frame("drawn");
   }
 
-  /** Colours that follow the page's. */
+  /** Sets the colours of the page's theme. */
   setColors(accent: string, grid: string, ink: string): void {
     this.highlight.color(accent, ink);
     this.ground.color(grid);
-    this.stage.invalidate();
+    this.renderLoop.invalidate();
   }
 
   posed(): void {
     this.pose.apply();
     this.canvas.dataset["posed"] = this.pose.names.join(" ");
-    this.stage.moved();
-    this.tell("pose");
+    this.renderLoop.moved();
+    this.notify("pose");
   }
 
-  /** The clip was stopped, started or moved by a person. */
+  /** The user stopped, started or moved the clip. */
   moved(change: () => void): void {
     this.pose.release();
     change();
     this.comparison.follow();
     this.pose.apply();
-    this.stage.moved();
-    this.tell("time");
+    this.renderLoop.moved();
+    this.notify("time");
   }
 
-  /** Draws the model by itself while `draw` runs: no marks, no ground. */
+  /** Runs `draw` while marks and ground are hidden. */
   bare<T>(draw: () => T): T {
     this.highlight.show(false);
     this.ground.group.visible = false;
@@ -204,7 +204,7 @@ export class Viewer {
     } finally {
       this.highlight.show(true);
       this.ground.group.visible = true;
-      this.stage.invalidate();
+      this.renderLoop.invalidate();
     }
   }
 
@@ -220,9 +220,9 @@ export class Viewer {
     }
     const { clips, originals } = build;
     const wanted: Wanted = { drawing: drawing.id, connection: drawing.connection, revision: build.revision, address: build.model, clips, originals };
-    // The same model; its parts may be bound by other strings now.
+    // The same model, but its parts may be bound to other strings now.
     if (isSame(wanted, this.awaited ?? this.shown)) return this.markAll();
-    // Of a host that is away nothing is asked, and of the next one no model of the last: its addresses are others.
+    // Addresses hold within one connection: a lost host cannot be asked, and a new one not for a model of the last.
     if (this.state.link !== "open" || drawing.connection !== this.state.connection) return;
     this.awaited = wanted;
     this.loading.want(wanted);
@@ -235,22 +235,22 @@ export class Viewer {
     this.pose.release();
     for (const mark of ["hovered", "lit", "selected"] as const) this.highlight.clear(mark);
     this.highlight.edges([]);
-    this.beside.remove();
-    // The model before the last goes now, if no picture was made since.
-    this.stage.settle();
+    this.sideBySide.remove();
+    // Disposes of the model before the last if no frame was drawn since.
+    this.renderLoop.settle();
     const before = this.model;
     before?.root.removeFromParent();
-    if (before) model.takeOver(before);
+    if (before) model.reuseGeometries(before);
     this.model = model;
     this.bytes = bytes;
     this.shown = wanted;
     this.failure = "";
-    // The person may have changed it while the model was read.
+    // The user may have changed it while the model was loading.
     model.shade(this.shading);
-    this.exposures = wanted.clips.map((facts) => new Exposure(facts));
-    this.player.take(model, !wantsStillness());
+    this.exposures = wanted.clips.map((facts) => new ExposureSheet(facts));
+    this.player.take(model, !prefersReducedMotion());
     this.pose.apply();
-    this.stage.scene.add(model.root);
+    this.renderLoop.scene.add(model.root);
     this.surround();
     this.comparison.take(wanted);
     this.drawEdges();
@@ -258,14 +258,14 @@ export class Viewer {
     this.markAll();
     this.canvas.dataset["revision"] = String(wanted.revision);
     this.canvas.setAttribute("aria-label", `Model of ${this.state.drawing?.name ?? "the drawing"}: ${count(model.triangles, "triangle")}`);
-    this.stage.afterNext(() => {
-      // Not before the new model has taken over its shaders, or they would be made anew.
+    this.renderLoop.afterNext(() => {
+      // Not before the new model has taken over the shaders, or they would be compiled again.
       before?.dispose();
-      // Shadows take longer than all else, and follow a picture later.
-      this.stage.moved();
+      // Shadows take longer than everything else, and follow one frame later.
+      this.renderLoop.moved();
     });
-    this.stage.drawNow();
-    this.tell("model", "time", "beside");
+    this.renderLoop.drawNow();
+    this.notify("model", "time", "sideBySide");
   }
 
   private failed(error: unknown, wanted: Wanted): void {
@@ -273,7 +273,7 @@ export class Viewer {
     this.awaited = null;
     if (wanted.drawing !== this.state.current || this.state.link === "lost") return;
     this.failure = error instanceof Error ? error.message : String(error);
-    this.tell("model");
+    this.notify("model");
   }
 
   private remove(): void {
@@ -292,14 +292,14 @@ export class Viewer {
     this.ground.group.visible = false;
     delete this.canvas.dataset["revision"];
     this.canvas.setAttribute("aria-label", "No model yet");
-    this.stage.moved();
-    this.tell("model", "time", "pose", "beside");
+    this.renderLoop.moved();
+    this.notify("model", "time", "pose", "sideBySide");
   }
 
-  /** Lays the ground under all that is there, and tells the view of it. */
+  /** Fits the ground and the view to the scene. */
   private surround(): void {
     const { model } = this;
-    const { boxes, offset } = this.beside;
+    const { boxes, offset } = this.sideBySide;
     if (!model) return;
     const box = boxes ? new Box3().union(boxes[0]).union(boxes[1]) : model.box;
     this.ground.fit(box);
@@ -312,11 +312,11 @@ export class Viewer {
             return boxes ? points.flatMap((point) => [point, point.clone().setX(point.x + offset)]) : points;
           },
     );
-    this.canvas.dataset["beside"] = boxes ? String(offset) : "";
+    this.canvas.dataset["sideBySide"] = boxes ? String(offset) : "";
   }
 
   private drawEdges(): void {
-    this.highlight.edges(this.shading === "edges" ? [...(this.model?.meshes ?? []), ...(this.beside.copy?.meshes ?? [])] : []);
+    this.highlight.edges(this.shading === "edges" ? [...(this.model?.meshes ?? []), ...(this.sideBySide.copy?.meshes ?? [])] : []);
   }
 
   private markAll(): void {
@@ -326,41 +326,41 @@ export class Viewer {
   private mark(mark: Mark): void {
     const name = { hovered: this.state.hovered, lit: this.state.lit, selected: this.state.selected }[mark];
     const nodes = this.nodesOf(name);
-    const { copy } = this.beside;
+    const { copy } = this.sideBySide;
     this.highlight.set(mark, [
       ...nodes.flatMap((node) => this.model?.meshesOf(node) ?? []),
       ...(copy ? this.nodesOf(name, copy).flatMap((node) => copy.meshesOf(node)) : []),
     ]);
     this.canvas.dataset[mark] = nodes.map(nodeName).join(" ");
-    this.stage.invalidate();
+    this.renderLoop.invalidate();
   }
 
-  /** Bends what bends with the view. */
+  /** Bends view-dependent nodes. */
   private bend(camera: Camera): void {
     const { model } = this;
     if (!model || model.bend.isEmpty) return;
     const towards = new Vector3(0, 0, 1).applyQuaternion(camera.quaternion);
-    const bends = [model, this.beside.copy].map((one) => one?.bend.follow(towards, this.bent));
+    const bends = [model, this.sideBySide.copy].map((one) => one?.bend.follow(towards, this.bent));
     if (!bends.includes(true)) return;
     this.ground.bend(model.bend.inWorld());
-    this.stage.renderer.shadowMap.needsUpdate = true;
+    this.renderLoop.renderer.shadowMap.needsUpdate = true;
   }
 
   private step(seconds: number): boolean {
-    this.highlight.measure(this.stage.renderer);
+    this.highlight.measure(this.renderLoop.renderer);
     if (!this.player.playing) return false;
     const { keys, time } = this.player;
     this.pose.release();
     const more = this.player.advance(seconds);
     this.comparison.follow();
     this.pose.apply();
-    // A drawing that is held is not drawn again.
-    if (this.beside.copy || !keys.held || drawingAt(keys, time) !== drawingAt(keys, this.player.time)) this.stage.moved();
-    this.tell("time");
+    // A held drawing is not drawn again.
+    if (this.sideBySide.copy || !keys.held || drawingAt(keys, time) !== drawingAt(keys, this.player.time)) this.renderLoop.moved();
+    this.notify("time");
     return more;
   }
 
-  private tell(...topics: ViewerTopic[]): void {
+  private notify(...topics: ViewerTopic[]): void {
     for (const topic of topics) for (const listener of this.listeners.get(topic) ?? []) listener();
   }
 }

@@ -1,20 +1,20 @@
-// Full and limited side by side: whether that is asked for, where the full clips come from, and when what stands beside the model is
-// put there anew.
+// Controls the comparison of full and limited clips side by side: whether it is on, where the full clips come from, and when the copy
+// is rebuilt.
 
-import type { Beside } from "./beside";
+import type { SideBySide } from "./side-by-side";
 import type { Player } from "./clips";
-import { Newest } from "./loading";
+import { Latest } from "./latest";
 import { readFile, type Model } from "./model";
 import type { Pose } from "./pose";
 import type { View } from "./view";
 
-/** A build's full clips. */
+/** Where the full clips of a build are. */
 interface Source {
   readonly connection: number;
   readonly originals: string | null;
 }
 
-/** What is compared. */
+/** The viewer's state. */
 interface Shown {
   readonly model: Model | null;
   readonly player: Player;
@@ -24,31 +24,31 @@ interface Shown {
 
 interface Around {
   read(address: string): Promise<ArrayBuffer>;
-  /** Whether the host of this connection is there to be asked. */
+  /** Whether the host of this connection can be asked. */
   mayAsk(connection: number): boolean;
-  /** Something was put beside the model, or taken away, or could not be read. */
+  /** The copy was added or removed, or could not be loaded. */
   changed(): void;
 }
 
 export class Comparison {
-  private readonly fetching: Newest<Source, void>;
+  private readonly fetching: Latest<Source, void>;
   private source: Source | null = null;
-  /** The build whose full clips are there, or on their way. */
+  /** The build whose full clips are loaded or being loaded. */
   private fetched: Source | null = null;
-  /** Goes back to where the camera was before something stood beside the model. */
+  /** Moves the camera back to where it was before the comparison. */
   private back: (() => void) | null = null;
-  /** The clip for which the two were put beside each other. */
+  /** The clip for which the two were arranged. */
   private arranged: unknown = null;
-  /** Whether it is asked for. */
+  /** Whether the comparison is on. */
   wanted = false;
-  /** Why it is not there though it is asked for, in words. */
+  /** Why there is no copy although the comparison is on, as a message. */
   failure = "";
 
-  constructor(private readonly beside: Beside, private readonly shown: Shown, private readonly around: Around) {
-    this.fetching = new Newest(
+  constructor(private readonly sideBySide: SideBySide, private readonly shown: Shown, private readonly around: Around) {
+    this.fetching = new Latest(
       async (source) => {
         const originals = await readFile(await around.read(source.originals ?? ""));
-        if (source === this.fetched) beside.originals = originals;
+        if (source === this.fetched) sideBySide.originals = originals;
       },
       (_, source) => {
         if (source === this.fetched && this.wanted) this.put();
@@ -56,7 +56,7 @@ export class Comparison {
       (error, source) => {
         if (source !== this.fetched) return;
         this.fetched = null;
-        // Of a host that went away the page says so itself.
+        // If the host is gone, the page reports that already.
         if (!around.mayAsk(source.connection)) return;
         this.failure = error instanceof Error ? error.message : String(error);
         around.changed();
@@ -64,14 +64,14 @@ export class Comparison {
     );
   }
 
-  /** Whether the clips are there as they were before they were limited. */
+  /** Whether there are full clips to compare with. */
   get isPossible(): boolean {
     return this.source !== null && this.source.originals !== null && this.shown.player.clips.length > 0;
   }
 
-  /** Whether it is asked for and on its way. */
+  /** Whether the comparison is on and being loaded. */
   get isComing(): boolean {
-    return this.wanted && this.beside.copy === null && this.failure === "";
+    return this.wanted && this.sideBySide.copy === null && this.failure === "";
   }
 
   want(on: boolean): void {
@@ -82,26 +82,26 @@ export class Comparison {
     else this.remove();
   }
 
-  /** Another model is shown, of this build: with the clips of the last build until those of this one are there. */
+  /** The model of another build is shown; until its full clips are loaded, those of the last build are used. */
   take(source: Source): void {
     this.source = source;
     this.failure = "";
     this.update();
   }
 
-  /** There is no model any more. */
+  /** The model was removed. */
   clear(): void {
-    this.beside.remove();
-    this.beside.originals = this.source = this.fetched = this.back = null;
+    this.sideBySide.remove();
+    this.sideBySide.originals = this.source = this.fetched = this.back = null;
     this.wanted = false;
     this.failure = "";
   }
 
-  /** The clip moved, or another is shown. */
+  /** The time or the clip changed. */
   follow(): void {
     const { player } = this.shown;
-    if (!this.beside.copy || !player.clip) return;
-    if (this.arranged === player.clip) return this.beside.seek(player.time, player.clip.duration);
+    if (!this.sideBySide.copy || !player.clip) return;
+    if (this.arranged === player.clip) return this.sideBySide.seek(player.time, player.clip.duration);
     this.arrange();
     this.around.changed();
     this.shown.view.frame();
@@ -120,31 +120,31 @@ export class Comparison {
 
   private put(): void {
     const { model, pose, view } = this.shown;
-    const { originals } = this.beside;
+    const { originals } = this.sideBySide;
     if (!model || !originals) return;
     const first = this.back === null;
     this.back ??= view.remember();
     pose.release();
-    this.beside.put(model, originals);
+    this.sideBySide.put(model, originals);
     this.arrange();
     pose.apply();
     this.around.changed();
     if (first) view.frame();
   }
 
-  /** Gives both the room that the clip takes. Limbs must not be turned by hand meanwhile. */
+  /** Gives both the space that the clip needs. Limbs turned by hand must be released meanwhile. */
   private arrange(): void {
     const { model, player } = this.shown;
     if (!model) return;
     const { time } = player;
     this.arranged = player.clip;
-    this.beside.choose(player.clip, (at) => player.seek(at), model);
+    this.sideBySide.choose(player.clip, (at) => player.seek(at), model);
     player.seek(time);
-    if (player.clip) this.beside.seek(time, player.clip.duration);
+    if (player.clip) this.sideBySide.seek(time, player.clip.duration);
   }
 
   private remove(): void {
-    this.beside.remove();
+    this.sideBySide.remove();
     this.around.changed();
     this.back?.();
     this.back = null;

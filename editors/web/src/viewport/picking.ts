@@ -1,20 +1,20 @@
-// What is under the pointer.
+// Finds what is under the pointer.
 
 import { Raycaster, Vector2, type Mesh, type Object3D, type Vector3 } from "three";
 import { partNode } from "./model";
 import type { View } from "./view";
 
 export interface Hit {
-  /** The node of the part that was met. */
+  /** The node of the part. */
   readonly node: Object3D;
   readonly point: Vector3;
 }
 
-/** The nearest part among these meshes at a place of the window, or null. */
+/** The nearest part among these meshes at a point of the window, or null. */
 export function pick(meshes: readonly Mesh[], view: View, canvas: HTMLElement, x: number, y: number): Hit | null {
   const caster = new Raycaster();
   caster.setFromCamera(place(canvas, x, y), view.camera);
-  // Surfaces are met from both sides, as they are seen.
+  // Both sides of a surface are hit.
   for (const { object, point } of caster.intersectObjects([...meshes], false)) {
     const node = partNode(object);
     if (node) return { node, point };
@@ -22,7 +22,7 @@ export function pick(meshes: readonly Mesh[], view: View, canvas: HTMLElement, x
   return null;
 }
 
-/** A place of the window in the picture: -1 to 1, to the right and up. */
+/** A point of the window in normalized device coordinates. */
 export function place(canvas: HTMLElement, x: number, y: number): Vector2 {
   const { left, top, width, height } = canvas.getBoundingClientRect();
   return new Vector2(((x - left) / width) * 2 - 1, 1 - ((y - top) / height) * 2);

@@ -1,16 +1,16 @@
-// The canvas: one scene, drawn when something asked for it and not otherwise.
+// The canvas and its scene, which is drawn on demand only.
 
 import { Scene, SRGBColorSpace, NoToneMapping, VSMShadowMap, WebGLRenderer, type Camera } from "three";
 import type { View } from "./view";
 import { Lights } from "./lights";
 
-/** More pixels than this for each of the page's cost much and show little. */
+/** The highest pixel ratio: more costs much and shows little. */
 const FINEST = 2;
 
-/** Called before each picture, with the seconds since the last; true asks for one more. */
+/** Called before each frame with the seconds since the last one; true requests another frame. */
 export type BeforeFrame = (seconds: number) => boolean;
 
-export class Stage {
+export class RenderLoop {
   readonly scene = new Scene();
   readonly renderer: WebGLRenderer;
   readonly lights: Lights;
@@ -23,16 +23,16 @@ export class Stage {
   private last = 0;
   private frames = 0;
 
-  /** Throws where the browser has no WebGL 2. */
+  /** Throws if the browser has no WebGL 2. */
   constructor(readonly place: HTMLElement, readonly canvas: HTMLCanvasElement, private readonly view: View) {
     this.renderer = new WebGLRenderer({ canvas, antialias: !isSoftware(), alpha: true, stencil: true, powerPreference: "low-power" });
     this.renderer.setClearAlpha(0);
-    // No curve between light and screen: a part's colour is that of the drawing.
+    // No tone mapping: a part has exactly the colour of the drawing.
     this.renderer.outputColorSpace = SRGBColorSpace;
     this.renderer.toneMapping = NoToneMapping;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = VSMShadowMap;
-    // Made anew when something moved, not whenever one looks from elsewhere.
+    // Updated when something moves, not when the camera does.
     this.renderer.shadowMap.autoUpdate = false;
     this.lights = new Lights(this.scene, this.renderer);
     new ResizeObserver(() => this.resize()).observe(place);
@@ -42,20 +42,20 @@ export class Stage {
     this.resize();
   }
 
-  /** Asks for a picture at the next chance. */
+  /** Requests a frame. */
   readonly invalidate = (): void => {
     this.stale = true;
     this.ask();
   };
 
-  /** Asks for the steps before a picture; it is drawn only if one of them wants it. */
+  /** Requests a call of the steps before a frame; the frame is drawn only if one of them asks for it. */
   readonly ask = (): void => {
     if (this.asked) return;
     this.asked = true;
     requestAnimationFrame(this.frame);
   };
 
-  /** Asks for a picture, as something in it moved. */
+  /** Requests a frame because something in the scene moved. */
   readonly moved = (): void => {
     this.renderer.shadowMap.needsUpdate = true;
     this.invalidate();
@@ -65,25 +65,25 @@ export class Stage {
     this.steps.push(step);
   }
 
-  /** Draws without waiting for the browser to ask: what was saved is seen a moment sooner. */
+  /** Draws at once, without waiting for an animation frame: a saved drawing shows a moment earlier. */
   drawNow(): void {
     this.stale = true;
     this.frame(performance.now());
   }
 
-  /** Does something after the next picture, once. */
+  /** Calls `step` once after the next frame. */
   afterNext(step: () => void): void {
     this.once.push(step);
   }
 
-  /** Does what waits for the next picture at once: in a tab that is not looked at there is none. */
+  /** Makes the calls that wait for the next frame: in a hidden tab there is none. */
   settle(): void {
     const { once } = this;
     this.once = [];
     for (const step of once) step();
   }
 
-  /** Draws now. */
+  /** Draws the scene. */
   draw(camera: Camera = this.view.camera): void {
     this.lights.follow(camera);
     this.follow(camera);
@@ -92,7 +92,7 @@ export class Stage {
 
   private readonly frame = (now: number): void => {
     this.asked = false;
-    // After a rest the first step is none: no jump.
+    // The first step after a pause takes no time, so that nothing jumps.
     const seconds = this.last === 0 ? 0 : Math.min((now - this.last) / 1000, 0.25);
     let more = false;
     for (const step of this.steps) more = step(seconds) || more;
@@ -113,12 +113,12 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, FINEST));
     this.renderer.setSize(width, height, false);
     this.view.resize(width / height);
-    // At once: a canvas that was resized is empty until it is drawn.
+    // At once: resizing clears the canvas.
     this.draw();
     this.invalidate();
   }
 
-  /** Tells when the page moves to a screen with other pixels. */
+  /** Resizes when the page moves to a screen with another pixel ratio. */
   private watchPixels(): void {
     matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener(
       "change",
@@ -131,7 +131,7 @@ export class Stage {
   }
 }
 
-/** Whether there is no graphics card: then smooth edges cost five times as much as all else, and pictures come late. */
+/** Whether WebGL runs on the processor: then antialiasing takes five times as long as everything else. */
 function isSoftware(): boolean {
   const context = document.createElement("canvas").getContext("webgl2");
   const named = context?.getExtension("WEBGL_debug_renderer_info");

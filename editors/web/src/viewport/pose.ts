@@ -1,15 +1,15 @@
-// Limbs that were turned by hand. Turns are kept by the names of nodes, apart from the model, so that the next model gets them too.
+// Limbs turned by hand. Turns are stored by node name, apart from the model, so that they carry over to the next model.
 
 import { Quaternion, Vector3, type Object3D } from "three";
 import { nodeName, type Model } from "./model";
 
-/** A limb's own axis: away from its joint. */
-export const LIMB = new Vector3(0, 1, 0);
+/** The axis of a limb: away from its joint. */
+export const LIMB_AXIS = new Vector3(0, 1, 0);
 
 export class Pose {
-  /** What comes after a node's own rotation. */
+  /** Applied after a node's own rotation. */
   private readonly turns = new Map<string, Quaternion>();
-  /** The rotations that nodes have without their turns: from the file, or from the clip that plays. */
+  /** The rotations of nodes without their turns: from the file, or from the clip that plays. */
   private readonly bases = new Map<Object3D, Quaternion>();
 
   constructor(private readonly model: () => Model | null) {}
@@ -22,13 +22,13 @@ export class Pose {
     return [...this.turns.keys()];
   }
 
-  /** Takes all turns out of the model: what comes next reads and writes the nodes' own rotations. */
+  /** Removes all turns from the model, so that the nodes have their own rotations. */
   release(): void {
     for (const [node, base] of this.bases) node.quaternion.copy(base);
     this.bases.clear();
   }
 
-  /** Puts all turns in. */
+  /** Applies all turns. */
   apply(): void {
     this.release();
     for (const [name, turn] of this.turns) {
@@ -39,7 +39,7 @@ export class Pose {
     }
   }
 
-  /** Turns a node by radians about an axis in the world, from where it is now. */
+  /** Turns a node by radians about an axis in the world, from its current rotation. */
   turnInWorld(node: Object3D, axis: Vector3, angle: number): void {
     node.parent?.updateWorldMatrix(true, false);
     const parent = node.parent?.getWorldQuaternion(new Quaternion()) ?? new Quaternion();
@@ -49,10 +49,10 @@ export class Pose {
 
   /** Turns a node by radians about the limb's own axis. */
   turnAboutLimb(node: Object3D, angle: number): void {
-    this.set(node, node.quaternion.clone().multiply(new Quaternion().setFromAxisAngle(LIMB, angle)));
+    this.set(node, node.quaternion.clone().multiply(new Quaternion().setFromAxisAngle(LIMB_AXIS, angle)));
   }
 
-  /** The turn that a node has, to be put back. */
+  /** The turn of a node, to be restored later. */
   get(name: string): Quaternion | undefined {
     return this.turns.get(name)?.clone();
   }
@@ -68,7 +68,7 @@ export class Pose {
     this.release();
   }
 
-  /** How far a node is turned from its own rotation, in degrees. */
+  /** The angle between a node and its own rotation, in degrees. */
   degrees(name: string): number {
     const turn = this.turns.get(name);
     return turn ? (turn.angleTo(new Quaternion()) * 180) / Math.PI : 0;

@@ -1,5 +1,5 @@
-// How a part is shown to be meant: an outline, which is seen through what stands before the part, and a lighter surface while the
-// pointer or the editor's cursor is on it.
+// Marks parts: an outline that shows through other parts, and a lighter surface while the pointer or the editor's cursor is on the
+// part.
 
 import {
   AlwaysStencilFunc,
@@ -17,49 +17,49 @@ import {
 import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { overlay } from "./model";
 
-/** Widths of outlines in pixels of the page, and how much lighter the surface is. */
-const LOOKS = {
+/** Widths of outlines in CSS pixels, and how much lighter the surface becomes. */
+const MARK_STYLES = {
   hovered: { width: 2, light: 0.16 },
   lit: { width: 4, light: 0.3 },
   selected: { width: 3.5, light: 0 },
 } as const;
-/** Joining the corners of larger meshes takes too long for a click; their outline may have gaps at edges. */
-const MOST_CORNERS = 300_000;
+/** Merging the vertices of larger meshes takes too long for a click; their outline may have gaps at edges. */
+const MAX_CORNERS = 300_000;
 
 export type Mark = "hovered" | "lit" | "selected";
 
 export class Highlight {
   private readonly marked: Record<Mark, Mesh[]> = { hovered: [], lit: [], selected: [] };
-  private readonly looks = {
-    hovered: new Look(1, LOOKS.hovered.light),
-    lit: new Look(2, LOOKS.lit.light),
-    selected: new Look(3, LOOKS.selected.light),
+  private readonly materials = {
+    hovered: new MarkMaterials(1, MARK_STYLES.hovered.light),
+    lit: new MarkMaterials(2, MARK_STYLES.lit.light),
+    selected: new MarkMaterials(3, MARK_STYLES.selected.light),
   };
-  /** Lines along all triangles. */
+  /** For lines along all triangle edges. */
   private readonly lines = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.28, depthWrite: false });
   private lined: Mesh[] = [];
 
   color(color: string, ink: string): void {
-    for (const { outline } of Object.values(this.looks)) outline.uniforms["color"]!.value.set(color);
+    for (const { outline } of Object.values(this.materials)) outline.uniforms["color"]!.value.set(color);
     this.lines.color.set(ink);
   }
 
-  /** Called before each picture: an outline's width is one of the screen. */
+  /** Called before each frame: the width of outlines is in screen pixels. */
   measure(renderer: WebGLRenderer): void {
     const size = renderer.getSize(new Vector2());
-    for (const mark of Object.keys(LOOKS) as Mark[]) {
-      const width = 2 * LOOKS[mark].width;
-      this.looks[mark].outline.uniforms["step"]!.value.set(width / size.x, width / size.y);
+    for (const mark of Object.keys(MARK_STYLES) as Mark[]) {
+      const width = 2 * MARK_STYLES[mark].width;
+      this.materials[mark].outline.uniforms["step"]!.value.set(width / size.x, width / size.y);
     }
   }
 
-  /** Marks these meshes, and no others. */
+  /** Marks these meshes and no others. */
   set(mark: Mark, meshes: readonly Mesh[]): void {
     this.clear(mark);
-    const { tint, mask, outline } = this.looks[mark];
+    const { tint, mask, outline } = this.materials[mark];
     for (const mesh of meshes) {
       if (tint.opacity > 0) this.add(mark, overlay(mesh, tint), 5);
-      // Each mark covers all of its part before it is outlined, and marks come one after the other.
+      // Each mark masks its whole part before the outline is drawn, one mark after the other.
       this.add(mark, overlay(mesh, mask), 8 + 2 * mask.stencilRef);
       this.add(mark, overlay(mesh, outline, joined(mesh.geometry)), 9 + 2 * mask.stencilRef);
     }
@@ -68,19 +68,19 @@ export class Highlight {
   clear(mark: Mark): void {
     for (const mesh of this.marked[mark]) {
       mesh.removeFromParent();
-      if (mesh.material === this.looks[mark].outline) mesh.geometry.dispose();
+      if (mesh.material === this.materials[mark].outline) mesh.geometry.dispose();
     }
     this.marked[mark] = [];
   }
 
-  /** Draws the triangles' edges over these meshes, and no others. */
+  /** Draws the triangle edges of these meshes and no others. */
   edges(meshes: readonly Mesh[]): void {
     for (const mesh of this.lined) mesh.removeFromParent();
     this.lined = meshes.map((mesh) => overlay(mesh, this.lines));
     for (const mesh of this.lined) mesh.renderOrder = 2;
   }
 
-  /** Pictures that are saved leave marks out. */
+  /** Shows or hides all marks. */
   show(on: boolean): void {
     for (const mesh of Object.values(this.marked).flat()) mesh.visible = on;
   }
@@ -92,9 +92,9 @@ export class Highlight {
 }
 
 /** The materials of one mark. */
-class Look {
+class MarkMaterials {
   readonly tint: MeshBasicMaterial;
-  /** Says where the part itself is, so that only what lies outside it is drawn. */
+  /** Masks the part itself, so that the outline is drawn outside of it only. */
   readonly mask: MeshBasicMaterial;
   readonly outline: ShaderMaterial;
 
@@ -124,12 +124,12 @@ class Look {
   }
 }
 
-/** The same surface with one normal in each place, so that its hull has no gaps at edges. */
+/** The same surface with shared normals, so that its hull has no gaps at edges. */
 function joined(geometry: BufferGeometry): BufferGeometry {
   const bare = new BufferGeometry();
   bare.setAttribute("position", geometry.getAttribute("position"));
   bare.setIndex(geometry.index);
-  if (bare.getAttribute("position").count > MOST_CORNERS) {
+  if (bare.getAttribute("position").count > MAX_CORNERS) {
     if (geometry.hasAttribute("normal")) bare.setAttribute("normal", geometry.getAttribute("normal"));
     return bare;
   }

@@ -1,16 +1,16 @@
-// Clips: which there are, which one shows, and where in it one is.
+// Plays the clips of a model.
 
 import { AnimationMixer, InterpolateDiscrete, LoopOnce, type AnimationAction, type AnimationClip } from "three";
 import type { Model } from "./model";
 
 export interface Keys {
-  /** Seconds at which anything has a key, in order. */
+  /** The times of all keys in seconds, ascending. */
   readonly times: readonly number[];
-  /** Nothing moves between keys: each is a drawing that is held. */
+  /** Whether nothing moves between keys: each is a held drawing. */
   readonly held: boolean;
 }
 
-/** Where a clip has keys. */
+/** The keys of a clip. */
 export function keysOf(clip: Pick<AnimationClip, "tracks">): Keys {
   const times = new Set<number>();
   for (const track of clip.tracks) for (const time of track.times) times.add(time);
@@ -18,13 +18,13 @@ export function keysOf(clip: Pick<AnimationClip, "tracks">): Keys {
   return { times: [...times].sort((a, b) => a - b), held };
 }
 
-/** Which of the held drawings shows at a time, counted from 1. */
+/** The number of the held drawing at a time, from 1. */
 export function drawingAt({ times }: Keys, time: number): number {
   let low = 0;
   let high = times.length;
   while (low < high) {
     const middle = (low + high) >> 1;
-    // Keys are kept in single precision: a time that was read from one may lie a little before it.
+    // Key times have single precision: a time read from one may lie slightly before it.
     if (times[middle]! <= time + 1e-5) low = middle + 1;
     else high = middle;
   }
@@ -42,7 +42,7 @@ export class Player {
   loops = true;
   playing = false;
 
-  /** Goes on in another model: with the clip of the same name at the same time, else with its first. `plays` if it had none. */
+  /** Continues in another model: with the clip of the same name at the same time, otherwise with its first. `plays` applies to the latter. */
   take(model: Model, plays: boolean): void {
     const before = this.clip;
     this.mixer?.stopAllAction();
@@ -56,7 +56,7 @@ export class Player {
     this.use(same ?? model.clips[0] ?? null);
   }
 
-  /** There is no model any more. */
+  /** The model was removed. */
   clear(): void {
     this.mixer = this.action = this.clip = null;
     this.clips = [];
@@ -80,7 +80,7 @@ export class Player {
     this.set();
   }
 
-  /** Goes to the key before or after. */
+  /** Goes to the previous or next key. */
   step(keys: 1 | -1): void {
     const { times } = this.keys;
     const next = keys > 0 ? times.find((time) => time > this.time + 1e-5) : times.findLast((time) => time < this.time - 1e-5);
@@ -88,7 +88,7 @@ export class Player {
     this.seek(next ?? (keys > 0 ? times[0] : times.at(-1)) ?? 0);
   }
 
-  /** Lets time go by. True while it does. */
+  /** Advances the time. True while the clip plays. */
   advance(seconds: number): boolean {
     if (!this.playing || !this.clip) return false;
     const { duration } = this.clip;

@@ -1,4 +1,4 @@
-// Light. A surface that faces the viewer is seen in very nearly its own colour, others a little darker; nothing is burnt out.
+// Lights. A surface that faces the viewer has very nearly its own colour, others are a little darker; nothing is overexposed.
 
 import {
   BackSide,
@@ -29,17 +29,17 @@ const SKY = 0.5 * OWN;
 const GROUND = 0.3 * OWN;
 const KEY = 0.45 * OWN;
 const FILL = 0.12 * OWN;
-/** How bright the surroundings are. */
+/** The intensity of the environment. */
 const SURROUNDINGS = 0.35;
-/** What is no metal and at least so rough mirrors nothing that one could make out. */
+/** Dielectrics that are at least this rough reflect nothing recognisable. */
 const MATT = 0.8;
-/** In so many directions the surroundings are looked at for the light that they shed. */
+/** The number of directions in which the environment is sampled. */
 const DIRECTIONS = 2000;
 
 export class Lights {
-  /** The lights that turn with the viewer, as a photographer's do who walks round a thing. */
+  /** The lights that turn with the camera, as if a photographer carried them. */
   private readonly rig = new Group();
-  /** What metal mirrors. */
+  /** The environment map. */
   private readonly mirrored: Texture;
 
   constructor(scene: Scene, renderer: WebGLRenderer) {
@@ -53,8 +53,8 @@ export class Lights {
   }
 
   /**
-   * Lets a material mirror the surroundings if it is smooth or metal. Others take from them only the light that they shed, in nine
-   * numbers: to look into a picture of them at each pixel costs more than all other light.
+   * Lets smooth and metallic materials reflect the environment. Others only get its diffuse light as a light probe, because an
+   * environment map costs more per pixel than all other light.
    */
   reach(material: MeshStandardMaterial): void {
     if (material.metalness === 0 && material.roughness >= MATT && material.type === "MeshStandardMaterial") return;
@@ -75,15 +75,15 @@ function lamp(intensity: number, x: number, y: number, z: number): DirectionalLi
   return light;
 }
 
-/** The light of the surroundings is in the picture that is mirrored already. */
+/** The environment map contains the light of the probe already. */
 function withoutProbe(shader: { fragmentShader: string }): void {
   shader.fragmentShader = `#undef USE_LIGHT_PROBES\n${shader.fragmentShader}`;
 }
 
-/** How bright the room's wall is at a height from -1 to 1. */
+/** The brightness of the room's wall at a height from -1 to 1. */
 const wall = (height: number): number => 0.35 + 0.35 * (0.5 + height / 2);
 
-/** A grey room, lighter above, with three bright cloths. */
+/** A grey room, lighter above, with three bright panels. */
 class Room {
   readonly scene = new Scene();
   private readonly cloths: Mesh<PlaneGeometry, MeshBasicMaterial>[] = [];
@@ -105,13 +105,13 @@ class Room {
     this.scene.add(...this.cloths);
   }
 
-  /** The light that comes from all sides, as spherical harmonics. */
+  /** The light from all directions, as spherical harmonics. */
   light(): SphericalHarmonics3 {
     const light = new SphericalHarmonics3();
     const basis = new Array<number>(9);
     const caster = new Raycaster();
     for (let i = 0; i < DIRECTIONS; i++) {
-      // Points of a spiral from pole to pole lie evenly on the sphere.
+      // A spherical Fibonacci lattice: points on a spiral from pole to pole, evenly spread.
       const y = 1 - (2 * i + 1) / DIRECTIONS;
       const turn = i * Math.PI * (3 - Math.sqrt(5));
       caster.ray.direction.set(Math.cos(turn), 0, Math.sin(turn)).multiplyScalar(Math.sqrt(1 - y * y)).setY(y);

@@ -1,11 +1,11 @@
-// Where the model is seen from: orbit, fixed views, perspective and parallel projection, framing.
+// The camera: orbit, named views, perspective and parallel projection, framing.
 
 import { Box3, OrthographicCamera, PerspectiveCamera, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { wantsStillness } from "../dom";
+import { prefersReducedMotion } from "../dom";
 import { cornersOf } from "./bend";
 
-/** Degrees to the model's left and up, as `okoshi render --view` takes them. */
+/** Degrees to the model's left and up, as for `okoshi render --view`. */
 export const VIEWS = {
   threeQuarter: [30, 15],
   front: [0, 0],
@@ -14,17 +14,17 @@ export const VIEWS = {
   otherSide: [-90, 0],
   top: [0, 90],
   bottom: [0, -90],
-  /** As role-playing games are drawn: tops and fronts. */
+  /** The view of tile maps in role-playing games: tops and fronts. */
   drawn: [0, 45],
 } as const satisfies Record<string, readonly [number, number]>;
 export type ViewName = keyof typeof VIEWS;
 
 const FIELD = 30;
-/** Milliseconds from one view to the next. */
+/** Duration of a camera movement, in milliseconds. */
 const MOVE = 220;
-/** What is left free around a framed model. */
+/** The size of the picture relative to the framed model. */
 const MARGIN = 1.16;
-/** Straight above and below, left and right are not told apart: a view stays this far from there, in radians. */
+/** From exactly above or below, left and right would be undefined: cameras keep this distance from the poles, in radians. */
 const POLE = 1e-4;
 
 export class View {
@@ -50,7 +50,7 @@ export class View {
     this.listeners.push(listener);
   }
 
-  /** While it is off, the pointer does not turn the view. */
+  /** Whether the pointer turns the view. */
   set turns(on: boolean) {
     this.controls.enabled = on;
   }
@@ -63,7 +63,7 @@ export class View {
     return this.controls.target;
   }
 
-  /** Where the camera is, as numbers: what it looks at, where from, how high the picture is there; and how it projects. */
+  /** The camera as text: target, position, height of the picture at the target, projection. */
   describe(): string {
     const numbers = [...this.controls.target.toArray(), ...this.camera.position.toArray(), this.height()];
     return `${numbers.map((one) => Number(one.toPrecision(6))).join(" ")} ${this.isParallel ? "parallel" : "perspective"}`;
@@ -78,14 +78,14 @@ export class View {
     this.changed();
   }
 
-  /** What there is to be seen, and points around it, if these are others from elsewhere. The camera stays. */
+  /** Sets the bounding box of the scene, and points around it if these depend on the view. The camera stays. */
   bound(box: Box3, points: ((towards: Vector3) => Vector3[]) | null = null): void {
     this.box.copy(box);
     this.points = points ?? (() => cornersOf(this.box));
     this.changed();
   }
 
-  /** Moves until all is seen, from where the camera is or from the named view. */
+  /** Moves until the whole scene is in the picture, from the current direction or a named view. */
   frame(name?: ViewName, moves = true): void {
     const direction = name ? directionOf(VIEWS[name]) : this.direction();
     const points = this.points(direction);
@@ -93,20 +93,20 @@ export class View {
     this.go(direction, centre, this.distanceFor(direction, centre, points), moves);
   }
 
-  /** Keeps what is looked at and from how far; what is returned goes back there, from where the camera is then. */
+  /** Remembers target and distance. The returned function goes back to them, from the direction of that time. */
   remember(): () => void {
     const target = this.controls.target.clone();
     const distance = this.distance();
     return () => this.go(this.direction(), target, distance, true);
   }
 
-  /** Where a place of the model is in the picture: in fractions of its width from the left and of its height from above. Null behind the camera. */
+  /** The position of a point in the picture: fractions of its width from the left and of its height from above. Null behind the camera. */
   onScreen(place: Vector3): { readonly x: number; readonly y: number } | null {
     const at = place.clone().project(this.camera);
     return at.z > 1 ? null : { x: (at.x + 1) / 2, y: (1 - at.y) / 2 };
   }
 
-  /** Looks from the named side; distance and target stay. */
+  /** Looks from the named view; distance and target stay. */
   look(name: ViewName): void {
     this.go(directionOf(VIEWS[name]), this.controls.target.clone(), this.distance(), true);
   }
@@ -125,7 +125,7 @@ export class View {
     this.place(this.direction(), this.controls.target, this.distance() / factor);
   }
 
-  /** Changes the projection; what is at the target keeps its size. */
+  /** Changes the projection; things at the target keep their size. */
   setParallel(parallel: boolean): void {
     if (parallel === this.isParallel) return;
     const direction = this.direction();
@@ -140,18 +140,18 @@ export class View {
     return direction.lengthSq() > 0 ? direction.normalize() : new Vector3(0, 0, 1);
   }
 
-  /** How high the picture is at the target, in metres. */
+  /** The height of the picture at the target, in metres. */
   private height(): number {
     if (this.isParallel) return (this.parallel.top - this.parallel.bottom) / this.parallel.zoom;
     return 2 * this.camera.position.distanceTo(this.controls.target) * Math.tan((FIELD * Math.PI) / 360);
   }
 
-  /** The distance from which a picture in perspective is as high as this one. */
+  /** The distance at which a perspective camera shows the same height. */
   private distance(): number {
     return this.height() / (2 * Math.tan((FIELD * Math.PI) / 360));
   }
 
-  /** The least distance from which no point is outside the picture. */
+  /** The smallest distance at which all points are in the picture. */
   private distanceFor(direction: Vector3, centre: Vector3, points: readonly Vector3[]): number {
     const turn = new PerspectiveCamera();
     turn.position.copy(direction);
@@ -168,7 +168,7 @@ export class View {
 
   private go(direction: Vector3, target: Vector3, distance: number, moves: boolean): void {
     this.stop();
-    if (!moves || wantsStillness()) return this.place(direction, target, distance);
+    if (!moves || prefersReducedMotion()) return this.place(direction, target, distance);
     const from = { direction: this.direction(), target: this.controls.target.clone(), distance: this.distance() };
     const turn = turnBetween(from.direction, direction);
     const began = performance.now();
@@ -205,13 +205,13 @@ export class View {
     this.changed();
   }
 
-  /** Puts the planes between which things are seen around the model and its ground. */
+  /** Sets the near and far planes around the model and its ground. */
   private changed(): void {
     const reach = this.box.getSize(new Vector3()).length();
     const centre = this.box.getCenter(new Vector3());
     const away = this.camera.position.distanceTo(centre);
     this.camera.far = away + reach * 10;
-    // The parallel camera sees what is behind it too: it may stand within a wide model.
+    // The parallel camera also shows what is behind it: it may be inside a wide model.
     this.camera.near = this.isParallel ? -reach * 10 : Math.max((away - reach * 10) / 2, this.camera.far / 20_000);
     this.controls.minDistance = reach * 0.01;
     this.controls.maxDistance = reach * 50;
@@ -223,13 +223,13 @@ export class View {
 
 export const clamp = (value: number, least: number, most: number): number => Math.min(Math.max(value, least), most);
 
-/** The direction in which the camera stands, for degrees to the model's left and up. */
+/** The direction of the camera, for degrees to the model's left and up. */
 export function directionOf([yaw, pitch]: readonly [number, number]): Vector3 {
   const phi = clamp(((90 - pitch) * Math.PI) / 180, POLE, Math.PI - POLE);
   return new Vector3().setFromSphericalCoords(1, phi, (yaw * Math.PI) / 180);
 }
 
-/** Directions from one to the other, round the vertical axis the shorter way and up or down, never over the pole. */
+/** Interpolates directions: around the vertical axis the shorter way, never over a pole. */
 function turnBetween(from: Vector3, to: Vector3): (t: number) => Vector3 {
   const a = new Spherical().setFromVector3(from);
   const b = new Spherical().setFromVector3(to);

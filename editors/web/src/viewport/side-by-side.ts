@@ -1,24 +1,24 @@
-// The model a second time, beside itself: there a limited clip plays as it was before it was limited.
+// A copy of the model beside it, which plays a limited clip as it was before limiting.
 
 import { AnimationClip, AnimationMixer, Box3, Group, LoopOnce, SkinnedMesh, Vector3, type AnimationAction, type KeyframeTrack, type Object3D } from "three";
 import { clone } from "three/addons/utils/SkeletonUtils.js";
 import { isOverlay, Model, nodeName } from "./model";
 
-/** What is left free between the two, in widths. */
+/** The gap between the two, relative to the width of the model. */
 const GAP = 0.12;
-/** At so many times of a clip is looked how much room it takes. */
+/** At how many times of a clip its bounding box is sampled. */
 const SAMPLES = 24;
 
-/** The clips of a file without meshes, and its nodes. */
+/** The nodes and clips of a file without meshes. */
 export interface Originals {
   readonly scene: Object3D;
   readonly animations: readonly AnimationClip[];
 }
 
-export class Beside {
+export class SideBySide {
   originals: Originals | null = null;
   copy: Model | null = null;
-  /** What each of the two fills of the world while the clip plays. */
+  /** The bounds of both during the clip. */
   boxes: readonly [Box3, Box3] | null = null;
   private readonly place = new Group();
   private mixer: AnimationMixer | null = null;
@@ -29,12 +29,12 @@ export class Beside {
     scene.add(this.place);
   }
 
-  /** How far to the right it stands, in metres. */
+  /** The distance of the copy to the right, in metres. */
   get offset(): number {
     return this.place.position.x;
   }
 
-  /** Puts the model there once more; what lies over it and how limbs are turned by hand are left out. */
+  /** Puts a copy of the model there, without overlays. Limbs turned by hand must be released before. */
   put(model: Model, originals: Originals): void {
     this.remove();
     const root = clone(model.root) as Group;
@@ -50,7 +50,7 @@ export class Beside {
     this.mixer = new AnimationMixer(root);
   }
 
-  /** It shares all but its bones with the model, which disposes of that. */
+  /** The copy shares everything but its skeletons with the model, which disposes of the rest. */
   remove(): void {
     this.mixer?.stopAllAction();
     for (const mesh of this.copy?.meshes ?? []) if (mesh instanceof SkinnedMesh) mesh.skeleton.dispose();
@@ -58,7 +58,7 @@ export class Beside {
     this.copy = this.mixer = this.action = this.clip = this.boxes = null;
   }
 
-  /** Plays what a clip was before it was limited, and stands so far away that neither gets in the other's way. */
+  /** Plays the original of a clip, and moves the copy so far away that the two never overlap. */
   choose(clip: AnimationClip | null, sample: (time: number) => void, model: Model): void {
     const { copy, mixer, originals } = this;
     if (!copy || !mixer || !originals) return;
@@ -84,7 +84,7 @@ export class Beside {
     this.boxes = [own, other.translate(new Vector3(this.offset, 0, 0))];
   }
 
-  /** Goes to a time of a clip that lasts so long: both begin and end together. */
+  /** Seeks to a time of a clip of this duration: both begin and end together. */
   seek(time: number, duration: number): void {
     if (!this.action || !this.mixer || !this.clip) return;
     this.action.paused = false;
@@ -94,13 +94,13 @@ export class Beside {
   }
 }
 
-/** What a copy fills, as if it were not moved aside. */
+/** The bounds of a copy without its offset. */
 function boxOf(root: Object3D, place: Object3D): Box3 {
   place.updateMatrixWorld(true);
   return new Box3().setFromObject(root).translate(new Vector3(-place.position.x, 0, 0));
 }
 
-/** Nodes by the names that the file gives them; several may have the same. */
+/** Nodes by their names in the file; several may share one. */
 function nodesByName(root: Object3D): Map<string, Object3D[]> {
   const nodes = new Map<string, Object3D[]>();
   root.traverse((object) => {
@@ -113,8 +113,8 @@ function nodesByName(root: Object3D): Map<string, Object3D[]> {
 }
 
 /**
- * A clip of other nodes on those of the same names. three.js makes names unique within a file, so that the same node may be called
- * otherwise in another file: the names that count are the files' own.
+ * A clip retargeted to the nodes of the same names. three.js makes names unique within a file, so the same node may have different
+ * names in two files; this goes by the names in the files.
  */
 export function onNodes(clip: AnimationClip, from: ReadonlyMap<string, readonly Object3D[]>, to: ReadonlyMap<string, readonly Object3D[]>): AnimationClip {
   const targets = new Map<string, Object3D>();

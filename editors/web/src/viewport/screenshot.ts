@@ -1,0 +1,22 @@
+// Screenshots of the model.
+
+import { Color } from "three";
+import type { Viewer } from "./viewer";
+
+/** The viewport as a PNG: on the given background, or only the model on a transparent one. */
+export function screenshot(viewer: Viewer, background: string | null): Promise<Blob> {
+  const { renderLoop, canvas } = viewer;
+  const take = (): Promise<Blob> => {
+    renderLoop.draw();
+    // In the same task: the browser may clear the canvas after it.
+    return new Promise((resolve, reject) => canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("the browser could not create the picture"))), "image/png"));
+  };
+  if (background === null) return viewer.bare(take);
+  renderLoop.renderer.setClearColor(new Color(background), 1);
+  try {
+    return take();
+  } finally {
+    renderLoop.renderer.setClearColor(0x000000, 0);
+    renderLoop.invalidate();
+  }
+}
