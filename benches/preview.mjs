@@ -1,10 +1,10 @@
-// How long it takes from a save to the new picture in the browser, step by step.
+// Measures the time from a save to the new frame in the browser, step by step.
 //
 //   cargo build --release && npm ci --prefix editors/web && node benches/preview.mjs [PARTS…]
 //
-// Each drawing is saved 40 times, as Inkscape does it: emptied, then written in pieces. The steps: until the watcher notices (event),
-// until the save has settled, until the model is made (build), until the page hears of it (push), until it has fetched and drawn it
-// (frame). Chromium draws in software here, which a computer with a graphics card does sooner.
+// Each drawing is saved 40 times like Inkscape does it: truncated, then written in pieces. The steps: until the watcher notices
+// (event), until the file has settled, until the model is built, until the page is notified (push), until it has fetched and drawn the
+// model (frame). Chromium renders in software here; a graphics card is faster.
 
 import { spawn } from "node:child_process";
 import { closeSync, mkdtempSync, openSync, rmSync, writeFileSync, writeSync } from "node:fs";
@@ -16,10 +16,10 @@ const root = new URL("..", import.meta.url).pathname;
 const { chromium } = createRequire(join(root, "editors/web/package.json"))("playwright-core");
 const okoshi = process.env.OKOSHI ?? join(root, "target/release/okoshi");
 const SAVES = 40;
-/** Kinds of solids, in turn. */
+/** Kinds of solids, used in turn. */
 const KINDS = ["default -9 9", "roundv", "default -5 5", "round", "conev -8 8 0.5", "flat"];
 
-/** A figure of so many parts, one of them of a width that changes. */
+/** A figure of `parts` parts; the width of the first one changes. */
 function drawing(parts, width) {
   const side = Math.ceil(Math.sqrt(parts));
   const shapes = [];
@@ -40,7 +40,7 @@ function save(path, text) {
   closeSync(file);
 }
 
-// The system's clock, which the program and the page read too.
+// The system clock, which the program and the page use too.
 const now = () => Date.now();
 const median = (numbers) => numbers.sort((a, b) => a - b)[Math.floor(numbers.length / 2)];
 const pause = (milliseconds) => new Promise((done) => setTimeout(done, milliseconds));
@@ -58,15 +58,15 @@ async function measure(parts) {
   const page = await browser.newPage({ viewport: { width: 640, height: 480 } });
   await page.addInitScript(() => {
     const clock = () => Date.now();
-    window.heard = {};
+    window.builds = {};
     const Socket = window.WebSocket;
     window.WebSocket = class extends Socket {
       constructor(...rest) {
         super(...rest);
         this.addEventListener("message", ({ data }) => {
-          const heard = clock();
+          const received = clock();
           const message = JSON.parse(data);
-          if (message.type === "build") window.heard[message.build.revision] = { heard, ...message.build.steps };
+          if (message.type === "build") window.builds[message.build.revision] = { received, ...message.build.steps };
         });
       }
     };
@@ -80,9 +80,9 @@ async function measure(parts) {
     let [shown, frames] = [1, Number(canvas.dataset.frames)];
     new MutationObserver(() => {
       const [revision, drawn] = [Number(canvas.dataset.revision), Number(canvas.dataset.frames)];
-      const times = window.heard[revision];
+      const times = window.builds[revision];
       if (revision !== shown && drawn > frames) {
-        // To read a pixel waits until the graphics have drawn it.
+        // Reading a pixel waits until the frame is rendered.
         const context = canvas.getContext("webgl2");
         context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
         times.drawn = clock();
@@ -96,17 +96,17 @@ async function measure(parts) {
     const text = drawing(parts, 24 + revision / 10);
     const saved = now();
     save(path, text);
-    const times = await (await page.waitForFunction((revision) => window.heard[revision]?.drawn && window.heard[revision], revision)).jsonValue();
+    const times = await (await page.waitForFunction((revision) => window.builds[revision]?.drawn && window.builds[revision], revision)).jsonValue();
     steps.push({
       event: times.noticed - saved,
       settle: times.begun - times.noticed,
       build: times.built - times.begun,
-      push: times.heard - times.built,
-      frame: times.drawn - times.heard,
+      push: times.received - times.built,
+      frame: times.drawn - times.received,
       "in all": times.drawn - saved,
       "without build": times.drawn - saved - (times.built - times.begun),
     });
-    // Until the shadow is drawn too.
+    // Until the shadow has been drawn too.
     await pause(800);
   }
   await browser.close();

@@ -6,8 +6,8 @@
 
 ;;; Commentary:
 
-;; Starts okoshi's language server through Eglot wherever the text of an SVG file is shown.  Emacs that can show pictures opens
-;; SVG files as such: C-c C-c switches to the text.  Needs the program `okoshi' on the PATH.
+;; Starts okoshi's language server through Eglot in buffers that show the text of an SVG file.  If Emacs opens the file as a
+;; picture, C-c C-c switches to the text.  Requires the program `okoshi' on the PATH.
 ;;
 ;;     (require 'okoshi)
 
@@ -22,21 +22,21 @@
   :group 'tools)
 
 (defcustom okoshi-command '("okoshi" "lsp")
-  "The program that is the language server, and its arguments."
+  "Command line of the language server."
   :type '(repeat string))
 
 (defclass okoshi-server (eglot-lsp-server) ()
   :documentation "Okoshi's language server.")
 
 (cl-defmethod eglot-client-capabilities ((_server okoshi-server))
-  "Say that pages and places can be shown."
+  "Announce support for `window/showDocument'."
   (let* ((known (cl-call-next-method))
          (window (copy-sequence (plist-get known :window))))
     (plist-put known :window (plist-put window :showDocument '(:support t)))))
 
 (cl-defmethod eglot-handle-request
   ((_server okoshi-server) (_method (eql window/showDocument)) &key uri selection &allow-other-keys)
-  "Show URI: the preview's page, or the drawing where SELECTION was picked."
+  "Show URI: the preview page, or the drawing at SELECTION."
   (cond ((not (string-prefix-p "http://" uri))
          (let ((path (url-filename (url-generic-parse-url uri))))
            (pop-to-buffer (find-file-noselect (decode-coding-string (url-unhex-string path) 'utf-8)))
@@ -47,9 +47,9 @@
   '(:success t))
 
 (defun okoshi-preview ()
-  "Show the model of what stands in the buffer, on a page that follows each change."
+  "Open a live 3D preview of the drawing in this buffer."
   (interactive)
-  (let ((server (or (eglot-current-server) (user-error "No language server looks at this buffer")))
+  (let ((server (or (eglot-current-server) (user-error "This buffer has no language server")))
         (place (plist-get (eglot--TextDocumentIdentifier) :uri)))
     (jsonrpc-async-request server :workspace/executeCommand
                            (list :command "okoshi.preview" :arguments (vector place))
@@ -63,13 +63,13 @@
        (string-match-p "\\.svg\\'" (downcase buffer-file-name))))
 
 (defun okoshi-ensure ()
-  "Have the language server look at the buffer, if it shows the text of a drawing."
+  "Start the language server if the buffer shows the text of a drawing."
   (when (okoshi--drawing-p)
-    ;; For this buffer alone: other XML may have another server.
+    ;; Buffer-local: other XML may have another server.
     (setq-local eglot-server-programs
                 (cons `((nxml-mode) . (okoshi-server . ,okoshi-command))
                       eglot-server-programs))
-    ;; `nxml-mode' takes `$' for a letter; a keyword begins behind it.
+    ;; In `nxml-mode' `$' is a word character, but here keywords begin after it.
     (let ((signs (make-syntax-table (syntax-table))))
       (modify-syntax-entry ?$ "." signs)
       (modify-syntax-entry ?＄ "." signs)
@@ -77,7 +77,7 @@
     (eglot-ensure)))
 
 (defun okoshi-show-text ()
-  "Show a drawing's text where `image-mode' has given up: in terminals it does."
+  "Show a drawing's text if `image-mode' cannot show it, as in terminals."
   (when (and (okoshi--drawing-p) (eq major-mode 'fundamental-mode))
     (nxml-mode)))
 

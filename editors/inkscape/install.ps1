@@ -1,5 +1,5 @@
 # Installs okoshi's extension into Inkscape on Windows: powershell -ExecutionPolicy Bypass -File install.ps1
-# -Okoshi PATH names the program, -Folder DIR Inkscape's folder of extensions; -Uninstall takes it away again.
+# -Okoshi PATH is the program, -Folder DIR Inkscape's folder of extensions; -Uninstall removes the extension.
 param([string]$Okoshi = $env:OKOSHI, [string]$Folder, [switch]$Uninstall)
 $ErrorActionPreference = 'Stop'
 
@@ -8,7 +8,7 @@ $inkscape = @('inkscape.com', "$env:ProgramFiles\Inkscape\bin\inkscape.com") |
     ForEach-Object { Get-Command $_ -ErrorAction SilentlyContinue } | Select-Object -First 1
 if ($inkscape) {
     $version = (& $inkscape.Source --version | Select-Object -First 1)
-    if ($version -notmatch '^Inkscape [1-9]') { throw "This is $version; the extension takes Inkscape 1.0 or newer." }
+    if ($version -notmatch '^Inkscape [1-9]') { throw "This is $version; the extension needs Inkscape 1.0 or newer." }
     Write-Output "${version}: $($inkscape.Source)"
     if (-not $Folder) { $Folder = Join-Path (& $inkscape.Source --user-data-directory | Select-Object -Last 1) 'extensions' }
 }
@@ -24,9 +24,9 @@ if ($Uninstall) {
 if (-not $Okoshi) { $Okoshi = 'okoshi' }
 $program = @($Okoshi, "$env:USERPROFILE\.cargo\bin\okoshi.exe") |
     ForEach-Object { Get-Command $_ -ErrorAction SilentlyContinue } | Select-Object -First 1
-if (-not $program) { throw 'The program okoshi was not found. Install it (cargo install --path .), or name it: -Okoshi C:\path\to\okoshi.exe' }
+if (-not $program) { throw 'The program okoshi was not found. Install it (cargo install --path .), or pass its path: -Okoshi C:\path\to\okoshi.exe' }
 $said = (& $program.Source --version)
-if ($said -notmatch '^okoshi ') { throw "$($program.Source) is not okoshi: it says `"$said`"." }
+if ($said -notmatch '^okoshi ') { throw "$($program.Source) is not okoshi: its version is `"$said`"." }
 Write-Output "${said}: $($program.Source)"
 
 if (Test-Path $target) { Remove-Item -Recurse -Force $target }
@@ -34,4 +34,4 @@ New-Item -ItemType Directory -Force $target | Out-Null
 Copy-Item (Join-Path $PSScriptRoot 'extension\*.inx'), (Join-Path $PSScriptRoot 'extension\*.py') $target
 [IO.File]::WriteAllText((Join-Path $target 'okoshi.path'), "$($program.Source)`n")
 Write-Output "installed: $target"
-Write-Output 'Start Inkscape anew: File > Save As has glTF, and Extensions has Okoshi.'
+Write-Output 'Restart Inkscape. Then File > Save As offers glTF, and the menu Extensions has Okoshi.'

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Installs okoshi's extension into Inkscape, for the person who runs this: bash install.sh
+# Installs okoshi's extension into Inkscape for the current user: bash install.sh
 #
-#   --okoshi PATH   the program, if it is not on the PATH or in ~/.cargo/bin; the variable OKOSHI does the same
-#   --folder DIR    Inkscape's folder of extensions, if Inkscape cannot be asked (Edit → Preferences → System shows it)
+#   --okoshi PATH   the program, if it is not on the PATH or in ~/.cargo/bin; or set the variable OKOSHI
+#   --folder DIR    Inkscape's folder of user extensions, if Inkscape does not report it (see Edit → Preferences → System)
 #   --link          links instead of copies, for work on the extension
-#   --uninstall     takes it away again
+#   --uninstall     removes the extension
 #
-# The variable INKSCAPE names Inkscape, if it is not on the PATH. Running it again brings everything up to date.
+# Set the variable INKSCAPE to the program if it is not on the PATH. Run this again to update.
 set -euo pipefail
 
 usage() { sed -n '2,9s/^# \{0,1\}//p' "$0"; }
@@ -17,7 +17,7 @@ okoshi=${OKOSHI:-} folder='' link=no uninstall=no
 while [ $# -gt 0 ]; do
   case $1 in
     --okoshi | --folder)
-      [ $# -gt 1 ] || { echo "$1 wants a path" >&2; exit 2; }
+      [ $# -gt 1 ] || { echo "$1 needs a path" >&2; exit 2; }
       if [ "$1" = --okoshi ]; then okoshi=$2; else folder=$2; fi
       shift ;;
     --link) link=yes ;;
@@ -37,21 +37,21 @@ if [ -z "$inkscape" ]; then
   done
 fi
 if [ -n "$inkscape" ]; then
-  command -v "$inkscape" > /dev/null || fail "INKSCAPE names $inkscape, and there is no such program."
+  command -v "$inkscape" > /dev/null || fail "INKSCAPE is set to $inkscape, which is not a program."
   said=$("$inkscape" --version 2> /dev/null | sed -n 's/^Inkscape \([0-9][0-9.]*\).*/\1/p' | head -n 1)
   case $said in
-    '') fail "$inkscape does not say which version it is." ;;
-    0.*) fail "This is Inkscape $said; the extension takes 1.0 or newer." ;;
+    '') fail "$inkscape does not report its version." ;;
+    0.*) fail "This is Inkscape $said; the extension needs 1.0 or newer." ;;
   esac
   echo "Inkscape $said: $(command -v "$inkscape")"
   [ -n "$folder" ] || folder=$("$inkscape" --user-data-directory 2> /dev/null | tail -n 1)/extensions
 elif [ -z "$folder" ]; then
-  fail "Inkscape was not found. Install it, or name it in the variable INKSCAPE, or name its folder of extensions with --folder:" \
+  fail "Inkscape was not found. Install it, or set the variable INKSCAPE to its path, or pass its folder of extensions with --folder:" \
     "Edit → Preferences → System shows it as User extensions."
 fi
 target=$folder/okoshi
 
-# ---- Away with it
+# ---- Uninstall
 
 if [ $uninstall = yes ]; then
   if [ -d "$target" ]; then
@@ -71,17 +71,17 @@ if [ -z "$okoshi" ]; then
   done
 fi
 [ -n "$okoshi" ] || fail "The program okoshi was not found on the PATH or in ~/.cargo/bin. Install it (cargo install --path .)," \
-  "or name it: bash install.sh --okoshi /path/to/okoshi"
-okoshi=$(command -v "$okoshi") || fail "There is no program $okoshi."
+  "or pass its path: bash install.sh --okoshi /path/to/okoshi"
+okoshi=$(command -v "$okoshi") || fail "$okoshi is not a program."
 okoshi=$(cd "$(dirname "$okoshi")" && pwd)/$(basename "$okoshi")
 said=$("$okoshi" --version) || fail "$okoshi does not run."
-case $said in okoshi\ *) ;; *) fail "$okoshi is not okoshi: it says \"$said\"." ;; esac
+case $said in okoshi\ *) ;; *) fail "$okoshi is not okoshi: its version is \"$said\"." ;; esac
 echo "$said: $okoshi"
-"$okoshi" preview --help > /dev/null 2>&1 || echo "note: this okoshi has no preview, so Preview in 3D will say so; a newer one has"
+"$okoshi" preview --help > /dev/null 2>&1 || echo "note: this okoshi is too old for Preview in 3D"
 
 # ---- The files
 
-# Only ours are in the folder; what an older version has left must not stay.
+# The folder is only ours; files of older versions are removed.
 rm -rf -- "$target"
 mkdir -p "$target"
 for file in "$here"/extension/*.inx "$here"/extension/*.py; do
@@ -90,7 +90,7 @@ done
 printf '%s\n' "$okoshi" > "$target/okoshi.path"
 echo "installed: $target"
 
-# Debian's Inkscape comes without a module that its extensions need. Other builds bring a Python of their own.
+# Debian's Inkscape lacks a module that its extensions need. Other builds contain a Python of their own.
 if [ -n "$inkscape" ] && system=$("$inkscape" --system-data-directory 2> /dev/null | tail -n 1) && [ -d "$system/extensions/inkex" ]; then
   case $system in
     /usr/*)
@@ -100,4 +100,4 @@ if [ -n "$inkscape" ] && system=$("$inkscape" --system-data-directory 2> /dev/nu
       fi ;;
   esac
 fi
-echo "Start Inkscape anew: File → Save As has glTF, and Extensions has Okoshi."
+echo "Restart Inkscape. Then File → Save As offers glTF, and the menu Extensions has Okoshi."

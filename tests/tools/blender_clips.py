@@ -1,9 +1,9 @@
-"""Imports glTF files into Blender and compares the clips that it finds with those in the files.
+"""Imports glTF files into Blender and compares the imported clips with those in the files.
 
     blender -b --factory-startup --python-exit-code 1 --python blender_clips.py -- FILE.glb...
 
-Every channel of every clip must be there: a curve for each number, with a key for each of the file's, held (CONSTANT) where the
-file steps and straight (LINEAR) where it does not. A file without clips must have none in Blender.
+Every channel of every clip must be there: a curve for each component with the same keys, CONSTANT for step interpolation and LINEAR
+otherwise. A file without clips must have none in Blender.
 """
 
 import json
@@ -14,18 +14,18 @@ import sys
 import bpy
 import numpy
 
-# Blender 3.4 reads glTF by a name that NumPy has given up since.
+# Blender 3.4's glTF importer uses a name that newer versions of NumPy have removed.
 if "bool" not in vars(numpy):
     numpy.bool = bool
 
 CURVES = {"rotation": ("rotation_quaternion", 4), "translation": ("location", 3)}
-# In a skinned model nodes are bones of one armature.
+# The nodes of a skinned model become bones of one armature.
 BONE = re.compile(r'pose\.bones\["(.*)"\]\.(\w+)')
 INTERPOLATION = {"STEP": "CONSTANT", "LINEAR": "LINEAR"}
 
 
 def clips_of_file(file):
-    """(clip, node, curve, index) to (keys, interpolation), as the JSON of a GLB has them."""
+    """The clips of a GLB: (clip, node, curve, index) to (keys, interpolation)."""
     with open(file, "rb") as stream:
         _, _, _, length, _ = struct.unpack("<5I", stream.read(20))
         model = json.loads(stream.read(length))
@@ -43,7 +43,7 @@ def clips_of_file(file):
 
 
 def clips_of_blender(file):
-    """The same, as Blender has it after an import; keys of several ways are told by all of them."""
+    """The same after an import into Blender; if the keys of a curve differ in interpolation, all kinds are listed."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=file)
     found = {}
@@ -60,7 +60,7 @@ def clips_of_blender(file):
 
 
 def main(files):
-    """Compares all files; the status tells whether any differs."""
+    """Compares all files; the exit status is 1 if any differs."""
     bad = 0
     for file in files:
         due, found = clips_of_file(file), clips_of_blender(file)

@@ -1,4 +1,4 @@
-"""Checks in Blender that a skinned model stands and moves as the one without a skin.
+"""Checks in Blender that a skinned model has the same shape and movement as the one without a skin.
 
     blender -b --factory-startup --python-exit-code 1 --python blender_skin.py -- PLAIN.glb SKINNED.glb [NODE]
 
@@ -14,23 +14,23 @@ import numpy
 from mathutils import Matrix, Vector
 from mathutils.kdtree import KDTree
 
-# Blender 3.4 reads glTF by a name that NumPy has given up since.
+# Blender 3.4's glTF importer uses a name that newer versions of NumPy have removed.
 if "bool" not in vars(numpy):
     numpy.bool = bool
 
 
 def corners():
-    """Every corner in the world, modifiers and poses applied."""
+    """All vertices in world space, with modifiers and poses applied."""
     graph = bpy.context.evaluated_depsgraph_get()
     solids = [thing.evaluated_get(graph) for thing in bpy.data.objects if thing.type == "MESH"]
-    # The importer keeps a small ball as the picture of a bone; it is in no scene.
+    # The importer adds a small sphere as the display shape of bones; it is in no scene.
     shown = {thing.name for thing in bpy.context.scene.objects}
     solids = [thing for thing in solids if thing.name in shown]
     return [thing.matrix_world @ corner.co for thing in solids for corner in thing.data.vertices]
 
 
 def turned(name):
-    """Turns a node, object or bone, about its own origin and a slanting axis of the world."""
+    """Rotates a node (object or bone) around its origin and an oblique axis."""
     spin = Matrix.Rotation(math.radians(40), 4, Vector((1, 2, 3)).normalized())
 
     def about(matrix):
@@ -56,7 +56,7 @@ def load(file):
 
 
 def distance(some, others):
-    """How far the farthest of `some` is from the nearest of `others`."""
+    """The one-sided Hausdorff distance from `some` to `others`."""
     tree = KDTree(len(others))
     for index, corner in enumerate(others):
         tree.insert(corner, index)

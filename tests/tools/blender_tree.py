@@ -1,4 +1,4 @@
-"""Imports glTF files into Blender and prints what it finds: one JSON object a file.
+"""Imports glTF files into Blender and prints the result: one JSON object per file.
 
     blender -b --factory-startup --python-exit-code 1 --python blender_tree.py -- [-o OUT.json] FILE.glb...
 
@@ -12,7 +12,7 @@ import sys
 import bpy
 import numpy
 
-# Blender 3.4 reads glTF by a name that NumPy has given up since.
+# Blender 3.4's glTF importer uses a name that newer versions of NumPy have removed.
 if "bool" not in vars(numpy):
     numpy.bool = bool
 
@@ -31,7 +31,7 @@ def node(thing):
 
 
 def tree(file):
-    """The objects that an import of `file` makes, by name."""
+    """Imports `file`; returns the objects by name."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=file)
     nodes = sorted(map(node, bpy.data.objects), key=lambda one: one["name"])
@@ -39,7 +39,7 @@ def tree(file):
 
 
 def main(arguments):
-    """Reads the command line behind `--`."""
+    """Reads the command line after `--`."""
     out = None
     if arguments[:1] == ["-o"]:
         out, arguments = arguments[1], arguments[2:]

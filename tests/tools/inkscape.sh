@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Drives the extension from the real Inkscape: OKOSHI=/path/to/okoshi SCRATCH=folder bash tests/tools/inkscape.sh
 #
-# Installing and taking away; models from the command line, byte for byte those of `okoshi build`; faults of a drawing; the entries
-# of the menu, saves while `okoshi watch` runs, and Save As in a window, on a screen of its own (Xvfb, openbox, xdotool). Pictures of the windows are left in
-# SCRATCH/shots. Without OKOSHI the program is taken from target/. Exit status 77 with a reason if something is not installed.
+# Tests installation; models from the command line, which must be byte for byte those of `okoshi build`; errors in a drawing; and in
+# a window on a virtual screen (Xvfb, openbox, xdotool) the menu entries, saving while `okoshi watch` runs, and Save As. Screenshots go
+# to SCRATCH/shots. Without OKOSHI the program is taken from target/. Exits with status 77 and a reason if something is not installed.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 project=$PWD
@@ -21,7 +21,7 @@ rm -rf "$SCRATCH"
 mkdir -p "$SCRATCH/shots"
 SCRATCH=$(realpath "$SCRATCH")
 
-# Nothing of the person who runs this, and nothing for them.
+# Independent of the user's configuration, and without changes to it.
 export INKSCAPE_PROFILE_DIR=$SCRATCH/profile XDG_CONFIG_HOME=$SCRATCH/config XDG_DATA_HOME=$SCRATCH/data \
   XDG_CACHE_HOME=$SCRATCH/cache PYTHONDONTWRITEBYTECODE=1
 mkdir -p "$INKSCAPE_PROFILE_DIR" "$XDG_CONFIG_HOME" "$XDG_DATA_HOME" "$XDG_CACHE_HOME"
@@ -34,7 +34,7 @@ PYTHONPATH=$inkex $python -c 'import inkex' 2> /dev/null \
 
 started=()
 cleanup() {
-  # Previews end with the extension's own word.
+  # Previews are stopped by the extension itself.
   env PYTHONPATH="$inkex" $python "$project/editors/inkscape/extension/okoshi_stop.py" > /dev/null 2>&1 || true
   local one
   for one in "${started[@]}"; do kill "$one" 2> /dev/null || true; done
@@ -60,9 +60,9 @@ install=editors/inkscape/install.sh
 place=$INKSCAPE_PROFILE_DIR/extensions/okoshi
 if env PATH=/usr/bin:/bin HOME="$SCRATCH" bash $install > "$SCRATCH/log" 2>&1; then fail "installed without a program"; fi
 has "$SCRATCH/log" "cargo install --path ."
-if bash $install --okoshi /bin/true > "$SCRATCH/log" 2>&1; then fail "took something else for okoshi"; fi
+if bash $install --okoshi /bin/true > "$SCRATCH/log" 2>&1; then fail "accepted another program as okoshi"; fi
 has "$SCRATCH/log" "is not okoshi"
-if bash $install --nonsense > "$SCRATCH/log" 2>&1; then fail "took an option that is none"; fi
+if bash $install --nonsense > "$SCRATCH/log" 2>&1; then fail "accepted an unknown option"; fi
 has "$SCRATCH/log" "--uninstall"
 bash $install --okoshi "$program" > "$SCRATCH/log"
 has "$SCRATCH/log" "installed: $place"
@@ -77,14 +77,14 @@ has "$SCRATCH/log" "nothing to remove"
 bash $install --okoshi "$program" --link > "$SCRATCH/log"
 inkscape examples/human.svg --export-filename="$SCRATCH/linked.glb" > "$SCRATCH/log" 2>&1 || { cat "$SCRATCH/log"; fail "links"; }
 [ -s "$SCRATCH/linked.glb" ] || fail "links do not work"
-# From here on Inkscape finds the program by the note alone.
+# From here on Inkscape finds the program only by the installed path.
 bash $install --okoshi "$program" --folder "$INKSCAPE_PROFILE_DIR/extensions" > "$SCRATCH/log"
 
 echo "-- models from the command line"
 here="$SCRATCH/zwei Öhrchen"
 mkdir "$here"
 cp examples/human.svg examples/looks.svg examples/*.png examples/shapes/model.svg examples/shapes/biscuit.glb "$here/"
-# A picture whose link is written with escapes, in a folder below.
+# A picture in a subfolder, with a percent-encoded link.
 mkdir "$here/Bil der"
 cp "$here/gull.png" "$here/Bil der/Möwe & Co.png"
 sed 's|href="gull.png"|href="Bil%20der/M%C3%B6we%20\&amp;%20Co.png"|' "$here/looks.svg" > "$here/möwe.svg"
@@ -101,14 +101,14 @@ done
 echo "-- a drawing with a fault"
 sed 's/@Ubody/@Ubdoy/' "$here/human.svg" > "$here/fault.svg"
 echo "as before" > "$SCRATCH/fault.glb"
-# Inkscape 1.2 knows no better than to die when an extension writes nothing.
-if inkscape "$here/fault.svg" --export-filename="$SCRATCH/fault.glb" 2>&1 | cat > "$SCRATCH/log"; then fail "the fault was passed over"; fi
+# Inkscape 1.2 crashes if an extension writes nothing.
+if inkscape "$here/fault.svg" --export-filename="$SCRATCH/fault.glb" 2>&1 | cat > "$SCRATCH/log"; then fail "the error was ignored"; fi
 has "$SCRATCH/log" 'error[E204]: there is no part named `Ubdoy`'
 has "$SCRATCH/log" "did you mean \`Ubody\`?"
 has "$SCRATCH/log" "--> fault.svg:"
-[ "$(cat "$SCRATCH/fault.glb")" = "as before" ] || fail "the file of before was written over"
+[ "$(cat "$SCRATCH/fault.glb")" = "as before" ] || fail "the previous file was overwritten"
 rm "$SCRATCH/fault.glb"
-! inkscape "$here/fault.svg" --export-filename="$SCRATCH/fault.glb" > /dev/null 2> "$SCRATCH/log" || fail "the fault was passed over"
+! inkscape "$here/fault.svg" --export-filename="$SCRATCH/fault.glb" > /dev/null 2> "$SCRATCH/log" || fail "the error was ignored"
 has "$SCRATCH/log" 'error[E204]: there is no part named `Ubdoy`'
 [ ! -e "$SCRATCH/fault.glb" ] || fail "a file was written in spite of errors"
 cp "$here/looks.svg" "$SCRATCH/alone.svg"
@@ -127,7 +127,7 @@ started+=($!)
 shot() { import -window root "$SCRATCH/shots/$1.png"; }
 gone() { ! kill -0 "$1"; }
 window() { xdotool search --onlyvisible --name "$1"; }
-# A message has a window without a name.
+# Message windows have no title.
 message() {
   local active name
   active=$(xdotool getactivewindow) && name=$(xdotool getwindowname "$active") && [ -z "$name" ]
@@ -183,13 +183,13 @@ preview "$here/looks.svg"
 await 10 opened 2
 [ "$(sort -u "$SCRATCH/opened")" = "$page" ] || fail "two pages of one drawing: $(cat "$SCRATCH/opened")"
 [ "$(field pid)" = "$pid" ] || fail "a second server was started"
-# What the server watches is the canvas, its links as in the drawing; and then what is saved.
+# The server watches a copy of the canvas, with the links of the drawing; then of what is saved.
 copy=$(field copy)
 has "$copy" 'xlink:href="gull.png"'
 sed 's/Sail@Mast/Canvas@Mast/' "$here/looks.svg" > "$SCRATCH/new.svg"
 cat "$SCRATCH/new.svg" > "$here/looks.svg"
 await 10 cmp -s "$copy" "$SCRATCH/new.svg"
-# okoshi itself shows both, with the files that it links to.
+# okoshi itself can show both, with linked files.
 shown() { [ "$(grep -c ' 9 parts' "$(dirname "$copy")/log.txt")" -ge 2 ]; }
 await 20 shown
 entry "$here/looks.svg" stop "1 preview stopped"
@@ -214,7 +214,7 @@ begin --with-gui --actions="select-by-id:path110" "$watched/a.svg"
 await 60 window "a.svg - Inkscape"
 xdotool windowactivate --sync "$(window "a.svg - Inkscape" | tail -n 1)"
 sleep 1
-# The canvas has the keys after a click, here on what is selected, beside its string.
+# A click gives the canvas the focus, here on the selected object, beside its string.
 xdotool mousemove 614 503 click 1
 sleep 0.5
 for save in $(seq 22 41); do
@@ -246,7 +246,7 @@ begin "$here/möwe.svg"
 await 60 window "möwe.svg - Inkscape"
 xdotool windowactivate --sync "$(window "möwe.svg - Inkscape" | tail -n 1)"
 sleep 1
-# The menu, to be looked at: Okoshi stands ten from its end.
+# A screenshot of the menu: Okoshi is the tenth entry from the end.
 xdotool key 5 alt+n
 sleep 1
 xdotool key --delay 50 Up Up Up Up Up Up Up Up Up Right
@@ -259,7 +259,7 @@ await 30 cmp -s "$SCRATCH/elsewhere/copy.glb" "$SCRATCH/expected.glb"
 save ctrl+shift+s beside.gltf
 await 30 cmp -s "$here/beside.gltf" "$SCRATCH/expected.gltf"
 await 30 window "beside.gltf - Inkscape"
-# Under Save As, Inkscape tells where the model goes, not where the drawing lies.
+# For Save As, Inkscape reports the path of the model, not that of the drawing.
 save ctrl+shift+s "$SCRATCH/elsewhere/lost.glb"
 await 30 grep -qF 'File → Save a Copy' "$log"
 await 20 message

@@ -1,4 +1,4 @@
-// Checks that everything the program is made of has a permissive licence; needs no network:
+// Checks that all dependencies of the program have permissive licences; needs no network:
 // `cargo metadata … | node licences.mjs [PACKAGE-LOCK.json…]`
 
 import { readFileSync } from "node:fs";

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Makes the pictures of docs/motion.md from the drawings in examples/motion/: bash tests/tools/motion_pictures.sh [NAME…]
 #
-# NAME is that of a drawing there, without its ending. Strips are of the clip as it is drawn (NAME-limited.png) and in full
-# (NAME-full.png); some drawings have one of the two only, NAME.png. Takes okoshi and Python's Pillow. OKOSHI names a binary to use
-# instead of building one.
+# NAME is a drawing there, without extension. The film strips show the limited clip (NAME-limited.png) and the full one
+# (NAME-full.png); drawings with only one of them get NAME.png. Requires okoshi and Python's Pillow. OKOSHI is a binary to use instead
+# of building one.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 room=$(mktemp -d)
@@ -36,7 +36,7 @@ single() {
   want "$1" || return 0
   strip "$room/$1.svg" "docs/motion/$2.png" "${@:3}"
 }
-# A walk has no fast part to leave out.
+# A walk has no fast part from which in-betweens could be omitted.
 sed -i 's/Motion "walk.bvh" "walk"/& Limited 0 24/' "$room/dog.svg"
 pair kick -75,8 1.01 1.594 200x240 8
 pair boxer 0,8 1.25 1.6 200x240 8

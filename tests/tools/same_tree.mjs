@@ -1,5 +1,5 @@
-// Compares what Blender found in the built models with what `okoshi inspect --json` says of their drawings:
-// `node same_tree.mjs TREES.json`, where the inspection of a/b.glb lies beside it as a/b.json.
+// Compares the trees of built models in Blender with `okoshi inspect --json` of their drawings:
+// `node same_tree.mjs TREES.json`, where the inspection of a/b.glb is a/b.json.
 //
 // Every main part must be a node with the parent that inspect gives it, and every node must be a main part, a copy of
 // one (`Name.back`), or part of a terrain or a billboard, whose inner nodes inspect does not list.
@@ -8,7 +8,7 @@ import { readFileSync } from "node:fs";
 
 const ROOT = "Root";
 
-// Blender cuts names at 63 bytes.
+// Blender truncates names to 63 bytes.
 const inBlender = (name) => {
   const bytes = Buffer.from(name);
   if (bytes.length <= 63) return name;

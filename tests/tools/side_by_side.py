@@ -1,4 +1,4 @@
-"""Puts a drawing and a picture of its model side by side: side_by_side.py DRAWING.png MODEL.png OUT.png"""
+"""Combines a drawing and a picture of its model side by side: side_by_side.py DRAWING.png MODEL.png OUT.png"""
 
 import sys
 
@@ -9,7 +9,7 @@ GAP = 30
 
 
 def trimmed(path):
-    """The picture on white, without its empty border, HEIGHT high."""
+    """The picture on white, cropped to its content and scaled to HEIGHT."""
     picture = Image.open(path).convert("RGBA")
     ground = Image.new("RGBA", picture.size, "white")
     picture = Image.alpha_composite(ground, picture).convert("RGB")

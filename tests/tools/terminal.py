@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Runs a program in a terminal, types keys, and draws what is to be seen as a PNG: the pictures of docs/editors.
+"""Runs a program in a terminal, types keys, and saves the screen as a PNG: the screenshots in docs/editors.
 
     pip install pyte pillow
     terminal.py -o out.png [--size COLUMNSxROWS] [--keys "1.5:ihello<Esc>"]… [--env NAME=VALUE]… -- PROGRAM ARGUMENTS…
 
-Each --keys waits for that many seconds and types then; <Esc>, <CR>, <C-x> and <Space> are keys, all else is typed as it is.
-After the last keys comes a wait of --settle seconds.
+Each --keys waits for that many seconds, then types; <Esc>, <CR>, <C-x> and <Space> are keys, everything else is typed literally.
+After the last keys it waits for --settle seconds.
 """
 
 import argparse
@@ -47,14 +47,14 @@ def keys(text):
 
 
 def colour(name, fallback):
-    """A colour as pyte names it, as Pillow wants it."""
+    """Converts a colour of pyte for Pillow."""
     if name == "default":
         return fallback
     return "#" + NAMED.get(name, name)
 
 
 class Screen(pyte.Screen):
-    """A screen that is not put off by questions which it does not know."""
+    """A screen that ignores unknown queries."""
 
     def report_device_status(self, mode, private=False):
         if not private:
@@ -62,7 +62,7 @@ class Screen(pyte.Screen):
 
 
 def run(arguments):
-    """The screen after all keys were typed."""
+    """Types the keys and returns the screen."""
     columns, rows = (int(side) for side in arguments.size.split("x"))
     screen = Screen(columns, rows)
     stream = pyte.ByteStream(screen)
@@ -82,7 +82,7 @@ def run(arguments):
                     data = os.read(terminal, 65536)
                 except OSError:
                     return
-                # Sub-parameters, as of curly underlines, are unknown to pyte.
+                # pyte does not support sub-parameters, such as those of curly underlines.
                 data = re.sub(rb"\x1b\[4:[1-5]m", b"\x1b[4m", data)
                 data = re.sub(rb"\x1b\[5[89](?:[:;][0-9:;]*)?m|\x1b\[[>?=][0-9;]*[mu]|\x1b\[\?[0-9;]*\$p", b"", data)
                 stream.feed(data)

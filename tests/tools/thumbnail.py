@@ -1,4 +1,4 @@
-"""Cuts a picture's empty border off and fits it into a white square: thumbnail.py PICTURE.png OUT.png"""
+"""Crops a picture to its content and fits it into a white square: thumbnail.py PICTURE.png OUT.png"""
 
 import sys
 

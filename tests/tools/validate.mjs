@@ -1,5 +1,5 @@
 // Runs the Khronos validator over glTF files: `node validate.mjs [-v] FILE…`
-// One line a file; errors and warnings follow, infos and hints too with -v. Exit status 1 on any error or warning.
+// Prints one line per file, followed by errors and warnings; with -v also infos and hints. Exit status 1 on any error or warning.
 
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -31,7 +31,7 @@ for (const file of files) {
     if (shown.length > 20) console.log(`    and ${shown.length - 20} more`);
     if (numErrors + numWarnings > 0) bad += 1;
   } catch (error) {
-    // The validator throws at what is no glTF at all.
+    // The validator throws if the file is not glTF at all.
     console.log(`BAD ${file}: ${error.message ?? error}`);
     bad += 1;
   }

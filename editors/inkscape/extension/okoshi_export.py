@@ -1,18 +1,18 @@
-"""Writes the drawing as a model: what Inkscape's *Save As* and `--export-filename` call."""
+"""Exports the drawing as a model, for Inkscape's *Save As* and `--export-filename`."""
 
 import os
 import sys
 
 from okoshi_drawing import Drawing
-from okoshi_findings import for_window
+from okoshi_findings import format_findings
 from okoshi_program import Missing, run
-from okoshi_say import say
+from okoshi_messages import show_message
 
 import inkex
 
 
 class Export(inkex.OutputExtension):
-    """Hands the model to Inkscape on stdout, whole, or nothing at all: then Inkscape writes no file."""
+    """Writes the complete model to stdout, or nothing: then Inkscape writes no file."""
 
     def __init__(self, ending):
         """`ending`: `glb` or `gltf`."""
@@ -20,7 +20,7 @@ class Export(inkex.OutputExtension):
         self.ending = ending
 
     def load_raw(self):
-        """Nothing is read: okoshi reads the drawing."""
+        """Reads nothing: okoshi reads the drawing."""
 
     def save(self, stream):
         """Writes the model's bytes to `stream`."""
@@ -28,19 +28,19 @@ class Export(inkex.OutputExtension):
         try:
             with drawing.in_folder() as (folder, reading):
                 model = "model." + self.ending
-                status, _, said = run(["build", "-o", model] + reading, folder)
+                status, _, errors = run(["build", "-o", model] + reading, folder)
                 if status != 0:
-                    found = for_window(run(["check", "--format", "json"] + reading, folder)[1], drawing.data)
-                    advice = drawing.advice(said)
-                    say((said if found is None else found + "\n\nnothing was written\n") + advice, said + advice)
+                    found = format_findings(run(["check", "--format", "json"] + reading, folder)[1], drawing.data)
+                    advice = drawing.advice(errors)
+                    show_message((errors if found is None else found + "\n\nnothing was written\n") + advice, errors + advice)
                     sys.exit(1)
                 with open(os.path.join(folder, model), "rb") as file:
                     content = file.read()
         except Missing as missing:
-            say(str(missing))
+            show_message(str(missing))
             sys.exit(1)
         stream.write(content)
         stream.flush()
-        # Hints are for the check: a window at every saving would be in the way.
-        if "warning[" in said:
-            say("".join(line for line in said.splitlines(True) if not line.startswith("wrote ")))
+        # Hints are left to the check: a window after every save would be annoying.
+        if "warning[" in errors:
+            show_message("".join(line for line in errors.splitlines(True) if not line.startswith("wrote ")))

@@ -1,36 +1,36 @@
-"""Diagnostics for Inkscape's message window, whose letters are of different widths and whose lines wrap.
+"""Formats diagnostics for Inkscape's message window, which has a proportional font and wraps lines.
 
-What okoshi prints for terminals points with carets at lines of the SVG file. In the window there are the same words, with the
-string and the object that it belongs to: Edit → Find finds objects by their ids.
+On terminals okoshi points with carets at lines of the SVG file. The window shows the same text with the string and its object
+instead: Edit → Find finds objects by their ids.
 """
 
 import json
 from xml.parsers import expat
 
-# As many as a person reads in a window.
-MOST = 50
+# More would not be read in a window.
+MAX_FINDINGS = 50
 SEVERITIES = ("error", "warning", "hint")
-# What is selected with the element that it is in.
+# Elements that Inkscape selects as part of their parent.
 INNER = ("tspan", "textPath", "desc", "title", "flowPara", "flowSpan", "flowDiv", "flowRoot")
 
 
-def for_window(answer, data):
-    """What `check --format json` said of the SVG text `data`, errors first; None if it is no such answer."""
+def format_findings(answer, data):
+    """Formats the output of `check --format json` for the SVG text `data`, errors first; None if it is invalid."""
     try:
         found = [one for drawing in json.loads(answer)["drawings"] for one in drawing["diagnostics"]]
         found.sort(key=lambda one: SEVERITIES.index(one["severity"]))
-        objects = Objects(data, [one["start"] for one in found[:MOST]])
-        texts = [one_finding(one, objects) for one in found[:MOST]]
+        objects = Objects(data, [one["start"] for one in found[:MAX_FINDINGS]])
+        texts = [format_finding(one, objects) for one in found[:MAX_FINDINGS]]
     except (ValueError, KeyError, TypeError):
         return None
-    if len(found) > MOST:
-        texts.append("… and %d more\n" % (len(found) - MOST))
+    if len(found) > MAX_FINDINGS:
+        texts.append("… and %d more\n" % (len(found) - MAX_FINDINGS))
     counts = [(sum(one["severity"] == severity for one in found), severity) for severity in SEVERITIES]
     texts.append(", ".join(plural(number, severity) for number, severity in counts if number))
     return "\n".join(texts)
 
 
-def one_finding(finding, objects):
+def format_finding(finding, objects):
     """A finding as a few short lines."""
     lines = ["%s[%s]: %s" % (finding["severity"], finding["code"], finding["message"])]
     place, text = objects.at(finding["start"])
@@ -51,11 +51,11 @@ def plural(number, thing):
 
 
 class Objects:
-    """Which object, and which text, stands at some byte offsets of an SVG text."""
+    """The objects and strings at some byte offsets of an SVG text."""
 
     def __init__(self, data, offsets):
         self.found = {}
-        # An offset lies in the elements that are open when the parser has passed it.
+        # An offset lies in the elements that are open when the parser passes it.
         waiting = sorted(set(offsets))
         parser = expat.ParserCreate(namespace_separator=" ")
         open_elements = []
@@ -82,7 +82,7 @@ class Objects:
         try:
             parser.Parse(data, True)
         except expat.ExpatError:
-            # Places are left out then; what is wrong is okoshi's to say.
+            # Then objects are missing; okoshi reports what is wrong.
             pass
 
     def at(self, offset):

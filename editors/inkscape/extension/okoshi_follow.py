@@ -1,7 +1,7 @@
-"""Keeps one preview: runs `okoshi preview` on the copy of a drawing, and brings the copy up to date when the drawing is saved.
+"""Runs `okoshi preview` on a copy of a drawing, and updates the copy when the drawing is saved.
 
-Arguments: program, copy, original (empty: none), root of links, folder of the preview, port. It ends with the server, when
-the file `stop` appears in the folder, or when nothing was shown or saved for half a day; then the copy is removed.
+Arguments: program, copy, original (may be empty), root of links, folder of the preview, port. It exits with the server, when the
+file `stop` appears in the folder, or when nothing was shown or saved for half a day; then it removes the copy.
 """
 
 import json
@@ -11,16 +11,16 @@ import subprocess
 import sys
 import time
 
-from okoshi_previews import STATE, STOP, lock, remove, write_whole
+from okoshi_previews import STATE, STOP, lock, remove, write_atomic
 from okoshi_program import CREATE_NO_WINDOW, environment
 
-# In seconds: how often files are looked at, how long a server is kept.
+# In seconds: the interval between polls, and the time until an unused server is stopped.
 PAUSE = 0.25
 IDLE = 12 * 60 * 60
 
 
 def stamp(path):
-    """What tells one state of a file from another; None if it is not there."""
+    """Changes whenever a file does; None if it is missing."""
     try:
         status = os.stat(path)
     except OSError:
@@ -29,15 +29,15 @@ def stamp(path):
 
 
 class Follower:
-    """Takes over what is saved, as soon as it has been the same at two looks: Inkscape writes in place, in pieces."""
+    """Copies a drawing that was saved once it is unchanged between two polls: Inkscape writes in place, in pieces."""
 
     def __init__(self, original, copy):
         self.original = original
         self.copy = copy
         self.taken = self.seen = stamp(original)
 
-    def look(self):
-        """Looks once; copies if there is something new that has settled."""
+    def poll(self):
+        """Copies the drawing if it changed and has settled."""
         now = stamp(self.original)
         settled, self.seen = now == self.seen, now
         if now is None or now == self.taken or not settled or now[1] == 0:
@@ -47,14 +47,14 @@ class Follower:
                 data = file.read()
         except OSError:
             return
-        # Written to while it was read: the next look sees it.
+        # If it was written to while it was read, the next poll copies it.
         if stamp(self.original) == now:
-            write_whole(self.copy, data)
+            write_atomic(self.copy, data)
             self.taken = now
 
 
 def take_lock(folder):
-    """The folder's lock; a look by another process holds it for a moment."""
+    """Takes the folder's lock, or None. Other processes that test the lock hold it for a moment."""
     for _ in range(40):
         taken = lock(folder)
         if taken is not None:
@@ -63,8 +63,8 @@ def take_lock(folder):
     return None
 
 
-def keep(server, follower, folder, copy):
-    """Until there is a reason to end."""
+def run_until_stopped(server, follower, folder, copy):
+    """Waits until the server exits or should be stopped."""
     while server.poll() is None:
         if os.path.exists(os.path.join(folder, STOP)):
             return
@@ -74,7 +74,7 @@ def keep(server, follower, folder, copy):
         except OSError:
             return
         if follower is not None:
-            follower.look()
+            follower.poll()
         time.sleep(PAUSE)
 
 
@@ -82,7 +82,7 @@ def main(program, copy, original, root, folder, port):
     """Runs until the preview ends."""
     held = take_lock(folder)
     if held is None:
-        # Another one was faster, and serves the same drawing.
+        # Another process serves the same drawing already.
         return
     state = {"pid": os.getpid(), "port": int(port), "copy": copy}
     follower = Follower(original, copy) if original else None
@@ -99,8 +99,8 @@ def main(program, copy, original, root, folder, port):
             stdin=subprocess.DEVNULL,
             creationflags=CREATE_NO_WINDOW if sys.platform == "win32" else 0,
         )
-        write_whole(os.path.join(folder, STATE), json.dumps(state).encode())
-        keep(server, follower, folder, copy)
+        write_atomic(os.path.join(folder, STATE), json.dumps(state).encode())
+        run_until_stopped(server, follower, folder, copy)
     finally:
         if server is not None and server.poll() is None:
             server.terminate()
@@ -112,7 +112,7 @@ def main(program, copy, original, root, folder, port):
         for path in (copy, os.path.join(folder, STOP)):
             remove(path)
         state["ended"] = True
-        write_whole(os.path.join(folder, STATE), json.dumps(state).encode())
+        write_atomic(os.path.join(folder, STATE), json.dumps(state).encode())
         held.close()
 
 

@@ -1,8 +1,8 @@
-"""The servers behind *Preview in 3D*: one a drawing, each in a folder of the person's cache.
+"""The servers of *Preview in 3D*: one for each drawing, each with a folder in the user's cache.
 
-In the folder lie a copy of the drawing, which the server watches, `server.json` with process, port and copy, and `lock`, which
-the process that keeps the server (`okoshi_follow`) holds as long as it lives. The lock, not the number of a process, tells
-whether a server is there: the system takes it back however the process ends, and numbers are used again.
+The folder contains a copy of the drawing, which the server watches, `server.json` with process, port and copy, and `lock`, which
+the process that runs the server (`okoshi_follow`) holds. The lock, not a process id, shows whether a server is running: the system
+releases it however the process ends, while process ids are reused.
 """
 
 import hashlib
@@ -17,14 +17,14 @@ import time
 import webbrowser
 
 STATE, LOCK, LOG, STOP = "server.json", "lock", "log.txt", "stop"
-# How long a server may take to answer, in seconds.
-PATIENCE = 20
-# Of subprocess, on Windows alone: DETACHED_PROCESS, CREATE_NEW_PROCESS_GROUP.
+# How long a server may take to start or stop, in seconds.
+TIMEOUT = 20
+# Constants that subprocess has on Windows only: DETACHED_PROCESS, CREATE_NEW_PROCESS_GROUP.
 DETACHED = 0x00000008 | 0x00000200
 
 
 class Failed(Exception):
-    """It did not work; the message says why."""
+    """An error with a message for the user."""
 
 
 def cache():
@@ -40,13 +40,13 @@ def cache():
 
 
 def folder_of(drawing):
-    """The folder of a drawing's preview, by where the drawing lies; drawings without a place share one."""
+    """The folder of a drawing's preview, by its path; drawings that were never saved share one."""
     place = os.path.realpath(drawing.original) if drawing.original else "never saved"
     return os.path.join(cache(), hashlib.sha256(place.encode("utf-8", "surrogatepass")).hexdigest()[:16])
 
 
 def lock(folder):
-    """Takes the folder's lock: the open file to be kept, or None if another process has it."""
+    """Takes the folder's lock. Returns the open file, which holds the lock, or None if another process has it."""
     file = open(os.path.join(folder, LOCK), "a+b")
     try:
         if sys.platform == "win32":
@@ -64,8 +64,8 @@ def lock(folder):
     return file
 
 
-def lives(folder):
-    """Whether there is a process that keeps a server for this folder."""
+def is_running(folder):
+    """Whether a server is running for this folder."""
     if not os.path.isdir(folder):
         return False
     taken = lock(folder)
@@ -75,7 +75,7 @@ def lives(folder):
 
 
 def read_state(folder):
-    """What `server.json` says, or None while there is none."""
+    """The content of `server.json`, or None if there is none."""
     try:
         with open(os.path.join(folder, STATE), encoding="utf-8") as file:
             return json.load(file)
@@ -83,8 +83,8 @@ def read_state(folder):
         return None
 
 
-def write_whole(path, data):
-    """Writes a file so that a reader sees the old one or the new one."""
+def write_atomic(path, data):
+    """Replaces a file atomically."""
     temporary = path + ".new"
     with open(temporary, "wb") as file:
         file.write(data)
@@ -92,15 +92,15 @@ def write_whole(path, data):
 
 
 def show(program, drawing):
-    """Opens the page of what is on the canvas; starts a server if the drawing has none.
+    """Opens the preview of the drawing on the canvas; starts a server if there is none.
 
-    Returns None, or the page's address if there is no browser to open it. Raises `Failed` with what the server said.
+    Returns None, or the page's address if there is no browser. Raises `Failed` with the server's output.
     """
     folder = folder_of(drawing)
     os.makedirs(folder, mode=0o700, exist_ok=True)
-    if lives(folder):
+    if is_running(folder):
         page = wait(folder)
-        write_whole(read_state(folder)["copy"], drawing.data)
+        write_atomic(read_state(folder)["copy"], drawing.data)
     else:
         start(program, drawing, folder)
         page = wait(folder)
@@ -108,11 +108,11 @@ def show(program, drawing):
 
 
 def start(program, drawing, folder):
-    """Starts a server, and the process that keeps it, apart from Inkscape."""
+    """Starts the process that runs a server, detached from Inkscape."""
     for old in (STATE, STOP, LOG):
         remove(os.path.join(folder, old))
     copy = os.path.join(folder, drawing.name)
-    write_whole(copy, drawing.data)
+    write_atomic(copy, drawing.data)
     root = drawing.root
     if root is None:
         root = os.path.join(folder, "links")
@@ -122,32 +122,32 @@ def start(program, drawing, folder):
     original = drawing.original or ""
     if not original.lower().endswith(".svg"):
         original = ""
-    with open(log, "wb") as said:
-        detach([sys.executable, follower, program, copy, original, root, folder, str(free_port())], said)
+    with open(log, "wb") as output:
+        detach([sys.executable, follower, program, copy, original, root, folder, str(free_port())], output)
 
 
 def wait(folder):
-    """The address of the page, as soon as the server answers."""
-    end = time.monotonic() + PATIENCE
-    # The process takes its lock a moment after it is started.
+    """Waits for the server. Returns the address of the page."""
+    end = time.monotonic() + TIMEOUT
+    # The process takes its lock a moment after it was started.
     begun = time.monotonic() + 3
     while time.monotonic() < end:
         state = read_state(folder)
         if state is not None and answers(state["port"]):
             return address(folder, state["port"])
-        if time.monotonic() > begun and not lives(folder):
+        if time.monotonic() > begun and not is_running(folder):
             break
         if state is not None and state.get("ended"):
             break
         time.sleep(0.05)
-    said = log_of(folder)
-    if "unrecognized subcommand" in said:
-        raise Failed("This okoshi is too old to preview: install a newer one.\n\n" + said)
-    raise Failed("The preview could not be started.\n\n" + (said or "okoshi said nothing."))
+    output = log_of(folder)
+    if "unrecognized subcommand" in output:
+        raise Failed("This okoshi is too old to preview: install a newer one.\n\n" + output)
+    raise Failed("The preview could not be started.\n\n" + (output or "There was no output."))
 
 
 def answers(port):
-    """Whether something listens at a port of this machine."""
+    """Whether something listens on a local port."""
     try:
         socket.create_connection(("127.0.0.1", port), timeout=1).close()
     except OSError:
@@ -156,13 +156,13 @@ def answers(port):
 
 
 def address(folder, port):
-    """The page's address: what the server said, else its root."""
-    said = re.search(r"http://(?:127\.0\.0\.1|localhost):%d[^\s\x1b\"'`]*" % port, log_of(folder))
-    return said.group() if said else "http://127.0.0.1:%d/" % port
+    """The page's address from the server's output, otherwise its root."""
+    found = re.search(r"http://(?:127\.0\.0\.1|localhost):%d[^\s\x1b\"'`]*" % port, log_of(folder))
+    return found.group() if found else "http://127.0.0.1:%d/" % port
 
 
 def log_of(folder):
-    """The end of what the server said."""
+    """The end of the server's output."""
     try:
         with open(os.path.join(folder, LOG), "rb") as file:
             return file.read()[-4000:].decode("utf-8", "replace").strip()
@@ -171,56 +171,56 @@ def log_of(folder):
 
 
 def open_page(page):
-    """Opens the browser. None, or the address if there is none."""
+    """Opens the browser. Returns None, or the address if there is no browser."""
     try:
         webbrowser.get()
     except webbrowser.Error:
         return page
-    # A process of its own: a browser that holds our stdout would keep Inkscape waiting until it is closed.
+    # In its own process: a browser that inherits our stdout would block Inkscape until it is closed.
     detach([sys.executable, "-m", "webbrowser", "-t", page], subprocess.DEVNULL)
     return None
 
 
-def detach(command, said):
-    """Starts a process that outlives us and Inkscape, and writes to `said`."""
+def detach(command, output):
+    """Starts a process that outlives us and Inkscape, and writes to `output`."""
     options = {"creationflags": DETACHED} if sys.platform == "win32" else {"start_new_session": True}
     process = subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=said, stderr=said, cwd=os.path.expanduser("~"), **options
+        command, stdin=subprocess.DEVNULL, stdout=output, stderr=output, cwd=os.path.expanduser("~"), **options
     )
-    # It is not ours to wait for. Else Python warns of it, and inkex has all warnings shown in a window.
+    # Not waited for. Otherwise Python would warn, and inkex shows all warnings in a window.
     process.returncode = 0
 
 
 def free_port():
-    """A port that nothing listens at."""
+    """An unused port."""
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
         return listener.getsockname()[1]
 
 
 def stop_all():
-    """Ends all servers: how many there were."""
+    """Stops all servers. Returns their number."""
     try:
         names = sorted(os.listdir(cache()))
     except OSError:
         return 0
     number = 0
     for folder in (os.path.join(cache(), name) for name in names):
-        if not lives(folder):
+        if not is_running(folder):
             continue
         number += 1
         with open(os.path.join(folder, STOP), "wb"):
             pass
-        end = time.monotonic() + PATIENCE
-        while lives(folder):
+        end = time.monotonic() + TIMEOUT
+        while is_running(folder):
             if time.monotonic() > end:
-                raise Failed("A preview does not end: process %s." % (read_state(folder) or {}).get("pid"))
+                raise Failed("A preview could not be stopped: process %s." % (read_state(folder) or {}).get("pid"))
             time.sleep(0.05)
     return number
 
 
 def remove(path):
-    """Removes a file or folder, if it is there."""
+    """Removes a file or folder, if it exists."""
     try:
         if os.path.isdir(path):
             shutil.rmtree(path)

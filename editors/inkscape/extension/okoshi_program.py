@@ -1,37 +1,37 @@
-"""Where the program okoshi is, and how it is run."""
+"""Finds and runs the program okoshi."""
 
 import os
 import shutil
 import subprocess
 import sys
 
-# Of the script that Inkscape calls: a module's own place is another one where the files are links.
+# The folder of the script that Inkscape calls, not of this module: installed files may be links.
 HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
-# What the install script notes: one line, the program's path.
+# Written by the install script: one line with the program's path.
 NOTE = "okoshi.path"
-# Of subprocess, which has it from Python 3.7 on, and on Windows alone.
+# A constant that subprocess has on Windows only, since Python 3.7.
 CREATE_NO_WINDOW = 0x08000000
 
 
 class Missing(Exception):
-    """There is no okoshi; the message says what to do."""
+    """okoshi was not found; the message says what to do."""
 
 
 def find(environ=None, folder=HERE):
-    """The path of okoshi: by the variable `OKOSHI`, the note of the install script, `PATH`, or cargo's folder.
+    """The path of okoshi: from the variable `OKOSHI`, the install script's file, the `PATH`, or cargo's folder.
 
-    `folder` is where the note lies. Raises `Missing`. Programs that a desktop starts often lack what a shell adds to `PATH`,
-    hence the note and cargo's folder.
+    `folder` contains the install script's file. Raises `Missing`. Programs started from a desktop often lack what a shell adds to
+    the `PATH`, hence that file and cargo's folder.
     """
     environ = os.environ if environ is None else environ
     named = environ.get("OKOSHI")
     if named:
         found = shutil.which(os.path.expanduser(named), path=environ.get("PATH"))
         if found is None:
-            raise Missing("The environment variable OKOSHI names `%s`, and there is no such program." % named)
+            raise Missing("The environment variable OKOSHI is set to `%s`, which is not a program." % named)
         return os.path.abspath(found)
     looked = []
-    for place in (noted(folder), "okoshi", os.path.join(home(environ), ".cargo", "bin", "okoshi")):
+    for place in (installed_path(folder), "okoshi", os.path.join(home(environ), ".cargo", "bin", "okoshi")):
         if place is None:
             continue
         found = shutil.which(place, path=environ.get("PATH"))
@@ -46,8 +46,8 @@ def find(environ=None, folder=HERE):
     )
 
 
-def noted(folder):
-    """The path that the install script noted, or None."""
+def installed_path(folder):
+    """The path that the install script wrote, or None."""
     try:
         with open(os.path.join(folder, NOTE), encoding="utf-8-sig") as note:
             return note.readline().strip() or None
@@ -56,23 +56,23 @@ def noted(folder):
 
 
 def home(environ):
-    """The person's own folder."""
+    """The user's home folder."""
     return environ.get("HOME") or os.path.expanduser("~")
 
 
 def environment():
-    """The environment for okoshi: ours, without what Inkscape has set for Python."""
+    """Our environment without the variables that Inkscape sets for Python."""
     ours = ("PYTHONPATH", "PYTHONHOME", "PYTHONIOENCODING")
     return {name: value for name, value in os.environ.items() if name not in ours and not name.startswith("INKEX_")}
 
 
 def run(arguments, folder=None):
-    """Runs okoshi in `folder`: exit status, and what it said on stdout and stderr, as texts."""
+    """Runs okoshi in `folder`. Returns exit status, stdout and stderr, as text."""
     return call([find(), "--color", "never"] + list(arguments), folder)
 
 
 def call(command, folder=None):
-    """Runs a command in `folder`: exit status, stdout, stderr. Raises `Missing` if it cannot be started."""
+    """Runs a command in `folder`. Returns exit status, stdout and stderr, as text. Raises `Missing` if it cannot be started."""
     try:
         process = subprocess.Popen(
             command,
@@ -85,5 +85,5 @@ def call(command, folder=None):
         )
     except OSError as error:
         raise Missing("`%s` cannot be started: %s" % (command[0], error))
-    said, complained = process.communicate()
-    return process.returncode, said.decode("utf-8", "replace"), complained.decode("utf-8", "replace")
+    output, errors = process.communicate()
+    return process.returncode, output.decode("utf-8", "replace"), errors.decode("utf-8", "replace")

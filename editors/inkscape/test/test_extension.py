@@ -66,9 +66,9 @@ class Program(Folder):
         self.assertEqual(self.find(), cargo)
         on_path = self.write("bin/okoshi", executable=True)
         self.assertEqual(self.find(), on_path)
-        noted = self.write("elsewhere/okoshi", executable=True)
-        self.write("extension/okoshi.path", noted + "\n")
-        self.assertEqual(self.find(), noted)
+        installed_path = self.write("elsewhere/okoshi", executable=True)
+        self.write("extension/okoshi.path", installed_path + "\n")
+        self.assertEqual(self.find(), installed_path)
         named = self.write("named/okoshi", executable=True)
         self.assertEqual(self.find(OKOSHI=named), named)
 
@@ -88,7 +88,7 @@ class Program(Folder):
         self.write("bin/okoshi", executable=True)
         with self.assertRaises(okoshi_program.Missing) as caught:
             self.find(OKOSHI="/gone/okoshi")
-        self.assertIn("OKOSHI names `/gone/okoshi`", str(caught.exception))
+        self.assertIn("OKOSHI is set to `/gone/okoshi`", str(caught.exception))
 
     def test_what_cannot_be_started_is_said(self):
         with self.assertRaises(okoshi_program.Missing) as caught:
@@ -113,7 +113,7 @@ class Links(Folder):
         os.mkdir(self.away)
 
     def home(self, link):
-        return okoshi_drawing.home_link(link, self.away, self.root)
+        return okoshi_drawing.relocated_link(link, self.away, self.root)
 
     def test_links_from_the_copy_lead_home(self):
         self.write("mein Bild/gull.png")
@@ -133,7 +133,7 @@ class Links(Folder):
     def test_what_lies_elsewhere_is_named_from_home(self):
         self.write("other/gull.png")
         os.mkdir(os.path.join(self.away, "deep"))
-        link = okoshi_drawing.home_link("../../other/gull.png", os.path.join(self.away, "deep"), self.root)
+        link = okoshi_drawing.relocated_link("../../other/gull.png", os.path.join(self.away, "deep"), self.root)
         self.assertEqual(link, "../other/gull.png")
 
     def test_what_is_no_file_stays(self):
@@ -146,16 +146,16 @@ class Links(Folder):
         inside = "<image id='i'\n   xlink:href = '%s' x=\"1\"/><a xlink:href=\"%s\"/><text>&lt;image href=\"%s\"</text>\n"
         text = (SVG % (inside % (link, link, link))).encode("utf-8")
         expected = (SVG % (inside.replace("'%s'", '"a%%26b.png"', 1) % (link, link))).encode("utf-8")
-        self.assertEqual(okoshi_drawing.bring_home(text, self.away, self.root), expected)
+        self.assertEqual(okoshi_drawing.relocate_links(text, self.away, self.root), expected)
 
     def test_both_ways_of_writing_a_link_are_brought_home(self):
         self.write("mein Bild/a.png")
         text = SVG % '<g><image href="../mein%20Bild/a.png"/><image xlink:href="../mein%20Bild/a.png" href="data:,"/></g>'
         expected = SVG % '<g><image href="a.png"/><image xlink:href="a.png" href="data:,"/></g>'
-        self.assertEqual(okoshi_drawing.bring_home(text.encode(), self.away, self.root), expected.encode())
+        self.assertEqual(okoshi_drawing.relocate_links(text.encode(), self.away, self.root), expected.encode())
 
     def test_broken_xml_is_left_to_okoshi(self):
-        self.assertEqual(okoshi_drawing.bring_home(b"<svg", self.away, self.root), b"<svg")
+        self.assertEqual(okoshi_drawing.relocate_links(b"<svg", self.away, self.root), b"<svg")
 
 
 class Drawings(Folder):
@@ -200,7 +200,7 @@ class Findings(unittest.TestCase):
             self.finding(data.index("Ärm".encode("utf-8")), "warning", "W101"),
         ]
         self.assertEqual(
-            okoshi_findings.for_window(self.answer(*findings), data),
+            okoshi_findings.format_findings(self.answer(*findings), data),
             "error[E204]: hm\n    in the string: A@B & x\n    of the object: t\n    did you mean `C`?\n    help: write it alike\n\n"
             "warning[W101]: hm\n    in the string: Ärm\n    of the object: p\n\n"
             "hint[H402]: hm\n    of the object: p\n\n"
@@ -208,14 +208,14 @@ class Findings(unittest.TestCase):
         )
 
     def test_many_are_cut_short(self):
-        said = okoshi_findings.for_window(self.answer(*[self.finding(0)] * 70), b"<svg/>")
-        self.assertEqual(said.count("E204"), okoshi_findings.MOST)
+        said = okoshi_findings.format_findings(self.answer(*[self.finding(0)] * 70), b"<svg/>")
+        self.assertEqual(said.count("E204"), okoshi_findings.MAX_FINDINGS)
         self.assertIn("… and 20 more\n\n70 errors", said)
 
     def test_what_is_no_answer_is_told(self):
         for answer in ("", "error: no", "{}", "[]", self.answer({})):
-            self.assertIsNone(okoshi_findings.for_window(answer, b"<svg/>"), answer)
-        self.assertEqual(okoshi_findings.for_window(self.answer(self.finding(3)), b"<svg"), "error[E204]: hm\n\n1 error")
+            self.assertIsNone(okoshi_findings.format_findings(answer, b"<svg/>"), answer)
+        self.assertEqual(okoshi_findings.format_findings(self.answer(self.finding(3)), b"<svg"), "error[E204]: hm\n\n1 error")
 
 
 @unittest.skipIf(sys.platform == "win32", "the stand-in is a script")
@@ -306,7 +306,7 @@ class Previews(Folder):
         folder = okoshi_previews.folder_of(drawing)
         os.kill(okoshi_previews.read_state(folder)["pid"], 15)
         end = time.monotonic() + 10
-        while okoshi_previews.lives(folder) and time.monotonic() < end:
+        while okoshi_previews.is_running(folder) and time.monotonic() < end:
             time.sleep(0.05)
         self.show("second")
         pages = self.lines(self.opened, 2)
@@ -343,22 +343,22 @@ class Follow(Folder):
         copy = self.write("copy.svg", "canvas")
         follower = okoshi_follow.Follower(original, copy)
 
-        def look():
-            follower.look()
+        def poll():
+            follower.poll()
             with open(copy, encoding="utf-8") as file:
                 return file.read()
 
-        self.assertEqual(look(), "canvas")
+        self.assertEqual(poll(), "canvas")
         # As Inkscape saves: cut to nothing, then in pieces.
         self.write("a.svg", "")
-        self.assertEqual((look(), look(), look()), ("canvas",) * 3)
+        self.assertEqual((poll(), poll(), poll()), ("canvas",) * 3)
         self.write("a.svg", "two, and")
-        self.assertEqual(look(), "canvas")
+        self.assertEqual(poll(), "canvas")
         self.write("a.svg", "two, and more")
-        self.assertEqual(look(), "canvas")
-        self.assertEqual(look(), "two, and more")
+        self.assertEqual(poll(), "canvas")
+        self.assertEqual(poll(), "two, and more")
         os.remove(original)
-        self.assertEqual((look(), look()), ("two, and more",) * 2)
+        self.assertEqual((poll(), poll()), ("two, and more",) * 2)
 
 
 class Descriptions(unittest.TestCase):

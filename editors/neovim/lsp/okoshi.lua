@@ -1,7 +1,7 @@
--- How Neovim starts okoshi's language server. Neovim 0.11 and newer finds this file by itself as `lsp/okoshi.lua` on the
--- runtime path; `vim.lsp.config('okoshi', { … })` changes what is said here. plugin/okoshi.lua uses it in older ones.
+-- The configuration of okoshi's language server. Neovim 0.11 and newer finds this file as `lsp/okoshi.lua` on the runtime path;
+-- `vim.lsp.config('okoshi', { … })` overrides it. plugin/okoshi.lua loads it in older versions.
 
--- Shows the preview's page in the browser, and places that were picked on it in Neovim.
+-- Opens the preview page in the browser, and the strings of parts picked on it in Neovim.
 local function show_document(problem, params, context, config)
   if params.uri:match('^http://') then
     local opened = vim.ui.open and vim.ui.open(params.uri)
@@ -10,21 +10,21 @@ local function show_document(problem, params, context, config)
     end
     return { success = true }
   end
-  local shows = vim.lsp.handlers['window/showDocument']
-  return shows and shows(problem, params, context, config) or { success = false }
+  local default = vim.lsp.handlers['window/showDocument']
+  return default and default(problem, params, context, config) or { success = false }
 end
 
--- Neovim 0.11 fetches diagnostics after edits, but does not know how to be asked to fetch them again when a linked file
--- changes. It is sent them instead, as older versions are.
+-- Neovim 0.11 pulls diagnostics after edits, but does not support the refresh request that is needed when a linked file changes.
+-- Disabling pull makes the server push them, as it does for older versions.
 local known = vim.lsp.protocol.make_client_capabilities()
-local fetches = (known.textDocument or {}).diagnostic ~= nil
-local fetches_again = ((known.workspace or {}).diagnostics or {}).refreshSupport
-local capabilities = fetches and not fetches_again and { textDocument = { diagnostic = vim.NIL } } or nil
+local pulls = (known.textDocument or {}).diagnostic ~= nil
+local refreshes = ((known.workspace or {}).diagnostics or {}).refreshSupport
+local capabilities = pulls and not refreshes and { textDocument = { diagnostic = vim.NIL } } or nil
 
 return {
   cmd = { 'okoshi', 'lsp' },
   filetypes = { 'svg', 'xml' },
-  -- Other XML than drawings is none of its business. Files beside each other share a server.
+  -- Only for drawings, not for other XML. Drawings of the same repository or folder share a server.
   root_dir = function(buffer, start)
     local file = vim.api.nvim_buf_get_name(buffer)
     if not file:lower():match('%.svg$') then

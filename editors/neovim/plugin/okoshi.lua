@@ -1,5 +1,5 @@
--- Language support for drawings with okoshi strings, in Neovim 0.7 and newer. It needs the program `okoshi` on the PATH.
--- Put this folder on the runtime path: `vim.opt.runtimepath:append('…/editors/neovim')`.
+-- Language support for drawings with okoshi strings, in Neovim 0.7 and newer. Requires the program `okoshi` on the PATH.
+-- Add this folder to the runtime path: `vim.opt.runtimepath:append('…/editors/neovim')`.
 
 if vim.g.loaded_okoshi then
   return
@@ -12,8 +12,8 @@ local function is_okoshi(client)
   return client and client.name == 'okoshi'
 end
 
--- Tells the preview where the cursor is: the part whose string it is in is lit up.
-local function tell_cursor(client)
+-- Sends the cursor to the preview, which highlights the part of the string under it.
+local function send_cursor(client)
   local params = vim.lsp.util.make_position_params(0, client.offset_encoding)
   if vim.fn.has('nvim-0.11') == 1 then
     client:notify('okoshi/preview/cursor', params)
@@ -22,10 +22,10 @@ local function tell_cursor(client)
   end
 end
 
--- Shows the model of what stands in the buffer, on a page that follows each change.
+-- Opens a live preview of the buffer.
 local function preview(client, buffer)
   local params = { command = 'okoshi.preview', arguments = { vim.uri_from_bufnr(buffer) } }
-  local function answered(problem)
+  local function handle_answer(problem)
     if problem then
       vim.notify(problem.message, vim.log.levels.ERROR)
     end
@@ -35,37 +35,37 @@ local function preview(client, buffer)
     group = group,
     buffer = buffer,
     callback = function()
-      tell_cursor(client)
+      send_cursor(client)
     end,
   })
   if vim.fn.has('nvim-0.11') == 1 then
-    client:request('workspace/executeCommand', params, answered, buffer)
+    client:request('workspace/executeCommand', params, handle_answer, buffer)
   else
-    client.request('workspace/executeCommand', params, answered, buffer)
+    client.request('workspace/executeCommand', params, handle_answer, buffer)
   end
 end
 
 local function on_attach(client, buffer)
-  -- The line above the drawing, "Preview in 3D": `vim.lsp.codelens.run()` follows it.
+  -- The code lens "Preview in 3D" above the drawing; `vim.lsp.codelens.run()` runs it.
   local function show_lens()
     vim.api.nvim_buf_call(buffer, function()
       vim.lsp.codelens.refresh(vim.fn.has('nvim-0.10') == 1 and { bufnr = buffer } or nil)
     end)
   end
-  local moments = { 'BufEnter', 'InsertLeave', 'BufWritePost' }
-  vim.api.nvim_clear_autocmds({ group = group, buffer = buffer, event = moments })
-  vim.api.nvim_create_autocmd(moments, { group = group, buffer = buffer, callback = show_lens })
+  local events = { 'BufEnter', 'InsertLeave', 'BufWritePost' }
+  vim.api.nvim_clear_autocmds({ group = group, buffer = buffer, event = events })
+  vim.api.nvim_create_autocmd(events, { group = group, buffer = buffer, callback = show_lens })
   show_lens()
   vim.api.nvim_buf_create_user_command(buffer, 'OkoshiPreview', function()
     preview(client, buffer)
-  end, { desc = 'Show the model of what stands in the buffer' })
+  end, { desc = 'Open a live 3D preview of the drawing' })
   if vim.fn.has('nvim-0.8') == 0 then
     vim.bo[buffer].omnifunc = 'v:lua.vim.lsp.omnifunc'
     vim.bo[buffer].tagfunc = 'v:lua.vim.lsp.tagfunc'
   end
 end
 
--- Neovim before 0.11 has no `vim.lsp.config`: there a drawing gets its server from here.
+-- Starts the server in Neovim before 0.11, which has no `vim.lsp.config`.
 local function start(buffer)
   local file = vim.api.nvim_get_runtime_file('lsp/okoshi.lua', false)[1]
   local config = vim.tbl_deep_extend('force', dofile(file), vim.g.okoshi or {}, { name = 'okoshi' })

@@ -1,5 +1,5 @@
-// Bundles the extension into dist/ and puts beside it what the package takes from elsewhere in the repository:
-// the page of the preview, the grammars that are generated from the keyword table, and the licences.
+// Bundles the extension into dist/ and adds what the package takes from elsewhere in the repository: the page of the preview, the
+// grammars generated from the keyword table, and the licences.
 
 import { cpSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -42,7 +42,7 @@ const { metafile } = await build({
   logLevel: "warning",
 });
 
-// The licences of what went into the bundle.
+// The licences of the bundled packages.
 const packages = new Set();
 for (const input of Object.keys(metafile.inputs)) {
   const found = /^(?:.*\/)?node_modules\/(?:@[^/]+\/)?[^/]+/.exec(input);

@@ -1,5 +1,5 @@
-// Makes okoshi.vsix, from a clean clone too: dependencies by the lock file, type check, bundle, package.
-// Same sources, same bytes: the archive's times are fixed unless SOURCE_DATE_EPOCH names another.
+// Creates okoshi.vsix, from a clean clone too: installs the locked dependencies, checks types, bundles, packages. Same sources, same
+// bytes: the archive's times are fixed unless SOURCE_DATE_EPOCH is set.
 
 import { spawnSync } from "node:child_process";
 import { existsSync, statSync } from "node:fs";
@@ -16,7 +16,7 @@ function run(command, ...args) {
   if (status !== 0) process.exit(status ?? 1);
 }
 
-/** Installs what the lock file says, unless that was done since it changed. */
+/** Installs the locked dependencies unless they are up to date. */
 export function install() {
   const installed = join(here, "node_modules", ".package-lock.json");
   const lock = join(here, "package-lock.json");

@@ -1,5 +1,5 @@
-// The page of the preview, which `okoshi preview` serves too: bundled by its own scripts in ../web, where it is missing or older
-// than what it is made of.
+// The page of the preview, which `okoshi preview` serves too: bundled by its own scripts in ../web if it is missing or older than its
+// sources.
 
 import { existsSync, readdirSync, statSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 
 const web = join(dirname(fileURLToPath(import.meta.url)), "..", "..", "web");
 
-/** Makes the page if need be. Returns the folder where page.html, page.js and page.css lie. */
+/** Bundles the page if necessary. Returns the folder of page.html, page.js and page.css. */
 export async function page() {
   const dist = join(web, "dist");
   const age = (file) => statSync(file).mtimeMs;
@@ -18,7 +18,7 @@ export async function page() {
   );
   const newest = Math.max(...[...sources, join(web, "package-lock.json")].map(age));
   const there = ["page.html", "page.js", "page.css"].map((name) => join(dist, name));
-  // A script that was bundled is newer than all that it was made of; the page and its style may be copies with old times.
+  // The bundled script is newer than all of its sources; the page and its style may be copies with old times.
   if (there.every(existsSync) && age(join(dist, "page.js")) >= newest) return dist;
   const { install } = await import("../../web/scripts/install.mjs");
   install();

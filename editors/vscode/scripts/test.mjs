@@ -1,5 +1,5 @@
-// All tests of the extension that need no editor: `npm test`. Installs, checks types, packages, and looks at the result.
-// OKOSHI names a binary that reads the snippets; without it that one test is skipped.
+// All tests of the extension that need no editor: `npm test`. Installs, checks types, packages, and checks the result.
+// OKOSHI names a binary that compiles the snippets; without it that test is skipped.
 
 import { spawnSync } from "node:child_process";
 import { readdirSync, rmSync } from "node:fs";

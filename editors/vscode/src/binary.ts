@@ -1,9 +1,9 @@
-// Finding the program. Knows nothing of the editor, and touches the disk only through what it is given.
+// Finds the program. Independent of the editor; touches the disk only through its arguments.
 
 import { posix, win32 } from "node:path";
 
-/** Where to look from. */
-export interface Surroundings {
+/** Where the extension runs. */
+export interface Environment {
   /** `process.platform`. */
   readonly platform: string;
   readonly env: Readonly<Record<string, string | undefined>>;
@@ -14,12 +14,12 @@ export interface Surroundings {
 }
 
 /**
- * The paths at which the program may be, the likeliest first, for a value of the setting `okoshi.path`.
+ * The possible paths of the program, most likely first, for a value of the setting `okoshi.path`.
  *
  * A bare name is looked up on the `PATH` and then in `~/.cargo/bin`, which programs started from a desktop often lack.
- * Relative folders on the `PATH` are left out: they would let a drawing's folder choose the program.
+ * Relative folders on the `PATH` are ignored: with them a drawing's folder could choose the program.
  */
-export function candidates(setting: string, { platform, env, home, folder }: Surroundings): string[] {
+export function candidates(setting: string, { platform, env, home, folder }: Environment): string[] {
   const windows = platform === "win32";
   const path = windows ? win32 : posix;
   let name = setting.trim() || "okoshi";
@@ -40,15 +40,15 @@ export function candidates(setting: string, { platform, env, home, folder }: Sur
   return [...new Set(files)];
 }
 
-/** The first of the paths that `runs` says can be run. */
-export async function firstThatRuns(paths: readonly string[], runs: (path: string) => Promise<boolean>): Promise<string | undefined> {
+/** The first of the paths for which `runs` is true. */
+export async function firstExecutable(paths: readonly string[], runs: (path: string) => Promise<boolean>): Promise<string | undefined> {
   for (const path of paths) {
     if (await runs(path)) return path;
   }
   return undefined;
 }
 
-/** The version in what `okoshi --version` says; nothing if another program was asked. */
-export function versionIn(output: string): string | undefined {
+/** The version in the output of `okoshi --version`; undefined for another program. */
+export function parseVersion(output: string): string | undefined {
   return /^okoshi (\d+\.\d+\.\d+\S*)\s*$/m.exec(output)?.[1];
 }

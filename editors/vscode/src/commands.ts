@@ -1,11 +1,11 @@
-// What a person can call by name.
+// The commands of the extension.
 
 import { execFile } from "node:child_process";
 import { basename, dirname } from "node:path";
 import { promisify } from "node:util";
 import * as vscode from "vscode";
 import type { Previews } from "./preview/panels";
-import { looksAfter, type Server } from "./server";
+import { isDrawingDocument, type Server } from "./server";
 
 /** Registers the commands that package.json lists. */
 export function register(context: vscode.ExtensionContext, server: Server, previews: Previews, output: vscode.LogOutputChannel): void {
@@ -24,20 +24,20 @@ export function register(context: vscode.ExtensionContext, server: Server, previ
 }
 
 /**
- * The drawing in the active editor, or a message that there is none. Editors open SVG files as pictures too: such a drawing
- * is read as text, without being shown as such.
+ * The drawing in the active editor, or a message that there is none. Editors can show SVG files as pictures; the text of such a
+ * drawing is read without being shown.
  */
 async function activeDrawing(): Promise<vscode.TextDocument | undefined> {
   const input = vscode.window.tabGroups.activeTabGroup.activeTab?.input;
   const shown = vscode.window.activeTextEditor?.document;
   const document =
     input instanceof vscode.TabInputCustom && input.uri.path.endsWith(".svg") ? await vscode.workspace.openTextDocument(input.uri) : shown;
-  if (document && looksAfter(document)) return document;
+  if (document && isDrawingDocument(document)) return document;
   void vscode.window.showInformationMessage("Open a drawing, an SVG file, first.");
   return undefined;
 }
 
-/** Shows a drawing in 3D: the one that the code lens or a menu names, else the active one. */
+/** Shows a drawing in 3D: the one that the code lens or menu passes, otherwise the active one. */
 async function preview(server: Server, previews: Previews, named: unknown): Promise<void> {
   const uri = named instanceof vscode.Uri ? named : typeof named === "string" ? vscode.Uri.parse(named) : (await activeDrawing())?.uri;
   if (!uri) return;
@@ -52,7 +52,7 @@ async function build(server: Server): Promise<void> {
     void vscode.window.showInformationMessage("Save the drawing first: the model is written beside it.");
     return;
   }
-  const program = await findOrTell(server);
+  const program = await findOrExplain(server);
   if (program === undefined) return;
   const file = drawing.uri.fsPath;
   const task = new vscode.Task(
@@ -67,7 +67,7 @@ async function build(server: Server): Promise<void> {
 }
 
 async function newDrawing(server: Server): Promise<void> {
-  const program = await findOrTell(server);
+  const program = await findOrExplain(server);
   if (program === undefined) return;
   const folder = vscode.workspace.workspaceFolders?.find(({ uri }) => uri.scheme === "file")?.uri;
   const target = await vscode.window.showSaveDialog({
@@ -81,11 +81,11 @@ async function newDrawing(server: Server): Promise<void> {
     await promisify(execFile)(program, ["new", target.fsPath], { windowsHide: true });
     await vscode.window.showTextDocument(target);
   } catch (error) {
-    void vscode.window.showErrorMessage(`There is no new drawing: ${message(error)}`);
+    void vscode.window.showErrorMessage(`The drawing was not created: ${message(error)}`);
   }
 }
 
-async function findOrTell(server: Server): Promise<string | undefined> {
+async function findOrExplain(server: Server): Promise<string | undefined> {
   const program = server.program ?? (await server.find());
   if (program === undefined) await vscode.commands.executeCommand("okoshi.openWalkthrough");
   return program;

@@ -1,6 +1,6 @@
-// Which documents are drawings, and whether one has strings. Knows nothing of the editor.
+// Which documents are drawings, and whether one has strings. Independent of the editor.
 
-/** What the language server looks after: `*.svg` files, whatever language they count as, and untitled XML. */
+/** The documents for the language server: `*.svg` files in XML or SVG, and untitled XML or SVG. */
 export const selector = [
   { scheme: "file", language: "xml", pattern: "**/*.svg" },
   { scheme: "file", language: "svg", pattern: "**/*.svg" },
@@ -8,7 +8,7 @@ export const selector = [
   { scheme: "untitled", language: "svg" },
 ];
 
-/** The same as `selector`, of a document's language, its URI's scheme and path. */
+/** `selector` as a function of a document's language, and its URI's scheme and path. */
 export function isDrawing(language: string, scheme: string, path: string): boolean {
   if (language !== "xml" && language !== "svg") return false;
   return scheme === "untitled" || (scheme === "file" && path.endsWith(".svg"));
@@ -18,18 +18,18 @@ const annotated = /<(?:[\w-]+:)?(?:text|tspan|desc)\b[^<>]*>\s*(?:[%$*@％＄＊
 
 /**
  * Whether a drawing's text seems to have strings: a text or description that begins with `%`, `$`, `*`, `@`,
- * `Name@` or `Name$`, full-width signs included. The language server knows better; this is for when there is none.
+ * `Name@` or `Name$`, including full-width signs. An approximation for when there is no language server.
  */
 export function hasStrings(text: string): boolean {
   return annotated.test(text);
 }
 
-/** A node of the outline, as far as counting goes. */
+/** A node of the outline, for counting. */
 export interface Outline {
   readonly children?: readonly Outline[] | undefined;
 }
 
-/** How many entries an outline has, the inner ones included. */
+/** The number of entries in an outline, including nested ones. */
 export function countOutline(nodes: readonly Outline[]): number {
   let count = 0;
   const waiting = [...nodes];

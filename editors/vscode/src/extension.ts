@@ -1,9 +1,9 @@
-// Where the editor begins and ends the extension.
+// The entry points of the extension.
 
 import * as vscode from "vscode";
 import { register } from "./commands";
 import { Previews } from "./preview/panels";
-import { looksAfter, Server } from "./server";
+import { isDrawingDocument, Server } from "./server";
 import { Status } from "./status";
 
 let server: Server | undefined;
@@ -20,7 +20,7 @@ export function activate(context: vscode.ExtensionContext): void {
     previews,
     vscode.workspace.onDidChangeConfiguration((event) => started.settingsChanged(event)),
     vscode.workspace.onDidOpenTextDocument((document) => {
-      if (looksAfter(document)) void started.start();
+      if (isDrawingDocument(document)) void started.start();
     }),
   );
   register(context, started, previews, output);

@@ -1,4 +1,4 @@
-// The language server: found, started, stopped, and started anew when the settings ask for it.
+// The language server: finds, starts, stops and restarts it.
 
 import { execFile } from "node:child_process";
 import { access, constants, stat } from "node:fs/promises";
@@ -16,45 +16,45 @@ import {
   type ErrorHandler,
   type StaticFeature,
 } from "vscode-languageclient/node";
-import { candidates, firstThatRuns, versionIn } from "./binary";
+import { candidates, firstExecutable, parseVersion } from "./binary";
 import { hasStrings, isDrawing, selector } from "./drawing";
-import { NEWS, news, type Message } from "./preview/wire";
+import { PREVIEW_NOTIFICATION, readNotification, type Message } from "./preview/messages";
 import { configuration, initializationOptions, settingsFrom, type Settings } from "./settings";
 import type { State } from "./status-text";
 import { TraceChannel } from "./trace";
 
-/** How often a server that ended by itself is started again within `CRASH_WINDOW`. */
-const MOST_CRASHES = 4;
-/** Milliseconds. */
+/** How often a server that exits is restarted within `CRASH_WINDOW`. */
+const MAX_CRASHES = 4;
+/** In milliseconds. */
 const CRASH_WINDOW = 180_000;
-/** How long a program may take to say its version, in milliseconds. */
+/** How long a program may take to report its version, in milliseconds. */
 const VERSION_TIMEOUT = 10_000;
 
-/** The settings as they are now. */
+/** The current settings. */
 export function settings(): Settings {
   const section = vscode.workspace.getConfiguration("okoshi");
   return settingsFrom((name) => section.get(name));
 }
 
-/** Whether the server looks after a document. */
-export function looksAfter(document: vscode.TextDocument): boolean {
+/** Whether a document is a drawing, which the server handles. */
+export function isDrawingDocument(document: vscode.TextDocument): boolean {
   return isDrawing(document.languageId, document.uri.scheme, document.uri.path);
 }
 
-/** What the server says for the page that shows a drawing. */
-export interface News {
+/** Messages for the page that shows a drawing. */
+export interface PreviewMessages {
   readonly uri: vscode.Uri;
   readonly messages: readonly Message[];
 }
 
-/** The one server of a window. */
+/** The language server of a window. */
 export class Server implements vscode.Disposable {
   private readonly changes = new vscode.EventEmitter<void>();
-  private readonly newsOfPreviews = new vscode.EventEmitter<News>();
+  private readonly previewMessages = new vscode.EventEmitter<PreviewMessages>();
   private readonly tracing: TraceChannel;
   private client: LanguageClient | undefined;
   private found: string | undefined;
-  private told = false;
+  private reportedMissing = false;
   private crashes: number[] = [];
   private queue: Promise<void> = Promise.resolve();
   private now: State = { kind: "idle" };
@@ -62,8 +62,8 @@ export class Server implements vscode.Disposable {
 
   /** Fires when `state` has changed. */
   readonly onDidChange = this.changes.event;
-  /** Fires when a drawing that is shown was built, or something in it is to be lit up. */
-  readonly onNews = this.newsOfPreviews.event;
+  /** Fires when the server has messages for a drawing's page. */
+  readonly onPreviewMessages = this.previewMessages.event;
 
   constructor(private readonly output: vscode.LogOutputChannel) {
     this.tracing = new TraceChannel(output, settings().traced);
@@ -73,7 +73,7 @@ export class Server implements vscode.Disposable {
     return this.now;
   }
 
-  /** How often the server has come to run. What it was told in one run it does not know in the next. */
+  /** Counts the starts of the server: a new process has no state of the last one. */
   get runs(): number {
     return this.run;
   }
@@ -83,31 +83,31 @@ export class Server implements vscode.Disposable {
     return this.client?.isRunning() ? this.client : undefined;
   }
 
-  /** The program, if one was found. */
+  /** The path of the program, if it was found. */
   get program(): string | undefined {
     return this.found;
   }
 
   /** Starts the server if it is not running and a drawing is open. */
   start(): Promise<void> {
-    return this.inTurn(async () => {
-      // What failed was said; it is tried again when it is asked for.
-      if (this.client || this.now.kind === "failed" || !vscode.workspace.textDocuments.some(looksAfter)) return;
+    return this.enqueue(async () => {
+      // A failure was reported already; only an explicit restart tries again.
+      if (this.client || this.now.kind === "failed" || !vscode.workspace.textDocuments.some(isDrawingDocument)) return;
       await this.startNow();
     });
   }
 
-  /** Ends the server and starts it again, whether drawings are open or not. */
+  /** Restarts the server, whether drawings are open or not. */
   restart(): Promise<void> {
-    return this.inTurn(() => this.restartNow());
+    return this.enqueue(() => this.restartNow());
   }
 
-  /** Tells the server what has changed in the settings, or starts the program that they now name. */
+  /** Passes changed settings to the server, or starts the program that they now name. */
   settingsChanged(event: vscode.ConfigurationChangeEvent): void {
-    if (event.affectsConfiguration("okoshi.trace.server")) this.tracing.ask(settings().traced);
+    if (event.affectsConfiguration("okoshi.trace.server")) this.tracing.enable(settings().traced);
     if (event.affectsConfiguration("okoshi.path")) {
-      // In turn: settings often arrive while the program of the old ones is still looked for.
-      void this.inTurn(async () => {
+      // Queued: settings often change while the previous program is still being looked for.
+      void this.enqueue(async () => {
         if (this.now.kind !== "idle") await this.restartNow();
       });
     } else if (event.affectsConfiguration("okoshi.analyse")) {
@@ -117,7 +117,7 @@ export class Server implements vscode.Disposable {
     }
   }
 
-  /** Finds the program, and says so once if there is none. */
+  /** Finds the program; reports it if there is none. */
   async find(): Promise<string | undefined> {
     const { path } = settings();
     const places = candidates(path, {
@@ -126,36 +126,36 @@ export class Server implements vscode.Disposable {
       home: homedir(),
       folder: vscode.workspace.workspaceFolders?.find(({ uri }) => uri.scheme === "file")?.uri.fsPath,
     });
-    this.found = await firstThatRuns(places, canRun);
+    this.found = await firstExecutable(places, canRun);
     if (this.found === undefined) {
-      this.become({ kind: "missing", path });
-      this.output.warn(`The program ${path} was not found. Looked at: ${places.join(", ") || "no place"}`);
+      this.setState({ kind: "missing", path });
+      this.output.warn(`The program ${path} was not found. Looked at: ${places.join(", ") || "nowhere"}`);
     }
     return this.found;
   }
 
   async stop(): Promise<void> {
-    await this.inTurn(() => this.stopNow());
+    await this.enqueue(() => this.stopNow());
   }
 
   dispose(): void {
     this.changes.dispose();
-    this.newsOfPreviews.dispose();
+    this.previewMessages.dispose();
     this.tracing.dispose();
   }
 
-  private inTurn(task: () => Promise<void>): Promise<void> {
+  private enqueue(task: () => Promise<void>): Promise<void> {
     this.queue = this.queue.then(task).catch((error: unknown) => this.output.error(String(error)));
     return this.queue;
   }
 
-  private become(state: State): void {
+  private setState(state: State): void {
     this.now = state;
     this.changes.fire();
   }
 
   private async restartNow(): Promise<void> {
-    this.told = false;
+    this.reportedMissing = false;
     this.crashes = [];
     await this.stopNow();
     await this.startNow();
@@ -164,28 +164,28 @@ export class Server implements vscode.Disposable {
   private async stopNow(): Promise<void> {
     const client = this.client;
     this.client = undefined;
-    // A client that never came to run, or has ended, has nothing to stop.
+    // A client that never ran, or has exited, cannot be stopped.
     await client?.dispose().catch((error: unknown) => this.output.warn(String(error)));
-    if (this.now.kind === "running") this.become({ kind: "stopped" });
+    if (this.now.kind === "running") this.setState({ kind: "stopped" });
   }
 
   private async startNow(): Promise<void> {
     const command = await this.find();
     if (command === undefined) {
-      this.tellMissing();
+      this.reportMissing();
       return;
     }
-    this.become({ kind: "starting" });
+    this.setState({ kind: "starting" });
     const version = await askVersion(command);
     if (version === undefined) {
-      this.fail(`${command} is not okoshi: it does not say its version.`);
+      this.fail(`${command} is not okoshi: it does not report a version.`);
       return;
     }
     this.output.info(`Starting ${command} lsp (okoshi ${version})`);
     const client: LanguageClient = new LanguageClient(
       "okoshi",
       "Okoshi",
-      // No transport is named: the library would add `--stdio`.
+      // Without `transport`, which would add the argument `--stdio`.
       { command, args: ["lsp"] },
       {
         documentSelector: selector,
@@ -200,24 +200,24 @@ export class Server implements vscode.Disposable {
     );
     client.registerFeature(pushOnly);
     client.registerFeature(ownPreview);
-    client.onNotification(NEWS, (params: unknown) => {
-      const read = news(params);
-      if (read) this.newsOfPreviews.fire({ uri: client.protocol2CodeConverter.asUri(read.uri), messages: read.messages });
+    client.onNotification(PREVIEW_NOTIFICATION, (params: unknown) => {
+      const read = readNotification(params);
+      if (read) this.previewMessages.fire({ uri: client.protocol2CodeConverter.asUri(read.uri), messages: read.messages });
     });
     this.client = client;
     client.onDidChangeState(({ newState }) => {
       if (this.client !== client) return;
       if (newState === ClientState.Running) {
         this.run += 1;
-        this.become({ kind: "running", version });
-      } else if (newState === ClientState.Starting) this.become({ kind: "starting" });
-      else if (this.now.kind !== "failed") this.become({ kind: "stopped" });
+        this.setState({ kind: "running", version });
+      } else if (newState === ClientState.Starting) this.setState({ kind: "starting" });
+      else if (this.now.kind !== "failed") this.setState({ kind: "stopped" });
     });
     try {
       await client.start();
     } catch (error) {
-      // The library has shown a message of its own.
-      this.become({ kind: "failed", why: `${command} lsp did not start` });
+      // The library has shown a message already.
+      this.setState({ kind: "failed", why: `${command} lsp did not start` });
       this.output.error(String(error));
     }
   }
@@ -229,15 +229,15 @@ export class Server implements vscode.Disposable {
         const now = Date.now();
         this.crashes = [...this.crashes.filter((then) => now - then < CRASH_WINDOW), now];
         const once = client().initializeResult !== undefined;
-        if (once && this.crashes.length <= MOST_CRASHES) return { action: CloseAction.Restart, handled: true };
-        if (once) this.fail("The language server ended again and again; it is left alone now.");
+        if (once && this.crashes.length <= MAX_CRASHES) return { action: CloseAction.Restart, handled: true };
+        if (once) this.fail("The language server keeps crashing and is no longer restarted.");
         return { action: CloseAction.DoNotRestart, handled: true };
       },
     };
   }
 
   private fail(why: string): void {
-    this.become({ kind: "failed", why });
+    this.setState({ kind: "failed", why });
     this.output.error(why);
     void choose(vscode.window.showErrorMessage, why, {
       "Show Output": "okoshi.showOutput",
@@ -246,10 +246,10 @@ export class Server implements vscode.Disposable {
     });
   }
 
-  private tellMissing(): void {
-    const strings = vscode.workspace.textDocuments.some((document) => looksAfter(document) && hasStrings(document.getText()));
-    if (this.told || !strings) return;
-    this.told = true;
+  private reportMissing(): void {
+    const strings = vscode.workspace.textDocuments.some((document) => isDrawingDocument(document) && hasStrings(document.getText()));
+    if (this.reportedMissing || !strings) return;
+    this.reportedMissing = true;
     const { path } = settings();
     void choose(vscode.window.showWarningMessage, `The program ${path} was not found, so drawings are not checked.`, {
       "How to Install": "okoshi.openWalkthrough",
@@ -259,8 +259,7 @@ export class Server implements vscode.Disposable {
 }
 
 /**
- * Diagnostics are sent by the server when it has them, and not fetched after each change as well: the setting
- * `okoshi.analyse` decides when that is.
+ * Disables pull diagnostics. The server publishes diagnostics, at times that the setting `okoshi.analyse` determines.
  */
 const pushOnly: StaticFeature = {
   fillClientCapabilities: (capabilities) => {
@@ -273,8 +272,8 @@ const pushOnly: StaticFeature = {
 };
 
 /**
- * The command behind the server's code lens is the extension's own, which opens a panel: the library would register another
- * of that name, and could not.
+ * Keeps the library from registering `okoshi.preview`, the command of the server's code lens: the extension registers it itself,
+ * to open a panel.
  */
 const ownPreview: StaticFeature = {
   fillClientCapabilities: () => {},
@@ -289,7 +288,7 @@ const ownPreview: StaticFeature = {
 
 type Show = (message: string, ...items: string[]) => Thenable<string | undefined>;
 
-/** A message with buttons, each of which runs a command. */
+/** Shows a message with buttons that run commands. */
 async function choose(show: Show, message: string, buttons: Readonly<Record<string, string>>): Promise<void> {
   const chosen = await show(message, ...Object.keys(buttons));
   const command = chosen === undefined ? undefined : buttons[chosen];
@@ -312,7 +311,7 @@ async function canRun(path: string): Promise<boolean> {
 async function askVersion(command: string): Promise<string | undefined> {
   try {
     const { stdout } = await promisify(execFile)(command, ["--version"], { timeout: VERSION_TIMEOUT, windowsHide: true });
-    return versionIn(stdout);
+    return parseVersion(stdout);
   } catch {
     return undefined;
   }

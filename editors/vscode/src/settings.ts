@@ -1,16 +1,16 @@
-// The settings, checked: people write anything into settings.json. Knows nothing of the editor.
+// Validates the settings, because settings.json may contain anything. Independent of the editor.
 
 /** When the server checks drawings. */
 export type Analyse = "onType" | "onSave";
 
 export interface Settings {
-  /** As written; `binary.ts` makes paths of it. */
+  /** As written; `binary.ts` resolves it. */
   readonly path: string;
   readonly analyse: Analyse;
   readonly traced: boolean;
 }
 
-/** Settings from whatever `get` finds under their names; what is of the wrong kind counts as not set. */
+/** Reads the settings with `get`; values of the wrong type count as not set. */
 export function settingsFrom(get: (name: string) => unknown): Settings {
   const path = get("path");
   const trace = get("trace.server");
@@ -21,13 +21,13 @@ export function settingsFrom(get: (name: string) => unknown): Settings {
   };
 }
 
-/** What the server is started with. */
+/** The options that the server is started with. */
 export function initializationOptions({ analyse }: Settings): { analyse: Analyse; preview: true } {
-  // Previews have a panel here; without this, the server would open a browser.
+  // Previews have a panel here; otherwise the server would open a browser.
   return { analyse, preview: true };
 }
 
-/** What `workspace/didChangeConfiguration` carries. */
+/** The parameters of `workspace/didChangeConfiguration`. */
 export function configuration({ analyse }: Settings): { settings: { okoshi: { analyse: Analyse } } } {
   return { settings: { okoshi: { analyse } } };
 }

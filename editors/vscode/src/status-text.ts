@@ -1,13 +1,13 @@
-// What the status item says. Knows nothing of the editor.
+// The text of the status item. Independent of the editor.
 
-/** How the server is. */
+/** The state of the server. */
 export type State =
   | { readonly kind: "idle" | "starting" | "stopped" }
   | { readonly kind: "missing"; readonly path: string }
   | { readonly kind: "failed"; readonly why: string }
   | { readonly kind: "running"; readonly version: string };
 
-/** What is known of the drawing at hand. */
+/** Counts for the active drawing. */
 export interface Facts {
   readonly parts: number;
   readonly errors: number;
@@ -23,7 +23,7 @@ export interface Words {
 
 const count = (number: number, noun: string) => `${number} ${noun}${number === 1 ? "" : "s"}`;
 
-/** The status item for a server and, once it runs, for the drawing at hand. */
+/** The status item for a server and, while it runs, for the active drawing. */
 export function words(state: State, facts: Facts | undefined): Words {
   const plain = { severity: "information", busy: false } as const;
   switch (state.kind) {
@@ -34,7 +34,7 @@ export function words(state: State, facts: Facts | undefined): Words {
     case "stopped":
       return { ...plain, text: "Okoshi: stopped", detail: "the language server is not running", severity: "warning" };
     case "missing":
-      return { ...plain, text: "Okoshi: not found", detail: `there is no program ${state.path}`, severity: "warning" };
+      return { ...plain, text: "Okoshi: not found", detail: `the program was not found: ${state.path}`, severity: "warning" };
     case "failed":
       return { ...plain, text: "Okoshi: failed", detail: state.why, severity: "error" };
     case "running": {

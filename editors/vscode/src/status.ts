@@ -1,13 +1,13 @@
-// The status item of drawings, and the context that menus and the walkthrough ask for.
+// The status item of drawings, and the context keys for menus and the walkthrough.
 
 import * as vscode from "vscode";
 import { DocumentSymbolRequest } from "vscode-languageclient/node";
 import { countOutline, selector, type Outline } from "./drawing";
-import { looksAfter, type Server } from "./server";
+import { isDrawingDocument, type Server } from "./server";
 import { words, type Facts } from "./status-text";
 
-/** How long the drawing must have been left alone before its parts are counted, in milliseconds. */
-const SETTLED = 400;
+/** How long after the last change the parts of a drawing are counted, in milliseconds. */
+const SETTLE_PAUSE = 400;
 
 export class Status implements vscode.Disposable {
   private readonly item = vscode.languages.createLanguageStatusItem("okoshi.status", selector);
@@ -40,14 +40,14 @@ export class Status implements vscode.Disposable {
   private soon(): void {
     this.show();
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => void this.count(), SETTLED);
+    this.timer = setTimeout(() => void this.count(), SETTLE_PAUSE);
   }
 
   private async count(): Promise<void> {
     const document = vscode.window.activeTextEditor?.document;
     const client = this.server.running;
     this.facts = undefined;
-    if (document && client && looksAfter(document)) {
+    if (document && client && isDrawingDocument(document)) {
       const found = vscode.languages.getDiagnostics(document.uri).filter(({ source }) => source === "okoshi");
       const of = (severity: vscode.DiagnosticSeverity) => found.filter((one) => one.severity === severity).length;
       let outline: readonly Outline[] = [];
@@ -55,7 +55,7 @@ export class Status implements vscode.Disposable {
         const textDocument = client.code2ProtocolConverter.asTextDocumentIdentifier(document);
         outline = ((await client.sendRequest(DocumentSymbolRequest.type, { textDocument })) ?? []) as readonly Outline[];
       } catch {
-        // The document was closed or the server ended meanwhile: there is nothing to count.
+        // The document was closed or the server stopped meanwhile: there is nothing to count.
       }
       if (document !== vscode.window.activeTextEditor?.document) return;
       this.facts = {
@@ -84,7 +84,7 @@ export class Status implements vscode.Disposable {
     const document = vscode.window.activeTextEditor?.document;
     const set = (name: string, value: boolean) => void vscode.commands.executeCommand("setContext", `okoshi.${name}`, value);
     set("running", this.server.state.kind === "running");
-    set("isDrawing", document !== undefined && looksAfter(document));
+    set("isDrawing", document !== undefined && isDrawingDocument(document));
     set("hasParts", (this.facts?.parts ?? 0) > 0);
   }
 }

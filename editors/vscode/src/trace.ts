@@ -1,8 +1,8 @@
-// The client library traces only when its output's log level says so; this makes the setting say it as well.
+// The client library only traces if its output has log level Trace; this makes the setting enough.
 
 import * as vscode from "vscode";
 
-/** The output, as the tracer sees it: at level Trace while the setting asks for traces. */
+/** The output channel for traces: with level Trace while the setting enables them. */
 export class TraceChannel implements vscode.LogOutputChannel {
   private readonly levels = new vscode.EventEmitter<vscode.LogLevel>();
   private readonly listening: vscode.Disposable;
@@ -10,14 +10,14 @@ export class TraceChannel implements vscode.LogOutputChannel {
 
   constructor(
     private readonly inner: vscode.LogOutputChannel,
-    private asked: boolean,
+    private enabled: boolean,
   ) {
     this.listening = inner.onDidChangeLogLevel(() => this.levels.fire(this.logLevel));
   }
 
-  /** Follows the setting. */
-  ask(asked: boolean): void {
-    this.asked = asked;
+  /** Applies the setting. */
+  enable(enabled: boolean): void {
+    this.enabled = enabled;
     this.levels.fire(this.logLevel);
   }
 
@@ -26,11 +26,11 @@ export class TraceChannel implements vscode.LogOutputChannel {
   }
 
   get logLevel(): vscode.LogLevel {
-    return this.asked ? vscode.LogLevel.Trace : this.inner.logLevel;
+    return this.enabled ? vscode.LogLevel.Trace : this.inner.logLevel;
   }
 
   trace(message: string, ...more: unknown[]): void {
-    if (this.asked) this.inner.info(message, ...more);
+    if (this.enabled) this.inner.info(message, ...more);
     else this.inner.trace(message, ...more);
   }
 

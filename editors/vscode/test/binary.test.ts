@@ -1,14 +1,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { candidates, firstThatRuns, versionIn, type Surroundings } from "../src/binary";
+import { candidates, firstExecutable, parseVersion, type Environment } from "../src/binary";
 
-const linux: Surroundings = {
+const linux: Environment = {
   platform: "linux",
   env: { PATH: "/usr/local/bin:relative/bin::/usr/bin:." },
   home: "/home/ann",
   folder: "/home/ann/drawings",
 };
-const windows: Surroundings = {
+const windows: Environment = {
   platform: "win32",
   env: { Path: 'C:\\Tools;"C:\\Program Files\\Okoshi";.' },
   home: "C:\\Users\\Ann",
@@ -62,14 +62,14 @@ test("the first that runs is taken, and no more are asked", async () => {
     asked.push(path);
     return path === "/b";
   };
-  assert.equal(await firstThatRuns(["/a", "/b", "/c"], runs), "/b");
+  assert.equal(await firstExecutable(["/a", "/b", "/c"], runs), "/b");
   assert.deepEqual(asked, ["/a", "/b"]);
-  assert.equal(await firstThatRuns(["/a"], runs), undefined);
+  assert.equal(await firstExecutable(["/a"], runs), undefined);
 });
 
 test("a version is okoshi's, or none", () => {
-  assert.equal(versionIn("okoshi 0.1.0\n"), "0.1.0");
-  assert.equal(versionIn("okoshi 1.2.3-rc.1\r\n"), "1.2.3-rc.1");
-  assert.equal(versionIn("cargo 1.90.0\n"), undefined);
-  assert.equal(versionIn(""), undefined);
+  assert.equal(parseVersion("okoshi 0.1.0\n"), "0.1.0");
+  assert.equal(parseVersion("okoshi 1.2.3-rc.1\r\n"), "1.2.3-rc.1");
+  assert.equal(parseVersion("cargo 1.90.0\n"), undefined);
+  assert.equal(parseVersion(""), undefined);
 });

@@ -6,8 +6,8 @@ import { PassThrough } from "node:stream";
 import { test, type TestContext } from "node:test";
 import { createMessageConnection, StreamMessageReader, StreamMessageWriter, type MessageConnection } from "vscode-jsonrpc/node";
 import { html } from "../src/preview/page";
-import { CURSOR_PAUSE, linkWhile, Session } from "../src/preview/session";
-import { fromPage, NEWS, news, Remote, unitOf, type Message, type Place, type Position } from "../src/preview/wire";
+import { CURSOR_PAUSE, linkFor, Session } from "../src/preview/session";
+import { readPageMessage, PREVIEW_NOTIFICATION, readNotification, Remote, utf16Offset, type Message, type Place, type Position } from "../src/preview/messages";
 
 const DRAWING = "file:///a/figure.svg";
 const textDocument = { uri: DRAWING };
@@ -44,7 +44,7 @@ function fakeServer(t: TestContext, knowsPreviews = true) {
   t.after(end);
   /** Sends news, and waits until it has arrived. */
   const sends = async (...messages: Message[]) => {
-    await server.sendNotification(NEWS, { textDocument, messages });
+    await server.sendNotification(PREVIEW_NOTIFICATION, { textDocument, messages });
     await client.sendRequest("okoshi/preview/model", { address: "" });
   };
   return { server, client, told, end, sends };
@@ -65,7 +65,7 @@ function preview() {
     log: (message) => void logged.push(message),
   });
   const connect = async (client: MessageConnection) => {
-    client.onNotification(NEWS, (params: unknown) => session.news(news(params)?.messages ?? []));
+    client.onNotification(PREVIEW_NOTIFICATION, (params: unknown) => session.messages(readNotification(params)?.messages ?? []));
     await session.connect(new Remote(client, DRAWING));
   };
   const set = (position: Position | null) => {
@@ -96,22 +96,22 @@ test("the page is told the server's news as it is, once it listens", async (t) =
   await sends(drawings, build(1), { type: "something new", drawing: DRAWING });
   await sends(build(2), light("Arm"));
   assert.deepEqual(posted, []);
-  await session.hear({ type: "ready" });
+  await session.receive({ type: "ready" });
   assert.deepEqual(fresh(), [drawings, { type: "something new", drawing: DRAWING }, build(2), light("Arm"), open]);
   await sends(light(null));
   assert.deepEqual(fresh(), [light(null)]);
   // Moved to a window of its own, a page begins anew.
-  await session.hear({ type: "ready" });
+  await session.receive({ type: "ready" });
   assert.deepEqual(fresh().filter(({ type }) => type === "build" || type === "light"), [build(2), light(null)]);
 });
 
 test("models go to the page as bytes of their own, and where there is none it hears that", async (t) => {
   const { client, end } = fakeServer(t);
   const { session, fresh, connect, logged } = preview();
-  await session.hear({ type: "ready" });
+  await session.receive({ type: "ready" });
   await connect(client);
   fresh();
-  await session.hear({ type: "model", address: "builds/2.glb" });
+  await session.receive({ type: "model", address: "builds/2.glb" });
   const [answer, ...more] = fresh();
   assert.deepEqual([answer?.type, answer?.["address"], more], ["modelBytes", "builds/2.glb", []]);
   const bytes = answer?.["bytes"] as Uint8Array;
@@ -120,28 +120,28 @@ test("models go to the page as bytes of their own, and where there is none it he
   assert.equal(bytes.buffer.byteLength, bytes.byteLength);
   assert.equal(Buffer.from(bytes).toString(), "glTF 2");
   // The clips as they were before they were limited are asked for in the same way.
-  await session.hear({ type: "model", address: "builds/2.originals.glb" });
+  await session.receive({ type: "model", address: "builds/2.originals.glb" });
   const [full] = fresh();
   assert.deepEqual([full?.["address"], Buffer.from(full?.["bytes"] as Uint8Array).toString()], ["builds/2.originals.glb", "glTF 2.originals"]);
   const none = { type: "modelBytes", address: "builds/9.glb", bytes: null };
-  await session.hear({ type: "model", address: "builds/9.glb" });
+  await session.receive({ type: "model", address: "builds/9.glb" });
   assert.deepEqual(fresh(), [none]);
   end();
-  await session.hear({ type: "model", address: "builds/9.glb" });
+  await session.receive({ type: "model", address: "builds/9.glb" });
   assert.deepEqual(fresh(), [none]);
   assert.equal(logged.length, 1);
   session.disconnect({ state: "lost", note: "" });
-  await session.hear({ type: "model", address: "builds/9.glb" });
+  await session.receive({ type: "model", address: "builds/9.glb" });
   assert.deepEqual(fresh().at(-1), none);
 });
 
 test("a part that is picked is shown in the text", async (t) => {
   const { client } = fakeServer(t);
   const { session, done, connect } = preview();
-  await session.hear({ type: "pick", drawing: DRAWING, part: "Arm" });
+  await session.receive({ type: "pick", drawing: DRAWING, part: "Arm" });
   await connect(client);
-  await session.hear({ type: "pick", drawing: DRAWING, part: "Arm" });
-  await session.hear({ type: "pick", drawing: DRAWING, part: "No such part" });
+  await session.receive({ type: "pick", drawing: DRAWING, part: "Arm" });
+  await session.receive({ type: "pick", drawing: DRAWING, part: "No such part" });
   assert.deepEqual(done, [{ show: arm }]);
 });
 
@@ -160,7 +160,7 @@ test("the server hears where the cursor is when it stands still, when the page a
   t.mock.timers.tick(1);
   const there = { cursor: { textDocument, position: { line: 8, character: 4 } } };
   await until(() => told.length === 1);
-  await session.hear({ type: "want", drawing: DRAWING });
+  await session.receive({ type: "want", drawing: DRAWING });
   await until(() => told.length === 2);
   assert.deepEqual(told, [there, there]);
 });
@@ -168,18 +168,18 @@ test("the server hears where the cursor is when it stands still, when the page a
 test("a server that ends is waited for, and the next one is asked anew", async (t) => {
   const first = fakeServer(t);
   const { session, fresh, connect, set } = preview();
-  await session.hear({ type: "ready" });
+  await session.receive({ type: "ready" });
   assert.deepEqual(fresh(), [{ type: "link", state: "connecting", note: "" }]);
   await connect(first.client);
   await first.sends(drawings, build(1));
   assert.deepEqual(fresh(), [drawings, build(1), open]);
   first.end();
-  const away = linkWhile({ kind: "stopped" });
+  const away = linkFor({ kind: "stopped" });
   session.disconnect(away);
   assert.deepEqual(fresh(), [{ type: "link", ...away }]);
   assert.match(away.note, /not running/);
-  // News that was on its way is not the next server's.
-  session.news([build(7)]);
+  // PreviewMessages that was on its way is not the next server's.
+  session.messages([build(7)]);
   assert.deepEqual(fresh(), []);
 
   const second = fakeServer(t);
@@ -198,7 +198,7 @@ test("a server that ends is waited for, and the next one is asked anew", async (
 test("a server that knows no previews is called too old", async (t) => {
   const { client } = fakeServer(t, false);
   const { session, fresh, connect, logged } = preview();
-  await session.hear({ type: "ready" });
+  await session.receive({ type: "ready" });
   await connect(client);
   const { state, note } = fresh().at(-1) as { state?: string; note?: string };
   assert.equal(state, "lost");
@@ -209,7 +209,7 @@ test("a server that knows no previews is called too old", async (t) => {
 test("the server is told once that a panel is closed, and nothing is posted to it any more", async (t) => {
   const { client, told, sends } = fakeServer(t);
   const { session, fresh, connect, set } = preview();
-  await session.hear({ type: "ready" });
+  await session.receive({ type: "ready" });
   await connect(client);
   set({ line: 2, character: 0 });
   session.dispose();
@@ -226,51 +226,51 @@ test("a drawing whose text is closed is not gone, one whose file is not there is
   const { client, sends } = fakeServer(t);
   const { session, fresh, connect } = preview();
   const gone = { type: "gone", drawing: DRAWING };
-  await session.hear({ type: "ready" });
+  await session.receive({ type: "ready" });
   await connect(client);
   await sends(drawings, build(1), gone, light("Arm"));
   assert.ok(!fresh().some(({ type }) => type === "gone"));
   session.gone();
   assert.deepEqual(fresh(), [gone]);
-  await session.hear({ type: "ready" });
+  await session.receive({ type: "ready" });
   assert.ok(fresh().some(({ type }) => type === "gone"));
   await sends(build(2));
   fresh();
-  await session.hear({ type: "ready" });
+  await session.receive({ type: "ready" });
   assert.ok(!fresh().some(({ type }) => type === "gone"));
 });
 
 test("findings are gone to, files are written by their bare names", async () => {
   const { session, done } = preview();
-  await session.hear({ type: "open", drawing: DRAWING, line: 4, column: 9 });
-  await session.hear({ type: "save", name: "../../etc/figure.glb", bytes: Buffer.from("glTF").toString("base64") });
+  await session.receive({ type: "open", drawing: DRAWING, line: 4, column: 9 });
+  await session.receive({ type: "save", name: "../../etc/figure.glb", bytes: Buffer.from("glTF").toString("base64") });
   assert.deepEqual(done, [{ goTo: [4, 9] }, { save: ["figure.glb", "glTF"] }]);
 });
 
 test("what the page may not say is not heard", () => {
   for (const wrong of [null, 3, "ready", [], {}, { type: 3 }, { type: "eval" }, { type: "model" }, { type: "model", address: {} }]) {
-    assert.equal(fromPage(wrong), undefined, JSON.stringify(wrong));
+    assert.equal(readPageMessage(wrong), undefined, JSON.stringify(wrong));
   }
   for (const wrong of [{ type: "pick", part: null }, { type: "open", line: 0, column: 1 }, { type: "open", line: 1.5, column: 1 }, { type: "save", name: "a" }]) {
-    assert.equal(fromPage(wrong), undefined, JSON.stringify(wrong));
+    assert.equal(readPageMessage(wrong), undefined, JSON.stringify(wrong));
   }
   for (const wrong of [undefined, {}, { textDocument }, { textDocument: {}, messages: [] }, { textDocument, messages: {} }]) {
-    assert.equal(news(wrong), undefined, JSON.stringify(wrong));
+    assert.equal(readNotification(wrong), undefined, JSON.stringify(wrong));
   }
-  assert.deepEqual(news({ textDocument, messages: [null, 1, build(1)] }), { uri: DRAWING, messages: [build(1)] });
+  assert.deepEqual(readNotification({ textDocument, messages: [null, 1, build(1)] }), { uri: DRAWING, messages: [build(1)] });
 });
 
 test("every state of the server has words for the page", () => {
-  for (const kind of ["idle", "starting", "stopped"] as const) assert.notEqual(linkWhile({ kind }).note, "");
-  assert.match(linkWhile({ kind: "missing", path: "/opt/okoshi" }).note, /\/opt\/okoshi/);
-  assert.deepEqual(linkWhile({ kind: "failed", why: "It ended." }), { state: "lost", note: "It ended." });
+  for (const kind of ["idle", "starting", "stopped"] as const) assert.notEqual(linkFor({ kind }).note, "");
+  assert.match(linkFor({ kind: "missing", path: "/opt/okoshi" }).note, /\/opt\/okoshi/);
+  assert.deepEqual(linkFor({ kind: "failed", why: "It ended." }), { state: "lost", note: "It ended." });
 });
 
 test("columns count characters, the editor's units are UTF-16", () => {
-  assert.equal(unitOf("腕@体", 3), 2);
-  assert.equal(unitOf("a🦾b", 3), 3);
-  assert.equal(unitOf("ab", 1), 0);
-  assert.equal(unitOf("ab", 99), 2);
+  assert.equal(utf16Offset("腕@体", 3), 2);
+  assert.equal(utf16Offset("a🦾b", 3), 3);
+  assert.equal(utf16Offset("ab", 1), 0);
+  assert.equal(utf16Offset("ab", 99), 2);
 });
 
 const addresses = { script: "https://panel/page.js", style: "https://panel/page.css", source: "https://panel", nonce: "n0nce" };

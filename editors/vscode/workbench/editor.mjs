@@ -1,4 +1,4 @@
-// The editor in the browser, as a person uses it: keys, and what is to be seen.
+// Drives the editor in the browser like a user: with keys, and by what is visible.
 
 const PATIENCE = 15_000;
 
@@ -7,14 +7,14 @@ export class Editor {
     this.page = page;
   }
 
-  /** Waits until a selector is there, with the given text if one is given. Returns the locator. */
+  /** Waits for a selector, with the given text if any. Returns the locator. */
   async see(selector, text) {
     const found = this.page.locator(selector, text === undefined ? {} : { hasText: text }).first();
     await found.waitFor({ state: "visible", timeout: PATIENCE });
     return found;
   }
 
-  /** Waits until something holds, and throws what was seen last if it does not. */
+  /** Waits until something holds; otherwise fails with its last value. */
   async until(what, probe, patience = PATIENCE) {
     const end = Date.now() + patience;
     for (;;) {
@@ -38,14 +38,14 @@ export class Editor {
     await this.press("F1");
     const input = await this.see(".quick-input-widget input");
     await input.fill(`>${title}`);
-    // The list is narrowed down a moment after typing.
+    // The list is filtered a moment after typing.
     await this.page.waitForTimeout(1000);
     await this.see(".quick-input-list .monaco-list-row.focused", title);
     await this.press("Enter");
     await this.page.locator(".quick-input-widget").waitFor({ state: "hidden", timeout: PATIENCE }).catch(() => {});
   }
 
-  /** Puts the caret at a line and column, both from 1. */
+  /** Moves the cursor to a line and column, both from 1. */
   async caret({ line, column }) {
     await this.press("Control+g");
     const input = await this.see(".quick-input-widget input");
@@ -55,7 +55,7 @@ export class Editor {
     await this.page.waitForTimeout(150);
   }
 
-  /** The lines on the screen as they are read, hints included: blanks as blanks, without what pads the hints. */
+  /** The visible lines as text, including inlay hints without their padding. */
   async lines() {
     const lines = await this.page.locator(".editor-instance .view-lines .view-line").evaluateAll((all) =>
       all
@@ -66,7 +66,7 @@ export class Editor {
     return lines;
   }
 
-  /** The colour of a word's first character, as CSS has it, on the first visible line that has `within`. */
+  /** The CSS colour of a word's first character, on the first visible line that contains `within`. */
   colour(word, within) {
     return this.page.evaluate(
       ([word, within]) => {
@@ -90,7 +90,7 @@ export class Editor {
     await this.page.locator(".tab.active.dirty").waitFor({ state: "detached", timeout: PATIENCE });
   }
 
-  /** The messages that stand at the bottom right. */
+  /** The notifications at the bottom right. */
   messages() {
     return this.page.locator(".notifications-toasts .notification-list-item-message").allTextContents();
   }

@@ -1,16 +1,16 @@
-// What a person does with the panel that shows the model beside the text. The panel stays open from step to step.
+// Tests the panel that shows the model beside the text. The panel stays open from step to step.
 
 import assert from "node:assert/strict";
 import { existsSync, readFileSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { place } from "./steps.mjs";
 
-/** Colours of the figure's parts, by how red, green and blue compare; lights and shadows leave that. */
+/** Colours of the figure's parts, by comparing red, green and blue, which lights and shadows do not change. */
 const RED = { name: "red", is: (r, g, b) => r > 90 && r > 1.6 * g && r > 1.6 * b };
 const TEAL = { name: "teal", is: (r, g, b) => g > 50 && g > 1.5 * r && b > 1.4 * r && b < 1.15 * g };
 const BLUE = { name: "blue", is: (r, g, b) => b > 60 && b > 1.4 * r && b > 1.15 * g };
 
-/** The first picture takes its time where the processor draws it, in milliseconds. */
+/** The first frame takes a while with software rendering, in milliseconds. */
 const FIRST = 60_000;
 
 /** The panel in the second column. */
@@ -28,7 +28,7 @@ class Panel {
     return this.frame.locator(".viewport canvas");
   }
 
-  /** What the page says of its canvas: which build it shows, what is lit and selected. */
+  /** The state that the page stores at its canvas: the build shown, and what is highlighted and selected. */
   async says(name) {
     return this.canvas.getAttribute(`data-${name}`, { timeout: 1000 }).catch(() => null);
   }
@@ -38,9 +38,9 @@ class Panel {
     await this.editor.until("a model in the panel", async () => (await this.says("revision")) !== null, FIRST);
   }
 
-  /** What is to be seen where the model is drawn: width, height, and red, green, blue and alpha of each pixel. */
+  /** A screenshot of the model: width, height, and RGBA pixels. */
   async picture() {
-    // From the screen, not from the canvas: what covers it counts.
+    // Of the screen, not of the canvas, so that overlays count.
     const taken = await this.canvas.screenshot();
     const seen = await this.page.evaluate(async (base64) => {
       const bytes = Uint8Array.from(atob(base64), (one) => one.charCodeAt(0));
@@ -52,7 +52,7 @@ class Panel {
     return seen;
   }
 
-  /** How many pixels have a colour, and the middle of them. */
+  /** The number of pixels of a colour, and their centre. */
   async find({ is }) {
     const { width, data } = await this.picture();
     let [count, x, y] = [0, 0, 0];
@@ -66,7 +66,7 @@ class Panel {
   }
 }
 
-/** How many pixels of two pictures differ by more than a shade. */
+/** The number of pixels in which two pictures clearly differ. */
 function changes(before, after) {
   assert.deepEqual([before.width, before.height], [after.width, after.height]);
   let count = 0;
@@ -81,18 +81,18 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
   const panel = new Panel(editor, page);
   const shot = (name) => page.screenshot({ path: join(shots, `${name}.png`) });
   const inText = () => page.evaluate(() => document.activeElement?.closest(".editor-instance .monaco-editor") !== null);
-  /** Puts the cursor where no part is spoken of, so that none is lit. */
+  /** Moves the cursor away from all parts, so that none is highlighted. */
   const rest = async () => {
     await editor.caret({ line: 1, column: 1 });
     await editor.until("no part to be lit", async () => (await panel.says("lit")) === "");
   };
-  /** A still picture: nothing moves in it, and no pointer is over a part. */
+  /** A screenshot without movement or highlights. */
   const still = async () => {
     await page.mouse.move(5, 5);
     await page.waitForTimeout(600);
     return panel.picture();
   };
-  /** Begins with the mended drawing, and its panel beside it: as the step before left them, or in a fresh window. */
+  /** Starts with the fixed drawing and its panel beside it: as the previous step left them, or in a new window. */
   const begin = async () => {
     const text = (await editor.lines()).join("\n");
     if ((await panel.says("revision")) !== null && text.includes("Head@Body$Shape round") && text.includes("#d9534f<") && text.includes("Arm@Body$")) {
@@ -108,7 +108,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await rest();
   };
 
-  /** Saves the mended drawing. */
+  /** Saves the fixed drawing. */
   const keep = async () => {
     await saved("the drawing to be saved", (text) => text.includes("Head@Body$Shape round"));
     await page.locator(".tab.dirty").waitFor({ state: "detached" });
@@ -185,7 +185,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     const { line, column } = place(figure.replace(WRONG, "Head@Body$Shape round"), string);
     const said = await (await editor.see(".statusbar-item", "selected)")).textContent();
     const [, ...numbers] = /Ln (\d+), Col (\d+) \((\d+) selected\)/.exec(said).map(Number);
-    // Its name, or all of it.
+    // Its name, or the whole string.
     assert.deepEqual([numbers[0], numbers[1] - numbers[2]], [line, column], said);
   });
   await step("an error is shown over the last good model, and leads to its place", async () => {
@@ -216,7 +216,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await panel.shows();
     await still();
     const { x, y } = await panel.find(BLUE);
-    // The text comes back where it belongs: not over the panel.
+    // The text appears in its own column, not over the panel.
     await panel.canvas.click({ position: { x, y } });
     await editor.see(".editor-instance .selected-text");
     assert.ok(await panel.canvas.isVisible());
@@ -224,7 +224,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
   await step("the panel is back in a window that was loaded anew", async () => {
     await begin();
     await keep();
-    // The editor takes down what is open every five seconds.
+    // The editor stores its open tabs every five seconds.
     await page.waitForTimeout(8000);
     await reload();
     await panel.shows();
@@ -233,7 +233,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
   });
   await step("while the server is away the panel keeps its model and says so, and the next server is asked anew", async () => {
     await begin();
-    // Not the first time, it takes a while to start.
+    // The first start takes longer.
     const wrapped = program("okoshi-slow", 'if [ "$1" = lsp ]; then [ -e "$0.again" ] && sleep 6; touch "$0.again"; fi\nexec OKOSHI "$@"');
     rmSync(`${wrapped}.again`, { force: true });
     configure({}, wrapped);
@@ -271,7 +271,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     }
     configure({});
     await editor.until("the light theme again", async () => (await background()) === light);
-    // White both in the light themes.
+    // White in both light themes.
     assert.equal(seen.size, 3, [...seen].join("; "));
   });
   await step("a starter drawing shows its model, the picture of the manual", async () => {
@@ -292,7 +292,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
   await step("fault, hover, outline, problems and model stand side by side", async () => {
     await page.setViewportSize({ width: 1500, height: 900 });
     await begin();
-    // Undone, the fault is there again; the model is the last one that could be built.
+    // After undo the error is back; the model is the last good one.
     await editor.press("Control+1");
     await at(WRONG, 15);
     await editor.press("Backspace");
@@ -301,7 +301,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await editor.see(".outline-tree .monaco-list-row", "Leg");
     await editor.command("Problems: Focus on Problems View");
     await editor.see(".markers-panel .monaco-list-row", "E101");
-    // What covers the model is folded up.
+    // The list that covers the model is collapsed.
     for (const fold of [".findings-head[aria-expanded=true]", ".side[data-open=true] .sheet-head"]) await panel.frame.locator(fold).click();
     await editor.press("Control+1");
     await editor.until("the text to have the keyboard", inText);
@@ -309,7 +309,7 @@ export async function previews({ editor, page, step, again, at, saved, figure, r
     await editor.press("Control+k");
     await editor.press("Control+i");
     await editor.see(".monaco-hover-content li", "Shape roundv");
-    // Until the hover has come up in full.
+    // Until the hover is fully visible.
     await page.waitForTimeout(500);
     await shot("page");
     await page.setViewportSize({ width: 1280, height: 800 });

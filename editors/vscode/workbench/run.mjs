@@ -1,9 +1,9 @@
-// Drives the extension in a real workbench: npm run workbench
+// Tests the extension in a real workbench: npm run workbench
 //
-// Packages the extension, installs it into code-server, opens drawings in Chromium and does what a person does, looking at
-// what is to be seen after each step. Pictures of all steps are left in target/workbench/shots. What it takes is named by
-// OKOSHI (else target/debug/okoshi), NODE24, CODE_SERVER and CHROMIUM, or installed by name below target/workbench: the first
-// time that takes minutes and 700 MB. Building code-server's native parts takes libkrb5-dev.
+// Packages the extension, installs it into code-server, opens drawings in Chromium and works like a user, checking what is visible
+// after each step. Screenshots of all steps go to target/workbench/shots. OKOSHI (default: target/debug/okoshi), NODE24, CODE_SERVER
+// and CHROMIUM name the tools; those not named are installed into target/workbench, which takes minutes and 700 MB the first time.
+// Building code-server's native modules needs libkrb5-dev.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -33,7 +33,7 @@ execFileSync(okoshi, ["new", "-q", "robot"], { cwd: project });
 copyFileSync(join(extension, "test", "plain.svg"), join(project, "plain.svg"));
 
 const SETTINGS = {
-  // They would show where this runs.
+  // They would contain local paths.
   "breadcrumbs.enabled": false,
   "chat.disableAIFeatures": true,
   "editor.fontSize": 13,
@@ -50,13 +50,13 @@ const SETTINGS = {
   "workbench.startupEditor": "none",
   "workbench.tips.enabled": false,
 };
-/** Writes settings by rename: the editor would read a file that is half written. */
+/** Writes settings by rename: the editor could read a partly written file. */
 const write = (file, values) => {
   writeFileSync(`${file}.new`, JSON.stringify(values, null, 2));
   renameSync(`${file}.new`, file);
 };
 const settings = (path, more = {}) => {
-  // In a remote window what stands in the machine's settings is heeded at once, the user's not before the next window.
+  // In a remote window machine settings apply at once, user settings only in the next window.
   write(join(data, "Machine", "settings.json"), { "okoshi.path": path, ...more });
 };
 
@@ -67,7 +67,7 @@ settings("okoshi-that-is-not-there");
 const server = await codeServer(found, { vsix: join(room, "okoshi.vsix"), data, extensions: join(room, "extensions"), env: { HOME: room } });
 const browser = await found.chromium.launch({
   executablePath: found.browser,
-  // WebGL is drawn by the processor, so that it is there on every machine.
+  // WebGL in software, which works on every machine.
   args: ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
 });
 
@@ -79,26 +79,26 @@ const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, dev
 const editor = new Editor(page);
 
 try {
-  /** Opens a drawing in a fresh window, and waits until it can be edited. */
+  /** Opens a drawing in a new window, and waits until it can be edited. */
   const open = async (name) => {
     const uri = `vscode-remote://${server.address}${join(project, name)}`;
     const payload = encodeURIComponent(JSON.stringify([["openFile", uri]]));
     await page.goto(`http://${server.address}/?folder=${encodeURIComponent(project)}&payload=${payload}`);
     await editor.see(".editor-instance .view-line span", "svg");
-    // By a key: a click may come while the window still moves.
+    // With the keyboard: the window may still be moving under a click.
     await editor.until("the drawing to have the keyboard", async () => {
       await editor.press("Control+1");
       return page.evaluate(() => document.activeElement?.closest(".editor-instance") !== null);
     });
   };
 
-  /** Loads the window anew. An address that names a drawing would open that alone. */
+  /** Reloads the window. An address that names a drawing would open only that. */
   const reload = async () => {
     await page.goto(`http://${server.address}/?folder=${encodeURIComponent(project)}`);
     await editor.see(".editor-instance .view-line span", "svg");
   };
 
-  /** One step: does it, takes a picture, and says how it went. */
+  /** Runs a step, takes a screenshot, and reports the result.  */
   const step = async (name, act) => {
     if (wanted && !wanted.some((one) => name.includes(one))) return;
     number += 1;
@@ -134,7 +134,7 @@ try {
   });
   await open("figure.svg");
   await step("the output says where it was looked for", async () => {
-    // The window has come up by then; a panel that is opened while it does so may be closed again.
+    // The window is up by then; a panel that is opened earlier may be closed again.
     await editor.see(".notifications-toasts", "was not found");
     await editor.command("Okoshi: Show Output");
     await editor.see(".output-view-container .view-line, .output-view .view-line", "Looked at:");
@@ -151,7 +151,7 @@ try {
     assert.equal(await editor.colour("circle id", 'id="head"'), tag);
     assert.notEqual(await editor.colour("# Figures", "# Figures"), keyword);
   });
-  /** A program that stands before okoshi; its process id is in `NAME.pid`. Returns its path. */
+  /** A script that runs okoshi and writes its process id to `NAME.pid`. Returns its path. */
   const program = (name, script) => {
     const file = join(room, name);
     rmSync(`${file}.pid`, { force: true });
@@ -159,14 +159,14 @@ try {
     return file;
   };
   const configure = (more, path = okoshi) => settings(path, { "editor.semanticHighlighting.enabled": true, ...more });
-  // In the window that has told of a missing program: what the setting names now is started there.
+  // In the window that reported a missing program: the program that the setting names now is started there.
   const ready = async () => configure({});
   const read = (name = "figure.svg") => readFileSync(join(project, name), "utf8");
   const reset = () => copyFileSync(join(here, "figure.svg"), join(project, "figure.svg"));
   await withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shots });
   assert.ok(number > 0, `no step is named ${process.env.ONLY}`);
 } catch (error) {
-  // Where the browser itself has ended, there is nothing to take a picture of.
+  // If the browser itself has exited, there is nothing to take a screenshot of.
   await page.screenshot({ path: join(shots, "failure.png") }).catch(() => {});
   throw error;
 } finally {

@@ -1,11 +1,11 @@
-// What a person does with the language server there. Each step begins with the drawing as it lies in figure.svg.
+// Tests the language server in the workbench. Each step starts with the drawing of figure.svg.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { previews } from "./preview.mjs";
 
-/** Line and column, from 1, of the `at`th character of a text's first occurrence. */
+/** Line and column, from 1, of the `at`th character of the first occurrence of a text. */
 export function place(text, wanted, at = 0) {
   const offset = text.indexOf(wanted);
   assert.ok(offset >= 0, `the drawing has ${wanted}`);
@@ -18,15 +18,15 @@ const WRONG = "Head@Body$Shap round";
 export async function withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shots }) {
   const figure = read();
   const at = (wanted, offset, text = figure) => editor.caret(place(text, wanted, offset));
-  /** The drawing on disk after saving, once it is as wanted. */
+  /** The saved drawing, once it is as wanted. */
   const saved = (what, good) =>
     editor.until(what, async () => {
       if ((await page.locator(".tab.active.dirty").count()) > 0) await editor.press("Control+s");
       return good(read());
     });
-  /** Begins anew: the drawing as it was, in a fresh window, with its errors found. */
+  /** Starts over: the original drawing in a new window, with its errors found. */
   const again = async () => {
-    // Saved first: the next window would bring back what was not.
+    // Saved first: the next window would restore unsaved changes.
     if ((await page.locator(".tab.dirty").count()) > 0) {
       await editor.press("Control+1");
       await editor.press("Control+s");
@@ -101,7 +101,7 @@ export async function withServer({ editor, page, step, ready, configure, program
   await page.screenshot({ path: join(shots, "at-work.png") });
   await step("inlay hints say what is inherited or automatic", async () => {
     await open("hints.svg");
-    // What stands behind what in the drawing, and nothing anywhere else.
+    // Inlay hints at the expected places, and nowhere else.
     const hints = [
       ["<circle", "U-1@Arm"],
       [">Body", "Segments 8 Smooth 10"],
@@ -173,7 +173,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await again();
     await at("<text x=\"10\"", 0);
     await editor.type("okoshi-def");
-    // Emmet, which takes any word for a tag, stands before it.
+    // Emmet, which accepts any word as a tag, comes first.
     await (await editor.see(".suggest-widget .monaco-list-row", "okoshi-defaults")).click();
     await editor.press("Escape");
     await saved("a text for all parts", (text) => text.includes(">%Shape default -20 20 Scale 1.0</text>"));
@@ -182,7 +182,7 @@ export async function withServer({ editor, page, step, ready, configure, program
   await step("on demand, drawings are checked when they are saved", async () => {
     await again();
     configure({ "okoshi.analyse": "onSave", "editor.renderFinalNewline": "off" });
-    // The number of the empty last line goes once the settings are read, which is when the server hears of them.
+    // Line numbers change once the settings are read, which is when the server gets them.
     const numbers = page.locator(".editor-instance .line-numbers");
     const last = String(figure.split("\n").length);
     await editor.until("the settings to be read", async () => !(await numbers.allTextContents()).includes(last));

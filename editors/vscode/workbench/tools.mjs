@@ -1,4 +1,4 @@
-// What the workbench tests run with: code-server, the Node that it needs, playwright-core and Chromium.
+// The tools of the workbench tests: code-server, a matching Node.js, playwright-core and Chromium.
 
 import { spawn, spawnSync } from "node:child_process";
 import { existsSync, mkdirSync, writeFileSync } from "node:fs";
@@ -17,7 +17,7 @@ export function run(command, args, options = {}) {
   return stdout;
 }
 
-/** Installs a package by its name into a folder of its own below the cache, once. Returns its node_modules. */
+/** Installs a package into a folder of its own in the cache, once. Returns its node_modules. */
 function installed(cache, name, env = {}) {
   const folder = join(cache, name.replace(/@[^@]*$/, ""));
   const modules = join(folder, "node_modules");
@@ -35,13 +35,13 @@ function installed(cache, name, env = {}) {
 }
 
 /**
- * Finds or installs everything: `NODE24` is a folder with bin/node, `CODE_SERVER` the folder of the code-server package,
- * `CHROMIUM` a browser. What they do not name is installed into the cache by npm, but for the browser.
+ * Finds or installs the tools: `NODE24` is a folder with bin/node, `CODE_SERVER` the folder of the code-server package, `CHROMIUM` a
+ * browser. Those that are not set are installed into the cache by npm, except the browser.
  */
 export async function tools(cache) {
   const node = process.env.NODE24 ?? join(installed(cache, NODE), "node", "node_modules", `node-${process.platform}-${process.arch}`);
   const path = `${join(node, "bin")}${delimiter}${process.env.PATH}`;
-  // Its native parts are built, which takes the headers that the node package has, and libkrb5-dev.
+  // Its native modules are compiled, which needs the headers in the node package, and libkrb5-dev.
   const server = process.env.CODE_SERVER ?? join(installed(cache, CODE_SERVER, { PATH: path, npm_config_nodedir: node }), "code-server");
   const browser = [process.env.CHROMIUM, ...["chromium", "chromium-browser", "google-chrome"].map(inPath)].find((one) => one);
   if (!browser) throw new Error("There is no Chromium: install it, or name one by CHROMIUM=");
@@ -64,7 +64,7 @@ function freePort() {
   });
 }
 
-/** A code-server with the extension, on a port of its own. `stop` ends it. */
+/** Starts a code-server with the extension on a free port. `stop` ends it. */
 export async function codeServer({ node, server }, { vsix, data, extensions, env }) {
   const folders = ["--user-data-dir", data, "--extensions-dir", extensions];
   run(node, [server, ...folders, "--install-extension", vsix], { env: { ...process.env, ...env } });
@@ -75,10 +75,10 @@ export async function codeServer({ node, server }, { vsix, data, extensions, env
   for (const stream of [child.stdout, child.stderr]) stream.on("data", (piece) => (said += piece));
   const stop = () => {
     try {
-      // Its children too.
+      // Including its children.
       process.kill(-child.pid, "SIGTERM");
     } catch {
-      // It has ended already.
+      // It has exited already.
     }
   };
   const address = `127.0.0.1:${port}`;

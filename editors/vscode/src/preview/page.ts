@@ -1,21 +1,21 @@
-// The page in the panel: the one that `okoshi preview` serves, with leave for what it needs and nothing else.
+// The page in the panel: the one that `okoshi preview` serves, with a strict content security policy.
 
 export interface Addresses {
   readonly script: string;
   readonly style: string;
-  /** Where the panel's own files come from, as `Webview.cspSource` has it. */
+  /** The origin of the panel's files: `Webview.cspSource`. */
   readonly source: string;
-  /** Given to the one script that may run. */
+  /** The nonce of the only script that may run. */
   readonly nonce: string;
 }
 
-/** The page, of its bundle's page.html. */
+/** Fills in the bundle's page.html. */
 export function html(template: string, { script, style, source, nonce }: Addresses): string {
   const policy = [
     "default-src 'none'",
     `script-src 'nonce-${nonce}'`,
     `style-src ${source}`,
-    // Textures within models are read from blobs.
+    // Textures of models are read from blobs.
     `img-src ${source} blob: data:`,
     "connect-src blob:",
     "base-uri 'none'",

@@ -1,12 +1,12 @@
-// Panels that show drawings in 3D beside their text: one a drawing.
+// Panels that show drawings in 3D beside their text, one for each drawing.
 
 import { randomBytes } from "node:crypto";
 import { basename } from "node:path";
 import * as vscode from "vscode";
-import { looksAfter, type Server } from "../server";
+import { isDrawingDocument, type Server } from "../server";
 import { html } from "./page";
-import { linkWhile, Session, type Surroundings } from "./session";
-import { Remote, unitOf, type Place } from "./wire";
+import { linkFor, Session, type Editor } from "./session";
+import { Remote, utf16Offset, type Place } from "./messages";
 
 const TYPE = "okoshi.preview";
 
@@ -22,20 +22,20 @@ export class Previews implements vscode.Disposable, vscode.WebviewPanelSerialize
     this.disposables = [
       vscode.window.registerWebviewPanelSerializer(TYPE, this),
       server.onDidChange(() => this.each((preview) => preview.follow())),
-      server.onNews(({ uri, messages }) => this.shown.get(uri.toString())?.session.news(messages)),
+      server.onPreviewMessages(({ uri, messages }) => this.shown.get(uri.toString())?.session.messages(messages)),
       vscode.workspace.onDidCloseTextDocument(({ uri }) => this.shown.get(uri.toString())?.closed()),
       vscode.workspace.onDidOpenTextDocument((document) => {
-        if (looksAfter(document)) this.shown.get(document.uri.toString())?.follow();
+        if (isDrawingDocument(document)) this.shown.get(document.uri.toString())?.follow();
       }),
       vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => this.shown.get(textEditor.document.uri.toString())?.session.moved()),
       vscode.window.onDidChangeActiveTextEditor((editor) => {
-        // There is none while a panel has the keyboard: what is lit stays so.
+        // There is no active editor while a panel has the focus: the highlight stays.
         if (editor) this.each(({ session }) => session.moved());
       }),
     ];
   }
 
-  /** Shows a drawing in its panel, which is opened beside the text if it is not there. The text keeps the keyboard. */
+  /** Shows a drawing in its panel, or opens a panel beside the text. The text keeps the focus. */
   async show(uri: vscode.Uri): Promise<void> {
     const there = this.shown.get(uri.toString());
     if (there) return there.panel.reveal(undefined, true);
@@ -43,13 +43,13 @@ export class Previews implements vscode.Disposable, vscode.WebviewPanelSerialize
       TYPE,
       title(uri),
       { viewColumn: vscode.ViewColumn.Beside, preserveFocus: true },
-      // Camera, pose and playing clip are the page's.
+      // The page keeps its camera, pose and clip.
       { retainContextWhenHidden: true, ...this.options },
     );
     await this.fill(panel, uri);
   }
 
-  /** Brings a panel back in a window that was loaded anew. */
+  /** Restores a panel after the window was reloaded. */
   async deserializeWebviewPanel(panel: vscode.WebviewPanel, state: unknown): Promise<void> {
     const { drawing } = (state ?? {}) as { drawing?: unknown };
     if (typeof drawing !== "string") return panel.dispose();
@@ -97,10 +97,10 @@ export class Previews implements vscode.Disposable, vscode.WebviewPanelSerialize
   }
 }
 
-/** A drawing's panel. */
-class Preview implements Surroundings, vscode.Disposable {
+/** The panel of a drawing. */
+class Preview implements Editor, vscode.Disposable {
   readonly session: Session;
-  /** Which run of the server was asked for news. */
+  /** The run of the server that was subscribed to. */
   private asked: number | undefined;
   private queue: Promise<void> = Promise.resolve();
   private watcher: vscode.FileSystemWatcher | undefined;
@@ -113,15 +113,15 @@ class Preview implements Surroundings, vscode.Disposable {
     private readonly output: vscode.LogOutputChannel,
   ) {
     this.session = new Session(uri.toString(), this);
-    panel.webview.onDidReceiveMessage((data: unknown) => void this.session.hear(data));
+    panel.webview.onDidReceiveMessage((data: unknown) => void this.session.receive(data));
   }
 
-  /** Goes along with the server and the text: asks for news when both are there. */
+  /** Follows server and text: subscribes when both are available. */
   follow(): void {
     this.queue = this.queue.then(() => this.followNow()).catch((error: unknown) => this.log(String(error)));
   }
 
-  /** The text was closed: it is opened again without being shown, so that the panel follows the file. */
+  /** The text was closed: it is reopened without being shown, so that the panel follows the file. */
   closed(): void {
     this.asked = undefined;
     this.follow();
@@ -146,14 +146,14 @@ class Preview implements Surroundings, vscode.Disposable {
   async show({ uri, range: { start, end } }: Place): Promise<void> {
     const document = await vscode.workspace.openTextDocument(vscode.Uri.parse(uri));
     const range = new vscode.Range(start.line, start.character, end.line, end.character);
-    // The keyboard stays with the panel: a key that is meant for the page would replace what is selected.
+    // The panel keeps the focus: a key meant for the page would replace the selection.
     await this.select(document, range, true);
   }
 
   async goTo(line: number, column: number): Promise<void> {
     const document = await vscode.workspace.openTextDocument(this.uri);
     const at = Math.min(line, document.lineCount) - 1;
-    const place = new vscode.Position(at, unitOf(document.lineAt(at).text, column));
+    const place = new vscode.Position(at, utf16Offset(document.lineAt(at).text, column));
     await this.select(document, new vscode.Range(place, place), false);
   }
 
@@ -190,14 +190,14 @@ class Preview implements Surroundings, vscode.Disposable {
     const { running: client, runs, state } = this.server;
     if (!client || state.kind !== "running") {
       this.asked = undefined;
-      return this.session.disconnect(linkWhile(state));
+      return this.session.disconnect(linkFor(state));
     }
     if (this.asked === runs) return;
     this.asked = runs;
     await this.session.connect(new Remote(client, client.code2ProtocolConverter.asUri(this.uri)));
   }
 
-  /** The drawing's text, opened if its file is there. An untitled one that was closed is no more. */
+  /** The drawing's text, opened if its file exists. Closed untitled drawings no longer exist. */
   private async read(): Promise<vscode.TextDocument | undefined> {
     const open = vscode.workspace.textDocuments.find((document) => this.isOurs(document));
     if (open || this.uri.scheme !== "file") return open;
@@ -208,7 +208,7 @@ class Preview implements Surroundings, vscode.Disposable {
     }
   }
 
-  /** Waits for a file that is not there. */
+  /** Waits for a missing file. */
   private watch(wanted: boolean): void {
     if (!wanted) {
       this.watcher?.dispose();
@@ -225,7 +225,7 @@ class Preview implements Surroundings, vscode.Disposable {
     await vscode.window.showTextDocument(document, { viewColumn: this.column(document), selection, preserveFocus, preview: false });
   }
 
-  /** The column where the text is, or should be: not the panel's, which would be covered. */
+  /** The column where the text is or should be; never the panel's, which would be covered. */
   private column(document: vscode.TextDocument): vscode.ViewColumn {
     const key = document.uri.toString();
     const elsewhere = (column: vscode.ViewColumn | undefined) => column !== undefined && column !== this.panel.viewColumn;
@@ -240,5 +240,5 @@ class Preview implements Surroundings, vscode.Disposable {
 
 const title = (uri: vscode.Uri) => `Preview ${basename(uri.path)}`;
 
-/** A name in a pattern for file names, without its signs. */
+/** A file name, escaped for a glob pattern. */
 const escaped = (name: string) => name.replace(/[*?{}[\]]/g, "[$&]");

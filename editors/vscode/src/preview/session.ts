@@ -1,24 +1,24 @@
-// The preview of one drawing: goes between the page, the language server and the text. Knows nothing of the editor.
+// The preview of one drawing: connects the page, the language server and the text. Independent of the editor.
 
 import type { State } from "../status-text";
-import { fromPage, type Link, type Message, type Place, type Position, type Remote } from "./wire";
+import { readPageMessage, type Link, type Message, type Place, type Position, type Remote } from "./messages";
 
-/** How long the cursor must have stood still before the server hears of it, in milliseconds. */
+/** How long the cursor must rest before its position is sent to the server, in milliseconds. */
 export const CURSOR_PAUSE = 60;
 
-/** The editor, as a preview needs it. */
-export interface Surroundings {
-  /** Posts something to the page. */
+/** What a preview needs of the editor. */
+export interface Editor {
+  /** Posts a message to the page. */
   post(message: Message): void;
-  /** Where the cursor is in the drawing's text; null if it is in another text, or in none. */
+  /** The position of the cursor in the drawing's text; null if it is elsewhere. */
   cursor(): Position | null;
-  /** Shows and selects a place in the text; the panel keeps the keyboard. */
+  /** Shows and selects a range of the text; the panel keeps the focus. */
   show(place: Place): Promise<void>;
   /** Goes to a line and column of the text, from 1, in characters. */
   goTo(line: number, column: number): Promise<void>;
-  /** Asks where to write a file, and writes it. */
+  /** Asks for a path and saves a file. */
   save(name: string, bytes: Uint8Array): Promise<void>;
-  /** Says what went wrong. */
+  /** Logs a problem. */
   log(message: string): void;
 }
 
@@ -28,141 +28,141 @@ export class Session {
   private server: Server | undefined;
   private ready = false;
   private link: Link = { state: "connecting", note: "" };
-  /** The newest message of each type: a page that is loaded anew, as in a window of its own, is told all of them. */
+  /** The latest message of each type, for a page that is reloaded, for example in a window of its own. */
   private readonly newest = new Map<string, Message>();
   private timer: NodeJS.Timeout | undefined;
 
   constructor(
     private readonly drawing: string,
-    private readonly around: Surroundings,
+    private readonly editor: Editor,
   ) {}
 
-  /** Asks a language server for news. What was shown stays until there is some. */
+  /** Subscribes to messages of a language server. The page stays as it is until the first one. */
   async connect(server: Server): Promise<void> {
     this.server = server;
-    if (this.link.state === "lost") this.become({ state: "connecting", note: "" });
+    if (this.link.state === "lost") this.setLink({ state: "connecting", note: "" });
     try {
       await server.open();
     } catch (error) {
       if (this.server !== server) return;
       this.server = undefined;
-      this.become({ state: "lost", note: refusal(error) });
-      this.around.log(`There is no news of ${this.drawing}: ${String(error)}`);
+      this.setLink({ state: "lost", note: refusal(error) });
+      this.editor.log(`There is no preview of ${this.drawing}: ${String(error)}`);
       return;
     }
-    if (this.server === server) this.lightUp();
+    if (this.server === server) this.sendCursor();
   }
 
-  /** The language server is away, or the text is. */
+  /** The language server stopped, or the text was closed. */
   disconnect(link: Link): void {
     this.server = undefined;
-    this.become(link);
+    this.setLink(link);
   }
 
-  /** The drawing's file is not there. */
+  /** The drawing's file is missing. */
   gone(): void {
-    this.tell({ type: "gone", drawing: this.drawing });
+    this.forward({ type: "gone", drawing: this.drawing });
   }
 
-  /** News from the server. */
-  news(messages: readonly Message[]): void {
+  /** Forwards messages of the server. */
+  messages(messages: readonly Message[]): void {
     if (!this.server) return;
     for (const message of messages) {
-      // The server says this of a text that is closed in the editor. It is opened again if its file is there, which `gone` tells.
-      if (message.type !== "gone") this.tell(message);
+      // The server sends `gone` for texts closed in the editor. The extension reopens them if the file exists, and reports `gone` itself.
+      if (message.type !== "gone") this.forward(message);
     }
-    // After the news: a page that is told of a new server before its builds would ask that one for models of the last.
-    if (this.link.state !== "open" && messages.some(({ type }) => type === "build")) this.become({ state: "open", note: "" });
+    // After the messages: a page that knows of a new server before its builds would ask it for models of the last one.
+    if (this.link.state !== "open" && messages.some(({ type }) => type === "build")) this.setLink({ state: "open", note: "" });
   }
 
   /** The cursor moved. */
   moved(): void {
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.lightUp(), CURSOR_PAUSE);
+    this.timer = setTimeout(() => this.sendCursor(), CURSOR_PAUSE);
   }
 
-  /** The page has spoken. */
-  async hear(data: unknown): Promise<void> {
-    const message = fromPage(data);
+  /** Handles a message of the page. */
+  async receive(data: unknown): Promise<void> {
+    const message = readPageMessage(data);
     if (!message) return;
     try {
       await this.answer(message);
     } catch (error) {
-      this.around.log(`The preview's ${message.type} failed: ${String(error)}`);
+      this.editor.log(`The preview's ${message.type} failed: ${String(error)}`);
     }
   }
 
   /** The panel was closed. */
   dispose(): void {
     clearTimeout(this.timer);
-    this.notify((server) => server.close());
+    this.send((server) => server.close());
     this.server = undefined;
     this.ready = false;
   }
 
-  private async answer(message: NonNullable<ReturnType<typeof fromPage>>): Promise<void> {
+  private async answer(message: NonNullable<ReturnType<typeof readPageMessage>>): Promise<void> {
     switch (message.type) {
       case "ready":
         this.ready = true;
-        for (const kept of this.newest.values()) this.around.post(kept);
-        return this.become(this.link);
+        for (const kept of this.newest.values()) this.editor.post(kept);
+        return this.setLink(this.link);
       case "want":
-        return this.lightUp();
+        return this.sendCursor();
       case "model": {
         const { address } = message;
         let bytes: Uint8Array | null = null;
         try {
           bytes = (await this.server?.model(address)) ?? null;
         } finally {
-          // An answer in any case: the page reads one model at a time.
-          if (this.ready) this.around.post({ type: "modelBytes", address, bytes });
+          // Always answered: the page loads one model at a time.
+          if (this.ready) this.editor.post({ type: "modelBytes", address, bytes });
         }
         return;
       }
       case "pick": {
         const place = await this.server?.place(message.part);
-        if (place) await this.around.show(place);
+        if (place) await this.editor.show(place);
         return;
       }
       case "open":
-        return this.around.goTo(message.line, message.column);
+        return this.editor.goTo(message.line, message.column);
       case "save":
-        return this.around.save(message.name, message.bytes);
+        return this.editor.save(message.name, message.bytes);
     }
   }
 
-  private lightUp(): void {
-    this.notify((server) => server.cursor(this.around.cursor()));
+  private sendCursor(): void {
+    this.send((server) => server.cursor(this.editor.cursor()));
   }
 
-  /** Tells the server something, which it need not answer and may have ended without. */
-  private notify(tell: (server: Server) => Promise<void>): void {
-    if (this.server) void tell(this.server).catch((error: unknown) => this.around.log(String(error)));
+  /** Sends the server a notification; failures are only logged. */
+  private send(message: (server: Server) => Promise<void>): void {
+    if (this.server) void message(this.server).catch((error: unknown) => this.editor.log(String(error)));
   }
 
-  private tell(message: Message): void {
-    // A build says that the file is there again.
+  private forward(message: Message): void {
+    // A build means that the file exists again.
     if (message.type === "build") this.newest.delete("gone");
     this.newest.delete(message.type);
     this.newest.set(message.type, message);
-    if (this.ready) this.around.post(message);
+    if (this.ready) this.editor.post(message);
   }
 
-  private become(link: Link): void {
+  private setLink(link: Link): void {
     this.link = link;
-    if (this.ready) this.around.post({ type: "link", ...link });
+    if (this.ready) this.editor.post({ type: "link", ...link });
   }
 }
 
-/** What a page is told while the server is in a state. */
-export function linkWhile(state: State): Link {
+/** The connection state to report to a page for a state of the server. */
+export function linkFor(state: State): Link {
   switch (state.kind) {
     case "idle":
     case "starting":
     case "running":
       return { state: "connecting", note: "Starting okoshi…" };
     case "stopped":
-      return { state: "lost", note: "okoshi is not running at present." };
+      return { state: "lost", note: "okoshi is not running." };
     case "missing":
       return { state: "lost", note: `The program ${state.path} was not found.` };
     case "failed":
@@ -170,10 +170,10 @@ export function linkWhile(state: State): Link {
   }
 }
 
-/** JSON-RPC's code of a request that the server does not know. */
+/** The JSON-RPC error code for an unknown method. */
 const METHOD_NOT_FOUND = -32601;
 
 function refusal(error: unknown): string {
   if ((error as { code?: unknown } | null)?.code === METHOD_NOT_FOUND) return "This okoshi is too old for previews: install a newer one.";
-  return `okoshi shows no preview: ${error instanceof Error ? error.message : String(error)}`;
+  return `okoshi cannot show the preview: ${error instanceof Error ? error.message : String(error)}`;
 }

@@ -1,4 +1,4 @@
-"""How a message reaches the person."""
+"""Shows messages to the user."""
 
 import os
 import sys
@@ -6,16 +6,16 @@ import sys
 import inkex
 
 
-def say(text, terminal=None):
-    """Shows a text in Inkscape's message window; without a window, on Inkscape's own stderr, there as `terminal` if given."""
+def show_message(text, terminal=None):
+    """Shows a text in Inkscape's message window; without a window, on its stderr, there `terminal` if given."""
     inkex.errormsg(text)
     sys.stderr.flush()
     if version() < (1, 4):
-        beside(text if terminal is None else terminal)
+        write_to_inkscape_stderr(text if terminal is None else terminal)
 
 
 def version():
-    """The version of inkex, which is Inkscape's but for the last number."""
+    """The version of inkex: the first two numbers of Inkscape's."""
     numbers = getattr(inkex, "__version__", "1.0").split(".")
     try:
         return int(numbers[0]), int(numbers[1])
@@ -23,25 +23,25 @@ def version():
         return 1, 0
 
 
-def beside(text):
-    """Writes to Inkscape's own stderr as well: without a window, Inkscape 1.2 and older drop what extensions say.
+def write_to_inkscape_stderr(text):
+    """Writes to Inkscape's stderr too: without a window, Inkscape 1.2 and older drop the messages of extensions.
 
-    Inkscape is the process at the other end of our stderr, which /proc tells. Where it does not, nothing is written.
+    Inkscape is the process at the other end of our stderr, found in /proc. Without /proc nothing is written.
     """
-    place = reader_of(2)
+    place = stderr_of_reader(2)
     if place is None:
         return
     try:
         with open(place, "ab", 0) as stream:
-            # In a file, Inkscape goes on writing where it was, over what we append: it shall find blanks there.
+            # If it is a file, Inkscape continues to write at its own offset, over what we append: let it overwrite blanks.
             blanks = b" " * 1024 + b"\n" if os.path.isfile(place) else b""
             stream.write(blanks + text.encode("utf-8", "replace") + b"\n")
     except OSError:
         pass
 
 
-def reader_of(number):
-    """The stderr, below /proc, of the Inkscape that reads the pipe behind one of our file descriptors; or None."""
+def stderr_of_reader(number):
+    """The stderr, in /proc, of the Inkscape that reads the pipe of one of our file descriptors; or None."""
     try:
         pipe = os.readlink("/proc/self/fd/%d" % number)
         if not pipe.startswith("pipe:"):

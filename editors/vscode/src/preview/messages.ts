@@ -1,32 +1,32 @@
-// What the preview's page, this extension and the language server say to each other. Knows nothing of the editor.
-// News of the server goes to the page as it is; only what the extension itself acts on is read here.
+// The messages between the preview page, this extension and the language server. Independent of the editor. The server's messages
+// are forwarded to the page unchanged; only those for the extension itself are parsed here.
 
-/** A position as the Language Server Protocol has it: line and UTF-16 unit, from 0. */
+/** A position in the Language Server Protocol: line and UTF-16 offset, from 0. */
 export interface Position {
   readonly line: number;
   readonly character: number;
 }
 
-/** Where something is written. */
+/** A range in a document. */
 export interface Place {
   readonly uri: string;
   readonly range: { readonly start: Position; readonly end: Position };
 }
 
-/** A message for the page: an object with a type, and whatever else belongs to it. */
+/** A message for the page: an object with a type and further fields. */
 export interface Message {
   readonly type: string;
   readonly [field: string]: unknown;
 }
 
-/** How the language server is, for the page. The note says it in words; an empty one leaves the words to the page. */
+/** The state of the connection to the language server. The note explains it; if it is empty, the page uses its own text. */
 export interface Link {
   readonly state: "connecting" | "open" | "lost";
   readonly note: string;
 }
 
-/** What the page asks of the extension. */
-export type FromPage =
+/** A request from the page. */
+export type PageMessage =
   | { readonly type: "ready" | "want" }
   | { readonly type: "model"; readonly address: string }
   | { readonly type: "pick"; readonly part: string }
@@ -34,8 +34,8 @@ export type FromPage =
   | { readonly type: "open"; readonly line: number; readonly column: number }
   | { readonly type: "save"; readonly name: string; readonly bytes: Uint8Array };
 
-/** The request that `data` is, or nothing if it is none that the extension knows. */
-export function fromPage(data: unknown): FromPage | undefined {
+/** Parses a request; undefined if its type is unknown or a field is invalid. */
+export function readPageMessage(data: unknown): PageMessage | undefined {
   const { type, address, part, line, column, name, bytes } = fields(data);
   switch (type) {
     case "ready":
@@ -54,43 +54,43 @@ export function fromPage(data: unknown): FromPage | undefined {
   }
 }
 
-/** The notification that carries news of a drawing. */
-export const NEWS = "okoshi/preview/news";
+/** The notification with messages for a drawing's page. */
+export const PREVIEW_NOTIFICATION = "okoshi/preview/news";
 
-/** What `NEWS` carries; nothing if it is not that. */
-export function news(data: unknown): { uri: string; messages: Message[] } | undefined {
+/** Parses the parameters of the notification. */
+export function readNotification(data: unknown): { uri: string; messages: Message[] } | undefined {
   const { textDocument, messages } = fields(data);
   const { uri } = fields(textDocument);
   if (typeof uri !== "string" || !Array.isArray(messages)) return undefined;
   return { uri, messages: messages.filter((one): one is Message => typeof fields(one)["type"] === "string") };
 }
 
-/** The connection to a language server: a client of the library, or its plain JSON-RPC. */
+/** The connection to a language server: a client of the library, or plain JSON-RPC. */
 export interface Connection {
   sendRequest(method: string, params: unknown): Promise<unknown>;
   sendNotification(method: string, params: unknown): Promise<void>;
 }
 
-/** What the language server does for the preview of one drawing. */
+/** The language server's requests for the preview of one drawing. */
 export class Remote {
   constructor(
     private readonly connection: Connection,
-    /** The drawing's URI, as the server knows it. */
+    /** The drawing's URI in the protocol. */
     private readonly uri: string,
   ) {}
 
-  /** From now on there is news of the drawing. */
+  /** Subscribes to messages about the drawing. */
   async open(): Promise<void> {
     await this.connection.sendRequest("okoshi/preview/open", this.drawing());
   }
 
-  /** The bytes of a model, or null if the server has it no more. */
+  /** The bytes of a model, or null if the server does not have it any more. */
   async model(address: string): Promise<Uint8Array | null> {
     const { bytes } = fields(await this.connection.sendRequest("okoshi/preview/model", { address }));
     return typeof bytes === "string" ? decoded(bytes) : null;
   }
 
-  /** Where the string of a part is. */
+  /** The range of a part's string. */
   async place(part: string): Promise<Place | null> {
     return (await this.connection.sendRequest("okoshi/preview/place", { ...this.drawing(), part })) as Place | null;
   }
@@ -108,10 +108,8 @@ export class Remote {
   }
 }
 
-/**
- * The UTF-16 unit, from 0, of a column that counts characters from 1; the line's end if it has fewer.
- */
-export function unitOf(line: string, column: number): number {
+/** The UTF-16 offset, from 0, of a column in characters, from 1; at most the end of the line. */
+export function utf16Offset(line: string, column: number): number {
   let units = 0;
   let left = column - 1;
   for (const character of line) {
@@ -129,12 +127,12 @@ function isCount(value: unknown): value is number {
   return typeof value === "number" && Number.isSafeInteger(value) && value >= 1;
 }
 
-/** Without folders: where a file is written is for the person to say. */
+/** Without folders: the user chooses where to save a file. */
 function fileName(name: string): string {
   return name.replace(/^.*[\\/]/, "").replace(/\p{Cc}/gu, "") || "model";
 }
 
-/** Bytes of their own: the editor does not post a `Buffer` as bytes, nor a part of a larger one. */
+/** A copy of its own: the editor does not post a `Buffer`, or a view of one, as bytes. */
 function decoded(base64: string): Uint8Array {
   return Uint8Array.from(Buffer.from(base64, "base64"));
 }
