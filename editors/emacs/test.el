@@ -57,10 +57,10 @@
      (unwind-protect
          (progn
            (let ((coding-system-for-write 'utf-8-unix)) (write-region ,text nil file nil 'quiet))
-           ;; `image-mode' finds out by an error that there is no display; ERT would stop there.
+           ;; `image-mode' detects by an error that there is no display; ERT would stop there.
            (with-current-buffer (let ((debug-on-error nil)) (find-file-noselect file))
              (should (derived-mode-p 'nxml-mode))
-             ;; In batch mode no command ever ends, which is when Eglot starts by itself.
+             ;; In batch mode no command ever ends, which is when Eglot would start.
              (should (memq 'okoshi-ensure nxml-mode-hook))
              (apply #'eglot (eglot--guess-contact))
              (test-wait "Eglot manages the buffer" (lambda () eglot--managed-mode))

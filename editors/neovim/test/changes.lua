@@ -1,4 +1,4 @@
--- What changes a drawing, as it is in the buffer afterwards.
+-- Requests that change a drawing, checked by the buffer's text afterwards.
 
 local h = require('harness')
 local arm = 'Rarm@Ubody$Shape roundv -90 90'

@@ -1,14 +1,14 @@
--- What the tests share: drawings in folders of their own, each with a server of its own, and questions to it.
+-- Shared by the tests: drawings in temporary folders, each with a server of its own, and requests to it.
 --
--- Places are told by the words that stand there. They are counted here and not with Neovim's functions, so that a
--- mistake in counting shows.
+-- Positions are given by the words at them. Offsets are counted here and not with Neovim's functions, so that errors in counting
+-- show.
 
 local M = { exits = {}, buffer = nil, uri = nil }
 
 local here = vim.fn.fnamemodify(debug.getinfo(1, 'S').source:sub(2), ':p:h')
 local root = vim.fn.fnamemodify(here, ':h:h:h')
 local okoshi = assert(os.getenv('OKOSHI'), 'OKOSHI names the program to test')
--- `default` is what Neovim asks for by itself: UTF-16 up to 0.10, then UTF-8.
+-- `default` is Neovim's default encoding: UTF-16 up to 0.10, then UTF-8.
 M.wanted_encoding = os.getenv('OKOSHI_ENCODING') or 'default'
 
 local is_new = vim.fn.has('nvim-0.11') == 1
@@ -31,7 +31,7 @@ function M.wait(about, condition)
   end
 end
 
--- Puts the plugin on the runtime path, as a person would, and says how the server is to be started.
+-- Puts the plugin on the runtime path, like a user, and configures how to start the server.
 function M.install()
   local config = {
     cmd = { okoshi, 'lsp' },
@@ -43,7 +43,7 @@ function M.install()
     config.capabilities = { general = { positionEncodings = { M.wanted_encoding } } }
     if not is_new then
       config.capabilities = vim.tbl_deep_extend('force', vim.lsp.protocol.make_client_capabilities(), config.capabilities)
-      -- Older versions do not know the server's answer; they leave it to this function.
+      -- Older versions ignore the server's answer; they leave it to this function.
       config.on_init = function(client, answer)
         client.offset_encoding = answer.capabilities.positionEncoding
       end
@@ -88,7 +88,7 @@ function M.example(name)
   return M.read(root .. '/examples/' .. name)
 end
 
--- A drawing's text with something else in the place of `old`.
+-- A drawing's text with `old` replaced.
 function M.with(text, old, new)
   local start, stop = text:find(old, 1, true)
   assert(start, old .. ' is not in the drawing')
@@ -111,7 +111,7 @@ function M.open(text, name)
   end)
 end
 
--- Closes everything; the servers must go by themselves, without a complaint.
+-- Closes everything; the servers must exit by themselves, without error messages.
 function M.close()
   local before, running = #M.exits, 0
   for _, client in pairs(clients()) do
@@ -119,7 +119,7 @@ function M.close()
     vim.lsp.stop_client(client.id)
   end
   M.wait('the server has ended', function()
-    -- A client may stay in the list for a moment after its server has ended.
+    -- A client may stay in the list for a moment after its server has exited.
     return #M.exits == before + running and vim.tbl_isempty(clients())
   end)
   for index = before + 1, #M.exits do
@@ -128,7 +128,7 @@ function M.close()
   vim.cmd('silent! %bwipeout!')
 end
 
--- Asks; an answer or an error.
+-- Sends a request; returns the answer or an error.
 function M.try(method, params)
   params = params or {}
   params.textDocument = params.textDocument or { uri = M.uri }
@@ -153,7 +153,7 @@ function M.ask(method, params)
   return result
 end
 
--- How long a text is in the encoding that was agreed on.
+-- The length of a text in the negotiated encoding.
 local function units(text)
   if M.client().offset_encoding == 'utf-8' then
     return #text
@@ -172,7 +172,7 @@ function M.lines()
   return vim.api.nvim_buf_get_lines(M.buffer, 0, -1, false)
 end
 
--- The place `bytes` behind the start of `words`, which stand once in the buffer or are the `nth`.
+-- The position `bytes` after the start of `words`, which occur once in the buffer or for the `nth` time.
 function M.at(words, bytes, nth)
   local left = nth or 1
   for number, line in ipairs(M.lines()) do
@@ -191,7 +191,7 @@ function M.range(words, bytes, length, nth)
   return { start = M.at(words, bytes, nth), ['end'] = M.at(words, bytes + length, nth) }
 end
 
--- Asks about a place.
+-- Sends a request about a position.
 function M.ask_at(method, words, bytes, more)
   return M.ask(method, vim.tbl_extend('force', { position = M.at(words, bytes) }, more or {}))
 end
@@ -207,14 +207,14 @@ local function byte_of(line, wanted)
   error(('column %d is within a character of\n%s'):format(wanted, line))
 end
 
--- The words that stand in a range within one line.
+-- The words in a range within one line.
 function M.words(range)
   M.equal(range.start.line, range['end'].line, 'a range of one line')
   local line = M.lines()[range.start.line + 1]
   return line:sub(byte_of(line, range.start.character) + 1, byte_of(line, range['end'].character))
 end
 
--- The tokens as `word kind`, in their order.
+-- The tokens as `word kind`, in order.
 function M.tokens(answer)
   local legend = M.client().server_capabilities.semanticTokensProvider.legend
   local out, line, column = {}, 0, 0
@@ -233,7 +233,7 @@ function M.tokens(answer)
   return out
 end
 
--- The diagnostics that Neovim shows, but for a code that does not matter here.
+-- The diagnostics that Neovim shows, except for a code that does not matter here.
 function M.shown(without)
   local found = vim.tbl_filter(function(diagnostic)
     return diagnostic.code ~= without
@@ -260,12 +260,12 @@ function M.wait_for_codes(expected)
   end
 end
 
--- Types keys, as a person does.
+-- Types keys, like a user.
 function M.type(keys)
   vim.api.nvim_feedkeys(vim.api.nvim_replace_termcodes(keys, true, false, true), 'xt', false)
 end
 
--- Puts the cursor in front of what stands `bytes` behind the start of `words`.
+-- Moves the cursor to `bytes` after the start of `words`.
 function M.go(words, bytes)
   for number, line in ipairs(M.lines()) do
     local start = line:find(words, 1, true)

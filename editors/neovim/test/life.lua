@@ -1,4 +1,4 @@
--- What lies outside of the text: linked files, commands, keys, and how a server ends.
+-- Everything outside of the text: linked files, commands, keys, and how a server exits.
 
 local h = require('harness')
 local arm = 'Rarm@Ubody$Shape roundv -90 90'
@@ -8,7 +8,7 @@ local function lives(pid)
   return vim.loop.kill(pid, 0) == 0
 end
 
--- Another Neovim that is spoken to as a user interface would, with the plugin and an open drawing.
+-- A second Neovim, controlled like by a user interface, with the plugin and an open drawing.
 local function other()
   local job = vim.fn.jobstart({ vim.v.progpath, '--headless', '--embed', '-u', 'NONE', '-i', 'NONE', '-n' }, { rpc = true })
   assert(job > 0, 'Neovim cannot be started')
@@ -72,7 +72,7 @@ return {
       h.equal({ lenses[1].command.command, lenses[1].command.arguments }, { 'okoshi.preview', { h.uri } })
       h.equal(lenses[1].range.start, { line = 1, character = 0 })
 
-      -- What the person is told, or shown where a viewer can be started.
+      -- The message to the user, or the page if a browser can be started.
       local told = {}
       local notify, message = vim.notify, vim.lsp.handlers['window/showMessage']
       vim.notify = function(words)
@@ -126,7 +126,7 @@ return {
         return item.word
       end, lua('return vim.fn.complete_info({ "items" }).items'))
       h.equal(vim.tbl_contains(words, 'Ubody'), true, 'Ubody is in the menu')
-      -- One letter more leaves one word.
+      -- After one more letter only one completion is left.
       vim.rpcrequest(job, 'nvim_input', 'o<C-n><C-y><Esc>')
       h.wait('the word is written', function()
         return lua('return h.text()'):find('>Rarm@Ubody$Shape roundv<', 1, true) ~= nil

@@ -1,4 +1,4 @@
--- What is asked about a drawing that does not change.
+-- Requests about a drawing that does not change.
 
 local h = require('harness')
 local arm = 'Rarm@Ubody$Shape roundv -90 90'
@@ -16,7 +16,7 @@ local function labels(items)
   end, items)
 end
 
--- What stands before the line break of the first line at which a range starts.
+-- The text before the line break of the first line where a range starts.
 local function line_at(range)
   return vim.trim(h.lines()[range.start.line + 1])
 end
@@ -86,7 +86,7 @@ return {
     needs = 'nvim-0.11',
     function()
       h.open(fault)
-      -- A second server for the same buffer, which is told all that this Neovim can do.
+      -- A second server for the same buffer, which gets all capabilities of this Neovim.
       local config = h.client().config
       vim.lsp.start({ name = 'second', cmd = config.cmd, on_exit = config.on_exit })
       local function codes()
@@ -109,7 +109,7 @@ return {
         h.wait('the faults are told', function()
           return vim.deep_equal(codes(), case[2])
         end)
-        -- What comes late must not stand beside them.
+        -- Late answers must not be added.
         vim.wait(300)
         h.equal(codes(), case[2])
         if case[1] == '' then
@@ -181,7 +181,7 @@ return {
       end
       h.equal(target(arm, 6), h.range('>Ubody<', 1, 5))
       h.equal(target(arm, 1).start.line, h.at('id="path114"').line - 2, 'line of the shape that a string is bound to')
-      -- By the key for it, over `tagfunc`.
+      -- With its key, through `tagfunc`.
       h.go(arm, 6)
       h.type('<C-]>')
       h.equal({ vim.fn.line('.'), vim.fn.col('.') }, { 137, 20 }, 'where the cursor is after CTRL-]')

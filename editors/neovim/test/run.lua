@@ -1,6 +1,6 @@
--- Drives the language server from a real Neovim, over the plugin that people install:
+-- Drives the language server from a real Neovim, through the plugin that users install:
 --   OKOSHI=target/debug/okoshi nvim --headless -u NONE -i NONE -n -c 'luafile editors/neovim/test/run.lua'
--- OKOSHI_ENCODING=utf-8 or utf-16 has Neovim ask for that encoding alone; ONLY=words runs the tests whose names have them.
+-- OKOSHI_ENCODING=utf-8 or utf-16 offers only that encoding; ONLY=words runs the tests whose names contain them.
 
 local here = vim.fn.fnamemodify(debug.getinfo(1, 'S').source:sub(2), ':p:h')
 package.path = here .. '/?.lua;' .. package.path

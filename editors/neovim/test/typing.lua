@@ -1,9 +1,9 @@
--- Typing: Neovim tells of each change by itself, and the server must end with the text that stands in the buffer.
+-- Typing: Neovim sends each change, and the server must end with the text in the buffer.
 
 local h = require('harness')
 local arm = 'Rarm@Ubody$Shape roundv -90 90'
 
--- What the server thinks of the buffer.
+-- The server's answers about the buffer.
 local function idea()
   local report = h.ask('textDocument/diagnostic')
   return {
@@ -15,7 +15,7 @@ local function idea()
   }
 end
 
--- The same of a buffer that was never typed in.
+-- The same for a buffer that was never typed in.
 local function fresh_idea()
   local text, format = h.text(), vim.bo.fileformat
   if format == 'dos' then
@@ -73,7 +73,7 @@ return {
       local kind = vim.tbl_filter(function(item)
         return item.label == 'roundv'
       end, proposals)[1]
-      -- Neovim takes snippets from 0.10 on.
+      -- Neovim supports snippets since 0.10.
       local written = vim.fn.has('nvim-0.10') == 1 and 'roundv ${1:-90} ${2:90}' or 'roundv'
       h.equal({ kind.textEdit.newText, h.words(kind.textEdit.range) }, { written, 'ro' })
       same_as_fresh()
@@ -83,7 +83,7 @@ return {
     'two hundred changes of all sorts',
     function()
       h.open(h.example('robot-ja.svg'))
-      -- The same on every machine: a generator of its own (Lehmer's, with the modulus 2^31 - 1).
+      -- The same on every machine: a Lehmer generator with the modulus 2^31 - 1.
       local state = 42
       local function random(most)
         state = (state * 48271) % 2147483647
@@ -115,7 +115,7 @@ return {
           vim.wait(200)
         end
       end
-      -- Wherever it ended, these are faults of the XML that are gone after undoing all, but for one string.
+      -- Wherever it ended, the XML errors are gone after undoing everything, except for one string.
       vim.cmd('silent undo 0')
       h.equal(h.text(), h.example('robot-ja.svg'))
       h.go('頭＠胴')

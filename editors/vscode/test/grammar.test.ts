@@ -1,4 +1,4 @@
-// The grammars that the package carries, in VS Code's own engine, injected into VS Code's XML grammar.
+// The package's grammars in VS Code's own engine, injected into VS Code's XML grammar.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -12,7 +12,7 @@ import { drawings } from "./paths";
 const find = createRequire(`${process.cwd()}/package.json`).resolve;
 const read = (path: string) => readFileSync(path, "utf8");
 
-/** Registries of the grammars, with the injections into the scopes that the manifest names or without any. */
+/** Registries of the grammars, with the injections into the scopes of the manifest, or without any. */
 function registry(injected: boolean): textmate.Registry {
   const contributed = new Map(manifest.contributes.grammars.map((one) => [one.scopeName, one]));
   return new textmate.Registry({
@@ -22,7 +22,7 @@ function registry(injected: boolean): textmate.Registry {
       if (own) return textmate.parseRawGrammar(read(own.path), own.path);
       const xml = find("tm-grammars/grammars/xml.json");
       if (scope === "text.xml") return textmate.parseRawGrammar(read(xml), xml);
-      // SVG extensions bring a scope of their own for what is XML.
+      // SVG extensions have their own scope for XML.
       if (scope === "text.xml.svg") return { ...JSON.parse(read(xml)), scopeName: scope };
       return null;
     },
@@ -52,7 +52,7 @@ async function tokenise(text: string, scope = "text.xml", injected = true): Prom
   });
 }
 
-/** The innermost scope of the first token that is `text`, in one line of a drawing. */
+/** The innermost scope of the first token `text` in one line of a drawing. */
 async function scopeOf(line: string, text: string, scope?: string): Promise<string | undefined> {
   const found = (await tokenise(line, scope)).flat().find((token) => token.text.trim() === text);
   assert.ok(found, `${text} is a token of ${line}`);
@@ -138,7 +138,7 @@ test("texts without strings, tags and comments are as they were", async () => {
 test("in all examples and cases, colours change inside of texts only", async () => {
   let strings = 0;
   for (const drawing of [...drawings("examples"), ...drawings("tests/cases")]) {
-    // Long lines are path data; the engine is slow there, and tags are seen in all others.
+    // Long lines are path data, on which the engine is slow; tags occur in all others.
     const text = read(drawing).split("\n").map((line) => line.slice(0, 2000)).join("\n");
     const plain = await tokenise(text, "text.xml", false);
     const coloured = await tokenise(text);
@@ -149,7 +149,7 @@ test("in all examples and cases, colours change inside of texts only", async () 
       for (const token of line.filter(inString)) {
         assert.ok(!token.scopes.some((scope) => scope.startsWith("comment.block.xml")), place);
       }
-      // What is not in a string has the scopes that it has without us.
+      // Text outside of strings has the same scopes as without the extension.
       const before = plain[at]?.flatMap(({ text, scopes }) => [...text].map((character) => `${character} ${scopes.join(" ")}`)) ?? [];
       let column = 0;
       for (const token of line) {

@@ -39,7 +39,7 @@ test("no language is contributed, and nothing but XML and its own panel wakes th
   assert.deepEqual(manifest.activationEvents, ["onLanguage:xml", "onLanguage:svg", "onWebviewPanel:okoshi.preview"]);
 });
 
-/** A snippet as it is inserted when nothing is changed. */
+/** A snippet as inserted without changes. */
 const insert = (body: readonly string[]) =>
   body
     .join("\n")

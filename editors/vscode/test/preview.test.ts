@@ -1,4 +1,4 @@
-// The preview of a drawing, between a page and a language server that are made up here: the server speaks JSON-RPC over streams.
+// The preview of a drawing, with a simulated page and language server: the server speaks JSON-RPC over streams.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -16,7 +16,7 @@ const drawings: Message = { type: "drawings", drawings: [{ id: DRAWING, name: "f
 const build = (revision: number): Message => ({ type: "build", drawing: DRAWING, build: { revision, model: `builds/${revision}.glb`, originals: `builds/${revision}.originals.glb`, clips: [{ name: "kick" }] } });
 const light = (part: string | null): Message => ({ type: "light", drawing: DRAWING, part });
 
-/** A server that knows one drawing with one part, Arm, and has the models 1 and 2, and the full clips of both. It notes what it is told. */
+/** A server with one drawing with one part, Arm, the models 1 and 2, and the full clips of both. It records what it receives. */
 function fakeServer(t: TestContext, knowsPreviews = true) {
   const [there, back] = [new PassThrough(), new PassThrough()];
   const server = createMessageConnection(new StreamMessageReader(there), new StreamMessageWriter(back));
@@ -42,7 +42,7 @@ function fakeServer(t: TestContext, knowsPreviews = true) {
     client.dispose();
   };
   t.after(end);
-  /** Sends news, and waits until it has arrived. */
+  /** Sends messages, and waits until they have arrived. */
   const sends = async (...messages: Message[]) => {
     await server.sendNotification(PREVIEW_NOTIFICATION, { textDocument, messages });
     await client.sendRequest("okoshi/preview/model", { address: "" });
@@ -50,7 +50,7 @@ function fakeServer(t: TestContext, knowsPreviews = true) {
   return { server, client, told, end, sends };
 }
 
-/** A preview of the drawing whose page and text are made up. */
+/** A preview of the drawing with a simulated page and text. */
 function preview() {
   const posted: Message[] = [];
   const done: unknown[] = [];
@@ -72,7 +72,7 @@ function preview() {
     cursor = position;
     session.moved();
   };
-  /** What was posted since the last time. */
+  /** What was posted since the last call. */
   const fresh = () => posted.splice(0);
   return { session, posted, done, logged, connect, set, fresh };
 }
@@ -100,7 +100,7 @@ test("the page is told the server's news as it is, once it listens", async (t) =
   assert.deepEqual(fresh(), [drawings, { type: "something new", drawing: DRAWING }, build(2), light("Arm"), open]);
   await sends(light(null));
   assert.deepEqual(fresh(), [light(null)]);
-  // Moved to a window of its own, a page begins anew.
+  // A page that is moved to its own window reloads.
   await session.receive({ type: "ready" });
   assert.deepEqual(fresh().filter(({ type }) => type === "build" || type === "light"), [build(2), light(null)]);
 });
@@ -115,11 +115,11 @@ test("models go to the page as bytes of their own, and where there is none it he
   const [answer, ...more] = fresh();
   assert.deepEqual([answer?.type, answer?.["address"], more], ["modelBytes", "builds/2.glb", []]);
   const bytes = answer?.["bytes"] as Uint8Array;
-  // The editor posts neither a Buffer nor a part of a larger one as bytes.
+  // The editor posts neither a Buffer nor a view of one as bytes.
   assert.equal(bytes.constructor, Uint8Array);
   assert.equal(bytes.buffer.byteLength, bytes.byteLength);
   assert.equal(Buffer.from(bytes).toString(), "glTF 2");
-  // The clips as they were before they were limited are asked for in the same way.
+  // The full clips are requested in the same way.
   await session.receive({ type: "model", address: "builds/2.originals.glb" });
   const [full] = fresh();
   assert.deepEqual([full?.["address"], Buffer.from(full?.["bytes"] as Uint8Array).toString()], ["builds/2.originals.glb", "glTF 2.originals"]);
@@ -178,7 +178,7 @@ test("a server that ends is waited for, and the next one is asked anew", async (
   session.disconnect(away);
   assert.deepEqual(fresh(), [{ type: "link", ...away }]);
   assert.match(away.note, /not running/);
-  // PreviewMessages that was on its way is not the next server's.
+  // Messages that were still on their way are not those of the next server.
   session.messages([build(7)]);
   assert.deepEqual(fresh(), []);
 
@@ -186,7 +186,7 @@ test("a server that ends is waited for, and the next one is asked anew", async (
   set({ line: 1, character: 1 });
   await connect(second.client);
   assert.deepEqual(fresh(), [{ type: "link", state: "connecting", note: "" }]);
-  // Its builds are counted anew. They are told of first: a page that heard of the server alone would ask it for an old model.
+  // Its builds are counted from the beginning. They come first: a page that knew of the server alone would ask it for an old model.
   await second.sends(drawings);
   await second.sends(build(1));
   assert.deepEqual(fresh(), [drawings, build(1), open]);
@@ -282,7 +282,7 @@ test("the bundled page runs its own script, loads its own style, and may do noth
   assert.deepEqual(allowed.get("default-src"), ["'none'"]);
   assert.deepEqual(allowed.get("script-src"), ["'nonce-n0nce'"]);
   assert.doesNotMatch(policy, /unsafe|\*/);
-  // The policy holds for what follows it.
+  // The policy applies to everything after it.
   assert.ok(page.indexOf("Content-Security-Policy") < page.search(/<script|<link/));
   const scripts = [...page.matchAll(/<script[^>]*>/g)].map(([tag]) => tag);
   assert.deepEqual(scripts.map((tag) => [tag.includes('nonce="n0nce"'), tag.includes('src="https://panel/page.js"')]), [[true, true]]);

@@ -1,4 +1,4 @@
-// What the package holds: all that it needs and nothing else.
+// The content of the package: everything it needs and nothing else.
 
 import assert from "node:assert/strict";
 import { readFileSync, statSync } from "node:fs";

@@ -1,4 +1,4 @@
-// Bundles the page into dist/: page.html, page.js and page.css, which need nothing else.
+// Bundles the page into dist/: page.html, page.js and page.css, which need no other files.
 
 import { copyFileSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -41,7 +41,7 @@ export async function bundle() {
     format: "iife",
     target: ["es2022", "chrome111", "firefox115", "safari16.4"],
     minify: true,
-    // The whole licences are written below; the short comments that stand for them are not kept beside them.
+    // The full licences are added below, so the short comments are removed.
     legalComments: "none",
     charset: "utf8",
     metafile: true,

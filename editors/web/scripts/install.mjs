@@ -1,4 +1,4 @@
-// Installs what the lock file says, unless that was done since it changed.
+// Installs the locked dependencies unless they are up to date.
 
 import { spawnSync } from "node:child_process";
 import { existsSync, statSync } from "node:fs";

@@ -1,6 +1,6 @@
-// All tests: `npm test`. Checks types, bundles the page, and tries it: its modules by themselves, and in Chromium against a host of
-// the tests' own. OKOSHI names the program that makes the models (else the repository's own build is taken), CHROMIUM the browser;
-// without one of them the tests in the browser are skipped, and say so.
+// All tests: `npm test`. Checks types, bundles the page, and tests it: its modules alone, and the page in Chromium with a host of the
+// tests' own. OKOSHI is the program that builds models (default: the repository's own build), CHROMIUM the browser; without one of
+// them the browser tests are skipped with a message.
 
 import { spawnSync } from "node:child_process";
 import { existsSync, readdirSync, rmSync } from "node:fs";
@@ -22,7 +22,7 @@ const { bundle } = await import("./build.mjs");
 await bundle();
 
 const { build } = await import("esbuild");
-// Within the package: what tests import is found from there.
+// Inside the package, so that imports in tests are resolved from there.
 const out = join("test", "out", "js");
 rmSync(out, { recursive: true, force: true });
 const wanted = process.argv.slice(2);

@@ -1,6 +1,6 @@
-// Puts a clip into a model: the drawing language has one way to bring clips in, and its examples use none.
+// Adds a clip to a model: the drawing language imports clips in one way only, which its examples do not use.
 
-/** A GLB in which the named node's rotation has held keys: `turns` are quaternions, one a quarter of a second. */
+/** A GLB in which the named node's rotation has held keys: `turns` are quaternions, a quarter of a second each. */
 export function animate(glb: Buffer, node: string, name: string, turns: readonly (readonly number[])[]): Buffer {
   const length = glb.readUInt32LE(12);
   const json = JSON.parse(glb.subarray(20, 20 + length).toString("utf8")) as Record<string, { name?: string; byteLength: number }[]> & { animations?: unknown[] };

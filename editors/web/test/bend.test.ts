@@ -32,7 +32,7 @@ const prepare = (host: { add(id: string): void; built(id: string, made: ReturnTy
   host.built("island.svg", island());
 };
 
-/** The box of what has a colour in the picture, in pixels, and how much of the box is filled. */
+/** The bounding box of the coloured pixels in the picture, and which share of it is filled. */
 async function box(page: Page, colour: Colour, name?: string): Promise<{ width: number; height: number; top: number; filled: number }> {
   const { data, width: wide } = await picture(page, name);
   let [left, right, top, bottom, count] = [Infinity, -1, Infinity, -1, 0];
@@ -115,7 +115,7 @@ browse("what is bent is picked where it is seen, and framed as it is seen", prep
   const high = top.height + front.height;
   assert.ok(high > canvas.height * 0.7 && high < canvas.height * 0.95, `${high} of ${canvas.height} pixels`);
   near(top.top - canvas.y, canvas.y + canvas.height - (front.top + front.height), "as much is left above as below", 6);
-  // The back edge of the top, which without the bend would be a fifth of the cube lower. Its node stands at (3, 0, −2).
+  // The back edge of the top, which without the bend would be a fifth of the cube lower. Its node is at (3, 0, −2).
   const edge = await project(page, 3.5, 0, -2);
   const unit = top.width;
   await page.mouse.click(edge.x, edge.y - unit * 0.97);

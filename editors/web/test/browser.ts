@@ -1,4 +1,4 @@
-// Chromium, and what tests ask of it.
+// Chromium, and queries of the page for tests.
 
 import { accessSync, constants, existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
@@ -27,7 +27,7 @@ export async function launch(): Promise<Browser> {
   });
 }
 
-/** A page whose errors, policy breaches among them, fail the test through `wrong`. */
+/** Opens a page; errors, including violations of its policy, fail the test through `wrong`. */
 export async function open(browser: Browser, address: string, options: BrowserContextOptions = {}): Promise<{ page: Page; wrong: string[] }> {
   const context = await browser.newContext({ viewport: { width: 1200, height: 800 }, reducedMotion: "reduce", ...options });
   const page = await context.newPage();
@@ -36,7 +36,7 @@ export async function open(browser: Browser, address: string, options: BrowserCo
   page.on("pageerror", (error) => wrong.push(String(error)));
   page.on("console", (message) => {
     if (message.type() !== "error" && message.type() !== "warning") return;
-    // What the software renderer says of its own speed, and what a browser says of a host that is away.
+    // Performance warnings of the software renderer, and the browser's messages about a host that is away.
     if (/GPU stall|KHR_parallel_shader_compile|GL Driver Message|WebSocket connection to|net::ERR_CONNECTION/.test(message.text())) return;
     wrong.push(message.text());
   });
@@ -44,13 +44,13 @@ export async function open(browser: Browser, address: string, options: BrowserCo
   return { page, wrong };
 }
 
-/** Waits until the model of this build is shown, or of any. */
+/** Waits until the model of this build, or of any, is shown. */
 export async function shown(page: Page, revision?: number): Promise<void> {
   await page.waitForSelector(revision === undefined ? "canvas[data-revision]" : `canvas[data-revision="${revision}"]`, { state: "attached" });
   await still(page);
 }
 
-/** Waits until nothing is drawn any more: what was asked for is drawn within a frame, however long that takes here. */
+/** Waits until no more frames are drawn. */
 export async function still(page: Page): Promise<void> {
   await page.evaluate(async () => {
     const canvas = document.querySelector("canvas")!;
@@ -63,10 +63,10 @@ export async function still(page: Page): Promise<void> {
   });
 }
 
-/** Where the camera is, as the page says. */
+/** The state of the camera, as the page reports it. */
 export const camera = async (page: Page): Promise<string> => (await page.getAttribute("canvas", "data-view")) ?? "";
 
-/** Where in the window a place of the model is seen. */
+/** The position in the window of a point of the model. */
 export async function project(page: Page, x: number, y: number, z: number): Promise<{ x: number; y: number }> {
   const words = (await camera(page)).split(" ");
   const [tx, ty, tz, px, py, pz, height] = words.map(Number) as [number, number, number, number, number, number, number];
@@ -83,7 +83,7 @@ export async function project(page: Page, x: number, y: number, z: number): Prom
 
 export type Colour = readonly [number, number, number];
 
-/** The window as it is seen. */
+/** A screenshot of the window. */
 export async function picture(page: Page, name?: string): Promise<{ at(place: { x: number; y: number }): Colour; width: number; height: number; data: Buffer }> {
   const png = PNG.sync.read(await page.screenshot(name ? { path: join(OUT, `${name}.png`) } : {}));
   const scale = png.width / page.viewportSize()!.width;
@@ -98,7 +98,7 @@ export async function picture(page: Page, name?: string): Promise<{ at(place: { 
   };
 }
 
-/** Names of things that lie over each other, or reach out of the window. */
+/** The elements that overlap or extend beyond the window. */
 export const overlaps = (page: Page) =>
   page.evaluate(() => {
     const seen = [...document.querySelectorAll<HTMLElement>(".bar > *, .toolbar button, .findings, .side, .bendbar > *, .clips > :not(.transport, .clip-looks, .clip-names), .clip-names > *, .transport > *, .clip-looks > *, .chart, .posebar")].filter((one) => one.offsetParent !== null && one.getBoundingClientRect().width > 0);

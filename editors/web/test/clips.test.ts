@@ -1,4 +1,4 @@
-// Clips: their drawings in time, the chart of movement, and full beside limited.
+// Clips: the timing of drawings, the movement chart, and the comparison of full and limited clips.
 
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
@@ -16,7 +16,7 @@ const kicking = (made = kick()) => (host: MockHost): void => {
 };
 const readout = (page: Page) => page.locator(".clips .readout").innerText();
 const marks = (page: Page, name: string) => page.locator(`.chart-${name}`).getAttribute("data-marks").then(Number);
-/** Where in the chart a frame of the source is seen, counted from 0. */
+/** The x coordinate of a source frame in the chart, counted from 0. */
 const inChart = async (page: Page, source: number): Promise<{ x: number; y: number }> => {
   const box = (await page.locator(".chart-picture").boundingBox())!;
   return { x: box.x + 50 + ((box.width - 62) * (source + 0.5)) / FRAMES, y: box.y + 60 };
@@ -27,13 +27,13 @@ const front = async (page: Page) => {
   await page.keyboard.press("5");
   await still(page);
 };
-/** The colour of the middle of the raised leg, in a frame of the source, so far to the right. */
+/** The colour at the middle of the raised leg in a source frame, at an offset to the right. */
 const leg = async (page: Page, source: number, offset = 0): Promise<Colour> => {
   const angle = raised(source);
   const hip = 0.1 + (0.6 * source) / (FRAMES - 1);
   return (await picture(page)).at(await project(page, offset + hip + 0.6 * Math.sin(angle), 0.8 - 0.6 * Math.cos(angle), 0.08));
 };
-/** The frame, from 0, at which a drawing begins. */
+/** The frame, from 0, where a drawing begins. */
 const begins = (drawing: number): number => EXPOSURE.slice(0, drawing).reduce((sum, [, frames]) => sum + frames, 0);
 
 browse("a limited clip is counted in drawings and frames over its true length, with its last drawing held", kicking(), async (page) => {
@@ -60,13 +60,13 @@ browse("a limited clip is counted in drawings and frames over its true length, w
   }
   await page.keyboard.press("j");
   assert.match(await readout(page), /^drawing 6 of /);
-  // From within a drawing back to where it begins.
+  // From within a drawing back to its beginning.
   const held = EXPOSURE.findIndex(([, frames]) => frames === 3);
   await page.locator(".slider").fill(String((begins(held) + 2.5) / FPS));
   await page.locator("canvas").focus();
   await page.keyboard.press("j");
   assert.match(await readout(page), new RegExp(`^drawing ${held + 1} of .* frame ${begins(held) + 1} of `));
-  // Time goes on through the last drawing before the clip begins again.
+  // The last drawing is held for its full time before the clip starts over.
   await page.locator(".slider").fill(String((begins(DRAWINGS - 1) + 0.2) / FPS));
   await page.locator("canvas").focus();
   await page.keyboard.press("Space");
@@ -105,7 +105,7 @@ browse("the chart has a point a frame, the omitted and the drawings; its playhea
   const start = await playhead(page);
   await page.keyboard.press("k");
   assert.ok((await playhead(page)) > start, "the playhead moves");
-  // The frame after those that are omitted is a drawing of its own.
+  // The frame after the omitted ones is a drawing of its own.
   const after = OMITTED.at(-1)! + 1;
   const drawing = EXPOSURE.findIndex(([source]) => source === after);
   const place = await inChart(page, after);
@@ -116,7 +116,7 @@ browse("the chart has a point a frame, the omitted and the drawings; its playhea
   assert.match(await readout(page), new RegExp(`^drawing ${drawing + 1} of .* frame ${begins(drawing) + 1} of`));
   assert.equal(await page.locator(".chart-picture").getAttribute("data-source"), String(after + 1));
   assertLike(await leg(page, after), LEG, "the leg in the drawing that was clicked");
-  // A drag seeks on and on; over what is omitted, the drawing before it stands.
+  // A drag seeks continuously; over omitted frames the drawing before them is shown.
   const gone = await inChart(page, OMITTED[2]!);
   await page.mouse.move(place.x, place.y);
   await page.mouse.down();
@@ -153,7 +153,7 @@ browse("full and limited stand side by side, and each moves in its own way", kic
   const [own, other] = await Promise.all([0, 1].map(async (at) => (await page.locator(".caption").nth(at).boundingBox())!));
   assert.ok(own!.x + own!.width < other!.x, "labels stand over their own");
 
-  // Within a held drawing the limited one has not moved on, and the full one has.
+  // Within a held drawing the limited clip does not move, and the full one does.
   const held = EXPOSURE.findIndex(([source, frames]) => frames === 3 && source > 36);
   const [source] = EXPOSURE[held]!;
   const frame = begins(held) + 2;
@@ -162,13 +162,13 @@ browse("full and limited stand side by side, and each moves in its own way", kic
   await picture(page, "beside");
   assertLike(await leg(page, source), LEG, "the limited leg");
   assertLike(await leg(page, frame, offset), LEG, "the full leg");
-  // Among the in-betweens that are left out the two differ most.
+  // The difference is largest among the omitted in-betweens.
   await page.locator(".slider").fill(String((OMITTED[1]! + 0.02) / FPS));
   await still(page);
   assertLike(await leg(page, OMITTED[1]!, offset), LEG, "the full leg between");
   assert.ok(!isLike(await leg(page, OMITTED[1]!), LEG), "the limited leg is elsewhere");
 
-  // The pointer finds parts in both.
+  // Both can be picked.
   const head = await project(page, offset + (0.6 * OMITTED[1]!) / (FRAMES - 1), 1.55, 0.13);
   await page.mouse.move(head.x, head.y);
   await page.waitForSelector(".tree-item.hovered[data-part=Head]");
@@ -177,7 +177,7 @@ browse("full and limited stand side by side, and each moves in its own way", kic
   await picture(page, "beside-selected");
   await page.mouse.move(5, 5);
 
-  // Another clip is beside itself too; one that is not limited is the same in both.
+  // Another clip is compared too; both sides of one that is not limited are the same.
   await page.locator(".clip-choice").selectOption({ index: 1 });
   assert.deepEqual(await page.locator(".caption").allInnerTexts(), ["full", "full"]);
   await page.locator(".slider").fill(String((OMITTED[1]! + 0.02) / FPS));
@@ -187,7 +187,7 @@ browse("full and limited stand side by side, and each moves in its own way", kic
   await page.locator(".slider").fill(String((OMITTED[1]! + 0.02) / FPS));
   await page.locator("canvas").focus();
 
-  // A save changes both, and the clips of the new build are fetched.
+  // A new build changes both, and its full clips are fetched.
   host.built("kick.svg", kick(undefined, (colour) => (colour === LEG ? [0, 0, 220] : colour)));
   await shown(page, 2);
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);
@@ -201,11 +201,11 @@ browse("full and limited stand side by side, and each moves in its own way", kic
   assert.equal(await camera(page), before, "the camera is where it was");
   assert.equal(await page.locator(".caption").first().isVisible(), false);
   assert.ok(!isLike(await leg(page, OMITTED[1]!, offset), [0, 0, 220]));
-  // Once more: what was fetched is not fetched again.
+  // The second time nothing is fetched again.
   await page.keyboard.press("o");
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);
   assert.equal(host.asked.filter((path) => path.endsWith("originals.glb")).length, 2);
-  // A build in which nothing is limited any more has nothing beside it.
+  // The comparison ends with a build in which nothing is limited.
   host.built("kick.svg", { ...kick([FULL]), originals: null });
   await shown(page, 3);
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"] === "");

@@ -1,4 +1,4 @@
-// A cube of terrain, made by hand: the drawing language is not asked.
+// A cube of terrain, made by hand instead of compiled from a drawing.
 
 import type { Made } from "./drawings";
 import { glb } from "./glb";
@@ -12,7 +12,7 @@ interface Face {
   readonly corners: readonly (readonly [number, number, number])[];
 }
 
-/** The faces that reach to the right, up and towards the front from the origin, one metre long. */
+/** The faces towards the right, the top and the front, one metre long from the origin. */
 const FACES: readonly Face[] = [
   { colour: TOP, corners: [[0, 1, 1], [1, 1, 1], [1, 1, 0], [0, 1, 0]] },
   { colour: FRONT, corners: [[0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]] },
@@ -21,7 +21,7 @@ const FACES: readonly Face[] = [
 
 const linear = (byte: number): number => (byte <= 10 ? byte / 255 / 12.92 : ((byte / 255 + 0.055) / 1.055) ** 2.4);
 
-/** A GLB with the cube on a node named `Island` that bends with the view, or does not; its colours are seen without light. */
+/** A GLB with the cube on a node named `Island` that bends with the view, or does not; its materials are unlit. */
 export function cube(bends: boolean): Buffer {
   const faces = FACES.length;
   const positions = Float32Array.from(FACES.flatMap(({ corners }) => corners.flat()));
@@ -60,7 +60,7 @@ export function cube(bends: boolean): Buffer {
   );
 }
 
-/** The build of a drawing that makes the cube. */
+/** The build of a drawing with the cube. */
 export function island(bends = true): Made {
   const part = { name: "Island", parent: null, kind: "main", element: "island", string: null, attributes: {}, joint: null };
   return { model: cube(bends), picture: null, build: { milliseconds: 1, stale: false, triangles: 6, findings: [], parts: [part] } };

@@ -1,4 +1,4 @@
-// What a host would say of a drawing, made with the program itself.
+// Builds drawings with the program, as messages of a host.
 
 import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -7,7 +7,7 @@ import { basename, dirname, join } from "node:path";
 
 export interface Made {
   readonly model: Buffer | null;
-  /** The clips as they were before they were limited. */
+  /** The clips before limiting. */
   readonly originals?: Buffer | null;
   readonly picture: Buffer | null;
   readonly build: Record<string, unknown>;
@@ -25,17 +25,17 @@ interface Diagnostic {
   readonly end_column: number;
 }
 
-/** Builds a drawing's text, beside the file whose links it has. */
+/** Builds a drawing's text in the folder of its links. */
 export function make(okoshi: string, text: string, beside: string): Made {
   const scratch = mkdtempSync(join(tmpdir(), "okoshi-web-"));
-  // The drawing lies where its links are found; its name keeps it from others'.
+  // The drawing is written beside the files that it links to, under a unique name.
   const drawing = join(dirname(beside), `.${basename(scratch)}.svg`);
   try {
     writeFileSync(drawing, text);
     const run = (...args: string[]) => spawnSync(okoshi, args, { encoding: "utf8", maxBuffer: 1 << 28 });
     const began = performance.now();
     const built = run("build", "-q", drawing, "-o", join(scratch, "a.glb")).status === 0;
-    // The start of the program included: a host that stays is faster.
+    // Including the start of the program: a running host is faster.
     const milliseconds = performance.now() - began;
     if (built) execFileSync(okoshi, ["render", "-q", join(scratch, "a.glb"), "-o", join(scratch, "a.png"), "--size", "256x256"]);
     const { parts } = JSON.parse(run("inspect", drawing, "--json").stdout) as { parts: unknown[] };

@@ -1,6 +1,6 @@
-// Writes a GLB by hand: the drawing language is not asked.
+// Writes a GLB by hand.
 
-/** The file of a glTF whose one buffer is `bytes`. */
+/** The file of a glTF whose only buffer is `bytes`. */
 export function glb(json: Readonly<Record<string, unknown>>, bytes: Buffer): Buffer {
   const filled = (content: Buffer, to: string): Buffer => Buffer.concat([content, Buffer.alloc((4 - (content.length % 4)) % 4, to)]);
   const binary = filled(bytes, "\0");

@@ -1,14 +1,14 @@
-// A figure of boxes that steps to the side and kicks, made by hand: limited, and as it was before.
+// A figure of boxes that steps to the side and kicks, made by hand: limited, and in full.
 
 import type { Made } from "./drawings";
 import { glb } from "./glb";
 
 export const FRAMES = 60;
 export const FPS = 24;
-/** The last drawing's key is earlier: it stands until then. */
+/** The key of the last drawing is earlier: it is held until then. */
 export const SECONDS = FRAMES / FPS;
 export const LEG = [220, 0, 0] as const;
-/** The in-betweens around the fastest movement that are left out. */
+/** The omitted in-betweens around the fastest movement. */
 export const OMITTED = [27, 28, 29, 30];
 /** How far the figure steps to the side, in metres. */
 const STEP_ASIDE = 0.6;
@@ -21,7 +21,7 @@ interface Box {
   readonly colour: Vector;
   readonly from: Vector;
   readonly to: Vector;
-  /** Where it stands on its parent. */
+  /** Its position on its parent. */
   readonly at: Vector;
   readonly children: readonly number[];
 }
@@ -33,7 +33,7 @@ const BOXES: readonly Box[] = [
   { name: "Head", colour: [230, 180, 90], from: [-0.13, 0, -0.13], to: [0.13, 0.3, 0.13], at: [0, 0.64, 0], children: [] },
 ];
 
-/** How far the leg is raised in a frame of the source, in radians: slowly back, quickly up, slowly down. */
+/** The angle of the leg in a source frame, in radians: slowly back, quickly up, slowly down. */
 export function raised(frame: number): number {
   const between = (from: number, to: number): number => {
     const t = Math.min(Math.max((frame - from) / (to - from), 0), 1);
@@ -43,7 +43,7 @@ export function raised(frame: number): number {
 }
 const aside = (frame: number): number => (STEP_ASIDE * frame) / (FRAMES - 1);
 
-/** Of the two joints that move, hip and foot. */
+/** For the two joints that move, hip and foot. */
 export const SSD = Array.from({ length: FRAMES }, (_, frame) => {
   if (frame === 0) return 0;
   const foot = (at: number): Vector => [aside(at) + LEG_LENGTH * Math.sin(raised(at)), -LEG_LENGTH * Math.cos(raised(at)), 0];
@@ -51,7 +51,7 @@ export const SSD = Array.from({ length: FRAMES }, (_, frame) => {
   return (a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2 + (aside(frame) - aside(frame - 1)) ** 2;
 });
 
-/** Slow frames are held, up to three; four stand longer for those that are left out. */
+/** Slow frames are held up to three times; four of them longer, in place of the omitted ones. */
 export const EXPOSURE: readonly (readonly [number, number])[] = (() => {
   const runs: [number, number][] = [];
   const slow = (frame: number): boolean => SSD[frame]! < 0.004;
@@ -66,7 +66,7 @@ export const EXPOSURE: readonly (readonly [number, number])[] = (() => {
   return runs;
 })();
 
-/** Numbers that go into the buffer, one after the other. */
+/** Numbers for the buffer. */
 class Numbers {
   readonly views: object[] = [];
   readonly accessors: object[] = [];
@@ -113,7 +113,7 @@ function box(numbers: Numbers, { from, to }: Box): object {
   return { attributes: { POSITION, NORMAL }, indices: numbers.add(Uint16Array.from(indices), "SCALAR") };
 }
 
-/** A clip that has these of the source's frames at these of its own. */
+/** A clip that shows these source frames at these of its own. */
 function clip(numbers: Numbers, name: string, keys: readonly (readonly [at: number, source: number])[], held: boolean): object {
   const times = Float32Array.from(keys, ([at]) => at / FPS);
   const input = numbers.add(times, "SCALAR", { min: [times[0]], max: [times.at(-1)] });
@@ -132,7 +132,7 @@ const linear = (byte: number): number => (byte / 255) ** 2.2;
 const full = Array.from({ length: FRAMES }, (_, frame) => [frame, frame] as const);
 const limited = EXPOSURE.map(([source], at) => [EXPOSURE.slice(0, at).reduce((sum, [, frames]) => sum + frames, 0), source] as const);
 
-/** Meshes have the names of their nodes, so that three.js calls one of the two otherwise; the file of the originals has none. */
+/** Meshes have the names of their nodes, so that three.js renames one of the two; the file of the originals has no meshes. */
 function file(withMeshes: boolean, clips: (numbers: Numbers) => object[], change: (colour: Vector) => Vector = (colour) => colour): Buffer {
   const numbers = new Numbers();
   const meshes = withMeshes ? BOXES.map((one, material) => ({ name: one.name, primitives: [{ ...box(numbers, one), material }] })) : undefined;
@@ -170,7 +170,7 @@ export const FACTS = {
   joints: { Body: { joint: "Hips", why: "the word body" }, Leg: { joint: "RightUpLeg", why: "drawn left, so right; lowest point near the ground" } },
   unmatched: ["Head", "Stand"],
 };
-/** The same clip as the motion file has it. */
+/** The same clip in full. */
 export const FULL = { ...FACTS, name: "slowly", file: "slowly.bvh", drawings: FRAMES, limited: false, exposure: full.map(([, source]) => [source, 1] as const), omitted: [], held: 0 };
 
 const part = (name: string, parent: string | null) => ({ name, parent, kind: "main", element: name.toLowerCase(), string: null, attributes: {}, joint: null });

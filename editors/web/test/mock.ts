@@ -1,4 +1,4 @@
-// A host for the page: serves the bundle under a strict policy, models and pictures by GET, messages through a WebSocket.
+// A host for the page: serves the bundle under a strict policy, models and pictures by GET, and messages through a WebSocket.
 
 import { readFileSync } from "node:fs";
 import { createServer, type IncomingMessage, type Server, type ServerResponse } from "node:http";
@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { WebSocketServer, type WebSocket } from "ws";
 import type { Made } from "./drawings";
 
-/** What the page can do with. */
+/** What the tests need of the host. */
 export const POLICY = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; connect-src 'self'";
 
 const TYPES: Readonly<Record<string, string>> = { html: "text/html; charset=utf-8", js: "text/javascript; charset=utf-8", css: "text/css; charset=utf-8", glb: "model/gltf-binary", png: "image/png" };
@@ -27,13 +27,13 @@ export class MockHost {
   private readonly drawings = new Map<string, Held>();
   private builds = 0;
   private port = 0;
-  /** What the page said. */
+  /** The messages of the page. */
   readonly heard: Record<string, unknown>[] = [];
-  /** Models are answered this much later, in milliseconds. */
+  /** The delay of models, in milliseconds. */
   delay = 0;
-  /** Files whose bytes are none that one can read. */
+  /** Addresses that return invalid files. */
   readonly broken = new Set<string>();
-  /** Addresses that were asked for. */
+  /** The requested addresses. */
   readonly asked: string[] = [];
 
   constructor(private readonly dist: string) {}
@@ -42,7 +42,7 @@ export class MockHost {
     return `http://127.0.0.1:${this.port}/`;
   }
 
-  /** Begins to answer; after a stop at the same port. */
+  /** Starts to listen; after a stop on the same port. */
   async start(): Promise<void> {
     const server = createServer((request, response) => this.answer(request, response));
     this.sockets = new WebSocketServer({ server, path: "/live" });
@@ -59,7 +59,7 @@ export class MockHost {
     await new Promise((resolve) => this.server?.close(resolve));
   }
 
-  /** Begins to count builds anew, as a host does that was started again. */
+  /** Restarts the count of builds, like a host that was restarted. */
   forget(): void {
     this.builds = 0;
     this.files.clear();
@@ -71,7 +71,7 @@ export class MockHost {
     this.say({ type: "drawings", drawings: this.list() });
   }
 
-  /** A drawing was built. One with errors keeps its last good model. */
+  /** Adds a build. One with errors keeps the last good model. */
   built(id: string, { model, originals, picture, build }: Made): void {
     const held = this.drawings.get(id)!;
     const number = ++this.builds;

@@ -11,7 +11,7 @@ const RED = [255, 0, 0] as const;
 const GREEN = [0, 160, 0] as const;
 const PAPER = [245, 243, 238] as const;
 
-/** Where a place of the fixture's drawing is in the model; `front` is how far its face stands out. */
+/** The position in the model of a point of the fixture's drawing; `front` is the height of its face. */
 const at = (page: Page, x: number, y: number, front = 0): Promise<{ x: number; y: number }> => project(page, (x - 180) / 100, (200 - y) / 100, front);
 const frames = (page: Page) => page.getAttribute("canvas", "data-frames").then(Number);
 const front = async (page: Page) => {
@@ -112,7 +112,7 @@ browse("embedded pictures are shown under the policy", one(example("looks")), as
   await shown(page);
   await front(page);
   await picture(page, "looks");
-  // The gull is a picture on a card; without it the card would be of one colour.
+  // The gull is a picture on a card; without it the card would have a single colour.
   const card = await project(page, 1.04, 1.456, 0.01);
   const seen = await picture(page);
   const colours = new Set<string>();
@@ -133,7 +133,7 @@ browse("the pointer lights parts up, a click picks one and tells the host", one(
   assert.deepEqual(host.heard.filter(({ type }) => type === "pick"), [{ type: "pick", drawing: "figure.svg", part: "Arm" }]);
   const facts = await page.locator(".inspector").innerText();
   for (const fact of [/nearest/, /Line\s+6, column/, /Parent\s+Body/, /#arm/, /Shape\s+default -8 8\s+its string/, /Color\s+0 0.627 0\s+built in/]) assert.match(facts, fact);
-  // A drag is no click.
+  // A drag is not a click.
   const body = await at(page, 140, 150, 0.2);
   await page.mouse.move(body.x, body.y);
   await page.mouse.down();
@@ -150,7 +150,7 @@ browse("a selected part is outlined, also where another stands before it", one(F
   await page.mouse.move(5, 5);
   await page.keyboard.press("Shift+3");
   await still(page);
-  // From the model's right the body hides the arm; only its outline is seen.
+  // From the model's right the body hides the arm; only its outline is visible.
   const seen = await picture(page, "outline");
   const { x, y } = await at(page, 200, 120, 0);
   let blue = 0;

@@ -187,11 +187,11 @@ test("what is known of clips is read, and what is missing is empty", () => {
 });
 
 test("drawings stand for the source's frames up to the next, without the omitted ones", () => {
-  // Frames 5 and 6 are left out; 0 and 9 stand longer for them, and 2 for the frame after it.
+  // Frames 5 and 6 are omitted; 0 and 9 are held longer for them, and 2 for the frame after it.
   const exposure = new ExposureSheet(facts({ exposure: [[0, 2], [1, 1], [2, 2], [4, 1], [7, 1], [8, 1], [9, 2], [10, 2]], omitted: [5, 6] }));
   assert.deepEqual(exposure.runs.map(({ start, from, to }) => [start, from, to]), [[0, 0, 1], [2, 1, 2], [3, 2, 4], [5, 4, 5], [6, 7, 8], [7, 8, 9], [8, 9, 10], [10, 10, 12]]);
   assert.deepEqual([exposure.frames, exposure.sources], [12, 12]);
-  // Times as single precision has them are those of their own frames.
+  // Times in single precision belong to their own frames.
   assert.deepEqual(Array.from({ length: 13 }, (_, at) => exposure.sourceAt(Math.fround(at / 24))), [0, 0, 1, 2, 3, 4, 7, 8, 9, 9, 10, 11, 11]);
   const shows = Array.from({ length: 12 }, (_, source) => exposure.drawingIn(exposure.frameAt(exposure.timeOf(source))));
   assert.deepEqual(shows, [0, 1, 2, 2, 3, 3, 3, 4, 5, 6, 7, 7]);

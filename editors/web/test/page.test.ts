@@ -32,7 +32,7 @@ browse("errors open the findings over the last good model, and close them when t
   host.built("human.svg", build(HUMAN));
   await page.waitForSelector(".findings[data-open=false]");
   await page.locator(".stale").waitFor({ state: "hidden" });
-  // Who opens it by hand keeps it open.
+  // If the user opens it, it stays open.
   await page.locator(".findings-head").click();
   host.built("human.svg", broken());
   await page.locator(".stale").waitFor();
@@ -213,7 +213,7 @@ browse("dark mode is followed, at once", one(HUMAN), async (page) => {
   await page.locator("[data-part=Ubody]").click();
   await still(page);
   await picture(page, "dark");
-  // Text stands out from what is behind it as WCAG asks for (4.5 to 1).
+  // The contrast of text that WCAG requires (4.5 to 1).
   const least = await page.evaluate(() => {
     const light = (color: string) => {
       const [r, g, b] = color.match(/[\d.]+/g)!.map((one) => (Number(one) / 255 <= 0.03928 ? Number(one) / 255 / 12.92 : ((Number(one) / 255 + 0.055) / 1.055) ** 2.4));
@@ -239,7 +239,7 @@ browse("a host that goes away is waited for; what it builds then is shown", one(
   await host.stop();
   await page.getByText("Connection lost, trying again…").waitFor();
   assert.equal(await page.getAttribute("canvas", "data-revision"), "1", "the model stays");
-  // Started again, it counts anew: the same address is another model.
+  // After a restart it counts from the beginning: the same address is another model.
   host.forget();
   host.add("human.svg");
   host.built("human.svg", build(FIGURE));
@@ -310,7 +310,7 @@ browse("inside VS Code everything goes by posted messages, and the editor's colo
   await post({ type: "modelBytes", address: "builds/4.glb", bytes: model!.toString("base64") });
   await shown(page, 4);
   await picture(page, "vscode");
-  // The system is light and the theme dark: what the theme leaves out is dark too.
+  // The system is light and the theme dark: colours that the theme does not define are dark too.
   const faint = await page.evaluate(() => {
     const light = (color: string) => color.match(/[\d.]+/g)!.slice(0, 3).reduce((sum, one) => sum + Number(one), 0) / 3;
     const pressed = getComputedStyle(document.querySelector(".button[aria-pressed=true]")!);
@@ -327,9 +327,9 @@ browse("inside VS Code everything goes by posted messages, and the editor's colo
   assert.deepEqual(last.find(({ type }) => type === "save"), { type: "save", name: "figure.glb", bytes: model!.toString("base64") });
   await post({ type: "light", drawing: "file:///a/figure.svg", part: "Head" });
   await page.waitForSelector(".tree-item.lit[data-part=Head]");
-  // The editor hands this to the extension when it brings the panel back.
+  // The state that the editor passes to the extension when it restores the panel.
   assert.deepEqual(last.find(({ type }) => type === "state"), { type: "state", state: { drawing: "file:///a/figure.svg" } });
-  // The language server went away, and another came: its builds are counted anew.
+  // The language server stopped, and another one started: its builds are counted from the beginning.
   await post({ type: "link", state: "lost", note: "okoshi is not running at present." });
   await page.waitForSelector(".bar[data-link=lost] .bar-link >> text=okoshi is not running at present.");
   await post({ type: "build", drawing: "file:///a/figure.svg", build: { ...facts, revision: 1, model: "builds/4.glb", picture: null } });

@@ -1,4 +1,4 @@
-// The page with the real program behind it: `okoshi preview`, files that are saved, and what is seen of that.
+// The page with the real program: `okoshi preview`, files that are saved, and the result on the page.
 
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
@@ -20,7 +20,7 @@ const BLUE = [0, 0, 255] as const;
 let browser: Promise<Browser> | undefined;
 after(async () => (await browser)?.close());
 
-/** A test with a folder in which there is a figure, and `okoshi preview` of the folder or of that drawing. */
+/** A test with a figure in a folder, and `okoshi preview` of the folder or of the drawing. */
 function real(name: string, target: string, run: (page: Page, folder: string) => Promise<void>): void {
   test(name, { skip, timeout: 90_000 }, async () => {
     const folder = mkdtempSync(join(tmpdir(), "okoshi-page-"));
@@ -46,7 +46,7 @@ function real(name: string, target: string, run: (page: Page, folder: string) =>
   });
 }
 
-/** Where a place of the figure's drawing is in the window; `front` is how far its face stands out. */
+/** The position in the window of a point of the figure's drawing; `front` is the height of its face. */
 const at = (page: Page, x: number, y: number, front: number): Promise<{ x: number; y: number }> => project(page, (x - 180) / 100, (200 - y) / 100, front);
 const save = (folder: string, change: (text: string) => string): void => writeFileSync(join(folder, "figure.svg"), change(source(FIGURE)));
 
@@ -87,7 +87,7 @@ real("a click names the part, and posing turns the limb about its joint", "figur
   await page.mouse.click(tip.x, tip.y);
   await page.waitForSelector("[data-part=Arm][aria-selected=true]");
   assert.equal(await page.locator(".inspector code").innerText(), "Arm@Body$Shape default -8 8");
-  // The joint is where the arm meets the body, at (170, 120): a drag of its tip to above the joint turns it up.
+  // The joint is where the arm meets the body, at (170, 120): dragging its tip to above the joint turns it up.
   await page.locator("canvas").focus();
   await page.keyboard.press("p");
   const above = await at(page, 172, 50, 0.08);

@@ -1,4 +1,4 @@
-// What the browser's tests share: one Chromium, drawings, and a host for each test.
+// Shared by the browser tests: one Chromium, drawings, and a host for each test.
 
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -18,7 +18,7 @@ export const example = (name: string): string => join(examples, `${name}.svg`);
 export const source = (file: string): string => readFileSync(file, "utf8");
 
 const made = new Map<string, Made>();
-/** A drawing's build, its text changed if so wished. */
+/** The build of a drawing, optionally with its text changed. */
 export function build(file: string, change: (text: string) => string = (text) => text): Made {
   const text = change(source(file));
   const key = `${file}\n${text}`;
@@ -30,7 +30,7 @@ export function build(file: string, change: (text: string) => string = (text) =>
 let browser: Promise<Browser> | undefined;
 after(async () => (await browser)?.close());
 
-/** A test of the page with a host of its own. Whatever the page complains of fails it, breaches of the policy among them. */
+/** A test of the page with its own host. Any error of the page fails it, including violations of the policy. */
 export function browse(name: string, prepare: (host: MockHost) => void, run: (page: Page, host: MockHost) => Promise<void>, options: BrowserContextOptions & { hash?: string } = {}): void {
   test(name, { skip, timeout: 90_000 }, async () => {
     browser ??= launch();
@@ -55,7 +55,7 @@ export const one = (file: string, id = file.replace(/^.*[\\/]/, "")) => (host: M
   host.built(id, build(file));
 };
 
-/** Whether a colour is plainly the one that was drawn: lit, so a little darker or lighter, but of the same hue. */
+/** Whether a colour is clearly the drawn one: a little darker or lighter from the lights, but of the same hue. */
 export function isLike(seen: Colour, drawn: Colour, most = 60): boolean {
   return seen.every((value, at) => Math.abs(value - drawn[at]!) <= most);
 }

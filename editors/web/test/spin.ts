@@ -1,4 +1,4 @@
-// Rotations of the fixture's arm, whose node lies on its side: from where it is drawn, an eighth of a turn each.
+// Rotations for the fixture's arm, whose node lies on its side: from its drawn position, an eighth of a turn each.
 
 const REST = Math.atan2(-0.70710677, 0.70710677);
 
