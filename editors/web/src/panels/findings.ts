@@ -12,7 +12,7 @@ const MOST = 200;
 const LINE = 110;
 
 export class Findings {
-  readonly element = h("section", { class: "findings", attributes: { "aria-label": "Findings" } });
+  readonly element = h("section", { class: "findings", attributes: { "aria-label": "Diagnostics" } });
   private readonly list = h("ol", { class: "findings-list", attributes: { id: "findings-list", tabindex: -1 } });
   private readonly toggle = h("button", { class: "findings-head", attributes: { type: "button", "aria-controls": "findings-list" }, on: { click: () => this.set(!this.open, true) } });
   private readonly stale = h("p", { class: "stale", hidden: true, attributes: { role: "status" } });
@@ -60,7 +60,7 @@ export class Findings {
     fill(
       this.toggle,
       ...(["error", "warning", "hint"] as const).map((severity) => badge(severity, findings)),
-      findings.length === 0 && h("span", { class: "muted" }, "No findings"),
+      findings.length === 0 && h("span", { class: "muted" }, "No diagnostics"),
       h("span", { class: "findings-fold" }, findings.length > 0 && icon(ChevronDown)),
     );
     const key = JSON.stringify(findings);
@@ -68,7 +68,7 @@ export class Findings {
       this.shown = key;
       const items = sorted(findings).slice(0, MOST).map((finding) => this.item(finding));
       const more = findings.length - items.length;
-      fill(this.list, ...items, more > 0 && h("li", { class: "muted pad" }, `and ${count(more, "more finding")}`));
+      fill(this.list, ...items, more > 0 && h("li", { class: "muted pad" }, `and ${count(more, "more diagnostic")}`));
     }
     this.marks();
   }
