@@ -578,7 +578,7 @@ fn help_teaches() {
     room.run(&["build", "--tolerance", "2", "a.svg"]).ends(
         2,
         "",
-        "a number from 0.000001 to 0.1 is due",
+        "expected a number from 0.000001 to 0.1",
     );
 }
 

@@ -218,15 +218,15 @@ fn wrong_use_is_told() {
         ),
         (
             "render a.svg --background reddish",
-            "a colour of six digits is due",
+            "expected a colour of six digits",
         ),
         (
             "render a.svg --turntable 1",
-            "a whole number from 2 to 1000 is due",
+            "expected a whole number from 2 to 1000",
         ),
         (
             "render a.svg --turntable 1001",
-            "a whole number from 2 to 1000 is due",
+            "expected a whole number from 2 to 1000",
         ),
         (
             "render a.svg -o a.gif",
@@ -491,16 +491,19 @@ fn wrong_use_of_clips_is_told() {
         ),
         (
             "one.glb --time 1.2",
-            "has a clip of 1 seconds: --time 1.2 lies behind its end",
+            "has a clip of 1 seconds: --time 1.2 is after its end",
         ),
-        ("one.glb -o a.gif --to 7", "--to 7 lies behind its end"),
+        ("one.glb -o a.gif --to 7", "--to 7 is after its end"),
         (
             "one.glb -o a.gif --from 0.5 --to 0.5",
-            "cannot be shown from 0.5 to 0.5 seconds: --to must lie behind --from",
+            "cannot be shown from 0.5 to 0.5 seconds: --to must be after --from",
         ),
-        ("one.glb --time=-1", "a number of seconds from 0 is due"),
+        ("one.glb --time=-1", "expected a number of seconds from 0"),
         ("one.glb --time 1 --fps 3", "cannot be used with"),
-        ("one.glb --strip 1", "a whole number from 2 to 1000 is due"),
+        (
+            "one.glb --strip 1",
+            "expected a whole number from 2 to 1000",
+        ),
         (
             "one.glb --strip 100 --size 4000x4000",
             "`one.glb` cannot be drawn as a strip of 400000 by 4000 pixels",

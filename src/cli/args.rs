@@ -113,7 +113,7 @@ pub(super) struct Reading {
 fn tolerance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(share) if (1e-6..=0.1).contains(&share) => Ok(share),
-        _ => Err("a number from 0.000001 to 0.1 is due, 0.001 for example".to_owned()),
+        _ => Err("expected a number from 0.000001 to 0.1, for example 0.001".to_owned()),
     }
 }
 

@@ -44,7 +44,7 @@ fn named(name: &Path) -> Result<PathBuf, String> {
         .is_none_or(|byte| std::path::is_separator(char::from(*byte)));
     let Some(file) = name.file_name().filter(|_| !closed) else {
         return Err(format!(
-            "`{}` is no name for a file; name the drawing, `okoshi new robot` for example",
+            "`{}` is not a file name; name the drawing, for example `okoshi new robot`",
             name.display()
         ));
     };

@@ -173,7 +173,7 @@ fn form(output: &Path, subject: Subject, arguments: &Render) -> Result<Form, Str
         let name = output.display();
         return Err(match arguments.asks_for_clip() {
             true => format!(
-                "`{name}` would be a moving picture, but --time and --strip make one that stands still: end the output in .png"
+                "`{name}` would be an animation, but --time and --strip make a still picture: use an output that ends in .png"
             ),
             false => format!(
                 "`{name}` would be a moving picture: say in how many frames the model turns, --turntable 36 for example, or which clip it shows, --clip NAME, or end the output in .png"

@@ -37,7 +37,7 @@ pub(super) fn follow(
     match watch(paths, options, |event| eprint!("{}", tell(event))) {
         Ok(never) => match never {},
         Err(error) => fail(&format!(
-            "changes of files are not told of here: {error}; try --poll"
+            "file changes are not reported here: {error}; try --poll"
         )),
     }
 }
@@ -176,7 +176,7 @@ pub(super) fn told(event: &Event<'_>, common: Common) -> String {
         Event::Unreadable(drawing, why) => line(&drawing.display().to_string(), why),
         Event::Deaf(folder, why) => line(
             &folder.display().to_string(),
-            &format!("changes in it are not told of: {why}; try --poll"),
+            &format!("changes in it are not reported: {why}; try --poll"),
         ),
         Event::Ready(_) if common.quiet => String::new(),
         Event::Ready(0) => "no drawings there yet; waiting for them, Ctrl-C ends it\n".to_owned(),

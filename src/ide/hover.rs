@@ -171,7 +171,7 @@ impl Analysis {
         let short: String = definition.chars().take(40).collect();
         Some(match variable.value {
             Some(value) => format!("`{name}` is {value}, by `%Let {}`", short.trim_end()),
-            None => format!("`{name}` has no value: its `Let` has a fault"),
+            None => format!("`{name}` has no value: its `Let` has an error"),
         })
     }
 
@@ -191,7 +191,7 @@ impl Analysis {
                 Some(part) => Some(self.part_card(part)),
                 None => self
                     .landscape_card(string)
-                    .or_else(|| Some("This string is bound to no part.".to_owned())),
+                    .or_else(|| Some("This string is not bound to a part.".to_owned())),
             },
             Annotation::Empty
             | Annotation::Comment
@@ -210,7 +210,7 @@ impl Analysis {
                 let main = bindings.describe(self.drawing(), part.main);
                 format!("A solid in the node of {main}")
             }
-            PartKind::Legend => "**A legend's swatch**, left out of the model".to_owned(),
+            PartKind::Legend => "**A legend's sample**, left out of the model".to_owned(),
             PartKind::Unused => "**Left out of the model**".to_owned(),
             PartKind::Tile => {
                 let layer = bindings.layer_of_group(self.drawing().shapes[part.shape].group);
@@ -226,9 +226,7 @@ impl Analysis {
             .and_then(|string| bindings.strings[string].binding)
             .map(|binding| binding.by);
         let why = match bound {
-            None if part.automatic => {
-                "it has no string: its name and parent were given by themselves"
-            }
+            None if part.automatic => "it has no string: its name and parent are automatic",
             None => "it has no string",
             Some(BoundBy::Desc) => "by its description",
             Some(BoundBy::Group) => "by the string that is grouped with it",
@@ -264,7 +262,7 @@ impl Analysis {
                     && bindings.parts[*child].parent == Some(index)
             });
             if let Some(names) = self.names(children.collect()) {
-                let _ = write!(out, "\nCarries {names}.");
+                let _ = write!(out, "\nAttached parts: {names}.");
             }
         }
         out
@@ -301,7 +299,7 @@ impl Analysis {
         let parts = self.parts_by(string);
         let mut out = "Defaults and settings of the whole drawing.".to_owned();
         if let Some(names) = self.names(parts) {
-            let _ = write!(out, "\n\nParts that go by them: {names}.");
+            let _ = write!(out, "\n\nParts that use them: {names}.");
         }
         out
     }
@@ -314,9 +312,9 @@ impl Analysis {
         );
         match self.names(self.parts_by(string)) {
             Some(names) => {
-                let _ = write!(out, "\n\nParts that go by it: {names}.");
+                let _ = write!(out, "\n\nParts that use it: {names}.");
             }
-            None => out.push_str("\n\nNo part goes by it."),
+            None => out.push_str("\n\nNo part uses it."),
         }
         Some(out)
     }
@@ -390,7 +388,7 @@ mod tests {
             "- Offset `4`, from the legend of its paint",
             "- Smooth `20`, from a `%` string",
             "- Color `1 0.8 0.6`, from its own fill",
-            "Carries `Larm`.",
+            "Attached parts: `Larm`.",
         ] {
             assert!(card.contains(part), "{part} is not in:\n{card}");
         }
@@ -425,7 +423,7 @@ mod tests {
     fn legends_and_defaults_tell_who_goes_by_them() {
         let legend = hover(["Body", "Rarm@Body", "Larm@Body", "¦$Offset 4", ""]);
         assert!(
-            legend.contains("Parts that go by it: `Rarm`, `Larm`."),
+            legend.contains("Parts that use it: `Rarm`, `Larm`."),
             "{legend}"
         );
         let defaults = hover(["Body", "Rarm@Body", "", "", "¦%Offset 4"]);

@@ -74,7 +74,7 @@ impl Analysis {
             pieces.push(InlayPiece {
                 text: format!("@{}", bindings.parts[parent].name),
                 from: Some(self.place_of_part(parent)),
-                about: "It hangs on the nearest named part".to_owned(),
+                about: "It is attached to the nearest named part".to_owned(),
             });
         }
         Some(Inlay { at, pieces })

@@ -201,7 +201,7 @@ fn joint_of(clip: &FigureClip, joint: usize) -> String {
         Some(label) => {
             let _ = write!(out, ": {}\n\n{}.", label.describe(), label.why);
         }
-        None => out.push_str("\n\nNo limb, head or trunk by its name or place."),
+        None => out.push_str("\n\nNot recognised as a limb, head or trunk."),
     }
     match joints[joint].parent {
         Some(parent) => {

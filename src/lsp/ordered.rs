@@ -145,6 +145,8 @@ fn without_empty_params(request: Request) -> Request {
 /// The answer to a request whose handler panicked.
 fn gave_up(id: tower_lsp::jsonrpc::Id) -> Response {
     let mut error = Error::internal_error();
-    error.message = "okoshi gave up on this request; the server goes on. Please tell us: this should not happen".into();
+    error.message =
+        "this request failed because of a bug in okoshi; the server continues. Please report it"
+            .into();
     Response::from_error(id, error)
 }

@@ -125,7 +125,7 @@ return {
       for _, case in ipairs({
         { 0, 'Rarm', '**Rarm**\n\nRoot › Ubody › **Rarm**' },
         { 0, 'Rarm', '- Shape `roundv -90 90`, from its own string' },
-        { 6, 'Ubody', 'Carries `Rarm`, `Larm`, `Head`.' },
+        { 6, 'Ubody', 'Attached parts: `Rarm`, `Larm`, `Head`.' },
         { 12, 'Shape', '# Shape\n\nHow the flat outline becomes a solid.' },
         { 18, 'roundv', '# Shape roundv' },
         { 25, '-90', '`a0` of `roundv`: where the rounding begins' },

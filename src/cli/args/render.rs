@@ -168,7 +168,7 @@ fn background(text: &str) -> Result<[u8; 3], String> {
             let [_, colour @ ..] = number.to_be_bytes();
             Ok(colour)
         }
-        None => Err("a colour of six digits is due, '#ffffff' for white".to_owned()),
+        None => Err("expected a colour of six digits, for example '#ffffff' for white".to_owned()),
     }
 }
 
@@ -176,7 +176,7 @@ fn frames(text: &str) -> Result<u32, String> {
     match text.parse::<u32>() {
         Ok(frames) if (2..=MAX_TURNTABLE_FRAMES).contains(&frames) => Ok(frames),
         _ => Err(format!(
-            "a whole number from 2 to {MAX_TURNTABLE_FRAMES} is due, 36 for example"
+            "expected a whole number from 2 to {MAX_TURNTABLE_FRAMES}, for example 36"
         )),
     }
 }
@@ -184,7 +184,7 @@ fn frames(text: &str) -> Result<u32, String> {
 fn seconds(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(seconds) if (0.0..1e9).contains(&seconds) => Ok(seconds),
-        _ => Err("a number of seconds from 0 is due, 1.5 for example".to_owned()),
+        _ => Err("expected a number of seconds from 0, for example 1.5".to_owned()),
     }
 }
 
@@ -192,7 +192,7 @@ fn cells(text: &str) -> Result<u32, String> {
     match text.parse::<u32>() {
         Ok(cells) if (2..=MAX_FILM_STRIP_CELLS).contains(&cells) => Ok(cells),
         _ => Err(format!(
-            "a whole number from 2 to {MAX_FILM_STRIP_CELLS} is due, 6 for example"
+            "expected a whole number from 2 to {MAX_FILM_STRIP_CELLS}, for example 6"
         )),
     }
 }

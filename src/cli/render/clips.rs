@@ -62,7 +62,7 @@ pub(super) fn within(clip: &Clip, option: &str, moment: f64) -> Result<f64, Stri
     match moment <= clip.seconds + 0.0005 {
         true => Ok(moment.min(clip.seconds)),
         false => Err(format!(
-            "has a clip of {} seconds: {option} {moment} lies behind its end",
+            "has a clip of {} seconds: {option} {moment} is after its end",
             rounded(clip.seconds)
         )),
     }
@@ -82,7 +82,7 @@ pub(super) fn film<'a>(
     if from >= to && arguments.from.or(arguments.to).is_some() {
         let (from, to) = (rounded(from), rounded(to));
         return Err(format!(
-            "cannot be shown from {from} to {to} seconds: --to must lie behind --from"
+            "cannot be shown from {from} to {to} seconds: --to must be after --from"
         ));
     }
     spinning("looking through the clip", || {
