@@ -22,6 +22,7 @@ const USES: &[(&str, &[&str])] = &[
             "resolver",
             "rig",
             "scene",
+            "source",
             "svg",
             "terrain",
             "texture",

@@ -3,15 +3,14 @@
 use rustc_hash::FxHashMap;
 
 use super::textures::{self, Textures};
-use crate::bind::{Bindings, Look, PartKind};
+use crate::bind::{Bindings, MaterialFactors, PartKind};
 use crate::diagnostic::Diagnostic;
 use crate::figure::{LinkedModels, PartMaterial};
-use crate::lang::keyword::Keyword;
 use crate::lang::value::ShapeKind;
 use crate::resolver::Resolver;
 use crate::scene::{AlphaMode, Image, Material, Scene, Texture, TextureUse};
 use crate::svg::Drawing;
-use crate::terrain::{Layer, LookOf, Tile};
+use crate::terrain::{Layer, Tile, TileLook};
 use crate::texture::Alpha;
 
 /// Where holes begin in textures whose alpha is all or nothing.
@@ -38,15 +37,15 @@ impl Shared {
     /// The index of a material.
     fn slot(
         &mut self,
-        look: &Look,
+        factors: &MaterialFactors,
         double_sided: bool,
         texture: Option<usize>,
         textures: &Textures,
     ) -> usize {
         let list = &mut self.list;
-        let known = self.known.entry(key(look, double_sided, texture));
+        let known = self.known.entry(key(factors, double_sided, texture));
         *known.or_insert_with(|| {
-            let mut material = material(look, double_sided);
+            let mut material = material(factors, double_sided);
             if let Some(texture) = texture {
                 let (name, alpha) = textures.about(texture);
                 name.clone_into(&mut material.name);
@@ -93,35 +92,36 @@ impl Materials {
         let mut shared = Shared::default();
         let mut of_part = Vec::with_capacity(bindings.parts.len());
         for (index, part) in bindings.parts.iter().enumerate() {
-            let kind = bindings.shape(index).kind;
+            let attributes = bindings.attributes(index);
+            let kind = &attributes.shape().kind;
             let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
             // Models bring their own materials.
-            if !built || kind == ShapeKind::None || models.has(index) {
+            if !built || *kind == ShapeKind::None || models.has(index) {
                 of_part.push(None);
                 continue;
             }
-            let mut look = bindings.look(drawing, index);
+            let mut factors = bindings.material_factors(drawing, index);
             let textured = textures.of(index);
             if let Some(textured) = textured {
                 // What a file shows is tinted by `Color`, but by nothing else.
-                let tinted = textured.is_file && bindings.setting(index, Keyword::Color).is_some();
+                let tinted = textured.is_file && attributes.color().is_some();
                 if !tinted {
-                    look.color[..3].fill(1.0);
+                    factors.color[..3].fill(1.0);
                 }
             }
             let double_sided = matches!(kind, ShapeKind::Flat(_));
             let texture = textured.map(|textured| textured.texture);
-            let slot = shared.slot(&look, double_sided, texture, &textures);
+            let slot = shared.slot(&factors, double_sided, texture, &textures);
             of_part.push(Some((slot, textured.map(|textured| textured.map))));
         }
-        let mut of_look = |layer: usize, number: usize, found: &LookOf| {
-            let mut look = found.look.clone();
+        let mut of_look = |layer: usize, number: usize, found: &TileLook| {
+            let mut factors = found.factors.clone();
             let texture = textures.of_look(layer, number);
             if texture.is_some() && !found.is_tinted {
-                look.color[..3].fill(1.0);
+                factors.color[..3].fill(1.0);
             }
             let drawn = found.tile != Tile::None;
-            drawn.then(|| shared.slot(&look, false, texture, &textures))
+            drawn.then(|| shared.slot(&factors, false, texture, &textures))
         };
         let of_layer = |(index, layer): (usize, &Layer)| {
             let looks = layer.looks.iter().enumerate();
@@ -162,19 +162,29 @@ impl LookMaterials {
     }
 }
 
-fn key(look: &Look, double_sided: bool, texture: Option<usize>) -> Key {
-    let [r, g, b, alpha] = look.color;
-    let [er, eg, eb] = look.emissive;
-    let factors = [r, g, b, alpha, look.metallic, look.roughness, er, eg, eb];
+fn key(factors: &MaterialFactors, double_sided: bool, texture: Option<usize>) -> Key {
+    let [r, g, b, alpha] = factors.color;
+    let [er, eg, eb] = factors.emissive;
+    let all = [
+        r,
+        g,
+        b,
+        alpha,
+        factors.metallic,
+        factors.roughness,
+        er,
+        eg,
+        eb,
+    ];
     Key {
-        factors: factors.map(f64::to_bits),
+        factors: all.map(f64::to_bits),
         double_sided,
         texture,
     }
 }
 
-fn material(look: &Look, double_sided: bool) -> Material {
-    let [r, g, b, alpha] = look.color;
+fn material(factors: &MaterialFactors, double_sided: bool) -> Material {
+    let [r, g, b, alpha] = factors.color;
     let byte = |channel: f64| (channel.clamp(0.0, 1.0) * 255.0).round() as u8;
     Material {
         name: format!("#{:02x}{:02x}{:02x}", byte(r), byte(g), byte(b)),
@@ -184,9 +194,9 @@ fn material(look: &Look, double_sided: bool) -> Material {
             linear(b),
             alpha.clamp(0.0, 1.0) as f32,
         ],
-        metallic: look.metallic as f32,
-        roughness: look.roughness as f32,
-        emissive: look.emissive.map(linear),
+        metallic: factors.metallic as f32,
+        roughness: factors.roughness as f32,
+        emissive: factors.emissive.map(linear),
         alpha_mode: match alpha < 1.0 {
             true => AlphaMode::Blend,
             false => AlphaMode::Opaque,

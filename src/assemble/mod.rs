@@ -45,7 +45,7 @@ pub fn assemble(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Assembled {
     let layers = terrain::read(drawing, bindings, diagnostics);
-    let world = world::world_transform(drawing, bindings, &layers);
+    let world = world::world_transform(bindings, &layers);
     let known = &mut memory.figure;
     let mut models = LinkedModels::read(bindings, resolver, known, diagnostics);
     let mut found = Vec::new();

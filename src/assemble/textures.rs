@@ -5,15 +5,15 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use crate::bind::{Bindings, PartKind, SetBy, Source as SettingSource};
+use crate::bind::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::figure::LinkedModels;
-use crate::lang::keyword::Keyword;
-use crate::lang::value::{ShapeKind, Value};
+use crate::lang::value::ShapeKind;
 use crate::resolver::{LinkError, Resolver};
 use crate::scene::{self, Image, Texture, Wrap};
+use crate::source::Span;
 use crate::svg::{Drawing, PaintKey, broken_link};
-use crate::terrain::Layer;
+use crate::terrain::{Layer, TileTexture};
 use crate::texture::{
     self, Alpha, Baked, Baker, Holes, PaintServer, Picture, PictureError, Plan, PlanKey, Source,
 };
@@ -64,7 +64,6 @@ impl Textures {
             drawing,
             bindings,
             files: Files {
-                bindings,
                 resolver,
                 last: &memory.pictures,
                 read: FxHashMap::default(),
@@ -134,12 +133,16 @@ impl<'a> Collector<'a> {
     fn part(&mut self, index: usize, diagnostics: &mut Vec<Diagnostic>) {
         let (drawing, bindings) = (self.drawing, self.bindings);
         let part = &bindings.parts[index];
+        let attributes = bindings.attributes(index);
         let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
-        if !built || bindings.shape(index).kind == ShapeKind::None {
+        if !built || attributes.shape().kind == ShapeKind::None {
             return;
         }
-        let file = bindings.setting(index, Keyword::Texture);
-        let file = file.and_then(|source| self.files.picture(&source, diagnostics));
+        let file = attributes.texture().and_then(|texture| {
+            let span = bindings.span_of(&texture.source);
+            let string = texture.source.string;
+            self.files.picture(texture.value, string, span, diagnostics)
+        });
         let paint = part.paint(drawing);
         if file.is_none() && paint.server.is_none() {
             return;
@@ -157,7 +160,7 @@ impl<'a> Collector<'a> {
             }
             (None, Some(server)) => {
                 let picture = matches!(paint.key, PaintKey::Picture(_));
-                if !picture && bindings.setting(index, Keyword::Color).is_some() {
+                if !picture && attributes.color().is_some() {
                     return;
                 }
                 (Arc::clone(server), None)
@@ -187,15 +190,11 @@ impl<'a> Collector<'a> {
     /// The looks of a tile layer.
     fn layer(&mut self, index: usize, layer: &'a Layer, diagnostics: &mut Vec<Diagnostic>) {
         for (number, look) in layer.looks.iter().enumerate() {
-            let Some((string, setting)) = &look.texture else {
+            let Some(TileTexture { link, string, span }) = &look.texture else {
                 continue;
             };
-            let source = SettingSource {
-                setting,
-                from: SetBy::Legend,
-                string: *string,
-            };
-            let Some((link, picture)) = self.files.picture(&source, diagnostics) else {
+            let file = self.files.picture(link, *string, *span, diagnostics);
+            let Some((link, picture)) = file else {
                 continue;
             };
             let server = PaintServer {
@@ -309,7 +308,6 @@ fn file_name(link: &str) -> &str {
 
 /// The files that `Texture` names.
 struct Files<'a> {
-    bindings: &'a Bindings,
     resolver: &'a dyn Resolver,
     /// What files held the last time.
     last: &'a Pictures,
@@ -338,15 +336,14 @@ pub(super) struct Memory {
 }
 
 impl<'a> Files<'a> {
-    /// A file's name and picture; where there is none, the string that names it is told, once.
+    /// A file's name and picture; if there is none, it is reported once for each string.
     fn picture(
         &mut self,
-        source: &SettingSource<'a>,
+        link: &'a str,
+        string: usize,
+        span: Span,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<(&'a str, Picture)> {
-        let Value::Word(link) = &source.setting.value else {
-            return None;
-        };
         let (resolver, last) = (self.resolver, self.last);
         let read = self
             .read
@@ -359,9 +356,7 @@ impl<'a> Files<'a> {
         {
             return Some((link, picture.clone()));
         }
-        if self.told.insert(source.string) {
-            let text = &self.bindings.strings[source.string].text;
-            let span = text.span(source.setting.range.clone());
+        if self.told.insert(string) {
             diagnostics.extend(match read.as_ref().map(|held| &held.picture) {
                 Err(error) => Some(broken_link(link, error, span)),
                 Ok(Err((code, message))) => Some(

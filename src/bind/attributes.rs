@@ -1,40 +1,24 @@
-//! What an attribute of a part is, and who says so: own string, legend of its paint, `%`, built-in default
-//! (figure.md, Attributes of a part).
+//! The attributes of parts and tile layers as typed values, each with its source: own string, legend of the paint, `%`,
+//! built-in default (figure.md, Attributes of a part).
+//!
+//! This is the one place where an attribute's keyword is matched with the type of its value.
 
-use rustc_hash::FxHashMap;
-
-use super::bindings::{Bindings, PartKind};
-use crate::diagnostic::{Code, Diagnostic};
+use super::bindings::Bindings;
 use crate::lang::keyword::{AttributeString, Keyword};
-use crate::lang::value::{Setting, Shape, ShapeKind, Value};
+use crate::lang::value::{Origin, Setting, Shape, ShapeKind, Value};
+use crate::source::Span;
 use crate::svg::{Drawing, PaintKey};
 
-/// A legend: what parts of a paint have in common.
-#[derive(Debug)]
-pub struct Legend {
-    /// The paint.
-    pub paint: PaintKey,
-    /// What it says, each with the index of its string.
-    pub settings: Vec<(usize, Setting)>,
-    /// Index of the shape beside which it stands.
-    pub swatch: usize,
-    /// Index of its string, the first one if there are several.
-    pub string: usize,
-    /// Whether something has the paint that may have use for it: a part or a drawn tile. What pictures show in
-    /// tile layers is not counted.
-    pub is_used: bool,
-}
-
-/// Who says what an attribute is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Who sets an attribute; the first of them wins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SetBy {
-    /// The part's own string.
+    /// The part's own string, or that of the tile layer.
     Own,
     /// The legend of its paint.
     Legend,
     /// A `%` string.
     Default,
-    /// Nobody: the program's default.
+    /// The program's default.
     Builtin,
 }
 
@@ -55,28 +39,46 @@ impl SetBy {
 pub struct Source<'a> {
     /// The setting.
     pub setting: &'a Setting,
-    /// Who says so.
+    /// Who sets it.
     pub from: SetBy,
-    /// Index of the string that says so.
+    /// Index of the string that sets it.
     pub string: usize,
 }
 
-/// What an attribute of a part is, for people.
+/// The value of an attribute that a string sets, and its source.
+#[derive(Debug, Clone, Copy)]
+pub struct Attribute<'a, T> {
+    /// The value.
+    pub value: T,
+    /// Where it comes from.
+    pub source: Source<'a>,
+}
+
+/// An attribute of a part, for people.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Resolved {
     /// The attribute.
     pub keyword: Keyword,
     /// Its value as words.
     pub value: String,
-    /// Who says so.
+    /// Who sets it.
     pub from: SetBy,
-    /// Index of the string that says so.
+    /// Index of the string that sets it.
     pub string: Option<usize>,
 }
 
-/// How a part's surface looks, all sources added up.
+/// The colour that `Color` sets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SetColor {
+    /// sRGB, each 0 to 1.
+    pub rgb: [f64; 3],
+    /// Opacity, if given.
+    pub alpha: Option<f64>,
+}
+
+/// The factors of a material.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Look {
+pub struct MaterialFactors {
     /// sRGB and opacity, each 0 to 1.
     pub color: [f64; 4],
     /// glTF's metallic factor.
@@ -87,49 +89,86 @@ pub struct Look {
     pub emissive: [f64; 3],
 }
 
+/// The attributes of a part, of a tile layer or of its tiles. A view that resolves a value when it is asked for it: a drawing
+/// has a hundred thousand parts, most of them without attributes.
+#[derive(Debug, Clone, Copy)]
+pub struct Attributes<'a> {
+    /// The settings of the part's own string, with its index.
+    own: Option<(usize, &'a [Setting])>,
+    /// The settings of the legend of the paint, each with the index of its string.
+    legend: &'a [(usize, Setting)],
+    /// For tiles, the settings of their layer's string, with its index.
+    layer: Option<(usize, &'a [Setting])>,
+    /// The settings of the `%` strings, each with the index of its string.
+    defaults: &'a [(usize, Setting)],
+}
+
 impl Bindings {
-    /// What a part's attribute is set to, and by whom; `None` leaves the built-in default.
-    pub fn setting(&self, index: usize, keyword: Keyword) -> Option<Source<'_>> {
-        let part = &self.parts[index];
-        let own = part.string.and_then(|string| {
-            let setting = self.strings[string]
-                .settings
-                .iter()
-                .find(|setting| setting.keyword == keyword)?;
-            Some(Source {
-                setting,
-                from: SetBy::Own,
-                string,
-            })
-        });
-        own.or_else(|| self.inherited(index, keyword))
+    /// The attributes of a part.
+    pub fn attributes(&self, part: usize) -> Attributes<'_> {
+        let part = &self.parts[part];
+        Attributes {
+            own: part.string.map(|string| self.settings_of(string)),
+            ..self.inherited_attributes(part.legend)
+        }
     }
 
-    /// What a part's attribute would be set to without its own string.
+    /// The attributes of a layer.
+    pub fn layer_attributes(&self, layer: usize) -> Attributes<'_> {
+        Attributes {
+            own: Some(self.settings_of(self.layers[layer].string)),
+            ..self.inherited_attributes(None)
+        }
+    }
+
+    /// The attributes of the tiles of a layer whose paint has this legend.
+    pub fn tile_attributes(&self, layer: usize, legend: Option<usize>) -> Attributes<'_> {
+        Attributes {
+            layer: Some(self.settings_of(self.layers[layer].string)),
+            ..self.inherited_attributes(legend)
+        }
+    }
+
+    fn inherited_attributes(&self, legend: Option<usize>) -> Attributes<'_> {
+        Attributes {
+            own: None,
+            legend: legend.map_or(&[], |legend| &self.legends[legend].settings),
+            layer: None,
+            defaults: &self.defaults,
+        }
+    }
+
+    fn settings_of(&self, string: usize) -> (usize, &[Setting]) {
+        (string, &self.strings[string].settings)
+    }
+
+    /// The place of a setting.
+    pub fn span_of(&self, source: &Source<'_>) -> Span {
+        let text = &self.strings[source.string].text;
+        text.span(source.setting.range.clone())
+    }
+
+    /// The source of a part's attribute; `None` leaves the built-in default.
+    pub fn setting(&self, part: usize, keyword: Keyword) -> Option<Source<'_>> {
+        self.attributes(part).source(keyword)
+    }
+
+    /// The source that a part's attribute would have without the part's own string.
     pub fn inherited(&self, part: usize, keyword: Keyword) -> Option<Source<'_>> {
-        let part = &self.parts[part];
-        let found = |settings: &'_ [(usize, Setting)]| {
-            settings
-                .iter()
-                .position(|(_, setting)| setting.keyword == keyword)
-        };
-        let by_legend = || {
-            let legend = &self.legends[part.legend?].settings;
-            let (string, setting) = &legend[found(legend)?];
-            Some(Source {
-                setting,
-                from: SetBy::Legend,
-                string: *string,
-            })
-        };
-        by_legend().or_else(|| {
-            let (string, setting) = &self.defaults[found(&self.defaults)?];
-            Some(Source {
-                setting,
-                from: SetBy::Default,
-                string: *string,
-            })
-        })
+        self.inherited_attributes(self.parts[part].legend)
+            .source(keyword)
+    }
+
+    /// The factors of a part's material.
+    pub fn material_factors(&self, drawing: &Drawing, part: usize) -> MaterialFactors {
+        let attributes = self.attributes(part);
+        let paint = self.parts[part].paint(drawing);
+        let [r, g, b] = paint.color.map(|channel| f64::from(channel) / 255.0);
+        let opacity = drawing.shapes[self.parts[part].shape].opacity;
+        // `Color` takes the place of a fill; a picture stays as it is.
+        let is_picture = matches!(paint.key, PaintKey::Picture(_));
+        let color = attributes.color().filter(|_| !is_picture);
+        attributes.material_factors([r, g, b, opacity], color)
     }
 
     /// Every attribute of a part that is set, and the ones that every solid has, in the order of the reference.
@@ -137,7 +176,7 @@ impl Bindings {
         let builtin = |keyword| match keyword {
             Keyword::Color => {
                 let [r, g, b, _] = self
-                    .look(drawing, part)
+                    .material_factors(drawing, part)
                     .color
                     .map(|channel| (channel * 1000.0).round() / 1000.0);
                 Some(format!("{r} {g} {b}"))
@@ -165,165 +204,188 @@ impl Bindings {
             })
             .collect()
     }
+}
 
-    /// The number that an attribute of a part is set to.
-    pub fn number(&self, part: usize, keyword: Keyword) -> Option<f64> {
-        match self.setting(part, keyword)?.setting.value {
-            Value::Number(number) => Some(number),
-            _ => None,
-        }
-    }
-
-    /// A part's `Shape`.
-    pub fn shape(&self, part: usize) -> Shape {
-        match self
-            .setting(part, Keyword::Shape)
-            .map(|source| &source.setting.value)
-        {
-            Some(Value::Shape(shape)) => shape.clone(),
-            _ => Shape {
-                kind: ShapeKind::Default(None),
-                mirrored: false,
-                doubled: false,
-                centered: false,
-            },
-        }
-    }
-
-    /// How a part's surface looks.
-    pub fn look(&self, drawing: &Drawing, part: usize) -> Look {
-        let shape = &drawing.shapes[self.parts[part].shape];
-        let paint = self.parts[part].paint(drawing);
-        let mut color = paint.color.map(|channel| f64::from(channel) / 255.0);
-        let mut alpha = shape.opacity;
-        let picture = matches!(paint.key, PaintKey::Picture(_));
-        if let Some(Value::Color { rgb, alpha: own }) = self
-            .setting(part, Keyword::Color)
-            .map(|source| &source.setting.value)
-            && !picture
-        {
-            color = *rgb;
-            alpha = own.unwrap_or(alpha);
-        }
-        if let Some(own) = self.number(part, Keyword::Alpha) {
-            alpha = own;
-        }
-        let emissive = match self
-            .setting(part, Keyword::Emissive)
-            .map(|source| &source.setting.value)
-        {
-            Some(Value::Rgb(rgb)) => *rgb,
-            _ => [0.0; 3],
+impl<'a> Attributes<'a> {
+    /// Where an attribute is set.
+    pub fn source(&self, keyword: Keyword) -> Option<Source<'a>> {
+        let in_string = |(string, settings): (usize, &'a [Setting])| {
+            let mut settings = settings.iter();
+            let setting = settings.find(|setting| setting.keyword == keyword)?;
+            Some((string, setting))
         };
-        Look {
-            color: [color[0], color[1], color[2], alpha],
-            metallic: self.number(part, Keyword::Metallic).unwrap_or(0.0),
-            roughness: self.number(part, Keyword::Roughness).unwrap_or(0.9),
-            emissive,
-        }
+        let in_list = |settings: &'a [(usize, Setting)]| {
+            let mut settings = settings.iter();
+            let (string, setting) = settings.find(|(_, setting)| setting.keyword == keyword)?;
+            Some((*string, setting))
+        };
+        let found = |from, found: Option<(usize, &'a Setting)>| {
+            found.map(|(string, setting)| Source {
+                setting,
+                from,
+                string,
+            })
+        };
+        found(SetBy::Own, self.own.and_then(in_string))
+            .or_else(|| found(SetBy::Legend, in_list(self.legend)))
+            .or_else(|| found(SetBy::Own, self.layer.and_then(in_string)))
+            .or_else(|| found(SetBy::Default, in_list(self.defaults)))
     }
-}
 
-/// Merges the legends by paint and gives them to the parts of that paint.
-pub(super) fn legends(
-    drawing: &Drawing,
-    bindings: &mut Bindings,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
-    let mut by_paint: FxHashMap<&PaintKey, usize> = FxHashMap::default();
-    for part in bindings
-        .parts
-        .iter()
-        .filter(|part| part.kind == PartKind::Legend && part.is_candidate())
-    {
-        let Some(string) = part.string else { continue };
-        let paint = &part.paint(drawing).key;
-        let settings = bindings.strings[string]
-            .settings
-            .iter()
-            .map(|setting| (string, setting.clone()));
-        if let Some(legend) = by_paint.get(paint) {
-            let first = bindings.legends[*legend].string;
-            diagnostics.push(
-                Diagnostic::new(
-                    Code::TwoLegends,
-                    bindings.strings[string].text.whole(),
-                    "this legend's paint has a legend already; where both set an attribute, this one counts",
-                )
-                .related(bindings.strings[first].text.whole(), "the other legend")
-                .help("give the sample another colour, or combine both strings"),
-            );
-            let legend: &mut Legend = &mut bindings.legends[*legend];
-            for (string, setting) in settings {
-                legend
-                    .settings
-                    .retain(|(_, old)| old.keyword != setting.keyword);
-                legend.settings.push((string, setting));
-            }
-            continue;
-        }
-        by_paint.insert(paint, bindings.legends.len());
-        bindings.legends.push(Legend {
-            paint: paint.clone(),
-            settings: settings.collect(),
-            swatch: part.shape,
-            string,
-            is_used: false,
-        });
+    fn get<T>(
+        &self,
+        keyword: Keyword,
+        typed: impl Fn(&'a Value) -> Option<T>,
+    ) -> Option<Attribute<'a, T>> {
+        let source = self.source(keyword)?;
+        let value = typed(&source.setting.value)?;
+        Some(Attribute { value, source })
     }
-    for part in &mut bindings.parts {
-        let is_tile = part.kind == PartKind::Tile;
-        if (is_tile || matches!(part.kind, PartKind::Main | PartKind::Sub))
-            && let Some(index) = by_paint.get(&part.paint(drawing).key)
-        {
-            part.legend = Some(*index);
-            let legend = &mut bindings.legends[*index];
-            // What a legend says of tiles is of no use to parts.
-            legend.is_used |= is_tile || legend.says(Keyword::Tile).is_none();
-        }
-    }
-    let shapes = 0..drawing.shapes.len();
-    let mut pictures = shapes.filter(|shape| bindings.is_picture_of_tiles(drawing, *shape));
-    let has_maps = pictures.next().is_some();
-    for legend in &bindings.legends {
-        // Pictures are looked through where they are read.
-        let may_be_used = has_maps && matches!(legend.paint, PaintKey::Solid(_));
-        if !legend.is_used && !may_be_used {
-            diagnostics.push(legend.unused(drawing, bindings));
-        }
-    }
-}
 
-impl Legend {
-    /// What it says of an attribute, with the index of the string that does.
-    pub fn says(&self, keyword: Keyword) -> Option<Source<'_>> {
-        let mut settings = self.settings.iter();
-        let (string, setting) = settings.find(|(_, setting)| setting.keyword == keyword)?;
-        Some(Source {
-            setting,
-            from: SetBy::Legend,
-            string: *string,
+    fn number(&self, keyword: Keyword) -> Option<Attribute<'a, f64>> {
+        self.get(keyword, |value| match value {
+            Value::Number(number) => Some(*number),
+            _ => None,
         })
     }
 
-    /// Says that nothing has the legend's paint.
-    pub fn unused(&self, drawing: &Drawing, bindings: &Bindings) -> Diagnostic {
-        let swatch = &drawing.shapes[self.swatch].element;
-        let (what, whence) = match self.says(Keyword::Tile) {
-            Some(_) => ("tile", "tiles"),
-            None => ("part", "parts"),
-        };
-        Diagnostic::new(
-            Code::UnusedLegend,
-            bindings.strings[self.string].text.whole(),
-            format!(
-                "no {what} has the paint of this legend, {}",
-                swatch.describe()
-            ),
-        )
-        .related(swatch.span, "the legend")
-        .help(format!(
-            "pick the sample's colour from the {whence} with the colour picker, or delete the legend"
-        ))
+    fn word(&self, keyword: Keyword) -> Option<Attribute<'a, &'a str>> {
+        self.get(keyword, |value| match value {
+            Value::Word(word) => Some(word.as_str()),
+            _ => None,
+        })
+    }
+
+    fn value_or(&self, keyword: Keyword, default: f64) -> f64 {
+        self.number(keyword).map_or(default, |number| number.value)
+    }
+
+    /// `Shape`, if it is set.
+    pub fn shape_if_set(&self) -> Option<Attribute<'a, &'a Shape>> {
+        self.get(Keyword::Shape, |value| match value {
+            Value::Shape(shape) => Some(shape),
+            _ => None,
+        })
+    }
+
+    /// `Shape`.
+    pub fn shape(&self) -> &'a Shape {
+        self.shape_if_set()
+            .map_or(&DEFAULT_SHAPE, |shape| shape.value)
+    }
+
+    /// `Offset`: towards the viewer, drawing units.
+    pub fn offset(&self) -> Option<Attribute<'a, f64>> {
+        self.number(Keyword::Offset)
+    }
+
+    /// `Origin`, if it or `Shape -c` is set.
+    pub fn origin(&self) -> Option<Origin> {
+        let origin = self.get(Keyword::Origin, |value| match value {
+            Value::Origin(origin) => Some(*origin),
+            _ => None,
+        });
+        let centered = || self.shape().centered.then_some(Origin::Center);
+        origin.map(|origin| origin.value).or_else(centered)
+    }
+
+    /// `Axis`: degrees, counter-clockwise from the drawing's right.
+    pub fn axis(&self) -> Option<f64> {
+        self.number(Keyword::Axis).map(|axis| axis.value)
+    }
+
+    /// `Segments`: layers per half turn.
+    pub fn segments(&self) -> u32 {
+        self.value_or(Keyword::Segments, 16.0) as u32
+    }
+
+    /// `Smooth`: the angle between faces from which on an edge is sharp, degrees.
+    pub fn crease(&self) -> f64 {
+        self.value_or(Keyword::Smooth, 30.0)
+    }
+
+    /// `Color`.
+    pub fn color(&self) -> Option<SetColor> {
+        let color = self.get(Keyword::Color, |value| match value {
+            Value::Color { rgb, alpha } => Some(SetColor {
+                rgb: *rgb,
+                alpha: *alpha,
+            }),
+            _ => None,
+        });
+        color.map(|color| color.value)
+    }
+
+    /// The factors of the material of a surface that is painted with this sRGB colour and opacity; `color` replaces it.
+    pub fn material_factors(&self, painted: [f64; 4], color: Option<SetColor>) -> MaterialFactors {
+        let [r, g, b, opacity] = painted;
+        let color = color.unwrap_or(SetColor {
+            rgb: [r, g, b],
+            alpha: None,
+        });
+        let [r, g, b] = color.rgb;
+        let opacity = color.alpha.unwrap_or(opacity);
+        let emissive = self.get(Keyword::Emissive, |value| match value {
+            Value::Rgb(rgb) => Some(*rgb),
+            _ => None,
+        });
+        MaterialFactors {
+            color: [r, g, b, self.value_or(Keyword::Alpha, opacity)],
+            metallic: self.value_or(Keyword::Metallic, 0.0),
+            roughness: self.value_or(Keyword::Roughness, 0.9),
+            emissive: emissive.map_or([0.0; 3], |emissive| emissive.value),
+        }
+    }
+
+    /// `Texture`: the link to an image.
+    pub fn texture(&self) -> Option<Attribute<'a, &'a str>> {
+        self.word(Keyword::Texture)
+    }
+
+    /// `Bone`: the names of the joints that drive the part.
+    pub fn bones(&self) -> Option<Attribute<'a, &'a [String]>> {
+        self.get(Keyword::Bone, |value| match value {
+            Value::Names(names) => Some(names.as_slice()),
+            _ => None,
+        })
+    }
+
+    /// `Limited`: how many drawings of a clip are omitted, and how many frames are held.
+    pub fn limited(&self) -> Option<Attribute<'a, [usize; 2]>> {
+        self.get(Keyword::Limited, |value| match value {
+            Value::Pair(amounts) => Some(amounts.map(|amount| amount as usize)),
+            _ => None,
+        })
+    }
+
+    /// `Tile`: the word for what tiles of the paint are, from the legend.
+    pub fn tile(&self) -> Option<&'a str> {
+        let word = self.word(Keyword::Tile);
+        let word = word.filter(|word| word.source.from == SetBy::Legend);
+        word.map(|word| word.value)
+    }
+
+    /// `Tiles`: the side of a tile, drawing units. A layer has it in its own string.
+    pub fn tile_size(&self) -> Option<Attribute<'a, f64>> {
+        let size = self.number(Keyword::Tiles);
+        size.filter(|size| size.source.from == SetBy::Own)
+    }
+
+    /// `Roof`: the height of roofs over their depth.
+    pub fn roof(&self) -> Option<f64> {
+        self.number(Keyword::Roof).map(|roof| roof.value)
+    }
+
+    /// `Bevel`: the radius of the ground's bevel, tiles.
+    pub fn bevel(&self) -> f64 {
+        self.value_or(Keyword::Bevel, 0.0)
     }
 }
+
+/// The `Shape` of a part that sets none.
+static DEFAULT_SHAPE: Shape = Shape {
+    kind: ShapeKind::Default(None),
+    mirrored: false,
+    doubled: false,
+    centered: false,
+};

@@ -6,12 +6,13 @@ use crate::geometry::{Measure, Outline};
 use crate::lang::Variables;
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
-use crate::lang::value::{Setting, Value};
+use crate::lang::value::Setting;
 use crate::source::Text;
 use crate::svg::{Drawing, Element, Paint};
 
-use super::attributes::Legend;
-use super::tiles::TileLayer;
+use super::layers::{Layer, LayerKind};
+use super::legends::Legend;
+use super::settings::DrawingSettings;
 use super::units::Member;
 
 /// Everything that the strings say of the parts.
@@ -29,10 +30,12 @@ pub struct Bindings {
     pub legends: Vec<Legend>,
     /// The variables that the `%` strings define.
     pub variables: Variables,
-    /// The tile layers, in the order of their strings.
-    pub layers: Vec<TileLayer>,
-    /// Per group the innermost tile layer that it is, or is in; empty if there are none.
-    pub(super) layer_of_group: Vec<Option<usize>>,
+    /// The settings of the whole drawing.
+    pub settings: DrawingSettings,
+    /// The layers, in the order of their strings.
+    pub layers: Vec<Layer>,
+    /// Per group the innermost tile layer that it is, or is in; empty if there are no layers.
+    pub(super) tile_layer_of_group: Vec<Option<usize>>,
 }
 
 /// Where a string stands.
@@ -104,12 +107,12 @@ impl DrawingString {
     pub fn wants_part(&self) -> bool {
         match &self.annotation {
             Annotation::Unused | Annotation::Legend(_) => true,
-            Annotation::Part(part) => !part.attributes.iter().any(|attribute| {
-                matches!(
-                    attribute.keyword,
-                    Keyword::Tiles | Keyword::View | Keyword::Pose | Keyword::Walk
-                )
-            }),
+            Annotation::Part(part) => {
+                let mut attributes = part.attributes.iter();
+                // A string with `Walk` belongs to a line, the path.
+                LayerKind::of(&self.annotation).is_none()
+                    && !attributes.any(|attribute| attribute.keyword == Keyword::Walk)
+            }
             _ => false,
         }
     }
@@ -216,22 +219,6 @@ impl Part {
 }
 
 impl Bindings {
-    /// What a setting of the whole drawing says in one word.
-    pub fn word(&self, keyword: Keyword) -> Option<&str> {
-        match self.drawing_value(keyword)? {
-            Value::Word(word) => Some(word),
-            _ => None,
-        }
-    }
-
-    /// What a setting of the whole drawing says.
-    pub fn drawing_value(&self, keyword: Keyword) -> Option<&Value> {
-        self.defaults
-            .iter()
-            .find(|(_, setting)| setting.keyword == keyword)
-            .map(|(_, setting)| &setting.value)
-    }
-
     /// A part for people: its name, or its element.
     pub fn describe(&self, drawing: &Drawing, part: usize) -> String {
         let part = &self.parts[part];

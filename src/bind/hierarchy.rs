@@ -14,8 +14,7 @@ use super::parents;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Measure, measure_along};
 use crate::lang::ast::{self, Annotation, Name};
-use crate::lang::keyword::Keyword;
-use crate::lang::value::{Origin, ShapeKind, Value};
+use crate::lang::value::{Origin, ShapeKind};
 use crate::source::Span;
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
@@ -101,7 +100,7 @@ fn names(
         }
     }
     let mut layers: FxHashMap<&str, Span> = FxHashMap::default();
-    for layer in &bindings.layers {
+    for (_, layer) in bindings.tile_layers() {
         let own = name_span(&bindings.strings[layer.string]);
         let part = names.get(&layer.name).map(|part| span(*part));
         let Some(first) = part.or_else(|| layers.get(layer.name.as_str()).copied()) else {
@@ -152,9 +151,8 @@ fn automatic(
     let named = named.into_iter().map(|part| (center(part), part)).collect();
     let centers = waiting.iter().map(|part| center(*part)).collect();
     let of_layers: FxHashSet<String> = bindings
-        .layers
-        .iter()
-        .map(|layer| layer.name.clone())
+        .tile_layers()
+        .map(|(_, layer)| layer.name.clone())
         .collect();
     let parents = hangers.get((named, centers), |(named, centers)| nearest(named, centers));
     let mut counter = 0;
@@ -257,7 +255,7 @@ fn axis(drawing: &Drawing, bindings: &Bindings, index: usize) -> Option<Axis> {
     if !matches!(part.kind, PartKind::Main | PartKind::Sub) {
         return None;
     }
-    if let Some(degrees) = bindings.number(index, Keyword::Axis) {
+    if let Some(degrees) = bindings.attributes(index).axis() {
         let (sin, cos) = degrees.to_radians().sin_cos();
         let measure = measure_along(&part.outline, DVec2::new(cos, -sin))?;
         return Some(Axis::Turned(Measure {
@@ -267,7 +265,7 @@ fn axis(drawing: &Drawing, bindings: &Bindings, index: usize) -> Option<Axis> {
     }
     let turns = !part.measure.certain
         && matches!(
-            bindings.shape(index).kind,
+            bindings.attributes(index).shape().kind,
             ShapeKind::RoundV(_)
                 | ShapeKind::RoundH(_)
                 | ShapeKind::ConeV(_)
@@ -298,15 +296,8 @@ fn origin(bindings: &Bindings, index: usize) -> DVec2 {
     let parent = part
         .parent
         .map(|parent| bindings.parts[parent].measure.center);
-    let set = match bindings
-        .setting(index, Keyword::Origin)
-        .map(|source| &source.setting.value)
-    {
-        Some(Value::Origin(origin)) => Some(*origin),
-        _ => bindings.shape(index).centered.then_some(Origin::Center),
-    };
     let [start, end] = sorted_ends(part, parent);
-    match set {
+    match bindings.attributes(index).origin() {
         Some(Origin::Center) => part.measure.center,
         Some(Origin::Start) => start,
         Some(Origin::End) => end,
@@ -346,8 +337,7 @@ fn turns_about_middle(
     let part = &bindings.parts[index];
     let long = part.measure.half_along > LONG * part.measure.half_across;
     let (parent, string) = (part.parent?, part.string?);
-    let chosen =
-        || bindings.setting(index, Keyword::Origin).is_some() || bindings.shape(index).centered;
+    let chosen = || bindings.attributes(index).origin().is_some();
     let beside = &bindings.parts[parent].measure;
     // A hat or a foot lies across the end of what it hangs on, and is meant to turn about its middle.
     let alike = !beside.certain

@@ -6,18 +6,23 @@
 mod attributes;
 mod bindings;
 mod hierarchy;
+mod layers;
 mod leaders;
+mod legends;
 mod memory;
 mod nearest;
 mod parents;
+mod settings;
 mod strings;
-mod tiles;
 mod units;
 
-pub use attributes::{Legend, Look, Resolved, SetBy, Source};
+pub use attributes::{Attribute, Attributes, MaterialFactors, Resolved, SetBy, SetColor, Source};
 pub use bindings::{Binding, Bindings, BoundBy, DrawingString, Part, PartKind, Place};
+pub use layers::{Layer, LayerKind, in_tile_layers};
+pub use legends::Legend;
 pub use memory::Memory;
-pub use tiles::{TileLayer, in_tile_layers};
+pub use nearest::Mode as DistanceMode;
+pub use settings::{DrawingSettings, Strokes};
 
 use std::sync::Arc;
 
@@ -26,7 +31,6 @@ use rayon::prelude::*;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::kept::Same;
 use crate::lang::ast::Annotation;
-use crate::lang::keyword::Keyword;
 use crate::svg::{Drawing, Element};
 use crate::threads::GRAIN;
 use memory::Area;
@@ -39,8 +43,8 @@ pub fn bind(
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Bindings {
     let mut bindings = strings::read(drawing, diagnostics);
-    tiles::find(drawing, &mut bindings, diagnostics);
-    tiles::misplaced(&bindings, diagnostics);
+    layers::find(drawing, &mut bindings, diagnostics);
+    layers::misplaced(&bindings, diagnostics);
     let units = Units::read(drawing, &bindings);
     bindings.parts = units
         .members
@@ -67,7 +71,7 @@ pub fn bind(
     binder.nearest(&mut memory.nearest);
     binder.left_over();
     classify(drawing, &mut bindings);
-    attributes::legends(drawing, &mut bindings, diagnostics);
+    legends::merge(drawing, &mut bindings, diagnostics);
     hierarchy::build(drawing, &mut bindings, &mut memory.hangers, diagnostics);
     hints(drawing, &bindings, diagnostics);
     bindings
@@ -175,14 +179,7 @@ impl<'a> Binder<'a> {
 
     /// Rule 4: every other string to the nearest main part candidate, containers among themselves first.
     fn nearest(&mut self, known: &mut memory::Nearest) {
-        let by_outline = self
-            .bindings
-            .word(Keyword::Bind)
-            .is_some_and(|word| word.eq_ignore_ascii_case("outline"));
-        let mode = match by_outline {
-            true => nearest::Mode::Outline,
-            false => nearest::Mode::Center,
-        };
+        let mode = self.bindings.settings.bind;
         let mut waiting: Vec<(Option<usize>, usize)> = (0..self.bindings.strings.len())
             .filter(|string| self.waiting_label(*string).is_some())
             .map(|string| (self.bindings.strings[string].scope, string))
@@ -364,7 +361,7 @@ fn classify(drawing: &Drawing, bindings: &mut Bindings) {
             bindings.parts[index].kind = bindings.parts[main].kind;
         }
     }
-    tiles::classify(drawing, bindings);
+    layers::classify(drawing, bindings);
 }
 
 /// The element whose description a part's string is: the shape, or a group around it.

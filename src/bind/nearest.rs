@@ -17,9 +17,9 @@ use crate::geometry::{Outline, bounds, distance_squared};
 use crate::kept::Same;
 use crate::threads::GRAIN;
 
-/// From where to where distances are measured.
+/// How the distance from a string to a part is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Mode {
+pub enum Mode {
     /// From a string's corner to a part's centre, as in the paper.
     Center,
     /// From a string's corner to a part's outline.

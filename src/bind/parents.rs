@@ -4,6 +4,7 @@ use rustc_hash::FxHashMap;
 
 use super::bindings::{Bindings, DrawingString, Part, PartKind};
 use super::hierarchy::ROOT;
+use super::layers::LayerKind;
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::Annotation;
 use crate::svg::Drawing;
@@ -39,6 +40,9 @@ pub(super) fn of_layers(
 ) {
     for index in 0..bindings.layers.len() {
         let layer = &bindings.layers[index];
+        if layer.kind != LayerKind::Tiles {
+            continue;
+        }
         let string = &bindings.strings[layer.string];
         match parent(drawing, bindings, string, &layer.name, names) {
             Ok(parent) => bindings.layers[index].parent = parent,
@@ -76,7 +80,7 @@ fn parent(
         format!("there is no part named `{}`", parent.text),
     );
     let is_named = |part: &&Part| part.name == parent.text && part.kind != PartKind::Main;
-    let mut layers = bindings.layers.iter();
+    let mut layers = bindings.tile_layers();
     if let Some(other) = bindings.parts.iter().find(is_named) {
         diagnostic = diagnostic
             .related(
@@ -84,7 +88,7 @@ fn parent(
                 "this sub-part has that name, but sub-parts have no joints",
             )
             .help("name the main part of its group instead");
-    } else if let Some(layer) = layers.find(|layer| layer.name == parent.text) {
+    } else if let Some((_, layer)) = layers.find(|(_, layer)| layer.name == parent.text) {
         diagnostic = diagnostic
             .related(
                 bindings.strings[layer.string].text.whole(),

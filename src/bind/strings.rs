@@ -5,6 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::bindings::{Bindings, DrawingString, Place};
+use super::settings::DrawingSettings;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
@@ -86,6 +87,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
     diagnostics.extend(findings.into_iter().flatten());
     bindings.variables = variables;
     add_up_defaults(&mut bindings, diagnostics);
+    bindings.settings = DrawingSettings::read(drawing, &bindings);
     bindings
 }
 

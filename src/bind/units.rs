@@ -6,7 +6,7 @@
 use rustc_hash::FxHashMap;
 
 use super::bindings::{Bindings, Place};
-use crate::lang::keyword::Keyword;
+use super::settings::Strokes;
 use crate::svg::{Drawing, GroupKind};
 
 /// Something with area.
@@ -59,7 +59,7 @@ impl Units {
         let members = members(drawing, bindings);
         let groups = 0..drawing.groups.len();
         let layer =
-            groups.map(|group| Some(bindings.layers[bindings.layer_of_group(group)?].group));
+            groups.map(|group| Some(bindings.layers[bindings.tile_layer_of_group(group)?].group));
         let layer: Vec<Option<usize>> = layer.collect();
         let roles = roles(drawing, &strings, &layer);
         let mut units = Self {
@@ -133,12 +133,10 @@ impl Units {
 }
 
 fn members(drawing: &Drawing, bindings: &Bindings) -> Vec<Member> {
-    let strokes = bindings.word(Keyword::Strokes).map(str::to_lowercase);
-    let (lines, borders) = match strokes.as_deref() {
-        Some("lines") => (true, false),
-        Some("all") => (true, true),
-        Some(_) => (false, false),
-        None => (!bindings.annotated, false),
+    let (lines, borders) = match bindings.settings.strokes {
+        Strokes::None => (false, false),
+        Strokes::Lines => (true, false),
+        Strokes::All => (true, true),
     };
     let described = described_lines(drawing, bindings);
     let mut members = Vec::with_capacity(drawing.shapes.len());
@@ -158,7 +156,7 @@ fn members(drawing: &Drawing, bindings: &Bindings) -> Vec<Member> {
             add(index, false);
         }
         // Strokes in a tile layer are edges.
-        let is_map = bindings.layer_of_group(shape.group).is_some();
+        let is_map = bindings.tile_layer_of_group(shape.group).is_some();
         let (lines, borders) = (lines && !is_map, borders && !is_map);
         if shape.stroke.is_some()
             && if filled {

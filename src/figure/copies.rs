@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use super::FigureContext;
 use crate::bind::PartKind;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lang::keyword::Keyword;
 use crate::lang::value::ShapeKind;
 use crate::solid;
 use crate::threads::GRAIN;
@@ -20,7 +19,7 @@ pub(super) fn check(context: &FigureContext<'_>, diagnostics: &mut Vec<Diagnosti
         .clone()
         .into_par_iter()
         .with_min_len(GRAIN)
-        .map(|part| context.bindings.shape(part).doubled)
+        .map(|part| context.bindings.attributes(part).shape().doubled)
         .collect();
     let copied = doubled.contains(&true);
     let found: Vec<Diagnostic> = parts
@@ -62,7 +61,7 @@ fn is_even([low, high]: [f64; 2], plane: f64) -> bool {
 
 /// A copy that the part's own flag makes.
 fn coincident(context: &FigureContext<'_>, part: usize) -> Option<Diagnostic> {
-    let shape = context.bindings.shape(part);
+    let shape = context.bindings.attributes(part).shape();
     if !(shape.mirrored || shape.doubled) || !is_even(depths(context, part)?, 0.0) {
         return None;
     }
@@ -77,7 +76,7 @@ fn coincident(context: &FigureContext<'_>, part: usize) -> Option<Diagnostic> {
 fn inherited(context: &FigureContext<'_>, part: usize, doubled: &[bool]) -> Option<Diagnostic> {
     let parts = &context.bindings.parts;
     let main = parts[part].main;
-    let shape = context.bindings.shape(part);
+    let shape = context.bindings.attributes(part).shape();
     let depths = depths(context, part)?;
     // From the node that the part hangs on to the plane that an ancestor is mirrored in.
     let mut plane = 0.0;
@@ -89,7 +88,7 @@ fn inherited(context: &FigureContext<'_>, part: usize, doubled: &[bool]) -> Opti
     };
     for _ in 0..MOST_ANCESTORS {
         let ancestor = next?;
-        if !context.bindings.shape(ancestor).mirrored {
+        if !context.bindings.attributes(ancestor).shape().mirrored {
             plane -= context.offset(ancestor);
         }
         let both = shape.mirrored || shape.doubled;
@@ -112,16 +111,9 @@ fn inherited(context: &FigureContext<'_>, part: usize, doubled: &[bool]) -> Opti
 
 fn told(context: &FigureContext<'_>, part: usize, message: String) -> Diagnostic {
     let bindings = context.bindings;
-    let source = bindings.setting(part, Keyword::Shape);
-    let span = source.map_or(
-        context.drawing.shapes[bindings.parts[part].shape]
-            .element
-            .span,
-        |source| {
-            let text = &bindings.strings[source.string].text;
-            text.span(source.setting.range.clone())
-        },
-    );
+    let shape = bindings.attributes(part).shape_if_set();
+    let element = &context.drawing.shapes[bindings.parts[part].shape].element;
+    let span = shape.map_or(element.span, |shape| bindings.span_of(&shape.source));
     Diagnostic::new(Code::CopiesCoincide, span, message).help(
         "move the two sides apart with `Offset`, or give depths on one side only, as in `default 45 50`",
     )

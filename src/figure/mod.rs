@@ -14,11 +14,10 @@ use std::sync::Arc;
 use glam::DAffine2;
 use rayon::prelude::*;
 
-use crate::bind::{Bindings, Part, PartKind};
+use crate::bind::{Bindings, Part, PartKind, SetBy};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, area, contains, intersect};
-use crate::lang::keyword::Keyword;
-use crate::lang::value::{ShapeKind, Value};
+use crate::lang::value::ShapeKind;
 use crate::resolver::Resolver;
 use crate::scene::{Mesh, Piece, Primitive, Scene, WorldTransform};
 use crate::solid::{self, Placement, Sides, Solid};
@@ -242,31 +241,27 @@ impl<'a> FigureContext<'a> {
 
     /// How far a part's solid, or its node, is moved along the viewer axis, drawing units.
     fn offset(&self, part: usize) -> f64 {
-        let source = self.bindings.setting(part, Keyword::Offset);
-        let main = self.bindings.parts[part].main == part;
-        match source.map(|source| (&source.setting.value, source.from)) {
-            // What `%` says has moved the sub-part's node already.
-            Some((_, crate::bind::SetBy::Default)) if !main => 0.0,
-            Some((Value::Number(offset), _)) => *offset,
-            _ => 0.0,
+        let is_main = self.bindings.parts[part].main == part;
+        match self.bindings.attributes(part).offset() {
+            // A default has moved the sub-part's node already.
+            Some(offset) if !is_main && offset.source.from == SetBy::Default => 0.0,
+            offset => offset.map_or(0.0, |offset| offset.value),
         }
     }
 
     /// The kind of a part with its depths filled in.
     fn kind(&self, part: usize) -> ShapeKind {
-        match self.bindings.shape(part).kind {
+        match &self.bindings.attributes(part).shape().kind {
             ShapeKind::Default(None) => ShapeKind::Default(Some(self.depth)),
-            kind => kind,
+            kind => kind.clone(),
         }
     }
 
     fn options(&self, part: usize) -> solid::Options {
+        let attributes = self.bindings.attributes(part);
         solid::Options {
-            segments: self
-                .bindings
-                .number(part, Keyword::Segments)
-                .unwrap_or(16.0) as u32,
-            crease: self.bindings.number(part, Keyword::Smooth).unwrap_or(30.0),
+            segments: attributes.segments(),
+            crease: attributes.crease(),
             thickness: self.depth,
             placement: Placement::default(),
         }
@@ -274,7 +269,7 @@ impl<'a> FigureContext<'a> {
 
     /// How far a part's solid stands from the plane of its node, drawing units, and whether it stands on both sides.
     fn stand(&self, main: usize, part: usize) -> (f64, bool) {
-        let shape = self.bindings.shape(part);
+        let shape = self.bindings.attributes(part).shape();
         // The node of a main part is moved already, but with `-s` its two solids are.
         let moved = part != main || shape.mirrored;
         let depth = if moved { self.offset(part) } else { 0.0 };

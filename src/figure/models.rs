@@ -9,8 +9,7 @@ use crate::bind::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Frame, Outline};
 use crate::import::{ImportError, StaticModel, read_static_model};
-use crate::lang::keyword::Keyword;
-use crate::lang::value::{Shape, ShapeKind, Value};
+use crate::lang::value::ShapeKind;
 use crate::resolver::{LinkError, Resolver};
 use crate::scene::{Scene, Surface};
 use crate::svg::broken_link;
@@ -65,14 +64,10 @@ impl Models {
         let mut told = FxHashSet::default();
         let mut triangles = 0_usize;
         for (index, part) in bindings.parts.iter().enumerate() {
-            let Some(source) = bindings.setting(index, Keyword::Shape) else {
+            let Some(shape) = bindings.attributes(index).shape_if_set() else {
                 continue;
             };
-            let Value::Shape(Shape {
-                kind: ShapeKind::Model(link),
-                ..
-            }) = &source.setting.value
-            else {
+            let ShapeKind::Model(link) = &shape.value.kind else {
                 continue;
             };
             if !matches!(part.kind, PartKind::Main | PartKind::Sub) {
@@ -91,8 +86,7 @@ impl Models {
                 });
                 Ok(models.assets.len() - 1)
             });
-            let text = &bindings.strings[source.string].text;
-            let span = text.span(source.setting.range.clone());
+            let span = bindings.span_of(&shape.source);
             match found {
                 Ok(asset) => {
                     triangles = triangles.saturating_add(models.assets[*asset].asset.triangles());
@@ -108,7 +102,7 @@ impl Models {
                     }
                 }
                 // A legend speaks for many parts, but needs to be told once.
-                Err(trouble) if told.insert(Some(source.string)) => {
+                Err(trouble) if told.insert(Some(shape.source.string)) => {
                     diagnostics.push(match trouble {
                         Trouble::Link(error) => broken_link(link, error, span),
                         Trouble::Import(error) => {

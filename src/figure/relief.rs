@@ -137,7 +137,7 @@ fn node_depths(context: &FigureContext<'_>) -> Vec<f64> {
         }
         let mut depth = next.and_then(|part| depths[part]).unwrap_or(0.0);
         for part in chain.into_iter().rev() {
-            depth += if context.bindings.shape(part).mirrored {
+            depth += if context.bindings.attributes(part).shape().mirrored {
                 0.0
             } else {
                 context.offset(part)
@@ -159,7 +159,7 @@ fn faces(context: &FigureContext<'_>, part: usize, depths: &[f64]) -> Option<Fac
         return None;
     }
     let main = context.bindings.parts[part].main;
-    let moved = part != main || context.bindings.shape(part).mirrored;
+    let moved = part != main || context.bindings.attributes(part).shape().mirrored;
     let depth = depths[part] + if moved { context.offset(part) } else { 0.0 };
     let between = |a: f64, b: f64, top: f64| {
         let (back, front) = if a <= b {

@@ -60,8 +60,9 @@ impl Tree {
                 None => roots.push(index),
             }
         }
-        let copied = (0..parts.len())
-            .any(|part| parts[part].kind == PartKind::Main && context.bindings.shape(part).doubled);
+        let copied = (0..parts.len()).any(|part| {
+            parts[part].kind == PartKind::Main && context.bindings.attributes(part).shape().doubled
+        });
         let known = if copied { parts.as_slice() } else { &[] };
         let mut names: FxHashMap<String, usize> =
             known.iter().map(|part| (part.name.clone(), 1)).collect();
@@ -75,7 +76,7 @@ impl Tree {
                 copies,
             };
             // The last one in is grown first: the copy stands behind its original.
-            if context.bindings.shape(part).doubled {
+            if context.bindings.attributes(part).shape().doubled {
                 buds.push(bud(!mirrored, copies + 1));
             }
             buds.push(bud(mirrored, copies));
@@ -132,7 +133,7 @@ fn place(context: &FigureContext<'_>, frames: &[Frame], bud: &Bud) -> Branch {
     let part = &context.bindings.parts[bud.part];
     let own = &frames[bud.part];
     // With `-s` the two solids are moved, not the node.
-    let offset = if context.bindings.shape(bud.part).mirrored {
+    let offset = if context.bindings.attributes(bud.part).shape().mirrored {
         0.0
     } else {
         context.offset(bud.part)

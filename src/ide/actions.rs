@@ -6,10 +6,9 @@ use super::Analysis;
 use super::at::{At, attributes};
 use super::quoting::{Role, written};
 use super::rename::replace;
-use crate::bind::{Part, PartKind};
+use crate::bind::{DistanceMode, Part, PartKind};
 use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, Attribute};
-use crate::lang::keyword::Keyword;
 use crate::source::{Span, Text, escape_xml};
 use crate::svg::PaintKey;
 
@@ -104,8 +103,7 @@ impl Analysis {
 
     /// A text whose corner is the part's centre, which no other string is nearer to.
     fn beside(&self, part: &Part, string: &str) -> Option<Edit> {
-        let by_outline = self.bindings().word(Keyword::Bind);
-        if by_outline.is_some_and(|word| word.eq_ignore_ascii_case("outline")) {
+        if self.bindings().settings.bind == DistanceMode::Outline {
             return None;
         }
         let size = self.font_size();
@@ -312,6 +310,7 @@ mod tests {
     use super::super::samples::{analysis, figure};
     use super::*;
     use crate::bind::BoundBy;
+    use crate::lang::keyword::Keyword;
 
     fn after(source: &str, title: &str) -> Analysis {
         let (before, at) = analysis(source);

@@ -213,7 +213,7 @@ impl Analysis {
             PartKind::Legend => "**A legend's sample**, left out of the model".to_owned(),
             PartKind::Unused => "**Left out of the model**".to_owned(),
             PartKind::Tile => {
-                let layer = bindings.layer_of_group(self.drawing().shapes[part.shape].group);
+                let layer = bindings.tile_layer_of_group(self.drawing().shapes[part.shape].group);
                 let name = layer.map_or("", |layer| &bindings.layers[layer].name);
                 format!("**Tiles** of {}", escaped(name))
             }

@@ -183,12 +183,8 @@ fn match_problem(
     let element = context.drawing.shapes[bindings.parts[part].shape]
         .element
         .span;
-    let bone = bindings.setting(part, Keyword::Bone);
-    let span = bone.map_or(element, |source| {
-        bindings.strings[source.string]
-            .text
-            .span(source.setting.range.clone())
-    });
+    let bones = bindings.attributes(part).bones();
+    let span = bones.map_or(element, |bones| bindings.span_of(&bones.source));
     let called = |joint: usize| {
         let joint = skeleton.and_then(|skeleton| skeleton.joints.get(joint));
         joint.map_or_else(String::new, |joint| format!("`{}`", joint.name))

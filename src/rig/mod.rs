@@ -17,7 +17,6 @@ use crate::diagnostic::Diagnostic;
 use crate::geometry::Frame;
 use crate::kept::{Kept, Same};
 use crate::lang::ast::Annotation;
-use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
 use crate::motion::figure::Figure;
 use crate::motion::labels::Class;
@@ -310,21 +309,12 @@ impl ClipBuilder<'_> {
     /// How many drawings of a figure's clips to omit and how many frames to hold, and where `Limited` says so.
     fn limits(&self, group: &FigureGroup) -> Option<([usize; 2], Span)> {
         let bindings = self.context.bindings;
-        let limits_of = |part: usize| {
-            let source = bindings.setting(part, Keyword::Limited)?;
-            let Value::Pair(amounts) = source.setting.value else {
-                return None;
-            };
-            let span = bindings.strings[source.string]
-                .text
-                .span(source.setting.range.clone());
-            Some((amounts.map(|amount| amount as usize), span, source.from))
-        };
+        let limits_of = |part: &usize| bindings.attributes(*part).limited();
         // The string of any part of the figure takes precedence over a string for all figures.
-        let all = std::iter::once(group.root)
-            .chain(group.parts.iter().copied())
-            .filter_map(limits_of);
-        let (amounts, span, _) = all.min_by_key(|(_, _, from)| *from as usize)?;
-        Some((amounts, span))
+        let all = std::iter::once(&group.root).chain(&group.parts);
+        let limits = all
+            .filter_map(limits_of)
+            .min_by_key(|limits| limits.source.from)?;
+        Some((limits.value, bindings.span_of(&limits.source)))
     }
 }

@@ -5,8 +5,6 @@ use glam::{DQuat, DVec2, DVec3};
 use super::Context;
 use super::figures::FigureGroup;
 use crate::geometry::{Frame, y_up};
-use crate::lang::keyword::Keyword;
-use crate::lang::value::Value;
 use crate::motion::figure::{Figure, FigurePart};
 use crate::motion::labels::Class;
 use crate::motion::matching::{Follow, Matching};
@@ -45,13 +43,8 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
                 [low.min(a.min(b)), high.max(a.max(b))]
             },
         );
-        let bones = match bindings
-            .setting(index, Keyword::Bone)
-            .map(|source| &source.setting.value)
-        {
-            Some(Value::Names(names)) => names.clone(),
-            _ => Vec::new(),
-        };
+        let bones = bindings.attributes(index).bones();
+        let bones = bones.map_or(Vec::new(), |bones| bones.value.to_vec());
         FigurePart {
             name: part.name.clone(),
             parent,

@@ -21,4 +21,4 @@ pub use land::{Built, Group, Land, ROOF};
 pub use map::{EDGE_BELOW, EDGE_RIGHT, MOST_CELLS, Map, Tile};
 pub use nodes::node;
 pub use notes::{Note, Open};
-pub use reading::{Layer, LookOf, Tiles, cells_named, read};
+pub use reading::{Layer, TileLook, TileTexture, Tiles, cells_named, read};

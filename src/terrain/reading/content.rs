@@ -49,7 +49,7 @@ pub(super) fn contents(drawing: &Drawing, bindings: &Bindings) -> Vec<Content> {
         })
         .collect();
     for (index, shape) in drawing.shapes.iter().enumerate() {
-        let Some(layer) = bindings.layer_of_group(shape.group) else {
+        let Some(layer) = bindings.tile_layer_of_group(shape.group) else {
             continue;
         };
         if !is_tile[index] || left_out.contains(&index) {

@@ -10,7 +10,6 @@ use super::raster::Code as Painted;
 use super::survey::Tally;
 use crate::bind::Bindings;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lang::keyword::Keyword;
 use crate::source::Span;
 use crate::svg::{Drawing, PaintKey};
 use crate::terrain::{MOST_CELLS, Open, Tile};
@@ -42,11 +41,8 @@ pub fn cells_named(columns: usize, first: &[usize], count: usize) -> String {
 /// Where a layer's string says how large tiles are.
 pub(super) fn size_span(bindings: &Bindings, layer: usize) -> Span {
     let string = &bindings.strings[bindings.layers[layer].string];
-    let mut settings = string.settings.iter();
-    let size = settings.find(|setting| setting.keyword == Keyword::Tiles);
-    size.map_or(string.text.whole(), |size| {
-        string.text.span(size.range.clone())
-    })
+    let size = bindings.layer_attributes(layer).tile_size();
+    size.map_or(string.text.whole(), |size| bindings.span_of(&size.source))
 }
 
 /// A layer without tiles.

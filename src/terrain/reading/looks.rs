@@ -4,33 +4,43 @@ use rustc_hash::FxHashMap;
 
 use super::colours;
 use super::raster::{Code, paint_of, pixel_of};
-use crate::bind::{Bindings, Look};
-use crate::lang::keyword::Keyword;
-use crate::lang::value::{Setting, Value};
+use crate::bind::{Bindings, MaterialFactors};
+use crate::source::Span;
 use crate::svg::PaintKey;
 use crate::terrain::Tile;
 
 /// How tiles of one kind and paint look.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LookOf {
+pub struct TileLook {
     /// What they stand for.
     pub tile: Tile,
-    /// Colour and what else their material has.
-    pub look: Look,
-    /// What is laid over each tile: the setting that says so, with the index of its string.
-    pub texture: Option<(usize, Setting)>,
-    /// Whether the material's colour is what a string says, by which a texture is tinted.
+    /// The factors of their material.
+    pub factors: MaterialFactors,
+    /// The image that is laid over each tile.
+    pub texture: Option<TileTexture>,
+    /// Whether a string sets the colour, which tints the texture.
     pub is_tinted: bool,
     /// Index of the legend of their paint.
     pub legend: Option<usize>,
 }
 
-impl LookOf {
+/// An image on tiles.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TileTexture {
+    /// The link to the image.
+    pub link: String,
+    /// Index of the string that sets it.
+    pub string: usize,
+    /// The place of the setting.
+    pub span: Span,
+}
+
+impl TileLook {
     /// The look of cells in which nothing is.
     pub(super) fn none() -> Self {
         Self {
             tile: Tile::None,
-            look: Look {
+            factors: MaterialFactors {
                 color: [0.0; 4],
                 metallic: 0.0,
                 roughness: 0.0,
@@ -114,10 +124,10 @@ impl<'a> Paints<'a> {
             None => self.legends.get(&PaintKey::Solid(color)),
         };
         let legend = legend.copied();
-        let said = legend.and_then(|legend| self.bindings.legends[legend].says(Keyword::Tile));
-        let tile = match said.map(|said| &said.setting.value) {
-            Some(Value::Word(word)) => Some(tile(word)),
-            _ => colours::kind(color),
+        let attributes = self.bindings.tile_attributes(self.layer, legend);
+        let tile = match attributes.tile() {
+            Some(word) => Some(tile(word)),
+            None => colours::kind(color),
         };
         Meaning {
             tile,
@@ -134,43 +144,20 @@ impl<'a> Paints<'a> {
         legend: Option<usize>,
         color: [f64; 3],
         opacity: f64,
-    ) -> LookOf {
-        let own = &self.bindings.strings[self.bindings.layers[self.layer].string];
-        let says = |keyword: Keyword| -> Option<(usize, &'a Setting)> {
-            let by_legend = legend.and_then(|legend| self.bindings.legends[legend].says(keyword));
-            let by_legend = by_legend.map(|source| (source.string, source.setting));
-            let string = self.bindings.layers[self.layer].string;
-            let mut of_layer = own.settings.iter().map(|setting| (string, setting));
-            let of_all = self.bindings.defaults.iter();
-            let mut of_all = of_all.map(|(string, setting)| (*string, setting));
-            by_legend
-                .or_else(|| of_layer.find(|(_, setting)| setting.keyword == keyword))
-                .or_else(|| of_all.find(|(_, setting)| setting.keyword == keyword))
-        };
-        let number = |keyword: Keyword| match says(keyword)?.1.value {
-            Value::Number(number) => Some(number),
-            _ => None,
-        };
-        let said = says(Keyword::Color).map(|(_, setting)| &setting.value);
-        let (color, opacity, is_tinted) = match said {
-            Some(Value::Color { rgb, alpha }) => (*rgb, alpha.unwrap_or(opacity), true),
-            _ => (color.map(|channel| channel / 255.0), opacity, false),
-        };
-        let [r, g, b] = color;
-        let emissive = says(Keyword::Emissive).map(|(_, setting)| &setting.value);
-        LookOf {
+    ) -> TileLook {
+        let attributes = self.bindings.tile_attributes(self.layer, legend);
+        let set_color = attributes.color();
+        let [r, g, b] = color.map(|channel| channel / 255.0);
+        let texture = attributes.texture();
+        TileLook {
             tile,
-            look: Look {
-                color: [r, g, b, number(Keyword::Alpha).unwrap_or(opacity)],
-                metallic: number(Keyword::Metallic).unwrap_or(0.0),
-                roughness: number(Keyword::Roughness).unwrap_or(0.9),
-                emissive: match emissive {
-                    Some(Value::Rgb(rgb)) => *rgb,
-                    _ => [0.0; 3],
-                },
-            },
-            texture: says(Keyword::Texture).map(|(string, setting)| (string, setting.clone())),
-            is_tinted,
+            factors: attributes.material_factors([r, g, b, opacity], set_color),
+            texture: texture.map(|texture| TileTexture {
+                link: texture.value.to_owned(),
+                string: texture.source.string,
+                span: self.bindings.span_of(&texture.source),
+            }),
+            is_tinted: set_color.is_some(),
             legend,
         }
     }

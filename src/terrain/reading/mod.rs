@@ -19,14 +19,12 @@ use std::ops::Range;
 use glam::DVec2;
 
 pub use findings::cells_named;
-pub use looks::LookOf;
+pub use looks::{TileLook, TileTexture};
 
 use super::land::{Land, ROOF};
 use super::map::{MOST_CELLS, Map};
-use crate::bind::Bindings;
+use crate::bind::{Attribute, Bindings};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lang::keyword::Keyword;
-use crate::lang::value::Value;
 use crate::svg::{Drawing, PaintKey};
 use content::{Content, contents};
 use grid::Grid;
@@ -48,7 +46,7 @@ pub struct Layer {
     /// How high everything lies.
     pub land: Land,
     /// How each look of the map appears; the first is that of cells in which nothing is.
-    pub looks: Vec<LookOf>,
+    pub looks: Vec<TileLook>,
     /// The grid's top left corner, drawing units.
     pub origin: DVec2,
     /// The side of a tile, drawing units.
@@ -106,7 +104,7 @@ pub fn read(
     bindings: &Bindings,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Layer> {
-    if bindings.layers.is_empty() {
+    if bindings.tile_layers().next().is_none() {
         return Vec::new();
     }
     let mut used: Vec<bool> = bindings
@@ -116,13 +114,14 @@ pub fn read(
         .collect();
     let mut layers = Vec::new();
     let mut all_read = true;
-    for (index, content) in contents(drawing, bindings).iter().enumerate() {
+    let contents = contents(drawing, bindings);
+    for (index, _) in bindings.tile_layers() {
         let reading = Reading {
             drawing,
             bindings,
             index,
         };
-        match reading.layer(content, &mut used, diagnostics) {
+        match reading.layer(&contents[index], &mut used, diagnostics) {
             Ok(layer) => layers.push(layer),
             Err(finding) => {
                 diagnostics.extend(finding.map(|finding| *finding));
@@ -166,10 +165,8 @@ impl Reading<'_> {
             index,
         } = *self;
         let of_layer = &bindings.layers[index];
-        let string = &bindings.strings[of_layer.string];
-        let mut settings = string.settings.iter();
-        let size = settings.find(|setting| setting.keyword == Keyword::Tiles);
-        let Some(Value::Number(size)) = size.map(|setting| &setting.value) else {
+        let attributes = bindings.layer_attributes(index);
+        let Some(Attribute { value: size, .. }) = attributes.tile_size() else {
             return Err(None);
         };
         let nothing = |holds| {
@@ -180,8 +177,8 @@ impl Reading<'_> {
         let Some(bounds) = content.bounds() else {
             return nothing(false);
         };
-        let grid = Grid::over(bounds, *size, MOST_CELLS)
-            .map_err(|count| Some(Box::new(findings::too_large(bindings, index, *size, count))))?;
+        let grid = Grid::over(bounds, size, MOST_CELLS)
+            .map_err(|count| Some(Box::new(findings::too_large(bindings, index, size, count))))?;
         if grid.columns == 0 || grid.rows == 0 {
             return nothing(true);
         }
@@ -229,8 +226,8 @@ impl Reading<'_> {
             looks,
             origin: grid.origin,
             size: grid.size,
-            roof: bindings.layer_number(index, Keyword::Roof).unwrap_or(ROOF),
-            bevel: bindings.layer_number(index, Keyword::Bevel).unwrap_or(0.0),
+            roof: attributes.roof().unwrap_or(ROOF),
+            bevel: attributes.bevel(),
             parent: of_layer.parent,
             sources,
         };

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use rustc_hash::FxHashMap;
 
-use super::looks::{LookOf, Meaning, Paints};
+use super::looks::{Meaning, Paints, TileLook};
 use super::raster::{Canvas, Code, NOTHING, paint_of};
 use crate::svg::PaintKey;
 use crate::terrain::Tile;
@@ -49,7 +49,7 @@ impl Tally {
 pub(super) struct Survey {
     /// Per cell the index of its look.
     pub(super) cells: Vec<u8>,
-    pub(super) looks: Vec<LookOf>,
+    pub(super) looks: Vec<TileLook>,
     /// The unclear colours, the ones in most cells first.
     pub(super) unclear: Vec<(Code, Tally)>,
     /// Indices of the legends whose paint is in some cell, in order.
@@ -289,7 +289,7 @@ impl Survey {
     fn new() -> Self {
         Self {
             cells: Vec::new(),
-            looks: vec![LookOf::none()],
+            looks: vec![TileLook::none()],
             unclear: Vec::new(),
             legends: Vec::new(),
             plain: Vec::new(),

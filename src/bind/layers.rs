@@ -1,22 +1,42 @@
-//! Tile layers: groups whose shapes are tiles of a map rather than parts (terrain.md, Input).
+//! Layers: groups that a string makes something special, such as a map of tiles (terrain.md, Input).
 
 use rayon::prelude::*;
 
 use super::bindings::{Bindings, Part, PartKind, Place};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lang::ast::{self, Annotation};
+use crate::lang;
+use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
-use crate::lang::{self, value::Value};
 use crate::svg::{Drawing, PaintKey};
 use crate::threads::GRAIN;
 
-/// What a tile layer is called that has neither a name nor a label nor an id.
+/// What a string makes of its group.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LayerKind {
+    /// A map of tiles: shapes in the group are tiles, not parts.
+    Tiles,
+    /// A character as seen from one side. No effect yet.
+    View,
+    /// A key pose of a figure. No effect yet.
+    Pose,
+}
+
+/// The attributes that make a string a group string, each with the kind of its layer. Of several the first in this list counts.
+const KINDS: [(Keyword, LayerKind); 3] = [
+    (Keyword::Tiles, LayerKind::Tiles),
+    (Keyword::View, LayerKind::View),
+    (Keyword::Pose, LayerKind::Pose),
+];
+
+/// The name of a layer whose string has no name and whose group has neither label nor id.
 const NAMELESS: &str = "Tiles";
 
-/// A tile layer.
+/// A layer: a group and its string.
 #[derive(Debug, Clone)]
-pub struct TileLayer {
-    /// Its name, which no part and no other layer has.
+pub struct Layer {
+    /// What the string makes of the group.
+    pub kind: LayerKind,
+    /// Its name. No part and no other tile layer has the name of a tile layer.
     pub name: String,
     /// Index of its string.
     pub string: usize,
@@ -26,14 +46,31 @@ pub struct TileLayer {
     pub parent: Option<usize>,
 }
 
-/// Whether each group is a tile layer's, or in one.
+impl LayerKind {
+    /// The kind of layer that a string makes of its group, if it does.
+    pub(super) fn of(annotation: &Annotation) -> Option<Self> {
+        let Annotation::Part(part) = annotation else {
+            return None;
+        };
+        let is_set = |keyword| {
+            let mut attributes = part.attributes.iter();
+            attributes.any(|attribute| attribute.keyword == keyword)
+        };
+        let kind = KINDS.iter().find(|(keyword, _)| is_set(*keyword));
+        kind.map(|(_, kind)| *kind)
+    }
+}
+
+/// Whether each group is a tile layer, or in one.
 pub fn in_tile_layers(drawing: &Drawing) -> Vec<bool> {
+    let is_layer = |text, place| {
+        let (annotation, _) = lang::parse(text, place);
+        LayerKind::of(&annotation) == Some(LayerKind::Tiles)
+    };
     let labels = drawing.labels.par_iter().with_min_len(GRAIN);
-    let of_labels = labels.filter_map(|(label, group)| {
-        let (annotation, _) = lang::parse(&label.text, lang::Container::Text);
-        makes_layer(&annotation).then_some(*group)
-    });
-    let mut holders: Vec<usize> = of_labels.collect();
+    let of_labels = labels
+        .filter_map(|(label, group)| is_layer(&label.text, lang::Container::Text).then_some(*group));
+    let mut layer_groups: Vec<usize> = of_labels.collect();
     let groups = drawing.groups.iter().enumerate();
     let groups = groups.map(|(index, group)| (&group.element, index));
     let shapes = drawing.shapes.iter();
@@ -41,12 +78,11 @@ pub fn in_tile_layers(drawing: &Drawing) -> Vec<bool> {
     for (element, group) in groups.chain(shapes) {
         let desc = element.desc.as_deref();
         if let Some(text) = desc.filter(|text| lang::looks_like_string(text.as_str())) {
-            let (annotation, _) = lang::parse(text, lang::Container::Desc);
-            holders.extend(makes_layer(&annotation).then_some(group));
+            layer_groups.extend(is_layer(text, lang::Container::Desc).then_some(group));
         }
     }
     let mut layer = vec![None; drawing.groups.len()];
-    for group in holders {
+    for group in layer_groups {
         layer[group] = Some(0);
     }
     spread(drawing, &mut layer);
@@ -60,33 +96,24 @@ fn spread(drawing: &Drawing, layer: &mut [Option<usize>]) {
     }
 }
 
-fn makes_layer(annotation: &Annotation) -> bool {
-    matches!(annotation, Annotation::Part(part) if has_tiles(part))
-}
-
-fn has_tiles(part: &ast::Part) -> bool {
-    let mut attributes = part.attributes.iter();
-    attributes.any(|attribute| attribute.keyword == Keyword::Tiles)
-}
-
-/// Finds the tile layers, before anything is bound.
+/// Finds the layers, before anything is bound.
 pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
     let mut layer: Vec<Option<usize>> = vec![None; drawing.groups.len()];
-    let mut layers: Vec<TileLayer> = Vec::new();
+    let mut layers: Vec<Layer> = Vec::new();
     for (index, string) in bindings.strings.iter().enumerate() {
         let Annotation::Part(annotation) = &string.annotation else {
             continue;
         };
-        if !has_tiles(annotation) {
+        let Some(kind) = LayerKind::of(&string.annotation) else {
             continue;
-        }
+        };
         let group = match string.place {
             Place::Label(label) => drawing.labels[label].1,
             Place::Shape(shape) => drawing.shapes[shape].group,
             Place::Group(group) => group,
         };
-        if let Some(first) = layer[group] {
-            let other: &TileLayer = &layers[first];
+        if let Some(first) = layer[group].filter(|_| kind == LayerKind::Tiles) {
+            let other: &Layer = &layers[first];
             let element = &drawing.groups[group].element;
             diagnostics.push(
                 Diagnostic::new(
@@ -108,7 +135,9 @@ pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut
             );
             continue;
         }
-        layer[group] = Some(layers.len());
+        if kind == LayerKind::Tiles {
+            layer[group] = Some(layers.len());
+        }
         let name = annotation.name.as_ref().map(|name| name.text.clone());
         let named_by = match string.place {
             Place::Shape(shape) => &drawing.shapes[shape].element,
@@ -118,7 +147,8 @@ pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut
             "" => NAMELESS.to_owned(),
             own => own.to_owned(),
         });
-        layers.push(TileLayer {
+        layers.push(Layer {
+            kind,
             name,
             string: index,
             group,
@@ -127,22 +157,28 @@ pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut
     }
     if !layers.is_empty() {
         spread(drawing, &mut layer);
-        bindings.layer_of_group = layer;
+        bindings.tile_layer_of_group = layer;
         bindings.layers = layers;
     }
 }
 
 impl Bindings {
+    /// The tile layers, each with its index among all [`layers`](Self::layers).
+    pub fn tile_layers(&self) -> impl Iterator<Item = (usize, &Layer)> {
+        let layers = self.layers.iter().enumerate();
+        layers.filter(|(_, layer)| layer.kind == LayerKind::Tiles)
+    }
+
     /// Index of the innermost tile layer that a group is, or is in.
-    pub fn layer_of_group(&self, group: usize) -> Option<usize> {
-        self.layer_of_group.get(group).copied().flatten()
+    pub fn tile_layer_of_group(&self, group: usize) -> Option<usize> {
+        self.tile_layer_of_group.get(group).copied().flatten()
     }
 
     /// Whether a shape is a picture in a tile layer, and so no part.
     pub fn is_picture_of_tiles(&self, drawing: &Drawing, shape: usize) -> bool {
         let shape = &drawing.shapes[shape];
         let is_picture = matches!(shape.paint.key, PaintKey::Picture(_));
-        is_picture && self.layer_of_group(shape.group).is_some()
+        is_picture && self.tile_layer_of_group(shape.group).is_some()
     }
 
     /// Whether a string takes a picture out of its tile layer: pictures are no parts there, to which it could belong.
@@ -153,22 +189,11 @@ impl Bindings {
         };
         string.annotation == Annotation::Unused && self.is_picture_of_tiles(drawing, shape)
     }
-
-    /// The number that a tile layer's own string, or a `%` string, sets an attribute to.
-    pub fn layer_number(&self, layer: usize, keyword: Keyword) -> Option<f64> {
-        let own = self.strings[self.layers[layer].string].settings.iter();
-        let own = own.filter(|setting| setting.keyword == keyword);
-        let value = own.map(|setting| &setting.value).next();
-        match value.or_else(|| self.drawing_value(keyword))? {
-            Value::Number(number) => Some(*number),
-            _ => None,
-        }
-    }
 }
 
 /// Makes tiles of what lies in tile layers and has no string.
 pub(super) fn classify(drawing: &Drawing, bindings: &mut Bindings) {
-    if bindings.layers.is_empty() {
+    if bindings.tile_layers().next().is_none() {
         return;
     }
     for index in 0..bindings.parts.len() {
@@ -177,7 +202,7 @@ pub(super) fn classify(drawing: &Drawing, bindings: &mut Bindings) {
             bindings.parts[index].string.is_none() && bindings.parts[main].string.is_none();
         if unbound
             && bindings
-                .layer_of_group(drawing.shapes[shape].group)
+                .tile_layer_of_group(drawing.shapes[shape].group)
                 .is_some()
         {
             bindings.parts[index].kind = PartKind::Tile;
@@ -185,13 +210,18 @@ pub(super) fn classify(drawing: &Drawing, bindings: &mut Bindings) {
     }
 }
 
-/// Says where attributes of tile layers stand in strings that make none.
+/// Reports attributes of tile layers in strings that make none.
 pub(super) fn misplaced(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
+    let has_tile_layers = bindings.tile_layers().next().is_some();
     for string in &bindings.strings {
         let (attributes, what) = match &string.annotation {
-            Annotation::Part(part) if !has_tiles(part) => (&part.attributes, "a part's string"),
+            Annotation::Part(part)
+                if LayerKind::of(&string.annotation) != Some(LayerKind::Tiles) =>
+            {
+                (&part.attributes, "a part's string")
+            }
             Annotation::Legend(attributes) => (attributes, "a legend"),
-            // What stands there holds for all tile layers.
+            // A `%` string sets them for all tile layers.
             Annotation::Defaults(attributes) => (attributes, "a `%` string"),
             _ => continue,
         };
@@ -199,7 +229,7 @@ pub(super) fn misplaced(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) 
         for attribute in attributes {
             let misplaced = match attribute.keyword {
                 Keyword::Tiles => true,
-                Keyword::Bevel | Keyword::Roof => !for_all || bindings.layers.is_empty(),
+                Keyword::Bevel | Keyword::Roof => !for_all || !has_tile_layers,
                 _ => false,
             };
             if misplaced {

@@ -1,0 +1,91 @@
+//! Settings of the whole drawing, from its `%` strings.
+
+use glam::{DMat3, DQuat, DVec2, DVec3};
+
+use super::bindings::Bindings;
+use super::nearest::Mode;
+use crate::lang::keyword::Keyword;
+use crate::lang::value::{Ground, Value};
+use crate::svg::Drawing;
+
+/// The settings of a drawing, with their defaults filled in.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DrawingSettings {
+    /// `Scale`: centimetres in a drawing unit.
+    pub scale: f64,
+    /// `Axes`: from the drawing's right, its up and the viewer's direction to the world's axes.
+    pub axes: DQuat,
+    /// `Ground`: the point of the drawing at the world's origin; `None` for the middle of the lower edge of all that is built.
+    pub ground: Option<DVec2>,
+    /// `Bind`: how distances from strings to parts are measured.
+    pub bind: Mode,
+    /// `Strokes`: which strokes are parts.
+    pub strokes: Strokes,
+}
+
+/// Which strokes are parts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Strokes {
+    /// None but those with a string of their own.
+    None,
+    /// Those of shapes that are not filled.
+    Lines,
+    /// All, borders of filled shapes too.
+    All,
+}
+
+impl Default for DrawingSettings {
+    /// The settings of a drawing without strings, in which all lines are parts.
+    fn default() -> Self {
+        Self {
+            scale: 1.0,
+            axes: DQuat::IDENTITY,
+            ground: None,
+            bind: Mode::Center,
+            strokes: Strokes::Lines,
+        }
+    }
+}
+
+impl DrawingSettings {
+    /// The settings of a drawing with strings.
+    pub(super) fn read(drawing: &Drawing, bindings: &Bindings) -> Self {
+        let mut settings = Self {
+            strokes: Strokes::None,
+            ..Self::default()
+        };
+        for (_, setting) in &bindings.defaults {
+            match (setting.keyword, &setting.value) {
+                (Keyword::Scale, Value::Number(scale)) => settings.scale = *scale,
+                (Keyword::Axes, Value::Axes(axes)) => {
+                    let [right, up, front] = axes.map(|axis| {
+                        let mut vector = [0.0; 3];
+                        vector[axis.axis] = if axis.negative { -1.0 } else { 1.0 };
+                        DVec3::from(vector)
+                    });
+                    // Left-handed axes are refused where strings are checked.
+                    settings.axes = DQuat::from_mat3(&DMat3::from_cols(right, up, front));
+                }
+                (Keyword::Ground, Value::Ground(ground)) => {
+                    settings.ground = match ground {
+                        Ground::Bottom => None,
+                        Ground::Page => Some(drawing.page.0),
+                        Ground::Point([x, y]) => Some(DVec2::new(*x, *y)),
+                    };
+                }
+                (Keyword::Bind, Value::Word(word)) if word.eq_ignore_ascii_case("outline") => {
+                    settings.bind = Mode::Outline;
+                }
+                (Keyword::Strokes, Value::Word(word)) => {
+                    settings.strokes = match word.to_lowercase().as_str() {
+                        "lines" => Strokes::Lines,
+                        "all" => Strokes::All,
+                        _ => Strokes::None,
+                    };
+                }
+                _ => {}
+            }
+        }
+        settings
+    }
+}
