@@ -68,8 +68,9 @@ pub fn in_tile_layers(drawing: &Drawing) -> Vec<bool> {
         LayerKind::of(&annotation) == Some(LayerKind::Tiles)
     };
     let labels = drawing.labels.par_iter().with_min_len(GRAIN);
-    let of_labels = labels
-        .filter_map(|(label, group)| is_layer(&label.text, lang::Container::Text).then_some(*group));
+    let of_labels = labels.filter_map(|(label, group)| {
+        is_layer(&label.text, lang::Container::Text).then_some(*group)
+    });
     let mut layer_groups: Vec<usize> = of_labels.collect();
     let groups = drawing.groups.iter().enumerate();
     let groups = groups.map(|(index, group)| (&group.element, index));
