@@ -108,7 +108,7 @@ fn looks_have_the_colours_that_are_drawn() {
     assert_eq!(layer.map.looks, tiles);
     assert_eq!(layer.map.cells, [2, 2, 1, 3]);
     let color = layer.looks[1]
-        .look
+        .factors
         .color
         .map(|channel| (channel * 255.0).round());
     assert_eq!(color, [0.0, 160.0, 0.0, 255.0]);
@@ -129,7 +129,7 @@ fn legends_say_what_paints_mean() {
     for svg in [swatches(swatch, ""), swatches("", swatch)] {
         let layer = only(&svg);
         assert_eq!(drawn(&layer), ["rr."]);
-        let look = &layer.looks[1].look;
+        let look = &layer.looks[1].factors;
         assert_eq!(
             (look.color, look.metallic, look.roughness),
             ([1.0, 0.0, 0.0, 1.0], 1.0, 0.5)
@@ -319,7 +319,7 @@ fn pictures_of_many_colours_have_a_look_a_kind() {
     assert_eq!(rows[1], "b".repeat(256));
     let tiles: Vec<Tile> = layer.looks.iter().map(|look| look.tile).collect();
     assert_eq!(tiles, [Tile::None, Tile::Green, Tile::Brown, Tile::Blue]);
-    let red = layer.looks[2].look.color[0] * 255.0;
+    let red = layer.looks[2].factors.color[0] * 255.0;
     assert!((red - (141.0 - 3.5)).abs() < 0.01, "{red}");
 }
 
