@@ -2,10 +2,10 @@
 //!
 //!   cargo bench --bench motion [-- FRAMES…]
 //!
-//! Then a whole run, from a BVH in memory to one, beside reading it and computing where the joints are alone.
+//! Then a whole run, from BVH to BVH in memory, compared with reading and computing joint positions alone.
 //!
-//! 30 joints sway smoothly, with a swing now and then; 4 poses are omitted and a third of the frames held. Where that would take
-//! the plain algorithm too long it does fewer steps, and both are compared by what a step costs.
+//! 30 joints sway smoothly, with a swing now and then; 4 poses are omitted and a third of the frames held. If the plain algorithm
+//! would take too long, it does fewer steps, and the time per step is compared.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
 
@@ -25,10 +25,10 @@ use plain_limited::plain;
 
 /// Joints of the figure.
 const JOINTS: usize = 30;
-/// Times that everything is done; the median is told.
+/// Repetitions, of which the median is printed.
 const ROUNDS: usize = 7;
-/// Speeds that the plain algorithm may compute.
-const MOST_SPEEDS: usize = 1 << 27;
+/// The most speeds that the plain algorithm computes.
+const MAX_SPEEDS: usize = 1 << 27;
 
 fn main() {
     let lengths = std::env::args()
@@ -46,7 +46,7 @@ fn main() {
     }
 }
 
-/// A clip of chains that sway, as text.
+/// A clip of swaying chains, as text.
 fn text(frames: usize) -> Vec<u8> {
     let turns = [Axis::Z, Axis::X, Axis::Y].map(Channel::Rotation);
     let places = [Axis::X, Axis::Y, Axis::Z].map(Channel::Position);
@@ -72,7 +72,7 @@ fn text(frames: usize) -> Vec<u8> {
     let width = skeleton.channel_count();
     let number = |place: usize| {
         let (time, own) = ((place / width) as f64 / 24.0, (place % width) as f64);
-        // As many digits as capture systems write.
+        // The number of digits that capture systems write.
         ((20.0 * (time * (1.0 + 0.01 * own) + own).sin()) * 1e4).round() / 1e4
     };
     let values = (0..frames * width).map(number).collect();
@@ -90,10 +90,10 @@ fn read(text: &[u8]) -> Clip {
     }
 }
 
-/// Both in turn, so that what else the machine does weighs on both.
+/// Alternates both, so that other load on the machine affects both alike.
 fn whole(frames: usize) {
     let text = text(frames);
-    let how = ExposureMethod::Limited {
+    let method = ExposureMethod::Limited {
         omit: None,
         hold: None,
         length: Length::Kept,
@@ -106,7 +106,7 @@ fn whole(frames: usize) {
         times[0].push(begun.elapsed());
         let begun = Instant::now();
         out.clear();
-        let edited = edit(read(&text), &prepare::Options::default(), how, None);
+        let edited = edit(read(&text), &prepare::Options::default(), method, None);
         let written = edited.map(|edited| edited.write_bvh(&mut out).is_ok());
         assert_eq!(written, Ok(true));
         times[1].push(begun.elapsed());
@@ -121,7 +121,7 @@ fn whole(frames: usize) {
     );
 }
 
-/// Chains of joints that sway, and swing every five seconds.
+/// Chains of joints that sway, with a swing every five seconds.
 fn motion(frames: usize) -> Vec<DVec3> {
     let mut positions = Vec::with_capacity(frames * JOINTS);
     for frame in 0..frames {
@@ -157,7 +157,7 @@ fn measure(frames: usize) {
     let fast = median(ROUNDS, || {
         drop(black_box(limit(&positions, JOINTS, &usual)))
     });
-    let holds = usual.hold.min(MOST_SPEEDS / JOINTS / frames.max(1));
+    let holds = usual.hold.min(MAX_SPEEDS / JOINTS / frames.max(1));
     let few = Options {
         omit: usual.omit,
         hold: holds,
@@ -176,7 +176,7 @@ fn measure(frames: usize) {
         steps(&usual),
         steps(&few),
         if holds < usual.hold {
-            ", told by the step"
+            ", compared per step"
         } else {
             ""
         },

@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn a_motion_eased_in_needs_arms_in_a_t() {
+    fn an_eased_lead_in_needs_a_t_pose() {
         let swing = (0..60).map(|frame| 80.0 + f64::from(frame % 7) * 0.3);
         let eased: Vec<f64> = [0.0, 20.0, 40.0, 60.0]
             .into_iter()
@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_is_left_of_nothing() {
+    fn still_and_short_clips_have_no_lead_in() {
         for count in 0..3 {
             assert_eq!(
                 find(&arms(&vec![0.0; count], 0.04), &ARMS),

@@ -25,14 +25,14 @@ fn written(room: &Room, name: &str) -> Clip {
     reading.clip
 }
 
-/// The rows of a clip that are not as the one before.
+/// The number of rows of a clip that differ from the row before, including the first.
 fn drawings(clip: &Clip) -> usize {
     1 + (1..clip.frames())
         .filter(|frame| clip.row(*frame) != clip.row(frame - 1))
         .count()
 }
 
-/// How the library cuts the kick as usual.
+/// How the library limits the kick by default.
 fn usual() -> (Clip, Cut) {
     let prepared = clip("examples/motion/kick.bvh");
     let joints = prepared.clip.skeleton.joints.len();
@@ -117,7 +117,7 @@ fn how_many_frames_and_drawings() {
 }
 
 #[test]
-fn a_lead_in_goes_unless_it_is_kept() {
+fn lead_ins_are_removed_by_default() {
     let room = room();
     let text = String::from_utf8(room.read("kick.bvh")).expect("text");
     let (head, rows) = text.split_once("Frame Time: 0.0166667").expect("frames");
@@ -294,9 +294,9 @@ fn through_pipes() {
 }
 
 #[test]
-fn wrong_use_is_refused() {
+fn wrong_usage_is_rejected() {
     let room = room();
-    for (arguments, told) in [
+    for (arguments, message) in [
         (&["-o", "out.png"] as &[&str], "must end in .bvh"),
         (&["-o", "out"], "must end in .bvh"),
         (&["-o", "kick.bvh"], "is the motion itself"),
@@ -320,7 +320,7 @@ fn wrong_use_is_refused() {
     ] {
         let run = room.run(&[&["motion", "kick.bvh"], arguments].concat());
         assert_eq!(run.status, 2, "{arguments:?}: {}", run.err);
-        run.ends(2, "", told);
+        run.ends(2, "", message);
     }
     room.run(&["motion", "none.bvh"])
         .ends(2, "", "`none.bvh` is not there");
@@ -328,7 +328,7 @@ fn wrong_use_is_refused() {
 }
 
 #[test]
-fn what_cannot_be_done_is_told() {
+fn impossible_requests_are_reported() {
     let room = room();
     let run = room.run(&["motion", "kick.bvh", "--hold", "500", "-o", "out.bvh"]);
     run.ends(

@@ -1,4 +1,4 @@
-//! Limited animation: the fast code against the plain one, and what the thesis says of either.
+//! Limited animation: the fast code against the plain algorithm, and the promises of the thesis.
 
 #[path = "../common/plain_limited.rs"]
 mod plain_limited;
@@ -23,7 +23,7 @@ fn place(random: &mut Rng, places: u64) -> DVec3 {
     dvec3(x, y, z)
 }
 
-/// Motions of all kinds: a few poses over and over, still stretches, even walks, smooth ones and wild ones.
+/// Motions of all kinds: few poses in random order, still stretches, even walks, smooth motions and random ones.
 fn motion(random: &mut Rng, kind: u64, frames: usize, joints: usize) -> Vec<DVec3> {
     let poses: Vec<Vec<DVec3>> = (0..3)
         .map(|_| (0..joints).map(|_| place(random, 3)).collect())
@@ -66,7 +66,7 @@ fn cut(positions: &[DVec3], joints: usize, [omit, hold]: [usize; 2], kept: bool)
     limit(positions, joints, &Options { omit, hold, length })
 }
 
-/// Compares frame for frame with the plain algorithm, and with what the definition promises.
+/// Compares frame by frame with the plain algorithm, and checks what the definition promises.
 fn check(positions: &[DVec3], joints: usize, steps: [usize; 2], kept: bool) -> Cut {
     let frames = positions.len() / joints.max(1);
     let cut = cut(positions, joints, steps, kept);
@@ -197,7 +197,7 @@ fn the_shortest_motions_are_cut() {
     assert!(check(&[], 0, most, true).exposure.is_empty());
     assert!(check(&[], 1, most, true).exposure.is_empty());
     assert_eq!(check(&at(&[1.0]), 1, most, true).exposure.sources(), [0]);
-    // Nothing could stand in for what is omitted.
+    // Nothing could be shown longer in place of the omitted pose.
     let two = check(&at(&[1.0, 2.0]), 1, [1, 0], true);
     assert_eq!(two.exposure.sources(), [0, 1]);
     assert_eq!(two.omissions.shortfall(), 1);
@@ -215,7 +215,7 @@ fn the_shortest_motions_are_cut() {
 }
 
 #[test]
-fn frames_of_no_whole_pose_are_left_out() {
+fn incomplete_frames_are_ignored() {
     let positions = [0.0, 1.0, 2.0, 3.0, 4.0].map(DVec3::splat);
     assert_eq!(cut(&positions, 2, [0; 2], true).exposure.len(), 2);
     assert_eq!(speeds(&positions, 2), [0.0, 24.0]);
@@ -232,7 +232,7 @@ fn of_equally_fast_poses_the_first_is_taken() {
 }
 
 #[test]
-fn what_stands_from_the_start_may_stand_longer_than_a_copy() {
+fn still_poses_may_be_shown_longer_than_copies() {
     let mut still = vec![DVec3::ZERO; 9];
     still.extend([1.0, 3.0, 6.0, 10.0].map(DVec3::splat));
     let cut = check(&still, 1, [0, usize::MAX], true);
@@ -241,7 +241,7 @@ fn what_stands_from_the_start_may_stand_longer_than_a_copy() {
         [0, 0, 0, 0, 0, 0, 0, 0, 0, 9, 9, 11, 11]
     );
     assert_eq!(cut.exposure.keys().collect::<Vec<_>>(), [0, 9, 11]);
-    // Equal poses that only become neighbours are two.
+    // Equal poses that only become neighbours later are two.
     let back = [0.0, 9.0, 0.0, 1.0].map(DVec3::splat);
     let cut = check(&back, 1, [1, 0], true);
     assert_eq!(cut.exposure.sources(), [0, 0, 2, 3]);
@@ -249,8 +249,8 @@ fn what_stands_from_the_start_may_stand_longer_than_a_copy() {
 }
 
 #[test]
-fn omissions_gather_where_it_is_fast() {
-    // Even steps, and a swing in the middle that gets ever faster.
+fn omissions_concentrate_where_it_is_fast() {
+    // Even steps, with a fast swing in the middle.
     let mut at = 0.0;
     let swing: Vec<DVec3> = (0..60)
         .map(|frame| {
@@ -268,10 +268,10 @@ fn omissions_gather_where_it_is_fast() {
     let torn = check(&swing, 1, [8, 0], true);
     assert_eq!(torn.omitted_run, 8);
     assert!(torn.omitted_run > MAX_OMITTED_RUN);
-    // At the end nothing stands behind them.
+    // The omissions at the end have no pose after them.
     let end = [0.0, 1.0, 2.1, 3.3, 4.6, 20.0, 40.0, 60.0].map(DVec3::splat);
     assert_eq!(check(&end, 1, [3, 0], true).omitted_run, 3);
-    // Two swings far from each other.
+    // Two fast moments far from each other.
     let twice: Vec<DVec3> = (0..40)
         .map(|frame| DVec3::new(f64::from(frame) * 0.01, 0.0, 0.0))
         .enumerate()
@@ -286,7 +286,7 @@ fn omissions_gather_where_it_is_fast() {
 }
 
 #[test]
-fn usual_options_are_those_of_the_thesis() {
+fn recommended_options_are_those_of_the_thesis() {
     let options = Options::recommended(129);
     assert_eq!([options.omit, options.hold], [4, 43]);
     assert_eq!(options.length, Length::Kept);
@@ -306,7 +306,7 @@ fn holds_end_near_half_of_the_frames() {
 }
 
 #[test]
-fn positions_that_are_no_numbers_are_cut_too() {
+fn positions_that_are_not_finite_are_limited_too() {
     let odd = [
         0.0,
         f64::NAN,
@@ -407,14 +407,14 @@ fn a_camera_sees_what_turns_towards_it() {
         .project(&corners)[1]
     };
     close(see(0.0, 0.0, None), dvec3(1.0, 2.0, 0.0));
-    // From the side of +x, +z lies to the left.
+    // From the side of +x, +z is on the left.
     close(see(90.0, 0.0, None), dvec3(-3.0, 2.0, 0.0));
-    // From above, what is nearer to the viewer lies lower.
+    // From above, points nearer to the viewer are lower.
     close(see(0.0, 90.0, None), dvec3(1.0, -3.0, 0.0));
     close(see(360_000_090.0, 0.0, None), dvec3(-3.0, 2.0, 0.0));
-    // Three nearer than the middle, of twelve.
+    // Three units nearer than the centre, at a distance of twelve.
     close(see(0.0, 0.0, Some(12.0)), dvec3(1.0, 2.0, 0.0) * 12.0 / 9.0);
-    // In the camera's back: as near as can be.
+    // Behind the camera: as near as possible.
     close(see(0.0, 0.0, Some(1.0)), dvec3(1.0, 2.0, 0.0) * 100.0);
     close(
         see(f64::NAN, f64::INFINITY, Some(-1.0)),

@@ -1,6 +1,6 @@
 //! Motion capture from file to figure.
 //!
-//! `cargo test --test motion -- --nocapture` tells how well its laws hold.
+//! `cargo test --test motion -- --nocapture` prints how well its laws hold.
 #![allow(clippy::print_stderr, reason = "what was measured is told")]
 
 #[path = "../common/mod.rs"]

@@ -1,4 +1,4 @@
-//! Drawings that play motions, through the whole compiler: nodes of the model point where bones do.
+//! Drawings that play motions, through the whole compiler: the model's nodes point where bones do.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -15,7 +15,7 @@ use okoshi::scene::{Animation, Interpolation, Scene, Values};
 use crate::retarget::clips::clip;
 use crate::retarget::{Body, angle};
 
-/// The drawings of the examples, and the way each faces.
+/// The drawings of the examples, and the direction that each faces.
 const DRAWINGS: [(&str, Facing); 7] = [
     ("ant", Facing::Viewer),
     ("beetle", Facing::Right),
@@ -26,7 +26,7 @@ const DRAWINGS: [(&str, Facing); 7] = [
     ("stick", Facing::Viewer),
 ];
 
-/// How far directions may be off, degrees; keys are rounded when they are written.
+/// Tolerance of directions, degrees; keys are rounded when they are written.
 const OFF: f64 = 0.05;
 
 fn text(name: &str) -> String {
@@ -39,7 +39,7 @@ fn compiled(text: &str) -> Compiled {
     compile(text, &Options::default(), &FolderResolver::new(&folder))
 }
 
-/// How nodes are turned in the world, and where they are, at a key of a clip.
+/// The world transforms of the nodes at a key of a clip.
 fn world(scene: &Scene, clip: &Animation, key: usize) -> Vec<Transform> {
     let mut local: Vec<Transform> = scene
         .nodes
@@ -70,7 +70,7 @@ fn world(scene: &Scene, clip: &Animation, key: usize) -> Vec<Transform> {
     world
 }
 
-/// Joints by their names.
+/// The joint of a name.
 fn joint(clip: &Clip, name: &str) -> usize {
     let mut joints = clip.skeleton.joints.iter();
     joints
@@ -78,7 +78,7 @@ fn joint(clip: &Clip, name: &str) -> usize {
         .unwrap_or_else(|| panic!("no joint `{name}`"))
 }
 
-/// The direction of the chain that a part follows by the reason that is told.
+/// The direction of the chain that a part follows, parsed from the reported reason.
 fn chain(clip: &Clip, pose: &[Transform], why: &str) -> Option<DVec3> {
     let (_, way) = why.split_once("it points from `")?;
     let (from, to) = way.split_once("` to ")?;
@@ -93,7 +93,7 @@ fn chain(clip: &Clip, pose: &[Transform], why: &str) -> Option<DVec3> {
     Some(to - from)
 }
 
-/// The axis of a part in the drawing's axes: from where it turns to its far end.
+/// The axis of a part in the drawing's axes: from its joint to its far end.
 fn axis(compiled: &Compiled, part: usize) -> DVec3 {
     let part = &compiled.bindings.parts[part];
     let flip = |point: DVec2| DVec2::new(point.x, -point.y);
@@ -107,7 +107,7 @@ fn axis(compiled: &Compiled, part: usize) -> DVec3 {
     (far - origin).extend(0.0)
 }
 
-/// The worst angle between what parts of a drawing point at and their bones; `turn` takes drawings' axes to the world's.
+/// The largest angle between the parts of a drawing and their bones; `turn` rotates the drawing's axes to the world's.
 fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQuat) -> f64 {
     let prepared = clip(&format!("examples/motion/{}", figure_clip.file));
     let clip = &prepared.clip;
@@ -140,7 +140,7 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
                 continue;
             };
             let node = names[name];
-            // What the axis is in the node's own frame, by how the node stands while nothing plays.
+            // The axis in the node's own frame, from the node's rest pose.
             let own = rest[node].rotation.inverse() * (turn * axis(compiled, drive.part));
             worst = worst.max(angle(
                 now[node].rotation * own,
@@ -148,7 +148,7 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
             ));
             looked_at += 1;
             if let Some(copy) = names.get(&*format!("{name}.back")) {
-                // A copy is the original in a mirror: the plane of what both hang on.
+                // A copy is the mirror image of the original, in the plane of what both are attached to.
                 let mut above = parents[copy];
                 while compiled.scene.nodes[above].name.ends_with(".back") {
                     above = parents[&above];
@@ -185,9 +185,9 @@ fn nodes_point_where_bones_do() {
     }
 }
 
-/// A drawing that faces another way, in another unit, with doubled parts.
+/// A drawing with other axes, in another unit.
 #[test]
-fn however_the_drawing_stands() {
+fn axes_and_scale_of_the_drawing_do_not_matter() {
     // Right, up and front of the drawing, as the model's world has them.
     let turn = |right, up, front| DQuat::from_mat3(&glam::DMat3::from_cols(right, up, front));
     let turns = [
@@ -220,7 +220,7 @@ fn doubled_limbs_are_mirrored() {
         .nodes
         .iter()
         .filter(|node| node.name.ends_with(".back"));
-    // With what hangs on them: shin and foot, forearm.
+    // With their children: shin and foot, forearm.
     assert_eq!(copies.count(), 5, "{:?}", compiled.diagnostics);
     for figure_clip in &compiled.clips {
         let off = worst(&compiled, figure_clip, Facing::Viewer, DQuat::IDENTITY);
@@ -228,7 +228,7 @@ fn doubled_limbs_are_mirrored() {
     }
 }
 
-/// Limited clips have a key for each drawing, and each shows a frame of the full clip.
+/// Limited clips have a key for each drawing, and each key shows a frame of the full clip.
 #[test]
 fn a_key_for_each_drawing() {
     let mut limited = 0;

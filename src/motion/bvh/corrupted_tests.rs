@@ -96,7 +96,7 @@ fn sound(clip: &Clip) {
 }
 
 #[test]
-fn damaged_files_are_refused_in_a_line_or_read_with_notes() {
+fn corrupted_files_are_rejected_with_a_line_or_read_with_notes() {
     let mut random = Rng::with_seed(11);
     let (mut refused, mut noted) = (0, 0);
     for (name, ..) in FILES {

@@ -1,9 +1,9 @@
-//! Files that are wrong: each is refused with its line, or put right with a note.
+//! Malformed files: each is rejected with its line, or corrected with a note.
 
 use super::tests::{SMALL, changed};
 use super::*;
 
-/// Refused at a line and a column, with these words; so many frames are offered.
+/// Expects an error at a line and a column, with these words, and with this many frames.
 fn refused(
     reading: Result<Reading, Error>,
     line: usize,
@@ -23,7 +23,7 @@ fn refused(
 }
 
 #[test]
-fn a_hierarchy_that_makes_no_sense_is_refused_in_its_line() {
+fn errors_in_the_hierarchy_have_their_line() {
     for (from, to, line, column, words) in [
         (SMALL, "", 1, 1, "ends before MOTION"),
         (
@@ -168,7 +168,7 @@ fn a_hierarchy_that_makes_no_sense_is_refused_in_its_line() {
 }
 
 #[test]
-fn frames_that_make_no_sense_are_refused_in_their_line() {
+fn errors_in_frames_have_their_line() {
     for (from, to, line, column, words, frames) in [
         (
             "1 2 3 4",
@@ -303,7 +303,7 @@ fn columns_count_characters() {
 }
 
 #[test]
-fn what_passes_a_limit_is_refused_by_its_name() {
+fn exceeded_limits_are_reported() {
     let long = " ".repeat(MAX_LINE_BYTES + (8 << 20));
     refused(
         read_bytes(format!("HIERARCHY\n{long}").as_bytes()),
@@ -323,7 +323,7 @@ fn what_passes_a_limit_is_refused_by_its_name() {
         "more than 1048576 numbers in a frame",
         0,
     );
-    // A count that is a lie takes no memory.
+    // A wrong count does not allocate memory.
     assert_eq!(
         changed("Frames: 3", "Frames: 999999999999")
             .unwrap()

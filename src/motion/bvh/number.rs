@@ -131,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_is_none() {
+    fn words_that_are_not_numbers_are_rejected() {
         for word in [
             "", "-", ".", "+.", "1,5", "nan", "-inf", "1e999", "1e13", "-1e13", "0x10", "1_000",
             "1.2.3", "--1", "1-",

@@ -6,8 +6,8 @@ use glam::DVec3;
 use super::*;
 use crate::motion::skeleton::{Axis, Channel, Clip};
 
-/// The files of the tests, with joints, ends of bones, numbers in a frame, frames, frame time, and the sum of all numbers:
-/// counted without this code.
+/// The test files, with their joints, end sites, channels, frames, frame time, and the sum of all numbers, counted by other
+/// means.
 pub(super) const FILES: [(&str, [usize; 4], f64, f64); 5] = [
     (
         "examples/motion/boxing.bvh",
@@ -45,7 +45,7 @@ pub(super) fn bytes(name: &str) -> Vec<u8> {
     std::fs::read(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap()
 }
 
-/// Two joints, each with an end; the second frame begins in line 21.
+/// Two joints, each with an end site; the second frame begins in line 21.
 pub(super) const SMALL: &str = "HIERARCHY
 ROOT Hips
 {
@@ -74,7 +74,7 @@ pub(super) fn small() -> Clip {
     read_bytes(SMALL.as_bytes()).unwrap().clip
 }
 
-/// What is read from the small file after a change, which has to change something.
+/// The result of reading the small file after a change.
 pub(super) fn changed(from: &str, to: &str) -> Result<Reading, Error> {
     let text = SMALL.replacen(from, to, 1);
     assert_ne!(text, SMALL, "{from}");
@@ -139,7 +139,7 @@ fn a_small_file_is_read_exactly() {
 }
 
 #[test]
-fn the_same_text_in_other_clothes_is_the_same_clip() {
+fn layout_and_letter_case_do_not_matter() {
     let clip = small();
     let same = |text: Vec<u8>, notes: usize| {
         let reading = read_bytes(&text).unwrap();
@@ -233,7 +233,7 @@ fn the_same_text_in_other_clothes_is_the_same_clip() {
     same(format!("{SMALL}\u{1A}").into_bytes(), 1);
 }
 
-/// Gives a text in small portions, and now and then is interrupted.
+/// Returns a text in small portions, and is interrupted now and then.
 struct Slow<'a>(&'a [u8], usize);
 
 impl Read for Slow<'_> {
@@ -266,7 +266,7 @@ fn input_may_come_in_any_portions_or_fail() {
 
 #[test]
 fn blocks_of_a_large_file_meet() {
-    // Lines of changing length, so that line ends fall anywhere around the ends of blocks; three line ends.
+    // Lines of varying length, so that line endings fall anywhere around the ends of blocks; three kinds of line endings.
     for end in ["\n", "\r\n", "\r"] {
         let mut text = SMALL.split("\n1 2 3").next().unwrap().replace('\n', end);
         text = text.replace("Frames: 3", "Frames: 400000");
@@ -283,7 +283,7 @@ fn blocks_of_a_large_file_meet() {
         for frame in 0..clip.frames() {
             assert_eq!(clip.row(frame)[0], frame as f64);
         }
-        // An error far behind the first blocks has its own line, and brings the frames before it.
+        // An error far behind the first blocks has the right line, and comes with the frames before it.
         let bad = text.replace(&format!("{end}250000 0 0 "), &format!("{end}250000 0 x "));
         let error = read_bytes(bad.as_bytes()).unwrap_err();
         assert_eq!((error.line, error.column), (250_020, 10), "{error}");
@@ -292,7 +292,7 @@ fn blocks_of_a_large_file_meet() {
 }
 
 #[test]
-fn names_are_kept_as_they_are() {
+fn names_are_read_unchanged() {
     let name = |text: &[u8]| {
         let whole = [
             b"HIERARCHY\nROOT",
@@ -317,7 +317,7 @@ fn names_are_kept_as_they_are() {
 }
 
 #[test]
-fn what_the_motion_says_of_itself_is_put_right() {
+fn mistakes_in_the_motion_header_are_corrected() {
     let third = 1.0 / 30.0;
     for (time, seconds) in [
         ("0", third),

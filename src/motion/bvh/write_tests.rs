@@ -74,7 +74,7 @@ fn names_that_a_file_cannot_hold_are_changed() {
 }
 
 #[test]
-fn numbers_that_are_none_are_not_written() {
+fn numbers_that_are_not_finite_are_not_written() {
     for number in [f64::NAN, f64::INFINITY] {
         let clip = Clip::new(Arc::clone(&small().skeleton), 0.1, vec![number; 9]);
         let error = write(&clip, Decimals::All, &mut Vec::new()).unwrap_err();

@@ -118,7 +118,7 @@ fn anatomy(skeleton: &Skeleton, poses: impl FnOnce() -> Vec<Vec<Transform>>) -> 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Source {
     Name,
-    PartTree,
+    Shape,
 }
 
 /// The limbs, by name; if no name tells any of a class, by shape.
@@ -165,7 +165,7 @@ fn limbs(
         let pairs = sides_of_pairs(skeleton, tree, [arm_pair, leg_pair], &poses());
         for (slot, pair) in found.iter_mut().zip(pairs) {
             if let Some(pair) = pair {
-                (slot.1, slot.2) = (pair.map(Some), Source::PartTree);
+                (slot.1, slot.2) = (pair.map(Some), Source::Shape);
             }
         }
     }
@@ -324,7 +324,7 @@ fn write_labels(
                 let why = match (source, named[joint]) {
                     (Source::Name, Some(JointName::Limb(..))) => "by its name",
                     (Source::Name, _) => "by its place in the skeleton",
-                    (Source::PartTree, _) => "by the skeleton's shape: its names do not tell",
+                    (Source::Shape, _) => "by the skeleton's shape: its names do not tell",
                 };
                 put(joint, limb.class, Some(limb.side), piece, why);
             }

@@ -105,7 +105,7 @@ fn least(motion: &[DVec3], max_hold: usize) -> Vec<f64> {
 }
 
 #[test]
-fn no_other_drawings_are_better() {
+fn the_best_drawings_are_optimal() {
     let mut random = Rng::with_seed(11);
     for round in 0..400 {
         let frames = 1 + random.u64(..30) as usize;
@@ -145,7 +145,7 @@ fn no_other_drawings_are_better() {
 }
 
 #[test]
-fn numbers_that_no_price_gives_are_found() {
+fn counts_that_no_penalty_yields_are_found() {
     // Two drawings are no better than one here, so no penalty yields two.
     let motion = [0.0, 1.0, 0.0].map(DVec3::splat);
     let costs = [1, 2, 3].map(|count| drawings(&motion, 1, count, 8).cost);
@@ -167,7 +167,7 @@ fn numbers_that_no_price_gives_are_found() {
 }
 
 #[test]
-fn odd_motions_have_drawings() {
+fn degenerate_motions_have_drawings() {
     assert!(drawings(&[], 0, 3, 8).exposure.is_empty());
     assert!(drawings(&[DVec3::ONE], 2, 3, 8).exposure.is_empty());
     let odd = [f64::NAN, f64::INFINITY, 1e300, -1e300, 0.0, f64::NAN, 2.0].map(DVec3::splat);
@@ -195,7 +195,7 @@ fn each_second_or_third_frame_is_a_drawing() {
 }
 
 #[test]
-fn where_very_many_choices_are_equally_good_the_bound_says_how_good_they_are() {
+fn the_bound_holds_where_many_choices_are_equally_good() {
     // Penalties yield even numbers only, and the table between them would be too large.
     let motion: Vec<DVec3> = (0..100_000)
         .map(|frame| DVec3::X * f64::from(frame % 2))
@@ -209,7 +209,7 @@ fn where_very_many_choices_are_equally_good_the_bound_says_how_good_they_are() {
 }
 
 #[test]
-fn the_same_stretches_are_found_from_either_end() {
+fn segments_are_the_same_from_either_end() {
     let mut random = Rng::with_seed(8);
     for _ in 0..100 {
         let motion = self::motion(&mut random, 40, 9);

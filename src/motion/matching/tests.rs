@@ -218,7 +218,7 @@ fn bones_that_cannot_be_used() {
 }
 
 #[test]
-fn limbs_that_the_motion_has_not() {
+fn limbs_that_the_motion_lacks() {
     let bytes = include_bytes!("../../../tests/motion/data/rotation_first.bvh");
     let clip = bvh::read_bytes(bytes).unwrap().clip;
     let (found, problems) = drives(&figure(&ANT), &clip);

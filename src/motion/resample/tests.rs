@@ -37,7 +37,7 @@ fn between(a: DQuat, b: DQuat) -> f64 {
     4.0 * ((a - b).length() / 2.0).min(1.0).asin()
 }
 
-/// All orders of three axes that express each rotation: six of Tait and Bryan, six of Euler.
+/// All orders of three axes that can express every rotation: six of Tait-Bryan angles, six of proper Euler angles.
 fn orders() -> Vec<[Axis; 3]> {
     let mut orders = Vec::new();
     for i in AXES {
@@ -80,7 +80,7 @@ fn each_order_expresses_each_rotation() {
                 let (a, b) = (rotation(&clip, frame), rotation(&clip, frame + 1));
                 let middle = rotation(&doubled, 2 * frame + 1);
                 let whole = between(a, b);
-                // Half a turn has two shorter ways.
+                // A half turn has two shortest ways.
                 if whole < PI - 1e-6 {
                     assert!(
                         (between(a, middle) - whole / 2.0).abs() < 1e-7,
@@ -99,13 +99,13 @@ fn each_order_expresses_each_rotation() {
 #[test]
 fn angles_are_continuous() {
     for axes in orders() {
-        // Through the pole of all orders, and several turns about each axis.
+        // Through the poles of all orders, and several turns about each axis.
         for turning in 0..3 {
             let mut row = [10.0, 20.0, 30.0];
             let rows: Vec<Vec<f64>> = (0..120)
                 .map(|frame| {
                     row[turning] = -180.0 + f64::from(frame) * 9.0;
-                    // As files have it: within half a turn.
+                    // As in files: within half a turn.
                     row.iter()
                         .map(|angle| angle - 360.0 * (angle / 360.0).round())
                         .collect()
@@ -132,7 +132,7 @@ fn angles_are_continuous() {
 }
 
 #[test]
-fn fewer_and_more_channels_are_led_over_by_the_shorter_way() {
+fn unusual_channels_are_interpolated_by_the_shorter_way() {
     let orders: [&[Axis]; 5] = [
         &[Axis::X],
         &[Axis::Z, Axis::X],
@@ -235,7 +235,7 @@ fn a_clip_near_the_rate_stays_bit_for_bit() {
 }
 
 #[test]
-fn senseless_rates_are_refused() {
+fn impossible_rates_are_rejected() {
     let clip = single(&AXES, 60.0, &vec![vec![1.0, 2.0, 3.0]; 10]);
     for fps in [0.0, -24.0, f64::NAN, f64::INFINITY, 1e9] {
         assert!(matches!(resample(clip.clone(), fps), Err(Error::Rate(_))));

@@ -1,4 +1,4 @@
-//! The clips of the project, made ready, and written in other ways.
+//! The motions of the project, prepared, and written in other ways.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -24,7 +24,7 @@ pub(crate) fn clip(file: &str) -> PreparedClip {
     prepare(reading.clip, &Options::default()).expect("24 frames a second")
 }
 
-/// The order in which a joint's turns are written.
+/// The order of a joint's rotation channels.
 pub(crate) const ORDERS: [(EulerRot, [Axis; 3]); 6] = [
     (EulerRot::XYZ, [Axis::X, Axis::Y, Axis::Z]),
     (EulerRot::XZY, [Axis::X, Axis::Z, Axis::Y]),
@@ -34,7 +34,7 @@ pub(crate) const ORDERS: [(EulerRot, [Axis; 3]); 6] = [
     (EulerRot::ZYX, [Axis::Z, Axis::Y, Axis::X]),
 ];
 
-/// A clip as turns and places, to be written anew.
+/// A clip as rotations and positions, to be written again.
 pub(crate) struct Moving {
     pub(crate) skeleton: Skeleton,
     frame_time: f64,
@@ -71,7 +71,7 @@ impl Moving {
         self
     }
 
-    /// The world turned about the roots, the skeleton's offsets as they were.
+    /// The world rotated about the roots; the skeleton's offsets stay.
     pub(crate) fn turned(mut self, by: DQuat) -> Self {
         let joints = self.skeleton.joints.iter();
         let roots: Vec<bool> = joints.map(|joint| joint.parent.is_none()).collect();
@@ -88,7 +88,7 @@ impl Moving {
         self
     }
 
-    /// The frame of each joint turned: what a point was in it, the inverse turn of that it is.
+    /// Each joint's frame rotated: points in it get the inverse rotation.
     pub(crate) fn reoriented(mut self, by: &[DQuat]) -> Self {
         let above: Vec<DQuat> = self
             .skeleton
@@ -116,7 +116,7 @@ impl Moving {
         self
     }
 
-    /// World and skeleton turned alike, as a program with other axes has both.
+    /// World and skeleton rotated alike, as from a program with other axes.
     pub(crate) fn in_other_axes(self, by: DQuat) -> Self {
         let back = vec![by.inverse(); self.skeleton.joints.len()];
         let mut out = self.turned(by).reoriented(&back);
@@ -128,7 +128,7 @@ impl Moving {
         out
     }
 
-    /// The clip, turns written in the order that a number stands for: that of the joint's, counted on.
+    /// The clip with its rotations in the order that a number stands for, which increases from joint to joint.
     pub(crate) fn written(mut self, order: usize) -> Clip {
         let order_of = |joint: usize| ORDERS[(order + joint) % ORDERS.len()];
         for (index, joint) in self.skeleton.joints.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! Whatever skeletons, motions and figures there are, nothing breaks.
+//! Whatever the skeleton, motion and figure, the results are finite.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use proptest::prelude::*;
 use super::placed;
 
 fn place() -> impl Strategy<Value = DVec3> {
-    // Bones without length, and figures that are flat, are usual.
+    // Bones without length and flat figures are common.
     let number = prop_oneof![2 => Just(0.0), 3 => -100.0..100.0_f64, 1 => -1e-9..1e-9_f64, 1 => -1e9..1e9_f64];
     (number.clone(), number.clone(), number).prop_map(|(x, y, z)| DVec3::new(x, y, z))
 }
@@ -65,7 +65,7 @@ fn motion() -> impl Strategy<Value = Clip> {
         .prop_map(|(joints, numbers)| Clip::new(Arc::new(Skeleton { joints }), 1.0 / 24.0, numbers))
 }
 
-type Said = (
+type PartSpec = (
     prop::sample::Index,
     bool,
     (DVec3, DVec3, DVec3),
@@ -74,7 +74,7 @@ type Said = (
     bool,
 );
 
-fn figure() -> impl Strategy<Value = (Vec<Said>, Facing)> {
+fn figure() -> impl Strategy<Value = (Vec<PartSpec>, Facing)> {
     let drive = prop::option::weighted(
         0.8,
         (
@@ -95,42 +95,44 @@ fn figure() -> impl Strategy<Value = (Vec<Said>, Facing)> {
     (prop::collection::vec(part, 1..7), facing)
 }
 
-fn rig(clip: &Clip, (parts, facing): (Vec<Said>, Facing)) -> Rig {
+fn rig(clip: &Clip, (parts, facing): (Vec<PartSpec>, Facing)) -> Rig {
     let joints = &clip.skeleton.joints;
-    let part =
-        |(index, (parent, is_rooted, (joint, tip, node), turn, drive, stands)): (usize, Said)| {
-            let drive = drive.map(|(from, kind, to)| {
-                let joint = from.index(joints.len());
-                let to = to.index(joints.len());
-                let end = Tip::End { joint: to, end: 0 };
-                Drive {
-                    joint,
-                    tip: match kind {
-                        0 => None,
-                        1 if !joints[to].ends.is_empty() => Some(end),
-                        _ => Some(Tip::Joint(to)),
-                    },
-                    follow: if kind == 0 {
-                        Follow::Change
-                    } else {
-                        Follow::Direction
-                    },
-                }
-            });
-            RigPart {
-                parent: (index > 0).then(|| parent.index(index)),
-                is_rooted: index == 0 || is_rooted,
-                node: Transform {
-                    rotation: DQuat::from_rotation_z(turn),
-                    position: node,
-                },
+    let part = |(index, (parent, is_rooted, (joint, tip, node), turn, drive, stands)): (
+        usize,
+        PartSpec,
+    )| {
+        let drive = drive.map(|(from, kind, to)| {
+            let joint = from.index(joints.len());
+            let to = to.index(joints.len());
+            let end = Tip::End { joint: to, end: 0 };
+            Drive {
                 joint,
-                tip,
-                sole: if stands { vec![tip] } else { vec![] },
-                drive,
-                is_leg: stands,
+                tip: match kind {
+                    0 => None,
+                    1 if !joints[to].ends.is_empty() => Some(end),
+                    _ => Some(Tip::Joint(to)),
+                },
+                follow: if kind == 0 {
+                    Follow::Change
+                } else {
+                    Follow::Direction
+                },
             }
-        };
+        });
+        RigPart {
+            parent: (index > 0).then(|| parent.index(index)),
+            is_rooted: index == 0 || is_rooted,
+            node: Transform {
+                rotation: DQuat::from_rotation_z(turn),
+                position: node,
+            },
+            joint,
+            tip,
+            sole: if stands { vec![tip] } else { vec![] },
+            drive,
+            is_leg: stands,
+        }
+    };
     Rig {
         parts: parts.into_iter().enumerate().map(part).collect(),
         facing,
@@ -141,8 +143,8 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(2000))]
 
     #[test]
-    fn nothing_breaks(clip in motion(), said in figure()) {
-        let rig = rig(&clip, said);
+    fn random_rigs_and_motions_give_finite_results(clip in motion(), parts in figure()) {
+        let rig = rig(&clip, parts);
         let landmarks = Landmarks::of(&label_clip(&clip));
         let retargeted = retarget(&clip, &rig, &landmarks);
         prop_assert_eq!(retargeted.grounded.len(), clip.frames());

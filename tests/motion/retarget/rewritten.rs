@@ -12,7 +12,7 @@ use super::clips::{FILES, Moving, clip};
 use super::rigs::{Limbs, biped};
 use super::{Body, apart, placed};
 
-/// A figure that is retargeted, as the labels of the clip itself say.
+/// Retargets a clip to a figure that is built from the clip's own labels.
 fn play(clip: &Clip, pieces: usize) -> (Rig, RetargetedClip) {
     let anatomy = label_clip(clip);
     let rig = biped(&anatomy, Limbs::Bound, pieces);
@@ -20,7 +20,7 @@ fn play(clip: &Clip, pieces: usize) -> (Rig, RetargetedClip) {
     (rig, retargeted)
 }
 
-/// How far two motions of a figure are apart: degrees, and drawing units.
+/// The largest differences of two motions of a figure: degrees, and drawing units.
 fn differences(a: &(Rig, RetargetedClip), b: &(Rig, RetargetedClip)) -> [f64; 2] {
     let frames = a.1.grounded.len();
     assert_eq!(frames, b.1.grounded.len());
@@ -68,7 +68,7 @@ fn random_turns(count: usize, seed: u64) -> Vec<DQuat> {
 }
 
 #[test]
-fn however_turns_are_written() {
+fn rotation_order_does_not_matter() {
     for file in FILES {
         let clip = clip(file).clip;
         for order in 0..6 {
@@ -78,7 +78,7 @@ fn however_turns_are_written() {
 }
 
 #[test]
-fn whatever_the_unit() {
+fn the_unit_does_not_matter() {
     for file in FILES {
         let clip = clip(file).clip;
         for unit in [0.0254, 100.0] {
@@ -92,14 +92,14 @@ fn whatever_the_unit() {
     }
 }
 
-/// The axis of a clip's world that is up.
+/// The up axis of a clip's world.
 fn up(clip: &Clip) -> DVec3 {
     let landmarks = Landmarks::of(&label_clip(clip));
     Body::of(clip, &landmarks, Facing::Viewer).up
 }
 
 #[test]
-fn wherever_the_actor_faces() {
+fn the_heading_does_not_matter() {
     for file in FILES {
         let clip = clip(file).clip;
         for yaw in [37.0_f64, 90.0, 180.0, -101.0] {
@@ -115,7 +115,7 @@ fn wherever_the_actor_faces() {
 }
 
 #[test]
-fn whatever_axis_is_up() {
+fn the_up_axis_does_not_matter() {
     for file in FILES {
         let clip = clip(file).clip;
         for (axis, degrees) in [
@@ -135,9 +135,9 @@ fn whatever_axis_is_up() {
     }
 }
 
-/// A skeleton whose offsets do not stand, in a world with another up.
+/// A skeleton whose offsets do not stand, in a world with another up axis.
 #[test]
-fn whatever_axis_is_up_for_the_motion_alone() {
+fn the_up_axis_of_the_motion_alone_does_not_matter() {
     for file in FILES {
         let clip = clip(file).clip;
         let joints = clip.skeleton.joints.len();
@@ -152,9 +152,9 @@ fn whatever_axis_is_up_for_the_motion_alone() {
     }
 }
 
-/// The rest pose of the file is another: frames of joints are turned by constants, which the motion takes up.
+/// Another rest pose in the file: the joints' frames are rotated by constants, and the motion compensates for that.
 #[test]
-fn whatever_the_rest_pose() {
+fn the_rest_pose_does_not_matter() {
     for file in FILES {
         let clip = clip(file).clip;
         let joints = clip.skeleton.joints.len();
@@ -163,7 +163,7 @@ fn whatever_the_rest_pose() {
                 .reoriented(&random_turns(joints, seed))
                 .written(0)
         };
-        // Turned at random, a few stand by chance; then the offsets are the rest pose.
+        // Randomly rotated, a few skeletons stand by chance; then the offsets are the rest pose.
         let falls = |clip: &Clip| matches!(play(clip, 2).1.rest, RestSource::Frame(_));
         let mut fallen = (1..20).map(fallen).filter(falls);
         let base = fallen.next().expect("most fall");
@@ -190,7 +190,7 @@ fn whatever_the_rest_pose() {
 }
 
 #[test]
-fn after_a_file_and_back() {
+fn a_written_file_gives_the_same() {
     for file in FILES {
         let clip = clip(file).clip;
         let mut text = Vec::new();

@@ -1,4 +1,4 @@
-//! Figures to carry motions over to: drawn slanting, so that nothing points where the clip's rest pose does.
+//! Rigs to retarget motions to: drawn at an angle, so that nothing points in the direction of the clip's rest pose.
 
 use glam::{DQuat, DVec3, dvec3};
 use okoshi::motion::labels::{Anatomy, Class, Facing, Limb, Side, Tip};
@@ -6,12 +6,12 @@ use okoshi::motion::matching::{Drive, Follow};
 use okoshi::motion::retarget::{Rig, RigPart};
 use okoshi::motion::skeleton::Transform;
 
-/// How limbs hang on the body.
+/// How limbs are attached to the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Limbs {
-    /// By strings: their nodes are in the node of what they hang on.
+    /// By strings: their nodes are children of their parent's node.
     Bound,
-    /// They only touch: their nodes hang on the model's root, and stand in the middle of the part.
+    /// By touching only: their nodes are children of the model's root, in the middle of the part.
     Loose,
 }
 
@@ -19,7 +19,7 @@ impl Limbs {
     pub(crate) const ALL: [Self; 2] = [Self::Bound, Self::Loose];
 }
 
-/// The bones of a limb of so many pieces.
+/// The bones of a limb of this many pieces.
 fn bones(limb: &Limb, pieces: usize) -> Vec<(usize, Option<Tip>)> {
     let [lower, end] = [limb.lower, limb.end].map(|joint| joint.expect("a whole limb"));
     match pieces {
@@ -42,7 +42,7 @@ struct Builder {
 }
 
 impl Builder {
-    /// A part from a joint to a tip; +Y of its node leads along it.
+    /// A part from a joint to a tip; +Y of its node points along it.
     fn add(&mut self, parent: Option<usize>, is_rooted: bool, [joint, tip]: [DVec3; 2]) -> usize {
         let way = tip - joint;
         self.rig.parts.push(RigPart {
@@ -75,7 +75,7 @@ impl Builder {
         part
     }
 
-    /// A limb along these points; the last piece of a leg gets a sole.
+    /// A limb along these points; the last piece of a leg has a sole.
     fn limb(&mut self, parent: usize, points: &[DVec3], limb: &Limb, pieces: usize) {
         let is_leg = limb.class == Class::Leg;
         let mut parent = parent;
@@ -112,7 +112,7 @@ fn limb(anatomy: &Anatomy, class: Class, side: Side) -> &Limb {
     anatomy.limb(class, side).expect("two arms and two legs")
 }
 
-/// A figure that faces the viewer, with hips, two pieces of trunk, a head with a hat that nothing drives, and limbs.
+/// A figure that faces the viewer, with hips, two pieces of trunk, a head with a hat that has no drive, and limbs.
 pub(crate) fn biped(anatomy: &Anatomy, limbs: Limbs, pieces: usize) -> Rig {
     let mut figure = Builder {
         rig: Rig::default(),

@@ -167,7 +167,7 @@ fn standing(
 }
 
 #[test]
-fn standing_feet_stay() {
+fn locked_feet_do_not_slide() {
     for file in FILES {
         let prepared = clip(file);
         let landmarks = Landmarks::of(&prepared.anatomy);
@@ -205,7 +205,7 @@ fn standing_feet_stay() {
 
 /// A walker moves ahead as far as in the clip, scaled by the length of the legs.
 #[test]
-fn walks_get_ahead() {
+fn walks_travel() {
     let prepared = clip("examples/motion/walk.bvh");
     let landmarks = Landmarks::of(&prepared.anatomy);
     let rig = biped(&prepared.anatomy, Limbs::Bound, 2);

@@ -383,7 +383,7 @@ fn names_of_sides() {
 }
 
 #[test]
-fn words_inside_of_words_say_nothing() {
+fn words_inside_other_words_mean_nothing() {
     for name in [
         "alarm",
         "Swarm",

@@ -182,7 +182,7 @@ fn many_joints_in_any_shape() {
 }
 
 #[test]
-fn circles_and_parents_out_of_range() {
+fn cycles_and_parents_out_of_range() {
     let part = |name: &str, parent| FigurePart {
         name: name.to_owned(),
         parent: Some(parent),
@@ -205,7 +205,7 @@ fn circles_and_parents_out_of_range() {
 }
 
 #[test]
-fn a_skeleton_whose_parents_stand_behind_their_children() {
+fn parents_after_their_children_are_ignored() {
     let mut skeleton = many(5, |_| "Head".to_owned(), |index| index - 1);
     skeleton.joints[0].parent = Some(3);
     skeleton.joints[2].parent = Some(99);
