@@ -53,7 +53,7 @@ pub(super) static MARK: Row = Row {
     flags: &[],
     allowed: Allowed::Part,
     default: "none",
-    summary: "the colour mark that performs the part",
+    summary: "the coloured mark that moves the part in a filmed performance",
     long: "In a filmed performance, small coloured marks are moved by hand. A part with `Mark` \
            follows the mark of that colour.",
     example: "Rhand@Rarm$Mark red",
