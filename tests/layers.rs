@@ -36,6 +36,7 @@ const USES: &[(&str, &[&str])] = &[
             "geometry",
             "kept",
             "lang",
+            "solid",
             "source",
             "svg",
             "threads",
@@ -162,7 +163,7 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("scene", &[]),
-    ("solid", &["geometry", "lang", "scene"]),
+    ("solid", &["geometry", "scene"]),
     ("source", &[]),
     (
         "svg",

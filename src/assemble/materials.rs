@@ -6,7 +6,6 @@ use super::textures::{self, Textures};
 use crate::bind::{Bindings, MaterialFactors, PartKind};
 use crate::diagnostic::Diagnostic;
 use crate::figure::{LinkedModels, PartMaterial};
-use crate::lang::value::ShapeKind;
 use crate::resolver::Resolver;
 use crate::scene::{AlphaMode, Image, Material, Scene, Texture, TextureUse};
 use crate::svg::Drawing;
@@ -93,13 +92,13 @@ impl Materials {
         let mut of_part = Vec::with_capacity(bindings.parts.len());
         for (index, part) in bindings.parts.iter().enumerate() {
             let attributes = bindings.attributes(index);
-            let kind = &attributes.shape().kind;
             let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
             // Models bring their own materials.
-            if !built || *kind == ShapeKind::None || models.has(index) {
+            let own = built && !models.has(index);
+            let Some(profile) = bindings.profile(drawing, index).filter(|_| own) else {
                 of_part.push(None);
                 continue;
-            }
+            };
             let mut factors = bindings.material_factors(drawing, index);
             let textured = textures.of(index);
             if let Some(textured) = textured {
@@ -109,7 +108,7 @@ impl Materials {
                     factors.color[..3].fill(1.0);
                 }
             }
-            let double_sided = matches!(kind, ShapeKind::Flat(_));
+            let double_sided = profile.is_open();
             let texture = textured.map(|textured| textured.texture);
             let slot = shared.slot(&factors, double_sided, texture, &textures);
             of_part.push(Some((slot, textured.map(|textured| textured.map))));

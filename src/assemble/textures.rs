@@ -8,7 +8,6 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::bind::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::figure::LinkedModels;
-use crate::lang::value::ShapeKind;
 use crate::resolver::{LinkError, Resolver};
 use crate::scene::{self, Image, Texture, Wrap};
 use crate::source::Span;
@@ -135,7 +134,7 @@ impl<'a> Collector<'a> {
         let part = &bindings.parts[index];
         let attributes = bindings.attributes(index);
         let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
-        if !built || attributes.shape().kind == ShapeKind::None {
+        if !built || bindings.profile(drawing, index).is_none() {
             return;
         }
         let file = attributes.texture().and_then(|texture| {

@@ -5,9 +5,13 @@
 
 use super::bindings::Bindings;
 use crate::lang::keyword::{AttributeString, Keyword};
-use crate::lang::value::{Origin, Setting, Shape, ShapeKind, Value};
+use crate::lang::value::{KindArguments, Origin, Setting, Shape, Value};
+use crate::solid::Profile;
 use crate::source::Span;
 use crate::svg::{Drawing, PaintKey};
+
+/// How far a plate whose depths are not given reaches to either side, as a share of the page's diagonal.
+const PLATE_DEPTH: f64 = 0.025;
 
 /// Who sets an attribute; the first of them wins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -157,6 +161,12 @@ impl Bindings {
     pub fn inherited(&self, part: usize, keyword: Keyword) -> Option<Source<'_>> {
         self.inherited_attributes(self.parts[part].legend)
             .source(keyword)
+    }
+
+    /// How a part's outline gets its thickness; `None` for `Shape none`.
+    pub fn profile(&self, drawing: &Drawing, part: usize) -> Option<Profile> {
+        let shape = self.attributes(part).shape();
+        Profile::new(shape.kind, shape.numbers(), plate_depth(drawing))
     }
 
     /// The factors of a part's material.
@@ -382,10 +392,40 @@ impl<'a> Attributes<'a> {
     }
 }
 
+/// How far a plate whose depths are not given reaches to the front and to the back, drawing units.
+pub fn plate_depth(drawing: &Drawing) -> f64 {
+    drawing.page.1.length() * PLATE_DEPTH
+}
+
 /// The `Shape` of a part that sets none.
 static DEFAULT_SHAPE: Shape = Shape {
-    kind: ShapeKind::Default(None),
+    kind: "default",
+    arguments: KindArguments::Numbers(Vec::new()),
     mirrored: false,
     doubled: false,
     centered: false,
 };
+
+#[cfg(test)]
+mod tests {
+    use crate::lang::keyword::kinds::KINDS;
+    use crate::lang::keyword::signature::Takes;
+    use crate::solid::Profile;
+
+    #[test]
+    fn every_kind_of_the_table_is_built() {
+        for kind in &KINDS {
+            let is_number = |index: usize| {
+                let parameter = &kind.form.parameters[index];
+                matches!(parameter.takes, Takes::Number(_))
+            };
+            for count in kind.form.counts {
+                let given = (0..*count).filter(|index| is_number(*index)).map(|_| 1.0);
+                let defaults = kind.numbers.iter().skip(*count).copied();
+                let numbers: Vec<f64> = given.chain(defaults).collect();
+                let profile = Profile::new(kind.name, &numbers, 1.0);
+                assert_eq!(profile.is_none(), kind.name == "none", "{}", kind.name);
+            }
+        }
+    }
+}

@@ -14,7 +14,7 @@ use super::parents;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Measure, measure_along};
 use crate::lang::ast::{self, Annotation, Name};
-use crate::lang::value::{Origin, ShapeKind};
+use crate::lang::value::Origin;
 use crate::source::Span;
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
@@ -264,14 +264,9 @@ fn axis(drawing: &Drawing, bindings: &Bindings, index: usize) -> Option<Axis> {
         }));
     }
     let turns = !part.measure.certain
-        && matches!(
-            bindings.attributes(index).shape().kind,
-            ShapeKind::RoundV(_)
-                | ShapeKind::RoundH(_)
-                | ShapeKind::ConeV(_)
-                | ShapeKind::ConeH(_)
-                | ShapeKind::Lathe(_)
-        );
+        && bindings
+            .profile(drawing, index)
+            .is_some_and(|profile| profile.depends_on_axis());
     turns.then(|| {
         let name = bindings.describe(drawing, index);
         let place = part

@@ -16,7 +16,9 @@ mod settings;
 mod strings;
 mod units;
 
-pub use attributes::{Attribute, Attributes, MaterialFactors, Resolved, SetBy, SetColor, Source};
+pub use attributes::{
+    Attribute, Attributes, MaterialFactors, Resolved, SetBy, SetColor, Source, plate_depth,
+};
 pub use bindings::{Binding, Bindings, BoundBy, DrawingString, Part, PartKind, Place};
 pub use layers::{Layer, LayerKind, in_tile_layers};
 pub use legends::Legend;

@@ -1,12 +1,11 @@
 //! Copies (`-s`, `-d`) that lie where their original, or another copy of it, lies.
 
+use glam::DVec2;
 use rayon::prelude::*;
 
 use super::FigureContext;
 use crate::bind::PartKind;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lang::value::ShapeKind;
-use crate::solid;
 use crate::threads::GRAIN;
 
 /// How many ancestors are looked at: each that is doubled doubles the parts below it.
@@ -39,17 +38,10 @@ fn depths(context: &FigureContext<'_>, part: usize) -> Option<[f64; 2]> {
         context.bindings.parts[part].kind,
         PartKind::Main | PartKind::Sub
     );
-    let kind = context.kind(part);
-    if !built || kind == ShapeKind::None {
-        return None;
-    }
+    let profile = context.profile(part).filter(|_| built)?;
     let measure = &context.bindings.parts[part].measure;
-    let [low, high] = solid::depths(
-        &kind,
-        measure.half_across,
-        measure.half_along,
-        &context.options(part),
-    )?;
+    let half = DVec2::new(measure.half_across, measure.half_along);
+    let [low, high] = profile.depths(half, &context.options(part))?;
     let offset = context.offset(part);
     Some([low + offset, high + offset])
 }

@@ -17,10 +17,9 @@ use rayon::prelude::*;
 use crate::bind::{Bindings, Part, PartKind, SetBy};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, area, contains, intersect};
-use crate::lang::value::ShapeKind;
 use crate::resolver::Resolver;
 use crate::scene::{Mesh, Piece, Primitive, Scene, WorldTransform};
-use crate::solid::{self, Placement, Sides, Solid};
+use crate::solid::{self, Placement, Profile, Sides, Solid};
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
 
@@ -29,9 +28,6 @@ use relief::Relief;
 use tree::Tree;
 
 pub use nodes::PartNode;
-
-/// How far the faces of `default` lie from the drawing plane, as a share of the page's diagonal.
-const DEFAULT_DEPTH: f64 = 0.025;
 
 /// Results kept between compiles.
 #[derive(Debug, Default)]
@@ -187,10 +183,7 @@ impl<'a> Figures<'a> {
     }
 
     fn solid(&self, main: usize, part: usize, world: &WorldTransform) -> Option<Solid> {
-        let kind = self.relief.raised(part, self.context.kind(part));
-        if kind == ShapeKind::None {
-            return None;
-        }
+        let profile = self.relief.raised(part, self.context.profile(part)?);
         let (depth, both) = self.context.stand(main, part);
         let (own, node) = (&self.frames[part], &self.frames[main]);
         let mut options = self.context.options(part);
@@ -202,7 +195,7 @@ impl<'a> Figures<'a> {
         Some(Solid {
             outline: Arc::clone(&self.context.bindings.parts[part].outline),
             to_frame: own.from_drawing_about_center(),
-            kind,
+            profile,
             options,
             sides: if both { Sides::Both } else { Sides::Front },
             texture: None,
@@ -225,18 +218,11 @@ fn members(bindings: &Bindings) -> Vec<Vec<usize>> {
 struct FigureContext<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
-    /// The depths of `default` without parameters, drawing units.
-    depth: [f64; 2],
 }
 
 impl<'a> FigureContext<'a> {
     fn new(drawing: &'a Drawing, bindings: &'a Bindings) -> Self {
-        let depth = drawing.page.1.length() * DEFAULT_DEPTH;
-        Self {
-            drawing,
-            bindings,
-            depth: [-depth, depth],
-        }
+        Self { drawing, bindings }
     }
 
     /// How far a part's solid, or its node, is moved along the viewer axis, drawing units.
@@ -249,12 +235,9 @@ impl<'a> FigureContext<'a> {
         }
     }
 
-    /// The kind of a part with its depths filled in.
-    fn kind(&self, part: usize) -> ShapeKind {
-        match &self.bindings.attributes(part).shape().kind {
-            ShapeKind::Default(None) => ShapeKind::Default(Some(self.depth)),
-            kind => kind.clone(),
-        }
+    /// How a part's outline gets its thickness.
+    fn profile(&self, part: usize) -> Option<Profile> {
+        self.bindings.profile(self.drawing, part)
     }
 
     fn options(&self, part: usize) -> solid::Options {
@@ -262,7 +245,6 @@ impl<'a> FigureContext<'a> {
         solid::Options {
             segments: attributes.segments(),
             crease: attributes.crease(),
-            thickness: self.depth,
             placement: Placement::default(),
         }
     }

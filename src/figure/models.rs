@@ -9,7 +9,6 @@ use crate::bind::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Frame, Outline};
 use crate::import::{ImportError, StaticModel, read_static_model};
-use crate::lang::value::ShapeKind;
 use crate::resolver::{LinkError, Resolver};
 use crate::scene::{Scene, Surface};
 use crate::svg::broken_link;
@@ -67,19 +66,19 @@ impl Models {
             let Some(shape) = bindings.attributes(index).shape_if_set() else {
                 continue;
             };
-            let ShapeKind::Model(link) = &shape.value.kind else {
+            let Some(link) = shape.value.file() else {
                 continue;
             };
             if !matches!(part.kind, PartKind::Main | PartKind::Sub) {
                 continue;
             }
             let found = known.entry(link).or_insert_with(|| {
-                let read = match memory.remove(link.as_str()) {
+                let read = match memory.remove(link) {
                     Some(known) if known.is_as_it_was(resolver) => known,
                     _ => load(link, resolver)?,
                 };
                 let asset = Arc::clone(&read.asset);
-                now.insert(link.clone(), read);
+                now.insert(link.to_owned(), read);
                 models.assets.push(Loaded {
                     asset,
                     first_material: 0,

@@ -8,10 +8,10 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 
 use super::{FigureContext, overlap};
-use crate::bind::{Part, PartKind};
+use crate::bind::{Part, PartKind, plate_depth};
 use crate::geometry::Outline;
 use crate::kept::{Kept, Same};
-use crate::lang::value::ShapeKind;
+use crate::solid::Profile;
 use crate::threads::GRAIN;
 
 /// The step, as a share of the part's thickness.
@@ -55,28 +55,9 @@ impl Relief {
         Self { steps }
     }
 
-    /// A part's kind with its faces standing out.
-    pub(super) fn raised(&self, part: usize, kind: ShapeKind) -> ShapeKind {
-        let [back, front] = self.steps[part];
-        let between = |[a, b]: [f64; 2]| {
-            if a <= b {
-                [a - back, b + front]
-            } else {
-                [a + front, b - back]
-            }
-        };
-        let cone = |[a, b, top]: [f64; 3]| {
-            let [a, b] = between([a, b]);
-            [a, b, top]
-        };
-        match kind {
-            ShapeKind::Default(Some(depths)) => ShapeKind::Default(Some(between(depths))),
-            ShapeKind::Flat(z) => ShapeKind::Flat(z + front),
-            ShapeKind::Cone(depths) => ShapeKind::Cone(cone(depths)),
-            ShapeKind::ConeV(depths) => ShapeKind::ConeV(cone(depths)),
-            ShapeKind::ConeH(depths) => ShapeKind::ConeH(cone(depths)),
-            other => other,
-        }
+    /// A part's profile with its faces standing out.
+    pub(super) fn raised(&self, part: usize, profile: Profile) -> Profile {
+        profile.raised(self.steps[part])
     }
 }
 
@@ -161,31 +142,13 @@ fn faces(context: &FigureContext<'_>, part: usize, depths: &[f64]) -> Option<Fac
     let main = context.bindings.parts[part].main;
     let moved = part != main || context.bindings.attributes(part).shape().mirrored;
     let depth = depths[part] + if moved { context.offset(part) } else { 0.0 };
-    let between = |a: f64, b: f64, top: f64| {
-        let (back, front) = if a <= b {
-            (true, top > 0.0)
-        } else {
-            (top > 0.0, true)
-        };
-        Faces {
-            planes: [
-                back.then_some(depth + a.min(b)),
-                front.then_some(depth + a.max(b)),
-            ],
-            thickness: (b - a).abs(),
-        }
-    };
-    match context.kind(part) {
-        ShapeKind::Default(Some([a, b])) => Some(between(a, b, 1.0)),
-        ShapeKind::Flat(z) => Some(Faces {
-            planes: [None, Some(depth + z)],
-            thickness: context.depth[1] - context.depth[0],
-        }),
-        ShapeKind::Cone([a, b, top])
-        | ShapeKind::ConeV([a, b, top])
-        | ShapeKind::ConeH([a, b, top]) => Some(between(a, b, top)),
-        _ => None,
-    }
+    let faces = context.profile(part)?.faces()?;
+    Some(Faces {
+        planes: faces.depths.map(|z| z.map(|z| depth + z)),
+        thickness: faces
+            .thickness
+            .unwrap_or_else(|| 2.0 * plate_depth(context.drawing)),
+    })
 }
 
 /// The earlier parts that a part overlaps and shares a plane with.

@@ -61,8 +61,10 @@ pub enum Value {
 /// `Shape [-scd] kind parameters…`
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
-    /// The kind with its parameters, defaults filled in where they are plain numbers.
-    pub kind: ShapeKind,
+    /// The name of the kind, as in its row of the table.
+    pub kind: &'static str,
+    /// Its arguments, defaults filled in as far as the table has them.
+    pub arguments: KindArguments,
     /// `-s`: a second, mirrored solid in the same node.
     pub mirrored: bool,
     /// `-d`: a second, mirrored node.
@@ -71,33 +73,31 @@ pub struct Shape {
     pub centered: bool,
 }
 
-/// The kinds of `Shape` (language.md, Shapes). Angles in degrees, lengths in drawing units.
+/// The arguments of a kind of `Shape`.
 #[derive(Debug, Clone, PartialEq)]
-pub enum ShapeKind {
-    /// A prism between two depths; `None`: the page's thickness.
-    Default(Option<[f64; 2]>),
-    /// A cylinder about the axis, from angle to angle.
-    RoundV([f64; 2]),
-    /// A cylinder across the axis.
-    RoundH([f64; 2]),
-    /// An ellipsoid: angles, and the radius in depth (`None`: the smaller half extent).
-    Round([f64; 2], Option<f64>),
-    /// Scaled both ways: `z0 z1 top`.
-    Cone([f64; 3]),
-    /// Scaled across the axis.
-    ConeV([f64; 3]),
-    /// Scaled along the axis.
-    ConeH([f64; 3]),
-    /// A height field: the height (`None`: half the smaller extent).
-    Inflate(Option<f64>),
-    /// Turned about the axis by so many degrees.
-    Lathe(f64),
-    /// A ready model: its file, as written.
-    Model(String),
-    /// The outline alone at a depth.
-    Flat(f64),
-    /// No solid.
-    None,
+pub enum KindArguments {
+    /// Angles in degrees, lengths in drawing units.
+    Numbers(Vec<f64>),
+    /// A file, as written.
+    File(String),
+}
+
+impl Shape {
+    /// The numbers of its kind.
+    pub fn numbers(&self) -> &[f64] {
+        match &self.arguments {
+            KindArguments::Numbers(numbers) => numbers,
+            KindArguments::File(_) => &[],
+        }
+    }
+
+    /// The file of its kind, if that takes one.
+    pub fn file(&self) -> Option<&str> {
+        match &self.arguments {
+            KindArguments::File(file) => Some(file),
+            KindArguments::Numbers(_) => None,
+        }
+    }
 }
 
 /// `Origin center | start | end | x y`

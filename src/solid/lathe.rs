@@ -27,8 +27,8 @@ const SAME: f64 = 1e-6;
 /// The least and the greatest turn, degrees.
 const TURNS: std::ops::RangeInclusive<f64> = 0.01..=360.0;
 
-/// The turn in degrees.
-pub(super) fn turn(degrees: f64) -> f64 {
+/// The angle of a turn that is built, degrees.
+pub(super) fn sweep_angle(degrees: f64) -> f64 {
     if degrees.is_finite() {
         degrees.clamp(*TURNS.start(), *TURNS.end())
     } else {
@@ -38,7 +38,7 @@ pub(super) fn turn(degrees: f64) -> f64 {
 
 /// The surface of an outline's half turned by so many degrees.
 pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surface {
-    let degrees = turn(degrees);
+    let degrees = sweep_angle(degrees);
     let whole = degrees >= 360.0;
     let half = steps_per_half_turn(options);
     let steps = ((degrees / 180.0 * f64::from(half)) - 1e-9).ceil().max(1.0) as usize;

@@ -6,13 +6,12 @@ use proptest::prelude::*;
 use super::super::build;
 use super::super::check::{closed, volume};
 use super::super::laws;
-use super::super::tests::{circle, options, outline, rectangle};
+use super::super::tests::{circle, options, outline, profile, rectangle};
 use super::*;
 use crate::geometry::area;
-use crate::lang::value::ShapeKind::Lathe;
 
 fn turned(outline: &Outline, degrees: f64, segments: u32) -> Surface {
-    let surface = build(outline, &Lathe(degrees), &options(segments));
+    let surface = build(outline, &profile("lathe", &[degrees]), &options(segments));
     closed(&surface).unwrap_or_else(|e| panic!("{degrees}: {e}"));
     surface
 }
@@ -134,7 +133,7 @@ proptest! {
     ) {
         let drawn = outline(rings);
         prop_assume!(!drawn.polygons.is_empty());
-        let surface = build(&drawn, &Lathe(degrees), &options(segments));
+        let surface = build(&drawn, &profile("lathe", &[degrees]), &options(segments));
         if let Err(error) = laws::lawful(&surface) {
             return Err(TestCaseError::fail(error));
         }

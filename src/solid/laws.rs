@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use proptest::test_runner::FileFailurePersistence;
 
 use super::check::{closed, volume};
-use super::tests::{kinds, options, outline};
+use super::tests::{kinds_with, options, outline, profile};
 use super::*;
 use crate::geometry::{Ring, area, bounds};
 
@@ -105,8 +105,8 @@ proptest! {
             translation: at.0.extend(at.1) * size,
             scale: 0.01,
         };
-        let o = Options { crease, placement, thickness: [-0.1 * size, 0.2 * size], ..options(segments) };
-        for kind in kinds() {
+        let o = Options { crease, placement, ..options(segments) };
+        for kind in kinds_with(&[-0.1 * size, 0.2 * size]) {
             let surface = build(&outline, &kind, &o);
             if let Err(error) = lawful(&surface) {
                 return Err(TestCaseError::fail(format!("{kind:?}: {error}")));
@@ -121,16 +121,16 @@ proptest! {
 
 /// The volume of a stack whose copies are scaled alike both ways, cubic model units. It counts with a sign what each
 /// wall and lid encloses, so one triangle that is turned over, left out or there twice is enough to miss it.
-fn expected_volume(outline: &Outline, kind: &ShapeKind, options: &Options) -> Option<f64> {
+fn expected_volume(outline: &Outline, kind: &Profile, options: &Options) -> Option<f64> {
     if !matches!(
         kind,
-        ShapeKind::Default(_) | ShapeKind::Round(..) | ShapeKind::Cone(_)
+        Profile::Default(_) | Profile::Round(_) | Profile::Cone(_)
     ) {
         return None;
     }
     let (low, high) = bounds(outline)?;
     let half = low.abs().max(high.abs());
-    let stack = layers::layers(kind, half.x, half.y, options)?;
+    let stack = kind.layers(half, options);
     // What has hardly any thickness has it by rounding.
     let thickness = stack.last()?.z - stack.first()?.z;
     if thickness < 1e-2 * half.max_element() {
@@ -171,7 +171,7 @@ fn where_round_turns_over() {
             .map(|i| at + radius * DVec2::from_angle(angle(i)))
             .collect()
     };
-    let round = ShapeKind::Round([-90., 90.], None);
+    let round = profile("round", &[-90., 90.]);
     let turned = |rings: Vec<Ring>| turned_over(&build(&outline(rings), &round, &options(16)));
     // Copies of an outline that sees its centre from everywhere lie in each other, those of others do not.
     assert_eq!(turned(vec![disc(1.0, DVec2::ZERO)]), 0);
@@ -191,7 +191,7 @@ fn wedges_are_closed() {
         let corner = |px: f64, py: f64| DVec2::new(x * px, y * py);
         let wedge = outline(vec![vec![corner(0., 0.), corner(0., 7.), corner(9., 0.)]]);
         for segments in [1, 2, 3, 16] {
-            for kind in kinds() {
+            for kind in kinds_with(&[]) {
                 let surface = build(&wedge, &kind, &options(segments));
                 lawful(&surface).unwrap_or_else(|error| panic!("{kind:?} {segments}: {error}"));
             }

@@ -12,6 +12,7 @@ mod cap;
 mod ears;
 mod groups;
 mod inflate;
+mod kinds;
 mod lathe;
 mod layers;
 mod prism;
@@ -25,11 +26,9 @@ mod stack;
 use glam::{DMat2, DVec3};
 
 use crate::geometry::{Outline, bounds};
-use crate::lang::value::ShapeKind;
 use crate::scene::Surface;
-use layers::layers;
 
-pub use layers::depths;
+pub use kinds::{Faces, Profile};
 pub use recipe::{Sides, Solid};
 
 /// How a solid is made, besides its kind.
@@ -39,8 +38,6 @@ pub struct Options {
     pub segments: u32,
     /// Edges with less than this angle between their faces are smooth, degrees; 0 makes all flat.
     pub crease: f64,
-    /// Depths of `default` where it has no parameters.
-    pub thickness: [f64; 2],
     /// Where the solid goes.
     pub placement: Placement,
 }
@@ -72,29 +69,12 @@ impl Placement {
     }
 }
 
-/// The solid of an outline in its part's frame. `Model` is built as `Default` without parameters; `None`, and
-/// an outline without area, as nothing.
-pub fn build(outline: &Outline, kind: &ShapeKind, options: &Options) -> Surface {
-    let Some((low, high)) = bounds(outline) else {
-        return Surface::default();
-    };
-    let half = low.abs().max(high.abs());
-    match kind {
-        ShapeKind::Inflate(given) => {
-            return inflate::inflate(outline, *given, half, options);
-        }
-        ShapeKind::Lathe(degrees) => return lathe::lathe(outline, *degrees, options),
-        _ => {}
+/// The solid of an outline in its part's frame; nothing for an outline without area.
+pub fn build(outline: &Outline, profile: &Profile, options: &Options) -> Surface {
+    match bounds(outline) {
+        Some((low, high)) => profile.surface(outline, low.abs().max(high.abs()), options),
+        None => Surface::default(),
     }
-    let Some(layers) = layers(kind, half.x, half.y, options) else {
-        return Surface::default();
-    };
-    if layers.len() < 2 {
-        return layers.first().map_or_else(Surface::default, |layer| {
-            stack::flat(outline, layer.z, options)
-        });
-    }
-    stack::stack(outline, &layers, options)
 }
 
 #[cfg(test)]

@@ -7,9 +7,8 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use rustc_hash::FxHasher;
 
-use super::{Options, build};
+use super::{Options, Profile, build};
 use crate::geometry::{Outline, Polygon};
-use crate::lang::value::ShapeKind;
 use crate::scene::{Surface, SurfaceSource};
 
 /// All that a solid is made from.
@@ -20,7 +19,7 @@ pub struct Solid {
     /// From there to the part's own frame, y up, its centre at the origin; turns without scaling.
     pub to_frame: DAffine2,
     /// How it gets its thickness.
-    pub kind: ShapeKind,
+    pub profile: Profile,
     /// How fine, how smooth, and where it goes.
     pub options: Options,
     /// On which sides of the drawing plane it stands.
@@ -54,7 +53,7 @@ impl SurfaceSource for Solid {
         let local = Outline {
             polygons: self.outline.polygons.iter().map(polygon).collect(),
         };
-        let mut surface = build(&local, &self.kind, &self.options);
+        let mut surface = build(&local, &self.profile, &self.options);
         if let Some(texture) = self.texture {
             let map = texture * self.to_drawing();
             let uv = |[x, y, _]: &[f32; 3]| {
@@ -92,12 +91,10 @@ impl SurfaceSource for Solid {
         let Options {
             segments,
             crease,
-            thickness,
             placement,
         } = self.options;
         number(f64::from(segments));
         number(crease);
-        thickness.into_iter().for_each(&mut number);
         number(placement.rotation);
         placement
             .translation
@@ -111,20 +108,7 @@ impl SurfaceSource for Solid {
             .for_each(&mut number);
         let texture = self.texture.iter().flat_map(DAffine2::to_cols_array);
         texture.for_each(&mut number);
-        match &self.kind {
-            ShapeKind::Default(Some(depths))
-            | ShapeKind::RoundV(depths)
-            | ShapeKind::RoundH(depths) => depths.iter().copied().for_each(&mut number),
-            ShapeKind::Cone(depths) | ShapeKind::ConeV(depths) | ShapeKind::ConeH(depths) => {
-                depths.iter().copied().for_each(&mut number);
-            }
-            ShapeKind::Round(angles, radius) => {
-                angles.iter().copied().chain(*radius).for_each(&mut number);
-            }
-            ShapeKind::Inflate(height) => height.iter().copied().for_each(&mut number),
-            ShapeKind::Lathe(length) | ShapeKind::Flat(length) => number(*length),
-            ShapeKind::Default(None) | ShapeKind::Model(_) | ShapeKind::None => {}
-        }
+        self.profile.numbers().into_iter().for_each(&mut number);
         hasher.finish()
     }
 

@@ -31,8 +31,17 @@ const FAR: f64 = 1.0;
 /// Layers closer than this, relative to the whole depth, are one.
 const NEAR: f64 = 1e-6;
 
+/// The surface over layers by rising depth: closed over two or more, the flat outline for one, nothing for none.
+pub(super) fn surface(outline: &Outline, layers: &[Layer], options: &Options) -> Surface {
+    match layers {
+        [] => Surface::default(),
+        [layer] => flat(outline, layer.z, options),
+        _ => stack(outline, layers, options),
+    }
+}
+
 /// The outline alone, seen from the front.
-pub(super) fn flat(outline: &Outline, z: f64, options: &Options) -> Surface {
+fn flat(outline: &Outline, z: f64, options: &Options) -> Surface {
     let rings = Rings::of(outline);
     let put = Put::new(options);
     let put = |p: &DVec2| put.position(p.extend(z));
@@ -116,7 +125,7 @@ pub(super) fn rises(from: DVec2, to: DVec2) -> bool {
 }
 
 /// The closed surface over two or more layers.
-pub(super) fn stack(outline: &Outline, layers: &[Layer], options: &Options) -> Surface {
+fn stack(outline: &Outline, layers: &[Layer], options: &Options) -> Surface {
     let put = Put::new(options);
     let crease = Crease::new(options.crease);
     let mut base = Base::new(outline, layers);

@@ -3,15 +3,18 @@ use glam::{DVec2, DVec3, Vec3};
 use super::check::{closed, volume};
 use super::*;
 use crate::geometry::{FillRule, Ring, bounds, resolve_overlaps};
-use ShapeKind::{Cone, ConeH, ConeV, Default, Flat, Inflate, Lathe, Round, RoundH, RoundV};
 
 pub(super) fn options(segments: u32) -> Options {
     Options {
         segments,
         crease: 30.0,
-        thickness: [-1.0, 1.0],
         placement: Placement::default(),
     }
+}
+
+/// A kind with its numbers; plates are 2 thick.
+pub(super) fn profile(name: &str, numbers: &[f64]) -> Profile {
+    Profile::new(name, numbers, 1.0).unwrap()
 }
 
 /// A clean outline in its part's frame from rings in any order, y up.
@@ -48,7 +51,7 @@ pub(super) fn circle(r: f64, n: usize) -> Outline {
     ])
 }
 
-fn made(outline: &Outline, kind: ShapeKind, options: &Options) -> Surface {
+fn made(outline: &Outline, kind: Profile, options: &Options) -> Surface {
     let surface = build(outline, &kind, options);
     closed(&surface).unwrap_or_else(|e| panic!("{kind:?}: {e}"));
     assert!(volume(&surface) > 0.0);
@@ -82,7 +85,11 @@ fn directions(surface: &Surface) -> usize {
 
 #[test]
 fn the_papers_octagonal_prism() {
-    let surface = made(&rectangle(20., 60.), RoundV([-90., 90.]), &options(4));
+    let surface = made(
+        &rectangle(20., 60.),
+        profile("roundv", &[-90., 90.]),
+        &options(4),
+    );
     let mut expected = Vec::new();
     for y in [-30000, 30000] {
         for (x, z) in [(0, -10000), (0, 10000), (10000, 0), (-10000, 0)] {
@@ -99,14 +106,22 @@ fn the_papers_octagonal_prism() {
     assert_eq!(surface.triangles.len(), 8 * 2 + 2 * 6);
     let area = 10.0 * 10.0 * 2.0 * 2f64.sqrt();
     assert!((volume(&surface) - area * 60.0).abs() < 1.0);
-    let lying = made(&rectangle(60., 20.), RoundH([-90., 90.]), &options(4));
+    let lying = made(
+        &rectangle(60., 20.),
+        profile("roundh", &[-90., 90.]),
+        &options(4),
+    );
     assert_eq!((positions(&lying).len(), directions(&lying)), (16, 10));
     assert!((volume(&lying) - area * 60.0).abs() < 1.0);
 }
 
 #[test]
 fn cylinders_have_their_radius() {
-    let surface = made(&rectangle(20., 60.), RoundV([-90., 90.]), &options(16));
+    let surface = made(
+        &rectangle(20., 60.),
+        profile("roundv", &[-90., 90.]),
+        &options(16),
+    );
     for [x, y, z] in &surface.positions {
         assert!((x.hypot(*z) - 10.0).abs() < 1e-4 && y.abs() == 30.0);
     }
@@ -121,12 +136,20 @@ fn cylinders_have_their_radius() {
 
 #[test]
 fn ellipsoids_have_their_volume() {
-    let sphere = made(&circle(10., 96), Round([-90., 90.], None), &options(48));
+    let sphere = made(
+        &circle(10., 96),
+        profile("round", &[-90., 90.]),
+        &options(48),
+    );
     let whole = 4.0 / 3.0 * std::f64::consts::PI * 1000.0;
     assert!((volume(&sphere) / whole - 1.0).abs() < 0.01);
     // One corner a point: everything is smooth, the poles too.
     assert_eq!(sphere.positions.len(), 47 * 96 + 2);
-    let half = made(&circle(10., 96), Round([0., 90.], Some(20.)), &options(48));
+    let half = made(
+        &circle(10., 96),
+        profile("round", &[0., 90., 20.]),
+        &options(48),
+    );
     assert!((volume(&half) / whole - 1.0).abs() < 0.01);
 }
 
@@ -138,34 +161,45 @@ fn cones_wedges_and_partial_angles() {
         assert!((found / expected - 1.0).abs() < 1e-3, "{found} {expected}");
     };
     let o = options(16);
-    let pyramid = made(&square, Cone([0., 30., 0.]), &o);
+    let pyramid = made(&square, profile("cone", &[0., 30., 0.]), &o);
     near(&pyramid, 1000.0);
     assert_eq!((positions(&pyramid).len(), pyramid.triangles.len()), (5, 6));
-    near(&made(&square, Cone([30., 0., 0.]), &o), 1000.0);
-    let frustum = made(&square, Cone([0., 30., 0.5]), &o);
+    near(&made(&square, profile("cone", &[30., 0., 0.]), &o), 1000.0);
+    let frustum = made(&square, profile("cone", &[0., 30., 0.5]), &o);
     near(&frustum, 30.0 / 3.0 * (100.0 + 50.0 + 25.0));
     assert_eq!(positions(&frustum).len(), 8);
-    for roof in [ConeV([0., 6., 0.]), ConeH([0., 6., 0.])] {
+    for roof in [
+        profile("conev", &[0., 6., 0.]),
+        profile("coneh", &[0., 6., 0.]),
+    ] {
         let roof = made(&square, roof, &o);
         near(&roof, 300.0);
         assert_eq!((positions(&roof).len(), directions(&roof)), (6, 5));
     }
-    near(&made(&square, ConeV([0., 6., 0.5]), &o), 450.0);
-    let half = made(&rectangle(20., 60.), RoundV([0., 90.]), &options(4));
+    near(&made(&square, profile("conev", &[0., 6., 0.5]), &o), 450.0);
+    let half = made(
+        &rectangle(20., 60.),
+        profile("roundv", &[0., 90.]),
+        &options(4),
+    );
     near(&half, 100.0 * 2f64.sqrt() * 60.0);
-    let slice = made(&circle(10., 48), RoundV([-30., 45.]), &options(16));
+    let slice = made(
+        &circle(10., 48),
+        profile("roundv", &[-30., 45.]),
+        &options(16),
+    );
     assert!(
         slice
             .positions
             .iter()
             .all(|p| p[2] > -5.001 && p[2] < 7.072)
     );
-    near(&made(&square, Default(Some([4., -1.])), &o), 500.0);
+    near(&made(&square, profile("default", &[4., -1.]), &o), 500.0);
 }
 
 #[test]
 fn a_circle_prism_is_small() {
-    let surface = made(&circle(10., 48), Default(None), &options(16));
+    let surface = made(&circle(10., 48), profile("default", &[]), &options(16));
     assert_eq!(
         (surface.positions.len(), surface.triangles.len()),
         (4 * 48, 4 * 48 - 4)
@@ -174,14 +208,16 @@ fn a_circle_prism_is_small() {
         crease: 0.0,
         ..options(16)
     };
-    let sharp = made(&circle(10., 48), Default(None), &sharp);
+    let sharp = made(&circle(10., 48), profile("default", &[]), &sharp);
     assert_eq!(sharp.positions.len(), 6 * 48);
     let soft = Options {
         crease: 180.0,
         ..options(16)
     };
     assert_eq!(
-        made(&circle(10., 48), Default(None), &soft).positions.len(),
+        made(&circle(10., 48), profile("default", &[]), &soft)
+            .positions
+            .len(),
         2 * 48
     );
 }
@@ -231,7 +267,7 @@ fn every_kind_on_awkward_outlines() {
     ];
     for rings in outlines {
         let outline = outline(rings);
-        for kind in kinds() {
+        for kind in kinds_with(&[]) {
             for crease in [0.0, 30.0, 180.0] {
                 made(
                     &outline,
@@ -246,8 +282,14 @@ fn every_kind_on_awkward_outlines() {
     }
 }
 
-pub(super) fn kinds() -> Vec<ShapeKind> {
-    let mut kinds = vec![Default(None), Inflate(None), Lathe(360.0), Lathe(100.0)];
+/// All kinds, plates with these numbers.
+pub(super) fn kinds_with(plate: &[f64]) -> Vec<Profile> {
+    let mut kinds = vec![
+        profile("default", plate),
+        profile("inflate", &[]),
+        profile("lathe", &[360.0]),
+        profile("lathe", &[100.0]),
+    ];
     for angles in [
         [-90., 90.],
         [0., 90.],
@@ -256,8 +298,12 @@ pub(super) fn kinds() -> Vec<ShapeKind> {
         [89.99, -80.],
         [30., 30.],
     ] {
-        kinds.extend([RoundV(angles), RoundH(angles), Round(angles, None)]);
-        kinds.push(Round(angles, Some(0.5)));
+        kinds.extend([
+            profile("roundv", &angles),
+            profile("roundh", &angles),
+            profile("round", &angles),
+        ]);
+        kinds.push(profile("round", &[angles[0], angles[1], 0.5]));
     }
     for cone in [
         [0., 2., 0.],
@@ -267,7 +313,11 @@ pub(super) fn kinds() -> Vec<ShapeKind> {
         [0., 1., 0.002],
         [1., 1., 0.],
     ] {
-        kinds.extend([Cone(cone), ConeV(cone), ConeH(cone)]);
+        kinds.extend([
+            profile("cone", &cone),
+            profile("conev", &cone),
+            profile("coneh", &cone),
+        ]);
     }
     kinds
 }
@@ -275,14 +325,11 @@ pub(super) fn kinds() -> Vec<ShapeKind> {
 #[test]
 fn flat_none_and_empty() {
     let o = options(16);
-    let flat = build(&rectangle(2., 2.), &Flat(3.0), &o);
+    let flat = build(&rectangle(2., 2.), &profile("flat", &[3.0]), &o);
     assert_eq!((flat.positions.len(), flat.triangles.len()), (4, 2));
     assert!(flat.positions.iter().all(|p| p[2] == 3.0) && flat.normals.iter().all(|n| n[2] == 1.0));
-    assert_eq!(
-        build(&rectangle(2., 2.), &ShapeKind::None, &o),
-        Surface::default()
-    );
-    for kind in kinds() {
+    assert_eq!(Profile::new("none", &[], 1.0), None);
+    for kind in kinds_with(&[]) {
         assert_eq!(build(&Outline::default(), &kind, &o), Surface::default());
     }
 }
@@ -298,7 +345,7 @@ fn placement_and_mirror() {
         placement,
         ..options(16)
     };
-    let surface = made(&rectangle(20., 60.), Default(None), &o);
+    let surface = made(&rectangle(20., 60.), profile("default", &[]), &o);
     let far = surface
         .positions
         .iter()
@@ -313,12 +360,12 @@ fn placement_and_mirror() {
 fn wild_parameters_do_no_harm() {
     for x in [f64::NAN, f64::INFINITY, 1e300, -1e300, 1e-300, 0.0] {
         for kind in [
-            Default(Some([x, 0.0])),
-            RoundV([x, -x]),
-            Round([0.0, x], Some(x)),
-            Cone([x, 1.0, x]),
-            ConeH([0.0, x, 1.0]),
-            Flat(x),
+            profile("default", &[x, 0.0]),
+            profile("roundv", &[x, -x]),
+            profile("round", &[0.0, x, x]),
+            profile("cone", &[x, 1.0, x]),
+            profile("coneh", &[0.0, x, 1.0]),
+            profile("flat", &[x]),
         ] {
             for segments in [0, 1, u32::MAX] {
                 let o = Options {

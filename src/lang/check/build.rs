@@ -5,10 +5,11 @@ use super::arguments::{ArgumentValue, Callee};
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::lang::ast::{Argument, ArgumentKind, Attribute};
 use crate::lang::evaluate::Lookup;
+use crate::lang::keyword::kinds::{Kind, Rule};
 use crate::lang::keyword::signature::{Form, Takes};
 use crate::lang::keyword::{Keyword, Status, kinds};
 use crate::lang::parameter::form_by_first_argument;
-use crate::lang::value::{Ground, Origin, Shape, ShapeKind, SignedAxis, Value};
+use crate::lang::value::{Ground, KindArguments, Origin, Shape, SignedAxis, Value};
 
 impl Checker<'_> {
     /// The value of an attribute, and its arguments as text.
@@ -181,15 +182,19 @@ impl Checker<'_> {
             keyword: Keyword::Shape,
         };
         let values = self.match_arguments(callee, &kind.form, parameters)?;
-        let value = shape_kind(kind.name, &values)?;
-        self.check_angles(&value, parameters)?;
-        self.check_thickness(kind.name, &value, attribute, parameters, values.len());
+        let arguments = kind_arguments(kind, &values);
+        if let KindArguments::Numbers(numbers) = &arguments {
+            self.check_angles(kind, numbers, parameters)?;
+            let parameters = &parameters[..values.len().min(parameters.len())];
+            self.check_thickness(kind, numbers, attribute, parameters);
+        }
         let has = |letter: char| {
             let mut flags = attribute.flags.iter();
             flags.any(|(flag, _)| flag.eq_ignore_ascii_case(&letter))
         };
         let shape = Shape {
-            kind: value,
+            kind: kind.name,
+            arguments,
             mirrored: has('s'),
             doubled: has('d'),
             centered: has('c'),
@@ -200,17 +205,16 @@ impl Checker<'_> {
     }
 
     /// The first angle of a rounding must be smaller than the second.
-    fn check_angles(&mut self, kind: &ShapeKind, parameters: &[Argument]) -> Option<()> {
-        let (ShapeKind::RoundV([a0, a1])
-        | ShapeKind::RoundH([a0, a1])
-        | ShapeKind::Round([a0, a1], _)) = kind
-        else {
+    fn check_angles(
+        &mut self,
+        kind: &Kind,
+        numbers: &[f64],
+        parameters: &[Argument],
+    ) -> Option<()> {
+        let ([a0, a1, ..], [first, second, ..]) = (numbers, parameters) else {
             return Some(());
         };
-        let [first, second, ..] = parameters else {
-            return Some(());
-        };
-        if a0 < a1 {
+        if a0 < a1 || !kind.rules.contains(&Rule::Ascending) {
             return Some(());
         }
         let range = first.range.start..second.range.end;
@@ -238,21 +242,16 @@ impl Checker<'_> {
     /// Warns about a solid without thickness.
     fn check_thickness(
         &mut self,
-        name: &str,
-        kind: &ShapeKind,
+        kind: &Kind,
+        numbers: &[f64],
         attribute: &Attribute,
         parameters: &[Argument],
-        count: usize,
     ) {
-        let parameters = &parameters[..count.min(parameters.len())];
-        let thin = match kind {
-            ShapeKind::Default(Some([z0, z1]))
-            | ShapeKind::Cone([z0, z1, _])
-            | ShapeKind::ConeV([z0, z1, _])
-            | ShapeKind::ConeH([z0, z1, _]) => z0 == z1,
-            ShapeKind::Round(_, Some(depth)) | ShapeKind::Inflate(Some(depth)) => *depth == 0.,
-            _ => false,
-        };
+        let thin = kind.rules.iter().any(|rule| match rule {
+            Rule::Ascending => false,
+            Rule::Distinct => matches!(numbers, [z0, z1, ..] if z0 == z1),
+            Rule::NonZero(index) => numbers.get(*index) == Some(&0.),
+        });
         if !thin {
             return;
         }
@@ -264,7 +263,7 @@ impl Checker<'_> {
             Diagnostic::new(
                 Code::ZeroThickness,
                 self.text.span(range),
-                format!("this `{name}` has no thickness"),
+                format!("this `{}` has no thickness", kind.name),
             )
             .help("write `Shape flat` for a thin sheet, or `Shape none` for no solid at all"),
         );
@@ -359,35 +358,17 @@ fn gives_alpha(written: &str) -> bool {
     }
 }
 
-fn shape_kind(name: &str, values: &[ArgumentValue]) -> Option<ShapeKind> {
-    let number = |index: usize| match values.get(index) {
-        Some(ArgumentValue::Number(value)) => Some(*value),
+/// The arguments of a kind that were given, and the numbers that the table has for the others.
+fn kind_arguments(kind: &Kind, values: &[ArgumentValue]) -> KindArguments {
+    if let Some(ArgumentValue::Text(file)) = values.first() {
+        return KindArguments::File(file.clone());
+    }
+    let numbers = values.iter().filter_map(|value| match value {
+        ArgumentValue::Number(value) => Some(*value),
         _ => None,
-    };
-    let angles = [number(0).unwrap_or(-90.), number(1).unwrap_or(90.)];
-    let cone = [
-        number(0).unwrap_or(0.),
-        number(1).unwrap_or(20.),
-        number(2).unwrap_or(0.),
-    ];
-    Some(match name {
-        "default" => ShapeKind::Default(number(0).zip(number(1)).map(|(z0, z1)| [z0, z1])),
-        "roundv" => ShapeKind::RoundV(angles),
-        "roundh" => ShapeKind::RoundH(angles),
-        "round" => ShapeKind::Round(angles, number(2)),
-        "cone" => ShapeKind::Cone(cone),
-        "conev" => ShapeKind::ConeV(cone),
-        "coneh" => ShapeKind::ConeH(cone),
-        "inflate" => ShapeKind::Inflate(number(0)),
-        "lathe" => ShapeKind::Lathe(number(0).unwrap_or(360.)),
-        "model" => match values.first()? {
-            ArgumentValue::Text(file) => ShapeKind::Model(file.clone()),
-            _ => return None,
-        },
-        "flat" => ShapeKind::Flat(number(0).unwrap_or(0.)),
-        "none" => ShapeKind::None,
-        _ => return None,
-    })
+    });
+    let defaults = kind.numbers.iter().skip(values.len()).copied();
+    KindArguments::Numbers(numbers.chain(defaults).collect())
 }
 
 fn signed_axis(word: &str) -> Option<SignedAxis> {

@@ -12,6 +12,10 @@ pub struct Kind {
     pub form: Form,
     /// The values of parameters that are not given.
     pub default: &'static str,
+    /// The same as numbers, except for those that depend on the part.
+    pub numbers: &'static [f64],
+    /// What is checked besides the parameters' bounds.
+    pub rules: &'static [Rule],
     /// One line.
     pub summary: &'static str,
     /// The manual, in Markdown.
@@ -20,6 +24,17 @@ pub struct Kind {
     pub example: &'static str,
     /// Whether this version supports it.
     pub status: Status,
+}
+
+/// A rule about the numbers of a kind.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rule {
+    /// The first number is less than the second: two angles.
+    Ascending,
+    /// The first number differs from the second, or the solid has no thickness: two depths.
+    Distinct,
+    /// The number at this index is not 0, or the solid has no thickness.
+    NonZero(usize),
 }
 
 const A0: Parameter = number(
@@ -84,6 +99,8 @@ pub static KINDS: [Kind; 12] = [
         name: "default",
         form: Form::new(&DEPTHS, &[0, 2]),
         default: "2.5 % of the page's diagonal to the front and to the back",
+        numbers: &[],
+        rules: &[Rule::Distinct],
         summary: "a plate: the outline from depth `z0` to depth `z1`",
         long: "The drawn outline becomes a plate with straight walls, like something sawn out of \
                wood. `z0` and `z1` say how far it extends to the back (negative) and to the front \
@@ -95,6 +112,8 @@ pub static KINDS: [Kind; 12] = [
         name: "roundv",
         form: Form::new(&ANGLES, &[0, 2]),
         default: "-90 90",
+        numbers: &[-90., 90.],
+        rules: &[Rule::Ascending],
         summary: "rounded about the part's axis: an arm, a leg, a trunk",
         long: "The part is rounded about its long axis, so that a drawn bar becomes a cylinder and \
                a drawn carrot becomes a carrot. The angles say how much of the rounding is kept: \
@@ -106,6 +125,8 @@ pub static KINDS: [Kind; 12] = [
         name: "roundh",
         form: Form::new(&ANGLES, &[0, 2]),
         default: "-90 90",
+        numbers: &[-90., 90.],
+        rules: &[Rule::Ascending],
         summary: "rounded across the part's axis: a wheel seen from its edge, a drum on its side",
         long: "Like `roundv`, but rounded the other way: the cylinder lies across the part's long \
                axis. The angles say how much of the rounding is kept.",
@@ -116,6 +137,8 @@ pub static KINDS: [Kind; 12] = [
         name: "round",
         form: Form::new(&ROUND, &[0, 2, 3]),
         default: "-90 90, and as deep as the part's smaller half extent",
+        numbers: &[-90., 90.],
+        rules: &[Rule::Ascending, Rule::NonZero(2)],
         summary: "rounded on all sides: a ball, an egg, a head",
         long: "The part is rounded both ways: a circle becomes a ball, an ellipse an egg. The \
                angles say how much of the rounding is kept (`0 90` is a dome), `r` how far it comes \
@@ -127,6 +150,8 @@ pub static KINDS: [Kind; 12] = [
         name: "cone",
         form: Form::new(&CONE, &[0, 2, 3]),
         default: "0 20 0",
+        numbers: &[0., 20., 0.],
+        rules: &[Rule::Distinct],
         summary: "narrows from `z0` to `z1`: a cone, a pyramid, a nose",
         long: "The outline has its full size at depth `z0` and shrinks to `top` times that size at \
                depth `z1`. A `top` of 0 gives a point, 0.5 half the size, 1 a plate. A circle \
@@ -138,6 +163,8 @@ pub static KINDS: [Kind; 12] = [
         name: "conev",
         form: Form::new(&CONE, &[0, 2, 3]),
         default: "0 20 0",
+        numbers: &[0., 20., 0.],
+        rules: &[Rule::Distinct],
         summary: "narrows across the axis only: a roof along the axis, a wedge",
         long: "Like `cone`, but only the width across the part's axis shrinks. A bar becomes a roof \
                whose ridge runs along the bar.",
@@ -148,6 +175,8 @@ pub static KINDS: [Kind; 12] = [
         name: "coneh",
         form: Form::new(&CONE, &[0, 2, 3]),
         default: "0 20 0",
+        numbers: &[0., 20., 0.],
+        rules: &[Rule::Distinct],
         summary: "narrows along the axis only: a roof across the axis, a wedge",
         long: "Like `cone`, but only the length along the part's axis shrinks. A bar becomes a roof \
                whose ridge runs across the bar.",
@@ -158,6 +187,8 @@ pub static KINDS: [Kind; 12] = [
         name: "inflate",
         form: Form::new(&HEIGHT, &[0, 1]),
         default: "as high as it comes out round, at most half the part's smaller extent",
+        numbers: &[],
+        rules: &[Rule::NonZero(0)],
         summary: "blown up like a balloon: any outline, rounded inside",
         long: "The outline is blown up to both sides, as if two pieces of cloth were sewn together \
                along it and filled. `h` is the height of the highest point, in drawing units. The \
@@ -173,6 +204,8 @@ pub static KINDS: [Kind; 12] = [
         name: "lathe",
         form: Form::new(&TURN, &[0, 1]),
         default: "360",
+        numbers: &[360.],
+        rules: &[],
         summary: "turned like a vase: half the outline, turned about the part's axis",
         long: "Half the outline is turned about the part's axis, which runs through the part's middle, \
                as on a potter's wheel. Both halves count: a bulge on one side only goes all the way \
@@ -187,6 +220,8 @@ pub static KINDS: [Kind; 12] = [
         name: "model",
         form: Form::new(&FILE, &[1]),
         default: "",
+        numbers: &[],
+        rules: &[],
         summary: "a ready-made model from a file, fitted to the part's bounding box",
         long: "A ready-made glTF model (`.glb` or `.gltf`) takes the place of the outline's solid, \
                with its own materials and textures. It is scaled to fit the part's bounding box. \
@@ -199,6 +234,8 @@ pub static KINDS: [Kind; 12] = [
         name: "flat",
         form: Form::new(&DEPTH, &[0, 1]),
         default: "0",
+        numbers: &[0.],
+        rules: &[],
         summary: "the outline alone, like paper",
         long: "The part stays a thin sheet that is visible from both sides. `z` is its depth.",
         example: "Eye@Head$Shape flat 26",
@@ -208,6 +245,8 @@ pub static KINDS: [Kind; 12] = [
         name: "none",
         form: Form::new(&[], &[0]),
         default: "",
+        numbers: &[],
+        rules: &[],
         summary: "no solid: a joint only",
         long: "The part has no solid, but it is a joint that other parts can be attached to.",
         example: "Hips$Shape none",
@@ -254,5 +293,14 @@ mod tests {
             ]
         );
         assert!(from_name("RoundV").is_some_and(|kind| kind.name == "roundv"));
+    }
+
+    #[test]
+    fn default_numbers_agree_with_the_default_text() {
+        for kind in &KINDS {
+            let numbers: Vec<_> = kind.numbers.iter().map(f64::to_string).collect();
+            let numbers = numbers.join(" ");
+            assert!(kind.default.starts_with(&numbers), "{}", kind.name);
+        }
     }
 }

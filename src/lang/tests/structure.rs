@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::lang::looks_like_string;
-use crate::lang::value::{Origin, Shape, ShapeKind, Value};
+use crate::lang::value::{KindArguments, Origin, Shape, Value};
 use crate::source::{Form, Span};
 
 fn head(input: &str, container: Container) -> String {
@@ -102,7 +102,8 @@ fn values_are_computed() {
         .map(|setting| (&setting.value, setting.text.as_str()))
         .collect();
     let round = Shape {
-        kind: ShapeKind::Round([-90., 90.], None),
+        kind: "round",
+        arguments: KindArguments::Numbers(vec![-90., 90.]),
         mirrored: true,
         doubled: false,
         centered: true,

@@ -5,10 +5,9 @@ use proptest::prelude::*;
 
 use super::super::check::{closed, volume};
 use super::super::laws;
-use super::super::tests::{circle, options, outline, rectangle};
+use super::super::tests::{circle, options, outline, profile, rectangle};
 use super::super::{Options, Placement, build};
 use crate::geometry::{Outline, bounds, contains};
-use crate::lang::value::ShapeKind::{Inflate, Round};
 use crate::scene::Surface;
 
 fn at(surface: &Surface, corner: u32) -> Vec3 {
@@ -62,7 +61,11 @@ fn lawful(surface: &Surface, outline: &Outline, h: f64, given: bool) -> Result<(
 }
 
 fn inflated(outline: &Outline, given: Option<f64>, segments: u32) -> Surface {
-    build(outline, &Inflate(given), &options(segments))
+    build(
+        outline,
+        &profile("inflate", given.as_slice()),
+        &options(segments),
+    )
 }
 
 /// The greatest distance of a surface from the sphere about the origin, relative to its radius.
@@ -82,7 +85,7 @@ fn a_disc_becomes_a_ball() {
         // Few layers are too coarse for more.
         let most = if segments < 16 { 0.02 } else { 0.01 };
         assert!(off < most, "{points} {segments}: {off}");
-        let rounded = build(&disc, &Round([-90., 90.], None), &options(segments));
+        let rounded = build(&disc, &profile("round", &[-90., 90.]), &options(segments));
         assert!(off_sphere(&rounded, 10.0) < 0.01);
         assert!(ball.triangles.len() < 2 * rounded.triangles.len());
         // Smooth all over: one corner a point, its normal that of the ball.
@@ -171,7 +174,7 @@ fn far_from_the_joint() {
         placement,
         ..options(16)
     };
-    let surface = build(&circle(0.5, 40), &Inflate(None), &o);
+    let surface = build(&circle(0.5, 40), &profile("inflate", &[]), &o);
     closed(&surface).unwrap();
     assert!((volume(&surface) / (PI / 6.0) - 1.0).abs() < 0.05);
 }
@@ -198,7 +201,7 @@ proptest! {
 #[test]
 fn rings_and_bars_are_as_thick_as_their_strokes() {
     let highest = |outline: &Outline| {
-        let surface = build(outline, &Inflate(None), &options(16));
+        let surface = build(outline, &profile("inflate", &[]), &options(16));
         let heights = surface.positions.iter().map(|p| f64::from(p[2]));
         heights.fold(0.0, f64::max)
     };

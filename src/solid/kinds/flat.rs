@@ -1,0 +1,45 @@
+//! `flat`: the outline alone, like paper.
+
+use glam::DVec2;
+
+use super::{Faces, Kind};
+use crate::solid::Options;
+use crate::solid::layers::{Layer, finite};
+
+/// The outline at one depth.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flat {
+    z: f64,
+}
+
+impl Kind for Flat {
+    fn new(numbers: &[f64], _: f64) -> Option<Self> {
+        match *numbers {
+            [z] => Some(Self { z }),
+            _ => None,
+        }
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.z]
+    }
+
+    fn layers(&self, _: DVec2, _: &Options) -> Vec<Layer> {
+        vec![Layer::whole(finite(self.z))]
+    }
+
+    fn faces(&self) -> Option<Faces> {
+        Some(Faces {
+            depths: [None, Some(self.z)],
+            thickness: None,
+        })
+    }
+
+    fn raise(&mut self, [_, front]: [f64; 2]) {
+        self.z += front;
+    }
+
+    fn is_open(&self) -> bool {
+        true
+    }
+}

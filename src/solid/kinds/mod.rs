@@ -1,0 +1,178 @@
+//! The kinds of solids. Each is a file with a type that holds the kind's numbers, and a line in the list below.
+
+mod cone;
+mod coneh;
+mod conev;
+mod default;
+mod flat;
+mod inflate;
+mod lathe;
+mod model;
+mod round;
+mod roundh;
+mod roundv;
+mod taper;
+
+use glam::DVec2;
+
+use super::Options;
+use super::layers::{Layer, with_thickness};
+use super::stack;
+use crate::geometry::Outline;
+use crate::scene::Surface;
+
+/// Lists the kinds: the name in a drawing, and the type.
+macro_rules! kinds {
+    ($($name:literal => $module:ident::$kind:ident,)*) => {
+        /// How an outline gets its thickness: a kind with its numbers. Angles are in degrees, lengths in drawing units.
+        #[derive(Debug, Clone, PartialEq)]
+        pub enum Profile {
+            $(
+                #[doc = concat!("`", $name, "`")]
+                $kind($module::$kind),
+            )*
+        }
+
+        impl Profile {
+            /// The kind of this name with its numbers in the order of its parameters; those at the end may be missing where
+            /// the language has no number for them. `plate` is half the thickness of a plate without numbers.
+            ///
+            /// `None` for `none` and for names that are not in the list.
+            pub fn new(name: &str, numbers: &[f64], plate: f64) -> Option<Self> {
+                match name {
+                    $($name => Some(Self::$kind($module::$kind::new(numbers, plate)?)),)*
+                    _ => None,
+                }
+            }
+
+            fn kind(&self) -> &dyn Kind {
+                match self {
+                    $(Self::$kind(kind) => kind,)*
+                }
+            }
+
+            fn kind_mut(&mut self) -> &mut dyn Kind {
+                match self {
+                    $(Self::$kind(kind) => kind,)*
+                }
+            }
+        }
+    };
+}
+
+kinds! {
+    "default" => default::Default,
+    "roundv" => roundv::RoundV,
+    "roundh" => roundh::RoundH,
+    "round" => round::Round,
+    "cone" => cone::Cone,
+    "conev" => conev::ConeV,
+    "coneh" => coneh::ConeH,
+    "inflate" => inflate::Inflate,
+    "lathe" => lathe::Lathe,
+    "flat" => flat::Flat,
+    "model" => model::Model,
+}
+
+/// What a kind knows about its solids. The half extents of an outline are across the axis and along it.
+trait Kind {
+    /// See [`Profile::new`].
+    fn new(numbers: &[f64], plate: f64) -> Option<Self>
+    where
+        Self: Sized;
+
+    /// All numbers of the kind, for hashes.
+    fn numbers(&self) -> Vec<f64>;
+
+    /// The scaled copies of the outline that the solid joins, in order of depth or the other way round. Only the first and
+    /// the last may have a scale of 0. Empty for a kind that makes its surface in another way.
+    fn layers(&self, _half: DVec2, _options: &Options) -> Vec<Layer> {
+        Vec::new()
+    }
+
+    /// The surface of an outline with these half extents.
+    fn surface(&self, outline: &Outline, half: DVec2, options: &Options) -> Surface {
+        let layers = with_thickness(self.layers(half, options), half);
+        stack::surface(outline, &layers, options)
+    }
+
+    /// See [`Profile::depths`].
+    fn depths(&self, half: DVec2, options: &Options) -> Option<[f64; 2]> {
+        let layers = with_thickness(self.layers(half, options), half);
+        Some([layers.first()?.z, layers.last()?.z])
+    }
+
+    /// See [`Profile::faces`].
+    fn faces(&self) -> Option<Faces> {
+        None
+    }
+
+    /// See [`Profile::raised`].
+    fn raise(&mut self, _by: [f64; 2]) {}
+
+    /// See [`Profile::is_open`].
+    fn is_open(&self) -> bool {
+        false
+    }
+
+    /// See [`Profile::depends_on_axis`].
+    fn depends_on_axis(&self) -> bool {
+        false
+    }
+}
+
+/// The plane faces of a solid that are parallel to the drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Faces {
+    /// The depths of the back and of the front face, if the solid has them.
+    pub depths: [Option<f64>; 2],
+    /// The solid's thickness; `None` for a flat surface.
+    pub thickness: Option<f64>,
+}
+
+impl Profile {
+    /// All numbers of the kind, for hashes.
+    pub(super) fn numbers(&self) -> Vec<f64> {
+        self.kind().numbers()
+    }
+
+    /// The surface of an outline with these half extents.
+    pub(super) fn surface(&self, outline: &Outline, half: DVec2, options: &Options) -> Surface {
+        self.kind().surface(outline, half, options)
+    }
+
+    /// The layers of a stack, for tests.
+    #[cfg(test)]
+    pub(super) fn layers(&self, half: DVec2, options: &Options) -> Vec<Layer> {
+        with_thickness(self.kind().layers(half, options), half)
+    }
+
+    /// How deep the solid reaches to the back and to the front, drawing units, for an outline with these half extents
+    /// across its axis and along it. A `lathe` is taken to reach as far as the outline does.
+    pub fn depths(&self, half: DVec2, options: &Options) -> Option<[f64; 2]> {
+        self.kind().depths(half, options)
+    }
+
+    /// The solid's plane faces parallel to the drawing, if it has any.
+    pub fn faces(&self) -> Option<Faces> {
+        self.kind().faces()
+    }
+
+    /// The profile with its back and its front face moved outwards by these distances; one without such faces is
+    /// unchanged.
+    #[must_use]
+    pub fn raised(mut self, by: [f64; 2]) -> Self {
+        self.kind_mut().raise(by);
+        self
+    }
+
+    /// Whether it is a surface without thickness, seen from both sides.
+    pub fn is_open(&self) -> bool {
+        self.kind().is_open()
+    }
+
+    /// Whether the solid depends on the direction of the outline's axis.
+    pub fn depends_on_axis(&self) -> bool {
+        self.kind().depends_on_axis()
+    }
+}

@@ -1,0 +1,26 @@
+//! `model`: a plate in the place of a model that cannot be read.
+
+use glam::DVec2;
+
+use super::Kind;
+use super::taper::Taper;
+use crate::solid::Options;
+use crate::solid::layers::Layer;
+
+/// A plate like that of `default`. Its faces do not take part in the relief, because a model's surface does not.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Model(Taper);
+
+impl Kind for Model {
+    fn new(_: &[f64], plate: f64) -> Option<Self> {
+        Some(Self(Taper::plate([-plate, plate])))
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        self.0.numbers()
+    }
+
+    fn layers(&self, _: DVec2, _: &Options) -> Vec<Layer> {
+        self.0.layers(|top| [top, top])
+    }
+}
