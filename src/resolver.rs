@@ -3,8 +3,11 @@
 //! The compiler never opens files: it asks a [`Resolver`]. Every resolver follows the same rule, kept
 //! in [`inside`]: a link is a relative path that stays in the drawing's folder.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
+
+use percent_encoding::percent_decode_str;
 
 /// Gives the bytes behind a link.
 pub trait Resolver: Sync {
@@ -80,7 +83,10 @@ pub fn inside(link: &str) -> Result<String, LinkError> {
 /// The spellings under which `link` is looked for: as it stands, then with `%20` and the like decoded,
 /// as links in XML are written.
 pub fn spellings(link: &str) -> impl Iterator<Item = String> {
-    let decoded = decode_percent(link).filter(|decoded| decoded != link);
+    let decoded = percent_decode_str(link).decode_utf8().ok();
+    let decoded = decoded
+        .filter(|decoded| decoded != link)
+        .map(Cow::into_owned);
     std::iter::once(link.to_owned()).chain(decoded)
 }
 
@@ -102,33 +108,6 @@ fn scheme(link: &str) -> Option<&str> {
     let letter = scheme.starts_with(|c: char| c.is_ascii_alphabetic());
     let rest = |c: char| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.');
     (letter && scheme.chars().all(rest)).then_some(scheme)
-}
-
-/// None where the result would not be text; `%` without two hexadecimal digits stands for itself.
-fn decode_percent(link: &str) -> Option<String> {
-    let mut out = Vec::with_capacity(link.len());
-    let mut rest = link.as_bytes();
-    while let [byte, tail @ ..] = rest {
-        let digits = match (byte, tail) {
-            (b'%', [high, low, ..]) => hex(*high).zip(hex(*low)),
-            _ => None,
-        };
-        match digits {
-            Some((high, low)) => {
-                out.push(high << 4 | low);
-                rest = &tail[2..];
-            }
-            None => {
-                out.push(*byte);
-                rest = tail;
-            }
-        }
-    }
-    String::from_utf8(out).ok()
-}
-
-fn hex(digit: u8) -> Option<u8> {
-    char::from(digit).to_digit(16).map(|value| value as u8)
 }
 
 /// Files held in memory: for tests, and for drawings that come without a folder (then it is empty).

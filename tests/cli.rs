@@ -96,7 +96,7 @@ fn stdin_and_stdout() {
     run.ends(
         2,
         "",
-        "error: a drawing from stdin has no place of its own: name the output with -o",
+        "error: a drawing from stdin is in no folder: name the output with -o",
     );
     let run = Run::of(room.pipe(&["check", "-"], BAD.as_bytes()));
     run.ends(1, "--> <stdin>:3:42", "");
@@ -112,7 +112,7 @@ fn nothing_is_written_on_errors() {
     assert_eq!(room.files(), ["bad.svg"]);
     room.write("bad.glb", b"the last good one");
     let run = room.run(&["build", "bad.svg"]);
-    run.ends(1, "", "nothing was written; `bad.glb` stays as it was\n");
+    run.ends(1, "", "nothing was written; `bad.glb` is unchanged\n");
     assert_eq!(room.read("bad.glb"), b"the last good one");
     assert_eq!(room.files(), ["bad.glb", "bad.svg"]);
     room.run(&["build", "bad.svg", "--keep-going"]).ends(
@@ -192,7 +192,7 @@ fn encodings() {
     }
     let room = Room::with("a.svg", format!("\u{feff}{GOOD}"));
     room.run(&["check", "a.svg"])
-        .ends(0, "a.svg: nothing to say\n", "");
+        .ends(0, "a.svg: no findings\n", "");
 }
 
 #[test]
@@ -293,7 +293,7 @@ fn several_drawings_at_once() {
     room.run(&["build", "a.svg", "b.svg", "-o", "x.glb"]).ends(
         2,
         "",
-        "error: with several drawings, -o must name a folder that exists",
+        "error: with several drawings, -o must name an existing folder",
     );
     fs::create_dir(room.path("out")).expect("made");
     let run = room.run(&["build", "a.svg", "c.svg", "b.svg", "-o", "out"]);
@@ -310,7 +310,7 @@ fn several_drawings_at_once() {
     assert!(!room.path("out/c.glb").exists());
     room.run(&["check", "a.svg", "gone.svg"]).ends(
         2,
-        "a.svg: nothing to say",
+        "a.svg: no findings",
         "`gone.svg` is not there",
     );
     room.run(&["build", "a.svg", "b.svg", "--depfile", "d"])

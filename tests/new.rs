@@ -43,7 +43,7 @@ fn every_template_builds_and_there_is_nothing_to_say() {
         let checked = run(&room, &["check", "-v", "me.svg"]);
         assert_eq!(
             String::from_utf8_lossy(&checked.stdout),
-            "me.svg: nothing to say\n",
+            "me.svg: no findings\n",
             "{template}"
         );
         ends(&room, &["build", "-q", "me.svg"], 0, &[]);

@@ -315,5 +315,5 @@ fn a_taken_port_is_said() {
     let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = taken.local_addr().expect("its address").port().to_string();
     let live = Live::start(folder.path(), &["preview", "a.svg", "--port", &port]);
-    live.line(&format!("error: port {port} cannot be had"));
+    live.line(&format!("error: port {port} is not available"));
 }

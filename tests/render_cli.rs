@@ -194,7 +194,7 @@ fn wrong_use_is_told() {
         ),
         (
             "render a.svg --size 800",
-            "two whole numbers with an x between them are due",
+            "expected two whole numbers separated by an x",
         ),
         (
             "render a.svg --size 0x10",
@@ -206,11 +206,11 @@ fn wrong_use_is_told() {
         ),
         (
             "render a.svg --view 30",
-            "two numbers with a comma between them are due",
+            "expected two numbers separated by a comma",
         ),
         (
             "render a.svg --view nan,3",
-            "two numbers with a comma between them are due",
+            "expected two numbers separated by a comma",
         ),
         (
             "render a.svg --view 0,91",
@@ -230,7 +230,7 @@ fn wrong_use_is_told() {
         ),
         (
             "render a.svg -o a.gif",
-            "would be a moving picture: say in how many frames",
+            "would be an animation: choose what it shows",
         ),
         (
             "render a.svg -o a.jpg",
@@ -244,7 +244,7 @@ fn wrong_use_is_told() {
             "render a.svg -o none/a.png",
             "the folder `none` is not there; create it",
         ),
-        ("render -", "a drawing from stdin has no place of its own"),
+        ("render -", "a drawing from stdin is in no folder"),
     ];
     for (arguments, message) in told {
         ends(&room, arguments, 2, message);
@@ -518,7 +518,7 @@ fn wrong_use_of_clips_is_told() {
         ),
         (
             "one.glb -o a.gif --clip held --turntable 4",
-            "--turntable turns one moment of a clip: say which with --time",
+            "--turntable shows one pose of a clip: choose it with --time",
         ),
     ];
     for (arguments, message) in told {

@@ -124,10 +124,10 @@ fn a_cut_drawing_is_an_error_only_after_a_while_and_the_model_stays() {
     assert!(line.contains("a.glb in"), "{line}");
     fs::write(&path, &text[..text.len() / 2]).expect("written");
     live.line("error[E001]");
-    live.line("a.svg: 1 error, a.glb stays as it was");
+    live.line("a.svg: 1 error, a.glb is unchanged");
     assert_eq!(width(folder.path()), 70);
     fs::remove_file(&path).expect("removed");
-    live.line("a.svg: it is gone; waiting for it");
+    live.line("a.svg: the file is gone; waiting for it");
     fs::write(&path, drawing(80)).expect("written");
     live.line("a.glb in");
     assert_eq!(width(folder.path()), 80);

@@ -13,20 +13,20 @@ pub(super) use render::{Bend, Projection, Render, Shading};
 
 const EXAMPLES: &str = "\
 Examples:
-  okoshi new robot                       writes robot.svg, a drawing to begin with
+  okoshi new robot                       writes robot.svg, a drawing to start from
   okoshi build human.svg                 writes human.glb beside the drawing
-  okoshi build human.svg -o out/man.glb  writes it elsewhere
-  okoshi check *.svg                     says what is wrong, writes nothing
+  okoshi build human.svg -o out/man.glb  writes it somewhere else
+  okoshi check *.svg                     reports problems, writes nothing
   okoshi render human.svg                draws a picture of the model, human.png
-  okoshi watch human.svg                 builds it again at every save
+  okoshi watch human.svg                 builds it again on every save
   okoshi preview human.svg --open        shows it in the browser, live
-  okoshi motion kick.bvh -o snappy.bvh   cuts a motion like hand-drawn animation
-  okoshi inspect human.svg               shows who is bound to what, and why
-  okoshi explain Shape                   the manual of a keyword
-  okoshi explain E204                    the manual of a diagnostic
+  okoshi motion kick.bvh -o snappy.bvh   reduces a motion to limited animation, as if drawn by hand
+  okoshi inspect human.svg               shows which string belongs to which part, and why
+  okoshi explain Shape                   the manual page of a keyword
+  okoshi explain E204                    the manual page of a diagnostic
 
 A drawing is an SVG file, from Inkscape for example, with short strings beside its shapes:
-`Rarm@Ubody$Shape roundv` names a shape Rarm, hangs it on Ubody and makes it a cylinder.
+`Rarm@Ubody$Shape roundv` names a shape Rarm, attaches it to Ubody and makes it a cylinder.
 `okoshi explain` lists everything that strings can say.";
 
 /// Turns one annotated 2D drawing into a moving 3D model.
@@ -39,16 +39,16 @@ pub(super) struct Cli {
     pub(super) command: Command,
 }
 
-/// What every command takes.
+/// Options of every command.
 #[derive(Debug, Clone, Copy, Args)]
 pub(super) struct Common {
-    /// Say errors only
+    /// Report errors only
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub(super) quiet: bool,
-    /// Say everything, hints included
+    /// Report everything, including all hints
     #[arg(short, long, global = true)]
     pub(super) verbose: bool,
-    /// When to use colours [NO_COLOR is honoured]
+    /// When to use colours [NO_COLOR is respected]
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
     pub(super) color: Color,
 }
@@ -72,11 +72,11 @@ pub(super) enum Command {
     Build(Build),
     /// Draw a picture of a model
     Render(Render),
-    /// Say what is wrong with drawings; write nothing
+    /// Report problems in drawings; write nothing
     Check(Check),
-    /// Show the hierarchy, and who is bound to what and why
+    /// Show the hierarchy of parts, and which string belongs to which part and why
     Inspect(Inspect),
-    /// The manual: of a diagnostic, a keyword, a kind of shape, or an overview
+    /// Show the manual page of a diagnostic, keyword or kind of shape, or an overview
     Explain {
         /// E204, Shape, roundv …
         topic: Option<String>,
@@ -85,12 +85,12 @@ pub(super) enum Command {
     Watch(Watch),
     /// Show drawings on a live page in the browser
     Preview(Preview),
-    /// Edit a motion by itself: limited animation, other rates, charts
+    /// Edit a motion on its own: limited animation, frame rates, charts
     Motion(Motion),
-    /// Language server on stdin and stdout, for editors
+    /// Run the language server on stdin and stdout, for editors
     ///
-    /// Editors start it by themselves; docs/editors says how each is set up. Positions are counted in
-    /// UTF-8 or UTF-16, as the editor likes.
+    /// Editors start it by themselves; docs/editors describes how to set each up. Positions are in UTF-8 or
+    /// UTF-16, as the editor prefers.
     Lsp,
     /// Write a completion script for a shell
     Completions {
@@ -102,17 +102,17 @@ pub(super) enum Command {
 /// How drawings are read.
 #[derive(Debug, Clone, Args)]
 pub(super) struct Reading {
-    /// The folder that linked files must lie in [default: the drawing's]
+    /// The folder that linked files must be in [default: the drawing's]
     #[arg(long, value_name = "DIR")]
     pub(super) root: Option<PathBuf>,
-    /// How far a flattened curve may lie off, as a share of its part's larger extent
-    #[arg(long, value_name = "SHARE", default_value_t = crate::compile::TOLERANCE, value_parser = tolerance)]
+    /// How far a flattened curve may deviate, as a fraction of its part's larger side
+    #[arg(long, value_name = "FRACTION", default_value_t = crate::compile::TOLERANCE, value_parser = tolerance)]
     pub(super) tolerance: f64,
 }
 
 fn tolerance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(share) if (1e-6..=0.1).contains(&share) => Ok(share),
+        Ok(fraction) if (1e-6..=0.1).contains(&fraction) => Ok(fraction),
         _ => Err("expected a number from 0.000001 to 0.1, for example 0.001".to_owned()),
     }
 }
@@ -122,7 +122,7 @@ pub(super) struct New {
     /// The drawing's name; `.svg` is added if it is missing, `-` is stdout
     #[arg(value_name = "NAME")]
     pub(super) name: PathBuf,
-    /// What to begin with
+    /// The drawing to start from
     #[arg(short, long, value_name = "TEMPLATE", default_value = "human")]
     pub(super) template: Template,
 }
@@ -130,9 +130,9 @@ pub(super) struct New {
 /// The starter drawings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Template {
-    /// A person with arms and legs that turn
+    /// A person with arms and legs that can turn
     Human,
-    /// A toy car, drawn from its side, with wheels on both
+    /// A toy car, drawn from the side, with wheels on both sides
     Car,
     /// A landscape, drawn as a map of tiles: a hill, a pond, a house in the sea
     Island,
@@ -146,13 +146,13 @@ pub(super) struct Build {
     /// Where to write: a .glb or .gltf file, `-` for stdout, or a folder [default: beside the drawing]
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
-    /// Write one skinned mesh with a joint a part, for engines that want that
+    /// Write one skinned mesh with one joint per part, for engines that need that
     #[arg(long)]
     pub(super) skin: bool,
-    /// Write what can be made in spite of errors
+    /// Write whatever can be built despite errors
     #[arg(long)]
     pub(super) keep_going: bool,
-    /// Write the files that the model was made from, in make's form
+    /// Write a dependency file for make that lists the files that the model is made from
     #[arg(long, value_name = "FILE")]
     pub(super) depfile: Option<PathBuf>,
     /// Print what was built and how long it took
@@ -164,17 +164,17 @@ pub(super) struct Build {
 
 const WATCH_EXAMPLES: &str = "\
 Examples:
-  okoshi watch human.svg            writes human.glb now, and at every save
-  okoshi watch drawings -o models   all drawings below a folder, also those that come
-  okoshi watch human.svg --poll     where the system does not tell of saves: network folders, WSL
+  okoshi watch human.svg            writes human.glb now and on every save
+  okoshi watch drawings -o models   all drawings below a folder, including new ones
+  okoshi watch human.svg --poll     where the system does not report saves: network folders, WSL
 
-What a drawing links to is watched too: models, pictures, motions. While a drawing has errors, the last good
-model stays. Ctrl-C ends it; a model is never left half written.";
+Files that a drawing links to are watched too: models, images, motions. While a drawing has errors, the last good
+model stays. Press Ctrl-C to stop; a model is never left half written.";
 
 #[derive(Debug, Args)]
 #[command(after_help = WATCH_EXAMPLES)]
 pub(super) struct Watch {
-    /// Drawings, and folders of drawings
+    /// Drawings and folders of drawings
     #[arg(required = true, value_name = "PATH")]
     pub(super) paths: Vec<PathBuf>,
     /// The folder that models are written to [default: beside each drawing]
@@ -188,11 +188,11 @@ pub(super) struct Watch {
 
 const PREVIEW_EXAMPLES: &str = "\
 Examples:
-  okoshi preview human.svg --open   shows the model in the browser, and again at every save
+  okoshi preview human.svg --open   shows the model in the browser, updated on every save
   okoshi preview drawings           a gallery of all drawings below a folder
 
-The page's address is printed. It is served on this machine only, and to its own page only. Nothing is written:
-the page has a button for the model. Ctrl-C ends it.";
+The address of the page is printed. It can be opened on this machine only. Nothing is written to disk: the page
+has a button that saves the model. Press Ctrl-C to stop.";
 
 #[derive(Debug, Args)]
 #[command(after_help = PREVIEW_EXAMPLES)]
@@ -200,7 +200,7 @@ pub(super) struct Preview {
     /// A drawing, or a folder of drawings
     #[arg(value_name = "DRAWING|FOLDER")]
     pub(super) path: PathBuf,
-    /// The port on 127.0.0.1 [default: 4173, or any that is free]
+    /// The port on 127.0.0.1 [default: 4173, or any free one]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(super) port: Option<u16>,
     /// Open the browser
@@ -214,17 +214,17 @@ pub(super) struct Preview {
 
 const MOTION_EXAMPLES: &str = "\
 Examples:
-  okoshi motion kick.bvh                          lists its joints, and what they are taken for
+  okoshi motion kick.bvh                          lists its joints and what they are recognised as
   okoshi motion kick.bvh -o snappy.bvh            limited animation: 4 drawings omitted, a third of the frames held
   okoshi motion kick.bvh -o snappy.bvh --omit 6 --hold 40
-  okoshi motion kick.bvh -o kick.svg              a chart of how fast it is, and of what is omitted and held
+  okoshi motion kick.bvh -o kick.svg              a chart of its speed and of the omitted and held frames
   okoshi motion kick.bvh -o kick.glb              a model of its skeleton that plays it
-  okoshi motion kick.bvh -o shot.bvh --drawings 14   the best 14 drawings for it
+  okoshi motion kick.bvh -o shot.bvh --drawings 14   the 14 drawings that fit it best
   okoshi motion kick.bvh -o twos.bvh --every 2    on twos
   okoshi motion take.bvh -o part.bvh --full --range 25:72 --fps 30
 
-Motions are BVH files, as motion capture is exchanged in. First a T-pose at the beginning is left out, then the motion gets 24
-frames a second, then it is cut. Frames count from 1. A drawing links to a motion by `Motion \"kick.bvh\"`.";
+Motions are BVH files, the common format for motion capture. A T-pose at the beginning is removed, the motion is resampled
+to 24 frames a second, and then reduced. Frames count from 1. A drawing links to a motion with `Motion \"kick.bvh\"`.";
 
 #[derive(Debug, Args)]
 #[command(after_help = MOTION_EXAMPLES)]
@@ -235,44 +235,44 @@ pub(super) struct Motion {
     /// Where to write: a .bvh, .glb, .gltf or .svg file, `-` for BVH on stdout [default: nowhere, the joints are listed]
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: Option<PathBuf>,
-    /// Drawings to omit where it is fastest [default: 4]
+    /// Drawings to omit where the motion is fastest [default: 4]
     #[arg(long, value_name = "N")]
     pub(super) omit: Option<usize>,
-    /// Frames to hold where it is slowest [default: a third]
+    /// Frames to hold where the motion is slowest [default: a third]
     #[arg(long, value_name = "N")]
     pub(super) hold: Option<usize>,
-    /// Let the motion get shorter by what is omitted
+    /// Shorten the motion by the omitted drawings
     #[arg(long)]
     pub(super) shorten: bool,
-    /// Shoot on twos or threes: a drawing for every N frames
+    /// Shoot on twos or threes: one drawing for every N frames
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=24), conflicts_with_all = ["omit", "hold", "shorten"])]
     pub(super) every: Option<u32>,
-    /// The best N drawings for the motion
+    /// Keep the N drawings that fit the motion best
     #[arg(long, value_name = "N", conflicts_with_all = ["omit", "hold", "shorten", "every"])]
     pub(super) drawings: Option<usize>,
-    /// Cut nothing: every frame stays
+    /// Keep every frame
     #[arg(long, conflicts_with_all = ["omit", "hold", "shorten", "every", "drawings"])]
     pub(super) full: bool,
-    /// Compare with other ways to cut it: on twos, on threes, the best drawings
+    /// Compare with other methods: on twos, on threes, the best drawings
     #[arg(long)]
     pub(super) compare: bool,
     /// Frames a second
     #[arg(long, value_name = "F", default_value_t = crate::motion::prepare::FPS)]
     pub(super) fps: f64,
-    /// Take a part of it: frames as they are shown, from 1, both ends within; `10:` and `:48` are open
+    /// Use only these frames, counted from 1 and including both ends; `10:` and `:48` are open-ended
     #[arg(long, value_name = "A:B", value_parser = range)]
     pub(super) range: Option<Range>,
-    /// Keep the T-pose that it begins with
+    /// Keep the T-pose at the beginning
     #[arg(long)]
     pub(super) keep_rest: bool,
-    /// Measure speed in the picture of a camera: degrees to the body's left, degrees up, and its distance in the
-    /// file's unit for perspective
+    /// Measure speed as seen by a camera: degrees to the body's left, degrees up and, for perspective, the distance
+    /// in the file's unit
     #[arg(long, value_name = "YAW,PITCH[,DISTANCE]", value_parser = camera, allow_hyphen_values = true)]
     pub(super) camera: Option<Camera>,
-    /// Write a chart of its speed beside the output, an SVG file
+    /// Also write a chart of its speed, an SVG file
     #[arg(long, value_name = "FILE.svg", value_parser = plot)]
     pub(super) plot: Option<PathBuf>,
-    /// Go on with the frames before a damaged one
+    /// Continue with the frames before a damaged one
     #[arg(long)]
     pub(super) keep_going: bool,
 }
@@ -284,7 +284,7 @@ fn range(text: &str) -> Result<Range, String> {
 fn plot(text: &str) -> Result<PathBuf, String> {
     match text.to_lowercase().ends_with(".svg") {
         true => Ok(PathBuf::from(text)),
-        false => Err("the chart must end in .svg".to_owned()),
+        false => Err("the name of the chart must end in .svg".to_owned()),
     }
 }
 
@@ -306,16 +306,16 @@ fn camera(text: &str) -> Result<Camera, String> {
             distance: Some(*distance),
         }),
         _ => Err(
-            "two numbers are due, `30,15` for example, or three with the camera's distance"
+            "expected two numbers, for example `30,15`, or three with the camera's distance"
                 .to_owned(),
         ),
     }
 }
 
-/// How changes are noticed.
+/// How changes of files are detected.
 #[derive(Debug, Clone, Args)]
 pub(super) struct Noticing {
-    /// Look at the files every so many milliseconds, where the system does not tell of changes [default: 200]
+    /// Check the files every MS milliseconds, for systems that do not report changes [default: 200]
     #[arg(long, value_name = "MS", num_args = 0..=1, require_equals = true, default_missing_value = "200", value_parser = clap::value_parser!(u64).range(10..=60_000))]
     pub(super) poll: Option<u64>,
 }
@@ -325,7 +325,7 @@ pub(super) struct Check {
     /// The drawings, SVG files; `-` is stdin
     #[arg(required = true, value_name = "DRAWING")]
     pub(super) drawings: Vec<PathBuf>,
-    /// For people, for programs, or for code hosts
+    /// The output format
     #[arg(long, default_value = "human")]
     pub(super) format: Format,
     #[command(flatten)]
@@ -335,11 +335,11 @@ pub(super) struct Check {
 /// How `check` reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
-    /// For people
+    /// Text for people
     Human,
-    /// For programs
+    /// JSON for programs
     Json,
-    /// SARIF 2.1.0, for code hosts
+    /// SARIF 2.1.0 for code hosts
     Sarif,
 }
 
@@ -348,7 +348,7 @@ pub(super) struct Inspect {
     /// The drawing, an SVG file; `-` is stdin
     #[arg(value_name = "DRAWING")]
     pub(super) drawing: PathBuf,
-    /// For programs
+    /// Print JSON, for programs
     #[arg(long)]
     pub(super) json: bool,
     #[command(flatten)]

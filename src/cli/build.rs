@@ -9,11 +9,11 @@ use super::args::{Build, Common};
 use super::loading::{Detail, Loaded, describe, load, root};
 use super::parallel::each;
 use super::progress::spinning;
-use super::{Outcome, fail, style};
+use super::{Outcome, counted, fail, style};
 use crate::disk::{FolderResolver, is_drawing, is_standard_stream, write_atomic};
 use crate::export::{self, Exporter, GLB, Written};
 
-/// Builds every drawing; several at once in parallel, reported in the order given.
+/// Builds every drawing, several in parallel, and reports in the order given.
 pub(super) fn run(arguments: &Build, common: Common) -> Outcome {
     let outputs = match outputs(arguments).and_then(distinct) {
         Ok(outputs) => outputs,
@@ -33,7 +33,7 @@ pub(super) fn run(arguments: &Build, common: Common) -> Outcome {
     worst
 }
 
-/// Where each drawing's model goes.
+/// The output file of each drawing.
 fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, String> {
     let beside = |drawing: &Path| drawing.with_extension(GLB.extension());
     let several = arguments.drawings.len() > 1;
@@ -54,7 +54,7 @@ fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, String> {
             arguments.drawings.iter().map(name).collect()
         }
         (Some(_), None) if several => {
-            Err("with several drawings, -o must name a folder that exists".to_owned())
+            Err("with several drawings, -o must name an existing folder".to_owned())
         }
         (Some(output), None) => {
             exporter(output)?;
@@ -62,10 +62,9 @@ fn outputs(arguments: &Build) -> Result<Vec<PathBuf>, String> {
         }
         (None, _) => {
             let output = |drawing: &PathBuf| match drawing.as_os_str() == "-" {
-                true => Err(
-                    "a drawing from stdin has no place of its own: name the output with -o"
-                        .to_owned(),
-                ),
+                true => {
+                    Err("a drawing from stdin is in no folder: name the output with -o".to_owned())
+                }
                 false => Ok(beside(drawing)),
             };
             arguments.drawings.iter().map(output).collect()
@@ -115,16 +114,16 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
         Detail::Aside,
         style(common, &std::io::stderr()),
     );
-    // Of a drawing that cannot be read nothing can be made, and an old model is worth more than an empty one.
+    // An old model is worth more than the empty one that an unreadable drawing gives.
     let empty = loaded.compiled.scene.nodes.is_empty();
     if loaded.compiled.has_errors() && (empty || !arguments.keep_going) {
         if !common.quiet {
-            let kept = if output.exists() {
-                format!("; `{}` stays as it was", output.display())
+            let unchanged = if output.exists() {
+                format!("; `{}` is unchanged", output.display())
             } else {
                 String::new()
             };
-            let _ = writeln!(text, "nothing was written{kept}");
+            let _ = writeln!(text, "nothing was written{unchanged}");
         }
         return (Outcome::Errors, text);
     }
@@ -173,7 +172,7 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
     }
     let outcome = loaded.outcome();
     if arguments.drawings.len() == 1 {
-        // The program ends here, and the system takes memory back faster than piece by piece.
+        // The program ends here, and the system frees its memory faster at once.
         std::mem::forget(loaded);
     }
     (outcome, text)
@@ -181,10 +180,6 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
 
 fn summary(loaded: &Loaded, written: Written) -> String {
     let scene = &loaded.compiled.scene;
-    let counted = |count: usize, what: &str| match count {
-        1 => format!("1 {what}"),
-        count => format!("{count} {what}s"),
-    };
     let nodes = counted(scene.nodes.len(), "node");
     let clips = match scene.animations.len() {
         0 => String::new(),
@@ -193,7 +188,7 @@ fn summary(loaded: &Loaded, written: Written) -> String {
     format!("{nodes}, {} triangles{clips}", written.triangles)
 }
 
-/// What was built and how long it took, a line a figure.
+/// What was built and how long it took, one value per line.
 fn stats(loaded: &Loaded, output: &Path, written: Written, times: [Duration; 2]) -> String {
     let scene = &loaded.compiled.scene;
     let milliseconds = |duration: Duration| format!("{:.1} ms", duration.as_secs_f64() * 1e3);
@@ -220,7 +215,7 @@ fn stats(loaded: &Loaded, output: &Path, written: Written, times: [Duration; 2])
     })
 }
 
-/// `output: drawing links…`, so that make and its kin know when to build again.
+/// Writes `output: drawing links…`, so that make and similar tools know when to build again.
 fn write_depfile(
     depfile: &Path,
     drawing: &Path,
@@ -239,7 +234,7 @@ fn write_depfile(
         .map(|path| for_make(&path))
         .collect();
     let mut rule = format!("{}: {}\n", for_make(output), inputs.join(" "));
-    // A rule without recipe for each input keeps make going when one of them is gone.
+    // An empty rule for each input, so that make does not fail when one of them is deleted.
     inputs
         .iter()
         .skip(1)
@@ -247,7 +242,7 @@ fn write_depfile(
     write_atomic(depfile, |out| out.write_all(rule.as_bytes())).map_err(|error| error.to_string())
 }
 
-/// A path as make wants it.
+/// A path escaped for make.
 fn for_make(path: &Path) -> String {
     let mut out = String::new();
     for c in path.display().to_string().chars() {

@@ -41,7 +41,7 @@ fn human(read: &[Loaded], common: Common) -> String {
         if !common.quiet {
             let counts = tally(&loaded.compiled.diagnostics);
             let findings = if counts == [0; 3] {
-                "nothing to say".to_owned()
+                "no findings".to_owned()
             } else {
                 count(counts)
             };

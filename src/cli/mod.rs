@@ -1,7 +1,7 @@
 //! The `okoshi` command. No other module prints.
 //!
-//! Exit status: 0 done, 1 errors in a drawing, 2 wrong use, or a file that cannot be read or written.
-//! stdout carries only what was asked for.
+//! Exit status: 0 for success, 1 for errors in a drawing, 2 for wrong usage or a file that cannot be read or written.
+//! stdout carries only the requested output.
 #![allow(
     clippy::print_stdout,
     clippy::print_stderr,
@@ -37,18 +37,23 @@ use crate::diagnostic::Diagnostic;
 use args::{Cli, Color, Command, Common};
 use report::Style;
 
-/// A drawing and what was found in it, ready to be reported.
+/// A drawing with its diagnostics, ready to be reported.
 #[derive(Debug, Clone, Copy)]
 pub struct Findings<'a> {
-    /// The drawing as the user named it.
+    /// The path as the user wrote it.
     pub path: &'a str,
-    /// Its text, which the spans are about.
+    /// Its text, which the spans refer to.
     pub text: &'a str,
-    /// What was found.
+    /// The diagnostics.
     pub diagnostics: &'a [Diagnostic],
 }
 
-/// Indented JSON. Reports hold texts and numbers only, so writing them does not fail.
+/// `1 part`, `2 parts`
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+/// Indented JSON. Reports hold only text and numbers, so this cannot fail.
 fn pretty(report: &impl serde::Serialize) -> String {
     let mut text = serde_json::to_string_pretty(report).unwrap_or_default();
     text.push('\n');
@@ -61,7 +66,7 @@ enum Outcome {
     Done,
     /// A drawing has errors.
     Errors,
-    /// Wrong use, or a file that cannot be read or written.
+    /// Wrong usage, or a file that cannot be read or written.
     Failed,
 }
 
@@ -98,7 +103,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     })
 }
 
-/// Serves an editor; that it goes without taking its leave is a failure, as the protocol wants it.
+/// Serves an editor. The protocol makes it a failure if the editor disconnects without the `exit` notification.
 fn lsp() -> Outcome {
     match crate::lsp::serve() {
         Ok(true) => Outcome::Done,
@@ -107,7 +112,7 @@ fn lsp() -> Outcome {
     }
 }
 
-/// Prints what was asked for. A reader that goes away early, `head` for example, is no failure.
+/// Prints the requested output. A reader that closes the pipe early, such as `head`, is not a failure.
 fn print_out(text: &str) -> Outcome {
     let mut out = std::io::stdout().lock();
     match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
@@ -118,7 +123,7 @@ fn print_out(text: &str) -> Outcome {
     }
 }
 
-/// Says why a command cannot go on.
+/// Reports why a command failed.
 fn fail(message: &str) -> Outcome {
     eprintln!("error: {message}");
     Outcome::Failed

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::args::{Common, Preview};
-use super::watch::{drawn, follow, options, told};
+use super::watch::{describe_event, describe_shown, follow, options};
 use super::{Outcome, fail};
 use crate::disk::ReadError;
 use crate::preview::{Hub, Shown, bind, serve};
 use crate::watch::{Build, Event};
 
-/// Shows drawings on a page, until it is stopped.
+/// Shows drawings on a live page until it is interrupted.
 pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
     let path = &arguments.path;
     if !path.exists() {
@@ -21,7 +21,7 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
         Err(error) => {
             let port = arguments.port.unwrap_or_default();
             return fail(&format!(
-                "port {port} cannot be had ({error}); choose another with --port, or none"
+                "port {port} is not available ({error}); choose another with --port, or leave --port out"
             ));
         }
     };
@@ -41,14 +41,14 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
     if arguments.open
         && let Err(error) = open::that_detached(&url)
     {
-        eprintln!("the browser cannot be opened ({error}); open {url} yourself");
+        eprintln!("the browser cannot be opened ({error}); open {url} by hand");
     }
     let options = options(&arguments.reading, &arguments.noticing);
     follow(std::slice::from_ref(path), &options, |event| {
         show(&hub, path, &event);
         match event {
-            Event::Built(drawing, build) => drawn(drawing, build, common),
-            event => told(&event, common),
+            Event::Built(drawing, build) => describe_shown(drawing, build, common),
+            event => describe_event(&event, common),
         }
     })
 }
@@ -76,7 +76,7 @@ fn publish(hub: &Arc<Hub>, target: &Path, drawing: &Path, build: &Build) {
         text: &build.text,
         compiled: &build.compiled,
         model,
-        steps: build.steps,
+        times: build.times,
     };
     hub.publish(&drawing.display().to_string(), names, &shown);
 }

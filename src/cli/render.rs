@@ -16,12 +16,12 @@ use crate::render::{
 
 mod clips;
 
-/// The side of the pictures that a GIF's colours are chosen from, pixels, and the most that there are: flat sides change
-/// their shade with every frame.
-const SKETCH: u32 = 160;
-const SKETCHES: u32 = 36;
+/// The side in pixels of the thumbnails that the colours of a GIF are chosen from.
+const THUMBNAIL_SIZE: u32 = 160;
+/// The most thumbnails: several are needed, as flat sides change their shade with every frame.
+const MAX_THUMBNAILS: u32 = 36;
 
-/// The files that pictures are put into.
+/// The format of the output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Form {
     /// One picture, or numbered ones.
@@ -30,20 +30,20 @@ enum Form {
     Apng,
 }
 
-/// What is to be drawn.
+/// What to draw.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Subject {
-    /// The model at rest, or at a moment of a clip.
+    /// The model at rest, or at one time of a clip.
     Still,
-    /// The same from so many sides.
-    Turning(u32),
+    /// The same from this many sides.
+    Turntable(u32),
     /// A clip.
-    Moving,
-    /// So many moments of a clip.
+    Clip,
+    /// This many frames of a clip, side by side.
     Strip(u32),
 }
 
-/// Draws a drawing's model, or a model.
+/// Renders the model of a drawing, or a model.
 pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
     let asked = output(arguments).and_then(|output| {
         let subject = subject(arguments)?;
@@ -69,7 +69,7 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
         Err(message) => return fail(&format!("`{name}` {message}")),
     };
     let written = match (subject, clip) {
-        (Subject::Moving | Subject::Strip(_), Some((clip, _))) => {
+        (Subject::Clip | Subject::Strip(_), Some((clip, _))) => {
             let film = match clips::film(&model, clip, arguments) {
                 Ok(film) => film,
                 Err(message) => return fail(&format!("`{name}` {message}")),
@@ -86,7 +86,7 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
             };
             let posed = match spinning("posing", || PosedModel::new(&model, &pose)) {
                 Ok(posed) => posed,
-                // What is wrong is the drawing's, not the call's.
+                // An error of the drawing, not of how the command was called.
                 Err(error) => {
                     fail(&format!("`{name}` {error}"));
                     return Outcome::Errors;
@@ -106,7 +106,7 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
     }
 }
 
-/// The clip that is asked for, if one is, and the moment of it.
+/// The requested clip and time, if any.
 fn clip<'a>(model: &'a Model, arguments: &Render) -> Result<Option<(&'a Clip, f64)>, String> {
     if !arguments.asks_for_clip() {
         return Ok(None);
@@ -116,7 +116,7 @@ fn clip<'a>(model: &'a Model, arguments: &Render) -> Result<Option<(&'a Clip, f6
     Ok(Some((clip, time)))
 }
 
-/// Where the picture goes.
+/// The output file.
 fn output(arguments: &Render) -> Result<PathBuf, String> {
     let drawing = &arguments.drawing;
     let stdin = drawing.as_os_str() == "-";
@@ -128,35 +128,33 @@ fn output(arguments: &Render) -> Result<PathBuf, String> {
         },
         Some(output) => Ok(output.clone()),
         None if stdin => {
-            Err("a drawing from stdin has no place of its own: name the output with -o".to_owned())
+            Err("a drawing from stdin is in no folder: name the output with -o".to_owned())
         }
         None => Ok(beside(drawing)),
     }
 }
 
-/// What the options ask for.
+/// The subject that the options request.
 fn subject(arguments: &Render) -> Result<Subject, String> {
     match (arguments.strip, arguments.turntable) {
         (Some(cells), _) => Ok(Subject::Strip(cells)),
         (None, Some(_)) if arguments.clip.is_some() && arguments.time.is_none() => Err(
-            "--turntable turns one moment of a clip: say which with --time, in seconds".to_owned(),
+            "--turntable shows one pose of a clip: choose it with --time, in seconds".to_owned(),
         ),
-        (None, Some(frames)) => Ok(Subject::Turning(frames)),
-        (None, None) if arguments.asks_for_clip() && arguments.time.is_none() => {
-            Ok(Subject::Moving)
-        }
+        (None, Some(frames)) => Ok(Subject::Turntable(frames)),
+        (None, None) if arguments.asks_for_clip() && arguments.time.is_none() => Ok(Subject::Clip),
         (None, None) => Ok(Subject::Still),
     }
 }
 
-/// What a file's ending asks for.
+/// The format for the extension of the output.
 fn form(output: &Path, subject: Subject, arguments: &Render) -> Result<Form, String> {
     let ending = output
         .extension()
         .map(|ending| ending.to_string_lossy().to_lowercase());
     let one = matches!(subject, Subject::Still | Subject::Strip(_));
     let form = match ending.as_deref() {
-        // A file of frames where there can be but one file.
+        // Standard output is a single file, so all frames go into one.
         _ if output.as_os_str() == "-" && !one => Form::Apng,
         _ if output.as_os_str() == "-" => Form::Png,
         Some("png") => Form::Png,
@@ -176,7 +174,7 @@ fn form(output: &Path, subject: Subject, arguments: &Render) -> Result<Form, Str
                 "`{name}` would be an animation, but --time and --strip make a still picture: use an output that ends in .png"
             ),
             false => format!(
-                "`{name}` would be a moving picture: say in how many frames the model turns, --turntable 36 for example, or which clip it shows, --clip NAME, or end the output in .png"
+                "`{name}` would be an animation: choose what it shows with --turntable 36 or --clip NAME, or end the output in .png"
             ),
         });
     }
@@ -184,7 +182,7 @@ fn form(output: &Path, subject: Subject, arguments: &Render) -> Result<Form, Str
     Ok(form)
 }
 
-/// The model's bytes, and how the reading of the drawing ended; findings are printed.
+/// The model's bytes, and the outcome of compiling the drawing, whose findings are printed.
 fn model(arguments: &Render, common: Common) -> Result<(Vec<u8>, Outcome), Outcome> {
     let drawing = &arguments.drawing;
     let ending = drawing
@@ -217,12 +215,12 @@ fn model(arguments: &Render, common: Common) -> Result<(Vec<u8>, Outcome), Outco
     }
 }
 
-/// The size of pictures, and how much there is in them.
-fn same_look([width, height]: [u32; 2], triangles: usize) -> String {
+/// The size of pictures and the number of triangles in them.
+fn describe_picture([width, height]: [u32; 2], triangles: usize) -> String {
     format!("{width} × {height} pixels, {triangles} triangles")
 }
 
-/// Draws and writes; says what was written.
+/// Draws and writes pictures, and returns a description of them.
 fn draw(
     posed: &PosedModel<'_>,
     arguments: &Render,
@@ -230,10 +228,10 @@ fn draw(
     what: (Form, Subject),
 ) -> Result<String, Failure> {
     let options = options(arguments);
-    let look = same_look(options.size, posed.triangles());
+    let picture = describe_picture(options.size, posed.triangles());
     let name = output.display();
     match what {
-        (Form::Png, Subject::Turning(frames)) => {
+        (Form::Png, Subject::Turntable(frames)) => {
             let mut number = 0;
             counting("drawing", frames, |done| {
                 posed.turntable(&options, frames, |image| {
@@ -248,9 +246,9 @@ fn draw(
             })?;
             let [first, last] = [1, frames].map(|number| numbered(output, number, frames));
             let (first, last) = (first.display(), last.display());
-            Ok(format!("{first} to {last}: {look} each"))
+            Ok(format!("{first} to {last}: {picture} each"))
         }
-        (form, Subject::Turning(frames)) => {
+        (form, Subject::Turntable(frames)) => {
             counting("drawing", frames, |done| {
                 write_atomic(output, |out| {
                     let mut animation = match form {
@@ -271,21 +269,21 @@ fn draw(
                 })
             })
             .map_err(Failure::written)?;
-            Ok(format!("{name}: {frames} frames, {look} each"))
+            Ok(format!("{name}: {frames} frames, {picture} each"))
         }
         _ => {
             let image = spinning("drawing", || posed.picture(&options))?;
             write_atomic(output, |out| write_png(&image, out)).map_err(Failure::written)?;
-            Ok(format!("{name}: {look}"))
+            Ok(format!("{name}: {picture}"))
         }
     }
 }
 
-/// Why pictures could not be drawn or written.
+/// Why pictures could not be drawn or written, as a message.
 struct Failure(String);
 
 impl Failure {
-    /// What is wrong with the model.
+    /// A problem of the model.
     fn of(arguments: &Render, error: &render::RenderError) -> Self {
         Self(format!("`{}` {error}", arguments.drawing.display()))
     }
@@ -318,28 +316,28 @@ fn options(arguments: &Render) -> Options {
     }
 }
 
-/// A size, made so small that drawing it is quick.
-fn sketched(size: [u32; 2]) -> [u32; 2] {
-    let longest = size[0].max(size[1]).max(SKETCH);
-    size.map(|side| (side * SKETCH / longest).max(1))
+/// The size of a thumbnail of a picture.
+fn thumbnail_size(size: [u32; 2]) -> [u32; 2] {
+    let longest = size[0].max(size[1]).max(THUMBNAIL_SIZE);
+    size.map(|side| (side * THUMBNAIL_SIZE / longest).max(1))
 }
 
-/// The colours of a GIF, from a few small pictures of what it will show.
+/// The colours of a GIF, from thumbnails of its frames.
 fn palette(posed: &PosedModel<'_>, options: &Options, frames: u32) -> io::Result<Palette> {
-    let size = sketched(options.size);
-    let mut sketches = Vec::new();
+    let size = thumbnail_size(options.size);
+    let mut thumbnails = Vec::new();
     posed.turntable(
         &Options { size, ..*options },
-        frames.min(SKETCHES),
+        frames.min(MAX_THUMBNAILS),
         |image| -> io::Result<()> {
-            sketches.push(image);
+            thumbnails.push(image);
             Ok(())
         },
     )?;
-    Ok(Palette::new(&sketches))
+    Ok(Palette::new(&thumbnails))
 }
 
-/// `turn.png` becomes `turn-07.png`: as many digits as the last number has.
+/// `turn.png` becomes `turn-07.png`, with as many digits as the last number has.
 fn numbered(output: &Path, number: u32, last: u32) -> PathBuf {
     let digits = last.to_string().len();
     let mut name = output.file_stem().unwrap_or_default().to_owned();

@@ -1,5 +1,6 @@
 //! Diagnostics for code scanners: `--format sarif`, which is SARIF 2.1.0.
 
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 use serde::Serialize;
 
 use super::Findings;
@@ -227,36 +228,32 @@ fn region(span: Span, places: &Places) -> Region {
     }
 }
 
-/// A path as a relative reference: `/` between its parts, and every byte that an address cannot hold
-/// written as `%` and two digits.
-fn uri(path: &str) -> String {
-    use std::fmt::Write as _;
+/// The bytes of a path that a relative reference holds as `%` and two digits.
+const ENCODED: &AsciiSet = &NON_ALPHANUMERIC
+    .remove(b'-')
+    .remove(b'.')
+    .remove(b'_')
+    .remove(b'~')
+    .remove(b'/')
+    .remove(b':')
+    .remove(b'@')
+    .remove(b'+')
+    .remove(b',');
 
-    let mut out = String::with_capacity(path.len());
+/// A path as a relative reference, with `/` between its parts.
+fn uri(path: &str) -> String {
     let path = if cfg!(windows) {
         path.replace('\\', "/")
     } else {
         path.to_owned()
     };
     // A first part with a colon would be read as a scheme.
-    if path
-        .split('/')
-        .next()
-        .is_some_and(|part| part.contains(':'))
-    {
-        out.push_str("./");
-    }
-    for byte in path.bytes() {
-        match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' => out.push(char::from(byte)),
-            b'-' | b'.' | b'_' | b'~' | b'/' | b':' | b'@' | b'+' | b',' => {
-                out.push(char::from(byte));
-            }
-            // Writing to a string does not fail.
-            _ => write!(out, "%{byte:02X}").unwrap_or_default(),
-        }
-    }
-    out
+    let first = path.split('/').next();
+    let prefix = match first.is_some_and(|part| part.contains(':')) {
+        true => "./",
+        false => "",
+    };
+    format!("{prefix}{}", utf8_percent_encode(&path, ENCODED))
 }
 
 #[cfg(test)]

@@ -6,12 +6,12 @@ use std::time::Duration;
 
 use super::args::{Common, Noticing, Reading, Watch};
 use super::loading::{Detail, count, describe, tally};
-use super::{Findings, Outcome, fail, style};
+use super::{Findings, Outcome, counted, fail, style};
 use crate::disk::{Notice, ReadError, make_folder, write_atomic};
 use crate::export::Model;
 use crate::watch::{Build, Event, NoModel, Options, watch};
 
-/// Builds drawings at every save, until it is stopped.
+/// Builds drawings on every save until it is interrupted.
 pub(super) fn run(arguments: &Watch, common: Common) -> Outcome {
     if let Some(missing) = arguments.paths.iter().find(|path| !path.exists()) {
         return fail(&ReadError::Missing(missing.clone()).to_string());
@@ -19,22 +19,22 @@ pub(super) fn run(arguments: &Watch, common: Common) -> Outcome {
     let mut outputs = Outputs {
         folder: arguments.output.as_deref(),
         targets: &arguments.paths,
-        taken: BTreeMap::new(),
+        owners: BTreeMap::new(),
     };
     let options = options(&arguments.reading, &arguments.noticing);
     follow(&arguments.paths, &options, |event| match event {
         Event::Built(drawing, build) => built(drawing, build, &mut outputs, common),
-        event => told(&event, common),
+        event => describe_event(&event, common),
     })
 }
 
-/// Watches until it is stopped, and prints what `tell` says of each event.
+/// Watches until it is interrupted, and prints what `describe` returns for each event.
 pub(super) fn follow(
     paths: &[PathBuf],
     options: &Options,
-    mut tell: impl FnMut(Event<'_>) -> String,
+    mut describe: impl FnMut(Event<'_>) -> String,
 ) -> Outcome {
-    match watch(paths, options, |event| eprint!("{}", tell(event))) {
+    match watch(paths, options, |event| eprint!("{}", describe(event))) {
         Ok(never) => match never {},
         Err(error) => fail(&format!(
             "file changes are not reported here: {error}; try --poll"
@@ -53,21 +53,21 @@ pub(super) fn options(reading: &Reading, noticing: &Noticing) -> Options {
     }
 }
 
-/// Where models go.
+/// The output files.
 struct Outputs<'a> {
     folder: Option<&'a Path>,
     targets: &'a [PathBuf],
-    /// By output, the drawing that it is made from.
-    taken: BTreeMap<PathBuf, PathBuf>,
+    /// The drawing that each output is made from.
+    owners: BTreeMap<PathBuf, PathBuf>,
 }
 
 impl Outputs<'_> {
-    /// The file of a drawing's model.
+    /// The output file of a drawing.
     fn of(&mut self, drawing: &Path) -> Result<PathBuf, String> {
         let output = match self.folder {
             None => drawing.with_extension("glb"),
             Some(folder) => {
-                // Below a folder that is watched, drawings keep their places.
+                // Drawings below a watched folder keep their relative paths.
                 let below = |target: &PathBuf| drawing.strip_prefix(target).ok();
                 let mut inner = self.targets.iter().filter_map(below);
                 let place = inner.find(|place| !place.as_os_str().is_empty());
@@ -75,11 +75,11 @@ impl Outputs<'_> {
                 folder.join(place.unwrap_or(drawing)).with_extension("glb")
             }
         };
-        let taken = self.taken.entry(output.clone());
-        let owner = taken.or_insert_with(|| drawing.to_owned());
+        let entry = self.owners.entry(output.clone());
+        let owner = entry.or_insert_with(|| drawing.to_owned());
         if owner != drawing {
             return Err(format!(
-                "it would be written to `{}`, as `{}` is; rename one of them",
+                "its output `{}` is already that of `{}`; rename one of them",
                 output.display(),
                 owner.display()
             ));
@@ -88,7 +88,7 @@ impl Outputs<'_> {
     }
 }
 
-/// Writes a model that was built, and tells of it: what is wrong, and then one line.
+/// Writes a model that was built, and describes it: its findings, then one line.
 fn built(drawing: &Path, build: &Build, outputs: &mut Outputs<'_>, common: Common) -> String {
     let name = drawing.display().to_string();
     let mut text = findings(&name, build, common);
@@ -97,13 +97,13 @@ fn built(drawing: &Path, build: &Build, outputs: &mut Outputs<'_>, common: Commo
         Ok(output) => output,
         Err(why) => return format!("{text}{}", line(&name, &format!("not written: {why}"))),
     };
-    let kept = || match output.exists() {
-        true => format!("{} stays as it was", output.display()),
+    let unchanged = || match output.exists() {
+        true => format!("{} is unchanged", output.display()),
         false => "nothing was written".to_owned(),
     };
-    let (said, failed) = match &build.model {
-        Err(NoModel::Errors) => (format!("{found}{}", kept()), true),
-        Err(NoModel::Unwritten(why)) => (format!("{found}{why}; {}", kept()), true),
+    let (message, failed) = match &build.model {
+        Err(NoModel::Errors) => (format!("{found}{}", unchanged()), true),
+        Err(NoModel::Unwritten(why)) => (format!("{found}{why}; {}", unchanged()), true),
         Ok(model) => {
             let folder = output.parent().filter(|_| outputs.folder.is_some());
             let written = folder
@@ -113,33 +113,33 @@ fn built(drawing: &Path, build: &Build, outputs: &mut Outputs<'_>, common: Commo
                 Err(error) => (error.to_string(), true),
                 Ok(()) => {
                     let wrote = output.display().to_string();
-                    (figures(build, model, &found, &wrote), false)
+                    (summary(build, model, &found, &wrote), false)
                 }
             }
         }
     };
     if failed || !common.quiet {
-        text.push_str(&line(&name, &said));
+        text.push_str(&line(&name, &message));
     }
     text
 }
 
-/// Tells of a model that was built and shown: what is wrong, and then one line.
-pub(super) fn drawn(drawing: &Path, build: &Build, common: Common) -> String {
+/// Describes a build that is shown on a page: its findings, then one line.
+pub(super) fn describe_shown(drawing: &Path, build: &Build, common: Common) -> String {
     let name = drawing.display().to_string();
     let mut text = findings(&name, build, common);
     let found = counts(build);
-    let said = match &build.model {
+    let message = match &build.model {
         Err(NoModel::Errors) => format!("{found}the last good model is shown"),
         Err(NoModel::Unwritten(why)) => format!("{found}{why}; the last good model is shown"),
         Ok(_) if common.quiet => return text,
-        Ok(model) => figures(build, model, &found, "shown"),
+        Ok(model) => summary(build, model, &found, "shown"),
     };
-    text.push_str(&line(&name, &said));
+    text.push_str(&line(&name, &message));
     text
 }
 
-/// What is wrong with a drawing.
+/// The findings of a drawing.
 fn findings(name: &str, build: &Build, common: Common) -> String {
     let findings = Findings {
         path: name,
@@ -159,29 +159,35 @@ fn counts(build: &Build) -> String {
 }
 
 /// `7 parts, 2260 triangles, 2 hints, human.glb in 4.2 ms`
-fn figures(build: &Build, model: &Model, found: &str, done: &str) -> String {
+fn summary(build: &Build, model: &Model, found: &str, done: &str) -> String {
     format!(
         "{}, {}, {found}{done} in {:.1} ms",
         counted(build.compiled.bindings.parts.len(), "part"),
         counted(model.written.triangles, "triangle"),
-        build.steps.duration().as_secs_f64() * 1e3,
+        build.times.duration().as_secs_f64() * 1e3,
     )
 }
 
-/// What is told of a drawing or a folder that was not built.
-pub(super) fn told(event: &Event<'_>, common: Common) -> String {
+/// Describes an event other than a build.
+pub(super) fn describe_event(event: &Event<'_>, common: Common) -> String {
     match event {
-        Event::Gone(drawing) => line(&drawing.display().to_string(), "it is gone; waiting for it"),
-        Event::Back(drawing) => line(&drawing.display().to_string(), "it is back, as it was"),
+        Event::Gone(drawing) => line(
+            &drawing.display().to_string(),
+            "the file is gone; waiting for it",
+        ),
+        Event::Back(drawing) => line(
+            &drawing.display().to_string(),
+            "the file is back, unchanged",
+        ),
         Event::Unreadable(drawing, why) => line(&drawing.display().to_string(), why),
-        Event::Deaf(folder, why) => line(
+        Event::Unwatchable(folder, why) => line(
             &folder.display().to_string(),
             &format!("changes in it are not reported: {why}; try --poll"),
         ),
         Event::Ready(_) if common.quiet => String::new(),
-        Event::Ready(0) => "no drawings there yet; waiting for them, Ctrl-C ends it\n".to_owned(),
+        Event::Ready(0) => "no drawings yet; waiting for them, press Ctrl-C to stop\n".to_owned(),
         Event::Ready(drawings) => format!(
-            "watching {}; Ctrl-C ends it\n",
+            "watching {}; press Ctrl-C to stop\n",
             counted(*drawings, "drawing")
         ),
         Event::Built(..) => String::new(),
@@ -189,14 +195,9 @@ pub(super) fn told(event: &Event<'_>, common: Common) -> String {
 }
 
 /// `12:01:07 human.svg: …`
-fn line(name: &str, said: &str) -> String {
+fn line(name: &str, message: &str) -> String {
     format!(
-        "{} {name}: {said}\n",
+        "{} {name}: {message}\n",
         chrono::Local::now().format("%H:%M:%S")
     )
-}
-
-/// `1 part`, `2 parts`
-fn counted(count: usize, what: &str) -> String {
-    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }

@@ -19,7 +19,7 @@ use super::documents::{Analysed, Documents};
 use crate::export::{self, GLB, SurfaceCache};
 use crate::preview::{Hub, Picked, Shown, bind, serve};
 use crate::source::Span;
-use crate::watch::Steps;
+use crate::watch::BuildTimes;
 
 /// What is shown, and to whom.
 pub(super) struct Previews {
@@ -189,10 +189,10 @@ impl Previews {
             text: analysed.document.text(),
             compiled,
             model: model.as_ref().map(|(bytes, triangles)| (bytes, *triangles)),
-            steps: Steps {
+            times: BuildTimes {
                 noticed: begun,
-                begun,
-                built: SystemTime::now(),
+                started: begun,
+                finished: SystemTime::now(),
             },
         };
         // It may have been closed meanwhile.

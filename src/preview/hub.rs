@@ -13,7 +13,7 @@ use crate::export::{self, GLB};
 use crate::render::{self, Options, PosedModel, write_png};
 use crate::report::{Reader, clips, landscapes, parts};
 use crate::resolver::MemoryResolver;
-use crate::watch::Steps;
+use crate::watch::BuildTimes;
 
 /// Side of the pictures in the gallery, pixels.
 const PICTURE: u32 = 320;
@@ -115,7 +115,7 @@ pub struct Shown<'a> {
     /// The model, binary glTF, and how many triangles it has; `None`: the last good one stays.
     pub model: Option<(&'a Bytes, usize)>,
     /// When it was built.
-    pub steps: Steps,
+    pub times: BuildTimes,
 }
 
 impl Hub {
@@ -186,7 +186,7 @@ impl Hub {
             let model = entry.models.last();
             let build = Build {
                 revision: entry.revision,
-                milliseconds: shown.steps.duration().as_secs_f64() * 1e3,
+                milliseconds: shown.times.duration().as_secs_f64() * 1e3,
                 model: model.map(|model| format!("builds/{}.glb", model.number)),
                 picture: model.map(|model| format!("pictures/{}.png", model.number)),
                 stale: shown.model.is_none() && model.is_some(),
@@ -197,7 +197,7 @@ impl Hub {
                 originals: model
                     .filter(|model| model.originals.is_some())
                     .map(|model| format!("originals/{}.glb", model.number)),
-                steps: shown.steps.into(),
+                steps: shown.times.into(),
             };
             let message = ToPage::Build { drawing: id, build };
             entry.build = Some((now, json(&message)));

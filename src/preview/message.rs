@@ -7,7 +7,7 @@ use serde_json::value::RawValue;
 
 use crate::diagnostic::Diagnostic;
 use crate::report::{Part, Places};
-use crate::watch::Steps;
+use crate::watch::BuildTimes;
 
 /// To a page.
 #[derive(Debug, Serialize)]
@@ -52,28 +52,28 @@ pub(super) struct Build<'a> {
     pub(super) clips: &'a RawValue,
     /// The address of its clips as they were before they were cut.
     pub(super) originals: Option<String>,
-    pub(super) steps: Moments,
+    pub(super) steps: Timestamps,
 }
 
-/// The moments of a build, milliseconds since 1970.
+/// The times of a build, in milliseconds since 1970.
 #[derive(Debug, Serialize)]
-pub(super) struct Moments {
+pub(super) struct Timestamps {
     noticed: f64,
     begun: f64,
     built: f64,
     pushed: f64,
 }
 
-impl From<Steps> for Moments {
-    fn from(steps: Steps) -> Self {
+impl From<BuildTimes> for Timestamps {
+    fn from(times: BuildTimes) -> Self {
         let milliseconds = |time: SystemTime| {
             let since = time.duration_since(SystemTime::UNIX_EPOCH);
             since.unwrap_or_default().as_secs_f64() * 1e3
         };
         Self {
-            noticed: milliseconds(steps.noticed),
-            begun: milliseconds(steps.begun),
-            built: milliseconds(steps.built),
+            noticed: milliseconds(times.noticed),
+            begun: milliseconds(times.started),
+            built: milliseconds(times.finished),
             pushed: milliseconds(SystemTime::now()),
         }
     }

@@ -1,4 +1,4 @@
-//! One drawing, built again and again.
+//! One drawing that is built repeatedly.
 
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hasher};
@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::SystemTime;
 
-use super::{Build, NoModel, Options, Steps};
+use super::{Build, BuildTimes, NoModel, Options};
 use crate::compile::{self, Compiled, Compiler};
 use crate::disk::{FolderResolver, ReadError, decode, read_drawing};
 use crate::export::{self, GLB, SurfaceCache};
 use crate::resolver::{LinkError, Resolver};
 
-/// A drawing and what is remembered of it, so that the next build takes no longer than it must.
+/// A drawing with the caches that make its next build incremental.
 #[derive(Debug)]
 pub struct Drawing {
     path: PathBuf,
@@ -20,30 +20,30 @@ pub struct Drawing {
     resolver: FolderResolver,
     compiler: Compiler,
     surfaces: SurfaceCache,
-    last: Option<Last>,
+    last: Option<Inputs>,
 }
 
-/// What a build was made from: numbers that stand for contents.
+/// Hashes of the files that a build was made from.
 #[derive(Debug)]
-struct Last {
+struct Inputs {
     drawing: u64,
-    /// By link.
+    /// By link; `None` for a file that is missing.
     linked: BTreeMap<String, Option<u64>>,
 }
 
-/// What came of building a drawing again.
+/// The outcome of building a drawing.
 #[derive(Debug)]
-pub enum Again {
-    /// Nothing is another than before.
-    Same,
-    /// It looks half written.
-    Unfinished,
-    /// It was built.
+pub enum Outcome {
+    /// All files are equal to those of the last build.
+    Unchanged,
+    /// The drawing looks half written.
+    Incomplete,
+    /// The drawing was built.
     Built(Box<Build>),
 }
 
 impl Drawing {
-    /// A drawing that is to be built.
+    /// A drawing that has not been built yet.
     pub fn new(path: &Path, options: &Options) -> Self {
         let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         Self {
@@ -63,23 +63,22 @@ impl Drawing {
         &self.path
     }
 
-    /// The files that it links to, also those that are not there yet.
+    /// The files that it links to, including missing ones.
     pub(super) fn linked(&self) -> impl Iterator<Item = PathBuf> {
         let links = self.last.iter().flat_map(|last| last.linked.keys());
         links.filter_map(|link| self.resolver.place(link).ok())
     }
 
-    /// Builds it, unless nothing has changed. A text that is no drawing is taken for one that is half written, unless
-    /// it `is_final`.
+    /// Builds it, unless nothing has changed. A text without any elements counts as half written, unless `is_final`.
     ///
     /// # Errors
     /// If its file cannot be read.
-    pub fn build(&mut self, noticed: SystemTime, is_final: bool) -> Result<Again, ReadError> {
-        let begun = SystemTime::now();
+    pub fn build(&mut self, noticed: SystemTime, is_final: bool) -> Result<Outcome, ReadError> {
+        let started = SystemTime::now();
         let bytes = read_drawing(&self.path)?;
-        let drawing = number(&bytes);
-        if self.is_same(drawing) {
-            return Ok(Again::Same);
+        let drawing = hash(&bytes);
+        if self.is_unchanged(drawing) {
+            return Ok(Outcome::Unchanged);
         }
         let recorder = Recorder {
             inner: &self.resolver,
@@ -94,31 +93,31 @@ impl Drawing {
             Err(error) => (lossy, Compiled::undecoded(&error.to_string())),
         };
         if !is_final && compiled.drawing.groups.is_empty() {
-            return Ok(Again::Unfinished);
+            return Ok(Outcome::Incomplete);
         }
         let linked = recorder.found.into_inner().unwrap_or_default();
         let model = match compiled.has_errors() {
             true => Err(NoModel::Errors),
             false => self.model(&compiled),
         };
-        self.last = Some(Last { drawing, linked });
-        let steps = Steps {
+        self.last = Some(Inputs { drawing, linked });
+        let times = BuildTimes {
             noticed,
-            begun,
-            built: SystemTime::now(),
+            started,
+            finished: SystemTime::now(),
         };
-        Ok(Again::Built(Box::new(Build {
+        Ok(Outcome::Built(Box::new(Build {
             text,
             compiled,
             model,
-            steps,
+            times,
         })))
     }
 
-    /// Whether the drawing and what it links to are what they were.
-    fn is_same(&self, drawing: u64) -> bool {
+    /// Whether the drawing and all linked files are equal to those of the last build.
+    fn is_unchanged(&self, drawing: u64) -> bool {
         let Some(last) = &self.last else { return false };
-        let now = |link: &str| self.resolver.read(link).ok().map(|bytes| number(&bytes));
+        let now = |link: &str| self.resolver.read(link).ok().map(|bytes| hash(&bytes));
         last.drawing == drawing && last.linked.iter().all(|(link, was)| now(link) == *was)
     }
 
@@ -128,8 +127,8 @@ impl Drawing {
     }
 }
 
-/// A number that stands for a content.
-fn number(bytes: &[u8]) -> u64 {
+/// A hash of a file's content.
+fn hash(bytes: &[u8]) -> u64 {
     let mut hasher = DefaultHasher::new();
     hasher.write(bytes);
     hasher.finish()
@@ -145,7 +144,7 @@ impl Resolver for Recorder<'_> {
     fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
         let found = self.inner.read(link);
         if let Ok(mut known) = self.found.lock() {
-            let content = found.as_ref().ok().map(|bytes| number(bytes));
+            let content = found.as_ref().ok().map(|bytes| hash(bytes));
             known.entry(link.to_owned()).or_insert(content);
         }
         found

@@ -1,11 +1,10 @@
-//! Drawings that are built anew whenever they, or what they link to, change.
+//! Builds drawings again whenever they, or files that they link to, change.
 //!
-//! A file that is half written is no error until it has stayed so for a while, and one that is gone may come back:
-//! programs write in pieces, and replace files. A drawing is built once a save, and not at all if nothing in it, and in
-//! what it links to, is another than before.
+//! Programs write files in pieces, and replace them: a half-written file is an error only after a while, and a missing one
+//! may come back. A drawing is built once per save, and only if it or a linked file differs from before.
 
 mod drawing;
-mod round;
+mod watcher;
 
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{RecvTimeoutError, channel};
@@ -14,14 +13,14 @@ use std::time::{Duration, Instant, SystemTime};
 use crate::compile::{Compiled, TOLERANCE};
 use crate::disk::{FolderWatch, Notice, WatchError};
 use crate::export::Model;
-use round::Round;
+use watcher::Watcher;
 
 pub use drawing::Drawing;
 
 /// How drawings are read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// The folder that linked files must lie in; `None`: the drawing's.
+    /// The folder that linked files must lie in; `None` means the drawing's.
     pub root: Option<PathBuf>,
     /// See [`TOLERANCE`].
     pub tolerance: f64,
@@ -39,17 +38,17 @@ impl Default for Options {
     }
 }
 
-/// A drawing that was built.
+/// The result of building a drawing.
 #[derive(Debug)]
 pub struct Build {
-    /// Its text.
+    /// The drawing's text.
     pub text: String,
-    /// What came of it.
+    /// The compiled drawing.
     pub compiled: Compiled,
     /// The model as binary glTF, or why there is none.
     pub model: Result<Model, NoModel>,
     /// When it was built.
-    pub steps: Steps,
+    pub times: BuildTimes,
 }
 
 /// Why there is no model.
@@ -58,79 +57,81 @@ pub enum NoModel {
     /// The drawing has errors.
     #[error("the drawing has errors")]
     Errors,
-    /// It does not fit into its container.
+    /// It cannot be written as binary glTF.
     #[error("{0}")]
     Unwritten(String),
 }
 
-/// The moments of a build.
+/// The times of a build.
 #[derive(Debug, Clone, Copy)]
-pub struct Steps {
-    /// The first sign of a change.
+pub struct BuildTimes {
+    /// When the change was noticed.
     pub noticed: SystemTime,
-    /// It has settled: the build begins.
-    pub begun: SystemTime,
-    /// The model is made.
-    pub built: SystemTime,
+    /// When building started, after the files had settled.
+    pub started: SystemTime,
+    /// When the model was finished.
+    pub finished: SystemTime,
 }
 
-impl Steps {
+impl BuildTimes {
     /// How long building took.
     pub fn duration(&self) -> Duration {
-        self.built.duration_since(self.begun).unwrap_or_default()
+        let duration = self.finished.duration_since(self.started);
+        duration.unwrap_or_default()
     }
 }
 
-/// What happens to the drawings that are watched.
+/// An event while drawings are watched.
 #[derive(Debug)]
 pub enum Event<'a> {
     /// A drawing was built.
     Built(&'a Path, &'a Build),
     /// A drawing's file is gone. It is built again when it is back.
     Gone(&'a Path),
-    /// A drawing can be read again, and is what it was.
+    /// A drawing can be read again, and has not changed.
     Back(&'a Path),
     /// A drawing cannot be read, and why.
     Unreadable(&'a Path, String),
-    /// Changes in a folder are not told of, and why.
-    Deaf(&'a Path, String),
-    /// Everything that there is has been built once; so many drawings.
+    /// A folder cannot be watched, and why.
+    Unwatchable(&'a Path, String),
+    /// All drawings have been built once; their number.
     Ready(usize),
 }
 
-/// How often folders that were deleted are looked for.
-const LOOK: Duration = Duration::from_secs(1);
+/// The time between two searches for folders that were deleted.
+const FOLDER_SEARCH_INTERVAL: Duration = Duration::from_secs(1);
 
-/// Builds drawings, and all drawings below folders, and builds them again when they change. Ends only with an error.
+/// Builds drawings and all drawings below folders, and builds them again when they change. Returns only on an error.
 ///
 /// # Errors
-/// Where the system cannot tell of changes.
+/// If the system cannot watch files.
 pub fn watch(
     targets: &[PathBuf],
     options: &Options,
-    mut tell: impl FnMut(Event<'_>),
+    mut report: impl FnMut(Event<'_>),
 ) -> Result<std::convert::Infallible, WatchError> {
     let (sender, changes) = channel();
     let watch = FolderWatch::new(options.notice, move |changed| {
         let _ = sender.send(changed);
     })?;
-    let mut round = Round::new(targets, options);
-    // Watched before they are read, so that no change falls in between.
-    round.listen(&watch, &mut tell);
-    round.build(&mut tell);
-    round.listen(&watch, &mut tell);
-    tell(Event::Ready(round.len()));
+    let mut watcher = Watcher::new(targets, options);
+    // The folders are watched before the drawings are read, so that no change is missed.
+    watcher.watch_folders(&watch, &mut report);
+    watcher.build(&mut report);
+    watcher.watch_folders(&watch, &mut report);
+    report(Event::Ready(watcher.len()));
     loop {
-        let wait = round.due().map_or(LOOK, |due| {
-            due.saturating_duration_since(Instant::now()).min(LOOK)
+        let wait = watcher.next_due().map_or(FOLDER_SEARCH_INTERVAL, |due| {
+            due.saturating_duration_since(Instant::now())
+                .min(FOLDER_SEARCH_INTERVAL)
         });
         match changes.recv_timeout(wait) {
-            Ok(changed) => round.note(&changed),
+            Ok(changed) => watcher.schedule(&changed),
             Err(RecvTimeoutError::Timeout) => {}
-            // The watch lives as long as this function.
+            // `watch` holds the sender, and lives as long as this function.
             Err(RecvTimeoutError::Disconnected) => std::thread::sleep(wait),
         }
-        round.build(&mut tell);
-        round.listen(&watch, &mut tell);
+        watcher.build(&mut report);
+        watcher.watch_folders(&watch, &mut report);
     }
 }

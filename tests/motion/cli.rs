@@ -315,7 +315,7 @@ fn wrong_usage_is_rejected() {
         (&["--every", "2", "--omit", "3"], "cannot be used with"),
         (&["--drawings", "9", "--every", "3"], "cannot be used with"),
         (&["--full", "--hold", "3"], "cannot be used with"),
-        (&["--camera", "left"], "two numbers are due"),
+        (&["--camera", "left"], "expected two numbers"),
         (&["--plot", "chart.png"], "must end in .svg"),
     ] {
         let run = room.run(&[&["motion", "kick.bvh"], arguments].concat());

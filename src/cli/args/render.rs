@@ -1,4 +1,4 @@
-//! What `okoshi render` takes.
+//! The arguments of `okoshi render`.
 
 use std::path::PathBuf;
 
@@ -16,15 +16,15 @@ Examples:
   okoshi render human.svg -o turn.png --turntable 8   turn-1.png to turn-8.png
   okoshi render human.svg -o walk.gif --clip walk     the model moves; walk.png gives numbered frames
   okoshi render human.svg -o step.png --clip walk --time 0.5
-                                                      as it stands half a second later
+                                                      its pose after half a second
   okoshi render human.svg -o walk.png --clip walk --strip 6
-                                                      six moments side by side
+                                                      six frames side by side
   okoshi render island.svg --view 0,45 --projection orthographic
-                                                      terrain, tile for tile as it is drawn
+                                                      terrain, tile for tile as drawn
   okoshi render human.glb --size 1920x1080 --background '#ffffff'
 
-The picture shows what `okoshi build` writes, framed by itself. Its background is transparent. A clip is framed as a
-whole: who walks stays in the picture.";
+The picture shows the model that `okoshi build` writes. The camera frames it by itself, a clip as a whole, so that a
+walking figure stays in the picture. The background is transparent.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -35,46 +35,46 @@ pub(in crate::cli) struct Render {
     /// Where to write: a .png, .gif or .apng file, `-` for stdout, or a folder [default: beside the drawing]
     #[arg(short, long, value_name = "FILE")]
     pub(in crate::cli) output: Option<PathBuf>,
-    /// Where the camera stands: degrees to the model's left, degrees up
+    /// The direction of the camera: degrees to the model's left, degrees up
     #[arg(long, value_name = "YAW,PITCH", default_value = "30,15", value_parser = view, allow_hyphen_values = true)]
     pub(in crate::cli) view: View,
-    /// Width and height in pixels, 1 to 8192 each; of a strip, those of each moment
+    /// Width and height in pixels, 1 to 8192 each; of a strip, the size of each frame
     #[arg(long, value_name = "WxH", default_value = "800x800", value_parser = size)]
     pub(in crate::cli) size: [u32; 2],
-    /// Smooth, or every triangle as it is
+    /// How surfaces are shaded
     #[arg(long, default_value = "smooth")]
     pub(in crate::cli) shading: Shading,
-    /// With what is farther away smaller, or with parallels parallel
+    /// How the camera projects
     #[arg(long, default_value = "perspective")]
     pub(in crate::cli) projection: Projection,
-    /// Bend terrain with the view, so that from 45° above tops and fronts are as large as drawn; off shows it as it is
+    /// Bend terrain with the view, so that from 45° above tops and fronts are as large as drawn; off shows its true shape
     #[arg(long, value_name = "WHEN", default_value = "on")]
     pub(in crate::cli) bend: Bend,
-    /// What lies behind the model [default: nothing, transparent]
+    /// The background colour [default: transparent]
     #[arg(long, value_name = "#RRGGBB", value_parser = background)]
     pub(in crate::cli) background: Option<[u8; 3]>,
-    /// Turn the model once round in N pictures: one moving .gif or .apng, or numbered .png files
+    /// Turn the model once around in N pictures: one animated .gif or .apng, or numbered .png files
     #[arg(long, value_name = "N", value_parser = frames)]
     pub(in crate::cli) turntable: Option<u32>,
-    /// Show a clip, by its name or its number from 1: a moving .gif or .apng, or numbered .png files
+    /// Show a clip, by name or by number from 1: an animated .gif or .apng, or numbered .png files
     #[arg(long, value_name = "NAME")]
     pub(in crate::cli) clip: Option<String>,
-    /// Show one moment of the clip, seconds from its beginning
+    /// Show one frame of the clip, S seconds after its start
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with_all = ["fps", "strip", "from", "to"])]
     pub(in crate::cli) time: Option<f64>,
-    /// Show N moments of the clip side by side, evenly from its first to its last
+    /// Show N frames of the clip side by side, evenly spaced from its start to its end
     #[arg(long, value_name = "N", value_parser = cells, conflicts_with_all = ["fps", "turntable"])]
     pub(in crate::cli) strip: Option<u32>,
-    /// Begin the clip at this moment, seconds
+    /// Start the clip S seconds after its start
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "turntable")]
     pub(in crate::cli) from: Option<f64>,
-    /// End the clip at this moment, seconds
+    /// End the clip S seconds after its start
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with = "turntable")]
     pub(in crate::cli) to: Option<f64>,
-    /// Frames a second of the clip, 1 to 120, in a GIF to 50 [default: 24]
+    /// Frames a second of the clip, 1 to 120, in a GIF up to 50 [default: 24]
     #[arg(long, value_name = "F", value_parser = clap::value_parser!(u32).range(1..=120), conflicts_with = "turntable")]
     pub(in crate::cli) fps: Option<u32>,
-    /// Draw what can be made in spite of errors
+    /// Draw whatever can be built despite errors
     #[arg(long)]
     pub(in crate::cli) keep_going: bool,
     #[command(flatten)]
@@ -82,39 +82,39 @@ pub(in crate::cli) struct Render {
 }
 
 impl Render {
-    /// Whether any option is about a clip.
+    /// Whether any option concerns a clip.
     pub(in crate::cli) fn asks_for_clip(&self) -> bool {
-        let moments = [self.time, self.from, self.to];
+        let times = [self.time, self.from, self.to];
         self.clip.is_some()
             || self.strip.or(self.fps).is_some()
-            || moments.iter().any(Option::is_some)
+            || times.iter().any(Option::is_some)
     }
 }
 
 /// How surfaces are shaded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Shading {
-    /// Every triangle as it is
+    /// Every triangle flat
     Flat,
-    /// As the model says
+    /// With the normals of the model
     Smooth,
 }
 
-/// How space becomes a plane.
+/// How the camera projects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Projection {
-    /// What is farther away is smaller
+    /// Distant things are smaller
     Perspective,
     /// Parallels stay parallel
     Orthographic,
 }
 
-/// Whether what follows the viewer is bent.
+/// Whether view-dependent nodes are bent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(in crate::cli) enum Bend {
-    /// As the model asks for it: the drawn look
+    /// As the model asks: the drawn appearance
     On,
-    /// Not at all: true 3D
+    /// Never: true 3D
     Off,
 }
 
@@ -129,15 +129,15 @@ fn view(text: &str) -> Result<View, String> {
         Some((number(yaw)?, number(pitch)?))
     });
     match numbers {
-        // Whole turns are no news, and would cost digits.
+        // Whole turns change nothing, and would cost precision.
         Some((yaw, pitch)) if pitch.abs() <= MAX_PITCH => Ok(View {
             yaw: yaw % 360.0,
             pitch,
         }),
         Some(_) => Err(format!(
-            "the camera is lifted by at most {MAX_PITCH} degrees, up or down"
+            "the camera can be at most {MAX_PITCH} degrees up or down"
         )),
-        None => Err("two numbers with a comma between them are due, 30,15 for example".to_owned()),
+        None => Err("expected two numbers separated by a comma, for example 30,15".to_owned()),
     }
 }
 
@@ -152,17 +152,15 @@ fn size(text: &str) -> Result<[u32; 2], String> {
         });
     match sides {
         Some(sides) if sides.iter().all(|side| (1..=MAX_SIDE).contains(side)) => Ok(sides),
-        Some(_) => Err(format!("each side may have 1 to {MAX_SIDE} pixels")),
-        None => {
-            Err("two whole numbers with an x between them are due, 800x800 for example".to_owned())
-        }
+        Some(_) => Err(format!("each side must have 1 to {MAX_SIDE} pixels")),
+        None => Err("expected two whole numbers separated by an x, for example 800x800".to_owned()),
     }
 }
 
 fn background(text: &str) -> Result<[u8; 3], String> {
     let digits = text.strip_prefix('#').unwrap_or(text);
-    let sound = digits.len() == 6 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
-    let number = u32::from_str_radix(digits, 16).ok().filter(|_| sound);
+    let valid = digits.len() == 6 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
+    let number = u32::from_str_radix(digits, 16).ok().filter(|_| valid);
     match number {
         Some(number) => {
             let [_, colour @ ..] = number.to_be_bytes();

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::columns;
+use crate::cli::counted;
 use crate::compile::Compiled;
 use crate::report::{cut_frames, ranges, undriven};
 
@@ -45,11 +46,4 @@ pub(super) fn clips(compiled: &Compiled) -> String {
         out.push_str(&columns(&rows.collect::<Vec<_>>()));
     }
     out
-}
-
-fn counted(count: usize, thing: &str) -> String {
-    match count {
-        1 => format!("1 {thing}"),
-        count => format!("{count} {thing}s"),
-    }
 }

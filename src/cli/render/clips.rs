@@ -1,9 +1,9 @@
-//! Clips: which one, which part of it, and how it is written.
+//! Rendering clips: which one, which part of it, and how it is written.
 
 use std::io;
 use std::path::Path;
 
-use super::{Failure, Form, SKETCHES, numbered, options, same_look};
+use super::{Failure, Form, MAX_THUMBNAILS, describe_picture, numbered, options};
 use crate::cli::args::Render;
 use crate::cli::progress::{counting, spinning};
 use crate::disk::write_atomic;
@@ -11,12 +11,12 @@ use crate::render::{
     AnimationWriter, Clip, Film, HeldFrame, MAX_GIF_FPS, Model, Options, Palette, write_png,
 };
 
-/// Frames a second where nothing else is asked for: film's, and that of the clips that okoshi makes.
+/// The default frame rate: that of film, and of the clips that okoshi makes.
 const FPS: u32 = 24;
-/// Clips that are named when one must be chosen.
-const NAMED: usize = 20;
+/// The most clips that a message lists.
+const MAX_LISTED: usize = 20;
 
-/// The clip that is asked for, by its name or its number from 1; without either the only one that there is.
+/// The requested clip, by name or by number from 1; without a request the only clip.
 pub(super) fn chosen<'a>(model: &'a Model, asked: Option<&str>) -> Result<&'a Clip, String> {
     let clips = model.clips();
     let number = |asked: &str| clips.get(asked.parse::<usize>().ok()?.checked_sub(1)?);
@@ -44,31 +44,31 @@ fn listed(clips: &[Clip]) -> String {
         };
         format!("{} {name} ({} s)", index + 1, rounded(clip.seconds))
     };
-    let mut names: Vec<String> = clips.iter().enumerate().take(NAMED).map(one).collect();
-    if clips.len() > NAMED {
-        names.push(format!("{} more", clips.len() - NAMED));
+    let mut names: Vec<String> = clips.iter().enumerate().take(MAX_LISTED).map(one).collect();
+    if clips.len() > MAX_LISTED {
+        names.push(format!("{} more", clips.len() - MAX_LISTED));
     }
     names.join(", ")
 }
 
-/// Seconds, to the thousandth.
+/// Seconds, rounded to milliseconds.
 fn rounded(seconds: f64) -> f64 {
     (seconds * 1000.0).round() / 1000.0
 }
 
-/// Refuses a moment that lies behind the end of a clip.
-pub(super) fn within(clip: &Clip, option: &str, moment: f64) -> Result<f64, String> {
-    // Lengths are told to the thousandth: whoever types what was told means the end.
-    match moment <= clip.seconds + 0.0005 {
-        true => Ok(moment.min(clip.seconds)),
+/// Refuses a time after the end of a clip.
+pub(super) fn within(clip: &Clip, option: &str, time: f64) -> Result<f64, String> {
+    // Lengths are printed in milliseconds: whoever types a printed length means the end.
+    match time <= clip.seconds + 0.0005 {
+        true => Ok(time.min(clip.seconds)),
         false => Err(format!(
-            "has a clip of {} seconds: {option} {moment} is after its end",
+            "has a clip of {} seconds: {option} {time} is after its end",
             rounded(clip.seconds)
         )),
     }
 }
 
-/// The part of a clip that is asked for.
+/// The requested part of a clip.
 pub(super) fn film<'a>(
     model: &'a Model,
     clip: &'a Clip,
@@ -85,13 +85,11 @@ pub(super) fn film<'a>(
             "cannot be shown from {from} to {to} seconds: --to must be after --from"
         ));
     }
-    spinning("looking through the clip", || {
-        Film::new(model, clip, [from, to])
-    })
-    .map_err(|error| error.to_string())
+    spinning("framing the clip", || Film::new(model, clip, [from, to]))
+        .map_err(|error| error.to_string())
 }
 
-/// Draws moments side by side; says what was written.
+/// Writes frames of a clip side by side, and describes the picture.
 pub(super) fn strip(
     film: &Film<'_>,
     arguments: &Render,
@@ -104,12 +102,12 @@ pub(super) fn strip(
     })
     .map_err(|error| Failure::of(arguments, &error))?;
     write_atomic(output, |out| write_png(&image, out)).map_err(Failure::written)?;
-    let look = same_look(options.size, film.triangles());
+    let picture = describe_picture(options.size, film.triangles());
     let name = output.display();
-    Ok(format!("{name}: {cells} moments, {look} each"))
+    Ok(format!("{name}: {cells} moments, {picture} each"))
 }
 
-/// Draws a clip; says what was written.
+/// Writes a clip, and describes the pictures.
 pub(super) fn moving(
     film: &Film<'_>,
     arguments: &Render,
@@ -122,7 +120,7 @@ pub(super) fn moving(
         .map_err(|error| Failure::of(arguments, &error))?;
     let times = || pictures.iter().map(|picture| picture.time);
     let count = pictures.len() as u32;
-    let look = same_look(options.size, film.triangles());
+    let picture = describe_picture(options.size, film.triangles());
     if form == Form::Png {
         let frames: u32 = pictures.iter().map(|picture| picture.frames).sum();
         counting("drawing", count, |done| {
@@ -145,7 +143,7 @@ pub(super) fn moving(
         })?;
         let [first, last] = [1, frames].map(|number| numbered(output, number, frames));
         let (first, last) = (first.display(), last.display());
-        return Ok(format!("{first} to {last}: {look} each"));
+        return Ok(format!("{first} to {last}: {picture} each"));
     }
     counting("drawing", count, |done| {
         write_atomic(output, |out| {
@@ -170,28 +168,28 @@ pub(super) fn moving(
     let seconds = rounded(pictures.iter().map(|picture| picture.seconds).sum());
     let name = output.display();
     Ok(format!(
-        "{name}: {count} pictures in {seconds} seconds, {look} each"
+        "{name}: {count} pictures in {seconds} seconds, {picture} each"
     ))
 }
 
-/// The colours of a GIF, from a few small pictures of what it will show.
+/// The colours of a GIF, from thumbnails of its frames.
 fn palette(film: &Film<'_>, options: &Options, pictures: &[HeldFrame]) -> io::Result<Palette> {
-    let size = super::sketched(options.size);
-    let step = pictures.len().div_ceil(SKETCHES as usize).max(1);
+    let size = super::thumbnail_size(options.size);
+    let step = pictures.len().div_ceil(MAX_THUMBNAILS as usize).max(1);
     let times = pictures.iter().step_by(step).map(|picture| picture.time);
-    let mut sketches = Vec::new();
+    let mut thumbnails = Vec::new();
     film.draw(
         &Options { size, ..*options },
         times,
         |image| -> io::Result<()> {
-            sketches.push(image);
+            thumbnails.push(image);
             Ok(())
         },
     )?;
-    Ok(Palette::new(&sketches))
+    Ok(Palette::new(&thumbnails))
 }
 
-/// Refuses more frames a second than a form has.
+/// Refuses a frame rate that the format cannot hold.
 pub(super) fn check_fps(arguments: &Render, form: Form) -> Result<(), String> {
     match arguments.fps {
         Some(fps) if form == Form::Gif && fps > MAX_GIF_FPS => Err(format!(
