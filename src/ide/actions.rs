@@ -1,4 +1,4 @@
-//! What can be done at a click: fixes of what is wrong, and changes of how something is said.
+//! Code actions: fixes of diagnostics, and rewrites of strings.
 
 use std::fmt::Write as _;
 
@@ -12,21 +12,21 @@ use crate::lang::ast::{Annotation, Attribute};
 use crate::source::{Span, Text, escape_xml};
 use crate::svg::PaintKey;
 
-/// Something that can be done.
+/// A code action.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Action {
-    /// What it does, as an imperative.
+    /// Its title, in the imperative.
     pub title: String,
-    /// What changes.
+    /// Its edits.
     pub edits: Vec<Edit>,
-    /// Index of the diagnostic that it mends; `None` if nothing is wrong.
-    pub mends: Option<usize>,
-    /// Whether it is the obvious one.
+    /// Index of the diagnostic that it fixes; `None` for a rewrite.
+    pub diagnostic: Option<usize>,
+    /// Whether it is the obvious choice.
     pub is_preferred: bool,
 }
 
 impl Analysis {
-    /// What can be done within `window`.
+    /// The code actions within `window`.
     pub fn actions(&self, window: Span) -> Vec<Action> {
         if !self.is_annotated() {
             return vec![];
@@ -41,7 +41,7 @@ impl Analysis {
             actions.extend(diagnostic.fixes.iter().map(|fix| Action {
                 title: fix.title.clone(),
                 edits: fix.edits.clone(),
-                mends: Some(index),
+                diagnostic: Some(index),
                 is_preferred: only,
             }));
         }
@@ -55,7 +55,7 @@ impl Analysis {
         actions
     }
 
-    /// For a part without a string: one in its description, and one beside it.
+    /// Actions that give a part without a string one: in its description, or as a text beside it.
     fn give_a_string(&self, index: usize) -> Vec<Action> {
         let part = &self.bindings().parts[index];
         if part.string.is_some() || part.kind != PartKind::Main {
@@ -65,7 +65,7 @@ impl Analysis {
         let action = |title: String, edits| Action {
             title,
             edits,
-            mends: None,
+            diagnostic: None,
             is_preferred: false,
         };
         let mut actions = vec![];
@@ -84,7 +84,7 @@ impl Analysis {
         actions
     }
 
-    /// `name@parent` for a part that has none; its element's name, if nobody else has it.
+    /// `name@parent` for a part without a string; named like its element, if no other part is.
     fn string_for(&self, part: &Part) -> String {
         let element = &self.drawing().shapes[part.shape].element;
         let own = element.own_name();
@@ -101,7 +101,7 @@ impl Analysis {
         string
     }
 
-    /// A text whose corner is the part's centre, which no other string is nearer to.
+    /// A text whose corner is at the part's centre, so that it is the nearest string.
     fn beside(&self, part: &Part, string: &str) -> Option<Edit> {
         if self.bindings().settings.bind == DistanceMode::Outline {
             return None;
@@ -118,7 +118,7 @@ impl Analysis {
         ))
     }
 
-    /// A description within the part's element.
+    /// A `<desc>` in the part's element.
     fn described(&self, part: &Part, string: &str) -> Option<Vec<Edit>> {
         let element = &self.drawing().shapes[part.shape].element;
         if element.desc.is_some() {
@@ -143,7 +143,7 @@ impl Analysis {
         Some(vec![edit])
     }
 
-    /// For a part's string with attributes: the same in the legend of its paint.
+    /// Moves the attributes of a part's string to the legend of its paint.
     fn move_to_legend(&self, string: usize) -> Option<Action> {
         let part = &self.bindings().parts[self.part_of_string(string)?];
         let found = &self.bindings().strings[string];
@@ -195,12 +195,12 @@ impl Analysis {
         Some(Action {
             title: format!("Move these attributes to the legend {whom}"),
             edits,
-            mends: None,
+            diagnostic: None,
             is_preferred: false,
         })
     }
 
-    /// A swatch of a paint with a legend, in a corner of the page.
+    /// A swatch of a paint with a legend string, in a corner of the page.
     fn new_legend(&self, paint: &PaintKey, words: &str) -> Option<Edit> {
         let fill = match paint {
             PaintKey::Solid([r, g, b]) => format!("#{r:02x}{g:02x}{b:02x}"),
@@ -227,7 +227,7 @@ impl Analysis {
         ))
     }
 
-    /// An element as the last one of the drawing, on a line of its own.
+    /// Inserts an element as the last one of the drawing, on a line of its own.
     fn at_the_end(&self, element: &str) -> Option<Edit> {
         let end = self.source.rfind("</")?;
         let line = if self.source.contains("\r\n") {
@@ -245,7 +245,7 @@ impl Analysis {
         })
     }
 
-    /// The prefix of the drawing's elements: `svg:` in `<svg:svg>`, most often none.
+    /// The namespace prefix of the drawing's elements: `svg:` in `<svg:svg>`, usually empty.
     fn prefix(&self) -> &str {
         let root = self
             .drawing()
@@ -257,7 +257,7 @@ impl Analysis {
         prefix.unwrap_or_default()
     }
 
-    /// The font size that most strings have: their median.
+    /// The median font size of the strings.
     fn font_size(&self) -> f64 {
         let mut sizes: Vec<f64> = self
             .drawing()
@@ -274,7 +274,7 @@ impl Analysis {
     }
 }
 
-/// The characters of a string on one line.
+/// The words of a string on one line.
 fn words_of(text: &Text, range: std::ops::Range<usize>) -> String {
     let words = text.as_str()[range].split_whitespace();
     words.collect::<Vec<_>>().join(" ")
@@ -285,7 +285,7 @@ fn shares_a_keyword(one: &[Attribute], two: &[Attribute]) -> bool {
         .any(|one| two.iter().any(|two| one.keyword == two.keyword))
 }
 
-/// Where the start tag ends whose name ends at `from`: behind its `>`.
+/// Where the start tag ends whose name ends at `from`: after its `>`.
 fn end_of_tag(source: &str, from: usize) -> Option<usize> {
     let mut quote = None;
     for (at, c) in source.get(from..)?.char_indices() {
@@ -299,15 +299,15 @@ fn end_of_tag(source: &str, from: usize) -> Option<usize> {
     None
 }
 
-/// A length with as many decimals as a drawing needs.
+/// A length, rounded to the precision that a drawing needs.
 fn round(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixtures::{analysis, figure};
     use super::super::format::applied;
-    use super::super::samples::{analysis, figure};
     use super::*;
     use crate::bind::BoundBy;
     use crate::lang::keyword::Keyword;
@@ -331,7 +331,7 @@ mod tests {
     }
 
     #[test]
-    fn a_fix_mends_its_diagnostic() {
+    fn a_fix_removes_its_diagnostic() {
         let source = figure(["Body", "Rarm@¦Bdoy", "", "", ""]);
         let after = after(&source, "Write `Body`");
         assert!(after.source().contains("Rarm@Body"));

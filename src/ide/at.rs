@@ -1,4 +1,4 @@
-//! What stands at a place: the one query that all others go through.
+//! The item at an offset: the one query that all others go through.
 
 use std::ops::Range;
 
@@ -6,23 +6,23 @@ use super::Analysis;
 use crate::bind::DrawingString;
 use crate::lang::ast::{Annotation, Attribute};
 
-/// What stands at a place of a drawing.
+/// The item at an offset of a drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub enum At {
     /// A string.
     String {
         /// Its index in the bindings.
         string: usize,
-        /// Where in its decoded characters.
+        /// The offset in its decoded characters.
         offset: usize,
-        /// What stands there; `None` between the words.
+        /// The token there; `None` between tokens.
         token: Option<Token>,
     },
     /// The name of a shape's tag: `<rect`.
     Tag {
         /// Index of the shape in the drawing.
         shape: usize,
-        /// Index of the part that it became, if it became one.
+        /// Index of its part, if it has one.
         part: Option<usize>,
     },
 }
@@ -32,19 +32,19 @@ pub enum At {
 pub struct Token {
     /// What it is.
     pub item: Item,
-    /// Where it stands in the decoded string.
+    /// Its range in the decoded string.
     pub range: Range<usize>,
 }
 
-/// What a word or sign is. The numbers are indices of attributes in their string, and of flags and
+/// The kind of a word or sign. The numbers are indices of attributes in their string, and of flags and
 /// arguments in their attribute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Item {
     /// One of `# % * $ @ ^`.
     Sign,
-    /// A part's name, where it is given.
+    /// The name that a string gives its part.
     Name,
-    /// The name behind `@`.
+    /// The name after `@`.
     Parent,
     /// The name of a feature point.
     Feature,
@@ -54,12 +54,12 @@ pub enum Item {
     Flag(usize, usize),
     /// An argument.
     Argument(usize, usize),
-    /// What a comment says.
+    /// The text of a comment.
     Remark,
 }
 
 impl Analysis {
-    /// What stands at byte `offset`.
+    /// The item at byte `offset`.
     pub fn at(&self, offset: usize) -> Option<At> {
         if let Some((string, offset)) = self.string_at(offset) {
             let token = token_at(&self.bindings().strings[string], offset);
@@ -77,11 +77,11 @@ impl Analysis {
         Some(At::Tag { shape, part })
     }
 
-    /// The string at byte `offset`, and where in its decoded characters that is.
+    /// The string at byte `offset`, and the offset in its decoded characters.
     pub(super) fn string_at(&self, offset: usize) -> Option<(usize, usize)> {
         let strings = &self.bindings().strings;
         let behind = strings.partition_point(|string| string.text.whole().start <= offset);
-        // A clone's description is the description of what it shows: several strings may stand in one place.
+        // A clone shares the description of its original, so several strings can have one span.
         let string = (0..behind)
             .rev()
             .take_while(|string| {
@@ -93,7 +93,7 @@ impl Analysis {
         Some((string, text.offset_of(offset).filter(|_| inside)?))
     }
 
-    /// The part that a shape became; of fill and border the fill.
+    /// The part of a shape; the fill if fill and border are two.
     pub(super) fn part_of_shape(&self, shape: usize) -> Option<usize> {
         let mut parts = self.bindings().parts.iter();
         parts.position(|part| part.shape == shape)
@@ -120,7 +120,7 @@ pub(super) fn attributes(annotation: &Annotation) -> &[Attribute] {
     }
 }
 
-/// The words and signs of a string, in order; what could not be read is missing.
+/// The words and signs of a string, in order, without what could not be parsed.
 pub(super) fn tokens(string: &DrawingString) -> Vec<Token> {
     let text = string.text.as_str();
     let mut tokens = vec![];
@@ -171,7 +171,7 @@ pub(super) fn tokens(string: &DrawingString) -> Vec<Token> {
     tokens
 }
 
-/// The word or sign at a place of a string: the one that begins there rather than the one that ends there, and a
+/// The word or sign at an offset of a string: the one that begins there rather than the one that ends there, and a
 /// word rather than a sign.
 pub(super) fn token_at(string: &DrawingString, offset: usize) -> Option<Token> {
     let touching = tokens(string)
@@ -185,7 +185,7 @@ pub(super) fn token_at(string: &DrawingString, offset: usize) -> Option<Token> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{analysis, figure};
+    use super::super::fixtures::{analysis, figure};
     use super::*;
 
     fn item(strings: [&str; 5]) -> Option<Item> {

@@ -1,4 +1,4 @@
-//! Colours in strings, and how another colour is written in their place.
+//! Colours in strings, and the edits that replace them.
 
 use super::Analysis;
 use super::at::attributes;
@@ -13,7 +13,7 @@ use crate::source::Span;
 /// A colour in a string.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swatch {
-    /// Where its arguments stand.
+    /// The span of its arguments.
     pub span: Span,
     /// Red, green, blue and opacity, straight sRGB, each 0 to 1.
     pub rgba: [f64; 4],
@@ -49,7 +49,7 @@ impl Analysis {
         out
     }
 
-    /// The ways to write `rgba` in place of the colour at `span`: first as it is written now.
+    /// The ways to write `rgba` in place of the colour at `span`, the present notation first.
     pub fn colour_edits(&self, span: Span, rgba: [f64; 4]) -> Vec<(String, Vec<Edit>)> {
         let Some((index, _)) = self.string_at(span.start) else {
             return vec![];
@@ -93,7 +93,7 @@ impl Analysis {
     }
 }
 
-/// `0.5 0.25 1`, with three decimals, which tell all colours of a screen apart.
+/// `0.5 0.25 1`, with three decimals, enough for 8-bit channels.
 fn numbers([r, g, b, a]: [f64; 4], had_alpha: bool) -> String {
     let number = |value: f64| ((value.clamp(0.0, 1.0) * 1000.0).round() / 1000.0).to_string();
     let mut words = vec![number(r), number(g), number(b)];
@@ -117,7 +117,7 @@ fn bytes(rgba: [f64; 4]) -> [u8; 4] {
     rgba.map(|channel| (channel.clamp(0.0, 1.0) * 255.0).round() as u8)
 }
 
-/// The name that CSS has for just this colour.
+/// The CSS name of exactly this colour.
 fn css_name(rgba: [f64; 4]) -> Option<&'static str> {
     let wanted = bytes(rgba);
     COLOURS
@@ -128,7 +128,7 @@ fn css_name(rgba: [f64; 4]) -> Option<&'static str> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{analysis, figure};
+    use super::super::fixtures::{analysis, figure};
 
     #[test]
     fn colours_are_found_and_written_as_they_were() {

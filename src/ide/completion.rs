@@ -1,4 +1,4 @@
-//! What can be written at a place.
+//! Completion: what can be written at an offset.
 
 mod joints;
 mod snippets;
@@ -23,43 +23,43 @@ use crate::lang::{self, is_name_char, is_word_char, normalize, parameter_at};
 use crate::source::{Span, Text};
 use snippets::{example_arguments, filled, kind_arguments, plain};
 
-/// What is known where something is typed.
+/// The input of a completion.
 pub struct Context<'a> {
-    /// The drawing's text as it is now.
+    /// The drawing's present text.
     pub source: &'a str,
-    /// Its last analysis; names come from there.
+    /// Its last analysis, which has the names.
     pub analysis: &'a Analysis,
     /// Lists the files that the drawing can link to.
     pub files: &'a dyn Fn() -> Vec<String>,
 }
 
-/// What can be written, and what it takes the place of.
+/// Proposals, and the word that they replace.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Completion {
-    /// What is replaced: the word that is typed.
+    /// The span that is replaced: the word at the cursor.
     pub span: Span,
-    /// What can stand there, the likeliest first.
+    /// The proposals, the likeliest first.
     pub proposals: Vec<Proposal>,
 }
 
-/// Something that can be written.
+/// A proposal.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Proposal {
-    /// How it is shown and found.
+    /// The label that is shown.
     pub label: String,
     /// What it is.
     pub kind: ProposalKind,
-    /// A few words about it.
+    /// A short description.
     pub detail: String,
-    /// The word whose manual page tells more.
+    /// The word whose manual page describes it.
     pub page: Option<&'static str>,
-    /// The text, escaped for XML.
+    /// The text to insert, escaped for XML.
     pub text: String,
-    /// The text with places to fill in, in the syntax of snippets, escaped for XML; where there are such places.
+    /// The same as a snippet with placeholders, escaped for XML, if there are any.
     pub snippet: Option<String>,
 }
 
-/// What a proposal is.
+/// The kind of a proposal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ProposalKind {
     /// A whole string.
@@ -84,18 +84,18 @@ pub enum ProposalKind {
     File,
 }
 
-/// The string that is being written, up to the place.
+/// The string that is being written, up to the cursor.
 struct Cursor<'a> {
     context: &'a Context<'a>,
     text: &'a Text,
-    /// What stands before the place, decoded.
+    /// The decoded text before the cursor.
     head: &'a str,
     in_desc: bool,
-    /// Index of the string in the bindings, if it is there.
+    /// Index of the string in the bindings, if it is bound.
     string: Option<usize>,
 }
 
-/// What can be written at byte `offset` of the text as it is now; `None` where no string is.
+/// The completion at byte `offset` of the present text; `None` outside of strings.
 pub fn completion(context: &Context<'_>, offset: usize) -> Option<Completion> {
     let analysis = context.analysis;
     let is_current = analysis.is_sound() && **analysis.source() == *context.source;
@@ -154,7 +154,7 @@ impl Cursor<'_> {
         self.in_attributes()
     }
 
-    /// How a string can begin.
+    /// The proposals at the start of a string.
     fn starts(&self) -> Vec<Proposal> {
         let rows = STRINGS.iter().filter(|row| match self.in_desc {
             true => matches!(row.sign, "" | "$" | "*"),
@@ -184,7 +184,7 @@ impl Cursor<'_> {
         .collect()
     }
 
-    /// What can stand behind `$` and `%`.
+    /// The proposals after `$` and `%`.
     fn in_attributes(&self) -> Option<Completion> {
         if let Some(quote) = open_quote(self.head) {
             let (annotation, _) = self.parsed(&self.head[..quote]);
@@ -211,7 +211,7 @@ impl Cursor<'_> {
         Some(self.replacing(word, proposals))
     }
 
-    /// The word before the place: it may begin with a sign of numbers, flags and colours.
+    /// The word before the cursor, which may begin with the sign of a number, flag or colour.
     fn word(&self) -> Range<usize> {
         let letters = self.head.trim_end_matches(is_word_char);
         let start = letters.strip_suffix(['-', '+', '#']).unwrap_or(letters);
@@ -227,7 +227,7 @@ impl Cursor<'_> {
         (annotation, findings.len())
     }
 
-    /// The parts that the string's own part can hang on.
+    /// The parts that can be the parent of the string's own part.
     fn parents(&self) -> Vec<Proposal> {
         let bindings = self.context.analysis.bindings();
         let own = match self.string {
@@ -235,7 +235,7 @@ impl Cursor<'_> {
             None => None,
         };
         let typed = own_name_of(self.text, self.in_desc);
-        let carried = own.map_or_else(Vec::new, |own| carried_by(bindings, own));
+        let carried = own.map_or_else(Vec::new, |own| descendants_of(bindings, own));
         let parts = bindings.parts.iter().enumerate().filter(|(index, part)| {
             part.kind == PartKind::Main
                 && !part.name.is_empty()
@@ -244,7 +244,7 @@ impl Cursor<'_> {
                 && !carried.get(*index).copied().unwrap_or(false)
         });
         let mut parts: Vec<_> = parts.collect();
-        // Those that people have named come first.
+        // Parts with names from strings come first.
         parts.sort_by_key(|(_, part)| part.automatic);
         parts
             .into_iter()
@@ -264,7 +264,7 @@ impl Cursor<'_> {
             .collect()
     }
 
-    /// The keywords that can stand here and are not given yet.
+    /// The keywords that are allowed here and not given yet.
     fn keywords(&self, annotation: &Annotation) -> Vec<Proposal> {
         let holder = match annotation {
             Annotation::Defaults(_) => AttributeString::Defaults,
@@ -281,7 +281,7 @@ impl Cursor<'_> {
             .map(|attribute| attribute.keyword)
             .filter(|keyword| !matches!(keyword, Keyword::Let | Keyword::Motion))
             .collect();
-        // What is built comes first; the rest can be written, and says that it has no effect yet.
+        // Keywords that are built come first; the others have no effect yet, and their detail says so.
         let mut keywords: Vec<Keyword> = Keyword::ALL.to_vec();
         keywords
             .retain(|keyword| keyword.row().allowed.permits(holder) && !given.contains(keyword));
@@ -331,7 +331,7 @@ impl Cursor<'_> {
             .collect()
     }
 
-    /// What the next argument of an attribute can be. In quotes only files and names stand.
+    /// The proposals for the next argument of an attribute; in quotes only files and names.
     fn arguments(&self, attribute: &Attribute, in_quotes: bool) -> Vec<Proposal> {
         let next = attribute.arguments.len();
         let is_variable = |name: &str| self.context.analysis.is_variable(name);
@@ -431,7 +431,7 @@ impl Cursor<'_> {
             .collect()
     }
 
-    /// The files of the drawing's folder that the attribute can use.
+    /// The files in the drawing's folder that the attribute can use.
     fn files(&self, attribute: &Attribute) -> Vec<Proposal> {
         let endings: &[&str] = match attribute.keyword {
             Keyword::Texture => &["png", "jpg", "jpeg", "gif", "webp"],
@@ -459,7 +459,7 @@ impl Cursor<'_> {
         self.text.escape_at(self.head.len(), text)
     }
 
-    /// The proposals, in place of the word `range` of the decoded string and what of it stands behind the place.
+    /// The proposals in place of the word `range` of the decoded string, including its characters after the cursor.
     fn replacing(&self, range: Range<usize>, proposals: Vec<Proposal>) -> Completion {
         let text = self.text.as_str();
         let tail = &text[range.end..];
@@ -491,8 +491,8 @@ impl Cursor<'_> {
     }
 }
 
-/// Of each part whether it is `own` or hangs on it, however far down.
-fn carried_by(bindings: &Bindings, own: usize) -> Vec<bool> {
+/// For each part whether it is `own` or a descendant of it.
+fn descendants_of(bindings: &Bindings, own: usize) -> Vec<bool> {
     let mut children: Vec<Vec<usize>> = vec![vec![]; bindings.parts.len()];
     for (index, part) in bindings.parts.iter().enumerate() {
         if let Some(parent) = part.parent {
@@ -509,7 +509,7 @@ fn carried_by(bindings: &Bindings, own: usize) -> Vec<bool> {
     carried
 }
 
-/// A proposal that is written as it is shown.
+/// A proposal that inserts its label.
 fn simple(label: &str, kind: ProposalKind, detail: &str) -> Proposal {
     Proposal {
         label: label.to_owned(),
@@ -521,7 +521,7 @@ fn simple(label: &str, kind: ProposalKind, detail: &str) -> Proposal {
     }
 }
 
-/// The name that a text gives its part, whether it is bound yet or not.
+/// The name that a text gives its part, bound or not.
 fn own_name_of(text: &Text, in_desc: bool) -> Option<String> {
     let place = if in_desc {
         lang::Container::Desc
@@ -539,7 +539,7 @@ fn is_sign(text: &str, range: &Range<usize>, sign: char) -> bool {
     normalize(&text[range.clone()]).starts_with(sign)
 }
 
-/// Where a quote is opened that is not closed.
+/// The offset of a quote that is not closed.
 fn open_quote(head: &str) -> Option<usize> {
     let mut open = None;
     for (at, c) in head.char_indices() {
@@ -553,7 +553,7 @@ fn open_quote(head: &str) -> Option<usize> {
     open
 }
 
-/// Whether a parenthesis is opened that is not closed.
+/// Whether there is a parenthesis that is not closed.
 fn open_parenthesis(head: &str) -> bool {
     let mut depth = 0_usize;
     for c in normalize(head).chars() {
@@ -566,7 +566,7 @@ fn open_parenthesis(head: &str) -> bool {
     depth > 0
 }
 
-/// Whether an attribute has all that it needs, so that another can follow.
+/// Whether an attribute is complete, so that another can follow.
 fn can_end(attribute: &Attribute) -> bool {
     let count = attribute.arguments.len();
     let kind = match attribute.arguments.first().map(|first| &first.kind) {

@@ -1,4 +1,4 @@
-//! What can be folded: the elements of strings.
+//! Folding ranges: the elements of strings.
 
 use super::Analysis;
 use crate::bind::Place;

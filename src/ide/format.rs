@@ -1,4 +1,4 @@
-//! The usual form of strings: canonical keywords, single blanks, ASCII signs.
+//! Formatting of strings: canonical keywords, single blanks, ASCII signs.
 
 use super::Analysis;
 use super::at::{Item, Token, attributes, tokens};
@@ -13,12 +13,12 @@ use crate::lang::{normalize, parameter_at};
 use crate::source::{Span, Text};
 
 impl Analysis {
-    /// The edits that bring the strings within `window` into their usual form. Line breaks, comments, what stands in quotes
-    /// and what could not be read stay as they are.
+    /// The edits that format the strings within `window`. Line breaks, comments, quoted text
+    /// and what could not be parsed stay unchanged.
     ///
-    /// White space can move a text that is not aligned to its start, and so bind it to another part: `again` analyses
-    /// the text that comes out, and where it means something else, only edits that keep the width are made.
-    pub fn format(&self, window: Span, again: &dyn Fn(&str) -> Analysis) -> Vec<Edit> {
+    /// White space can move a text that is not aligned to its start, and so bind it to another part: `analyse` compiles
+    /// the result, and if its meaning differs, only edits that keep the width are made.
+    pub fn format(&self, window: Span, analyse: &dyn Fn(&str) -> Analysis) -> Vec<Edit> {
         if !self.is_sound() {
             return vec![];
         }
@@ -30,9 +30,9 @@ impl Analysis {
         });
         let mut edits: Vec<Edit> = strings.flat_map(|string| self.formatted(string)).collect();
         edits.sort_by_key(|edit| edit.span);
-        // A clone's description is the description of what it shows: it is edited once.
+        // A clone shares the description of its original: it is edited once.
         edits.dedup();
-        if edits.is_empty() || self.means_the_same(&again(&applied(&self.source, &edits))) {
+        if edits.is_empty() || self.is_equivalent(&analyse(&applied(&self.source, &edits))) {
             return edits;
         }
         edits.retain(|edit| {
@@ -42,8 +42,8 @@ impl Analysis {
         edits
     }
 
-    /// Whether the strings of both say the same of the same parts.
-    fn means_the_same(&self, other: &Self) -> bool {
+    /// Whether the strings of both have the same meaning for the same parts.
+    fn is_equivalent(&self, other: &Self) -> bool {
         let (one, two) = (self.bindings(), other.bindings());
         let strings = one.strings.iter().zip(&two.strings);
         let parts = one.parts.iter().zip(&two.parts);
@@ -76,7 +76,7 @@ impl Analysis {
         let mut end = 0;
         let mut before: Option<&Token> = None;
         for token in &tokens {
-            // Words that could not be told apart may overlap; they are left alone.
+            // Overlapping tokens, from words that could not be parsed, are left unchanged.
             if token.range.start < end {
                 return vec![];
             }
@@ -87,7 +87,7 @@ impl Analysis {
                 Some(token),
             ));
             let written = &text[token.range.clone()];
-            let usual = self.usual(string, token, written);
+            let usual = self.canonical(string, token, written);
             if usual != written {
                 edits.extend(
                     replace(&string.text, token.range.clone(), &usual)
@@ -102,8 +102,8 @@ impl Analysis {
         edits
     }
 
-    /// A word in its usual form.
-    fn usual(&self, string: &DrawingString, token: &Token, written: &str) -> String {
+    /// A token in its canonical form.
+    fn canonical(&self, string: &DrawingString, token: &Token, written: &str) -> String {
         if written.starts_with(['"', '＂']) {
             return written.to_owned();
         }
@@ -133,13 +133,13 @@ impl Analysis {
     }
 }
 
-/// The word of the language that `word` is, whatever its case.
+/// The word of the language that equals `word`, ignoring case.
 fn named(words: &'static [Word], word: &str) -> Option<&'static str> {
     let mut names = words.iter().map(|known| known.name);
     names.find(|name| name.eq_ignore_ascii_case(word))
 }
 
-/// The edits of what stands between two words: nothing but white space and the sign of flags is touched.
+/// The edits between two tokens: only white space and the sign of flags are changed.
 fn gap(
     text: &Text,
     range: std::ops::Range<usize>,
@@ -171,12 +171,12 @@ fn gap(
     }
     match text.pieces(range.clone()).as_slice() {
         [_] => replace(text, range, usual).unwrap_or_default(),
-        // Tags stand between the words.
+        // There are tags between the tokens.
         _ => vec![],
     }
 }
 
-/// A text after edits that are in order and do not overlap.
+/// Applies edits that are in order and do not overlap.
 pub(super) fn applied(source: &str, edits: &[Edit]) -> String {
     let mut out = String::with_capacity(source.len());
     let mut at = 0;
@@ -191,7 +191,7 @@ pub(super) fn applied(source: &str, edits: &[Edit]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{analysis, figure};
+    use super::super::fixtures::{analysis, figure};
     use super::*;
 
     fn formatted(source: &str) -> String {
@@ -202,7 +202,7 @@ mod tests {
     }
 
     #[test]
-    fn strings_come_into_their_usual_form() {
+    fn strings_are_formatted() {
         for (before, after) in [
             (
                 "Rarm @ Body $ shape   ROUNDV  -90   90",
@@ -257,7 +257,7 @@ mod tests {
         );
         let out = formatted(&wide);
         let (one, two) = (analysis(&wide).0, analysis(&out).0);
-        assert!(one.means_the_same(&two));
+        assert!(one.is_equivalent(&two));
         assert!(out.contains("$Shape  "), "{out}");
     }
 }

@@ -1,4 +1,4 @@
-//! Where things come from: definitions, references, other places of the same name.
+//! Definitions, references and highlights.
 
 use std::ops::Range;
 
@@ -12,18 +12,18 @@ use crate::lang::parameter_at;
 use crate::report::own_name;
 use crate::source::Span;
 
-/// Where something leads.
+/// The target of a definition.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Target {
-    /// A place in this drawing.
+    /// A span in this drawing.
     Here(Span),
     /// A linked file, as the drawing names it.
     File(String),
 }
 
 impl Analysis {
-    /// What led from byte `offset`, and where to: a parent to its string, a part's name to its shape, a shape's tag to
-    /// its string, a variable to its `Let`, a keyword to the legend or default that it overrules, a file's
+    /// The span at byte `offset` and its definitions: a parent leads to its string, a part's name to its shape, a shape's tag to
+    /// its string, a variable to its `Let`, a keyword to the legend or default that it overrides, a file's
     /// name to the file.
     pub fn definition(&self, offset: usize) -> Option<(Span, Vec<Target>)> {
         match self.at(offset)? {
@@ -72,7 +72,7 @@ impl Analysis {
         Some(own_name(&self.compiled, &self.bindings().parts[part]))
     }
 
-    /// Where the string of a part or a landscape is, or a part's tag if it has none.
+    /// The span of the string of a part or a landscape, or of a part's tag if it has none.
     pub fn place_of(&self, name: &str) -> Option<Span> {
         let mut parts = self.bindings().parts.iter().enumerate();
         if let Some((part, _)) = parts.find(|(_, part)| own_name(&self.compiled, part) == name) {
@@ -83,7 +83,7 @@ impl Analysis {
         Some(self.bindings().strings[layer.string].text.whole())
     }
 
-    /// Where the symbol at byte `offset` is defined.
+    /// The span of the symbol at byte `offset`, and its definitions.
     fn defined_at(&self, offset: usize) -> Option<(Span, Vec<Target>)> {
         let (symbol, found) = self.symbol_at(offset)?;
         let from = self.span_of(&found);
@@ -99,14 +99,14 @@ impl Analysis {
         (!to.is_empty()).then_some((from, to))
     }
 
-    /// The shape that a string is about.
+    /// The shape that a string describes.
     fn shape_of(&self, string: usize) -> Option<Vec<Target>> {
         let part = &self.bindings().parts[self.part_of_string(string)?];
         let element = &self.drawing().shapes[part.shape].element;
         Some(vec![Target::Here(element.span)])
     }
 
-    /// What an attribute of a part's own string overrules: the legend's or the default's setting.
+    /// The setting of a legend or default that an attribute of a part's own string overrides.
     fn overruled(&self, string: usize, index: usize) -> Option<Vec<Target>> {
         let part = self.part_of_string(string)?;
         let keyword = attributes(&self.bindings().strings[string].annotation)[index].keyword;
@@ -116,7 +116,7 @@ impl Analysis {
         )])
     }
 
-    /// The place of a setting.
+    /// The span of a setting.
     pub(super) fn setting_span(&self, string: usize, range: &Range<usize>) -> Span {
         self.bindings().strings[string].text.span(range.clone())
     }
@@ -130,8 +130,8 @@ impl Analysis {
         file_named(attribute, argument).map(|name| Target::File(name.to_owned()))
     }
 
-    /// All places that have to do with what stands at byte `offset`: where a part or a variable is named; for a legend
-    /// and for a default the strings and shapes of the parts that go by it.
+    /// All references to the item at byte `offset`: the uses of a part or a variable; for a legend
+    /// or a default the strings and shapes of the parts that inherit from it.
     pub fn references(&self, offset: usize, with_definition: bool) -> Vec<Span> {
         if let Some((symbol, _)) = self.symbol_at(offset) {
             let uses = self.uses(&symbol);
@@ -148,15 +148,15 @@ impl Analysis {
                 string,
                 token: Some(token),
                 ..
-            }) => return self.parts_that_go_by(string, token.item),
+            }) => return self.inheriting_parts(string, token.item),
             _ => return vec![],
         };
         let uses = self.uses(&Symbol::Part(part_name));
         uses.iter().map(|found| self.span_of(found)).collect()
     }
 
-    /// The parts that inherit what a legend or default says: all of it, or one attribute.
-    fn parts_that_go_by(&self, string: usize, item: Item) -> Vec<Span> {
+    /// The parts that inherit from a legend or default: anything, or one attribute.
+    fn inheriting_parts(&self, string: usize, item: Item) -> Vec<Span> {
         let keyword = match item {
             Item::Keyword(index) => {
                 Some(attributes(&self.bindings().strings[string].annotation)[index].keyword)
@@ -181,7 +181,7 @@ impl Analysis {
             .collect()
     }
 
-    /// The places of the symbol at byte `offset`, each with whether it is defined there.
+    /// The uses of the symbol at byte `offset`, each with whether it is a definition.
     pub fn highlights(&self, offset: usize) -> Vec<(Span, bool)> {
         let Some((symbol, _)) = self.symbol_at(offset) else {
             return vec![];
@@ -193,7 +193,7 @@ impl Analysis {
     }
 }
 
-/// The file that an argument names, if it names one.
+/// The file that an argument names, if any.
 pub(super) fn file_named(attribute: &Attribute, argument: usize) -> Option<&str> {
     let takes = &parameter_at(attribute, argument, &|_| false)?
         .parameter()
@@ -206,7 +206,7 @@ pub(super) fn file_named(attribute: &Attribute, argument: usize) -> Option<&str>
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{analysis, figure};
+    use super::super::fixtures::{analysis, figure};
     use super::*;
 
     fn leads(source: &str) -> Vec<String> {
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn every_kind_of_word_leads_somewhere() {
+    fn every_kind_of_word_has_a_definition() {
         let strings = |string| figure(["Body", string, "", "$Offset 1", "%Let w 1 Smooth 10"]);
         for (string, expected) in [
             ("Arm@¦Body", "Body</text>\n<tex"),
@@ -248,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn a_legend_knows_its_parts() {
+    fn references_of_a_legend_are_its_parts() {
         let (analysis, at) = analysis(&figure([
             "Body",
             "Rarm@Body",

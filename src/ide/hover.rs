@@ -1,4 +1,4 @@
-//! What is told about the thing under the pointer.
+//! Hover: a description of the item at an offset.
 
 use std::fmt::Write as _;
 
@@ -11,23 +11,23 @@ use crate::lang::keyword::{Keyword, kinds};
 use crate::lang::{ParameterRef, explain, parameter_at};
 use crate::source::Span;
 
-/// How many parts are named before the rest is only counted.
-const MOST_NAMED: usize = 8;
-/// How many generations of ancestors are named.
-const MOST_ANCESTORS: usize = 12;
+/// The most parts that are named; the rest is only counted.
+const MAX_NAMED: usize = 8;
+/// The most generations of ancestors that are named.
+const MAX_ANCESTORS: usize = 12;
 
-/// What is told about a place.
+/// A hover.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Hover {
-    /// What it is told about.
+    /// The span that it describes.
     pub span: Span,
-    /// What is told, in Markdown.
+    /// The description, in Markdown.
     pub markdown: String,
 }
 
 impl Analysis {
-    /// What is told about byte `offset`: of a string its part, of a keyword its manual, of a number what it does, of a
-    /// shape's tag the part that it became.
+    /// The hover at byte `offset`: a string's part, a keyword's manual page, a number's meaning, a
+    /// shape's part.
     pub fn hover(&self, offset: usize) -> Option<Hover> {
         let (span, markdown) = match self.at(offset)? {
             At::Tag { shape, part } => (
@@ -155,7 +155,7 @@ impl Analysis {
         Some(out)
     }
 
-    /// Of the variable at a place of a string: its value and where it comes from.
+    /// The variable at an offset of a string: its value and its `Let`.
     fn variable_card(&self, string: usize, offset: usize) -> Option<String> {
         let at = self.bindings().strings[string]
             .text
@@ -200,7 +200,7 @@ impl Analysis {
         }
     }
 
-    /// A part: where it hangs, what it is bound to and why, and where each attribute comes from.
+    /// A part: its ancestors, its element and why it is bound to that, and the source of each attribute.
     pub(super) fn part_card(&self, index: usize) -> String {
         let bindings = self.bindings();
         let part = &bindings.parts[index];
@@ -235,7 +235,7 @@ impl Analysis {
         };
         let _ = write!(out, "\n\n{}, {why}", self.element_of(index));
         if matches!(part.kind, PartKind::Main | PartKind::Sub) {
-            // A list, since many editors show tables as they are written.
+            // A list, since many editors do not render tables.
             out.push_str("\n\n");
             for attribute in bindings.resolved(self.drawing(), index) {
                 let from = match attribute.from {
@@ -274,7 +274,7 @@ impl Analysis {
         let mut names = vec![format!("**{}**", escaped(&parts[part].name))];
         let mut at = part;
         while let Some(parent) = parts[at].parent {
-            if names.len() > MOST_ANCESTORS {
+            if names.len() > MAX_ANCESTORS {
                 names.push("…".to_owned());
                 break;
             }
@@ -296,7 +296,7 @@ impl Analysis {
     }
 
     fn defaults_card(&self, string: usize) -> String {
-        let parts = self.parts_by(string);
+        let parts = self.parts_inheriting_from(string);
         let mut out = "Defaults and settings of the whole drawing.".to_owned();
         if let Some(names) = self.names(parts) {
             let _ = write!(out, "\n\nParts that use them: {names}.");
@@ -310,7 +310,7 @@ impl Analysis {
             "A legend for all parts that are painted like {}.",
             self.element_of(part)
         );
-        match self.names(self.parts_by(string)) {
+        match self.names(self.parts_inheriting_from(string)) {
             Some(names) => {
                 let _ = write!(out, "\n\nParts that use it: {names}.");
             }
@@ -319,8 +319,8 @@ impl Analysis {
         Some(out)
     }
 
-    /// The parts that take an attribute from a legend or from a `%` string.
-    fn parts_by(&self, string: usize) -> Vec<usize> {
+    /// The parts that inherit an attribute from a legend or a `%` string.
+    fn parts_inheriting_from(&self, string: usize) -> Vec<usize> {
         let bindings = self.bindings();
         let keywords = attributes(&bindings.strings[string].annotation);
         let goes_by = |part: &usize| {
@@ -337,10 +337,10 @@ impl Analysis {
     fn names(&self, parts: Vec<usize>) -> Option<String> {
         let shown: Vec<_> = parts
             .iter()
-            .take(MOST_NAMED)
+            .take(MAX_NAMED)
             .map(|part| self.bindings().describe(self.drawing(), *part))
             .collect();
-        let more = parts.len().saturating_sub(MOST_NAMED);
+        let more = parts.len().saturating_sub(MAX_NAMED);
         match (shown.is_empty(), more) {
             (true, _) => None,
             (_, 0) => Some(shown.join(", ")),
@@ -349,7 +349,7 @@ impl Analysis {
     }
 }
 
-/// A name as Markdown shows it as it is.
+/// A name, escaped for Markdown.
 pub(super) fn escaped(name: &str) -> String {
     let mut out = String::with_capacity(name.len());
     for c in name.chars() {
@@ -363,7 +363,7 @@ pub(super) fn escaped(name: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{analysis, figure};
+    use super::super::fixtures::{analysis, figure};
 
     fn hover(strings: [&str; 5]) -> String {
         let (analysis, at) = analysis(&figure(strings));
@@ -373,7 +373,7 @@ mod tests {
     }
 
     #[test]
-    fn a_string_tells_its_part() {
+    fn hovers_of_strings_describe_the_part() {
         let card = hover([
             "Body",
             "¦Rarm@Body$Shape roundv",
@@ -395,7 +395,7 @@ mod tests {
     }
 
     #[test]
-    fn words_tell_what_they_do() {
+    fn hovers_of_words_describe_them() {
         for (string, expected) in [
             ("Rarm@Body$Sha¦pe roundv", "# Shape\n"),
             ("Rarm@Body$Shape ro¦undv", "# Shape roundv\n"),
@@ -420,7 +420,7 @@ mod tests {
     }
 
     #[test]
-    fn legends_and_defaults_tell_who_goes_by_them() {
+    fn hovers_of_legends_and_defaults_name_the_inheriting_parts() {
         let legend = hover(["Body", "Rarm@Body", "Larm@Body", "¦$Offset 4", ""]);
         assert!(
             legend.contains("Parts that use it: `Rarm`, `Larm`."),

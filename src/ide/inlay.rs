@@ -1,4 +1,4 @@
-//! What is not written and holds all the same: automatic names and parents, inherited attributes.
+//! Inlay hints: automatic names and parents, inherited attributes.
 
 use super::Analysis;
 use super::uses::own_name;
@@ -6,26 +6,26 @@ use crate::bind::{PartKind, Place, SetBy};
 use crate::lang::looks_like_string;
 use crate::source::Span;
 
-/// How many inherited attributes are shown behind a string.
-const MOST: usize = 4;
+/// The most inherited attributes that are shown after a string.
+const MAX_INHERITED: usize = 4;
 
-/// Words that an editor shows between the characters.
+/// A hint that an editor shows between the characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Inlay {
-    /// Before which byte.
+    /// Its byte offset.
     pub at: usize,
     /// The words.
     pub pieces: Vec<InlayPiece>,
 }
 
-/// A few words of an inlay, with where they come from.
+/// A piece of a hint, with its source.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct InlayPiece {
     /// The words.
     pub text: String,
-    /// Where they are said.
+    /// The span that they come from.
     pub from: Option<Span>,
-    /// What they are, in a sentence.
+    /// A sentence that explains them.
     pub about: String,
 }
 
@@ -60,7 +60,7 @@ impl Analysis {
         out
     }
 
-    /// Behind a shape's tag: the name and parent that it was given by itself.
+    /// After a shape's tag: its automatic name and parent.
     fn automatic(&self, index: usize) -> Option<Inlay> {
         let bindings = self.bindings();
         let part = &bindings.parts[index];
@@ -68,7 +68,7 @@ impl Analysis {
         let mut pieces = vec![InlayPiece {
             text: part.name.clone(),
             from: None,
-            about: "This shape has no string: its name was given by itself".to_owned(),
+            about: "This shape has no string: its name is automatic".to_owned(),
         }];
         if let Some(parent) = part.parent {
             pieces.push(InlayPiece {
@@ -80,7 +80,7 @@ impl Analysis {
         Some(Inlay { at, pieces })
     }
 
-    /// Before a description without a name: the name that its element gives.
+    /// Before a description without a name: the name of its element.
     fn name_of_element(&self, index: usize, string: usize) -> Option<Inlay> {
         let bindings = self.bindings();
         let found = &bindings.strings[string];
@@ -107,7 +107,7 @@ impl Analysis {
         })
     }
 
-    /// Behind a string: what its part has from a legend or from `%`.
+    /// After a string: the attributes that its part inherits from a legend or `%`.
     fn inherited_by(&self, index: usize, string: usize) -> Option<Inlay> {
         let bindings = self.bindings();
         let text = &bindings.strings[string].text;
@@ -119,7 +119,7 @@ impl Analysis {
             return None;
         }
         let mut pieces = vec![];
-        for attribute in inherited.iter().take(MOST) {
+        for attribute in inherited.iter().take(MAX_INHERITED) {
             let space = if pieces.is_empty() { "" } else { " " };
             let source = bindings.setting(index, attribute.keyword)?;
             pieces.push(InlayPiece {
@@ -131,11 +131,11 @@ impl Analysis {
                 },
             });
         }
-        if inherited.len() > MOST {
+        if inherited.len() > MAX_INHERITED {
             pieces.push(InlayPiece {
                 text: " …".to_owned(),
                 from: None,
-                about: format!("And {} more", inherited.len() - MOST),
+                about: format!("And {} more", inherited.len() - MAX_INHERITED),
             });
         }
         let end = text.as_str().trim_end().len();
@@ -148,11 +148,11 @@ impl Analysis {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{analysis, figure};
+    use super::super::fixtures::{analysis, figure};
     use super::*;
 
     #[test]
-    fn what_is_not_written_is_shown() {
+    fn automatic_names_and_inherited_attributes_are_shown() {
         let strings = [
             "Body",
             "Rarm@Body$Smooth 20",

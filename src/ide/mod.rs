@@ -1,13 +1,15 @@
-//! What an editor asks about a drawing, in plain terms: byte places, texts, edits.
+//! The answers to an editor's requests about a drawing, in plain terms: byte offsets, texts, edits.
 //!
-//! Everything here reads an [`Analysis`], a drawing with what the compiler found in it, and is a pure function of it.
-//! Hover, definition, highlight and the rest go through one query, [`Analysis::at`]; names and variables
-//! through [`Symbol`]. No module here knows of any protocol.
+//! Everything here is a pure function of an [`Analysis`], a drawing with what the compiler found in it.
+//! Hover, definition, highlights and the rest use one query, [`Analysis::at`]; names and variables
+//! use [`Symbol`]. No module here knows any protocol.
 
 mod actions;
 mod at;
 mod colours;
 mod completion;
+#[cfg(test)]
+mod fixtures;
 mod folding;
 mod format;
 mod goto;
@@ -16,8 +18,6 @@ mod inlay;
 mod motion;
 mod quoting;
 mod rename;
-#[cfg(test)]
-mod samples;
 mod selection;
 mod signature;
 mod symbols;
@@ -36,7 +36,7 @@ pub use inlay::{Inlay, InlayPiece};
 pub use rename::RenameError;
 pub use signature::{Signature, SignatureHelp, signature};
 pub use symbols::Outline;
-pub use tokens::{Colouring, Paint};
+pub use tokens::{SemanticToken, TokenClass};
 pub use uses::{Symbol, Use};
 
 use std::sync::Arc;
@@ -47,7 +47,7 @@ use crate::diagnostic::Diagnostic;
 use crate::source::Span;
 use crate::svg::Drawing;
 
-/// A drawing and what the compiler found in it.
+/// A drawing with its compilation.
 #[derive(Debug)]
 pub struct Analysis {
     source: Arc<str>,
@@ -55,7 +55,7 @@ pub struct Analysis {
 }
 
 impl Analysis {
-    /// Puts a drawing's text and its compilation together.
+    /// Combines a drawing's text and its compilation.
     pub fn new(source: impl Into<Arc<str>>, compiled: Compiled) -> Self {
         Self {
             source: source.into(),
@@ -68,22 +68,22 @@ impl Analysis {
         &self.source
     }
 
-    /// What the compiler made of it.
+    /// Its compilation.
     pub fn compiled(&self) -> &Compiled {
         &self.compiled
     }
 
-    /// What is wrong with the drawing.
+    /// The diagnostics of the drawing.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.compiled.diagnostics
     }
 
-    /// Whether the text could be read as a drawing at all.
+    /// Whether the text is well-formed and could be read as a drawing.
     pub fn is_sound(&self) -> bool {
         !self.compiled.drawing.groups.is_empty()
     }
 
-    /// Whether the drawing has strings, or its text, if it cannot be read, looks as if it had: of other drawings
+    /// Whether the drawing has strings, or, if it cannot be read, its text seems to have some: for other drawings
     /// editors show nothing.
     pub fn is_annotated(&self) -> bool {
         match self.is_sound() {
@@ -100,13 +100,13 @@ impl Analysis {
         &self.compiled.drawing
     }
 
-    /// The main part of a name; of several the hindmost.
+    /// The main part with a name; the back-most if there are several.
     fn part_named(&self, name: &str) -> Option<usize> {
         let named = |part: &crate::bind::Part| part.kind == PartKind::Main && part.name == name;
         self.bindings().parts.iter().position(named)
     }
 
-    /// Where a part is named: in its string, or at its shape's tag.
+    /// The span that names a part: in its string, or its shape's tag.
     fn place_of_part(&self, part: usize) -> Span {
         let bindings = self.bindings();
         let part = &bindings.parts[part];
@@ -116,7 +116,7 @@ impl Analysis {
         }
     }
 
-    /// Where a string says whom it is about: its name, or all of it.
+    /// The span that names a string's part: the name, or the whole string.
     fn place_of_string(&self, string: usize) -> Span {
         let string = &self.bindings().strings[string];
         let name = at::tokens(string)

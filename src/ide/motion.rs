@@ -29,7 +29,7 @@ impl Analysis {
     }
 
     /// The joint that drives a part, and why, in each clip of its figure: one paragraph for all clips that agree. `None` for
-    /// parts of figures that do not move.
+    /// parts of figures without clips.
     pub(super) fn driven_card(&self, part: usize) -> Option<String> {
         if self.bindings().parts[part].kind != PartKind::Main {
             return None;
@@ -266,7 +266,7 @@ fn counted(count: usize, thing: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::Paint;
-    use super::super::samples::{figure, moving};
+    use super::super::fixtures::{figure, moving};
     use super::*;
 
     /// The hover text at the place that is marked in the right arm's string or in the string for the whole drawing.

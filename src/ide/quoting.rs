@@ -1,12 +1,12 @@
-//! How names are written: bare where they can be, in quotes where they must.
+//! How names are written: in quotes only where they need them.
 
 use crate::lang::keyword::Keyword;
 use crate::lang::{is_name_char, is_word_char, normalize};
 
-/// Where a name stands, which decides what can do without quotes.
+/// The position of a name, which decides whether it needs quotes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
-    /// Before or behind `@`.
+    /// Before or after `@`.
     Head,
     /// Among the arguments of an attribute.
     Argument,
@@ -35,7 +35,7 @@ pub(super) fn written(name: &str, role: Role) -> String {
     }
 }
 
-/// The name that a person means who types `input`: quotes taken off, white space made single, and without quotes
+/// The name that typed `input` means: quotes removed, white space collapsed, and without quotes
 /// full-width signs as ASCII. `None` if there is no such name.
 pub(super) fn meant(input: &str) -> Option<String> {
     let input = input.trim();
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quotes_stand_where_they_must() {
+    fn names_are_quoted_where_necessary() {
         for (name, head, argument) in [
             ("Arm", "Arm", "Arm"),
             ("右腕", "右腕", "右腕"),
@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_typed_is_read_as_it_would_be_in_a_string() {
+    fn typed_names_are_read_like_names_in_strings() {
         assert_eq!(meant("  Ａrm ").as_deref(), Some("Arm"));
         assert_eq!(meant("\"Ａrm  x\"").as_deref(), Some("Ａrm x"));
         assert_eq!(meant("a\"b"), None);

@@ -9,56 +9,56 @@ use crate::lang::keyword::{Keyword, colours, vocabulary};
 use crate::lang::{is_word_char, looks_like_string};
 use crate::source::{Span, Text};
 
-/// Why something cannot be renamed so.
+/// Why a rename is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum RenameError {
-    /// There is no name at this place.
+    /// There is no name at the offset.
     #[error("there is no part name and no variable here")]
     NoName,
-    /// The new name cannot be written.
+    /// The new name cannot be written in a string.
     #[error("a name must not be empty or contain quotes")]
     NotAName,
-    /// Another part has it.
+    /// Another part has the name.
     #[error("there is a part named `{0}` already")]
     Taken(String),
-    /// Another variable has it.
+    /// Another variable has the name.
     #[error("there is a variable `{0}` already")]
     VariableTaken(String),
-    /// No variable can be called so.
+    /// The new name is no valid variable.
     #[error("`{0}` cannot be a variable: letters, digits, `_` and `.`, beginning with a letter")]
     NotAVariable(String),
-    /// The language has this word.
+    /// The new name is a word of the language.
     #[error("`{0}` is a word of the language, and would be read as such")]
     WordOfTheLanguage(String),
     /// The part has no string.
     #[error("`{0}` has no string that names it: give it one first")]
     NoString(String),
-    /// It is written by an entity.
+    /// An entity expands to more than the name.
     #[error(
-        "`{0}` is written by an entity of the drawing that says more than the name: write it out first"
+        "`{0}` comes from an XML entity that contains more than the name: replace the entity by its text first"
     )]
     InEntity(String),
-    /// The drawing's text cannot be read.
+    /// The drawing is not well-formed.
     #[error("the drawing is not well-formed XML: fix that first, so that no name is missed")]
     NotSound,
 }
 
 impl Analysis {
-    /// The place and the present name of what can be renamed at byte `offset`.
+    /// The span and the present name of the symbol at byte `offset` that can be renamed.
     ///
     /// # Errors
-    /// If nothing there has a name, or nothing can be renamed.
+    /// If there is no symbol, or it cannot be renamed.
     pub fn prepare_rename(&self, offset: usize) -> Result<(Span, String), RenameError> {
         let (symbol, found) = self.to_rename(offset)?;
         Ok((self.span_of(&found), symbol.name().to_owned()))
     }
 
-    /// The edits that give what stands at byte `offset` another name wherever it is named.
+    /// The edits that rename the symbol at byte `offset` wherever it is used.
     ///
-    /// Quotes are set where the new name needs them, and only there; it is escaped for XML as its place wants it.
+    /// The new name is quoted only where necessary, and escaped for XML as its context needs.
     ///
     /// # Errors
-    /// If nothing there has a name, or the new name cannot be used.
+    /// If there is no symbol, or the new name cannot be used.
     pub fn rename(&self, offset: usize, new_name: &str) -> Result<Vec<Edit>, RenameError> {
         let (symbol, _) = self.to_rename(offset)?;
         let name = meant(new_name).ok_or(RenameError::NotAName)?;
@@ -118,7 +118,7 @@ impl Analysis {
         Ok(())
     }
 
-    /// A description without a name takes it from its element: there the new name is put before the rest.
+    /// A description without a name inherits that of its element: the new name is inserted at its start.
     fn named_by_element(&self, old: &str, name: &str) -> Option<Edit> {
         let part = &self.bindings().parts[self.part_named(old)?];
         let string = &self.bindings().strings[part.string?];
@@ -131,7 +131,7 @@ impl Analysis {
     }
 }
 
-/// The new name as it is written in place of the old one. Quotes that the old name did not need are kept.
+/// The new name in the notation of the old one: quotes that the old name did not need are kept.
 fn rewritten(string: &DrawingString, found: &Use, symbol: &Symbol, name: &str) -> String {
     if matches!(symbol, Symbol::Variable(_)) {
         return name.to_owned();
@@ -148,8 +148,8 @@ fn rewritten(string: &DrawingString, found: &Use, symbol: &Symbol, name: &str) -
     }
 }
 
-/// The edits that put `new` in the place of the decoded characters `range`, and nothing else: tags that stand between
-/// them stay. `None` if they are only a part of what an entity stands for.
+/// The edits that replace the decoded characters `range` by `new`, and nothing else: tags between
+/// them stay. `None` if they are only a part of an entity's expansion.
 pub(super) fn replace(text: &Text, range: std::ops::Range<usize>, new: &str) -> Option<Vec<Edit>> {
     if !text.can_replace(range.clone()) {
         return None;
@@ -168,8 +168,8 @@ pub(super) fn replace(text: &Text, range: std::ops::Range<usize>, new: &str) -> 
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixtures::{analysis, figure};
     use super::super::format::applied;
-    use super::super::samples::{analysis, figure};
     use super::*;
 
     fn renamed(source: &str, name: &str) -> Result<String, RenameError> {
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn quotes_come_and_go_with_the_name() {
+    fn quotes_are_added_and_removed_as_needed() {
         let needed = ["\"a b\"", "Rarm@¦\"a b\"", "", "", ""];
         assert_eq!(
             renamed(&figure(needed), "c").unwrap(),
@@ -211,14 +211,14 @@ mod tests {
     }
 
     #[test]
-    fn names_are_escaped_as_their_place_wants_it() {
+    fn names_are_escaped_for_their_context() {
         let before = ["<![CDATA[Body]]>", "Rarm@¦Body", "", "", ""];
         let after = ["<![CDATA[a&b<c]]>", "Rarm@a&amp;b&lt;c", "", "", ""];
         assert_eq!(renamed(&figure(before), "a&b<c").unwrap(), figure(after));
     }
 
     #[test]
-    fn names_beside_entities_and_sections_are_found_alone() {
+    fn names_beside_entities_and_sections_are_renamed_alone() {
         let before = [
             "Bo&#x64;y",
             "a&amp;b@¦Body<![CDATA[$Offset]]> 3<!-- -->",
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn tags_within_a_name_stay() {
+    fn tags_within_a_name_are_kept() {
         let before = [
             "<tspan>Bo</tspan><tspan>dy</tspan>",
             "Rarm@¦Body",
@@ -279,7 +279,7 @@ mod tests {
     }
 
     #[test]
-    fn what_would_break_is_refused() {
+    fn renames_that_would_break_are_refused() {
         let parts = figure(["Body", "Rarm@¦Body", "Larm@Body", "", ""]);
         for (name, error) in [
             ("Larm", RenameError::Taken("Larm".to_owned())),

@@ -1,4 +1,4 @@
-//! What is selected when a selection grows: word, attribute, string, element.
+//! Selection ranges: word, attribute, string, element.
 
 use super::Analysis;
 use super::at::{Item, attributes, token_at};
@@ -6,7 +6,7 @@ use crate::bind::Place;
 use crate::source::Span;
 
 impl Analysis {
-    /// The places around byte `offset`, each inside the next; none outside of strings.
+    /// The spans around byte `offset`, each inside the next; none outside of strings.
     pub fn selections(&self, offset: usize) -> Vec<Span> {
         let Some((index, at)) = self.string_at(offset) else {
             return vec![];
@@ -51,7 +51,7 @@ impl Analysis {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{analysis, figure};
+    use super::super::fixtures::{analysis, figure};
 
     #[test]
     fn selections_grow_from_the_word_to_the_element() {

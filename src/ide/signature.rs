@@ -1,4 +1,4 @@
-//! What an attribute takes, while it is being written.
+//! Signature help: the parameters of the attribute at the cursor.
 
 use std::ops::Range;
 
@@ -12,29 +12,29 @@ use crate::lang::keyword::{Keyword, kinds};
 use crate::lang::{self, parameter_at};
 use crate::source::Text;
 
-/// The ways to write an attribute, and where in them the place is.
+/// The forms of an attribute, and the parameter at the cursor.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SignatureHelp {
-    /// The ways.
+    /// The forms.
     pub signatures: Vec<Signature>,
-    /// Which of them is being written.
+    /// The form that is being written.
     pub active: usize,
-    /// Which of its parameters comes next.
+    /// The parameter at the cursor.
     pub parameter: usize,
 }
 
-/// One way to write an attribute.
+/// One form of an attribute.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Signature {
-    /// How it is written: `Shape roundv [a0 a1]`.
+    /// The form: `Shape roundv [a0 a1]`.
     pub label: String,
-    /// One line about it.
+    /// A one-line summary.
     pub summary: &'static str,
-    /// The parameters: where each stands in the label, in bytes, and what it means.
+    /// The parameters: the byte range of each in the label, and its meaning.
     pub parameters: Vec<(Range<usize>, String)>,
 }
 
-/// The signature of the attribute at byte `offset` of the text as it is now; `None` behind its last parameter.
+/// The signature of the attribute at byte `offset` of the present text; `None` after its last parameter.
 pub fn signature(source: &str, analysis: &Analysis, offset: usize) -> Option<SignatureHelp> {
     let is_current = analysis.is_sound() && **analysis.source() == *source;
     let (head, place) = match is_current.then(|| analysis.string_at(offset)).flatten() {
@@ -71,7 +71,7 @@ fn help(
     if nothing_typed && attribute.keyword_range.end == head.len() {
         return None;
     }
-    // The word that the place touches is still being written.
+    // The word that the cursor touches is still being written.
     let last = attribute.arguments.last();
     let touches = last.is_some_and(|argument| argument.range.end == head.len());
     let index = attribute.arguments.len() - usize::from(touches);
@@ -110,7 +110,7 @@ fn help(
     })
 }
 
-/// A form as it is written behind `name`.
+/// The signature of a form of `name`.
 fn written(name: &str, form: &Form, summary: &'static str) -> Signature {
     let printed = form.print();
     let label = match printed.is_empty() {
@@ -122,8 +122,8 @@ fn written(name: &str, form: &Form, summary: &'static str) -> Signature {
         let text = parameter.print();
         let start = label[from..].find(&text).map_or(from, |at| from + at);
         from = start + text.len();
-        let told = format!("{} ({})", parameter.summary, parameter.takes.describe());
-        (start..from, told)
+        let described = format!("{} ({})", parameter.summary, parameter.takes.describe());
+        (start..from, described)
     });
     let parameters = parameters.collect();
     Signature {
@@ -135,10 +135,10 @@ fn written(name: &str, form: &Form, summary: &'static str) -> Signature {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{analysis, figure};
+    use super::super::fixtures::{analysis, figure};
     use super::*;
 
-    fn told(string: &str) -> Option<(String, String)> {
+    fn described(string: &str) -> Option<(String, String)> {
         let (analysis, at) = analysis(&figure(["Body", string, "", "", ""]));
         let help = signature(&analysis.source().clone(), &analysis, at)?;
         let signature = &help.signatures[help.active];
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn the_parameter_that_comes_next_is_told() {
+    fn the_next_parameter_is_marked() {
         for (string, label, parameter) in [
             (
                 "Rarm@Body$Shape ¦",
@@ -179,10 +179,10 @@ mod tests {
             ),
         ] {
             let expected = (label.to_owned(), parameter.to_owned());
-            assert_eq!(told(string), Some(expected), "{string}");
+            assert_eq!(described(string), Some(expected), "{string}");
         }
-        assert_eq!(told("Rarm@Body$Shape cone 0 20 1 ¦"), None);
-        assert_eq!(told("Rarm@Body$Shape¦"), None);
-        assert_eq!(told("Rarm@¦Body"), None);
+        assert_eq!(described("Rarm@Body$Shape cone 0 20 1 ¦"), None);
+        assert_eq!(described("Rarm@Body$Shape¦"), None);
+        assert_eq!(described("Rarm@¦Body"), None);
     }
 }

@@ -4,15 +4,15 @@ use super::Analysis;
 use crate::bind::PartKind;
 use crate::source::Span;
 
-/// How deep the outline goes; what hangs deeper stands beside its ancestor at this depth.
-const DEEPEST: usize = 100;
+/// The greatest depth of the outline; deeper parts are siblings of their ancestor at this depth.
+const MAX_DEPTH: usize = 100;
 
 /// A part in the outline.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Outline {
     /// The part's name.
     pub name: String,
-    /// A few words: how it becomes a solid.
+    /// A short description: its shape.
     pub detail: String,
     /// Whether the part has children in the model.
     pub is_joint: bool,
@@ -20,7 +20,7 @@ pub struct Outline {
     pub span: Span,
     /// Its name in the string, or its shape's tag.
     pub selection: Span,
-    /// The parts that hang on it.
+    /// Its children.
     pub children: Vec<Outline>,
 }
 
@@ -52,7 +52,7 @@ impl Analysis {
         while let Some(part) = waiting.pop() {
             let mut outline = self.outline_entry(part);
             outline.is_joint = !children[part].is_empty();
-            if depth < DEEPEST {
+            if depth < MAX_DEPTH {
                 outline.children = self.outline_of(&children[part], children, depth + 1);
             } else {
                 waiting.extend(children[part].iter().rev());
@@ -83,7 +83,7 @@ impl Analysis {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{analysis, figure};
+    use super::super::fixtures::{analysis, figure};
     use super::*;
 
     fn lines(outline: &[Outline], indent: &str, out: &mut Vec<String>) {

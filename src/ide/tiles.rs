@@ -1,4 +1,4 @@
-//! What is told about tiles: kind, height and group.
+//! Hovers about tiles: kind, height and group.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -10,12 +10,12 @@ use super::hover::escaped;
 use crate::geometry::contains;
 use crate::terrain::{Layer, Tile};
 
-/// Most cells that are looked at for a card; of larger shapes the first ones stand for all.
-const MOST_CELLS: usize = 1 << 14;
-/// How many kinds of cells are told of.
-const MOST_TOLD: usize = 6;
+/// The most cells that are examined for a hover; of larger shapes only the first.
+const MAX_CELLS: usize = 1 << 14;
+/// The most kinds of cells that are listed.
+const MAX_KINDS: usize = 6;
 
-/// What some cells have in common.
+/// A kind of cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Cells {
     /// Ground or water: the group, and whether it is water.
@@ -27,7 +27,7 @@ enum Cells {
 }
 
 impl Analysis {
-    /// What the landscape is that a string names. `None` if it names none.
+    /// Describes the landscape that a string names, if it names one.
     pub(super) fn landscape_card(&self, string: usize) -> Option<String> {
         let mut layers = self.compiled().layers.iter();
         let layer = layers.find(|layer| layer.string == string)?;
@@ -48,7 +48,7 @@ impl Analysis {
         ))
     }
 
-    /// What the tiles are that a shape paints: their kinds, heights and groups. `None` if it paints none.
+    /// Describes the tiles that a shape paints: their kinds, heights and groups. `None` if it paints none.
     pub(super) fn tiles_card(&self, shape: usize) -> Option<String> {
         let layers = self.compiled().layers.iter();
         let mut all =
@@ -58,10 +58,10 @@ impl Analysis {
         let (columns, rows) = (tiles.columns.clone(), tiles.rows.clone());
         let mut found: BTreeMap<Cells, (usize, [usize; 2], [i32; 2])> = BTreeMap::new();
         let outline = &self.drawing().shapes[shape].outline;
-        let most = (MOST_CELLS / rows.len().max(1)).max(1);
+        let most = (MAX_CELLS / rows.len().max(1)).max(1);
         for column in columns.take(most) {
             let seen = layer.land.seen(column);
-            for row in rows.clone().take(MOST_CELLS) {
+            for row in rows.clone().take(MAX_CELLS) {
                 let middle = DVec2::new(column as f64 + 0.5, row as f64 + 0.5) * layer.size;
                 let painted =
                     outline.polygons.is_empty() || contains(outline, layer.origin + middle);
@@ -77,13 +77,17 @@ impl Analysis {
             }
         }
         if found.is_empty() {
-            let _ = write!(out, "\n\nNo tile shows it: other shapes lie above it.");
+            let _ = write!(out, "\n\nNo tile shows it: other shapes cover it.");
         }
-        for (cells, (count, [column, row], [low, high])) in found.iter().take(MOST_TOLD) {
-            let _ = write!(out, "\n\n- {}", told(layer, *cells, *count, [*low, *high]));
+        for (cells, (count, [column, row], [low, high])) in found.iter().take(MAX_KINDS) {
+            let _ = write!(
+                out,
+                "\n\n- {}",
+                described(layer, *cells, *count, [*low, *high])
+            );
             let _ = write!(out, ", from column {}, row {} on", column + 1, row + 1);
         }
-        if let Some(more) = found.len().checked_sub(MOST_TOLD).filter(|more| *more > 0) {
+        if let Some(more) = found.len().checked_sub(MAX_KINDS).filter(|more| *more > 0) {
             let _ = write!(out, "\n\n… and {more} more groups");
         }
         Some(out)
@@ -108,7 +112,7 @@ fn kind(layer: &Layer, column: usize, row: usize) -> Option<Cells> {
     }
 }
 
-fn told(layer: &Layer, cells: Cells, count: usize, [low, high]: [i32; 2]) -> String {
+fn described(layer: &Layer, cells: Cells, count: usize, [low, high]: [i32; 2]) -> String {
     let tiles = match count {
         1 => "1 tile".to_owned(),
         count => format!("{count} tiles"),
@@ -132,7 +136,7 @@ fn told(layer: &Layer, cells: Cells, count: usize, [low, high]: [i32; 2]) -> Str
             let house = layer.land.houses().nth(house);
             let size = house.map_or(String::new(), |house| {
                 format!(
-                    " of a house {} wide, {} deep and {} high that stands at height {}",
+                    " of a house {} wide, {} deep and {} high on ground at height {}",
                     house.width, house.depth, house.height, house.base
                 )
             });

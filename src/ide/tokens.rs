@@ -1,4 +1,4 @@
-//! The colours of strings: what each word is.
+//! Semantic tokens: the class of each word in strings.
 
 use std::ops::Range;
 
@@ -9,9 +9,9 @@ use crate::lang::keyword::signature::Takes;
 use crate::lang::{is_word_char, parameter_at};
 use crate::source::Span;
 
-/// What a stretch of characters is.
+/// The class of a semantic token.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Paint {
+pub enum TokenClass {
     /// A sign of the language, or of a calculation.
     Sign,
     /// A part's name, or a joint's.
@@ -32,65 +32,65 @@ pub enum Paint {
     Function,
     /// Text in quotes.
     Quoted,
-    /// What a comment says.
+    /// The text of a comment.
     Comment,
 }
 
-/// A stretch of characters of one kind, within one line.
+/// Characters of one class, within one line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Colouring {
+pub struct SemanticToken {
     /// Where.
     pub span: Span,
     /// What it is.
-    pub paint: Paint,
-    /// Whether a name or variable is defined here.
+    pub class: TokenClass,
+    /// Whether it defines a name or variable.
     pub defines: bool,
 }
 
 impl Analysis {
-    /// What the words of all strings within `window` are, in the order of the file.
-    pub fn colouring(&self, window: Span) -> Vec<Colouring> {
+    /// The semantic tokens of all strings within `window`, in the order of the file.
+    pub fn semantic_tokens(&self, window: Span) -> Vec<SemanticToken> {
         let strings = &self.bindings().strings;
         let first = strings.partition_point(|string| string.text.whole().end < window.start);
-        let mut out: Vec<Colouring> = vec![];
+        let mut out: Vec<SemanticToken> = vec![];
         for (index, string) in strings.iter().enumerate().skip(first) {
             let whole = string.text.whole();
             if whole.start > window.end {
                 break;
             }
-            // A clone's description is the description of what it shows: it is coloured once.
+            // A clone shares the description of its original: its tokens are given once.
             if out.last().is_none_or(|last| last.span.end <= whole.start) {
-                self.colouring_of(index, &mut out);
+                self.semantic_tokens_of(index, &mut out);
             }
         }
-        out.retain(|colouring| {
-            colouring.span.end > window.start && colouring.span.start < window.end
+        out.retain(|semantic_tokens| {
+            semantic_tokens.span.end > window.start && semantic_tokens.span.start < window.end
         });
         out
     }
 
-    fn colouring_of(&self, index: usize, out: &mut Vec<Colouring>) {
+    fn semantic_tokens_of(&self, index: usize, out: &mut Vec<SemanticToken>) {
         let string = &self.bindings().strings[index];
-        let mut push = |range: Range<usize>, paint, defines| {
+        let mut push = |range: Range<usize>, class, defines| {
             for piece in string.text.pieces(range) {
                 for span in self.lines_of(piece) {
-                    out.push(Colouring {
+                    out.push(SemanticToken {
                         span,
-                        paint,
+                        class,
                         defines,
                     });
                 }
             }
         };
         for token in tokens(string) {
-            let (paint, defines) = match token.item {
-                Item::Sign => (Paint::Sign, false),
-                Item::Name => (Paint::Part, true),
-                Item::Parent => (Paint::Part, false),
-                Item::Feature => (Paint::Feature, false),
-                Item::Keyword(_) => (Paint::Keyword, false),
-                Item::Flag(..) => (Paint::Flag, false),
-                Item::Remark => (Paint::Comment, false),
+            let (class, defines) = match token.item {
+                Item::Sign => (TokenClass::Sign, false),
+                Item::Name => (TokenClass::Part, true),
+                Item::Parent => (TokenClass::Part, false),
+                Item::Feature => (TokenClass::Feature, false),
+                Item::Keyword(_) => (TokenClass::Keyword, false),
+                Item::Flag(..) => (TokenClass::Flag, false),
+                Item::Remark => (TokenClass::Comment, false),
                 Item::Argument(attribute, argument) => {
                     let attribute = &attributes(&string.annotation)[attribute];
                     let given = &attribute.arguments[argument];
@@ -99,31 +99,35 @@ impl Analysis {
                     match (&given.kind, takes) {
                         (ArgumentKind::Expression(_), _) => {
                             let text = string.text.as_str();
-                            for (range, paint) in calculation(text, token.range) {
-                                push(range, paint, false);
+                            for (range, class) in calculation(text, token.range) {
+                                push(range, class, false);
                             }
                             continue;
                         }
                         (ArgumentKind::Number(_) | ArgumentKind::Hex(_), _) => {
-                            (Paint::Number, false)
+                            (TokenClass::Number, false)
                         }
-                        (_, Some(Takes::Names)) => (Paint::Part, false),
-                        (ArgumentKind::Quoted(_), _) => (Paint::Quoted, false),
-                        (ArgumentKind::Word(_), Some(Takes::Number(_))) => (Paint::Variable, false),
-                        (ArgumentKind::Word(_), Some(Takes::Variable)) => (Paint::Variable, true),
+                        (_, Some(Takes::Names)) => (TokenClass::Part, false),
+                        (ArgumentKind::Quoted(_), _) => (TokenClass::Quoted, false),
+                        (ArgumentKind::Word(_), Some(Takes::Number(_))) => {
+                            (TokenClass::Variable, false)
+                        }
+                        (ArgumentKind::Word(_), Some(Takes::Variable)) => {
+                            (TokenClass::Variable, true)
+                        }
                         (ArgumentKind::Word(_), Some(Takes::File | Takes::Text)) => {
-                            (Paint::Quoted, false)
+                            (TokenClass::Quoted, false)
                         }
-                        (ArgumentKind::Word(_), Some(_)) => (Paint::Word, false),
+                        (ArgumentKind::Word(_), Some(_)) => (TokenClass::Word, false),
                         (ArgumentKind::Word(_) | ArgumentKind::Unreadable, _) => continue,
                     }
                 }
             };
-            push(token.range, paint, defines);
+            push(token.range, class, defines);
         }
     }
 
-    /// A stretch, line by line.
+    /// The lines of a span.
     fn lines_of(&self, span: Span) -> impl Iterator<Item = Span> {
         let mut at = span.start;
         let lines = self.source[span.start..span.end].split_inclusive(['\n', '\r']);
@@ -136,28 +140,28 @@ impl Analysis {
     }
 }
 
-/// The words of a calculation in parentheses.
-fn calculation(text: &str, range: Range<usize>) -> Vec<(Range<usize>, Paint)> {
+/// The tokens of a calculation in parentheses.
+fn calculation(text: &str, range: Range<usize>) -> Vec<(Range<usize>, TokenClass)> {
     let mut out = vec![];
     let mut at = range.start;
     while let Some(c) = text[at..range.end].chars().next() {
         let word =
             text[at..range.end].len() - text[at..range.end].trim_start_matches(is_word_char).len();
-        let paint = match c {
+        let class = match c {
             c if c.is_alphabetic() => {
                 let name = &text[at..at + word];
                 match Function::from_name(name) {
-                    Some(_) => Some(Paint::Function),
-                    None => Some(Paint::Variable),
+                    Some(_) => Some(TokenClass::Function),
+                    None => Some(TokenClass::Variable),
                 }
             }
-            c if c.is_numeric() || c == '.' => Some(Paint::Number),
-            '+' | '-' | '*' | '/' => Some(Paint::Sign),
+            c if c.is_numeric() || c == '.' => Some(TokenClass::Number),
+            '+' | '-' | '*' | '/' => Some(TokenClass::Sign),
             _ => None,
         };
         let end = at + if word > 0 { word } else { c.len_utf8() };
-        if let Some(paint) = paint {
-            out.push((at..end, paint));
+        if let Some(class) = class {
+            out.push((at..end, class));
         }
         at = end;
     }
@@ -166,19 +170,19 @@ fn calculation(text: &str, range: Range<usize>) -> Vec<(Range<usize>, Paint)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{analysis, figure};
+    use super::super::fixtures::{analysis, figure};
     use super::*;
 
-    fn words(string: &str) -> Vec<(String, Paint)> {
+    fn words(string: &str) -> Vec<(String, TokenClass)> {
         let (analysis, _) = analysis(&figure(["Body", string, "", "", "%Let w 1"]));
         let start = analysis.source().find("y=\"49\"").unwrap();
         let end = start + analysis.source()[start..].find("</text>").unwrap();
-        let words = analysis.colouring(Span::new(start, end)).into_iter();
+        let words = analysis.semantic_tokens(Span::new(start, end)).into_iter();
         words
             .map(|word| {
                 (
                     analysis.source()[word.span.start..word.span.end].to_owned(),
-                    word.paint,
+                    word.class,
                 )
             })
             .collect()
@@ -186,7 +190,7 @@ mod tests {
 
     #[test]
     fn words_have_their_colours() {
-        use Paint::*;
+        use TokenClass::*;
         let found =
             words("Rarm@Body$Shape -d cone 0 (max(w, 2.5) * 3) Color #f00 Texture \"a.png\"");
         let expected = [
@@ -210,7 +214,7 @@ mod tests {
         ];
         let found: Vec<_> = found
             .iter()
-            .map(|(word, paint)| (word.as_str(), *paint))
+            .map(|(word, class)| (word.as_str(), *class))
             .collect();
         assert_eq!(found, expected);
     }

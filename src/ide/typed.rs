@@ -1,4 +1,4 @@
-//! Strings in a text that is no drawing at the moment, because somebody is typing in it.
+//! Strings in a text that is not well-formed at the moment, because it is being edited.
 
 use crate::lang::looks_like_string;
 use crate::source::{Form, Span, Text};
@@ -7,18 +7,18 @@ use crate::svg::character;
 /// Elements whose characters can be a string.
 const HOLDERS: &[&str] = &["text", "tspan", "desc", "flowPara", "flowSpan"];
 
-/// A stretch of characters between two tags.
+/// The characters between two tags.
 #[derive(Debug)]
 pub(super) struct Typed {
     /// The characters.
     pub text: Text,
-    /// Where the asked place is among them.
+    /// The requested offset among them.
     pub offset: usize,
     /// Whether it is a description.
     pub in_desc: bool,
 }
 
-/// Whether a text, read tag by tag whether it is sound or not, has something that looks like a string.
+/// Whether a text has something that looks like a string. Reads it tag by tag, whether it is well-formed or not.
 pub(super) fn looks_annotated(source: &str) -> bool {
     let mut rest = source;
     while let Some(open) = rest.find('<') {
@@ -38,7 +38,7 @@ pub(super) fn looks_annotated(source: &str) -> bool {
     false
 }
 
-/// The characters around byte `offset`, if they stand in an element that can hold a string.
+/// The characters around byte `offset`, if their element can hold a string.
 pub(super) fn typed_at(source: &str, offset: usize) -> Option<Typed> {
     let head = source.get(..offset)?;
     let start = head.rfind(['<', '>'])?;
@@ -64,14 +64,14 @@ pub(super) fn typed_at(source: &str, offset: usize) -> Option<Typed> {
     })
 }
 
-/// The name of the tag that `inside` begins with, its prefix left out.
+/// The name of the tag that `inside` begins with, without its prefix.
 fn tag(inside: &str) -> &str {
     let name = inside.split(|c: char| c.is_whitespace() || matches!(c, '>' | '/'));
     let name = name.into_iter().next().unwrap_or_default();
     name.rsplit(':').next().unwrap_or_default()
 }
 
-/// Characters as they are written in XML; what is no entity stands for itself.
+/// Decodes the characters of XML; an `&` that begins no entity stands for itself.
 fn decoded(raw: &str, origin: usize) -> Text {
     let mut text = Text::default();
     let mut at = 0;
@@ -115,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn characters_are_found_whatever_stands_around() {
+    fn strings_are_found_in_broken_xml() {
         for (source, expected) in [
             ("<svg><text x='1'>Arm@¦", Some(("Arm@", 4, false))),
             ("<text>a&amp;b¦ c</text>", Some(("a&b c", 3, false))),

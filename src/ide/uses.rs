@@ -1,4 +1,4 @@
-//! Names and variables: what stands at a place, and where else it stands.
+//! Symbols (names and variables) and their uses.
 
 use std::ops::Range;
 
@@ -14,22 +14,22 @@ use crate::source::Span;
 /// Something that has a name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Symbol {
-    /// A part, or a parent that no string names.
+    /// A part, or a parent that no string defines.
     Part(String),
-    /// A variable, or a word where a number is due.
+    /// A variable, or a word in place of a number.
     Variable(String),
     /// A feature point of a billboard's region.
     Feature(String),
 }
 
-/// A place where a symbol stands.
+/// A use of a symbol.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Use {
     /// Index of the string.
     pub string: usize,
-    /// Where in its decoded characters; quotes belong to a name.
+    /// The range in its decoded characters, including the quotes of a name.
     pub range: Range<usize>,
-    /// Whether it is defined here, rather than meant.
+    /// Whether this use is the definition.
     pub defines: bool,
 }
 
@@ -43,7 +43,7 @@ impl Symbol {
 }
 
 impl Analysis {
-    /// The symbol at byte `offset`, and where exactly it stands.
+    /// The symbol at byte `offset`, and its use there.
     pub fn symbol_at(&self, offset: usize) -> Option<(Symbol, Use)> {
         let At::String {
             string,
@@ -55,7 +55,7 @@ impl Analysis {
         };
         let holds =
             |found: &(Symbol, Use)| (found.1.range.start..=found.1.range.end).contains(&offset);
-        // Only names and arguments can be symbols; the rest need not be searched.
+        // Only names and arguments can be symbols.
         match token?.item {
             Item::Name | Item::Parent | Item::Feature | Item::Argument(..) => {
                 let all = self.symbols_of(string).into_iter();
@@ -66,7 +66,7 @@ impl Analysis {
         }
     }
 
-    /// Where a symbol stands, in the order of the text.
+    /// The uses of a symbol, in the order of the text.
     pub fn uses(&self, symbol: &Symbol) -> Vec<Use> {
         let strings = 0..self.bindings().strings.len();
         let all = strings.flat_map(|string| self.symbols_of(string));
@@ -75,7 +75,7 @@ impl Analysis {
             .collect()
     }
 
-    /// The place of a use in the drawing.
+    /// The span of a use in the drawing.
     pub fn span_of(&self, found: &Use) -> Span {
         self.bindings().strings[found.string]
             .text
@@ -150,7 +150,7 @@ impl Analysis {
         }
     }
 
-    /// Which strings name a part of this name.
+    /// The string that names a part so, if any.
     pub(super) fn named_in(&self, name: &str) -> Option<usize> {
         let symbol = Symbol::Part(name.to_owned());
         let strings = 0..self.bindings().strings.len();
@@ -172,7 +172,7 @@ pub(super) fn own_name(string: &DrawingString) -> Option<&str> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{analysis, figure};
+    use super::super::fixtures::{analysis, figure};
     use super::*;
 
     fn found(strings: [&str; 5]) -> (Option<Symbol>, Vec<(String, bool)>) {

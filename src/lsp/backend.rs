@@ -1,4 +1,4 @@
-//! The requests of the protocol, each answered from what `ide` knows.
+//! The requests of the protocol, each answered by `ide`.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -9,14 +9,14 @@ use tower_lsp::jsonrpc::{Error, ErrorCode, Result};
 use tower_lsp::ls_types::*;
 use tower_lsp::{Client, LanguageServer};
 
-use super::analyst::Analyst;
-use super::convert::{self, Places};
+use super::convert::{self, PositionMap};
 use super::documents::{Analysed, Document, Documents, Snapshot, file_path};
 use super::links::Links;
 use super::ordered::SNAPSHOTS;
 use super::positions::Encoding;
 use super::preview::Previews;
-use super::worker::Abilities;
+use super::scheduler::Scheduler;
+use super::worker::ClientSupport;
 use super::workspace::Workspace;
 use super::{capabilities, manual};
 use crate::ide::Analysis;
@@ -29,16 +29,16 @@ pub(super) const PREVIEW: &str = "okoshi.preview";
 pub(super) struct Backend {
     pub(super) client: Client,
     pub(super) documents: Arc<Documents>,
-    pub(super) analyst: Arc<Analyst>,
-    pub(super) abilities: Arc<Abilities>,
+    pub(super) scheduler: Arc<Scheduler>,
+    pub(super) client_support: Arc<ClientSupport>,
     pub(super) links: Arc<Links>,
     pub(super) workspace: Arc<Workspace>,
     pub(super) previews: Arc<Previews>,
-    pub(super) client_can: Mutex<ClientCapabilities>,
-    pub(super) ended: Arc<std::sync::atomic::AtomicBool>,
+    pub(super) client_capabilities: Mutex<ClientCapabilities>,
+    pub(super) shut_down: Arc<std::sync::atomic::AtomicBool>,
 }
 
-/// A text, what is known of it, and how places of the two go together.
+/// A text and its analysis, which may be one of an earlier state.
 pub(super) struct View {
     pub(super) document: Arc<Document>,
     pub(super) analysed: Arc<Analysed>,
@@ -49,29 +49,31 @@ impl View {
         &self.analysed.analysis
     }
 
-    pub(super) fn places(&self) -> Places<'_> {
+    pub(super) fn map(&self) -> PositionMap<'_> {
         match Arc::ptr_eq(&self.document, &self.analysed.document) {
-            true => Places::same(&self.document.positions),
-            false => Places::shifted(&self.document.positions, self.analysed.document.text()),
+            true => PositionMap::identity(&self.document.positions),
+            false => {
+                PositionMap::after_edit(&self.document.positions, self.analysed.document.text())
+            }
         }
     }
 
-    /// Whether the text is the one that was analysed, so that it can be edited.
+    /// Whether the analysis is of this very text, so that it can be edited.
     pub(super) fn is_current(&self) -> bool {
         Arc::ptr_eq(&self.document, &self.analysed.document) && self.analysis().is_sound()
     }
 }
 
 impl Backend {
-    /// A text as it was when the request came.
+    /// A text in its state when the request came.
     pub(super) fn snapshot(&self, uri: &Uri) -> Option<Snapshot> {
         SNAPSHOTS.with(|snapshots| snapshots.get(uri.as_str()).cloned())
     }
 
-    /// The analysis of the text as it was when the request came; waits for it.
+    /// The analysis of the text in its state when the request came; waits for it.
     ///
     /// # Errors
-    /// If the text has changed meanwhile: then the answer would be about another text.
+    /// If the text has changed since: the answer would be about another text.
     pub(super) async fn analysed(
         &self,
         uri: &Uri,
@@ -81,10 +83,10 @@ impl Backend {
         };
         let Snapshot {
             document,
-            mut arrivals,
+            mut analyses,
         } = snapshot;
-        self.analyst.ask(uri.as_str());
-        let arrived = arrivals
+        self.scheduler.request(uri.as_str());
+        let arrived = analyses
             .wait_for(|analysed| {
                 let generation = analysed
                     .as_ref()
@@ -108,36 +110,36 @@ impl Backend {
         Ok(Some((analysed.document.clone(), analysed)))
     }
 
-    /// The text with what is known of it: of a text that cannot be read what was known before. Nothing for drawings
+    /// The text with its analysis, or, if it is not well-formed, the last analysis that was. Nothing for drawings
     /// without strings.
     pub(super) async fn view(&self, uri: &Uri) -> Result<Option<View>> {
         let Some((document, analysed)) = self.analysed(uri).await? else {
             return Ok(None);
         };
-        let analysed = match &analysed.good {
-            Some(good) => good.clone(),
+        let analysed = match &analysed.last_sound {
+            Some(last_sound) => last_sound.clone(),
             None => analysed,
         };
         let view = View { document, analysed };
         Ok(Some(view).filter(|view| view.analysis().is_annotated()))
     }
 
-    /// An answer from a text and a place in it.
+    /// Answers a request about a position in a text.
     pub(super) async fn at<T>(
         &self,
         place: &TextDocumentPositionParams,
-        answer: impl FnOnce(&View, &Places<'_>, usize) -> Option<T>,
+        answer: impl FnOnce(&View, &PositionMap<'_>, usize) -> Option<T>,
     ) -> Result<Option<T>> {
         let Some(view) = self.view(&place.text_document.uri).await? else {
             return Ok(None);
         };
-        let places = view.places();
-        let offset = places.offset(place.position);
-        Ok(offset.and_then(|offset| answer(&view, &places, offset)))
+        let map = view.map();
+        let offset = map.offset(place.position);
+        Ok(offset.and_then(|offset| answer(&view, &map, offset)))
     }
 
-    pub(super) fn client_can(&self) -> ClientCapabilities {
-        let can = self.client_can.lock();
+    pub(super) fn client_capabilities(&self) -> ClientCapabilities {
+        let can = self.client_capabilities.lock();
         can.unwrap_or_else(|poisoned| poisoned.into_inner()).clone()
     }
 }
@@ -149,11 +151,11 @@ impl LanguageServer for Backend {
         let encodings = general.and_then(|general| general.position_encodings.as_deref());
         let encoding = Encoding::negotiated(encodings.unwrap_or_default());
         self.documents.count(encoding);
-        self.abilities.take(&can);
+        self.client_support.record(&can);
         if let Some(options) = &params.initialization_options {
-            self.analyst.configure(options);
+            self.scheduler.configure(options);
             if options.get("preview").and_then(serde_json::Value::as_bool) == Some(true) {
-                self.previews.into_panels();
+                self.previews.use_panels();
             }
         }
         #[allow(deprecated, reason = "older clients name one folder so")]
@@ -170,17 +172,17 @@ impl LanguageServer for Backend {
             None => root,
         };
         self.workspace.change(folders, &[]);
-        let answer = capabilities::offer(&can, encoding);
+        let answer = capabilities::initialize_result(&can, encoding);
         *self
-            .client_can
+            .client_capabilities
             .lock()
             .unwrap_or_else(|poisoned| poisoned.into_inner()) = can;
-        super::leave_with(params.process_id);
+        super::exit_with_client(params.process_id);
         Ok(answer)
     }
 
     async fn shutdown(&self) -> Result<()> {
-        self.ended.store(true, Ordering::Relaxed);
+        self.shut_down.store(true, Ordering::Relaxed);
         Ok(())
     }
 
@@ -202,7 +204,7 @@ impl LanguageServer for Backend {
             .filter_map(|change| file_path(&change.uri))
             .collect();
         for uri in self.links.affected(&changed) {
-            self.analyst.touched(&uri);
+            self.scheduler.link_changed(&uri);
         }
     }
 
@@ -212,8 +214,13 @@ impl LanguageServer for Backend {
     ) -> Result<DocumentDiagnosticReportResult> {
         let uri = &params.text_document.uri;
         let analysed = self.analysed(uri).await?;
-        if analysed.is_some() && self.abilities.fetches_diagnostics.load(Ordering::Relaxed) {
-            self.analyst.fetched(uri);
+        if analysed.is_some()
+            && self
+                .client_support
+                .pulls_diagnostics
+                .load(Ordering::Relaxed)
+        {
+            self.scheduler.pulled(uri);
         }
         let id = analysed
             .as_ref()
@@ -227,7 +234,7 @@ impl LanguageServer for Backend {
             };
             return Ok(DocumentDiagnosticReport::Unchanged(unchanged).into());
         }
-        let links = self.abilities.links_at_codes.load(Ordering::Relaxed);
+        let links = self.client_support.links_at_codes.load(Ordering::Relaxed);
         let items = analysed.map_or_else(Vec::new, |(_, analysed)| {
             convert::diagnostics(&analysed, manual::links(links))
         });

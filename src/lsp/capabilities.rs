@@ -1,4 +1,4 @@
-//! What the server offers.
+//! The capabilities of client and server.
 
 use std::sync::atomic::Ordering;
 
@@ -7,11 +7,11 @@ use tower_lsp::ls_types::*;
 use super::backend::PREVIEW;
 use super::convert;
 use super::positions::Encoding;
-use super::worker::Abilities;
+use super::worker::ClientSupport;
 
-impl Abilities {
-    /// Takes down what the client can do.
-    pub(super) fn take(&self, can: &ClientCapabilities) {
+impl ClientSupport {
+    /// Records the client's capabilities.
+    pub(super) fn record(&self, can: &ClientCapabilities) {
         let text = can.text_document.as_ref();
         let links = text
             .and_then(|text| text.publish_diagnostics.as_ref())
@@ -22,14 +22,14 @@ impl Abilities {
             .store(links.unwrap_or(false), Ordering::Relaxed);
         self.progress
             .store(progress.unwrap_or(false), Ordering::Relaxed);
-        self.fetches_diagnostics
-            .store(fetches_diagnostics(can), Ordering::Relaxed);
+        self.pulls_diagnostics
+            .store(pulls_diagnostics(can), Ordering::Relaxed);
     }
 }
 
-/// Whether the client can fetch diagnostics, and be told to do so again: a linked file may change while the text
+/// Whether the client can request diagnostics and be asked to repeat that: a linked file may change while the text
 /// does not.
-fn fetches_diagnostics(can: &ClientCapabilities) -> bool {
+fn pulls_diagnostics(can: &ClientCapabilities) -> bool {
     let text = can.text_document.as_ref();
     let workspace = can.workspace.as_ref();
     let again = workspace
@@ -38,8 +38,8 @@ fn fetches_diagnostics(can: &ClientCapabilities) -> bool {
     text.is_some_and(|text| text.diagnostic.is_some()) && again.unwrap_or(false)
 }
 
-/// The answer to a client that introduces itself.
-pub(super) fn offer(can: &ClientCapabilities, encoding: Encoding) -> InitializeResult {
+/// The answer to `initialize`.
+pub(super) fn initialize_result(can: &ClientCapabilities, encoding: Encoding) -> InitializeResult {
     let words = |words: &[&str]| Some(words.iter().map(|word| (*word).to_owned()).collect());
     let capabilities = ServerCapabilities {
         position_encoding: Some(encoding.kind()),
@@ -98,7 +98,7 @@ pub(super) fn offer(can: &ClientCapabilities, encoding: Encoding) -> InitializeR
             .into(),
         ),
         inlay_hint_provider: Some(OneOf::Left(true)),
-        diagnostic_provider: fetches_diagnostics(can).then(|| {
+        diagnostic_provider: pulls_diagnostics(can).then(|| {
             DiagnosticServerCapabilities::Options(DiagnosticOptions {
                 identifier: Some(convert::SOURCE.to_owned()),
                 inter_file_dependencies: false,

@@ -1,4 +1,4 @@
-//! From an editor's plain terms to those of the protocol.
+//! Conversion from the types of `ide` to those of the protocol.
 
 use tower_lsp::ls_types::{
     CodeDescription, Color, ColorInformation, CompletionItem, CompletionItemKind,
@@ -14,34 +14,34 @@ use super::documents::Analysed;
 use super::manual::Pages;
 use super::positions::Positions;
 use crate::diagnostic::{Code, Edit, Severity};
-use crate::ide::{self, Colouring, Paint, ProposalKind};
+use crate::ide::{self, ProposalKind, TokenClass};
 use crate::source::Span;
 
-/// The name that diagnostics carry.
+/// The source that diagnostics name.
 pub(super) const SOURCE: &str = "okoshi";
 
-/// The places of one text in terms of another that was made from it by typing: what stands before and behind what
-/// was typed is the same.
+/// Maps positions between the client's text and an earlier state that was analysed: the texts are the same before and after
+/// the stretch that was edited.
 #[derive(Debug)]
-pub(super) struct Places<'a> {
+pub(super) struct PositionMap<'a> {
     /// The text that the client has.
     pub(super) positions: &'a Positions,
-    /// Where the two texts begin to differ, where in the analysed text they are alike again, and how much longer the
+    /// Where the two texts begin to differ, where in the analysed text they are the same again, and how much longer the
     /// client's is; `None` if they are the same.
     shift: Option<(usize, usize, isize)>,
 }
 
-impl<'a> Places<'a> {
-    /// Of a text that is the analysed one.
-    pub(super) fn same(positions: &'a Positions) -> Self {
+impl<'a> PositionMap<'a> {
+    /// For a text that is the analysed one.
+    pub(super) fn identity(positions: &'a Positions) -> Self {
         Self {
             positions,
             shift: None,
         }
     }
 
-    /// Of a text that was made from the analysed one.
-    pub(super) fn shifted(positions: &'a Positions, analysed: &str) -> Self {
+    /// For a text that was edited after it was analysed.
+    pub(super) fn after_edit(positions: &'a Positions, analysed: &str) -> Self {
         let now = positions.text().as_bytes();
         let then = analysed.as_bytes();
         let alike = |(a, b): &(&u8, &u8)| a == b;
@@ -59,7 +59,7 @@ impl<'a> Places<'a> {
         Self { positions, shift }
     }
 
-    /// A place of the client's text in the analysed one; `None` within what was typed.
+    /// The offset in the analysed text of a position in the client's; `None` in what was edited.
     pub(super) fn offset(&self, position: Position) -> Option<usize> {
         let at = self.positions.offset(position);
         match self.shift {
@@ -69,7 +69,7 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// A range of the client's text in the analysed one, as far as it is there.
+    /// The span in the analysed text of a range in the client's, cut to what is in both.
     pub(super) fn span(&self, range: Range) -> Span {
         let start = self
             .offset(range.start)
@@ -80,13 +80,13 @@ impl<'a> Places<'a> {
         Span::new(start, end.max(start))
     }
 
-    /// A place of the analysed text as a range of the client's; `None` where it was typed over.
+    /// The range in the client's text of a span in the analysed one; `None` if it was edited.
     pub(super) fn range(&self, span: Span) -> Option<Range> {
-        Some(self.positions.range(self.now(span)?))
+        Some(self.positions.range(self.to_current(span)?))
     }
 
-    /// A place of the analysed text as a span of the client's.
-    pub(super) fn now(&self, span: Span) -> Option<Span> {
+    /// The span in the client's text of a span in the analysed one; `None` if it was edited.
+    pub(super) fn to_current(&self, span: Span) -> Option<Span> {
         match self.shift {
             None => Some(span),
             Some((head, _, _)) if span.end <= head => Some(span),
@@ -106,24 +106,24 @@ impl<'a> Places<'a> {
         Some(TextEdit::new(self.range(edit.span)?, edit.text.clone()))
     }
 
-    /// Edits, if all of their places are still there.
+    /// Edits, if none of their spans was edited.
     pub(super) fn edits(&self, edits: &[Edit]) -> Option<Vec<TextEdit>> {
         edits.iter().map(|edit| self.edit(edit)).collect()
     }
 }
 
-/// How many diagnostics of a drawing are shown: with more, editors come to a stand, and nobody reads them.
-const MOST_SHOWN: usize = 1000;
+/// The most diagnostics that are sent for a drawing: more of them stall editors, and nobody reads them.
+const MAX_SHOWN: usize = 1000;
 
-/// The diagnostics of an analysis, if they are too many the worst; of a drawing without strings none.
+/// The diagnostics of an analysis, only the most severe if there are too many; none for a drawing without strings.
 pub(super) fn diagnostics(analysed: &Analysed, pages: Option<&Pages>) -> Vec<Diagnostic> {
     if !analysed.analysis.is_annotated() {
         return vec![];
     }
     let mut found: Vec<_> = analysed.analysis.diagnostics().iter().collect();
-    if found.len() > MOST_SHOWN {
+    if found.len() > MAX_SHOWN {
         found.sort_by_key(|diagnostic| diagnostic.severity());
-        found.truncate(MOST_SHOWN);
+        found.truncate(MAX_SHOWN);
         found.sort_by_key(|diagnostic| diagnostic.span);
     }
     let found = found.into_iter();
@@ -176,12 +176,12 @@ pub(super) fn diagnostic(
     }
 }
 
-/// Whether a code tells of something that could as well be left out.
+/// Whether a code is about something that has no effect, which editors show faded.
 fn has_no_effect(code: Code) -> bool {
     matches!(code, Code::UnusedLegend | Code::NotBuiltYet)
 }
 
-/// Markdown as it is shown.
+/// Text in Markdown.
 pub(super) fn markdown(value: String) -> MarkupContent {
     MarkupContent {
         kind: MarkupKind::Markdown,
@@ -189,7 +189,7 @@ pub(super) fn markdown(value: String) -> MarkupContent {
     }
 }
 
-/// A proposal; `index` keeps the order.
+/// A completion item; `index` keeps the order.
 pub(super) fn proposal(
     proposal: &ide::Proposal,
     index: usize,
@@ -214,8 +214,8 @@ pub(super) fn proposal(
         kind: Some(kind),
         detail: Some(proposal.detail.clone()),
         sort_text: Some(format!("{index:04}")),
-        // What stands there may begin with a quote or a sign: the word is found by what will be written. Always given,
-        // since some clients take its absence for a list that is filtered already.
+        // The replaced word may begin with a quote or a sign, so items are filtered by the text that they insert. Always given,
+        // since some clients take its absence to mean a filtered list.
         filter_text: Some(proposal.text.clone()),
         insert_text_format: Some(match snippet {
             Some(_) => InsertTextFormat::SNIPPET,
@@ -232,7 +232,7 @@ pub(super) fn proposal(
     }
 }
 
-/// The manual page of a proposal that the client asks more about.
+/// The manual page of a completion item.
 pub(super) fn page(item: &CompletionItem) -> Option<Documentation> {
     let page = item.data.as_ref()?.as_str()?;
     Some(Documentation::MarkupContent(markdown(
@@ -265,13 +265,12 @@ pub(super) fn signatures(help: ide::SignatureHelp) -> SignatureHelp {
 }
 
 /// The outline as symbols.
-pub(super) fn symbols(outline: Vec<ide::Outline>, places: &Places<'_>) -> Vec<DocumentSymbol> {
+pub(super) fn symbols(outline: Vec<ide::Outline>, map: &PositionMap<'_>) -> Vec<DocumentSymbol> {
     let symbols = outline.into_iter().flat_map(|part| {
-        let children = symbols(part.children, places);
-        let (Some(range), Some(selection)) =
-            (places.range(part.span), places.range(part.selection))
+        let children = symbols(part.children, map);
+        let (Some(range), Some(selection)) = (map.range(part.span), map.range(part.selection))
         else {
-            // A part that is being typed over: what hangs on it is shown in its place.
+            // A part whose string is being edited: its children are shown in its place.
             return children;
         };
         #[allow(deprecated, reason = "the field must be given, and stays empty")]
@@ -290,7 +289,7 @@ pub(super) fn symbols(outline: Vec<ide::Outline>, places: &Places<'_>) -> Vec<Do
     symbols.collect()
 }
 
-/// How a part is shown among symbols: as something that holds others, or not.
+/// The symbol kind of a part: one with children, or without.
 pub(super) fn symbol_kind(is_joint: bool) -> SymbolKind {
     if is_joint {
         SymbolKind::CLASS
@@ -299,7 +298,7 @@ pub(super) fn symbol_kind(is_joint: bool) -> SymbolKind {
     }
 }
 
-/// The lines of a fold; `None` if it is within one line.
+/// The lines of a folding range; `None` if it is within one line.
 pub(super) fn fold(span: Span, positions: &Positions) -> Option<FoldingRange> {
     let [start, end] = [span.start, span.end].map(|offset| positions.position(offset).line);
     (start < end).then(|| FoldingRange {
@@ -309,11 +308,11 @@ pub(super) fn fold(span: Span, positions: &Positions) -> Option<FoldingRange> {
     })
 }
 
-/// Nested selections, the innermost at the head.
-pub(super) fn selection(spans: &[Span], places: &Places<'_>) -> Option<SelectionRange> {
+/// Nested selections, the innermost first.
+pub(super) fn selection(spans: &[Span], map: &PositionMap<'_>) -> Option<SelectionRange> {
     let mut outer = None;
     for span in spans.iter().rev() {
-        let range = places.range(*span)?;
+        let range = map.range(*span)?;
         outer = Some(SelectionRange {
             range,
             parent: outer.map(Box::new),
@@ -322,36 +321,38 @@ pub(super) fn selection(spans: &[Span], places: &Places<'_>) -> Option<Selection
     outer
 }
 
-/// The kinds of words, in the order of [`Paint`].
-const PAINTS: [(Paint, SemanticTokenType); 11] = [
-    (Paint::Sign, SemanticTokenType::OPERATOR),
-    (Paint::Part, SemanticTokenType::CLASS),
-    (Paint::Feature, SemanticTokenType::EVENT),
-    (Paint::Keyword, SemanticTokenType::KEYWORD),
-    (Paint::Flag, SemanticTokenType::MODIFIER),
-    (Paint::Word, SemanticTokenType::ENUM_MEMBER),
-    (Paint::Number, SemanticTokenType::NUMBER),
-    (Paint::Variable, SemanticTokenType::VARIABLE),
-    (Paint::Function, SemanticTokenType::FUNCTION),
-    (Paint::Quoted, SemanticTokenType::STRING),
-    (Paint::Comment, SemanticTokenType::COMMENT),
+/// The kinds of words, in the order of [`TokenClass`].
+const TOKEN_TYPES: [(TokenClass, SemanticTokenType); 11] = [
+    (TokenClass::Sign, SemanticTokenType::OPERATOR),
+    (TokenClass::Part, SemanticTokenType::CLASS),
+    (TokenClass::Feature, SemanticTokenType::EVENT),
+    (TokenClass::Keyword, SemanticTokenType::KEYWORD),
+    (TokenClass::Flag, SemanticTokenType::MODIFIER),
+    (TokenClass::Word, SemanticTokenType::ENUM_MEMBER),
+    (TokenClass::Number, SemanticTokenType::NUMBER),
+    (TokenClass::Variable, SemanticTokenType::VARIABLE),
+    (TokenClass::Function, SemanticTokenType::FUNCTION),
+    (TokenClass::Quoted, SemanticTokenType::STRING),
+    (TokenClass::Comment, SemanticTokenType::COMMENT),
 ];
 
-/// What the numbers of tokens mean.
+/// The meaning of the numbers in tokens.
 pub(super) fn legend() -> SemanticTokensLegend {
     SemanticTokensLegend {
-        token_types: PAINTS.iter().map(|(_, kind)| kind.clone()).collect(),
+        token_types: TOKEN_TYPES.iter().map(|(_, kind)| kind.clone()).collect(),
         token_modifiers: vec![SemanticTokenModifier::DECLARATION],
     }
 }
 
-/// Words as tokens, each told by how far it is from the one before.
-pub(super) fn tokens(colouring: &[Colouring], places: &Places<'_>) -> Vec<SemanticToken> {
+/// Tokens in the encoding of the protocol, each relative to the one before.
+pub(super) fn tokens(words: &[ide::SemanticToken], map: &PositionMap<'_>) -> Vec<SemanticToken> {
     let mut before = Position::new(0, 0);
-    let words = colouring.iter().filter_map(|word| {
-        let span = places.now(word.span)?;
-        let at = places.positions.position(span.start);
-        let kind = PAINTS.iter().position(|(paint, _)| *paint == word.paint)?;
+    let words = words.iter().filter_map(|word| {
+        let span = map.to_current(word.span)?;
+        let at = map.positions.position(span.start);
+        let kind = TOKEN_TYPES
+            .iter()
+            .position(|(class, _)| *class == word.class)?;
         let delta_line = at.line.checked_sub(before.line)?;
         let delta_start = match delta_line {
             0 => at.character.checked_sub(before.character)?,
@@ -361,7 +362,7 @@ pub(super) fn tokens(colouring: &[Colouring], places: &Places<'_>) -> Vec<Semant
         Some(SemanticToken {
             delta_line,
             delta_start,
-            length: places.positions.length(span),
+            length: map.positions.length(span),
             token_type: u32::try_from(kind).ok()?,
             token_modifiers_bitset: u32::from(word.defines),
         })
@@ -369,19 +370,19 @@ pub(super) fn tokens(colouring: &[Colouring], places: &Places<'_>) -> Vec<Semant
     words.collect()
 }
 
-/// An inlay.
-pub(super) fn inlay(inlay: ide::Inlay, places: &Places<'_>, uri: &Uri) -> Option<InlayHint> {
+/// An inlay hint.
+pub(super) fn inlay(inlay: ide::Inlay, map: &PositionMap<'_>, uri: &Uri) -> Option<InlayHint> {
     let parts = inlay.pieces.into_iter().map(|piece| InlayHintLabelPart {
         value: piece.text,
         tooltip: Some(InlayHintLabelPartTooltip::String(piece.about)),
         location: piece
             .from
-            .and_then(|span| places.range(span))
+            .and_then(|span| map.range(span))
             .map(|range| Location::new(uri.clone(), range)),
         command: None,
     });
     Some(InlayHint {
-        position: places.position(inlay.at)?,
+        position: map.position(inlay.at)?,
         label: InlayHintLabel::LabelParts(parts.collect()),
         kind: Some(InlayHintKind::TYPE),
         text_edits: None,
@@ -393,10 +394,10 @@ pub(super) fn inlay(inlay: ide::Inlay, places: &Places<'_>, uri: &Uri) -> Option
 }
 
 /// A swatch.
-pub(super) fn swatch(swatch: ide::Swatch, places: &Places<'_>) -> Option<ColorInformation> {
+pub(super) fn swatch(swatch: ide::Swatch, map: &PositionMap<'_>) -> Option<ColorInformation> {
     let [red, green, blue, alpha] = swatch.rgba.map(|channel| channel as f32);
     Some(ColorInformation {
-        range: places.range(swatch.span)?,
+        range: map.range(swatch.span)?,
         color: Color {
             red,
             green,
@@ -414,25 +415,25 @@ mod tests {
     use crate::lsp::positions::Encoding;
 
     #[test]
-    fn places_move_with_what_is_typed() {
+    fn positions_move_with_edits() {
         let now = Positions::new(Arc::from("abcXYZdef"), Encoding::Utf8);
-        let places = Places::shifted(&now, "abcdef");
-        assert_eq!(places.now(Span::new(0, 3)), Some(Span::new(0, 3)));
-        assert_eq!(places.now(Span::new(3, 6)), Some(Span::new(6, 9)));
-        assert_eq!(places.now(Span::new(2, 4)), None);
-        assert_eq!(places.offset(Position::new(0, 2)), Some(2));
-        assert_eq!(places.offset(Position::new(0, 4)), None);
-        assert_eq!(places.offset(Position::new(0, 7)), Some(4));
-        let same = Places::shifted(&now, "abcXYZdef");
-        assert_eq!(same.now(Span::new(2, 4)), Some(Span::new(2, 4)));
-        let shorter = Places::shifted(&now, "abcXYZ1def");
-        assert_eq!(shorter.now(Span::new(7, 10)), Some(Span::new(6, 9)));
+        let map = PositionMap::after_edit(&now, "abcdef");
+        assert_eq!(map.to_current(Span::new(0, 3)), Some(Span::new(0, 3)));
+        assert_eq!(map.to_current(Span::new(3, 6)), Some(Span::new(6, 9)));
+        assert_eq!(map.to_current(Span::new(2, 4)), None);
+        assert_eq!(map.offset(Position::new(0, 2)), Some(2));
+        assert_eq!(map.offset(Position::new(0, 4)), None);
+        assert_eq!(map.offset(Position::new(0, 7)), Some(4));
+        let same = PositionMap::after_edit(&now, "abcXYZdef");
+        assert_eq!(same.to_current(Span::new(2, 4)), Some(Span::new(2, 4)));
+        let shorter = PositionMap::after_edit(&now, "abcXYZ1def");
+        assert_eq!(shorter.to_current(Span::new(7, 10)), Some(Span::new(6, 9)));
     }
 
     #[test]
-    fn every_paint_has_a_token_type() {
-        for (index, (paint, _)) in PAINTS.iter().enumerate() {
-            assert_eq!(*paint as usize, index);
+    fn every_class_has_a_token_type() {
+        for (index, (class, _)) in TOKEN_TYPES.iter().enumerate() {
+            assert_eq!(*class as usize, index);
         }
     }
 }

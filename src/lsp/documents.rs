@@ -1,7 +1,7 @@
-//! The texts that the client has open, and what was found in them.
+//! The texts that the client has open, with their analyses.
 //!
-//! Texts change in the order in which the client says so, and at once; each request is answered from the state
-//! that held when it came ([`Snapshot`]).
+//! Changes are applied at once and in the client's order; each request is answered from the state
+//! when it came ([`Snapshot`]).
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -18,18 +18,18 @@ use crate::ide::Analysis;
 use crate::resolver::{MemoryResolver, Resolver};
 use crate::source::Span;
 
-/// One state of a text.
+/// A state of a text.
 #[derive(Debug)]
 pub(super) struct Document {
-    /// What the client calls it.
+    /// Its address, as the client writes it.
     pub(super) uri: Uri,
-    /// The client's number of this state.
+    /// The client's version number.
     pub(super) version: i32,
-    /// The server's own number: it grows too when only a linked file has changed.
+    /// The server's own version number: it also grows when only a linked file has changed.
     pub(super) generation: u64,
-    /// The text with its lines.
+    /// The text with its line index.
     pub(super) positions: Positions,
-    /// The file, if it is one.
+    /// Its file, if it has one.
     pub(super) path: Option<PathBuf>,
 }
 
@@ -39,12 +39,12 @@ impl Document {
         self.positions.text()
     }
 
-    /// The folder that its links start from.
+    /// The folder that its links are relative to.
     pub(super) fn folder(&self) -> Option<&Path> {
         self.path.as_deref().and_then(Path::parent)
     }
 
-    /// What reads its links; a text that is no file has none.
+    /// What reads its links; a text without a file has none.
     pub(super) fn resolver(&self) -> Box<dyn Resolver> {
         match self.folder() {
             Some(folder) => Box::new(FolderResolver::new(folder)),
@@ -53,19 +53,19 @@ impl Document {
     }
 }
 
-/// A state of a text and what was found in it.
+/// A state of a text with its analysis.
 #[derive(Debug)]
 pub(super) struct Analysed {
-    /// The state.
+    /// The text.
     pub(super) document: Arc<Document>,
-    /// What was found.
+    /// Its analysis.
     pub(super) analysis: Analysis,
-    /// The last one before it that could be read as a drawing, if this one cannot.
-    pub(super) good: Option<Arc<Analysed>>,
+    /// The last analysis of well-formed XML, if this is none.
+    pub(super) last_sound: Option<Arc<Analysed>>,
 }
 
-/// The place where analyses arrive.
-pub(super) type Arrivals = watch::Receiver<Option<Arc<Analysed>>>;
+/// Receives the analyses of a text.
+pub(super) type AnalysisReceiver = watch::Receiver<Option<Arc<Analysed>>>;
 
 #[derive(Debug)]
 struct Entry {
@@ -86,13 +86,13 @@ struct State {
     generation: u64,
 }
 
-/// One text as it was when a request came.
+/// One text when a request came.
 #[derive(Debug, Clone)]
 pub(super) struct Snapshot {
     /// The text.
     pub(super) document: Arc<Document>,
-    /// Where its analysis arrives.
-    pub(super) arrivals: Arrivals,
+    /// Receives its analysis.
+    pub(super) analyses: AnalysisReceiver,
 }
 
 impl Documents {
@@ -103,23 +103,23 @@ impl Documents {
     }
 
     fn state(&self) -> MutexGuard<'_, State> {
-        // A panic while it was held has left each entry whole: entries are replaced, not rewritten.
+        // Entries are replaced as a whole, so a panic while the lock was held left them consistent.
         self.state
             .lock()
             .unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    /// Says what columns count; they are counted so from now on.
+    /// Sets what columns count.
     pub(super) fn count(&self, encoding: Encoding) {
         self.state().encoding = Some(encoding);
     }
 
-    /// What columns count.
+    /// The unit of columns.
     pub(super) fn encoding(&self) -> Encoding {
         self.state().encoding.unwrap_or(Encoding::Utf16)
     }
 
-    /// Takes a text that the client has opened.
+    /// Adds a text that the client has opened.
     pub(super) fn open(&self, item: TextDocumentItem) {
         let mut state = self.state();
         state.generation += 1;
@@ -139,7 +139,7 @@ impl Documents {
         state.entries.insert(key, entry);
     }
 
-    /// Makes the client's changes, in their order. Of a text that is not open nothing is changed.
+    /// Applies the client's changes in order. Ignores a text that is not open.
     pub(super) fn change(
         &self,
         id: &VersionedTextDocumentIdentifier,
@@ -172,7 +172,7 @@ impl Documents {
         state.generation = generation;
     }
 
-    /// Says that something which a text links to has changed: its analyses are out of date.
+    /// Marks the analyses of a text as out of date, because a file that it links to has changed.
     pub(super) fn touch(&self, uri: &str) {
         let mut state = self.state();
         let generation = state.generation + 1;
@@ -190,12 +190,12 @@ impl Documents {
         }
     }
 
-    /// Forgets a text that the client has closed.
+    /// Removes a text that the client has closed.
     pub(super) fn close(&self, uri: &str) {
         self.state().entries.remove(uri);
     }
 
-    /// All open texts as they are now.
+    /// All open texts in their present state.
     pub(super) fn snapshots(&self) -> BTreeMap<String, Snapshot> {
         let state = self.state();
         let entries = state.entries.iter();
@@ -203,14 +203,14 @@ impl Documents {
             .map(|(uri, entry)| {
                 let snapshot = Snapshot {
                     document: entry.document.clone(),
-                    arrivals: entry.analysed.subscribe(),
+                    analyses: entry.analysed.subscribe(),
                 };
                 (uri.clone(), snapshot)
             })
             .collect()
     }
 
-    /// A text as it is now, if it is open.
+    /// A text in its present state, if it is open.
     pub(super) fn current(&self, uri: &str) -> Option<Arc<Document>> {
         let state = self.state();
         Some(state.entries.get(uri)?.document.clone())
@@ -223,8 +223,8 @@ impl Documents {
         entry.and_then(|entry| entry.analysed.borrow().clone())
     }
 
-    /// Hands an analysis to those who wait for it, unless its state is gone. Says whether it was handed over.
-    pub(super) fn arrive(&self, analysed: Arc<Analysed>) -> bool {
+    /// Hands an analysis to the waiting requests, unless its state is out of date. Returns whether it was handed over.
+    pub(super) fn publish(&self, analysed: Arc<Analysed>) -> bool {
         let state = self.state();
         match state.entries.get(analysed.document.uri.as_str()) {
             Some(entry) if entry.document.generation == analysed.document.generation => {
@@ -236,7 +236,7 @@ impl Documents {
     }
 }
 
-/// The path of a file's address.
+/// The path of a `file:` address.
 pub(super) fn file_path(uri: &Uri) -> Option<PathBuf> {
     let is_file = uri.scheme().as_str().eq_ignore_ascii_case("file");
     is_file.then(|| uri.to_file_path().map(|path| path.into_owned()))?

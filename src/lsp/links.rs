@@ -1,16 +1,16 @@
-//! The files that open drawings link to, watched wherever the client does not tell of them.
+//! The files that open drawings link to, watched because not every client reports changed files.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard};
 
-use super::analyst::Analyst;
+use super::scheduler::Scheduler;
 use crate::disk::{FolderWatch, Notice, as_told};
 
-/// See the module.
+/// See the [module](self).
 pub(super) struct Links {
-    /// By text, the files that it links to.
-    places: Arc<Mutex<BTreeMap<String, BTreeSet<PathBuf>>>>,
+    /// Per text, the files that it links to.
+    linked: Arc<Mutex<BTreeMap<String, BTreeSet<PathBuf>>>>,
     watch: Option<FolderWatch>,
 }
 
@@ -20,57 +20,57 @@ impl std::fmt::Debug for Links {
     }
 }
 
-type Places = Mutex<BTreeMap<String, BTreeSet<PathBuf>>>;
+type LinkedFiles = Mutex<BTreeMap<String, BTreeSet<PathBuf>>>;
 
-fn lock(places: &Places) -> MutexGuard<'_, BTreeMap<String, BTreeSet<PathBuf>>> {
-    places
+fn lock(linked: &LinkedFiles) -> MutexGuard<'_, BTreeMap<String, BTreeSet<PathBuf>>> {
+    linked
         .lock()
         .unwrap_or_else(|poisoned| poisoned.into_inner())
 }
 
 impl Links {
-    /// Has `analyst` look again at texts whose files change.
-    pub(super) fn new(analyst: Arc<Analyst>) -> Self {
-        let places: Arc<Places> = Arc::default();
-        let known = places.clone();
+    /// Has `scheduler` analyse texts again when their linked files change.
+    pub(super) fn new(scheduler: Arc<Scheduler>) -> Self {
+        let linked: Arc<LinkedFiles> = Arc::default();
+        let known = linked.clone();
         let watch = FolderWatch::new(Notice::Told, move |changed| {
             for uri in affected(&known, &changed.paths) {
-                analyst.touched(&uri);
+                scheduler.link_changed(&uri);
             }
         });
-        // Where the system cannot tell, clients may.
+        // Without system notifications, the client may still report changes.
         let watch = watch.ok();
-        Self { places, watch }
+        Self { linked, watch }
     }
 
-    /// The texts that link to one of these files.
+    /// The texts that link to any of these files.
     pub(super) fn affected(&self, changed: &BTreeSet<PathBuf>) -> Vec<String> {
-        affected(&self.places, changed)
+        affected(&self.linked, changed)
     }
 
-    /// Watches the files that a text links to now.
+    /// Watches the files that a text now links to.
     pub(super) fn watch(&self, uri: &str, files: Vec<PathBuf>) {
         let files: BTreeSet<PathBuf> = files.iter().map(|file| as_told(file)).collect();
-        let mut places = lock(&self.places);
-        if places.get(uri).is_some_and(|old| *old == files)
-            || (files.is_empty() && !places.contains_key(uri))
+        let mut linked = lock(&self.linked);
+        if linked.get(uri).is_some_and(|old| *old == files)
+            || (files.is_empty() && !linked.contains_key(uri))
         {
             return;
         }
-        places.insert(uri.to_owned(), files);
-        self.renew(&places);
+        linked.insert(uri.to_owned(), files);
+        self.renew(&linked);
     }
 
     /// A text was closed.
     pub(super) fn forget(&self, uri: &str) {
-        let mut places = lock(&self.places);
-        if places.remove(uri).is_some() {
-            self.renew(&places);
+        let mut linked = lock(&self.linked);
+        if linked.remove(uri).is_some() {
+            self.renew(&linked);
         }
     }
 
-    fn renew(&self, places: &BTreeMap<String, BTreeSet<PathBuf>>) {
-        let folders = places.values().flatten().filter_map(|file| file.parent());
+    fn renew(&self, linked: &BTreeMap<String, BTreeSet<PathBuf>>) {
+        let folders = linked.values().flatten().filter_map(|file| file.parent());
         let folders: BTreeSet<PathBuf> = folders.map(Path::to_owned).collect();
         if let Some(watch) = &self.watch {
             watch.set(&folders);
@@ -78,10 +78,10 @@ impl Links {
     }
 }
 
-fn affected(places: &Places, changed: &BTreeSet<PathBuf>) -> Vec<String> {
+fn affected(linked: &LinkedFiles, changed: &BTreeSet<PathBuf>) -> Vec<String> {
     let changed: BTreeSet<PathBuf> = changed.iter().map(|file| as_told(file)).collect();
-    let places = lock(places);
-    let texts = places.iter();
+    let linked = lock(linked);
+    let texts = linked.iter();
     texts
         .filter(|(_, files)| !files.is_disjoint(&changed))
         .map(|(uri, _)| uri.clone())

@@ -1,4 +1,4 @@
-//! The manual of diagnostics as a file, so that an editor's links at codes lead somewhere without a net.
+//! The manual of diagnostics as a file, so that an editor's links at codes work offline.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -12,10 +12,10 @@ use crate::lang::reference;
 /// Where each code is explained.
 pub(super) type Pages = BTreeMap<Code, Uri>;
 
-/// The file with the line of each code; written when it is first asked for. Empty if it cannot be written.
+/// The file with the line of each code, written on first use. Empty if it cannot be written.
 static PAGES: LazyLock<Pages> = LazyLock::new(|| pages().unwrap_or_default());
 
-/// The links at codes, if the client shows them.
+/// The links at codes, if the client supports them.
 pub(super) fn links(wanted: bool) -> Option<&'static Pages> {
     wanted.then(|| &*PAGES)
 }

@@ -1,31 +1,31 @@
 //! The language server: the strings of drawings, understood in any editor that speaks the protocol.
 //!
 //! ```text
-//!  stdin ─► Ordered ─► Backend ─► ide          (requests, answered from the state they came in)
+//!  stdin ─► Ordered ─► Backend ─► ide          (requests, answered from the state when they came)
 //!              │                   ▲
-//!              └► Documents ─► Analyst ─► Worker ─► diagnostics     (one thread, the newest state of each text)
+//!              └► Documents ─► Scheduler ─► Worker ─► diagnostics     (one thread, the newest state of each text)
 //!                                  ▲
 //!                        Links ────┘           (linked files that change)
 //! ```
 //!
 //! Only this room names the protocol's types; what is said about drawings comes from [`crate::ide`]. The framework is
 //! tower-lsp, in its maintained continuation `tower-lsp-server` under the old name: the original has had no release
-//! since 2023 and names an unkept crate of types. What it leaves open, the order of changes and panics of handlers, is
-//! closed by the service in `ordered`.
+//! since 2023 and depends on an unmaintained crate of types. What it leaves open, the order of changes and panics of handlers, is
+//! handled by the service in `ordered`.
 
-mod alter;
-mod analyst;
 mod backend;
 mod capabilities;
 mod convert;
 mod documents;
+mod edits;
 mod links;
-mod look;
 mod manual;
 mod ordered;
 mod positions;
 mod preview;
 mod progress;
+mod queries;
+mod scheduler;
 #[cfg(test)]
 mod tests;
 mod worker;
@@ -38,15 +38,15 @@ use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::runtime::Handle;
 use tower_lsp::{LspService, Server};
 
-use analyst::Analyst;
 use backend::Backend;
 use documents::Documents;
 use links::Links;
 use ordered::Ordered;
 use preview::Previews;
-use worker::{Abilities, Worker};
+use scheduler::Scheduler;
+use worker::{ClientSupport, Worker};
 
-/// Serves one client on stdin and stdout until it goes. Says whether the client took its leave as the protocol wants,
+/// Serves one client on stdin and stdout until it disconnects. Returns whether the client ended the session as the protocol wants,
 /// by `shutdown` and `exit`.
 ///
 /// # Errors
@@ -56,17 +56,17 @@ pub fn serve() -> std::io::Result<bool> {
         .worker_threads(2)
         .enable_all()
         .build()?;
-    let left = runtime.block_on(converse(tokio::io::stdin(), tokio::io::stdout()));
-    // A read of stdin may still be waiting, and a drawing may still be compiled: nobody waits for them.
+    let shut_down = runtime.block_on(serve_client(tokio::io::stdin(), tokio::io::stdout()));
+    // A read of stdin or a compilation may still be running: do not wait for them.
     runtime.shutdown_background();
-    Ok(left)
+    Ok(shut_down)
 }
 
 /// Serves one client; see [`serve`].
-async fn converse(input: impl AsyncRead + Unpin, output: impl AsyncWrite) -> bool {
-    let (service, socket, left) = service();
+async fn serve_client(input: impl AsyncRead + Unpin, output: impl AsyncWrite) -> bool {
+    let (service, socket, shut_down) = service();
     Server::new(input, output, socket).serve(service).await;
-    left.load(Ordering::Relaxed)
+    shut_down.load(Ordering::Relaxed)
 }
 
 type Parts = (
@@ -75,22 +75,22 @@ type Parts = (
     Arc<AtomicBool>,
 );
 
-/// The service, the way to the client, and whether the client has asked to end.
+/// The service, the connection to the client, and whether the client has asked to shut down.
 fn service() -> Parts {
     let documents = Arc::new(Documents::new());
-    let analyst = Arc::new(Analyst::new(documents.clone()));
-    let left = Arc::new(AtomicBool::new(false));
+    let scheduler = Arc::new(Scheduler::new(documents.clone()));
+    let shut_down = Arc::new(AtomicBool::new(false));
     let builder = LspService::build(|client| {
-        let links = Arc::new(Links::new(analyst.clone()));
-        let abilities = Arc::new(Abilities::default());
+        let links = Arc::new(Links::new(scheduler.clone()));
+        let client_support = Arc::new(ClientSupport::default());
         let previews = Previews::new(client.clone(), Handle::current(), documents.clone());
         let mut worker = Worker {
-            analyst: analyst.clone(),
+            scheduler: scheduler.clone(),
             documents: documents.clone(),
             client: client.clone(),
             runtime: Handle::current(),
             links: links.clone(),
-            abilities: abilities.clone(),
+            client_support: client_support.clone(),
             previews: previews.clone(),
             compilers: std::collections::BTreeMap::new(),
         };
@@ -98,13 +98,13 @@ fn service() -> Parts {
         Backend {
             client,
             documents: documents.clone(),
-            analyst: analyst.clone(),
-            abilities,
+            scheduler: scheduler.clone(),
+            client_support,
             links,
             workspace: Arc::default(),
             previews,
-            client_can: std::sync::Mutex::default(),
-            ended: left.clone(),
+            client_capabilities: std::sync::Mutex::default(),
+            shut_down: shut_down.clone(),
         }
     });
     let builder = builder
@@ -116,12 +116,16 @@ fn service() -> Parts {
     #[cfg(test)]
     let builder = tests::plant(builder);
     let (service, socket) = builder.finish();
-    (Ordered::new(service, documents, analyst), socket, left)
+    (
+        Ordered::new(service, documents, scheduler),
+        socket,
+        shut_down,
+    )
 }
 
-/// Ends the process when its client's process is gone: some leave their pipes open to others when they crash.
+/// Ends the process when its client's process is gone: a crashed client may leave the pipes open in another process.
 #[cfg(unix)]
-fn leave_with(client: Option<u32>) {
+fn exit_with_client(client: Option<u32>) {
     use rustix::process::{Pid, test_kill_process};
     let client = client.and_then(|id| Pid::from_raw(i32::try_from(id).ok()?));
     let Some(client) = client else { return };
@@ -133,6 +137,6 @@ fn leave_with(client: Option<u32>) {
     });
 }
 
-/// Elsewhere the end of stdin tells.
+/// On other systems the end of stdin must do.
 #[cfg(not(unix))]
-fn leave_with(_client: Option<u32>) {}
+fn exit_with_client(_client: Option<u32>) {}

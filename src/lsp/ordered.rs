@@ -1,10 +1,10 @@
-//! The service between the wire and the handlers: order, snapshots, panics.
+//! The service between the connection and the handlers: keeps the order of messages, takes snapshots, catches panics.
 //!
-//! The framework runs up to four handlers at once, and a handler begins only when it is first polled. A handler of
-//! `didChange` that waits for anything before it stores the text was seen to store versions out of order. So texts are
-//! not changed by handlers at all: this service sees the messages one by one, in the order of the wire, and changes the texts
-//! before it looks at the next. With every request it takes down the state that holds at that moment; the
-//! request is answered from it, however late it is polled. A handler that panics is answered as an error,
+//! Kept by hand, because no tower layer and no option of the framework keeps the order: it
+//! runs up to four handlers at once, and a handler begins only when it is first polled, so that handlers of `didChange`
+//! can store versions out of order. So texts are not changed by handlers: this service sees the messages one by one and changes the texts
+//! before it reads the next. With every request it keeps a snapshot of all texts; the
+//! request is answered from that, however late it is polled. A handler that panics is answered as an error,
 //! and the server goes on.
 
 use std::collections::BTreeMap;
@@ -23,32 +23,32 @@ use tower_lsp::ls_types::{
     DidOpenTextDocumentParams, DidSaveTextDocumentParams,
 };
 
-use super::analyst::Analyst;
 use super::documents::{Documents, Snapshot};
+use super::scheduler::Scheduler;
 
 tokio::task_local! {
-    /// The open texts as they were when the request came that is being answered.
+    /// The open texts when the request came that is being answered.
     pub(super) static SNAPSHOTS: Arc<BTreeMap<String, Snapshot>>;
 }
 
-/// See the module.
+/// See the [module](self).
 #[derive(Debug)]
 pub(super) struct Ordered<S> {
     inner: S,
     documents: Arc<Documents>,
-    analyst: Arc<Analyst>,
+    scheduler: Arc<Scheduler>,
 }
 
 impl<S> Ordered<S> {
-    pub(super) fn new(inner: S, documents: Arc<Documents>, analyst: Arc<Analyst>) -> Self {
+    pub(super) fn new(inner: S, documents: Arc<Documents>, scheduler: Arc<Scheduler>) -> Self {
         Self {
             inner,
             documents,
-            analyst,
+            scheduler,
         }
     }
 
-    /// Changes the texts, or when they are analysed, as a message says; `false` if it is about something else.
+    /// Applies a message that changes texts or settings; `false` if it is another message.
     fn changes_texts(&self, request: &Request) -> bool {
         let Some(params) = request.params() else {
             return false;
@@ -58,31 +58,31 @@ impl<S> Ordered<S> {
                 if let Some(params) = read::<DidOpenTextDocumentParams>(params) {
                     let uri = params.text_document.uri.to_string();
                     self.documents.open(params.text_document);
-                    self.analyst.opened_or_saved(&uri);
+                    self.scheduler.opened_or_saved(&uri);
                 }
             }
             "textDocument/didChange" => {
                 if let Some(params) = read::<DidChangeTextDocumentParams>(params) {
                     self.documents
                         .change(&params.text_document, params.content_changes);
-                    self.analyst.changed(params.text_document.uri.as_str());
+                    self.scheduler.changed(params.text_document.uri.as_str());
                 }
             }
             "textDocument/didClose" => {
                 if let Some(params) = read::<DidCloseTextDocumentParams>(params) {
                     self.documents.close(params.text_document.uri.as_str());
-                    self.analyst.closed(&params.text_document.uri);
+                    self.scheduler.closed(&params.text_document.uri);
                 }
             }
             "textDocument/didSave" => {
                 if let Some(params) = read::<DidSaveTextDocumentParams>(params) {
                     let uri = params.text_document.uri.as_str();
-                    self.analyst.opened_or_saved(uri);
+                    self.scheduler.opened_or_saved(uri);
                 }
             }
             "workspace/didChangeConfiguration" => {
                 if let Some(params) = read::<DidChangeConfigurationParams>(params) {
-                    self.analyst.configure(&params.settings);
+                    self.scheduler.configure(&params.settings);
                 }
             }
             _ => return false,
@@ -122,18 +122,18 @@ where
         let running = match begun {
             Ok(Some(running)) => running,
             Ok(None) => return Box::pin(std::future::ready(Ok(None))),
-            Err(_) => return Box::pin(std::future::ready(Ok(id.map(gave_up)))),
+            Err(_) => return Box::pin(std::future::ready(Ok(id.map(internal_error)))),
         };
         Box::pin(async move {
             match AssertUnwindSafe(running).catch_unwind().await {
                 Ok(answer) => answer,
-                Err(_) => Ok(id.map(gave_up)),
+                Err(_) => Ok(id.map(internal_error)),
             }
         })
     }
 }
 
-/// `shutdown` and `exit` as the framework wants them: some clients send them with empty parameters, which it refuses.
+/// Removes the empty parameters that some clients send with `shutdown` and `exit`, and the framework refuses.
 fn without_empty_params(request: Request) -> Request {
     match (request.method(), request.id().cloned()) {
         ("shutdown", Some(id)) => Request::build("shutdown").id(id).finish(),
@@ -143,7 +143,7 @@ fn without_empty_params(request: Request) -> Request {
 }
 
 /// The answer to a request whose handler panicked.
-fn gave_up(id: tower_lsp::jsonrpc::Id) -> Response {
+fn internal_error(id: tower_lsp::jsonrpc::Id) -> Response {
     let mut error = Error::internal_error();
     error.message =
         "this request failed because of a bug in okoshi; the server continues. Please report it"

@@ -8,10 +8,10 @@ use tower_lsp::ls_types::{Position, PositionEncodingKind, Range};
 
 use crate::source::Span;
 
-/// How many bytes lie between two places whose UTF-16 units are known, so that long lines are found through fast.
+/// The distance in bytes between offsets whose UTF-16 units are cached, so that long lines are fast.
 const STEP: usize = 4096;
 
-/// What columns count.
+/// The unit of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Encoding {
     /// Bytes.
@@ -21,7 +21,7 @@ pub(super) enum Encoding {
 }
 
 impl Encoding {
-    /// The first of the client's encodings that the server has.
+    /// The first of the client's encodings that the server supports.
     pub(super) fn negotiated(offered: &[PositionEncodingKind]) -> Self {
         let known = offered.iter().find_map(|kind| match kind.as_str() {
             "utf-8" => Some(Self::Utf8),
@@ -31,7 +31,7 @@ impl Encoding {
         known.unwrap_or(Self::Utf16)
     }
 
-    /// What the protocol calls it.
+    /// Its name in the protocol.
     pub(super) fn kind(self) -> PositionEncodingKind {
         match self {
             Self::Utf8 => PositionEncodingKind::UTF8,
@@ -40,14 +40,14 @@ impl Encoding {
     }
 }
 
-/// A text with the places of its lines.
+/// A text with its line index.
 #[derive(Debug)]
 pub(super) struct Positions {
     text: Arc<str>,
     encoding: Encoding,
     /// Where each line begins.
     starts: Vec<usize>,
-    /// How many units begin before each multiple of [`STEP`]; counted when first asked for.
+    /// How many units begin before each multiple of [`STEP`]; counted on first use.
     units: OnceLock<Vec<usize>>,
 }
 
@@ -61,7 +61,7 @@ impl Positions {
                 starts.push(at + 1);
             }
         }
-        // Where a byte is a unit there is nothing to count.
+        // In ASCII a byte is a unit.
         let encoding = match text.is_ascii() {
             true => Encoding::Utf8,
             false => encoding,
@@ -84,7 +84,7 @@ impl Positions {
         self.starts.partition_point(|start| *start <= offset) - 1
     }
 
-    /// The position of byte `offset`; within a character that of its start, behind the end that of the end, within a line
+    /// The position of byte `offset`; within a character that of its start, after the end that of the end, within a line
     /// break that before it.
     pub(super) fn position(&self, offset: usize) -> Position {
         let offset = floor(&self.text, offset);
@@ -102,7 +102,7 @@ impl Positions {
         Range::new(self.position(span.start), self.position(span.end))
     }
 
-    /// How long the characters of a span within one line are, in units.
+    /// The length of a span within one line, in units.
     pub(super) fn length(&self, span: Span) -> u32 {
         number(match self.encoding {
             Encoding::Utf8 => span.end - span.start,
@@ -110,7 +110,7 @@ impl Positions {
         })
     }
 
-    /// The byte at a position; behind the end of a line its end, within a character its start.
+    /// The byte at a position; after the end of a line its end, within a character its start.
     pub(super) fn offset(&self, position: Position) -> usize {
         let line = position.line as usize;
         let Some(start) = self.starts.get(line).copied() else {
@@ -124,7 +124,7 @@ impl Positions {
         }
     }
 
-    /// The span of a range; a range that is upside down is empty.
+    /// The span of a range; empty if its end is before its start.
     pub(super) fn span(&self, range: Range) -> Span {
         let start = self.offset(range.start);
         Span::new(start, self.offset(range.end).max(start))
@@ -178,7 +178,7 @@ impl Positions {
     }
 }
 
-/// How many UTF-16 units the characters that begin in a stretch of UTF-8 have: two for those of four bytes.
+/// The number of UTF-16 units of the characters that begin in these bytes of UTF-8: two for those of four bytes.
 fn units_of(bytes: &[u8]) -> usize {
     bytes
         .iter()
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn characters_count_as_the_client_wants() {
+    fn columns_count_in_the_clients_unit() {
         let text = "a腕😀b";
         for (encoding, columns) in [
             (Encoding::Utf8, [0, 1, 4, 8, 9]),
@@ -241,7 +241,7 @@ mod tests {
                 assert_eq!(positions.position(offset), Position::new(0, column));
                 assert_eq!(positions.offset(Position::new(0, column)), offset);
             }
-            // Places behind the end of the line or of the text are moved there.
+            // Positions after the end of the line or of the text are moved there.
             assert_eq!(positions.offset(Position::new(0, 99)), text.len());
             assert_eq!(positions.offset(Position::new(9, 0)), text.len());
         }
@@ -252,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn the_clients_order_decides() {
+    fn the_clients_preferred_encoding_is_chosen() {
         let of = |kinds: &[&'static str]| {
             let kinds: Vec<_> = kinds
                 .iter()

@@ -1,4 +1,4 @@
-//! The live preview of open texts, saved or not: shown by the client's own panel, or on a page in the browser.
+//! The live preview of open texts, saved or not: in the client's own panel, or on a page in the browser.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock};
@@ -21,14 +21,14 @@ use crate::preview::{Hub, Picked, Shown, bind, serve};
 use crate::source::Span;
 use crate::watch::BuildTimes;
 
-/// What is shown, and to whom.
+/// The texts that are previewed, and the connections to panel and page.
 pub(super) struct Previews {
     hub: Arc<Hub>,
     client: Client,
     runtime: Handle,
     documents: Arc<Documents>,
     queue: Mutex<Queue>,
-    woken: Condvar,
+    wakeup: Condvar,
     /// The page's address, once one is served.
     page: OnceLock<String>,
     /// Whether the client has panels of its own.
@@ -43,16 +43,16 @@ impl std::fmt::Debug for Previews {
 
 #[derive(Default)]
 struct Queue {
-    /// The texts that are shown, and the last state of each that was to be built.
+    /// The texts that are shown, with the generation that was last queued of each.
     open: BTreeMap<String, Option<u64>>,
-    /// Their newest states that are still to be built.
+    /// The newest states that are not built yet.
     waiting: BTreeMap<String, Arc<Analysed>>,
 }
 
 impl Previews {
-    /// Shows nothing yet; builds on a thread of its own.
+    /// Starts the thread that builds; nothing is shown yet.
     pub(super) fn new(client: Client, runtime: Handle, documents: Arc<Documents>) -> Arc<Self> {
-        let (teller, told) = (client.clone(), runtime.clone());
+        let (client_of_hub, runtime_of_hub) = (client.clone(), runtime.clone());
         let texts = documents.clone();
         let hub = Hub::new(move |uri, picked| {
             let found = texts.last(uri).and_then(|last| {
@@ -68,15 +68,15 @@ impl Previews {
                 ))
             });
             let Some((uri, range)) = found else { return };
-            let client = teller.clone();
-            told.spawn(async move {
+            let client = client_of_hub.clone();
+            runtime_of_hub.spawn(async move {
                 let params = ShowDocumentParams {
                     uri,
                     external: None,
                     take_focus: Some(true),
                     selection: Some(range),
                 };
-                // A client that cannot show it has no use for being told so.
+                // A client that cannot show it needs no error.
                 let _ = client.show_document(params).await;
             });
         });
@@ -86,7 +86,7 @@ impl Previews {
             runtime,
             documents,
             queue: Mutex::default(),
-            woken: Condvar::new(),
+            wakeup: Condvar::new(),
             page: OnceLock::new(),
             panels: OnceLock::new(),
         });
@@ -101,15 +101,16 @@ impl Previews {
             .unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    /// The client has panels: news is sent to it, and no page is served.
-    pub(super) fn into_panels(self: &Arc<Self>) {
+    /// The client has panels: events are sent to it, and no page is served.
+    pub(super) fn use_panels(self: &Arc<Self>) {
         if self.panels.set(()).is_ok() {
             let previews = self.clone();
-            self.runtime.spawn(async move { previews.tell().await });
+            self.runtime
+                .spawn(async move { previews.forward_news().await });
         }
     }
 
-    /// A state of a text was analysed: it is shown, if its text is, and once only.
+    /// A state of a text was analysed: queues it once if its text is shown.
     pub(super) fn analysed(&self, analysed: &Arc<Analysed>) {
         let mut queue = self.queue();
         let uri = analysed.document.uri.to_string();
@@ -120,7 +121,7 @@ impl Previews {
         if *last < generation {
             *last = generation;
             queue.waiting.insert(uri, analysed.clone());
-            self.woken.notify_one();
+            self.wakeup.notify_one();
         }
     }
 
@@ -135,11 +136,11 @@ impl Previews {
         let mut queue = self.queue();
         if !queue.open.contains_key(uri) {
             queue.open.insert(uri.to_owned(), None);
-            // News of a text that was shown before is news again.
+            // Events of a text that was shown before are sent again.
             self.hub.remove(uri);
         }
         drop(queue);
-        // Asked for only now: what is analysed from here on comes by itself.
+        // Only now, since later analyses are queued by themselves.
         if let Some(last) = self.documents.last(uri) {
             self.analysed(&last);
         }
@@ -153,7 +154,7 @@ impl Previews {
         self.hub.remove(uri);
     }
 
-    /// Builds what waits, always the newest state, until the process ends.
+    /// Builds the queued states, always the newest, until the process ends.
     fn build(&self) {
         let mut memories: BTreeMap<String, SurfaceCache> = BTreeMap::new();
         loop {
@@ -163,7 +164,7 @@ impl Previews {
                     break next;
                 }
                 queue = self
-                    .woken
+                    .wakeup
                     .wait(queue)
                     .unwrap_or_else(|poisoned| poisoned.into_inner());
             };
@@ -195,22 +196,22 @@ impl Previews {
                 finished: SystemTime::now(),
             },
         };
-        // It may have been closed meanwhile.
+        // The text may have been closed meanwhile.
         if self.queue().open.contains_key(uri) {
             self.hub.publish(uri, ["", &name], &shown);
         }
     }
 
-    /// Sends the client's panels all news, until the client goes.
-    async fn tell(&self) {
+    /// Sends the client's panels all events, until the client disconnects.
+    async fn forward_news(&self) {
         let mut clock = self.hub.clock();
-        let mut heard: BTreeMap<String, u64> = BTreeMap::new();
+        let mut sent: BTreeMap<String, u64> = BTreeMap::new();
         loop {
             clock.borrow_and_update();
             let open: BTreeSet<String> = self.queue().open.keys().cloned().collect();
-            heard.retain(|uri, _| open.contains(uri));
+            sent.retain(|uri, _| open.contains(uri));
             for uri in open.iter().filter(|uri| self.hub.shows(uri)) {
-                let since = heard.entry(uri.clone()).or_default();
+                let since = sent.entry(uri.clone()).or_default();
                 let (messages, now) = self.hub.news(*since, Some(uri));
                 *since = now;
                 let Ok(uri) = uri.parse() else { continue };
@@ -224,7 +225,9 @@ impl Previews {
                     text_document: TextDocumentIdentifier { uri },
                     messages,
                 };
-                self.client.send_notification::<ToPanel>(news).await;
+                self.client
+                    .send_notification::<NewsNotification>(news)
+                    .await;
             }
             if clock.changed().await.is_err() {
                 return;
@@ -232,7 +235,7 @@ impl Previews {
         }
     }
 
-    /// The address of the page that shows a text, in the browser.
+    /// The address of the page that shows a text.
     fn page(&self, uri: &str) -> std::io::Result<String> {
         let url = match self.page.get() {
             Some(url) => url.clone(),
@@ -249,7 +252,7 @@ impl Previews {
     }
 }
 
-/// Where in a text a line and a column are, which count from 1.
+/// The byte offset of a line and a column, which count from 1.
 fn offset(text: &str, line: usize, column: usize) -> usize {
     let mut lines = text.split_inclusive('\n');
     let before: usize = lines
@@ -262,7 +265,7 @@ fn offset(text: &str, line: usize, column: usize) -> usize {
     before + places.nth(column.saturating_sub(1)).unwrap_or(line.len())
 }
 
-/// Text as it stands behind the `#` of an address.
+/// Percent-encodes text for the fragment of an address.
 fn escaped(text: &str) -> String {
     let escape = |byte: u8| match byte {
         b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => {
@@ -273,7 +276,7 @@ fn escaped(text: &str) -> String {
     text.bytes().map(escape).collect()
 }
 
-/// News of one drawing.
+/// Events of one drawing.
 #[derive(Debug, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(super) struct News {
@@ -281,9 +284,9 @@ pub(super) struct News {
     messages: Vec<Box<RawValue>>,
 }
 
-struct ToPanel;
+struct NewsNotification;
 
-impl Notification for ToPanel {
+impl Notification for NewsNotification {
     type Params = News;
     const METHOD: &'static str = "okoshi/preview/news";
 }
@@ -319,7 +322,7 @@ pub(super) struct CursorParams {
 }
 
 impl Backend {
-    /// Shows a text in the client's panel from now on.
+    /// Starts the preview of a text in the client's panel.
     pub(super) async fn preview_open(&self, params: OpenParams) -> Result<Value> {
         let uri = &params.text_document.uri;
         if self.analysed(uri).await?.is_none() {
@@ -329,12 +332,12 @@ impl Backend {
         Ok(Value::Null)
     }
 
-    /// Shows it no longer.
+    /// Ends the preview of a text.
     pub(super) async fn preview_close(&self, params: OpenParams) {
         self.previews.close(params.text_document.uri.as_str());
     }
 
-    /// The bytes of a model, in base64.
+    /// The bytes of a model, in Base64.
     pub(super) async fn preview_model(&self, params: ModelParams) -> Result<Option<ModelAnswer>> {
         let bytes = self.previews.hub.bytes(&params.address);
         Ok(bytes.map(|bytes| ModelAnswer {
@@ -342,24 +345,24 @@ impl Backend {
         }))
     }
 
-    /// Where the string of a part is.
+    /// The location of a part's string.
     pub(super) async fn preview_place(&self, params: PlaceParams) -> Result<Option<Location>> {
         let Some(view) = self.view(&params.text_document.uri).await? else {
             return Ok(None);
         };
         let span = view.analysis().place_of(&params.part);
-        let range = span.and_then(|span| view.places().range(span));
+        let range = span.and_then(|span| view.map().range(span));
         Ok(range.map(|range| Location::new(params.text_document.uri, range)))
     }
 
-    /// Lights up the part at the cursor.
+    /// Highlights the part at the cursor.
     pub(super) async fn preview_cursor(&self, params: CursorParams) {
         let uri = &params.text_document.uri;
         let Ok(Some(view)) = self.view(uri).await else {
             return;
         };
-        let places = view.places();
-        let offset = params.position.and_then(|position| places.offset(position));
+        let map = view.map();
+        let offset = params.position.and_then(|position| map.offset(position));
         let part = offset.and_then(|offset| view.analysis().part_at(offset));
         self.previews.hub.light(uri.as_str(), part);
     }
@@ -378,7 +381,10 @@ impl Backend {
                 return Ok(());
             }
         };
-        let can = self.client_can().window.and_then(|can| can.show_document);
+        let can = self
+            .client_capabilities()
+            .window
+            .and_then(|can| can.show_document);
         let shown = match (can.is_some_and(|can| can.support), page.parse()) {
             (true, Ok(uri)) => {
                 let params = ShowDocumentParams {

@@ -1,4 +1,4 @@
-//! Progress that is shown when reading a drawing takes long.
+//! Progress that is shown when analysing a drawing takes long.
 
 use std::time::Duration;
 
@@ -9,18 +9,18 @@ use tower_lsp::ls_types::ProgressToken;
 
 use super::documents::Document;
 
-/// After how long it is shown: before, it would only flicker.
-const LONG: Duration = Duration::from_millis(500);
+/// Shown only after this time, so that it does not flicker.
+const SHOW_AFTER: Duration = Duration::from_millis(500);
 
-/// Work under way; dropping it ends it.
+/// Progress that is shown until this is dropped.
 #[derive(Debug)]
 pub(super) struct Progress {
-    _ended: oneshot::Sender<()>,
+    _finished: oneshot::Sender<()>,
 }
 
-/// Says that a text is being read, if that takes long.
+/// Shows that a text is being read, if that takes long.
 pub(super) fn begin(client: &Client, runtime: &Handle, document: &Document) -> Progress {
-    let (sender, ended) = oneshot::channel();
+    let (sender, finished) = oneshot::channel();
     let client = client.clone();
     let token = ProgressToken::String(format!("okoshi/reading/{}", document.generation));
     let name = document.path.as_deref().and_then(|path| path.file_name());
@@ -29,8 +29,11 @@ pub(super) fn begin(client: &Client, runtime: &Handle, document: &Document) -> P
         |name| name.to_string_lossy().into_owned(),
     );
     runtime.spawn(async move {
-        let mut ended = ended;
-        if tokio::time::timeout(LONG, &mut ended).await.is_ok() {
+        let mut finished = finished;
+        if tokio::time::timeout(SHOW_AFTER, &mut finished)
+            .await
+            .is_ok()
+        {
             return;
         }
         if client
@@ -42,8 +45,8 @@ pub(super) fn begin(client: &Client, runtime: &Handle, document: &Document) -> P
         }
         let title = format!("okoshi: reading {name}");
         let shown = client.progress(token, title).begin().await;
-        let _ = ended.await;
+        let _ = finished.await;
         shown.finish().await;
     });
-    Progress { _ended: sender }
+    Progress { _finished: sender }
 }

@@ -1,4 +1,4 @@
-//! What can only be tried from inside: a handler that panics.
+//! A handler that panics, which cannot be tested from outside.
 
 use serde_json::{Value, json};
 use tokio::io::{AsyncReadExt, AsyncWriteExt, DuplexStream};
@@ -40,10 +40,10 @@ async fn receive(from: &mut DuplexStream) -> Value {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_panic_is_an_answer() {
+async fn a_panic_is_answered_with_an_error() {
     let (mut client, input) = tokio::io::duplex(1 << 16);
     let (output, mut answers) = tokio::io::duplex(1 << 16);
-    let server = tokio::spawn(super::converse(input, output));
+    let server = tokio::spawn(super::serve_client(input, output));
     let request = |id: u32, method: &str| json!({"jsonrpc": "2.0", "id": id, "method": method, "params": {"capabilities": {}}});
     send(&mut client, request(1, "initialize")).await;
     assert_eq!(receive(&mut answers).await["id"], 1);

@@ -1,7 +1,7 @@
-//! Who compiles the open texts: one thread, one text at a time, always the newest state.
+//! The thread that compiles the open texts: one text at a time, always the newest state.
 //!
-//! What was found in a state that is no longer the newest is thrown away. Diagnostics leave in the order in which they
-//! were found, with the number of their state. The thread outlives whatever panics in it.
+//! An analysis whose state is out of date is thrown away. Diagnostics are sent in the order in which they
+//! were found, with the version of their state. The thread survives panics.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,53 +13,53 @@ use tokio::runtime::Handle;
 use tower_lsp::Client;
 use tower_lsp::ls_types::{Diagnostic, Uri};
 
-use super::analyst::{Analyst, Task};
 use super::documents::{Analysed, Document, Documents};
 use super::preview::Previews;
+use super::scheduler::{Scheduler, Task};
 use super::{convert, links::Links, manual, progress};
 use crate::compile::{Compiled, Compiler, Options};
 use crate::disk::FolderResolver;
 use crate::ide::Analysis;
 
-/// What the thread works with.
+/// The state of the thread.
 #[derive(Debug)]
 pub(super) struct Worker {
-    pub(super) analyst: Arc<Analyst>,
+    pub(super) scheduler: Arc<Scheduler>,
     pub(super) documents: Arc<Documents>,
     pub(super) client: Client,
     pub(super) runtime: Handle,
     pub(super) links: Arc<Links>,
-    pub(super) abilities: Arc<Abilities>,
+    pub(super) client_support: Arc<ClientSupport>,
     pub(super) previews: Arc<Previews>,
-    /// What is remembered of each text from one keystroke to the next.
+    /// The incremental compiler of each text.
     pub(super) compilers: BTreeMap<String, Compiler>,
 }
 
-/// What the client can do, as far as it matters to what is sent unasked.
+/// The client's capabilities that decide what is sent without a request.
 #[derive(Debug, Default)]
-pub(super) struct Abilities {
+pub(super) struct ClientSupport {
     pub(super) progress: AtomicBool,
     pub(super) links_at_codes: AtomicBool,
-    pub(super) fetches_diagnostics: AtomicBool,
+    pub(super) pulls_diagnostics: AtomicBool,
 }
 
 impl Worker {
-    /// Works until the process ends.
+    /// Runs tasks until the process ends.
     pub(super) fn work(&mut self) {
         loop {
-            let task = self.analyst.next();
-            let done = catch_unwind(AssertUnwindSafe(|| self.does(task.clone())));
+            let task = self.scheduler.next_task();
+            let done = catch_unwind(AssertUnwindSafe(|| self.run(task.clone())));
             if let (Err(_), Task::Analyse(uri)) = (done, task) {
-                self.gives_up(&uri);
+                self.publish_empty(&uri);
             }
         }
     }
 
-    fn does(&mut self, task: Task) {
+    fn run(&mut self, task: Task) {
         match task {
-            Task::TakeBack(uri) => self.send(uri, vec![], None),
+            Task::ClearDiagnostics(uri) => self.send(uri, vec![], None),
             Task::Close(uri) => {
-                // It may be open again, and then be analysed behind this.
+                // If it is open again, a later task analyses it.
                 self.compilers.remove(uri.as_str());
                 self.links.forget(uri.as_str());
                 self.previews.closed(uri.as_str());
@@ -69,10 +69,10 @@ impl Worker {
                 let Some(document) = self.documents.current(&uri) else {
                     return;
                 };
-                // Held until all is said: taking it apart takes time.
+                // Dropped after the diagnostics are sent, because dropping takes time.
                 let before = self.documents.last(&uri);
-                if let Some((analysed, by_a_link)) = self.analysed(document) {
-                    self.tell(&analysed, by_a_link);
+                if let Some((analysed, only_links_changed)) = self.analyse(document) {
+                    self.publish_diagnostics(&analysed, only_links_changed);
                     self.previews.analysed(&analysed);
                 }
                 drop(before);
@@ -80,25 +80,25 @@ impl Worker {
         }
     }
 
-    /// Sends the diagnostics of an analysis, if they are due.
-    fn tell(&self, analysed: &Analysed, by_a_link: bool) {
+    /// Sends the diagnostics of an analysis, if that was requested.
+    fn publish_diagnostics(&self, analysed: &Analysed, only_links_changed: bool) {
         let document = &analysed.document;
         let uri = document.uri.as_str();
-        if !self.analyst.is_due(uri) {
+        if !self.scheduler.take_due(uri) {
             return;
         }
-        if self.analyst.is_fetched(uri) {
-            // Who fetches diagnostics after changes of the text cannot know of changes elsewhere.
-            if by_a_link {
+        if self.scheduler.is_pulled(uri) {
+            // A client that requests diagnostics does so when the text changes; it does not know of other changes.
+            if only_links_changed {
                 let client = self.client.clone();
                 self.runtime
                     .spawn(async move { client.workspace_diagnostic_refresh().await });
             }
             return;
         }
-        let links = self.abilities.links_at_codes.load(Ordering::Relaxed);
+        let links = self.client_support.links_at_codes.load(Ordering::Relaxed);
         let diagnostics = convert::diagnostics(analysed, manual::links(links));
-        // Between here and the wire the text may change again; what is sent then is sent behind this.
+        // The text may change before this is sent; the diagnostics of that change follow later.
         self.send(document.uri.clone(), diagnostics, Some(document.version));
     }
 
@@ -107,10 +107,10 @@ impl Worker {
         self.runtime.block_on(sending);
     }
 
-    /// Analyses a state of a text, unless that is done, and hands it to those who wait. `None` if its state is gone
-    /// meanwhile: it is analysed behind this as it is then. Says too whether only something that it links to has
+    /// Analyses a state of a text, unless that is done, and hands it to the waiting requests. `None` if its state is out of date
+    /// meanwhile: a later task analyses the newer one. Also returns whether only a file that it links to has
     /// changed.
-    fn analysed(&mut self, document: Arc<Document>) -> Option<(Arc<Analysed>, bool)> {
+    fn analyse(&mut self, document: Arc<Document>) -> Option<(Arc<Analysed>, bool)> {
         let uri = document.uri.to_string();
         let last = self.documents.last(&uri);
         if let Some(last) = &last
@@ -118,53 +118,53 @@ impl Worker {
         {
             return Some((last.clone(), false));
         }
-        let shows_progress = self.abilities.progress.load(Ordering::Relaxed);
+        let shows_progress = self.client_support.progress.load(Ordering::Relaxed);
         let progress =
             shows_progress.then(|| progress::begin(&self.client, &self.runtime, &document));
         let resolver = document.resolver();
         let compiler = self.compilers.entry(uri.clone()).or_default();
         let compiled = compiler.compile(document.text(), &Options::default(), resolver.as_ref());
-        self.links.watch(&uri, places(&document, &compiled));
-        let by_a_link = last
+        self.links.watch(&uri, linked_files(&document, &compiled));
+        let only_links_changed = last
             .as_ref()
             .is_some_and(|last| last.document.version == document.version);
-        let analysed = put_together(document, compiled, last);
+        let analysed = new_analysed(document, compiled, last);
         drop(progress);
-        let arrived = self.documents.arrive(analysed.clone());
-        arrived.then_some((analysed, by_a_link))
+        let arrived = self.documents.publish(analysed.clone());
+        arrived.then_some((analysed, only_links_changed))
     }
 
-    /// Answers those who wait for an analysis that panicked: with one that knows nothing.
-    fn gives_up(&mut self, uri: &str) {
+    /// Answers the requests that wait for an analysis that panicked with an empty one.
+    fn publish_empty(&mut self, uri: &str) {
         self.compilers.remove(uri);
         if let Some(document) = self.documents.current(uri) {
             let last = self.documents.last(uri);
-            let nothing = put_together(document, Compiled::default(), last);
-            self.documents.arrive(nothing);
+            let nothing = new_analysed(document, Compiled::default(), last);
+            self.documents.publish(nothing);
         }
     }
 }
 
-fn put_together(
+fn new_analysed(
     document: Arc<Document>,
     compiled: Compiled,
     last: Option<Arc<Analysed>>,
 ) -> Arc<Analysed> {
     let analysis = Analysis::new(document.text().clone(), compiled);
-    let good = match (analysis.is_sound(), last) {
+    let last_sound = match (analysis.is_sound(), last) {
         (false, Some(last)) if last.analysis.is_sound() => Some(last),
-        (false, Some(last)) => last.good.clone(),
+        (false, Some(last)) => last.last_sound.clone(),
         _ => None,
     };
     Arc::new(Analysed {
         document,
         analysis,
-        good,
+        last_sound,
     })
 }
 
-/// The files that a drawing links to, also those that are not there yet.
-fn places(document: &Document, compiled: &Compiled) -> Vec<PathBuf> {
+/// The files that a drawing links to, also those that do not exist yet.
+fn linked_files(document: &Document, compiled: &Compiled) -> Vec<PathBuf> {
     let Some(folder) = document.folder() else {
         return vec![];
     };

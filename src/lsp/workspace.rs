@@ -1,4 +1,4 @@
-//! Parts of all drawings in the client's folders, by name.
+//! Workspace symbols: the parts of all drawings in the client's folders.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,30 +14,30 @@ use crate::compile::{Options, compile};
 use crate::disk::{FolderResolver, below, decode, is_drawing, read_drawing, stamp};
 use crate::ide::{Analysis, Outline};
 
-/// How many symbols are answered at most; a longer query finds what is missing.
-const MOST: usize = 500;
+/// The most symbols in an answer; a longer query finds the rest.
+const MAX_SYMBOLS: usize = 500;
 
 /// A part of a drawing.
 #[derive(Debug, Clone)]
-struct Found {
+struct PartSymbol {
     name: String,
     on: Option<String>,
     is_joint: bool,
     range: Range,
 }
 
-/// The parts of a drawing, and how its file was when they were read.
+/// The parts of a drawing, with the stamp of the file that they were read from.
 #[derive(Debug)]
-struct Read {
+struct CachedParts {
     stamp: (u64, SystemTime),
-    parts: Arc<Vec<Found>>,
+    parts: Arc<Vec<PartSymbol>>,
 }
 
-/// The client's folders, and what was read there.
+/// The client's folders, and a cache of their drawings' parts.
 #[derive(Debug, Default)]
 pub(super) struct Workspace {
     folders: Mutex<Vec<PathBuf>>,
-    read: Mutex<BTreeMap<PathBuf, Read>>,
+    read: Mutex<BTreeMap<PathBuf, CachedParts>>,
 }
 
 impl Workspace {
@@ -51,8 +51,8 @@ impl Workspace {
         folders.extend(added);
     }
 
-    /// The parts whose name holds the letters of `query` in their order. Drawings that are open count as they are
-    /// there, all others as they are on disk.
+    /// The parts whose names contain the letters of `query` in this order. Open drawings count in their
+    /// present state, all others as saved.
     pub(super) fn symbols(
         &self,
         query: &str,
@@ -60,13 +60,13 @@ impl Workspace {
         encoding: Encoding,
     ) -> Vec<WorkspaceSymbol> {
         let mut found = vec![];
-        let mut seen = vec![];
+        let mut open_files = vec![];
         for snapshot in open.values() {
-            let analysed = snapshot.arrivals.borrow().clone();
+            let analysed = snapshot.analyses.borrow().clone();
             if let Some(analysed) = analysed {
-                seen.extend(snapshot.document.path.clone());
+                open_files.extend(snapshot.document.path.clone());
                 let parts = parts(&analysed.analysis, &analysed.document.positions);
-                add(&parts, query, &snapshot.document.uri, &mut found);
+                add_matches(&parts, query, &snapshot.document.uri, &mut found);
             }
         }
         let folders = self
@@ -79,22 +79,22 @@ impl Workspace {
                 .files
                 .into_iter()
                 .filter(|file| is_drawing(file));
-            for file in drawings.filter(|file| !seen.contains(file)) {
-                if found.len() >= MOST {
+            for file in drawings.filter(|file| !open_files.contains(file)) {
+                if found.len() >= MAX_SYMBOLS {
                     break;
                 }
                 if let (Some(parts), Some(uri)) =
                     (self.read(&file, encoding), Uri::from_file_path(&file))
                 {
-                    add(&parts, query, &uri, &mut found);
+                    add_matches(&parts, query, &uri, &mut found);
                 }
             }
         }
-        found.truncate(MOST);
+        found.truncate(MAX_SYMBOLS);
         found
     }
 
-    fn read(&self, file: &Path, encoding: Encoding) -> Option<Arc<Vec<Found>>> {
+    fn read(&self, file: &Path, encoding: Encoding) -> Option<Arc<Vec<PartSymbol>>> {
         let stamp = stamp(file)?;
         let mut read = self
             .read
@@ -111,7 +111,7 @@ impl Workspace {
         );
         let positions = Positions::new(analysis.source().clone(), encoding);
         let parts = Arc::new(parts(&analysis, &positions));
-        let known = Read {
+        let known = CachedParts {
             stamp,
             parts: parts.clone(),
         };
@@ -120,7 +120,7 @@ impl Workspace {
     }
 }
 
-fn parts(analysis: &Analysis, positions: &Positions) -> Vec<Found> {
+fn parts(analysis: &Analysis, positions: &Positions) -> Vec<PartSymbol> {
     let mut found = vec![];
     let mut waiting: Vec<(Outline, Option<String>)> = analysis
         .outline()
@@ -136,7 +136,7 @@ fn parts(analysis: &Analysis, positions: &Positions) -> Vec<Found> {
                 .rev()
                 .map(|child| (child, name.clone())),
         );
-        found.push(Found {
+        found.push(PartSymbol {
             name: part.name,
             on,
             is_joint: part.is_joint,
@@ -146,9 +146,9 @@ fn parts(analysis: &Analysis, positions: &Positions) -> Vec<Found> {
     found
 }
 
-fn add(parts: &[Found], query: &str, uri: &Uri, found: &mut Vec<WorkspaceSymbol>) {
-    let fitting = parts.iter().filter(|part| fits(&part.name, query));
-    found.extend(fitting.map(|part| WorkspaceSymbol {
+fn add_matches(parts: &[PartSymbol], query: &str, uri: &Uri, found: &mut Vec<WorkspaceSymbol>) {
+    let matching = parts.iter().filter(|part| matches(&part.name, query));
+    found.extend(matching.map(|part| WorkspaceSymbol {
         name: part.name.clone(),
         kind: convert::symbol_kind(part.is_joint),
         tags: None,
@@ -158,8 +158,8 @@ fn add(parts: &[Found], query: &str, uri: &Uri, found: &mut Vec<WorkspaceSymbol>
     }));
 }
 
-/// Whether the letters of `query` stand in `name` in their order, whatever their case.
-fn fits(name: &str, query: &str) -> bool {
+/// Whether `name` contains the letters of `query` in this order, ignoring case.
+fn matches(name: &str, query: &str) -> bool {
     let mut letters = name.chars().flat_map(char::to_lowercase);
     let mut wanted = query.chars().flat_map(char::to_lowercase);
     wanted.all(|wanted| letters.any(|letter| letter == wanted))
@@ -170,14 +170,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_found_by_their_letters() {
+    fn queries_match_letters_in_order() {
         for (name, query, expected) in [
             ("Ubody", "", true),
             ("Ubody", "ubd", true),
             ("Ubody", "bu", false),
             ("右腕", "腕", true),
         ] {
-            assert_eq!(fits(name, query), expected, "{name} {query}");
+            assert_eq!(matches(name, query), expected, "{name} {query}");
         }
     }
 }

@@ -29,9 +29,9 @@ pub struct Clip<'a> {
     pub figure: &'a str,
     /// The motion file, as the drawing names it.
     pub file: &'a str,
-    /// How long it is.
+    /// Its duration.
     pub seconds: f64,
-    /// How many frames are shown.
+    /// The number of frames that are shown.
     pub frames: usize,
     /// How many different poses are shown.
     pub drawings: usize,
@@ -39,7 +39,7 @@ pub struct Clip<'a> {
     pub omitted: Vec<u32>,
     /// The frames that are covered by holding the pose before.
     pub held: Held,
-    /// The joint of each part that has one.
+    /// The joint that drives each part, if one does.
     pub joints: BTreeMap<&'a str, Joint<'a>>,
     /// What only the page shows.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
@@ -82,13 +82,13 @@ pub struct PageDetails<'a> {
     pub exposure: Vec<[usize; 2]>,
     /// The speed of the motion, squares of the file's unit; each value is the highest of `ssd_step` frames.
     pub ssd: Vec<f64>,
-    /// How many frames a value of `ssd` is for.
+    /// The number of frames of a value of `ssd`.
     pub ssd_step: usize,
     /// The parts that no joint drives.
     pub unmatched: Vec<&'a str>,
 }
 
-/// The clips of a drawing, in the order of the strings that ask for them.
+/// The clips of a drawing, in the order of the strings that request them.
 pub fn clips(compiled: &Compiled, reader: Reader) -> Vec<Clip<'_>> {
     let clips = compiled.clips.iter();
     clips.map(|clip| report(compiled, clip, reader)).collect()

@@ -8,7 +8,7 @@ use crate::rig::{FigureClip, PartDrive};
 pub struct Driver<'a> {
     /// Its name; `None` for a part that follows its parent.
     pub joint: Option<&'a str>,
-    /// Why.
+    /// The reason.
     pub why: &'a str,
 }
 

@@ -1,4 +1,4 @@
-//! What a compiled drawing says of itself, as data for programs: `inspect --json`, the preview's page.
+//! Reports on a compiled drawing, as data for programs: `inspect --json` and the preview's page.
 
 mod clips;
 mod joints;

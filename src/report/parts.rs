@@ -14,54 +14,54 @@ use crate::terrain::Layer;
 pub struct Part<'a> {
     /// Its name.
     pub name: &'a str,
-    /// The name of what it hangs on; `None`: the root.
+    /// The name of its parent; `None` for the root.
     pub parent: Option<&'a str>,
-    /// `main`, `sub`, `legend` or `unused`; of what [`landscapes`] tells `terrain`.
+    /// `main`, `sub`, `legend` or `unused`; `terrain` in [`landscapes`].
     pub kind: &'static str,
     /// The `id` of its element.
     pub element: Option<&'a str>,
     /// Its string.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub string: Option<StringReport<'a>>,
-    /// The middle of its area.
+    /// The centroid of its area.
     pub center: [f64; 2],
-    /// Where its axis leaves it.
+    /// The end points of its axis.
     pub ends: [[f64; 2]; 2],
     /// Its joint.
     pub origin: [f64; 2],
     /// The direction of its axis.
     pub axis: [f64; 2],
-    /// Every attribute that is set, and the ones that every solid has.
+    /// All attributes that are set, and those that every solid has.
     pub attributes: BTreeMap<&'static str, AttributeReport>,
-    /// The joint that drives it, in the first clip of its figure that drives it.
+    /// The joint that drives it in the first clip that does.
     pub joint: Option<&'a str>,
-    /// Why that joint, or why none; `None` for what no clip moves.
+    /// Why that joint, or why none; `None` for parts of figures without clips.
     pub joint_why: Option<&'a str>,
 }
 
 /// A string. Lines and columns count from 1, columns in characters.
 #[derive(Debug, Clone, Serialize)]
 pub struct StringReport<'a> {
-    /// Its line in the drawing.
+    /// Its line.
     pub line: usize,
-    /// Its column there.
+    /// Its column.
     pub column: usize,
     /// Its characters.
     pub text: &'a str,
-    /// By what rule it belongs to its part.
+    /// The rule by which it is bound to its part.
     pub bound_by: &'static str,
 }
 
 /// An attribute.
 #[derive(Debug, Clone, Serialize)]
 pub struct AttributeReport {
-    /// Its words, variables resolved.
+    /// Its value, variables resolved.
     pub value: String,
     /// `own`, `legend`, `default` or `builtin`.
     pub from: &'static str,
 }
 
-/// The parts of a drawing, in the order in which they are drawn.
+/// The parts of a drawing, in paint order.
 pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     let bindings = &compiled.bindings;
     let places = Places::new(text);
@@ -93,7 +93,7 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     parts.map(report).collect()
 }
 
-/// The landscapes of a drawing as parts of their own kind, for lists of all that is in the model.
+/// The landscapes of a drawing as parts of the kind `terrain`, for lists of everything in the model.
 pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     let (bindings, places) = (&compiled.bindings, Places::new(text));
     let report = |layer: &'a Layer| {
@@ -135,7 +135,7 @@ fn string_report<'a>(string: &'a DrawingString, places: &Places) -> StringReport
     }
 }
 
-/// A part's name; sub-parts, legends and unused parts without one go by their element.
+/// A part's name; the name of its element for sub-parts, legends and unused parts without one.
 pub fn own_name<'a>(compiled: &'a Compiled, part: &'a bind::Part) -> &'a str {
     if part.name.is_empty() {
         compiled.drawing.shapes[part.shape].element.own_name()

@@ -1,7 +1,7 @@
-//! Lines and columns of a text, found fast however long its lines are: a drawing that another program
+//! Lines and columns of a text, fast even for long lines: a drawing that another program
 //! has minified is one line of megabytes.
 
-/// How many bytes lie between two places whose number of characters is known.
+/// The distance in bytes between offsets whose number of characters is cached.
 const STEP: usize = 4096;
 
 /// Knows the line and column of every byte of a text.
@@ -33,7 +33,7 @@ impl<'a> Places<'a> {
         }
     }
 
-    /// `offset`, moved to the start of its character, and to the end of the text from behind it.
+    /// `offset`, moved to the start of its character, and at most the end of the text.
     pub fn clamp(&self, offset: usize) -> usize {
         let offset = offset.min(self.text.len());
         let boundary = |offset: &usize| self.text.is_char_boundary(*offset);
@@ -83,7 +83,7 @@ mod tests {
     use crate::source::Lines;
 
     #[test]
-    fn places_agree_with_the_slow_way() {
+    fn line_columns_agree_with_the_plain_method() {
         let mut text = "a\nb腕\r\n\n".repeat(900);
         text.push_str(&"長い line\t".repeat(5000));
         let (lines, places) = (Lines::new(&text), Places::new(&text));

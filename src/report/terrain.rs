@@ -13,7 +13,7 @@ pub struct Terrain<'a> {
     pub size: [usize; 2],
     /// The side of a tile, drawing units.
     pub tile: f64,
-    /// Per row and cell the height of the top that is drawn there, of ground or water.
+    /// Per row and cell the height of the top that is drawn there, ground or water.
     pub tops: Vec<Vec<Option<i32>>>,
     /// The groups of ground and the bodies of water.
     pub groups: Vec<Group>,
@@ -37,15 +37,15 @@ pub struct Group {
 /// A house.
 #[derive(Debug, Clone, Serialize)]
 pub struct House {
-    /// Height of its floor.
+    /// The height of its floor.
     pub base: i32,
-    /// Of its walls.
+    /// The width of its walls.
     pub width: i32,
-    /// From front to back.
+    /// The depth from front to back.
     pub depth: i32,
-    /// Of its walls.
+    /// The width of its walls.
     pub height: i32,
-    /// Height of its ridge.
+    /// The height of its ridge.
     pub ridge: f64,
 }
 

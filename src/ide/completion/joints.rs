@@ -6,8 +6,8 @@ use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::rig::FigureClip;
 
 impl Cursor<'_> {
-    /// The joints of the drawing's motions, those of the part's figure first; as a second name the joints that hang on the first
-    /// one, for a chain goes downward. Limbs, head and trunk come before fingers, faces and helpers.
+    /// The joints of the drawing's motions, those of the part's figure first; as the second argument only descendants of the first
+    /// one, since a chain leads downwards. Limbs, head and trunk come before fingers, faces and helpers.
     pub(super) fn joints(&self, attribute: &Attribute) -> Vec<Proposal> {
         let first = match attribute.arguments.as_slice() {
             [] => None,
@@ -51,7 +51,7 @@ impl Cursor<'_> {
 
     fn joint(&self, clip: &FigureClip, joint: usize) -> Option<Proposal> {
         let name = clip.joint_name(joint);
-        // No string can hold quotes or lines within a name.
+        // A name in a string cannot contain quotes or line breaks.
         if name.is_empty() || name.contains(['"', '＂']) || name.contains(char::is_control) {
             return None;
         }

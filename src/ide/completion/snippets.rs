@@ -1,4 +1,4 @@
-//! Words with places to fill in, in the syntax of snippets.
+//! Snippets: words with placeholders.
 
 use crate::ide::at::attributes;
 use crate::lang;
@@ -7,7 +7,7 @@ use crate::lang::keyword::Keyword;
 use crate::lang::keyword::kinds::Kind;
 use crate::source::Text;
 
-/// A word with the arguments that its example gives, each to be typed over.
+/// A word with the arguments of its example as placeholders.
 pub(super) fn filled(word: &str, arguments: &[String]) -> Option<String> {
     if arguments.is_empty() {
         return None;
@@ -50,7 +50,7 @@ fn arguments_of(string: &str, keyword: Keyword, skipped: usize) -> Vec<String> {
         .collect()
 }
 
-/// A snippet's text, its places filled as they are.
+/// A snippet's text with the defaults of its placeholders.
 pub(super) fn plain(snippet: &str) -> String {
     let mut out = String::new();
     let mut rest = snippet;

@@ -1,4 +1,4 @@
-use super::super::samples::{analysis, figure, moving};
+use super::super::fixtures::{analysis, figure, moving};
 use super::snippets::example_arguments;
 use super::*;
 
@@ -34,13 +34,13 @@ fn labels(string: &str) -> (String, Vec<String>) {
 }
 
 #[test]
-fn parents_are_all_but_oneself_and_what_one_carries() {
+fn a_part_and_its_descendants_cannot_be_its_parent() {
     assert_eq!(labels("Rarm@¦"), (String::new(), vec!["Body".to_owned()]));
     assert_eq!(labels("Rarm@Bo¦dx$Shape round").0, "Bodx");
 }
 
 #[test]
-fn keywords_stand_where_they_can() {
+fn keywords_are_proposed_where_allowed() {
     let (replaced, found) = labels("Rarm@Body$Sh¦");
     assert_eq!(replaced, "Sh");
     assert!(found.contains(&"Shape".to_owned()) && !found.contains(&"Scale".to_owned()));
@@ -48,13 +48,13 @@ fn keywords_stand_where_they_can() {
     assert!(!found.contains(&"Offset".to_owned()) && found.contains(&"Shape".to_owned()));
     let (_, found) = labels("%¦");
     assert!(found.contains(&"Scale".to_owned()) && found.contains(&"Shape".to_owned()));
-    // What must still be given is proposed alone.
+    // A required argument is proposed alone.
     let (_, found) = labels("Rarm@Body$Offset ¦");
     assert_eq!(found, ["wide"]);
 }
 
 #[test]
-fn arguments_go_by_their_parameter() {
+fn arguments_fit_their_parameter() {
     for (string, expected) in [
         ("Rarm@Body$Shape ¦", "inflate"),
         ("Rarm@Body$Shape ¦", "-d"),
@@ -142,7 +142,7 @@ fn every_example_fills_its_keyword() {
     assert_eq!(example_arguments(Keyword::Color), ["1", "0.8", "0.6"]);
 }
 
-/// What is proposed in the string of the right arm of a figure that moves: labels, details, texts.
+/// The proposals in the string of the right arm of a moving figure: labels, details, texts.
 fn joints(right: &str) -> Vec<[String; 3]> {
     let source = figure(["Body", right, "Larm@Body", "", "%Motion \"kick.bvh\""]);
     let (analysis, at) = moving(&source);
@@ -168,14 +168,14 @@ fn joints_are_those_of_the_motion() {
     assert_eq!(found[0], ["Hips", "hips", "Hips"]);
     let arm = ["RightArm", "right arm, upper", "RightArm"].map(str::to_owned);
     assert!(found.contains(&arm), "{found:?}");
-    // What is no limb comes last; a name with signs stands in quotes.
+    // Joints of no limb come last; a name with signs is quoted.
     assert_eq!(found[13], ["Grip:1", "on RightHand", "\"Grip:1\""]);
     assert_eq!(joints("Rarm@Body$Bone \"¦").len(), 14);
     assert_eq!(joints("Rarm@Body$Offset 2 ¦"), Vec::<[String; 3]>::new());
 }
 
 #[test]
-fn a_chain_of_joints_goes_downward() {
+fn a_chain_of_joints_leads_downward() {
     let labels = |right: &str| -> Vec<String> {
         joints(right).into_iter().map(|[label, ..]| label).collect()
     };

@@ -1,10 +1,10 @@
-//! Drawings for the tests of this room.
+//! Drawings for the tests of `ide`.
 
 use super::*;
 use crate::compile::{Options, compile};
 use crate::resolver::MemoryResolver;
 
-/// A drawing's analysis, with the place of `¦` in it, which is taken out.
+/// The analysis of a drawing without its `¦`, and the offset where that was.
 pub(super) fn analysis(source: &str) -> (Analysis, usize) {
     analysis_among(source, &MemoryResolver::default())
 }

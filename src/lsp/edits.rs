@@ -1,4 +1,4 @@
-//! Requests that alter: renaming, mending, formatting, and commands.
+//! Requests that change text (rename, code actions, formatting), and commands.
 
 use std::collections::HashMap;
 use std::sync::atomic::Ordering;
@@ -7,7 +7,7 @@ use tower_lsp::jsonrpc::{Error, ErrorCode, Result};
 use tower_lsp::ls_types::*;
 
 use super::backend::{Backend, PREVIEW, View};
-use super::convert::{self, Places};
+use super::convert::{self, PositionMap};
 use super::documents::Document;
 use super::manual;
 use super::ordered::SNAPSHOTS;
@@ -44,7 +44,7 @@ impl Backend {
             .analysis
             .rename(offset, &params.new_name)
             .map_err(|error| refused(&error))?;
-        let edits = Places::same(&document.positions)
+        let edits = PositionMap::identity(&document.positions)
             .edits(&edits)
             .unwrap_or_default();
         Ok(Some(self.workspace_edit(&document, edits)))
@@ -61,7 +61,7 @@ impl Backend {
         else {
             return Ok(vec![]);
         };
-        let places = view.places();
+        let map = view.map();
         let Color {
             red,
             green,
@@ -71,10 +71,10 @@ impl Backend {
         let rgba = [red, green, blue, alpha].map(f64::from);
         let forms = view
             .analysis()
-            .colour_edits(places.span(params.range), rgba)
+            .colour_edits(map.span(params.range), rgba)
             .into_iter();
         let presentations = forms.filter_map(|(label, edits)| {
-            let mut edits = places.edits(&edits)?.into_iter();
+            let mut edits = map.edits(&edits)?.into_iter();
             let first = edits.next()?;
             let others: Vec<_> = edits.collect();
             Some(ColorPresentation {
@@ -93,7 +93,7 @@ impl Backend {
         let Some((document, analysed)) = self.analysed(&params.text_document.uri).await? else {
             return Ok(None);
         };
-        let places = Places::same(&document.positions);
+        let map = PositionMap::identity(&document.positions);
         let analysis = &analysed.analysis;
         let wanted = |kind: &CodeActionKind| {
             let only = params.context.only.as_deref();
@@ -106,27 +106,27 @@ impl Backend {
                 })
             })
         };
-        let links = manual::links(self.abilities.links_at_codes.load(Ordering::Relaxed));
+        let links = manual::links(self.client_support.links_at_codes.load(Ordering::Relaxed));
         let actions = analysis
             .actions(document.positions.span(params.range))
             .into_iter();
         let actions = actions.filter_map(|action| {
-            let kind = match action.mends {
+            let kind = match action.diagnostic {
                 Some(_) => CodeActionKind::QUICKFIX,
                 None => CodeActionKind::REFACTOR_REWRITE,
             };
             if !wanted(&kind) {
                 return None;
             }
-            let mends = action.mends.map(|index| {
+            let fixed = action.diagnostic.map(|index| {
                 let found = &analysis.diagnostics()[index];
                 vec![convert::diagnostic(&analysed, found, links)]
             });
-            let edits = places.edits(&action.edits)?;
+            let edits = map.edits(&action.edits)?;
             Some(CodeActionOrCommand::CodeAction(CodeAction {
                 title: action.title,
                 kind: Some(kind),
-                diagnostics: mends,
+                diagnostics: fixed,
                 edit: Some(self.workspace_edit(&document, edits)),
                 is_preferred: action.is_preferred.then_some(true),
                 ..CodeAction::default()
@@ -163,7 +163,7 @@ impl Backend {
         }
         let uri = match params.arguments.first() {
             Some(argument) => argument.as_str().and_then(|uri| uri.parse().ok()),
-            // Some editors send commands without arguments: then it is the text that changed last.
+            // Some editors send commands without arguments: then the text that changed last is meant.
             None => SNAPSHOTS.with(|snapshots| {
                 let documents = snapshots.values().map(|snapshot| &snapshot.document);
                 let newest = documents.max_by_key(|document| document.generation);
@@ -183,11 +183,11 @@ impl Backend {
         let Some(view) = self.view(uri).await?.filter(View::is_current) else {
             return Ok(None);
         };
-        // Compiling anew may take as long as it did before.
+        // Formatting compiles the result, which may take long.
         let edits = tokio::task::spawn_blocking(move || {
-            let places = view.places();
+            let map = view.map();
             let window = match range {
-                Some(range) => places.span(range),
+                Some(range) => map.span(range),
                 None => Span::new(0, view.document.text().len()),
             };
             let resolver = view.document.resolver();
@@ -195,15 +195,15 @@ impl Backend {
                 let compiled = compile(text, &Options::default(), resolver.as_ref());
                 Analysis::new(text, compiled)
             };
-            places.edits(&view.analysis().format(window, &again))
+            map.edits(&view.analysis().format(window, &again))
         });
         edits.await.map_err(|_| Error::internal_error())
     }
 
-    /// The edits of one text, with its version where the client can tell versions.
+    /// The edits of one text, with its version if the client supports versioned edits.
     fn workspace_edit(&self, document: &Document, edits: Vec<TextEdit>) -> WorkspaceEdit {
         let can = self
-            .client_can()
+            .client_capabilities()
             .workspace
             .and_then(|can| can.workspace_edit);
         let versions = can.and_then(|can| can.document_changes).unwrap_or(false);
@@ -224,7 +224,7 @@ impl Backend {
     }
 }
 
-/// A rename that cannot be made, told to the person.
+/// The error of a rename that is impossible; editors show its message.
 fn refused(error: &ide::RenameError) -> Error {
     Error {
         code: ErrorCode::ServerError(-32803),

@@ -1,6 +1,6 @@
-//! What is to be analysed, in which order, and whether its diagnostics are to be sent. Who does it is the worker.
+//! The queue of texts to analyse, and which of them have diagnostics to send. The worker takes its tasks from here.
 //!
-//! A text that changes while it waits is analysed once, as it is then.
+//! A text that changes while it waits is analysed once, in its newest state.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard};
@@ -9,51 +9,51 @@ use tower_lsp::ls_types::Uri;
 
 use super::documents::{Analysed, Documents};
 
-/// When texts are analysed that nobody asks about.
+/// When texts are analysed without a request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) enum When {
     /// At every change.
     #[default]
     OnType,
-    /// When they are opened and saved.
+    /// When a text is opened or saved.
     OnSave,
 }
 
-/// See the module.
+/// See the [module](self).
 #[derive(Debug)]
-pub(super) struct Analyst {
+pub(super) struct Scheduler {
     documents: Arc<Documents>,
     queue: Mutex<Queue>,
-    woken: Condvar,
+    wakeup: Condvar,
 }
 
 #[derive(Debug, Default)]
 struct Queue {
     tasks: VecDeque<Task>,
-    /// Texts whose diagnostics are to be sent as soon as they are found.
+    /// Texts whose diagnostics are sent as soon as they are known.
     due: BTreeSet<String>,
-    /// Texts whose diagnostics the client fetches itself.
-    fetched: BTreeSet<String>,
+    /// Texts whose diagnostics the client requests itself.
+    pulled: BTreeSet<String>,
     when: When,
 }
 
-/// Something for the worker to do.
+/// A task for the worker.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Task {
-    /// Analyse the newest state of a text, and send its diagnostics if they are due.
+    /// Analyse the newest state of a text, and send its diagnostics if that was requested.
     Analyse(String),
-    /// A text was closed: forget it.
+    /// A text was closed: drop what is kept of it.
     Close(Uri),
-    /// Take back the diagnostics of a text that were sent.
-    TakeBack(Uri),
+    /// Clear the diagnostics that were sent for a text.
+    ClearDiagnostics(Uri),
 }
 
-impl Analyst {
+impl Scheduler {
     pub(super) fn new(documents: Arc<Documents>) -> Self {
         Self {
             documents,
             queue: Mutex::default(),
-            woken: Condvar::new(),
+            wakeup: Condvar::new(),
         }
     }
 
@@ -63,7 +63,7 @@ impl Analyst {
             .unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    /// Takes the client's settings, `{"analyse": "onType"}` or the same below `okoshi`; others are not its own.
+    /// Applies the client's settings, `{"analyse": "onType"}`, alone or under `okoshi`; others are ignored.
     pub(super) fn configure(&self, settings: &serde_json::Value) {
         let own = settings.get("okoshi").unwrap_or(settings);
         match own.get("analyse").and_then(serde_json::Value::as_str) {
@@ -73,45 +73,45 @@ impl Analyst {
         }
     }
 
-    /// A text was opened or saved: its diagnostics are sent.
+    /// A text was opened or saved: analyses it and sends its diagnostics.
     pub(super) fn opened_or_saved(&self, uri: &str) {
         let mut queue = self.queue();
         queue.due.insert(uri.to_owned());
         self.add(queue, Task::Analyse(uri.to_owned()));
     }
 
-    /// A text has changed: its diagnostics are sent, if that is wanted while typing.
+    /// A text has changed: its diagnostics are sent, unless the client wants them only after saving.
     pub(super) fn changed(&self, uri: &str) {
         if self.queue().when == When::OnType {
             self.opened_or_saved(uri);
         }
     }
 
-    /// Something that a text links to has changed.
-    pub(super) fn touched(&self, uri: &str) {
+    /// A file that a text links to has changed.
+    pub(super) fn link_changed(&self, uri: &str) {
         self.documents.touch(uri);
         self.opened_or_saved(uri);
     }
 
-    /// A text was closed: its diagnostics go.
+    /// A text was closed: its diagnostics are cleared.
     pub(super) fn closed(&self, uri: &Uri) {
         let mut queue = self.queue();
         queue.due.remove(uri.as_str());
-        queue.fetched.remove(uri.as_str());
+        queue.pulled.remove(uri.as_str());
         self.add(queue, Task::Close(uri.clone()));
     }
 
-    /// The client fetches a text's diagnostics: they are no longer sent, and what was sent is taken back, or it would
+    /// The client requests a text's diagnostics: they are no longer sent, and what was sent is cleared, or it would
     /// be shown twice.
-    pub(super) fn fetched(&self, uri: &Uri) {
+    pub(super) fn pulled(&self, uri: &Uri) {
         let mut queue = self.queue();
-        if queue.fetched.insert(uri.to_string()) {
-            self.add(queue, Task::TakeBack(uri.clone()));
+        if queue.pulled.insert(uri.to_string()) {
+            self.add(queue, Task::ClearDiagnostics(uri.clone()));
         }
     }
 
-    /// Has a text analysed, unless it is.
-    pub(super) fn ask(&self, uri: &str) {
+    /// Queues a text for analysis, unless its newest state is analysed.
+    pub(super) fn request(&self, uri: &str) {
         let current = self.documents.current(uri);
         let last = self.documents.last(uri);
         let generation = |analysed: &Analysed| analysed.document.generation;
@@ -124,30 +124,30 @@ impl Analyst {
         if !queue.tasks.contains(&task) {
             queue.tasks.push_back(task);
         }
-        self.woken.notify_one();
+        self.wakeup.notify_one();
     }
 
-    /// What is to be done next; waits for it.
-    pub(super) fn next(&self) -> Task {
+    /// The next task; waits for one.
+    pub(super) fn next_task(&self) -> Task {
         let mut queue = self.queue();
         loop {
             if let Some(task) = queue.tasks.pop_front() {
                 return task;
             }
             queue = self
-                .woken
+                .wakeup
                 .wait(queue)
                 .unwrap_or_else(|poisoned| poisoned.into_inner());
         }
     }
 
-    /// Whether diagnostics of a text are to be sent; they are no longer due then.
-    pub(super) fn is_due(&self, uri: &str) -> bool {
+    /// Whether diagnostics of a text are to be sent. Resets that.
+    pub(super) fn take_due(&self, uri: &str) -> bool {
         let mut queue = self.queue();
         queue.due.remove(uri)
     }
 
-    pub(super) fn is_fetched(&self, uri: &str) -> bool {
-        self.queue().fetched.contains(uri)
+    pub(super) fn is_pulled(&self, uri: &str) -> bool {
+        self.queue().pulled.contains(uri)
     }
 }

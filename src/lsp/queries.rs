@@ -1,4 +1,4 @@
-//! Requests that look: what stands where, what could be written, what things look like.
+//! Requests that only read: hover, completion, definitions, symbols, tokens and hints.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use tower_lsp::jsonrpc::{Error, Result};
 use tower_lsp::ls_types::*;
 
 use super::backend::{Backend, PREVIEW, View};
-use super::convert::{self, Places};
+use super::convert::{self, PositionMap};
 use super::documents::Document;
 use super::ordered::SNAPSHOTS;
 use crate::disk::{FolderResolver, below};
@@ -17,11 +17,11 @@ use crate::source::Span;
 impl Backend {
     pub(super) async fn on_hover(&self, params: HoverParams) -> Result<Option<Hover>> {
         let place = &params.text_document_position_params;
-        self.at(place, |view, places, offset| {
+        self.at(place, |view, map, offset| {
             let hover = view.analysis().hover(offset)?;
             Some(Hover {
                 contents: HoverContents::Markup(convert::markdown(hover.markdown)),
-                range: places.range(hover.span),
+                range: map.range(hover.span),
             })
         })
         .await
@@ -35,7 +35,7 @@ impl Backend {
         let Some((document, analysed)) = self.analysed(&place.text_document.uri).await? else {
             return Ok(None);
         };
-        let known = analysed.good.as_ref().unwrap_or(&analysed);
+        let known = analysed.last_sound.as_ref().unwrap_or(&analysed);
         let folder = document.folder().map(PathBuf::from);
         let files = || files_in(folder.as_deref());
         let context = ide::Context {
@@ -71,7 +71,7 @@ impl Backend {
         let Some((document, analysed)) = self.analysed(&place.text_document.uri).await? else {
             return Ok(None);
         };
-        let known = analysed.good.as_ref().unwrap_or(&analysed);
+        let known = analysed.last_sound.as_ref().unwrap_or(&analysed);
         let offset = document.positions.offset(place.position);
         Ok(ide::signature(document.text(), &known.analysis, offset).map(convert::signatures))
     }
@@ -81,22 +81,21 @@ impl Backend {
         params: GotoDefinitionParams,
     ) -> Result<Option<GotoDefinitionResponse>> {
         let can = self
-            .client_can()
+            .client_capabilities()
             .text_document
             .and_then(|can| can.definition);
         let links = can.and_then(|can| can.link_support).unwrap_or(false);
         let place = &params.text_document_position_params;
-        self.at(place, |view, places, offset| {
+        self.at(place, |view, map, offset| {
             let (from, targets) = view.analysis().definition(offset)?;
             let targets = targets.iter();
-            let locations =
-                targets.filter_map(|target| self.target(&view.document, target, places));
+            let locations = targets.filter_map(|target| self.target(&view.document, target, map));
             Some(match links {
                 false => GotoDefinitionResponse::Array(locations.collect()),
                 true => GotoDefinitionResponse::Link(
                     locations
                         .map(|location| LocationLink {
-                            origin_selection_range: places.range(from),
+                            origin_selection_range: map.range(from),
                             target_uri: location.uri,
                             target_range: location.range,
                             target_selection_range: location.range,
@@ -113,9 +112,9 @@ impl Backend {
         params: ReferenceParams,
     ) -> Result<Option<Vec<Location>>> {
         let with_definition = params.context.include_declaration;
-        self.at(&params.text_document_position, |view, places, offset| {
+        self.at(&params.text_document_position, |view, map, offset| {
             let spans = view.analysis().references(offset, with_definition);
-            (!spans.is_empty()).then(|| self.locations(view, &spans, places))
+            (!spans.is_empty()).then(|| self.locations(view, &spans, map))
         })
         .await
     }
@@ -125,11 +124,11 @@ impl Backend {
         params: DocumentHighlightParams,
     ) -> Result<Option<Vec<DocumentHighlight>>> {
         let place = &params.text_document_position_params;
-        self.at(place, |view, places, offset| {
+        self.at(place, |view, map, offset| {
             let found = view.analysis().highlights(offset);
             let highlights = found.iter().filter_map(|(span, defines)| {
                 Some(DocumentHighlight {
-                    range: places.range(*span)?,
+                    range: map.range(*span)?,
                     kind: Some(match defines {
                         true => DocumentHighlightKind::WRITE,
                         false => DocumentHighlightKind::READ,
@@ -149,11 +148,11 @@ impl Backend {
             return Ok(None);
         };
         let can = self
-            .client_can()
+            .client_capabilities()
             .text_document
             .and_then(|can| can.document_symbol);
         let nested = can.and_then(|can| can.hierarchical_document_symbol_support);
-        let symbols = convert::symbols(view.analysis().outline(), &view.places());
+        let symbols = convert::symbols(view.analysis().outline(), &view.map());
         Ok(Some(match nested.unwrap_or(false) {
             true => DocumentSymbolResponse::Nested(symbols),
             false => DocumentSymbolResponse::Flat(flat(symbols, &view.document.uri)),
@@ -180,11 +179,11 @@ impl Backend {
         let Some(view) = self.view(&params.text_document.uri).await? else {
             return Ok(None);
         };
-        let places = view.places();
+        let map = view.map();
         let folds = view.analysis().folds();
         let folds = folds
             .into_iter()
-            .filter_map(|span| convert::fold(places.now(span)?, places.positions));
+            .filter_map(|span| convert::fold(map.to_current(span)?, map.positions));
         Ok(Some(folds.collect()))
     }
 
@@ -195,13 +194,13 @@ impl Backend {
         let Some(view) = self.view(&params.text_document.uri).await? else {
             return Ok(None);
         };
-        let places = view.places();
+        let map = view.map();
         let ranges = params.positions.iter().map(|position| {
-            let spans = places
+            let spans = map
                 .offset(*position)
                 .map(|offset| view.analysis().selections(offset));
-            let nested = spans.and_then(|spans| convert::selection(&spans, &places));
-            // Every position is answered: where no string is, by the empty range.
+            let nested = spans.and_then(|spans| convert::selection(&spans, &map));
+            // Every position needs an answer: outside of strings the empty range.
             nested.unwrap_or(SelectionRange {
                 range: Range::new(*position, *position),
                 parent: None,
@@ -218,7 +217,7 @@ impl Backend {
             return Ok(None);
         };
         let all = Span::new(0, view.analysed.document.text().len());
-        let data = convert::tokens(&view.analysis().colouring(all), &view.places());
+        let data = convert::tokens(&view.analysis().semantic_tokens(all), &view.map());
         Ok(Some(
             SemanticTokens {
                 result_id: None,
@@ -235,10 +234,10 @@ impl Backend {
         let Some(view) = self.view(&params.text_document.uri).await? else {
             return Ok(None);
         };
-        let places = view.places();
+        let map = view.map();
         let data = convert::tokens(
-            &view.analysis().colouring(places.span(params.range)),
-            &places,
+            &view.analysis().semantic_tokens(map.span(params.range)),
+            &map,
         );
         Ok(Some(
             SemanticTokens {
@@ -256,12 +255,9 @@ impl Backend {
         let Some(view) = self.view(&params.text_document.uri).await? else {
             return Ok(None);
         };
-        let places = view.places();
-        let inlays = view
-            .analysis()
-            .inlays(places.span(params.range))
-            .into_iter();
-        let hints = inlays.filter_map(|inlay| convert::inlay(inlay, &places, &view.document.uri));
+        let map = view.map();
+        let inlays = view.analysis().inlays(map.span(params.range)).into_iter();
+        let hints = inlays.filter_map(|inlay| convert::inlay(inlay, &map, &view.document.uri));
         Ok(Some(hints.collect()))
     }
 
@@ -272,10 +268,10 @@ impl Backend {
         let Some(view) = self.view(&params.text_document.uri).await? else {
             return Ok(vec![]);
         };
-        let places = view.places();
+        let map = view.map();
         let swatches = view.analysis().swatches().into_iter();
         Ok(swatches
-            .filter_map(|swatch| convert::swatch(swatch, &places))
+            .filter_map(|swatch| convert::swatch(swatch, &map))
             .collect())
     }
 
@@ -287,7 +283,7 @@ impl Backend {
             return Ok(None);
         };
         let root = view.analysis().compiled().drawing.groups.first();
-        let range = root.and_then(|root| view.places().range(root.element.span));
+        let range = root.and_then(|root| view.map().range(root.element.span));
         let command = Command {
             title: "Preview in 3D".to_owned(),
             command: PREVIEW.to_owned(),
@@ -306,10 +302,10 @@ impl Backend {
         &self,
         document: &Document,
         target: &Target,
-        places: &Places<'_>,
+        map: &PositionMap<'_>,
     ) -> Option<Location> {
         match target {
-            Target::Here(span) => Some(Location::new(document.uri.clone(), places.range(*span)?)),
+            Target::Here(span) => Some(Location::new(document.uri.clone(), map.range(*span)?)),
             Target::File(name) => {
                 let path = FolderResolver::new(document.folder()?).place(name).ok()?;
                 Some(Location::new(Uri::from_file_path(path)?, Range::default()))
@@ -317,8 +313,8 @@ impl Backend {
         }
     }
 
-    fn locations(&self, view: &View, spans: &[Span], places: &Places<'_>) -> Vec<Location> {
-        let ranges = spans.iter().filter_map(|span| places.range(*span));
+    fn locations(&self, view: &View, spans: &[Span], map: &PositionMap<'_>) -> Vec<Location> {
+        let ranges = spans.iter().filter_map(|span| map.range(*span));
         let uri = &view.document.uri;
         ranges
             .map(|range| Location::new(uri.clone(), range))
@@ -327,7 +323,7 @@ impl Backend {
 
     fn snippets(&self) -> bool {
         let can = self
-            .client_can()
+            .client_capabilities()
             .text_document
             .and_then(|can| can.completion);
         can.and_then(|can| can.completion_item)
@@ -336,7 +332,7 @@ impl Backend {
     }
 }
 
-/// Symbols for clients that know no hierarchy.
+/// Symbols for clients that do not support nested ones.
 #[allow(deprecated, reason = "a field that must be given, and stays empty")]
 fn flat(symbols: Vec<DocumentSymbol>, uri: &Uri) -> Vec<SymbolInformation> {
     let mut out = vec![];
@@ -361,7 +357,7 @@ fn flat(symbols: Vec<DocumentSymbol>, uri: &Uri) -> Vec<SymbolInformation> {
     out
 }
 
-/// The files that a drawing in a folder can link to, as it would name them.
+/// The files that a drawing in a folder can link to, as it names them.
 fn files_in(folder: Option<&Path>) -> Vec<String> {
     let Some(folder) = folder else {
         return vec![];
