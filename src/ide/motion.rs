@@ -265,7 +265,7 @@ fn counted(count: usize, thing: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Paint;
+    use super::super::TokenClass;
     use super::super::fixtures::{figure, moving};
     use super::*;
 
@@ -399,8 +399,8 @@ mod tests {
         let string = "Rarm@Body$Bone RightArm \"Grip:1\" Offset 2";
         let (analysis, _) = moving(&figure(["Body", string, "", "", "%Motion \"kick.bvh\""]));
         let (at, _) = analysis.source().match_indices(string).next().unwrap();
-        let painted = analysis.colouring(Span::new(at, at + string.len()));
-        let names = painted.iter().filter(|one| one.paint == Paint::Part);
+        let tokens = analysis.semantic_tokens(Span::new(at, at + string.len()));
+        let names = tokens.iter().filter(|one| one.class == TokenClass::Part);
         let names = names.map(|one| {
             (
                 &analysis.source()[one.span.start..one.span.end],
