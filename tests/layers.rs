@@ -154,7 +154,6 @@ const USES: &[(&str, &[&str])] = &[
             "diagnostic",
             "geometry",
             "kept",
-            "lang",
             "motion",
             "resolver",
             "scene",

@@ -10,6 +10,7 @@ mod layers;
 mod leaders;
 mod legends;
 mod memory;
+mod motions;
 mod nearest;
 mod parents;
 mod settings;
@@ -23,6 +24,7 @@ pub use bindings::{Binding, Bindings, BoundBy, DrawingString, Part, PartKind, Pl
 pub use layers::{Layer, LayerKind, in_tile_layers};
 pub use legends::Legend;
 pub use memory::Memory;
+pub use motions::ClipRequest;
 pub use nearest::Mode as DistanceMode;
 pub use settings::{DrawingSettings, Strokes};
 
@@ -75,6 +77,7 @@ pub fn bind(
     classify(drawing, &mut bindings);
     legends::merge(drawing, &mut bindings, diagnostics);
     hierarchy::build(drawing, &mut bindings, &mut memory.hangers, diagnostics);
+    motions::without_motion(&bindings, diagnostics);
     hints(drawing, &bindings, diagnostics);
     bindings
 }

@@ -80,9 +80,7 @@ fn inherited(context: &FigureContext<'_>, part: usize, doubled: &[bool]) -> Opti
     };
     for _ in 0..MOST_ANCESTORS {
         let ancestor = next?;
-        if !context.bindings.attributes(ancestor).shape().mirrored {
-            plane -= context.offset(ancestor);
-        }
+        plane -= context.node_offset(ancestor);
         let both = shape.mirrored || shape.doubled;
         let even = match both {
             true => plane.abs() <= 1e-9 * (depths[1] - depths[0]).abs().max(1e-12),

@@ -25,7 +25,7 @@ use crate::threads::GRAIN;
 
 use models::Models;
 use relief::Relief;
-use tree::Tree;
+use tree::FigureNode;
 
 pub use nodes::PartNode;
 
@@ -68,7 +68,7 @@ pub struct Figures<'a> {
     relief: Relief,
     frames: Vec<Frame>,
     members: Vec<Vec<usize>>,
-    tree: Tree,
+    tree: Vec<FigureNode>,
 }
 
 /// The nodes of a drawing's figures, in the order in which they are in the scene.
@@ -104,7 +104,7 @@ impl<'a> Figures<'a> {
                 let frames: Vec<Frame> = parts
                     .map(|part| Frame::new(&part.measure, part.origin))
                     .collect();
-                let tree = Tree::grow(&context, &frames, diagnostics);
+                let tree = tree::nodes(&context, &frames, diagnostics);
                 (frames, members(bindings), tree)
             },
         );
@@ -232,6 +232,15 @@ impl<'a> FigureContext<'a> {
             // A default has moved the sub-part's node already.
             Some(offset) if !is_main && offset.source.from == SetBy::Default => 0.0,
             offset => offset.map_or(0.0, |offset| offset.value),
+        }
+    }
+
+    /// How far the node of a main part is moved along the viewer axis, drawing units. With `-s` its two solids are moved
+    /// instead.
+    fn node_offset(&self, part: usize) -> f64 {
+        match self.bindings.attributes(part).shape().mirrored {
+            true => 0.0,
+            false => self.offset(part),
         }
     }
 

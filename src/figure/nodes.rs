@@ -4,7 +4,7 @@ use glam::DQuat;
 use rayon::prelude::*;
 
 use super::FigureContext;
-use super::tree::{Branch, Tree};
+use super::tree::FigureNode;
 use crate::scene::{Mesh, Node, Piece, Primitive, Provenance, Scene, WorldTransform};
 use crate::threads::GRAIN;
 
@@ -24,33 +24,33 @@ pub struct PartNode {
 /// Adds nodes and meshes to a scene without nodes. Returns the part of each node, and the first node of each part.
 pub(super) fn add(
     context: &FigureContext<'_>,
-    tree: Tree,
+    tree: Vec<FigureNode>,
     meshes: Vec<Option<Mesh>>,
     world: &WorldTransform,
     scene: &mut Scene,
 ) -> (Vec<PartNode>, Vec<Option<usize>>) {
-    let mut nodes: Vec<PartNode> = Vec::with_capacity(tree.branches.len());
-    for branch in &tree.branches {
-        let above = branch.parent.map_or(0.0, |parent| nodes[parent].depth);
+    let mut nodes: Vec<PartNode> = Vec::with_capacity(tree.len());
+    for node in &tree {
+        let above = node.parent.map_or(0.0, |parent| nodes[parent].depth);
         nodes.push(PartNode {
-            part: branch.part,
-            parent: branch.parent,
-            is_mirrored: branch.mirrored,
-            depth: above + branch.place.z,
+            part: node.part,
+            parent: node.parent,
+            is_mirrored: node.is_mirrored,
+            depth: above + node.position.z,
         });
     }
-    let node = |branch: Branch| {
-        let rotation = DQuat::from_rotation_z(branch.angle);
-        let (translation, rotation) = match branch.parent {
-            Some(_) => (branch.place * world.scale, rotation),
-            None => (world.point(branch.place), world.rotate(rotation)),
+    let to_scene = |node: FigureNode| {
+        let rotation = DQuat::from_rotation_z(node.angle);
+        let (translation, rotation) = match node.parent {
+            Some(_) => (node.position * world.scale, rotation),
+            None => (world.point(node.position), world.rotate(rotation)),
         };
-        let part = &context.bindings.parts[branch.part];
+        let part = &context.bindings.parts[node.part];
         let string = part
             .string
             .map(|string| &context.bindings.strings[string].text);
         Node {
-            name: branch.name,
+            name: node.name,
             translation,
             rotation,
             provenance: Some(Provenance {
@@ -61,10 +61,9 @@ pub(super) fn add(
         }
     };
     scene.nodes = tree
-        .branches
         .into_par_iter()
         .with_min_len(GRAIN)
-        .map(node)
+        .map(to_scene)
         .collect();
     let mut meshes = Meshes {
         placed: vec![[None; 2]; meshes.len()],
@@ -77,26 +76,27 @@ pub(super) fn add(
             Some(parent) => scene.nodes[parent].children.push(index),
             None => scene.roots.push(index),
         }
-        scene.nodes[index].mesh = meshes.of(node.part, node.is_mirrored, &mut scene.meshes);
+        scene.nodes[index].mesh = meshes.index(node.part, node.is_mirrored, &mut scene.meshes);
     }
     (nodes, node_of_part)
 }
 
-/// The meshes of parts on their way into the scene.
+/// Moves the meshes of parts into the scene.
 struct Meshes {
+    /// Per part its mesh, until it is in the scene.
     made: Vec<Option<Mesh>>,
-    /// Per part the scene's mesh as described, and mirrored.
+    /// Per part the indices of its mesh and of the mirrored mesh in the scene.
     placed: Vec<[Option<usize>; 2]>,
 }
 
 impl Meshes {
-    /// The mesh that shows a part on one side, made from its twin where that is in the scene already.
-    fn of(&mut self, part: usize, turned: bool, scene: &mut Vec<Mesh>) -> Option<usize> {
-        let side = usize::from(turned);
+    /// The index of the mesh of a part, mirrored for a mirrored node. If only the other one is in the scene, it is made from that.
+    fn index(&mut self, part: usize, is_mirrored: bool, scene: &mut Vec<Mesh>) -> Option<usize> {
+        let side = usize::from(is_mirrored);
         let placed = self.placed[part];
         if placed[side].is_none() {
             let mesh = match (self.made[part].take(), placed[1 - side]) {
-                (Some(mesh), _) if turned => mirrored(&mesh),
+                (Some(mesh), _) if is_mirrored => mirrored(&mesh),
                 (Some(mesh), _) => mesh,
                 (None, Some(twin)) => mirrored(&scene[twin]),
                 (None, None) => return None,

@@ -118,11 +118,7 @@ fn node_depths(context: &FigureContext<'_>) -> Vec<f64> {
         }
         let mut depth = next.and_then(|part| depths[part]).unwrap_or(0.0);
         for part in chain.into_iter().rev() {
-            depth += if context.bindings.attributes(part).shape().mirrored {
-                0.0
-            } else {
-                context.offset(part)
-            };
+            depth += context.node_offset(part);
             depths[part] = Some(depth);
         }
     }

@@ -1,4 +1,4 @@
-//! The hierarchy with its copies: every node's place in its parent's frame.
+//! The hierarchy of nodes with the copies that `-d` makes, each in its parent's frame.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -8,110 +8,112 @@ use crate::bind::PartKind;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Frame;
 
-/// Most nodes that `-d` may add: nested copies double each time.
-const MOST_COPIES: usize = 1 << 16;
+/// Limit of the nodes that `-d` adds: nested copies double each time.
+const MAX_COPIES: usize = 1 << 16;
 
-/// A node to be.
+/// A node of a figure in its parent's frame.
 #[derive(Debug, Clone)]
-pub(super) struct Branch {
+pub(super) struct FigureNode {
     pub(super) name: String,
-    /// The part that it shows.
+    /// Index of the part that it shows.
     pub(super) part: usize,
-    /// Index of the branch it hangs on, which stands before it.
+    /// Index of the parent node, which comes before it.
     pub(super) parent: Option<usize>,
-    /// Where it stands in its parent's frame, drawing units, y up.
-    pub(super) place: DVec3,
-    /// By how much it is turned there, about +Z, radians.
+    /// Its position in the parent's frame, drawing units, y up.
+    pub(super) position: DVec3,
+    /// Its rotation about +Z, radians.
     pub(super) angle: f64,
     /// Whether it is mirrored in the drawing plane.
-    pub(super) mirrored: bool,
+    pub(super) is_mirrored: bool,
 }
 
-/// All branches, parents before children.
-pub(super) struct Tree {
-    pub(super) branches: Vec<Branch>,
-}
-
-/// What is still to be grown.
-struct Bud {
+/// A part that needs a node.
+#[derive(Clone, Copy)]
+struct Pending {
     part: usize,
+    /// Index of the parent node.
     parent: Option<usize>,
-    mirrored: bool,
+    is_mirrored: bool,
+    /// How many of the part and its ancestors are the copies that `-d` makes.
     copies: usize,
 }
 
-impl Tree {
-    /// Grows the hierarchy, `-d` copies included.
-    pub(super) fn grow(
-        context: &FigureContext<'_>,
-        frames: &[Frame],
-        diagnostics: &mut Vec<Diagnostic>,
-    ) -> Self {
-        let parts = &context.bindings.parts;
-        let mut children: Vec<Vec<usize>> = vec![Vec::new(); parts.len()];
-        let mut roots = Vec::new();
-        for (index, part) in parts
-            .iter()
-            .enumerate()
-            .filter(|(_, part)| part.kind == PartKind::Main)
-        {
-            match part.parent {
-                Some(parent) => children[parent].push(index),
-                None => roots.push(index),
-            }
+/// The nodes of all main parts with the copies that `-d` makes, parents before children.
+pub(super) fn nodes(
+    context: &FigureContext<'_>,
+    frames: &[Frame],
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<FigureNode> {
+    let parts = &context.bindings.parts;
+    let mut children: Vec<Vec<usize>> = vec![Vec::new(); parts.len()];
+    let mut roots = Vec::new();
+    let mains = parts.iter().enumerate();
+    for (index, part) in mains.filter(|(_, part)| part.kind == PartKind::Main) {
+        match part.parent {
+            Some(parent) => children[parent].push(index),
+            None => roots.push(index),
         }
-        let copied = (0..parts.len()).any(|part| {
-            parts[part].kind == PartKind::Main && context.bindings.attributes(part).shape().doubled
-        });
-        let known = if copied { parts.as_slice() } else { &[] };
-        let mut names: FxHashMap<String, usize> =
-            known.iter().map(|part| (part.name.clone(), 1)).collect();
-        let mut branches: Vec<Branch> = Vec::with_capacity(parts.len());
-        let mut buds: Vec<Bud> = Vec::new();
-        let sprout = |buds: &mut Vec<Bud>, part: usize, parent, mirrored: bool, copies| {
-            let bud = |mirrored, copies| Bud {
-                part,
-                parent,
-                mirrored,
-                copies,
-            };
-            // The last one in is grown first: the copy stands behind its original.
-            if context.bindings.attributes(part).shape().doubled {
-                buds.push(bud(!mirrored, copies + 1));
-            }
-            buds.push(bud(mirrored, copies));
+    }
+    let is_doubled = |part: usize| context.bindings.attributes(part).shape().doubled;
+    let has_copies =
+        (0..parts.len()).any(|part| parts[part].kind == PartKind::Main && is_doubled(part));
+    let taken = if has_copies { parts.as_slice() } else { &[] };
+    let mut names: FxHashMap<String, usize> =
+        taken.iter().map(|part| (part.name.clone(), 1)).collect();
+    let mut nodes: Vec<FigureNode> = Vec::with_capacity(parts.len());
+    // A stack: the copy of a part is pushed first, so that it comes after the original and all below it.
+    let mut stack: Vec<Pending> = Vec::new();
+    let push = |stack: &mut Vec<Pending>, pending: Pending| {
+        if is_doubled(pending.part) {
+            stack.push(Pending {
+                is_mirrored: !pending.is_mirrored,
+                copies: pending.copies + 1,
+                ..pending
+            });
+        }
+        stack.push(pending);
+    };
+    for root in roots.iter().rev() {
+        let pending = Pending {
+            part: *root,
+            parent: None,
+            is_mirrored: false,
+            copies: 0,
         };
-        for root in roots.iter().rev() {
-            sprout(&mut buds, *root, None, false, 0);
-        }
-        while let Some(bud) = buds.pop() {
-            if branches.len() >= parts.len() + MOST_COPIES {
-                let element = &context.drawing.shapes[parts[bud.part].shape].element;
-                diagnostics.push(
+        push(&mut stack, pending);
+    }
+    while let Some(pending) = stack.pop() {
+        if nodes.len() >= parts.len() + MAX_COPIES {
+            let element = &context.drawing.shapes[parts[pending.part].shape].element;
+            diagnostics.push(
                     Diagnostic::new(
                         Code::LimitPassed,
                         element.span,
-                        format!("the copies of `-d` add more than {MOST_COPIES} nodes"),
+                        format!("the copies of `-d` add more than {MAX_COPIES} nodes"),
                     )
                     .help("each `-d` doubles everything attached to the part, so nested ones multiply: remove some of them"),
                 );
-                break;
-            }
-            let index = branches.len();
-            let mut branch = place(context, frames, &bud);
-            if bud.copies > 0 {
-                branch.name = free_name(branch.name, &mut names);
-            }
-            branches.push(branch);
-            for child in children[bud.part].iter().rev() {
-                sprout(&mut buds, *child, Some(index), bud.mirrored, bud.copies);
-            }
+            break;
         }
-        Self { branches }
+        let index = nodes.len();
+        let mut node = node(context, frames, pending);
+        if pending.copies > 0 {
+            node.name = free_name(node.name, &mut names);
+        }
+        nodes.push(node);
+        for child in children[pending.part].iter().rev() {
+            let child = Pending {
+                part: *child,
+                parent: Some(index),
+                ..pending
+            };
+            push(&mut stack, child);
+        }
     }
+    nodes
 }
 
-/// The name of a copy, with a number behind it where a copy of a copy meets a name that is taken.
+/// A name that no other node has: that of the copy, with a number if it is taken.
 fn free_name(name: String, names: &mut FxHashMap<String, usize>) -> String {
     let mut count = names.get(&name).copied().unwrap_or(0);
     if count == 0 {
@@ -129,29 +131,24 @@ fn free_name(name: String, names: &mut FxHashMap<String, usize>) -> String {
     }
 }
 
-fn place(context: &FigureContext<'_>, frames: &[Frame], bud: &Bud) -> Branch {
-    let part = &context.bindings.parts[bud.part];
-    let own = &frames[bud.part];
-    // With `-s` the two solids are moved, not the node.
-    let offset = if context.bindings.attributes(bud.part).shape().mirrored {
-        0.0
-    } else {
-        context.offset(bud.part)
-    };
-    let depth = if bud.mirrored { -offset } else { offset };
-    let (place, angle) = match part.parent {
-        Some(parent) if bud.parent.is_some() => (
+fn node(context: &FigureContext<'_>, frames: &[Frame], pending: Pending) -> FigureNode {
+    let part = &context.bindings.parts[pending.part];
+    let own = &frames[pending.part];
+    let offset = context.node_offset(pending.part);
+    let depth = if pending.is_mirrored { -offset } else { offset };
+    let (position, angle) = match part.parent {
+        Some(parent) if pending.parent.is_some() => (
             frames[parent].to_local(own.origin),
             own.angle - frames[parent].angle,
         ),
         _ => (own.origin, own.angle),
     };
-    Branch {
-        name: format!("{}{}", part.name, ".back".repeat(bud.copies)),
-        part: bud.part,
-        parent: bud.parent,
-        place: place.extend(depth),
+    FigureNode {
+        name: format!("{}{}", part.name, ".back".repeat(pending.copies)),
+        part: pending.part,
+        parent: pending.parent,
+        position: position.extend(depth),
         angle,
-        mirrored: bud.mirrored,
+        is_mirrored: pending.is_mirrored,
     }
 }

@@ -2,10 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::bind::Bindings;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lang::ast::Annotation;
-use crate::lang::keyword::Keyword;
 use crate::motion::bvh;
 use crate::motion::limited::{Cut, MAX_OMITTED_RUN};
 use crate::motion::matching::{Matching, Problem};
@@ -58,24 +55,6 @@ pub(super) fn idle_motion(span: Span, link: &str) -> Diagnostic {
     let message = format!("the motion `{link}` moves nothing: none of its joints drives a part");
     let help = "name parts after what they are (Head, Rarm, Lleg …), or say which joint drives a part: `Bone RightArm`";
     Diagnostic::new(Code::IdleMotion, span, message).help(help)
-}
-
-/// `Limited` and `Bone` in a drawing without a motion, each reported once.
-pub(super) fn without_motion(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
-    for keyword in [Keyword::Limited, Keyword::Bone] {
-        let found = bindings.strings.iter().find_map(|string| {
-            let counts = !matches!(string.annotation, Annotation::Legend(_));
-            let mut settings = string.settings.iter().filter(|_| counts);
-            let setting = settings.find(|setting| setting.keyword == keyword)?;
-            Some(string.text.span(setting.range.clone()))
-        });
-        if let Some(span) = found {
-            let name = keyword.name();
-            let message = format!("`{name}` has no effect: the drawing has no motion");
-            let help = "write `Motion \"file.bvh\"` in a `%` string, or in the string of a figure's root part";
-            diagnostics.push(Diagnostic::new(Code::IdleMotion, span, message).help(help));
-        }
-    }
 }
 
 /// Omissions and holds that were not possible, and too many omissions in a row.

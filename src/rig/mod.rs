@@ -12,12 +12,10 @@ mod tracks;
 
 use std::sync::Arc;
 
-use crate::bind::Bindings;
+use crate::bind::{Bindings, ClipRequest};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::Frame;
 use crate::kept::{Kept, Same};
-use crate::lang::ast::Annotation;
-use crate::lang::value::Value;
 use crate::motion::figure::Figure;
 use crate::motion::labels::Class;
 use crate::motion::limited::{self, Cut, Length};
@@ -56,41 +54,6 @@ pub struct Memory {
     cuts: Vec<CachedCut>,
 }
 
-/// A clip that a string asks for with `Motion`.
-struct ClipRequest<'a> {
-    /// The part of the string; `None` for a string that applies to all figures.
-    part: Option<usize>,
-    file: &'a str,
-    name: Option<&'a str>,
-    span: Span,
-}
-
-/// The clips that strings ask for, in the order of the strings.
-fn clip_requests(bindings: &Bindings) -> Vec<ClipRequest<'_>> {
-    let strings = bindings.strings.iter();
-    let requests = strings.flat_map(|string| {
-        let part = match string.annotation {
-            Annotation::Defaults(_) => Some(None),
-            _ => string
-                .binding
-                .map(|binding| Some(bindings.parts[binding.part].main)),
-        };
-        string
-            .settings
-            .iter()
-            .filter_map(move |setting| match &setting.value {
-                Value::Motion { file, clip } => Some(ClipRequest {
-                    part: part?,
-                    file,
-                    name: clip.as_deref(),
-                    span: string.text.span(setting.range.clone()),
-                }),
-                _ => None,
-            })
-    });
-    requests.collect()
-}
-
 /// The drawing whose figures are animated.
 pub struct Context<'a> {
     /// The drawing.
@@ -122,10 +85,9 @@ pub fn add_clips(
     scene: &mut Scene,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<FigureClip> {
-    let requests = clip_requests(context.bindings);
+    let requests = context.bindings.clip_requests();
     if requests.is_empty() {
         *memory = Memory::default();
-        diagnostics::without_motion(context.bindings, diagnostics);
         return Vec::new();
     }
     let nodes: Vec<RestNode> = nodes.collect();
