@@ -31,7 +31,7 @@ const isSame = (a: Wanted, b: Wanted | null): boolean => b !== null && a.drawing
 
 /**
  * model: another is shown, or none · display: shading, projection or mode changed · time: the clip moved · pose: a limb moved ·
- * beside: the copy beside the model changed
+ * sideBySide: the copy beside the model changed
  */
 export type ViewerTopic = "model" | "display" | "time" | "pose" | "sideBySide";
 
@@ -312,7 +312,7 @@ export class Viewer {
             return boxes ? points.flatMap((point) => [point, point.clone().setX(point.x + offset)]) : points;
           },
     );
-    this.canvas.dataset["sideBySide"] = boxes ? String(offset) : "";
+    this.canvas.dataset["beside"] = boxes ? String(offset) : "";
   }
 
   private drawEdges(): void {
