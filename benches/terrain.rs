@@ -18,7 +18,7 @@ use block_mesh::{
 };
 use fastrand::Rng;
 use ndshape::{ConstShape, ConstShape3u32};
-use okoshi::terrain::{Land, Map};
+use okoshi::terrain::{Landscape, Map};
 use rayon::prelude::*;
 
 /// Times that everything is done; the median is told.
@@ -99,7 +99,7 @@ fn map(side: usize) -> Map {
 /// The map as a picture of one pixel a tile.
 fn png(map: &Map) -> Vec<u8> {
     let pixels = map.cells.iter().flat_map(|look| {
-        let tile = map.looks[usize::from(*look)];
+        let tile = map.tiles[usize::from(*look)];
         tile.color()
     });
     let picture = image::RgbImage::from_raw(map.columns as u32, map.rows as u32, pixels.collect());
@@ -125,12 +125,12 @@ fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
 fn compare(side: usize) {
     let map = map(side);
     let png = png(&map);
-    let chunks = chunks(&Land::new(&map));
+    let chunks = chunks(&Landscape::new(&map));
     let mut times: [Vec<Duration>; 5] = Default::default();
     let (mut triangles, mut quads) = (0, 0);
     for _ in 0..ROUNDS {
         times[0].push(timed(|| image::load_from_memory(&png).expect("a PNG")).0);
-        let (heights, land) = timed(|| Land::new(&map));
+        let (heights, land) = timed(|| Landscape::new(&map));
         let (meshing, surface) = timed(|| land.surface(0.5, 0.0));
         let pieces = surface.iter().flat_map(|(_, pieces)| pieces);
         triangles = pieces.map(|piece| piece.triangles.len()).sum();
@@ -193,7 +193,7 @@ fn measured(what: &str) {
         println!("{}", peak());
         return;
     }
-    let surface = Land::new(&map).surface(0.5, 0.0);
+    let surface = Landscape::new(&map).surface(0.5, 0.0);
     if what == "output" {
         let pieces = surface.iter().flat_map(|(_, pieces)| pieces);
         let corners: usize = pieces.map(|piece| piece.positions.len()).sum();
@@ -232,7 +232,7 @@ impl MergeVoxel for Solid {
 }
 
 /// The voxels of a landscape in chunks with a border of one voxel.
-fn chunks(land: &Land) -> Vec<Vec<Solid>> {
+fn chunks(land: &Landscape) -> Vec<Vec<Solid>> {
     let mut chunks: BTreeMap<[i32; 3], Vec<Solid>> = BTreeMap::new();
     let around = |value: i32| (value - 1).div_euclid(CHUNK)..=(value + 1).div_euclid(CHUNK);
     for x in 0..land.columns() as i32 {

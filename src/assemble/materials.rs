@@ -9,7 +9,7 @@ use crate::figure::{LinkedModels, PartMaterial};
 use crate::resolver::Resolver;
 use crate::scene::{AlphaMode, Image, Material, Scene, Texture, TextureUse};
 use crate::svg::Drawing;
-use crate::terrain::{Layer, Tile, TileLook};
+use crate::terrain::{Layer, Tile, TileMaterial};
 use crate::texture::Alpha;
 
 /// Where holes begin in textures whose alpha is all or nothing.
@@ -113,7 +113,7 @@ impl Materials {
             let slot = shared.slot(&factors, double_sided, texture, &textures);
             of_part.push(Some((slot, textured.map(|textured| textured.map))));
         }
-        let mut of_look = |layer: usize, number: usize, found: &TileLook| {
+        let mut of_look = |layer: usize, number: usize, found: &TileMaterial| {
             let mut factors = found.factors.clone();
             let texture = textures.of_look(layer, number);
             if texture.is_some() && !found.is_tinted {
@@ -123,7 +123,7 @@ impl Materials {
             drawn.then(|| shared.slot(&factors, false, texture, &textures))
         };
         let of_layer = |(index, layer): (usize, &Layer)| {
-            let looks = layer.looks.iter().enumerate();
+            let looks = layer.materials.iter().enumerate();
             looks
                 .map(|(number, look)| of_look(index, number, look))
                 .collect()

@@ -188,7 +188,7 @@ impl<'a> Collector<'a> {
 
     /// The looks of a tile layer.
     fn layer(&mut self, index: usize, layer: &'a Layer, diagnostics: &mut Vec<Diagnostic>) {
-        for (number, look) in layer.looks.iter().enumerate() {
+        for (number, look) in layer.materials.iter().enumerate() {
             let Some(TileTexture { link, string, span }) = &look.texture else {
                 continue;
             };

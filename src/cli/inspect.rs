@@ -157,13 +157,13 @@ fn contents(layer: &Layer) -> Vec<[String; 2]> {
         1 => "1 tile".to_owned(),
         count => format!("{count} tiles"),
     };
-    let groups = layer.land.groups().map(|group| {
+    let groups = layer.landscape.groups().map(|group| {
         let kind = if group.water { "water" } else { "ground" };
         let [column, row] = group.first.map(|at| at + 1);
         let what = format!("{} from column {column}, row {row} on", cells(group.cells));
         [format!("{kind} at {}", group.height), what]
     });
-    let houses = layer.land.houses().map(|house| {
+    let houses = layer.landscape.houses().map(|house| {
         let ridge = house.ridge(layer.roof);
         let what = format!(
             "{} wide, {} deep, walls {} high, ridge at {ridge:.2}",

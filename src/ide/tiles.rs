@@ -32,10 +32,10 @@ impl Analysis {
         let mut layers = self.compiled().layers.iter();
         let layer = layers.find(|layer| layer.string == string)?;
         let group = self.drawing().groups[layer.group].element.describe();
-        let water = layer.land.groups().filter(|group| group.water).count();
-        let ground = layer.land.groups().count() - water;
-        let houses = layer.land.houses().count();
-        let heights = layer.land.groups().map(|group| group.height);
+        let water = layer.landscape.groups().filter(|group| group.water).count();
+        let ground = layer.landscape.groups().count() - water;
+        let houses = layer.landscape.houses().count();
+        let heights = layer.landscape.groups().map(|group| group.height);
         let (low, high) = heights.fold((0, 0), |(low, high), height| {
             (height.min(low), height.max(high))
         });
@@ -60,7 +60,7 @@ impl Analysis {
         let outline = &self.drawing().shapes[shape].outline;
         let most = (MAX_CELLS / rows.len().max(1)).max(1);
         for column in columns.take(most) {
-            let seen = layer.land.seen(column);
+            let seen = layer.landscape.visible_heights(column);
             for row in rows.clone().take(MAX_CELLS) {
                 let middle = DVec2::new(column as f64 + 0.5, row as f64 + 0.5) * layer.size;
                 let painted =
@@ -95,7 +95,7 @@ impl Analysis {
 }
 
 fn kind(layer: &Layer, column: usize, row: usize) -> Option<Cells> {
-    let land = &layer.land;
+    let land = &layer.landscape;
     if let Some(group) = land.group_at(column, row) {
         let water = layer.map.tile(layer.map.index(column, row)) == Tile::Blue;
         return Some(Cells::Top(group, water));
@@ -121,7 +121,7 @@ fn described(layer: &Layer, cells: Cells, count: usize, [low, high]: [i32; 2]) -
         Cells::Top(group, water) => {
             let kind = if water { "water" } else { "ground" };
             let all = layer
-                .land
+                .landscape
                 .groups()
                 .nth(group)
                 .map_or(count, |group| group.cells);
@@ -133,7 +133,7 @@ fn described(layer: &Layer, cells: Cells, count: usize, [low, high]: [i32; 2]) -
         ),
         Cells::House(house, roof) => {
             let what = if roof { "roof" } else { "wall" };
-            let house = layer.land.houses().nth(house);
+            let house = layer.landscape.houses().nth(house);
             let size = house.map_or(String::new(), |house| {
                 format!(
                     " of a house {} wide, {} deep and {} high on ground at height {}",

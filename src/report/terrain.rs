@@ -53,7 +53,7 @@ pub struct House {
 pub fn terrain(compiled: &Compiled) -> Vec<Terrain<'_>> {
     let layers = compiled.layers.iter();
     let report = layers.map(|layer| {
-        let (map, land) = (&layer.map, &layer.land);
+        let (map, land) = (&layer.map, &layer.landscape);
         let tops = (0..map.rows).map(|row| {
             let columns = 0..map.columns;
             columns.map(|column| land.top(column, row)).collect()

@@ -1,16 +1,16 @@
-//! A column of the map as a list of what follows what, from the top (terrain.md, rule 1).
+//! A column of the map as a list of segments from the top (terrain.md, rule 1).
 
 use super::grid::Grid;
-use super::groups::{GROUND, Groups, Role};
+use super::groups::{GROUND, GroupKind, Groups};
 
-/// Cells of a column that belong to one thing.
+/// Consecutive cells of a column that belong to the same surface, front or house.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Segment {
-    /// What they belong to.
-    pub(super) role: Role,
+    /// What the cells belong to.
+    pub(super) kind: GroupKind,
     /// The first row.
     pub(super) start: i32,
-    /// The row behind the last.
+    /// The row after the last.
     pub(super) end: i32,
 }
 
@@ -30,10 +30,10 @@ pub(super) enum Below {
     House(u32),
 }
 
-/// Reads columns one after another; the list is used again.
+/// Reads columns one after another into a reused list.
 #[derive(Debug, Default)]
 pub(super) struct Column {
-    /// From the top, without gaps; what is empty is a segment too.
+    /// From the top, without gaps; empty cells form segments too.
     pub(super) segments: Vec<Segment>,
 }
 
@@ -48,49 +48,49 @@ impl Column {
                 continue;
             }
             last = *label;
-            let role = groups.roles[*label as usize];
+            let kind = groups.kinds[*label as usize];
             let row = row as i32;
             if let Some(before) = self.segments.last_mut() {
-                if before.role == role {
+                if before.kind == kind {
                     continue;
                 }
                 before.end = row;
             }
             self.segments.push(Segment {
-                role,
+                kind,
                 start: row,
                 end: grid.rows as i32,
             });
         }
     }
 
-    /// How many rows of front follow a segment, and what lies below them.
+    /// How many rows of front follow a segment, what lies below them, and the index of that segment.
     pub(super) fn below(&self, index: usize) -> (i32, Below, usize) {
         let mut next = index + 1;
         let mut fronts = 0;
         if let Some(segment) = self.segments.get(next)
-            && segment.role == Role::Front
+            && segment.kind == GroupKind::Front
         {
             fronts = segment.rows();
             next += 1;
         }
-        let below = match self.segments.get(next).map(|segment| segment.role) {
-            Some(Role::Surface(surface)) => Below::Surface(surface),
-            Some(Role::Roof(house) | Role::Wall(house)) => Below::House(house),
+        let below = match self.segments.get(next).map(|segment| segment.kind) {
+            Some(GroupKind::Surface(surface)) => Below::Surface(surface),
+            Some(GroupKind::Roof(house) | GroupKind::Wall(house)) => Below::House(house),
             _ => Below::Surface(GROUND),
         };
         (fronts, below, next)
     }
 
-    /// What a segment stands on in this column, and how many rows of front are between, if that is seen. What stands
-    /// on a house stands on what the house stands on.
+    /// The surface that a segment stands on in this column and the rows of front between them; `None` if the foot is hidden.
+    /// A segment on a house stands on whatever the house stands on.
     pub(super) fn stands_on(&self, groups: &Groups, index: usize) -> Option<(u32, i32)> {
-        let role = self.segments[index].role;
-        match (role, self.below(index)) {
-            // A pit: what the segment stands on is hidden.
-            (Role::Surface(own), (_, Below::Surface(below), _)) if own == below => None,
-            // Something nearer hides its foot, unless it is the bank of water.
-            (Role::Surface(_), (0, Below::Surface(below), _))
+        let kind = self.segments[index].kind;
+        match (kind, self.below(index)) {
+            // A pit hides what the segment stands on.
+            (GroupKind::Surface(own), (_, Below::Surface(below), _)) if own == below => None,
+            // Something nearer hides the foot, unless the segment is the bank of water.
+            (GroupKind::Surface(_), (0, Below::Surface(below), _))
                 if below != GROUND && !groups.surfaces[below as usize].water =>
             {
                 None
@@ -100,18 +100,18 @@ impl Column {
         }
     }
 
-    /// What a house stands on in this column, and how many rows of front are between; `index` is a segment of the
+    /// The surface that a house stands on in this column and the rows of front between them; `index` is a segment of the
     /// house. `None` where the roof has no wall below it.
     pub(super) fn foot(&self, index: usize) -> Option<(u32, i32)> {
         let (mut index, mut fronts) = (index, 0);
         loop {
-            let house = self.segments[index].role.house()?;
+            let house = self.segments[index].kind.house()?;
             while let Some(next) = self.segments.get(index + 1)
-                && next.role.house() == Some(house)
+                && next.kind.house() == Some(house)
             {
                 index += 1;
             }
-            if !matches!(self.segments[index].role, Role::Wall(_)) {
+            if !matches!(self.segments[index].kind, GroupKind::Wall(_)) {
                 return None;
             }
             let (more, below, next) = self.below(index);

@@ -1,46 +1,46 @@
-//! The map column by column, as the law of terrain works.
+//! The map in column-major order, because heights are read from columns.
 
 use rayon::prelude::*;
 
 use super::map::{EDGE_BELOW, EDGE_RIGHT, Map, Tile};
 
-/// Side of the squares in which a map is turned over, cells: a square and its image fit into the fastest cache.
+/// Side of the blocks in which a map is transposed, cells: a block and its transpose fit into the L1 cache.
 const SQUARE: usize = 64;
 
-/// A map whose cells stand column by column, so that a column is one slice.
+/// A map in column-major order, so that a column is one slice.
 #[derive(Debug)]
 pub(super) struct Grid {
     pub(super) columns: usize,
     pub(super) rows: usize,
-    /// Per cell the index of its look.
+    /// Per cell the index of its material.
     pub(super) cells: Vec<u8>,
     /// Per cell [`EDGE_RIGHT`] and [`EDGE_BELOW`].
     pub(super) edges: Vec<u8>,
-    /// Per look what it stands for.
+    /// Per material the kind of tile.
     tiles: [Tile; 256],
 }
 
 impl Grid {
     pub(super) fn new(map: &Map) -> Self {
         let mut tiles = [Tile::None; 256];
-        for (slot, tile) in tiles.iter_mut().zip(&map.looks) {
+        for (slot, tile) in tiles.iter_mut().zip(&map.tiles) {
             *slot = *tile;
         }
         Self {
             columns: map.columns,
             rows: map.rows,
-            cells: turned(&map.cells, map.columns, map.rows),
-            edges: turned(&map.edges, map.columns, map.rows),
+            cells: transposed(&map.cells, map.columns, map.rows),
+            edges: transposed(&map.edges, map.columns, map.rows),
             tiles,
         }
     }
 
-    /// What a look stands for.
-    pub(super) fn tile_of(&self, look: u8) -> Tile {
-        self.tiles[usize::from(look)]
+    /// The kind of tile of a material.
+    pub(super) fn tile_of(&self, material: u8) -> Tile {
+        self.tiles[usize::from(material)]
     }
 
-    /// What a cell stands for.
+    /// The kind of tile in a cell.
     pub(super) fn tile(&self, cell: usize) -> Tile {
         self.tile_of(self.cells[cell])
     }
@@ -61,8 +61,8 @@ impl Grid {
     }
 }
 
-/// A table row by row as one column by column.
-fn turned(table: &[u8], columns: usize, rows: usize) -> Vec<u8> {
+/// Transposes a table from row-major to column-major order.
+fn transposed(table: &[u8], columns: usize, rows: usize) -> Vec<u8> {
     let mut out = vec![0; table.len()];
     if table.is_empty() {
         return out;
@@ -75,8 +75,8 @@ fn turned(table: &[u8], columns: usize, rows: usize) -> Vec<u8> {
                 for row in top..(top + SQUARE).min(rows) {
                     let line =
                         &table[row * columns + left..row * columns + columns.min(left + SQUARE)];
-                    for (column, look) in line.iter().enumerate() {
-                        out[column * rows + row] = *look;
+                    for (column, material) in line.iter().enumerate() {
+                        out[column * rows + row] = *material;
                     }
                 }
             }

@@ -7,7 +7,7 @@ use super::map::Tile;
 
 /// What a group of tiles is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Role {
+pub(super) enum GroupKind {
     /// Nothing is drawn.
     Nothing,
     /// The top of ground or water: index of the surface.
@@ -20,7 +20,7 @@ pub(super) enum Role {
     Wall(u32),
 }
 
-impl Role {
+impl GroupKind {
     /// The house that it is part of.
     pub(super) fn house(self) -> Option<u32> {
         match self {
@@ -30,12 +30,12 @@ impl Role {
     }
 }
 
-/// A green group, a body of water, or what is read like one of them.
+/// The top of a group of ground, or a body of water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Surface {
     /// Whether it is water.
     pub(super) water: bool,
-    /// How many cells it has; the ground, which is the first surface, has all.
+    /// The number of its cells; [`GROUND`] counts as larger than any other.
     pub(super) area: usize,
     /// Its first cell, column by column.
     pub(super) first: usize,
@@ -49,16 +49,15 @@ pub(super) const GROUND: u32 = 0;
 /// All groups of a map.
 #[derive(Debug)]
 pub(super) struct Groups {
-    /// Per cell, column by column, its group; what is connected by way of another kind may be several groups of one
-    /// surface.
+    /// Per cell, column by column, its group. Groups of different kinds of tiles may belong to the same surface.
     pub(super) labels: Vec<u32>,
-    /// Per group what it is. The first group is that of the empty cells.
-    pub(super) roles: Vec<Role>,
+    /// Per group its kind. The first group is that of the empty cells.
+    pub(super) kinds: Vec<GroupKind>,
     /// The surfaces; the first is the ground.
     pub(super) surfaces: Vec<Surface>,
     /// How many houses there are.
     pub(super) houses: usize,
-    /// Groups that are read as tops although their colour is that of a house: the first cell of each, and how many it has.
+    /// Groups that are read as tops although their colour is that of a house: the first cell and the number of cells of each.
     pub(super) plain: Vec<(usize, usize)>,
 }
 
@@ -71,13 +70,13 @@ impl Groups {
         groups.finish()
     }
 
-    /// What a cell belongs to.
-    pub(super) fn role(&self, cell: usize) -> Role {
-        self.roles[self.labels[cell] as usize]
+    /// The kind of the group that a cell belongs to.
+    pub(super) fn kind(&self, cell: usize) -> GroupKind {
+        self.kinds[self.labels[cell] as usize]
     }
 }
 
-/// Follows pointers to the first cell, or group, of a set, and shortens the way.
+/// Finds the representative of a set in a union-find forest, with path halving.
 fn root(parents: &mut [u32], mut index: u32) -> u32 {
     while parents[index as usize] != index {
         let next = parents[parents[index as usize] as usize];
@@ -89,12 +88,13 @@ fn root(parents: &mut [u32], mut index: u32) -> u32 {
 
 fn join(parents: &mut [u32], one: u32, other: u32) {
     let (one, other) = (root(parents, one), root(parents, other));
-    // The lesser one leads, so that the result does not depend on the order.
+    // The smaller index becomes the root, so that the result does not depend on the order.
     let (low, high) = (one.min(other), one.max(other));
     parents[high as usize] = low;
 }
 
-/// Labels connected cells of one kind; 0 stands for empty ones. Says too which cell of each label is the first.
+/// Labels connected cells of one kind (connected-component labelling by union-find), and gives the first cell of each label.
+/// Label 0 is that of the empty cells.
 fn components(grid: &Grid) -> (Vec<u32>, Vec<usize>) {
     let (columns, rows) = (grid.columns, grid.rows);
     let mut parents = vec![0_u32; columns * rows];
@@ -102,7 +102,7 @@ fn components(grid: &Grid) -> (Vec<u32>, Vec<usize>) {
         return (parents, vec![0]);
     }
     let band = columns.div_ceil(rayon::current_num_threads() * 4).max(16);
-    // Each band by itself, with numbers of its own…
+    // Label each band by itself, in parallel…
     parents
         .par_chunks_mut(band * rows)
         .enumerate()
@@ -116,7 +116,7 @@ fn components(grid: &Grid) -> (Vec<u32>, Vec<usize>) {
                 parents[at] = if above { parents[at - 1] } else { at as u32 };
                 let left =
                     at >= rows && grid.tile(cell - rows) == tile && !grid.edge_right(cell - rows);
-                // The pair above has joined the two columns already, most of the time.
+                // Usually the pair of cells above has joined the two columns already.
                 let known = above
                     && left
                     && grid.tile(cell - rows - 1) == tile
@@ -132,7 +132,7 @@ fn components(grid: &Grid) -> (Vec<u32>, Vec<usize>) {
             let base = base as u32;
             parents.iter_mut().for_each(|parent| *parent += base);
         });
-    // …then the bands with each other.
+    // …then join the bands.
     for column in (band..columns).step_by(band) {
         for row in 0..rows {
             let (cell, left) = (column * rows + row, (column - 1) * rows + row);
@@ -144,12 +144,12 @@ fn components(grid: &Grid) -> (Vec<u32>, Vec<usize>) {
     number(grid, parents)
 }
 
-/// Gives the sets small numbers, in the order of their first cells.
+/// Numbers the sets in the order of their first cells.
 fn number(grid: &Grid, parents: Vec<u32>) -> (Vec<u32>, Vec<usize>) {
     let leads = |cell: usize| parents[cell] as usize == cell && grid.tile(cell) != Tile::None;
     let mut firsts = vec![usize::MAX];
     firsts.extend((0..parents.len()).filter(|cell| leads(*cell)));
-    // Where each set's leader stands in the list is found again by halving; few cells are not like the one before.
+    // A root's label is found by binary search; for most cells it is that of the cell before.
     let find = |cell: usize| {
         let mut lead = cell as u32;
         while parents[lead as usize] != lead {
@@ -179,12 +179,12 @@ fn number(grid: &Grid, parents: Vec<u32>) -> (Vec<u32>, Vec<usize>) {
     (labels, firsts)
 }
 
-/// Groups on their way to surfaces and houses.
+/// Groups while they are joined to surfaces and houses.
 struct Joined<'a> {
     grid: &'a Grid,
     labels: Vec<u32>,
     firsts: &'a [usize],
-    /// Per group the group that it is one with.
+    /// Per group its parent in the union-find forest.
     parents: Vec<u32>,
     /// Per group whether it is part of a house.
     housed: Vec<bool>,
@@ -208,7 +208,7 @@ impl<'a> Joined<'a> {
         }
     }
 
-    /// Roofs and the walls right below them are one house (rule 8).
+    /// Joins roofs with the walls right below them to houses (rule 8).
     fn join_houses(&mut self) {
         let rows = self.grid.rows;
         for cell in 1..self.labels.len() {
@@ -231,7 +231,7 @@ impl<'a> Joined<'a> {
         }
     }
 
-    /// Paths and plazas are one with the ground around them.
+    /// Joins paths and plazas with the ground around them.
     fn join_tops(&mut self) {
         let rows = self.grid.rows;
         let colored = |tile| matches!(tile, Tile::Red | Tile::Beige);
@@ -264,13 +264,13 @@ impl<'a> Joined<'a> {
             at_border: true,
         };
         let mut surfaces = vec![ground];
-        let mut roles = vec![Role::Nothing; count];
+        let mut kinds = vec![GroupKind::Nothing; count];
         let mut numbers = vec![u32::MAX; count];
         let (mut houses, mut plain) = (0_u32, vec![]);
-        for (label, role) in roles.iter_mut().enumerate().skip(1) {
+        for (label, kind) in kinds.iter_mut().enumerate().skip(1) {
             let tile = self.tile(label);
             if tile == Tile::Brown {
-                *role = Role::Front;
+                *kind = GroupKind::Front;
                 continue;
             }
             let lead = root(&mut self.parents, label as u32) as usize;
@@ -293,10 +293,10 @@ impl<'a> Joined<'a> {
                 plain.push(label);
             }
             let number = numbers[lead];
-            *role = match tile {
-                _ if surface => Role::Surface(number),
-                Tile::Red => Role::Roof(number),
-                _ => Role::Wall(number),
+            *kind = match tile {
+                _ if surface => GroupKind::Surface(number),
+                Tile::Red => GroupKind::Roof(number),
+                _ => GroupKind::Wall(number),
             };
         }
         let mut areas = vec![0_usize; count];
@@ -311,7 +311,7 @@ impl<'a> Joined<'a> {
                     .take_while(|next| **next == label)
                     .count();
                 areas[label as usize] += run;
-                if let Role::Surface(surface) = roles[label as usize] {
+                if let GroupKind::Surface(surface) = kinds[label as usize] {
                     let surface = &mut surfaces[surface as usize];
                     surface.area += run;
                     surface.at_border |= side || row == 0 || row + run == rows;
@@ -325,7 +325,7 @@ impl<'a> Joined<'a> {
         let plain = plain.collect();
         Groups {
             labels: self.labels,
-            roles,
+            kinds,
             surfaces,
             houses: houses as usize,
             plain,

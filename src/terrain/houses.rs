@@ -6,10 +6,10 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::column::{Below, Column};
+use super::constraints::STRIPE;
 use super::grid::Grid;
-use super::groups::{Groups, Role};
+use super::groups::{GroupKind, Groups};
 use super::levels::Levels;
-use super::ties::STRIPE;
 
 /// A house, in tiles.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -22,13 +22,13 @@ pub(super) struct House {
     pub(super) base: i32,
     /// Height of its walls.
     pub(super) height: i32,
-    /// From front to back.
+    /// Its extent from front to back.
     pub(super) depth: i32,
-    /// Where its front stands: z.
+    /// The z of its front.
     pub(super) front: i32,
-    /// The look of its roof, and that of its walls.
-    pub(super) looks: [u8; 2],
-    /// Whether its foot is seen somewhere: no other house hides it.
+    /// The material of its roof, and that of its walls.
+    pub(super) materials: [u8; 2],
+    /// Whether its foot is visible somewhere: no other house hides it.
     stands: bool,
 }
 
@@ -45,13 +45,13 @@ impl House {
         columns
     }
 
-    /// Where its back stands: z.
+    /// The z of its back.
     pub(super) fn back(&self) -> i32 {
         self.front - self.depth
     }
 
     fn join(&mut self, other: &Self) {
-        // Where most of the wall is seen nothing hides its foot; of such columns the highest counts.
+        // Where most of the wall is visible, nothing hides its foot; of such columns the highest counts.
         let foot = |house: &Self| {
             let walled = !house.walls.is_empty();
             (walled, house.stands, house.height, house.base, house.front)
@@ -59,10 +59,10 @@ impl House {
         if foot(self) < foot(other) {
             (self.base, self.front) = (other.base, other.front);
             self.stands = other.stands;
-            self.looks[1] = other.looks[1];
+            self.materials[1] = other.materials[1];
         }
         if self.roof.is_empty() {
-            self.looks[0] = other.looks[0];
+            self.materials[0] = other.materials[0];
         }
         widen(&mut self.walls, &other.walls);
         widen(&mut self.roof, &other.roof);
@@ -71,7 +71,7 @@ impl House {
     }
 }
 
-/// Makes a range reach over another one, which may be empty.
+/// Extends a range to cover another one, which may be empty.
 fn widen(range: &mut Range<i32>, other: &Range<i32>) {
     if range.start >= range.end {
         *range = other.clone();
@@ -103,11 +103,11 @@ pub(super) fn measure(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<Hous
         known.and_modify(|known| known.join(&part)).or_insert(part);
     }
     let all = 0..groups.houses as u32;
-    // Each has at least one column: that of a roof over a wall.
+    // Each house has at least one column, that of a roof over a wall.
     all.filter_map(|number| houses.remove(&number)).collect()
 }
 
-/// Per stripe of columns the houses that reach into it.
+/// Per stripe of columns the houses that extend into it.
 pub(super) fn by_stripe(houses: &[House], columns: usize) -> Vec<Vec<u32>> {
     let mut stripes = vec![vec![]; columns.div_ceil(STRIPE)];
     for (index, house) in houses.iter().enumerate() {
@@ -120,7 +120,7 @@ pub(super) fn by_stripe(houses: &[House], columns: usize) -> Vec<Vec<u32>> {
     stripes
 }
 
-/// The houses as one column shows them.
+/// Adds the parts of houses that a column shows.
 fn in_column(
     grid: &Grid,
     levels: &Levels,
@@ -131,10 +131,10 @@ fn in_column(
     let here = number as i32..number as i32 + 1;
     let nowhere = 0..0;
     for (index, segment) in column.segments.iter().enumerate() {
-        let Some(house) = segment.role.house() else {
+        let Some(house) = segment.kind.house() else {
             continue;
         };
-        let is_roof = matches!(segment.role, Role::Roof(_));
+        let is_roof = matches!(segment.kind, GroupKind::Roof(_));
         let foot = match is_roof {
             true => None,
             false => column.foot(index),
@@ -142,7 +142,7 @@ fn in_column(
         let base = foot.map_or(0, |(surface, fronts)| {
             levels.level[surface as usize] + fronts
         });
-        let look = grid.cells[number * grid.rows + segment.start as usize];
+        let material = grid.cells[number * grid.rows + segment.start as usize];
         let part = House {
             walls: if is_roof {
                 nowhere.clone()
@@ -158,7 +158,7 @@ fn in_column(
             height: if is_roof { 0 } else { segment.rows() },
             depth: if is_roof { segment.rows() } else { 0 },
             front: segment.end + base,
-            looks: [look; 2],
+            materials: [material; 2],
             stands: !is_roof && !matches!(column.below(index).1, Below::House(_)),
         };
         found.push((house, part));

@@ -1,24 +1,24 @@
-//! How high every surface lies: ties applied one after another (terrain.md, rule 3).
+//! The height of every surface: constraints applied one after another (terrain.md, rule 3).
 
+use super::constraints::{Constraints, HeightConstraint};
 use super::groups::{GROUND, Groups};
-use super::ties::{Tie, Ties};
 
-/// How high the surfaces lie, and what holds them.
+/// The heights of the surfaces, and what they stand on.
 #[derive(Debug)]
 pub(super) struct Levels {
     /// Per surface its height.
     pub(super) level: Vec<i32>,
-    /// Per surface the height down to which there is earth, or whatever it is made of, where nothing seen says otherwise.
+    /// Per surface the height down to which it is solid, where nothing visible says otherwise.
     pub(super) base: Vec<i32>,
-    /// Per surface the one it stands on.
+    /// Per surface the one that it stands on.
     pub(super) support: Vec<Option<u32>>,
-    /// Surfaces whose height no tie leads to.
-    pub(super) loose: Vec<u32>,
-    /// Ties that the heights do not fulfil: the upper surface hangs above the lower one by a gap that is seen.
-    pub(super) hanging: Vec<Tie>,
+    /// Surfaces whose height follows from no constraint.
+    pub(super) unconstrained: Vec<u32>,
+    /// Constraints that the heights do not satisfy: the upper surface hangs above the lower one with a visible gap.
+    pub(super) hanging: Vec<HeightConstraint>,
 }
 
-/// Sets of surfaces whose heights are known relative to each other.
+/// A union-find forest of surfaces whose heights are known relative to each other.
 struct Sets {
     parents: Vec<u32>,
     /// Height above the parent.
@@ -26,14 +26,14 @@ struct Sets {
 }
 
 impl Sets {
-    /// The set that a surface is in, and its height above that set's first surface.
+    /// The root of a surface's set, and the surface's height above the root.
     fn find(&mut self, surface: u32) -> (u32, i32) {
         let (mut root, mut rise) = (surface, 0);
         while self.parents[root as usize] != root {
             rise += self.rises[root as usize];
             root = self.parents[root as usize];
         }
-        // All on the way point at the root from now on.
+        // Path compression.
         let (mut next, mut left) = (surface, rise);
         while self.parents[next as usize] != root && next != root {
             let (parent, step) = (self.parents[next as usize], self.rises[next as usize]);
@@ -45,15 +45,15 @@ impl Sets {
         (root, rise)
     }
 
-    /// Says that `upper` is `rise` above `lower`, unless both are known already. Says whether it was new.
-    fn tie(&mut self, tie: &Tie) -> bool {
-        let (upper, above) = self.find(tie.upper);
-        let (lower, below) = self.find(tie.lower);
+    /// Applies a constraint unless its surfaces are in one set already. Whether it was applied.
+    fn add(&mut self, constraint: &HeightConstraint) -> bool {
+        let (upper, above) = self.find(constraint.upper);
+        let (lower, below) = self.find(constraint.lower);
         if upper == lower {
             return false;
         }
-        let rise = tie.rise + below - above;
-        // The lesser one leads: the ground, where it is one of them.
+        let rise = constraint.rise + below - above;
+        // The smaller index becomes the root, which is the ground if that is one of them.
         if lower < upper {
             self.parents[upper as usize] = lower;
             self.rises[upper as usize] = rise;
@@ -66,30 +66,30 @@ impl Sets {
 }
 
 impl Levels {
-    pub(super) fn new(groups: &Groups, ties: &Ties) -> Self {
+    pub(super) fn new(groups: &Groups, constraints: &Constraints) -> Self {
         let count = groups.surfaces.len();
         let mut sets = Sets {
             parents: (0..count as u32).collect(),
             rises: vec![0; count],
         };
         let mut support = vec![None; count];
-        // What is dug into a surface, in pairs with that surface.
+        // Per surface that is dug into another one, that other surface.
         let mut host = vec![None; count];
         let mut skipped = vec![];
-        let strong = ties.strong.iter().map(|tie| (tie, true));
-        for (tie, is_strong) in strong.chain(ties.weak.iter().map(|tie| (tie, false))) {
-            let [upper, lower] = [tie.upper as usize, tie.lower as usize];
-            if !sets.tie(tie) {
+        let strong = constraints.strong.iter().map(|c| (c, true));
+        for (constraint, is_strong) in strong.chain(constraints.weak.iter().map(|c| (c, false))) {
+            let [upper, lower] = [constraint.upper as usize, constraint.lower as usize];
+            if !sets.add(constraint) {
                 if is_strong {
-                    skipped.push(*tie);
+                    skipped.push(*constraint);
                 }
             } else if is_strong && support[upper].is_none() {
-                support[upper] = Some(tie.lower);
+                support[upper] = Some(constraint.lower);
             } else if is_strong {
-                host[lower].get_or_insert(tie.upper);
+                host[lower].get_or_insert(constraint.upper);
             } else if support[upper].is_none() {
-                support[upper] = if tie.rise > 0 {
-                    Some(tie.lower)
+                support[upper] = if constraint.rise > 0 {
+                    Some(constraint.lower)
                 } else {
                     support[lower]
                 };
@@ -108,30 +108,30 @@ impl Levels {
             .iter()
             .map(|(root, rise)| rise - lowest[*root as usize])
             .collect();
-        // A tie that leads to nothing but itself says nothing.
-        let loose = (0..count as u32)
+        // A root other than the ground has no height of its own.
+        let unconstrained = (0..count as u32)
             .filter(|surface| found[*surface as usize].0 == *surface && *surface != GROUND)
             .collect();
         let height = |surface: u32| level[surface as usize];
         let hanging = skipped
             .into_iter()
-            .filter(|tie| tie.rise < height(tie.upper) - height(tie.lower))
+            .filter(|c| c.rise < height(c.upper) - height(c.lower))
             .collect();
         Self {
             base: bases(&level, &support, &host),
             level,
             support,
-            loose,
+            unconstrained,
             hanging,
         }
     }
 }
 
-/// Down to where each surface is solid: to what it stands on, and below all that is dug into it.
+/// The height down to which each surface is solid: that of its support, and of everything that is dug into it.
 fn bases(level: &[i32], support: &[Option<u32>], host: &[Option<u32>]) -> Vec<i32> {
     let outermost = |surface: usize| {
         let mut surface = surface;
-        // What hosts what is a forest: each pair was new when it was taken.
+        // This ends: hosts form a forest, because each constraint joined two sets.
         while let Some(next) = host[surface] {
             surface = next as usize;
         }

@@ -1,6 +1,6 @@
 //! The map: what is drawn in each cell of a tile layer's grid (terrain.md, Input).
 
-/// What a tile stands for.
+/// The kinds of tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub enum Tile {
     /// Nothing is drawn there.
@@ -19,10 +19,10 @@ pub enum Tile {
 }
 
 impl Tile {
-    /// The kinds that something is drawn for, in the order of the manual.
+    /// All kinds except [`Tile::None`], in the order of the manual.
     pub const DRAWN: [Self; 5] = [Self::Green, Self::Brown, Self::Blue, Self::Red, Self::Beige];
 
-    /// The word of the language.
+    /// Its name in the language.
     pub fn name(self) -> &'static str {
         match self {
             Self::None => "none",
@@ -52,34 +52,34 @@ pub const EDGE_RIGHT: u8 = 1;
 /// There is an edge between a cell and the one below it.
 pub const EDGE_BELOW: u8 = 2;
 
-/// The most cells that a map may have.
-pub const MOST_CELLS: usize = 1 << 26;
+/// The largest number of cells in a map.
+pub const MAX_CELLS: usize = 1 << 26;
 
 /// A tile map. Rows count from the top, towards the viewer; columns from the left.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Map {
-    /// How many cells lie side by side.
+    /// The number of columns.
     pub columns: usize,
-    /// How many cells lie one above the other.
+    /// The number of rows.
     pub rows: usize,
-    /// Per cell, row by row, the index of its look.
+    /// Per cell, row by row, the index of its material.
     pub cells: Vec<u8>,
-    /// Per look what it stands for; the first look is [`Tile::None`], and no other is.
-    pub looks: Vec<Tile>,
+    /// Per material the kind of tile; the first is [`Tile::None`], and no other is.
+    pub tiles: Vec<Tile>,
     /// Per cell [`EDGE_RIGHT`] and [`EDGE_BELOW`].
     pub edges: Vec<u8>,
 }
 
 impl Map {
-    /// A map without anything in it, whose looks are those of the five kinds, in the order of [`Tile::DRAWN`].
+    /// A map of empty cells with a material for each kind, in the order of [`Tile::DRAWN`].
     pub fn empty(columns: usize, rows: usize) -> Self {
-        let mut looks = vec![Tile::None];
-        looks.extend(Tile::DRAWN);
+        let mut tiles = vec![Tile::None];
+        tiles.extend(Tile::DRAWN);
         Self {
             columns,
             rows,
             cells: vec![0; columns * rows],
-            looks,
+            tiles,
             edges: vec![0; columns * rows],
         }
     }
@@ -89,8 +89,8 @@ impl Map {
         row * self.columns + column
     }
 
-    /// What a cell stands for.
+    /// The kind of tile in a cell.
     pub fn tile(&self, cell: usize) -> Tile {
-        self.looks[usize::from(self.cells[cell])]
+        self.tiles[usize::from(self.cells[cell])]
     }
 }

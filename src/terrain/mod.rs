@@ -1,24 +1,24 @@
-//! Terrain: from a tile map, drawn as seen from above and in front at once, to a landscape of blocks (terrain.md).
+//! Terrain: landscapes of blocks from tile maps, which show tops and fronts at once (terrain.md).
 //!
 //! Invariants: one unit is one tile; x grows to the right with the columns, y upwards, z towards the viewer; a point
-//! at height y that is seen at row r lies at z = r + y.
+//! at height y that is visible at row r lies at z = r + y.
 
+mod ambiguities;
 mod column;
+mod constraints;
 mod grid;
 mod groups;
 mod houses;
-mod land;
+mod landscape;
 mod levels;
 mod map;
 mod nodes;
-mod notes;
 mod reading;
 mod solids;
 mod surface;
-mod ties;
 
-pub use land::{Built, Group, Land, ROOF};
-pub use map::{EDGE_BELOW, EDGE_RIGHT, MOST_CELLS, Map, Tile};
+pub use ambiguities::{Ambiguity, AmbiguityKind};
+pub use landscape::{DEFAULT_ROOF, Group, HouseInfo, Landscape};
+pub use map::{EDGE_BELOW, EDGE_RIGHT, MAX_CELLS, Map, Tile};
 pub use nodes::node;
-pub use notes::{Note, Open};
-pub use reading::{Layer, TileLook, TileTexture, Tiles, cells_named, read};
+pub use reading::{Layer, TileMaterial, TileSource, TileTexture, cells_named, read};

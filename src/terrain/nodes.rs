@@ -11,7 +11,7 @@ use crate::scene::{
 use crate::svg::Drawing;
 
 /// The node of a landscape. `parent` is the node of the part that the layer hangs on, with the part's frame; `material_of` gives
-/// the material of a look of the layer, if it is drawn.
+/// the scene's material for a material of the layer, if that is drawn.
 pub fn node(
     layer: &Layer,
     drawing: &Drawing,
@@ -51,8 +51,8 @@ pub fn node(
 /// The mesh of a landscape; `tile` is the side of a tile in metres.
 fn mesh(layer: &Layer, tile: f64, material_of: impl Fn(u8) -> Option<usize>) -> Option<Mesh> {
     let mut primitives: Vec<Primitive> = Vec::new();
-    for (look, mut surfaces) in layer.land.surface(layer.roof, layer.bevel) {
-        let Some(material) = material_of(look) else {
+    for (index, mut surfaces) in layer.landscape.surface(layer.roof, layer.bevel) {
+        let Some(material) = material_of(index) else {
             continue;
         };
         for position in surfaces

@@ -1,119 +1,119 @@
-//! What is solid, column by column (terrain.md, rules 1 and 5 to 9).
+//! The solid blocks of each column (terrain.md, rules 1 and 5 to 9).
 //!
-//! A column's solids are blocks one tile wide. What is drawn gives the visible ones. Where something nearer hides what
-//! lies behind or below it, blocks go on, as far as nothing of that would be seen.
+//! A column consists of blocks one tile wide. Visible blocks follow from what is drawn. Where something nearer hides the space
+//! behind or below it, blocks continue there as far as they stay hidden.
 
 use std::ops::Range;
 
 use super::column::{Below, Column};
+use super::constraints::STRIPE;
 use super::grid::Grid;
-use super::groups::{GROUND, Groups, Role};
+use super::groups::{GROUND, GroupKind, Groups};
 use super::houses::House;
 use super::levels::Levels;
 use super::map::Tile;
-use super::ties::STRIPE;
 
-/// A row that is behind all others, and still leaves room to reckon with.
+/// A row after all others, small enough for sums not to overflow.
 const NEVER: i32 = i32::MAX / 2;
 
-/// A block in a column: z from back to front, y from below to above. A sheet has no height.
+/// A block in a column: `[back, front]` and `[bottom, top]`, which are equal for a sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Block {
     pub(super) z: [i32; 2],
     pub(super) y: [i32; 2],
-    /// The look of its top, where nothing is drawn there; `None` where a roof stands on it.
+    /// The material of its top where none is drawn; `None` under a roof.
     pub(super) top: Option<u8>,
-    /// The look of its sides, where nothing is drawn there.
+    /// The material of its sides where none is drawn.
     pub(super) side: u8,
 }
 
-/// What is seen in some rows of a column.
+/// What is visible in some rows of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Seen {
-    /// Nothing: the ground is thought to be there.
+pub(super) enum Visible {
+    /// Nothing is drawn; the ground is assumed.
     Nothing,
     /// A top at a height.
     Top(i32),
-    /// A front that stands at z.
+    /// A front, with its z.
     Front(i32),
     /// A roof over eaves at a height.
     Roof(i32),
 }
 
-/// Rows of a column and what is seen there.
+/// Rows of a column and what is visible there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct View {
     pub(super) start: i32,
     pub(super) end: i32,
-    pub(super) seen: Seen,
+    pub(super) visible: Visible,
 }
 
 impl View {
-    /// The least z that is seen there.
+    /// The smallest visible z.
     fn back(&self) -> i32 {
-        match self.seen {
-            Seen::Nothing => self.start,
-            Seen::Top(level) | Seen::Roof(level) => self.start + level,
-            Seen::Front(plane) => plane,
+        match self.visible {
+            Visible::Nothing => self.start,
+            Visible::Top(level) | Visible::Roof(level) => self.start + level,
+            Visible::Front(plane) => plane,
         }
     }
 
-    /// The least height that is seen there.
+    /// The smallest visible height.
     fn bottom(&self) -> i32 {
-        match self.seen {
-            Seen::Nothing => 0,
-            Seen::Top(level) | Seen::Roof(level) => level,
-            Seen::Front(plane) => plane - self.end,
+        match self.visible {
+            Visible::Nothing => 0,
+            Visible::Top(level) | Visible::Roof(level) => level,
+            Visible::Front(plane) => plane - self.end,
         }
     }
 
-    /// The first row where what is seen lies lower than a height.
+    /// The first row where the visible point is lower than a height.
     fn sinks_below(&self, height: i32) -> i32 {
-        match self.seen {
-            Seen::Front(plane) => (plane - height).max(self.start),
+        match self.visible {
+            Visible::Front(plane) => (plane - height).max(self.start),
             _ => self.start,
         }
     }
 }
 
-/// What is known of the whole map.
+/// The map and everything computed from it, which columns are built from.
 #[derive(Debug)]
-pub(super) struct Known<'a> {
+pub(super) struct MapContext<'a> {
     pub(super) grid: &'a Grid,
     pub(super) groups: &'a Groups,
     pub(super) levels: &'a Levels,
     pub(super) houses: &'a [House],
-    /// Per stripe of columns the houses that reach into it.
+    /// Per stripe of columns the houses that extend into it.
     pub(super) houses_of: &'a [Vec<u32>],
-    /// Per group of fronts whether it ends flush with what is behind it (rule 6).
+    /// Per group of fronts its lowest row, if it ends flush with what is behind it (rule 6).
     pub(super) flush: &'a [Option<i32>],
-    /// The look of earth where none is drawn.
+    /// The material of earth where none is drawn.
     pub(super) earth: Option<u8>,
 }
 
-/// The blocks of a column and what is seen of them; both lists are used again.
+/// The blocks of a column and what is visible of them, in reused lists.
 #[derive(Debug, Default)]
 pub(super) struct Solids {
     column: Column,
-    /// What is seen, from the top.
+    /// What is visible, from the top; one view a segment.
     pub(super) views: Vec<View>,
     /// In no order; they may overlap.
     pub(super) blocks: Vec<Block>,
-    /// Per segment how far back what it shows goes on: z.
+    /// Per segment the z of its block's back.
     backs: Vec<i32>,
-    hidden: Hidden,
+    hidden: Occlusion,
 }
 
-/// Answers where things come to be seen. Filled from the column's bottom to its top.
+/// Finds the row at which a hidden block would become visible. Filled from the column's bottom to its top.
 #[derive(Debug, Default)]
-struct Hidden {
-    /// Views farther and farther down with lesser and lesser `back`; the last is the nearest.
+struct Occlusion {
+    /// A monotonic stack of views: from the last to the first they are farther down and their `back` is smaller.
     backs: Vec<usize>,
     /// The same for `bottom`.
     bottoms: Vec<usize>,
 }
 
-impl Hidden {
+impl Occlusion {
     fn clear(&mut self) {
         self.backs.clear();
         self.bottoms.clear();
@@ -134,18 +134,18 @@ impl Hidden {
         self.bottoms.push(index);
     }
 
-    /// The first row below all that was pushed, or of it, at which a wall at z would be seen.
+    /// The first row at which a wall at z would be visible.
     fn wall_seen(&self, views: &[View], z: i32, end: i32) -> i32 {
         let at = self.backs.partition_point(|view| views[*view].back() < z);
         match at.checked_sub(1) {
             Some(at) => views[self.backs[at]].start,
-            // Below the border there is the ground.
+            // Beyond the border is the ground.
             None if end < z => end,
             None => NEVER,
         }
     }
 
-    /// The first row at which something at a height would be seen.
+    /// The first row at which a level at a height would be visible.
     fn level_seen(&self, views: &[View], height: i32, end: i32) -> i32 {
         let at = self
             .bottoms
@@ -159,67 +159,69 @@ impl Hidden {
 }
 
 impl Solids {
-    /// Finds what is seen in a column, and builds nothing.
-    pub(super) fn look_at(&mut self, known: &Known<'_>, number: usize) {
-        self.column.read(known.grid, known.groups, number);
-        self.look(known);
+    /// Reads a column and finds what is visible in it, without building blocks.
+    pub(super) fn read_views(&mut self, context: &MapContext<'_>, number: usize) {
+        self.column.read(context.grid, context.groups, number);
+        self.find_views(context);
     }
 
     /// Builds a column.
-    pub(super) fn build(&mut self, known: &Known<'_>, number: usize) {
-        self.look_at(known, number);
-        self.go_back(known);
+    pub(super) fn build(&mut self, context: &MapContext<'_>, number: usize) {
+        self.read_views(context, number);
+        self.extend_backs(context);
         self.blocks.clear();
         self.hidden.clear();
-        let end = known.grid.rows as i32;
+        let end = context.grid.rows as i32;
         for index in (0..self.views.len()).rev() {
-            match self.column.segments[index].role {
-                Role::Surface(surface) => self.surface(known, number, index, surface, end),
-                Role::Front => self.front(known, number, index, end),
-                Role::Wall(house) => self.foundation(known, number, index, house, end),
-                Role::Roof(_) | Role::Nothing => {}
+            match self.column.segments[index].kind {
+                GroupKind::Surface(surface) => self.surface(context, number, index, surface, end),
+                GroupKind::Front => self.front(context, number, index, end),
+                GroupKind::Wall(house) => self.foundation(context, number, index, house, end),
+                GroupKind::Roof(_) | GroupKind::Nothing => {}
             }
             self.hidden.push(&self.views, index);
         }
-        self.walls(known, number);
+        self.walls(context, number);
     }
 
-    /// What is seen in each segment.
-    fn look(&mut self, known: &Known<'_>) {
+    /// Finds what is visible in each segment.
+    fn find_views(&mut self, context: &MapContext<'_>) {
         self.views.clear();
-        let level = |surface: u32| known.levels.level[surface as usize];
-        let house = |house: u32| &known.houses[house as usize];
+        let level = |surface: u32| context.levels.level[surface as usize];
+        let house = |house: u32| &context.houses[house as usize];
         for (index, segment) in self.column.segments.iter().enumerate() {
-            let seen = match segment.role {
-                Role::Nothing => Seen::Nothing,
-                Role::Surface(surface) => Seen::Top(level(surface)),
-                Role::Roof(number) => Seen::Roof(house(number).eaves()),
-                Role::Wall(number) => Seen::Front(house(number).front),
-                Role::Front => {
+            let visible = match segment.kind {
+                GroupKind::Nothing => Visible::Nothing,
+                GroupKind::Surface(surface) => Visible::Top(level(surface)),
+                GroupKind::Roof(number) => Visible::Roof(house(number).eaves()),
+                GroupKind::Wall(number) => Visible::Front(house(number).front),
+                GroupKind::Front => {
                     let above = index
                         .checked_sub(1)
                         .map(|above| self.column.segments[above]);
-                    match above.map(|above| above.role) {
-                        Some(Role::Surface(surface)) => Seen::Front(segment.start + level(surface)),
-                        Some(Role::Wall(number)) => Seen::Front(house(number).front),
-                        _ => Seen::Front(segment.end + self.level_below(known, index)),
+                    match above.map(|above| above.kind) {
+                        Some(GroupKind::Surface(surface)) => {
+                            Visible::Front(segment.start + level(surface))
+                        }
+                        Some(GroupKind::Wall(number)) => Visible::Front(house(number).front),
+                        _ => Visible::Front(segment.end + self.level_below(context, index)),
                     }
                 }
             };
             self.views.push(View {
                 start: segment.start,
                 end: segment.end,
-                seen,
+                visible,
             });
         }
     }
 
-    /// How high that lies which a front without a top stands on.
-    fn level_below(&self, known: &Known<'_>, front: usize) -> i32 {
-        let level = |surface: u32| known.levels.level[surface as usize];
-        match self.column.segments.get(front + 1).map(|next| next.role) {
-            Some(Role::Surface(surface)) => level(surface),
-            Some(Role::Roof(_) | Role::Wall(_)) => {
+    /// The height of what a front without a top stands on.
+    fn level_below(&self, context: &MapContext<'_>, front: usize) -> i32 {
+        let level = |surface: u32| context.levels.level[surface as usize];
+        match self.column.segments.get(front + 1).map(|next| next.kind) {
+            Some(GroupKind::Surface(surface)) => level(surface),
+            Some(GroupKind::Roof(_) | GroupKind::Wall(_)) => {
                 let foot = self.column.foot(front + 1);
                 foot.map_or(0, |(surface, fronts)| level(surface) + fronts)
             }
@@ -227,51 +229,51 @@ impl Solids {
         }
     }
 
-    /// The look of the sides of what a segment's front belongs to.
-    fn side(&self, known: &Known<'_>, number: usize, front: usize, top: u8) -> u8 {
+    /// The material of the sides of the block that a front belongs to.
+    fn side(&self, context: &MapContext<'_>, number: usize, front: usize, top: u8) -> u8 {
         match self.column.segments.get(front) {
-            Some(segment) if segment.role == Role::Front => {
-                known.grid.cells[number * known.grid.rows + segment.start as usize]
+            Some(segment) if segment.kind == GroupKind::Front => {
+                context.grid.cells[number * context.grid.rows + segment.start as usize]
             }
-            _ => known.earth.unwrap_or(top),
+            _ => context.earth.unwrap_or(top),
         }
     }
 
-    /// How far back the tops of a column go on: as far as what stands on them.
-    fn go_back(&mut self, known: &Known<'_>) {
+    /// Extends the tops of a column to the back of what stands on them.
+    fn extend_backs(&mut self, context: &MapContext<'_>) {
         self.backs.clear();
         for index in 0..self.views.len() {
-            let back = match self.column.segments[index].role {
-                Role::Surface(surface) => {
-                    let level = known.levels.level[surface as usize];
+            let back = match self.column.segments[index].kind {
+                GroupKind::Surface(surface) => {
+                    let level = context.levels.level[surface as usize];
                     let own = self.views[index].back();
-                    own.min(self.back_of_block(known, index, level).unwrap_or(own))
+                    own.min(self.back_of_block(context, index, level).unwrap_or(own))
                 }
-                Role::Wall(house) => known.houses[house as usize].back(),
+                GroupKind::Wall(house) => context.houses[house as usize].back(),
                 _ => self.views[index].back(),
             };
             self.backs.push(back);
         }
     }
 
-    /// Where the back of that is which stands on a segment at a height, if something does.
-    fn back_of_block(&self, known: &Known<'_>, index: usize, level: i32) -> Option<i32> {
+    /// The back of the block that stands on a segment of this height, if there is one.
+    fn back_of_block(&self, context: &MapContext<'_>, index: usize, level: i32) -> Option<i32> {
         let above = index.checked_sub(1)?;
         let front = self.column.segments[above];
-        if let Role::Wall(house) = front.role {
-            // Where something nearer hides the foot the house stands behind that, not on it.
-            let stands = known.houses[house as usize].base == level;
+        if let GroupKind::Wall(house) = front.kind {
+            // Where something nearer hides the foot, the house stands behind that, not on it.
+            let stands = context.houses[house as usize].base == level;
             return stands.then_some(self.backs[above]);
         }
-        if front.role != Role::Front {
+        if front.kind != GroupKind::Front {
             return None;
         }
-        let Seen::Front(plane) = self.views[above].seen else {
+        let Visible::Front(plane) = self.views[above].visible else {
             return None;
         };
         let block = above.checked_sub(1);
-        match block.map(|block| (block, self.column.segments[block].role)) {
-            Some((block, Role::Surface(_) | Role::Wall(_))) => {
+        match block.map(|block| (block, self.column.segments[block].kind)) {
+            Some((block, GroupKind::Surface(_) | GroupKind::Wall(_))) => {
                 (plane - front.end == level).then_some(self.backs[block])
             }
             // One tile deep.
@@ -279,29 +281,36 @@ impl Solids {
         }
     }
 
-    /// The block of a top, and what goes on hidden.
-    fn surface(&mut self, known: &Known<'_>, number: usize, index: usize, surface: u32, end: i32) {
+    /// Adds the block of a top and its hidden continuation.
+    fn surface(
+        &mut self,
+        context: &MapContext<'_>,
+        number: usize,
+        index: usize,
+        surface: u32,
+        end: i32,
+    ) {
         let segment = self.column.segments[index];
-        let level = known.levels.level[surface as usize];
-        let look = known.grid.cells[number * known.grid.rows + segment.start as usize];
-        let side = self.side(known, number, index + 1, look);
+        let level = context.levels.level[surface as usize];
+        let material = context.grid.cells[number * context.grid.rows + segment.start as usize];
+        let side = self.side(context, number, index + 1, material);
         let (fronts, _, _) = self.column.below(index);
         let [back, front] = [self.backs[index], segment.end + level];
-        let bottom = self.bottom(known, index, surface, end);
-        self.flush_below(known, number, index, [level, bottom], side);
+        let bottom = self.bottom(context, index, surface, end);
+        self.flush_below(context, number, index, [level, bottom], side);
         if fronts == 0 {
-            self.support(known, index, surface, index + 1, end);
+            self.support(context, index, surface, index + 1, end);
         }
         self.blocks.push(Block {
             z: [back, front],
             y: [bottom, level],
-            top: Some(look),
+            top: Some(material),
             side,
         });
-        // On behind what hides it.
+        // It continues behind what hides it.
         if fronts == 0
             && let Some(nearer) = self.views.get(index + 1)
-            && let Seen::Top(top) | Seen::Roof(top) = nearer.seen
+            && let Visible::Top(top) | Visible::Roof(top) = nearer.visible
         {
             let seen = self.hidden.level_seen(&self.views, level, end);
             let hidden = (top - level).min(seen - segment.end);
@@ -310,26 +319,26 @@ impl Solids {
             self.blocks.push(Block {
                 z: [front, front + hidden],
                 y: [bottom, level],
-                top: Some(look),
+                top: Some(material),
                 side,
             });
         }
     }
 
-    /// How far down the block of a top goes: to its foot, and farther where that is hidden.
-    fn bottom(&self, known: &Known<'_>, index: usize, surface: u32, end: i32) -> i32 {
+    /// The bottom of a top's block: its foot, or lower where that stays hidden.
+    fn bottom(&self, context: &MapContext<'_>, index: usize, surface: u32, end: i32) -> i32 {
         let segment = self.column.segments[index];
-        let level = known.levels.level[surface as usize];
+        let level = context.levels.level[surface as usize];
         let (fronts, _, _) = self.column.below(index);
         let seen = self.hidden.wall_seen(&self.views, segment.end + level, end);
-        let base = known.levels.base[surface as usize];
+        let base = context.levels.base[surface as usize];
         (level - fronts).min(base.max(level - (seen - segment.end)))
     }
 
     /// Fills below a front that hangs, so that it ends flush with what is behind it (rule 6).
     fn flush_below(
         &mut self,
-        known: &Known<'_>,
+        context: &MapContext<'_>,
         number: usize,
         index: usize,
         [level, bottom]: [i32; 2],
@@ -338,19 +347,19 @@ impl Solids {
         let Some(front) = self.column.segments.get(index + 1) else {
             return;
         };
-        if front.role != Role::Front {
+        if front.kind != GroupKind::Front {
             return;
         }
-        let label = known.groups.labels[number * known.grid.rows + front.start as usize];
-        let Some(lowest) = known.flush[label as usize] else {
+        let label = context.groups.labels[number * context.grid.rows + front.start as usize];
+        let Some(lowest) = context.flush[label as usize] else {
             return;
         };
         let segment = self.column.segments[index];
-        // No farther than fronts are drawn in this column: what is added must not be seen elsewhere.
+        // No lower than the fronts drawn in this column, so that the added blocks are not visible elsewhere.
         let lowest = lowest.min(front.end - 1);
-        let support = self.level_below(known, index + 1);
+        let support = self.level_below(context, index + 1);
         let [back, plane] = [segment.start + level, segment.end + level];
-        // Below the first of these levels nothing of the depth is left.
+        // Below the first of these levels the remaining depth is 0.
         for y in support.max(back - lowest)..bottom {
             self.blocks.push(Block {
                 z: [back, plane.min(y + lowest + 1)],
@@ -361,21 +370,28 @@ impl Solids {
         }
     }
 
-    /// What a cliff stands on goes on below and before it where its foot is hidden. To be called when all that is below the
-    /// cliff, and nothing of the cliff, is among what may hide something; `next` is what follows.
-    fn support(&mut self, known: &Known<'_>, index: usize, surface: u32, next: usize, end: i32) {
-        let Some(support) = known.levels.support[surface as usize] else {
+    /// Continues the support of a cliff below and in front of it where its foot is hidden. Must be called when `hidden` has all
+    /// views below the cliff and none of the cliff; `next` is the segment after the cliff.
+    fn support(
+        &mut self,
+        context: &MapContext<'_>,
+        index: usize,
+        surface: u32,
+        next: usize,
+        end: i32,
+    ) {
+        let Some(support) = context.levels.support[surface as usize] else {
             return;
         };
         let [level, base] =
-            [&known.levels.level, &known.levels.base].map(|of| of[support as usize]);
-        let follows = self.column.segments.get(next).map(|next| next.role);
-        let follows = follows == Some(Role::Surface(support));
-        let bottom = self.bottom(known, index, surface, end);
+            [&context.levels.level, &context.levels.base].map(|of| of[support as usize]);
+        let follows = self.column.segments.get(next).map(|next| next.kind);
+        let follows = follows == Some(GroupKind::Surface(support));
+        let bottom = self.bottom(context, index, surface, end);
         if support == GROUND || base >= level || bottom != level || follows {
             return;
         }
-        let plane = self.column.segments[index].end + known.levels.level[surface as usize];
+        let plane = self.column.segments[index].end + context.levels.level[surface as usize];
         let back = self.backs[index];
         let before = self.views.get(next).map_or(plane, View::back);
         let hidden = self.hidden.level_seen(&self.views, level, end);
@@ -387,49 +403,49 @@ impl Solids {
         let seen = self.hidden.wall_seen(&self.views, front, end);
         let base = base.max(front - seen);
         if base < level {
-            let cell = known.groups.surfaces[support as usize].first;
-            let look = known.grid.cells[cell];
+            let cell = context.groups.surfaces[support as usize].first;
+            let material = context.grid.cells[cell];
             self.blocks.push(Block {
                 z: [back, front],
                 y: [base, level],
-                top: Some(look),
-                side: known.earth.unwrap_or(look),
+                top: Some(material),
+                side: context.earth.unwrap_or(material),
             });
         }
     }
 
-    /// A front belongs to what is above it. One without anything above is a block one tile deep (rule 9).
-    fn front(&mut self, known: &Known<'_>, number: usize, index: usize, end: i32) {
+    /// Adds the block of a front. A front belongs to what is above it; without anything above it is one tile deep (rule 9).
+    fn front(&mut self, context: &MapContext<'_>, number: usize, index: usize, end: i32) {
         let above = index
             .checked_sub(1)
-            .map(|above| self.column.segments[above].role);
+            .map(|above| self.column.segments[above].kind);
         match above {
-            Some(Role::Surface(surface)) => {
-                return self.support(known, index - 1, surface, index + 1, end);
+            Some(GroupKind::Surface(surface)) => {
+                return self.support(context, index - 1, surface, index + 1, end);
             }
-            Some(Role::Wall(_)) => return,
+            Some(GroupKind::Wall(_)) => return,
             _ => {}
         }
         let segment = self.column.segments[index];
-        let Seen::Front(plane) = self.views[index].seen else {
+        let Visible::Front(plane) = self.views[index].visible else {
             return;
         };
-        let look = known.grid.cells[number * known.grid.rows + segment.start as usize];
+        let material = context.grid.cells[number * context.grid.rows + segment.start as usize];
         self.blocks.push(Block {
             z: [plane - 1, plane],
             y: [plane - segment.end, plane - segment.start],
-            top: Some(look),
-            side: look,
+            top: Some(material),
+            side: material,
         });
     }
 
-    /// The blocks of houses, also where something nearer hides the wall.
-    fn walls(&mut self, known: &Known<'_>, number: usize) {
+    /// Adds the blocks of houses, also where something nearer hides the wall.
+    fn walls(&mut self, context: &MapContext<'_>, number: usize) {
         let column = number as i32;
-        for house in &known.houses_of[number / STRIPE] {
-            let house = &known.houses[*house as usize];
+        for house in &context.houses_of[number / STRIPE] {
+            let house = &context.houses[*house as usize];
             if house.walls.contains(&column) {
-                let wall = house.looks[1];
+                let wall = house.materials[1];
                 self.blocks.push(Block {
                     z: [house.back(), house.front],
                     y: [house.base, house.eaves()],
@@ -440,18 +456,25 @@ impl Solids {
         }
     }
 
-    /// What a house stands on where fronts are seen below its wall.
-    fn foundation(&mut self, known: &Known<'_>, number: usize, index: usize, house: u32, end: i32) {
-        let house = &known.houses[house as usize];
+    /// Adds the block below a house where fronts are visible below its wall.
+    fn foundation(
+        &mut self,
+        context: &MapContext<'_>,
+        number: usize,
+        index: usize,
+        house: u32,
+        end: i32,
+    ) {
+        let house = &context.houses[house as usize];
         let (fronts, below, _) = self.column.below(index);
         if fronts == 0 {
             return;
         }
         let foot = match below {
-            Below::Surface(surface) => known.levels.level[surface as usize],
+            Below::Surface(surface) => context.levels.level[surface as usize],
             Below::House(_) => house.base - fronts,
         };
-        let side = self.side(known, number, index + 1, house.looks[1]);
+        let side = self.side(context, number, index + 1, house.materials[1]);
         let seen = self.hidden.wall_seen(&self.views, house.front, end);
         let hidden = house.base - (seen - self.column.segments[index].end);
         self.blocks.push(Block {
@@ -462,33 +485,32 @@ impl Solids {
         });
     }
 
-    /// The looks of rows, where what is seen there passes a test and where not: for each run of rows its first, the one
-    /// behind its last, and the look that is drawn.
-    pub(super) fn looks(
+    /// Splits rows into runs of one material: the drawn one where what is visible passes the test `is`, `None` elsewhere.
+    pub(super) fn drawn_materials(
         &self,
-        known: &Known<'_>,
+        context: &MapContext<'_>,
         number: usize,
         rows: Range<i32>,
-        is: impl Fn(Seen) -> bool,
+        is: impl Fn(Visible) -> bool,
         mut each: impl FnMut(Range<i32>, Option<u8>),
     ) {
-        let end = rows.end.min(known.grid.rows as i32);
+        let end = rows.end.min(context.grid.rows as i32);
         let mut row = rows.start;
         if row < 0 {
             each(row..rows.end.min(0), None);
             row = 0;
         }
         let mut at = self.views.partition_point(|view| view.end <= row);
-        let cells = &known.grid.cells[number * known.grid.rows..];
+        let cells = &context.grid.cells[number * context.grid.rows..];
         while row < end {
             let view = &self.views[at];
             let to = view.end.min(end);
-            if is(view.seen) {
+            if is(view.visible) {
                 while row < to {
-                    let look = cells[row as usize];
+                    let material = cells[row as usize];
                     let same = cells[row as usize..to as usize].iter();
-                    let run = same.take_while(|other| **other == look).count() as i32;
-                    each(row..row + run, Some(look));
+                    let run = same.take_while(|other| **other == material).count() as i32;
+                    each(row..row + run, Some(material));
                     row += run;
                 }
             } else {
@@ -503,10 +525,10 @@ impl Solids {
     }
 }
 
-/// Which groups of fronts end flush with what is behind them: those with an edge to another front all of whose columns
-/// hang; per group its lowest row (rule 6).
+/// Per group of fronts its lowest row, if it ends flush with what is behind it: it has an edge to another front, and all its
+/// columns hang (rule 6).
 pub(super) fn flush(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<Option<i32>> {
-    let mut lowest = vec![None::<i32>; groups.roles.len()];
+    let mut lowest = vec![None::<i32>; groups.kinds.len()];
     let rows = grid.rows;
     let front = |cell: usize| grid.tile(cell) == Tile::Brown;
     if !grid.edges.iter().any(|edges| *edges != 0) {
@@ -521,7 +543,7 @@ pub(super) fn flush(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<Option
         let right = (right < groups.labels.len() && grid.edge_right(cell)).then_some(right);
         for other in [below, right].into_iter().flatten() {
             let [one, other] = [cell, other].map(|cell| groups.labels[cell] as usize);
-            if one != other && groups.roles[other] == Role::Front {
+            if one != other && groups.kinds[other] == GroupKind::Front {
                 lowest[one].get_or_insert(0);
                 lowest[other].get_or_insert(0);
             }
@@ -532,7 +554,7 @@ pub(super) fn flush(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<Option
         column.read(grid, groups, number);
         for index in 0..column.segments.len() {
             let segment = column.segments[index];
-            if segment.role != Role::Front {
+            if segment.kind != GroupKind::Front {
                 continue;
             }
             let cells =
@@ -541,7 +563,7 @@ pub(super) fn flush(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<Option
             for cell in cells {
                 let label = groups.labels[cell] as usize;
                 if let Some(low) = &mut lowest[label] {
-                    // What stands somewhere needs no filling.
+                    // A group that stands on something in any column is not filled.
                     *low = if hangs && *low >= 0 {
                         (*low).max((cell % rows) as i32)
                     } else {
@@ -557,12 +579,12 @@ pub(super) fn flush(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<Option
     lowest
 }
 
-/// Whether a front's foot is seen to be above what lies below it.
+/// Whether a front's foot is visibly above what lies below it.
 fn hangs(column: &Column, levels: &Levels, front: usize) -> bool {
     let above = front
         .checked_sub(1)
-        .map(|above| column.segments[above].role);
-    let Some(Role::Surface(surface)) = above else {
+        .map(|above| column.segments[above].kind);
+    let Some(GroupKind::Surface(surface)) = above else {
         return false;
     };
     let foot = levels.level[surface as usize] - column.segments[front].rows();

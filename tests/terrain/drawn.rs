@@ -23,7 +23,7 @@ fn drawn(map: &Map) -> String {
     for (row, cells) in map.cells.chunks(map.columns).enumerate() {
         let mut column = 0;
         for run in cells.chunk_by(|one, other| one == other) {
-            let [r, g, b] = map.looks[usize::from(run[0])].color();
+            let [r, g, b] = map.tiles[usize::from(run[0])].color();
             if run[0] != 0 {
                 let (x, y, width) = (column * TILE, row * TILE, run.len() * TILE);
                 let _ = writeln!(
@@ -113,7 +113,7 @@ fn hidden(compiled: &Compiled, resolver: &dyn Resolver) -> Vec<String> {
         }
         let mut kinds: BTreeMap<Option<usize>, Tile> = BTreeMap::new();
         for look in material_of.keys().filter(|look| **look != 0) {
-            let tile = layer.map.looks[usize::from(*look)];
+            let tile = layer.map.tiles[usize::from(*look)];
             let known = *kinds.entry(most(*look)).or_insert(tile);
             if known != tile {
                 wrong.push(format!(

@@ -1,12 +1,12 @@
 //! Each rule of terrain with heights that were worked out by hand, and what the thesis states of its figures.
 
-use okoshi::terrain::{Built, Land, Map, Open};
+use okoshi::terrain::{AmbiguityKind, HouseInfo, Landscape, Map};
 
 use crate::letters::map;
 
 /// Heights of the tops, a line a row; a dot where there is none.
 fn tops(map: &Map) -> String {
-    let land = Land::new(map);
+    let land = Landscape::new(map);
     let mut lines = String::new();
     for row in 0..map.rows {
         let cells = (0..map.columns).map(|column| land.top(column, row));
@@ -34,7 +34,7 @@ fn measured(map: &Map) -> (f64, [[f64; 3]; 2]) {
     let middle = [map.columns as f64 / 2.0, 0.0, map.rows as f64 / 2.0];
     let mut volume = 0.0;
     let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-    for piece in Land::new(map)
+    for piece in Landscape::new(map)
         .surface(0.5, 0.0)
         .iter()
         .flat_map(|(_, pieces)| pieces)
@@ -69,11 +69,11 @@ fn assert_volume(lines: &str, expected: f64) {
     );
 }
 
-fn notes(lines: &str) -> Vec<Open> {
-    Land::new(&map(lines))
-        .notes()
+fn notes(lines: &str) -> Vec<AmbiguityKind> {
+    Landscape::new(&map(lines))
+        .ambiguities()
         .iter()
-        .map(|note| note.what)
+        .map(|note| note.kind)
         .collect()
 }
 
@@ -179,7 +179,7 @@ fn without_edges_a_plate_has_a_hole() {
         . . . . .",
     );
     assert_volume(plate, 19.0);
-    assert_eq!(notes(plate), [Open::Pits]);
+    assert_eq!(notes(plate), [AmbiguityKind::Pits]);
 }
 
 /// Rules 4 and 5, figure 3.7 on the right: a ring of edges lifts a block onto the plate, which goes on below and behind it.
@@ -247,7 +247,7 @@ fn fronts_with_edges_end_flush_with_what_is_behind() {
     // In each of three columns 3 tiles at height 1 and 2 on the ground.
     assert_volume(&lines("|"), 55.0);
     for edge in [" ", "|"] {
-        assert_eq!(Land::new(&map(&lines(edge))).top(2, 3), Some(4));
+        assert_eq!(Landscape::new(&map(&lines(edge))).top(2, 3), Some(4));
     }
 }
 
@@ -332,12 +332,12 @@ fn water_at_any_border_is_open() {
         w w g
         g g g
         b b b";
-    assert_eq!(Land::new(&map(side)).top(0, 1), Some(0));
+    assert_eq!(Landscape::new(&map(side)).top(0, 1), Some(0));
     let lines = "
         w w w
         R R R
         B B B";
-    assert_eq!(Land::new(&map(lines)).top(1, 0), Some(0));
+    assert_eq!(Landscape::new(&map(lines)).top(1, 0), Some(0));
     assert_eq!(notes(lines), []);
 }
 
@@ -371,11 +371,11 @@ fn houses_are_as_large_as_they_are_drawn() {
         R R R
         R R R
         B B B");
-    let land = Land::new(&house);
-    let built: Vec<Built> = land.houses().collect();
+    let land = Landscape::new(&house);
+    let built: Vec<HouseInfo> = land.houses().collect();
     assert_eq!(
         built,
-        [Built {
+        [HouseInfo {
             base: 0,
             width: 3,
             depth: 2,
@@ -390,7 +390,7 @@ fn houses_are_as_large_as_they_are_drawn() {
             .flat_map(|piece| &piece.positions);
         corners.fold(0.0_f64, |high, place| high.max(place[1].into()))
     };
-    assert!((high(okoshi::terrain::ROOF) - (1.0 + 2.0 / 2.0_f64.sqrt())).abs() < 1e-6);
+    assert!((high(okoshi::terrain::DEFAULT_ROOF) - (1.0 + 2.0 / 2.0_f64.sqrt())).abs() < 1e-6);
     assert_eq!(high(0.5), 2.0);
     // The block, and a prism of half its height at `Roof 0.5`.
     let (volume, _) = measured(&house);
@@ -400,7 +400,7 @@ fn houses_are_as_large_as_they_are_drawn() {
 /// Rule 8, figure 3.10 on the right: a house on a hill stands as high as the hill.
 #[test]
 fn a_house_stands_on_its_hill() {
-    let land = Land::new(&map("
+    let land = Landscape::new(&map("
         g g g g g
         g R R R g
         g R R R g
@@ -409,10 +409,10 @@ fn a_house_stands_on_its_hill() {
         g g g g g
         b b b b b
         b b b b b"));
-    let built: Vec<Built> = land.houses().collect();
+    let built: Vec<HouseInfo> = land.houses().collect();
     assert_eq!(
         built,
-        [Built {
+        [HouseInfo {
             base: 2,
             width: 3,
             depth: 2,
@@ -425,7 +425,7 @@ fn a_house_stands_on_its_hill() {
 #[test]
 fn edges_part_houses() {
     let pair = |edge: &str| {
-        let land = Land::new(&map(&format!(
+        let land = Landscape::new(&map(&format!(
             "
             R R{edge}R R
             R R{edge}R R
@@ -455,7 +455,7 @@ fn what_is_left_is_built_too() {
     );
     assert!(matches!(
         notes(path)[..],
-        [Open::Plain(okoshi::terrain::Tile::Beige)]
+        [AmbiguityKind::Plain(okoshi::terrain::Tile::Beige)]
     ));
     let (volume, [low, high]) = measured(&map("
         b b
@@ -481,8 +481,8 @@ fn loose_groups_are_told() {
         b w b
         b g b
         b b b";
-    assert_eq!(Land::new(&map(lines)).top(1, 2), Some(1));
-    assert!(notes(lines).contains(&Open::Loose));
+    assert_eq!(Landscape::new(&map(lines)).top(1, 2), Some(1));
+    assert!(notes(lines).contains(&AmbiguityKind::Unconstrained));
 }
 
 /// An arch: the lintel hangs between its posts, and what is behind is seen below it.
@@ -493,7 +493,7 @@ fn arches_are_open() {
         b b b b
         b g g b
         b g g b";
-    let land = Land::new(&map(arch));
+    let land = Landscape::new(&map(arch));
     assert_eq!(land.top(0, 0), Some(3));
     assert_eq!(land.top(1, 2), Some(0));
     // Two posts of 3, a lintel of 2, and sheets of grass.

@@ -3,17 +3,17 @@
 
 use std::collections::BTreeMap;
 
-use okoshi::terrain::{Land, Map, Tile};
+use okoshi::terrain::{Landscape, Map, Tile};
 
 use crate::worlds::{World, picture, scribble};
 
 /// Cells that come out right, and all that something is drawn in.
 fn score(seed: u64) -> [usize; 2] {
     let drawn = World::random(seed).draw();
-    let land = Land::new(&drawn.map);
+    let land = Landscape::new(&drawn.map);
     let mut score = [0; 2];
     for column in 0..drawn.map.columns {
-        for (row, seen) in land.seen(column).into_iter().enumerate() {
+        for (row, seen) in land.visible_heights(column).into_iter().enumerate() {
             if let Some(height) = drawn.heights[drawn.map.index(column, row)] {
                 score[0] += usize::from(seen == Some(height));
                 score[1] += 1;
@@ -37,7 +37,7 @@ fn landscapes_come_out_of_their_maps() {
 type Shown = (u8, [[f64; 3]; 3]);
 
 /// All triangles of a landscape.
-fn triangles(map: &Map, land: &Land, roof: f64, bevel: f64) -> Vec<Shown> {
+fn triangles(map: &Map, land: &Landscape, roof: f64, bevel: f64) -> Vec<Shown> {
     let middle = [map.columns as f64 / 2.0, 0.0, map.rows as f64 / 2.0];
     let mut shown = vec![];
     for (look, pieces) in land.surface(roof, bevel) {
@@ -109,7 +109,7 @@ fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
 
 /// Says which cells of a map are not seen as they are drawn.
 fn assert_seen_as_drawn(map: &Map, name: &str) {
-    let land = Land::new(map);
+    let land = Landscape::new(map);
     let seen = looked_at(map, &triangles(map, &land, 0.5, 0.0));
     let wrong: Vec<_> = (0..map.cells.len())
         .filter(|cell| map.tile(*cell) != Tile::None && seen[*cell] != map.cells[*cell])
@@ -127,7 +127,7 @@ fn assert_seen_as_drawn(map: &Map, name: &str) {
 
 /// Says where a surface is open: each side of a triangle must lie at that of another one that runs the other way.
 fn assert_closed(map: &Map, roof: f64, bevel: f64, name: &str) {
-    let land = Land::new(map);
+    let land = Landscape::new(map);
     let mut sides: BTreeMap<[[i64; 3]; 2], i32> = BTreeMap::new();
     for (_, corners) in triangles(map, &land, roof, bevel) {
         let corners = corners.map(|place| place.map(|value| (value * 4096.0).round() as i64));
@@ -150,7 +150,7 @@ fn assert_closed(map: &Map, roof: f64, bevel: f64, name: &str) {
 
 #[test]
 fn the_drawing_is_seen_again() {
-    let open = |map: &Map| !Land::new(map).notes().is_empty();
+    let open = |map: &Map| !Landscape::new(map).ambiguities().is_empty();
     let drawn = (0..).map(|seed| (seed, World::random(seed).draw().map));
     for (seed, map) in drawn.filter(|(_, map)| !open(map)).take(1000) {
         assert_seen_as_drawn(&map, &format!("landscape {seed}"));

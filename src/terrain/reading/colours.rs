@@ -1,19 +1,20 @@
-//! Which kind of tile a colour means (terrain.md, Input).
+//! Finds the kind of tile that a colour means (terrain.md, Input).
 
 use crate::terrain::Tile;
 
-/// How much a difference of lightness counts beside one of hue or of chroma: what is lit or shaded stays what it is.
+/// The weight of a difference of lightness, less than 1 so that light and shade do not change the kind.
 const LIGHTNESS: f64 = 0.5;
-/// How far a colour may be from the nearest kind's. Half of what lies between the two nearest of the five, brown and
-/// red at 0.17, and half as much again.
+/// The largest distance of a colour from that of its kind: about three quarters of the distance between the two most similar
+/// kinds, brown and red (0.17).
 const FAR: f64 = 0.13;
-/// How much nearer the nearest kind must be than the next: a crimson brown, at 0.64, could be a roof or a cliff.
+/// The largest ratio of the distance from the nearest kind to that from the next: a crimson brown (0.64) could be a roof or
+/// a cliff.
 const CLEARLY: f64 = 0.6;
-/// Below this chroma a colour is a grey, which is no kind's.
+/// Colours of less chroma are grey, which is the colour of no kind.
 const GREY: f64 = 0.02;
 
-/// The kind of tile that a colour means, sRGB: the one with that default colour, else the one whose default colour is
-/// clearly nearest.
+/// The kind of tile for an sRGB colour: the one with that default colour, or else the one whose default colour is clearly
+/// nearest.
 pub(super) fn kind(color: [u8; 3]) -> Option<Tile> {
     if let Some(tile) = Tile::DRAWN.iter().find(|tile| tile.color() == color) {
         return Some(*tile);
@@ -33,7 +34,7 @@ fn distance(a: [f64; 3], b: [f64; 3]) -> f64 {
     ((LIGHTNESS * l).powi(2) + x * x + y * y).sqrt()
 }
 
-/// Lightness and the two axes of hue (Ottosson, *A perceptual color space for image processing*, 2020).
+/// Oklab: lightness and two colour axes (Ottosson, *A perceptual color space for image processing*, 2020).
 fn oklab(color: [u8; 3]) -> [f64; 3] {
     let [r, g, b] = color.map(|channel| {
         let channel = f64::from(channel) / 255.0;

@@ -1,37 +1,37 @@
-//! What lies in a tile layer: painted areas, pictures, strokes.
+//! The content of a tile layer: filled shapes, pictures and strokes.
 
 use glam::DVec2;
 use rustc_hash::FxHashSet;
 
 use super::grid::Grid;
-use super::looks::{Painted, Paints};
-use super::raster::{Item, MOST_PAINTS, Picture, paint_code};
+use super::materials::{Painted, Paints};
+use super::raster::{Item, MAX_PAINTS, Picture, paint_code};
 use crate::bind::{Bindings, PartKind, Place};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::bounds;
 use crate::lang::ast::Annotation;
 use crate::svg::{Drawing, LARGE, PictureSource, StrokeSource};
 
-/// The most pixels that the pictures of one layer may have.
-const MOST_PIXELS: usize = 1 << 28;
-/// The most cells that the boxes of a layer's shapes may reach over, all taken together.
-const MOST_PAINTED: usize = 1 << 34;
-/// Least and most pixels along the longer side of a picture that is SVG itself, and how many a tile at best: an odd
-/// number, so that one of them lies in the middle.
+/// The largest number of pixels of all pictures of a layer.
+const MAX_PIXELS: usize = 1 << 28;
+/// The largest number of cells that the bounding boxes of a layer's shapes may cover, summed.
+const MAX_COVERED: usize = 1 << 34;
+/// For pictures that are SVG: the smallest and the largest number of pixels along the longer side, and the preferred number a
+/// tile, which is odd so that one pixel is in the middle.
 const SVG_SIDE: [u32; 3] = [1024, 8192, 3];
 
-/// What lies in a tile layer, by index of the shape, hindmost first.
+/// The content of a tile layer, by index of the shape, back-most first.
 #[derive(Debug, Default, Clone)]
 pub(super) struct Content {
-    /// Filled areas and pictures, each with its box, drawing units.
+    /// Filled shapes and pictures, each with its bounding box, drawing units.
     pub(super) fills: Vec<(usize, [DVec2; 2])>,
     pub(super) strokes: Vec<usize>,
 }
 
-/// What each tile layer holds.
+/// The content of each tile layer.
 pub(super) fn contents(drawing: &Drawing, bindings: &Bindings) -> Vec<Content> {
     let mut contents = vec![Content::default(); bindings.layers.len()];
-    // What has a string of its own is no tile; but lines have seldom a part at all.
+    // A shape with its own string is not a tile. Lines usually have no part at all.
     let mut is_tile = vec![true; drawing.shapes.len()];
     for part in bindings
         .parts
@@ -66,7 +66,7 @@ pub(super) fn contents(drawing: &Drawing, bindings: &Bindings) -> Vec<Content> {
 }
 
 impl Content {
-    /// The box of everything painted.
+    /// The bounding box of all fills.
     pub(super) fn bounds(&self) -> Option<[DVec2; 2]> {
         let boxes = self.fills.iter().map(|(_, bounds)| *bounds);
         boxes.reduce(|one, other| [one[0].min(other[0]), one[1].max(other[1])])
@@ -79,10 +79,10 @@ impl Content {
             .collect()
     }
 
-    /// What is to be drawn, each with the index of its shape. Pictures that cannot be read are said and left out.
+    /// The items to be drawn, each with the index of its shape. Pictures that cannot be read are reported and left out.
     ///
     /// # Errors
-    /// That it is too much.
+    /// The layer exceeds a limit.
     pub(super) fn items<'a>(
         &self,
         drawing: &'a Drawing,
@@ -106,9 +106,9 @@ impl Content {
                         opacity: shape.opacity,
                         shape: *index,
                     });
-                    if paint >= MOST_PAINTS {
+                    if paint >= MAX_PAINTS {
                         return Err(too_much(format!(
-                            "a tile layer has more than {MOST_PAINTS} paints"
+                            "a tile layer has more than {MAX_PAINTS} paints"
                         )));
                     }
                     Item::area(grid, &shape.outline, *bounds, paint_code(paint))
@@ -117,9 +117,9 @@ impl Content {
                     Ok(mut picture) => {
                         pixels +=
                             picture.pixels.width() as usize * picture.pixels.height() as usize;
-                        if pixels > MOST_PIXELS {
+                        if pixels > MAX_PIXELS {
                             let what = format!(
-                                "the pictures of a tile layer have more than {MOST_PIXELS} pixels"
+                                "the pictures of a tile layer have more than {MAX_PIXELS} pixels"
                             );
                             return Err(too_much(what));
                         }
@@ -136,9 +136,9 @@ impl Content {
             };
             let [columns, rows] = item.reach(grid).map(|[from, to]| to - from);
             painted = painted.saturating_add(columns * rows);
-            if painted > MOST_PAINTED {
+            if painted > MAX_COVERED {
                 let what = format!(
-                    "the shapes of a tile layer cover more than {MOST_PAINTED} cells in total"
+                    "the shapes of a tile layer cover more than {MAX_COVERED} cells in total"
                 );
                 return Err(too_much(what));
             }

@@ -6,11 +6,11 @@ use super::grid::Grid;
 use crate::svg::StrokeSource;
 use crate::terrain::{EDGE_BELOW, EDGE_RIGHT};
 
-/// How far from its grid line a stroke may run, cells.
+/// The largest distance of a stroke from its grid line, cells.
 const NEAR: f64 = 0.1;
-/// How much of a cell's side must be covered, in sixteenths.
+/// How much of a cell's side must be covered, in sixteenths: half of it.
 const COVERED: u32 = 8;
-/// In how many places a side is looked at.
+/// The number of places on a side that are tested.
 const PLACES: f64 = 16.0;
 
 /// Sets [`EDGE_RIGHT`] and [`EDGE_BELOW`] of the cells along whose sides strokes run for at least half of the side.
@@ -18,7 +18,7 @@ pub(super) fn read(grid: &Grid, strokes: &[&StrokeSource], edges: &mut [u8]) {
     if strokes.is_empty() || edges.is_empty() {
         return;
     }
-    // One direction at a time, which halves the memory.
+    // One direction at a time, to halve the memory.
     for (swapped, edge) in [(false, EDGE_RIGHT), (true, EDGE_BELOW)] {
         let mut sides = Sides {
             covered: vec![0; edges.len()],
@@ -43,17 +43,17 @@ pub(super) fn read(grid: &Grid, strokes: &[&StrokeSource], edges: &mut [u8]) {
     }
 }
 
-/// The sides that cells share with those to their right; or, with columns and rows swapped, with those below.
+/// The sides between cells and their right neighbours, or their lower neighbours if columns and rows are swapped.
 struct Sides {
-    /// Per cell of the map the places along the side that a stroke runs over, a bit each.
+    /// Per cell of the map a bit for each place along the side, set if a stroke covers it.
     covered: Vec<u16>,
-    /// Columns and rows, swapped where columns are rows.
+    /// Columns and rows; rows and columns if they are swapped.
     count: [usize; 2],
     swapped: bool,
 }
 
 impl Sides {
-    /// Takes a straight piece of a stroke.
+    /// Adds a straight piece of a stroke.
     fn add(&mut self, from: DVec2, to: DVec2) {
         let (from, to) = if from.y <= to.y {
             (from, to)
@@ -61,7 +61,7 @@ impl Sides {
             (to, from)
         };
         let way = to - from;
-        // What runs more across than along follows no side for half of its length.
+        // A piece that runs more across than along covers less than half of any side.
         if !(way.y > 0.0 && way.y >= way.x.abs()) {
             return;
         }
@@ -93,9 +93,9 @@ impl Sides {
         }
     }
 
-    /// Covers a stretch of the line to the right of a column.
+    /// Covers a range of the line to the right of a column.
     fn cover(&mut self, column: usize, [from, to]: [f64; 2]) {
-        // The middles of sixteenths that lie in it.
+        // The sixteenths whose middles lie in the range.
         let first = (from * PLACES - 0.5).ceil().max(0.0) as usize;
         let past = (to * PLACES - 0.5).ceil().max(0.0) as usize;
         let [columns, rows] = self.count;

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use crate::geometry::Outline;
 
-/// Where a tile layer's cells lie.
+/// The position and the extent of a tile layer's cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Grid {
     /// The top left corner, drawing units.
@@ -16,15 +16,15 @@ pub(super) struct Grid {
 }
 
 impl Grid {
-    /// The grid over a box of the drawing: both corners go to the nearest crossings, of two as near to the upper left.
+    /// The grid over a box of the drawing: both corners are rounded to the nearest crossings, ties to the upper left.
     ///
     /// # Errors
-    /// How many cells lie side by side and one above the other, if they are more than `most` in all.
+    /// The numbers of columns and rows, if that makes more than `most` cells.
     pub(super) fn over([low, high]: [DVec2; 2], size: f64, most: usize) -> Result<Self, [f64; 2]> {
         let nearest = |p: DVec2| (p / size - 0.5).ceil();
         let (first, last) = (nearest(low), nearest(high));
         let count = last - first;
-        // Not the other way round: what is no number is too many, too.
+        // Written so that NaN does not fit.
         let fits = count.x * count.y <= most as f64 && count.max_element() <= most as f64;
         if !fits {
             return Err(count.to_array());
@@ -37,18 +37,18 @@ impl Grid {
         })
     }
 
-    /// A point of the drawing in cells, from the top left corner on.
+    /// A point of the drawing in cells from the top left corner.
     pub(super) fn cells(&self, p: DVec2) -> DVec2 {
         (p - self.origin) / self.size
     }
 
-    /// How many columns and rows there are.
+    /// The numbers of columns and rows.
     pub(super) fn extent(&self) -> DVec2 {
         DVec2::new(self.columns as f64, self.rows as f64)
     }
 }
 
-/// The least and the greatest corner of an outline that is a rectangle along the axes.
+/// The bounds of an outline that is an axis-aligned rectangle.
 pub(super) fn rectangle(outline: &Outline) -> Option<[DVec2; 2]> {
     let [polygon] = outline.polygons.as_slice() else {
         return None;

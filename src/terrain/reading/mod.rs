@@ -1,16 +1,16 @@
 //! Tile maps read from drawings (terrain.md, Input).
 //!
-//! Invariant: what a cell is, is what is painted last over its middle; an edge is where a stroke runs along the line
-//! between two cells.
+//! Invariant: the kind of a cell is that of the front-most paint at its middle; two cells have an edge between them if a stroke
+//! runs along their common side.
 
+mod classify;
 mod colours;
 mod content;
+mod diagnostics;
 mod edges;
-mod findings;
 mod grid;
-mod looks;
+mod materials;
 mod raster;
-mod survey;
 #[cfg(test)]
 mod tests;
 
@@ -18,21 +18,21 @@ use std::ops::Range;
 
 use glam::DVec2;
 
-pub use findings::cells_named;
-pub use looks::{TileLook, TileTexture};
+pub use diagnostics::cells_named;
+pub use materials::{TileMaterial, TileTexture};
 
-use super::land::{Land, ROOF};
-use super::map::{MOST_CELLS, Map};
+use super::landscape::{DEFAULT_ROOF, Landscape};
+use super::map::{MAX_CELLS, Map};
 use crate::bind::{Attribute, Bindings};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::svg::{Drawing, PaintKey};
+use classify::{Classification, classify};
 use content::{Content, contents};
 use grid::Grid;
-use looks::Paints;
+use materials::Paints;
 use raster::Canvas;
-use survey::{Survey, survey};
 
-/// A tile layer as it was read.
+/// A tile layer and its landscape.
 #[derive(Debug)]
 pub struct Layer {
     /// Its name.
@@ -41,29 +41,29 @@ pub struct Layer {
     pub string: usize,
     /// Index of its group in the drawing.
     pub group: usize,
-    /// What is in each cell. Its looks are the kinds of [`looks`](Self::looks).
+    /// The cells. Their indices of materials are those of [`materials`](Self::materials).
     pub map: Map,
-    /// How high everything lies.
-    pub land: Land,
-    /// How each look of the map appears; the first is that of cells in which nothing is.
-    pub looks: Vec<TileLook>,
+    /// The heights.
+    pub landscape: Landscape,
+    /// The materials of the tiles; the first is that of empty cells.
+    pub materials: Vec<TileMaterial>,
     /// The grid's top left corner, drawing units.
     pub origin: DVec2,
     /// The side of a tile, drawing units.
     pub size: f64,
-    /// The height of roofs' ridges over their depth.
+    /// The ratio of a roof's height to its depth.
     pub roof: f64,
     /// The radius of the ground's bevel, tiles.
     pub bevel: f64,
     /// Index of the main part that it hangs on; `None` hangs on the root.
     pub parent: Option<usize>,
-    /// The shapes of which tiles are made, hindmost first.
-    pub sources: Vec<Tiles>,
+    /// The shapes that tiles are made from, back-most first.
+    pub sources: Vec<TileSource>,
 }
 
-/// The cells in whose middles a shape may be seen: those in its box.
+/// The cells that a shape may be visible in: those whose middles are in its bounding box.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Tiles {
+pub struct TileSource {
     /// Index of the shape.
     pub shape: usize,
     /// Columns.
@@ -73,15 +73,16 @@ pub struct Tiles {
 }
 
 impl Layer {
-    /// Least and greatest corner of the grid, drawing units.
+    /// The bounds of the grid, drawing units.
     pub fn bounds(&self) -> [DVec2; 2] {
         let extent = DVec2::new(self.map.columns as f64, self.map.rows as f64);
         [self.origin, self.origin + extent * self.size]
     }
 
-    /// Index of the foremost shape that may be seen in a cell.
+    /// Index of the front-most shape that may be visible in a cell.
     pub fn source_at(&self, column: usize, row: usize) -> Option<usize> {
-        let holds = |tiles: &&Tiles| tiles.columns.contains(&column) && tiles.rows.contains(&row);
+        let holds =
+            |tiles: &&TileSource| tiles.columns.contains(&column) && tiles.rows.contains(&row);
         self.sources
             .iter()
             .rev()
@@ -98,7 +99,7 @@ impl Layer {
     }
 }
 
-/// Reads the tile layers of a drawing. Those in which nothing can be built are said and left out.
+/// Reads the tile layers of a drawing. Those without tiles are reported and left out.
 pub fn read(
     drawing: &Drawing,
     bindings: &Bindings,
@@ -129,7 +130,7 @@ pub fn read(
             }
         }
     }
-    // Legends whose paint only pictures can have are left to this room.
+    // Only the pixels of tile layers can use the legends that `bind` left.
     let mut shapes = 0..drawing.shapes.len();
     if all_read && shapes.any(|shape| bindings.is_picture_of_tiles(drawing, shape)) {
         for (legend, _) in bindings.legends.iter().zip(used).filter(|(_, used)| !used) {
@@ -152,7 +153,7 @@ impl Reading<'_> {
     /// Reads the layer, and marks the legends that it uses.
     ///
     /// # Errors
-    /// Why there is nothing to build; nothing, where that is said already.
+    /// The diagnostic if there is nothing to build; `None` if one was made already.
     fn layer(
         &self,
         content: &Content,
@@ -170,15 +171,18 @@ impl Reading<'_> {
             return Err(None);
         };
         let nothing = |holds| {
-            Err(Some(Box::new(findings::empty(
+            Err(Some(Box::new(diagnostics::empty(
                 drawing, bindings, index, holds,
             ))))
         };
         let Some(bounds) = content.bounds() else {
             return nothing(false);
         };
-        let grid = Grid::over(bounds, size, MOST_CELLS)
-            .map_err(|count| Some(Box::new(findings::too_large(bindings, index, size, count))))?;
+        let grid = Grid::over(bounds, size, MAX_CELLS).map_err(|count| {
+            Some(Box::new(diagnostics::too_large(
+                bindings, index, size, count,
+            )))
+        })?;
         if grid.columns == 0 || grid.rows == 0 {
             return nothing(true);
         }
@@ -186,27 +190,27 @@ impl Reading<'_> {
         let items = content.items(drawing, &grid, &mut paints, diagnostics)?;
         let sources = items.iter().map(|(shape, item)| {
             let [columns, rows] = item.reach(&grid).map(|[from, to]| from..to);
-            Tiles {
+            TileSource {
                 shape: *shape,
                 columns,
                 rows,
             }
         });
-        let sources: Vec<Tiles> = sources.collect();
+        let sources: Vec<TileSource> = sources.collect();
         let items: Vec<_> = items.into_iter().map(|(_, item)| item).collect();
         let is_complete = items.len() == content.fills.len();
         let canvas = Canvas::new(grid, items);
-        let Survey {
+        let Classification {
             cells,
-            looks,
+            materials,
             unclear,
             legends,
             plain,
             too_many_legends,
-        } = survey(&canvas, &paints, vec![0; grid.columns * grid.rows]);
-        // Pictures take much memory, which edges may need.
+        } = classify(&canvas, &paints, vec![0; grid.columns * grid.rows]);
+        // Free the memory of pictures before edges are read.
         drop(canvas);
-        let is_empty = looks.len() == 1 && unclear.is_empty();
+        let is_empty = materials.len() == 1 && unclear.is_empty();
         let mut edges = vec![0; cells.len()];
         edges::read(&grid, &content.strokes(drawing), &mut edges);
         legends.iter().for_each(|legend| used[*legend] = true);
@@ -214,37 +218,39 @@ impl Reading<'_> {
             columns: grid.columns,
             rows: grid.rows,
             cells,
-            looks: looks.iter().map(|look| look.tile).collect(),
+            tiles: materials.iter().map(|material| material.tile).collect(),
             edges,
         };
         let layer = Layer {
             name: of_layer.name.clone(),
             string: of_layer.string,
             group: of_layer.group,
-            land: Land::new(&map),
+            landscape: Landscape::new(&map),
             map,
-            looks,
+            materials,
             origin: grid.origin,
             size: grid.size,
-            roof: attributes.roof().unwrap_or(ROOF),
+            roof: attributes.roof().unwrap_or(DEFAULT_ROOF),
             bevel: attributes.bevel(),
             parent: of_layer.parent,
             sources,
         };
-        findings::unclear(drawing, &layer, &paints, &unclear, diagnostics);
-        diagnostics.extend(findings::plain(drawing, &paints, &plain));
-        diagnostics.extend(findings::off_grid(drawing, bindings, index, &grid, content));
+        diagnostics::unclear(drawing, &layer, &paints, &unclear, diagnostics);
+        diagnostics.extend(diagnostics::plain(drawing, &paints, &plain));
+        diagnostics.extend(diagnostics::off_grid(
+            drawing, bindings, index, &grid, content,
+        ));
         if too_many_legends {
             let message =
                 "so many paints are used that not every legend's attributes can be heeded";
-            let span = findings::size_span(bindings, index);
+            let span = diagnostics::size_span(bindings, index);
             let help = "use fewer paints, or fewer legends";
             diagnostics.push(Diagnostic::new(Code::LimitPassed, span, message).help(help));
         }
         if is_empty && is_complete {
             return nothing(true);
         }
-        findings::open(drawing, &layer, diagnostics);
+        diagnostics::open(drawing, &layer, diagnostics);
         Ok(layer)
     }
 }

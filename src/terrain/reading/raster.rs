@@ -1,6 +1,6 @@
-//! What is painted at the middle of each cell: the layer drawn at one pixel a cell, without anti-aliasing.
+//! Rasterises a layer at one pixel a cell, without anti-aliasing: the paint at the middle of each cell.
 //!
-//! A band of rows is drawn at a time, on all cores, so that no picture of the whole layer is ever in memory.
+//! Bands of rows are drawn on all cores, so that the whole layer is never in memory as a picture.
 
 use glam::{DAffine2, DVec2};
 use image::{DynamicImage, GenericImageView as _};
@@ -10,19 +10,18 @@ use resvg::tiny_skia::{BlendMode, FillRule, Mask, Paint, Path, PathBuilder, Pixm
 use super::grid::{Grid, rectangle};
 use crate::geometry::Outline;
 
-/// What is painted in a cell, as four bytes of a picture that nobody sees. The last byte says what the others are:
-/// 0 nothing, 255 the index of a paint, least byte first; 1 to 254 the colour of a picture's pixel, and how opaque
-/// that is.
+/// The paint of a cell, as a pixel of an internal picture. The last byte gives the meaning of the others: 0 nothing; 255 the
+/// index of a paint, little-endian; 1 to 254 the colour of a picture's pixel, the byte being its opacity.
 pub(super) type Code = [u8; 4];
 
 /// The code of a cell in which nothing is painted.
 pub(super) const NOTHING: Code = [0; 4];
-/// The most paints that there are codes for.
-pub(super) const MOST_PAINTS: usize = 1 << 24;
+/// The number of paints that have codes.
+pub(super) const MAX_PAINTS: usize = 1 << 24;
 
 /// Cells in a band.
 const BAND: usize = 1 << 20;
-/// Cells along a side of what is drawn at once: the rasteriser's numbers are exact so far.
+/// The side of what is drawn at once, cells: the rasteriser's arithmetic is exact up to that size.
 const PIECE: usize = 4096;
 
 /// The code of a paint.
@@ -42,14 +41,14 @@ pub(super) fn pixel_of([r, g, b, kind]: Code) -> Option<([u8; 3], f64)> {
     is_pixel.then(|| ([r, g, b], f64::from(kind - 1) / 253.0))
 }
 
-/// Something painted in a layer.
+/// A filled shape or a picture in a layer.
 pub(super) struct Item<'a> {
-    /// Its box, cells.
+    /// Its bounding box, cells.
     bounds: [DVec2; 2],
-    what: What<'a>,
+    source: Source<'a>,
 }
 
-enum What<'a> {
+enum Source<'a> {
     Rectangle(Code),
     Area(&'a Outline, Code),
     Picture(Box<Picture<'a>>),
@@ -62,31 +61,31 @@ pub(super) struct Picture<'a> {
     pub(super) to_pixels: DAffine2,
     /// Opacity of the whole picture, 0 to 1.
     pub(super) opacity: f64,
-    /// What clips leave of it.
+    /// The visible area, if it is clipped.
     pub(super) within: Option<&'a Outline>,
 }
 
 impl<'a> Item<'a> {
-    /// An area in one paint.
+    /// A shape filled with one paint.
     pub(super) fn area(grid: &Grid, outline: &'a Outline, bounds: [DVec2; 2], code: Code) -> Self {
         Self {
             bounds: bounds.map(|p| grid.cells(p)),
-            what: match rectangle(outline) {
-                Some(_) => What::Rectangle(code),
-                None => What::Area(outline, code),
+            source: match rectangle(outline) {
+                Some(_) => Source::Rectangle(code),
+                None => Source::Area(outline, code),
             },
         }
     }
 
-    /// A picture; `bounds` is its box, drawing units.
+    /// A picture; `bounds` is its bounding box, drawing units.
     pub(super) fn picture(grid: &Grid, bounds: [DVec2; 2], picture: Picture<'a>) -> Self {
         Self {
             bounds: bounds.map(|p| grid.cells(p)),
-            what: What::Picture(Box::new(picture)),
+            source: Source::Picture(Box::new(picture)),
         }
     }
 
-    /// The columns and rows whose middles lie in its box: the first ones, and those behind the last ones.
+    /// The columns and rows whose middles are in its bounding box: for each the first, and the one after the last.
     pub(super) fn reach(&self, grid: &Grid) -> [[usize; 2]; 2] {
         let [low, high] = self
             .bounds
@@ -98,11 +97,11 @@ impl<'a> Item<'a> {
     }
 }
 
-/// A layer that is to be drawn.
+/// A layer to be drawn.
 pub(super) struct Canvas<'a> {
     grid: Grid,
     items: Vec<Item<'a>>,
-    /// Per band the items that reach into it, hindmost first.
+    /// Per band the items that overlap it, back-most first.
     bands: Vec<Vec<u32>>,
     /// Rows in a band.
     height: usize,
@@ -128,8 +127,7 @@ impl<'a> Canvas<'a> {
         }
     }
 
-    /// Gives every band of `cells`, which has a byte for each cell, to `fill`, with what draws it; what it gives for
-    /// each band, from the top.
+    /// Calls `fill` with every band and its part of `cells`, which has a byte for each cell. The results, from the top.
     pub(super) fn bands<T: Send>(
         &self,
         cells: &mut [u8],
@@ -152,7 +150,7 @@ impl<'a> Canvas<'a> {
 }
 
 impl Canvas<'_> {
-    /// Replaces every cell's byte by what its band's table has for it.
+    /// Replaces the byte of every cell by its entry in the table of its band.
     pub(super) fn remap(&self, cells: &mut [u8], tables: &[Vec<u8>]) {
         let band = self.height * self.grid.columns.max(1);
         let chunks = cells.par_chunks_mut(band).zip(tables);
@@ -173,8 +171,8 @@ pub(super) struct Band<'a> {
 }
 
 impl Band<'_> {
-    /// Draws the band: gives each stretch of cells of a row, with the place of its first cell in the band and that
-    /// cell's index in the map.
+    /// Draws the band. `each` gets runs of cells of a row: the index of the first cell in the band, its index in the map, and the
+    /// codes.
     pub(super) fn draw(&self, mut each: impl FnMut(usize, usize, &[Code])) {
         let columns = self.canvas.grid.columns;
         let mut codes = Vec::new();
@@ -219,13 +217,13 @@ impl Piece<'_> {
         if columns.is_empty() || rows.is_empty() {
             return;
         }
-        match &item.what {
-            What::Rectangle(code) => {
+        match &item.source {
+            Source::Rectangle(code) => {
                 for row in rows {
                     self.codes[row * width..][columns.clone()].fill(*code);
                 }
             }
-            What::Area(outline, code) => {
+            Source::Area(outline, code) => {
                 let [r, g, b, a] = *code;
                 let mut paint = Paint::default();
                 paint.set_color_rgba8(r, g, b, a);
@@ -244,7 +242,7 @@ impl Piece<'_> {
                     );
                 }
             }
-            What::Picture(picture) => {
+            Source::Picture(picture) => {
                 let mask = picture.within.map(|outline| {
                     let mut mask = Mask::new(width as u32, height as u32)?;
                     let path = self.path(outline, grid)?;
@@ -254,13 +252,13 @@ impl Piece<'_> {
                 for row in rows {
                     for column in columns.clone() {
                         let at = row * width + column;
-                        let seen = match &mask {
+                        let is_visible = match &mask {
                             Some(Some(mask)) => mask.data()[at] != 0,
                             Some(None) => false,
                             None => true,
                         };
                         let middle = DVec2::new((left + column) as f64, (top + row) as f64) + 0.5;
-                        if seen && let Some(code) = picture.at(middle) {
+                        if is_visible && let Some(code) = picture.at(middle) {
                             self.codes[at] = code;
                         }
                     }
@@ -289,7 +287,7 @@ impl Piece<'_> {
 }
 
 impl Picture<'_> {
-    /// What the picture shows at a place, in cells: the nearest pixel, if it is opaque.
+    /// The code of the nearest pixel at a place, in cells, if it is opaque.
     fn at(&self, place: DVec2) -> Option<Code> {
         let at = self.to_pixels.transform_point2(place).floor();
         let (width, height) = self.pixels.dimensions();

@@ -12,14 +12,14 @@ use crate::terrain::{EDGE_BELOW, EDGE_RIGHT, Tile};
 const GREEN: &str = "#4caf50";
 const COLORS: [&str; 5] = [GREEN, "#8d6e63", "#42a5f5", "#e53935", "#f5deb3"];
 
-/// Reads the layers of a drawing with the files that it may link to: codes of what is said, too.
+/// The layers of a drawing with linked files, and the codes of the diagnostics.
 fn read_with(svg: &str, files: MemoryResolver) -> (Vec<Layer>, Vec<String>) {
     let svg =
         format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="400" height="400">{svg}</svg>"#);
     let (drawing, mut diagnostics) = svg::read(&svg, 0.001, &files, &bind::in_tile_layers);
     let bindings = bind::bind(&drawing, None, &mut diagnostics);
     let layers = read(&drawing, &bindings, &mut diagnostics);
-    // How high things lie is not the matter here.
+    // Heights are tested elsewhere.
     let told = diagnostics.iter();
     let told = told.filter(|found| found.code != Code::OpenTerrain);
     let told = told.map(|found| format!("{}: {}", found.code.id(), found.message));
@@ -39,7 +39,7 @@ fn rect(x: f64, y: f64, width: f64, height: f64, fill: &str) -> String {
     format!(r#"<rect x="{x}" y="{y}" width="{width}" height="{height}" fill="{fill}"/>"#)
 }
 
-/// The map as a letter a cell.
+/// The map with a letter for each cell.
 fn drawn(layer: &Layer) -> Vec<String> {
     let letter = |cell: usize| match layer.map.tile(cell) {
         Tile::None => '.',
@@ -58,7 +58,7 @@ fn drawn(layer: &Layer) -> Vec<String> {
     (0..layer.map.rows).map(row).collect()
 }
 
-/// The one layer of a drawing of which nothing is said.
+/// The only layer of a drawing without diagnostics.
 fn only(svg: &str) -> Layer {
     let (mut layers, told) = read_svg(svg);
     assert_eq!(told, [""; 0]);
@@ -87,7 +87,10 @@ fn squares_rectangles_and_free_shapes_are_tiles() {
     ));
     assert_eq!(drawn(&layer), ["ggggg..", "gbbgww.", "ggggww.", "ggggg.."]);
     assert_eq!(layer.origin, DVec2::new(20.0, 30.0));
-    assert_eq!((layer.size, layer.roof, layer.bevel), (10.0, ROOF, 0.0));
+    assert_eq!(
+        (layer.size, layer.roof, layer.bevel),
+        (10.0, DEFAULT_ROOF, 0.0)
+    );
     assert_eq!((layer.name.as_str(), layer.parent), ("Island", None));
     assert_eq!(layer.sources[1].columns, 1..3);
     assert_eq!(layer.sources[1].rows, 1..2);
@@ -96,18 +99,22 @@ fn squares_rectangles_and_free_shapes_are_tiles() {
 }
 
 #[test]
-fn looks_have_the_colours_that_are_drawn() {
+fn materials_have_the_colours_that_are_drawn() {
     let layer = only(&island(&format!(
         "{}{}{}",
         rect(0.0, 0.0, 20.0, 10.0, GREEN),
         rect(20.0, 0.0, 10.0, 10.0, "#00a000"),
         rect(30.0, 0.0, 10.0, 10.0, "#2060e0"),
     )));
-    let tiles: Vec<Tile> = layer.looks.iter().map(|look| look.tile).collect();
+    let tiles: Vec<Tile> = layer
+        .materials
+        .iter()
+        .map(|material| material.tile)
+        .collect();
     assert_eq!(tiles, [Tile::None, Tile::Green, Tile::Green, Tile::Blue]);
-    assert_eq!(layer.map.looks, tiles);
+    assert_eq!(layer.map.tiles, tiles);
     assert_eq!(layer.map.cells, [2, 2, 1, 3]);
-    let color = layer.looks[1]
+    let color = layer.materials[1]
         .factors
         .color
         .map(|channel| (channel * 255.0).round());
@@ -129,17 +136,17 @@ fn legends_say_what_paints_mean() {
     for svg in [swatches(swatch, ""), swatches("", swatch)] {
         let layer = only(&svg);
         assert_eq!(drawn(&layer), ["rr."]);
-        let look = &layer.looks[1].factors;
+        let look = &layer.materials[1].factors;
         assert_eq!(
             (look.color, look.metallic, look.roughness),
             ([1.0, 0.0, 0.0, 1.0], 1.0, 0.5)
         );
-        assert!(layer.looks[1].is_tinted && layer.looks[1].legend.is_some());
+        assert!(layer.materials[1].is_tinted && layer.materials[1].legend.is_some());
     }
 }
 
 #[test]
-fn legends_that_no_tile_has_are_told() {
+fn unused_legends_are_reported() {
     let swatch = r##"<rect x="100" y="100" width="10" height="10" fill="#800080"/>
         <text x="110" y="100" font-size="5">$Tile red</text>"##;
     let tiles = island(&(rect(0.0, 0.0, 10.0, 10.0, GREEN) + swatch));
@@ -177,7 +184,7 @@ fn unclear_colours_are_errors_that_name_cells() {
 }
 
 #[test]
-fn layers_without_tiles_and_huge_grids_are_told() {
+fn layers_without_tiles_and_huge_grids_are_reported() {
     let codes = |svg: &str| -> Vec<String> {
         let (layers, told) = read_svg(svg);
         assert!(layers.is_empty());
@@ -198,7 +205,7 @@ fn layers_without_tiles_and_huge_grids_are_told() {
 }
 
 #[test]
-fn rectangles_off_the_grid_are_told() {
+fn rectangles_off_the_grid_are_reported() {
     let off = |x: f64, width: f64| {
         let tiles = rect(0.0, 0.0, 20.0, 10.0, GREEN) + &rect(x, 10.0, width, 10.0, GREEN);
         read_svg(&island(&tiles)).1
@@ -232,7 +239,7 @@ fn several_layers_may_lie_in_each_other() {
     assert_eq!(
         names,
         [
-            ("Land", rows(&["ggg", "b.."])),
+            ("Landscape", rows(&["ggg", "b.."])),
             ("Lake", rows(&["ww", "ww"]))
         ]
     );
@@ -297,7 +304,7 @@ fn pictures_that_are_drawings_are_read_too() {
 }
 
 #[test]
-fn pictures_of_many_colours_have_a_look_a_kind() {
+fn pictures_of_many_colours_have_a_material_for_each_kind() {
     let near = |base: &str, x: u32| {
         let [r, g, b, _] = rgba(base);
         [
@@ -317,9 +324,13 @@ fn pictures_of_many_colours_have_a_look_a_kind() {
     let rows = drawn(layer);
     assert_eq!(rows[0], format!("w{}", "g".repeat(255)));
     assert_eq!(rows[1], "b".repeat(256));
-    let tiles: Vec<Tile> = layer.looks.iter().map(|look| look.tile).collect();
+    let tiles: Vec<Tile> = layer
+        .materials
+        .iter()
+        .map(|material| material.tile)
+        .collect();
     assert_eq!(tiles, [Tile::None, Tile::Green, Tile::Brown, Tile::Blue]);
-    let red = layer.looks[2].factors.color[0] * 255.0;
+    let red = layer.materials[2].factors.color[0] * 255.0;
     assert!((red - (141.0 - 3.5)).abs() < 0.01, "{red}");
 }
 
@@ -363,7 +374,7 @@ fn strokes_along_grid_lines_are_edges() {
     assert_eq!(line("M10 5V10"), [(0, 0, 'r')]);
     assert_eq!(line("M10 6V10"), []);
     assert_eq!(line("M10 0V3M10 7V10"), [(0, 0, 'r')]);
-    // What is drawn twice counts once.
+    // A stroke that is drawn twice counts once.
     assert_eq!(line("M10 0V4M10 1V4M10 4V0"), []);
     let border = [(1, 0, 'b'), (0, 1, 'r'), (1, 1, 'r'), (1, 1, 'b')];
     assert_eq!(
@@ -421,7 +432,7 @@ fn wild_sizes_do_no_harm() {
             r#"<path d="M0 0C1e9 0 1e9 1e9 0 1e9" fill="green" stroke="red"/>"#,
             r#"<path d="M0 0C1e9 0 1e9 1e9 0 1e9" fill="none" stroke="red"/><rect width="9" height="9" fill="green"/>"#,
         ] {
-            read_svg(&format!("<g>{shape}<text>A$Tiles {size}</text></g>"));
+            read_svg(&format!("<g>{shape}<text>A$TileSource {size}</text></g>"));
         }
     }
 }
@@ -429,7 +440,7 @@ fn wild_sizes_do_no_harm() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 
-    /// A map drawn as squares, as rows of rectangles and as a picture is one map.
+    /// Squares, rows of rectangles and a picture give the same map.
     #[test]
     fn all_ways_to_draw_a_map_are_one(
         columns in 1..7_usize,
@@ -454,7 +465,7 @@ proptest! {
                 }
                 if column + 1 == columns || color(column, row) != color(column + 1, row) {
                     if let Some(color) = color(column, row) {
-                        // Not a rectangle to the eye of the program.
+                        // Not recognised as a rectangle.
                         let (left, right) = (10.0 * from as f64, 10.0 * column as f64 + 10.0);
                         let (top, bottom) = (10.0 * row as f64, 10.0 * row as f64 + 10.0);
                         runs += &format!(
@@ -480,10 +491,10 @@ proptest! {
         });
         prop_assert_eq!(&a.map, &b.map);
         prop_assert_eq!(&a.map, &c.map);
-        prop_assert_eq!(&a.looks, &c.looks);
+        prop_assert_eq!(&a.materials, &c.materials);
     }
 
-    /// Edges are those sides of which strokes cover half, by the plain method.
+    /// Compares edges with those of a simple method: sides of which strokes cover half.
     #[test]
     fn edges_are_as_by_the_plain_method(
         lines in prop::collection::vec((0..5_i32, -1.5..1.5_f64, 0.0..40.0_f64, -20.0..20.0_f64), 1..8),
@@ -506,7 +517,7 @@ proptest! {
                 let share = covered.count() as f64 / 1600.0;
                 let cell = layer.map.index(column as usize, row as usize);
                 let edge = layer.map.edges[cell] & EDGE_RIGHT != 0;
-                // Sides are looked at in sixteenths, at each end of each stroke.
+                // Sides are tested in sixteenths, at each end of each stroke.
                 let slack = lines.len() as f64 / 16.0;
                 prop_assert!(!edge || share > 0.5 - slack, "{share}");
                 prop_assert!(edge || share < 0.5 + slack, "{share}");

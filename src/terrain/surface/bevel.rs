@@ -1,22 +1,21 @@
 //! Bevelled corners (ours: the thesis names rounded ground as its open problem).
 //!
-//! Every face draws back from its sides where the surface turns; strips join the faces along those sides, and patches join
-//! the strips at corners. Corners keep the normals of the faces that they come from, so that light runs softly
-//! across.
+//! Every face is inset along the sides where the surface turns. Strips join the inset faces along those sides, and patches join
+//! the strips at corners. Vertices keep the normals of their original faces, so that the bevel is shaded smoothly.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
+use super::super::constraints::STRIPE;
 use super::super::houses::House;
-use super::super::ties::STRIPE;
+use super::greedy::{Facing, Rect};
 use super::mesh::Mesh;
-use super::sweep::{Facing, Rect};
 
-/// A bevel wider than this would turn thin walls inside out.
+/// A wider bevel would turn thin walls inside out.
 pub(super) const WIDEST: f64 = 0.49;
 
 type Point = [i32; 3];
 
-/// Cuts a rectangle into the squares along its border, which may be bevelled, and the rest.
+/// Splits a rectangle into the unit squares along its border, which may be bevelled, and the rest.
 pub(super) fn ring(rect: &Rect, squares: &mut Vec<Rect>, rest: &mut Vec<Rect>) {
     let [across, along] = [rect.across, rect.along];
     let mut square = |a: i32, b: i32| {
@@ -46,35 +45,35 @@ pub(super) fn ring(rect: &Rect, squares: &mut Vec<Rect>, rest: &mut Vec<Rect>) {
     }
 }
 
-/// The part of a plane's four squares around a point that a square belongs to: connected by way of sides.
+/// Of the four squares of a plane around a point, those that are connected through sides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 struct Fan {
     facing: Facing,
-    /// A bit a square: behind and before across the lines in bit 0, along them in bit 1.
+    /// A bit for each square: bit 0 of its number is its side across the runs, bit 1 its side along them.
     squares: u8,
 }
 
-/// A corner of a fan of faces, drawn back.
+/// A corner of a fan of faces, to be inset.
 #[derive(Debug, Clone, Copy)]
 struct Corner {
     fan: Fan,
     point: Point,
-    look: u8,
+    material: u8,
 }
 
-/// What is known around the corners of a stripe.
+/// The squares of a stripe and its neighbours, and how they meet.
 pub(super) struct Bevel<'a> {
     radius: f64,
     /// The squares that may be bevelled.
     squares: FxHashMap<(Facing, Point), u8>,
-    /// The faces at each side of a square: the lesser point and the axis; up to four.
+    /// The faces at each side of a square, up to four. A side is its smaller point and its axis.
     sides: FxHashMap<(Point, usize), Vec<(Facing, Point)>>,
-    /// Points that stay: at houses, and where the surface folds back onto itself.
+    /// Points that are not inset: at houses, and where the surface folds back onto itself.
     fixed: FxHashSet<Point>,
     houses: Vec<&'a House>,
 }
 
-/// The least corner of a square, which with its facing is its name.
+/// The smallest corner of a square, which identifies it together with its facing.
 fn name(rect: &Rect) -> Point {
     let [across, along, up] = rect.facing.axes();
     let mut point = [0; 3];
@@ -105,7 +104,7 @@ impl<'a> Bevel<'a> {
         };
         for square in squares {
             let (facing, point) = (square.facing, name(square));
-            bevel.squares.insert((facing, point), square.look);
+            bevel.squares.insert((facing, point), square.material);
             let [across, along, _] = facing.axes();
             for (start, axis) in [
                 (point, across),
@@ -124,7 +123,7 @@ impl<'a> Bevel<'a> {
         bevel
     }
 
-    /// Finds the points that must stay where they are.
+    /// Finds the points that must not be inset.
     fn fix(&mut self) {
         let mut fixed = FxHashSet::default();
         #[expect(
@@ -149,7 +148,7 @@ impl<'a> Bevel<'a> {
         self.fixed = fixed;
     }
 
-    /// The faces that meet at a side, in pairs with only air between them; `None` where there is no way to pair them.
+    /// The faces that meet at a side, in pairs with only air between them; `None` if they cannot be paired.
     fn pairs(
         &self,
         start: Point,
@@ -159,7 +158,7 @@ impl<'a> Bevel<'a> {
         match faces {
             [one, other] => Some(vec![[*one, *other]]),
             [..] if faces.len() == 4 => {
-                // Around the side, the face at an angle has its air before or behind it.
+                // Sorted around the side; each face has its air clockwise or counter-clockwise of it.
                 let mut around: Vec<(u8, bool, (Facing, Point))> = faces
                     .iter()
                     .map(|face| {
@@ -167,7 +166,7 @@ impl<'a> Bevel<'a> {
                         (angle, air_behind, *face)
                     })
                     .collect();
-                // Where two lie in one place, the one whose air comes first goes first.
+                // Of two at the same angle, the one whose air comes first goes first.
                 around.sort_by_key(|(angle, air_behind, _)| (*angle, *air_behind));
                 let pair = |at: usize| {
                     let [one, other] = [around[at], around[(at + 1) % 4]];
@@ -207,7 +206,7 @@ impl<'a> Bevel<'a> {
         Fan { facing, squares }
     }
 
-    /// Where a corner of a fan goes.
+    /// The position of a corner after insetting.
     fn place(&self, corner: &Corner) -> [f64; 3] {
         let mut place = corner.point.map(f64::from);
         if self.fixed.contains(&corner.point) {
@@ -224,7 +223,8 @@ impl<'a> Bevel<'a> {
             sum(&|a| [has(a, 0), has(a, 1)]),
             sum(&|b| [has(0, b), has(1, b)]),
         ];
-        // One square: into it. Two: away from the side. Three: away from the missing one. Four: nowhere.
+        // With one square the corner moves into it, with two away from their side, with three away from the missing one, with four
+        // not at all.
         if count < 4 {
             place[across] += self.radius * towards[0].signum() * f64::from(towards[0] != 0.0);
             place[along] += self.radius * towards[1].signum() * f64::from(towards[1] != 0.0);
@@ -236,11 +236,11 @@ impl<'a> Bevel<'a> {
         Corner {
             fan: self.fan(facing, square, point),
             point,
-            look: self.squares[&(facing, square)],
+            material: self.squares[&(facing, square)],
         }
     }
 
-    /// Adds the squares that are a stripe's own, drawn back, and the strips and patches that begin between `columns`.
+    /// Adds a stripe's own squares, inset, and the strips and patches that begin between `columns`.
     pub(super) fn add(&self, mesh: &mut Mesh, own: &[Rect], columns: std::ops::Range<i32>) {
         for square in own {
             let face = (square.facing, name(square));
@@ -248,7 +248,7 @@ impl<'a> Bevel<'a> {
                 let corner = self.corner(face, point);
                 (self.place(&corner), square.facing)
             });
-            mesh.soft(square.look, square.facing, &ring);
+            mesh.smooth_polygon(square.material, square.facing, &ring);
         }
         let mut ends: FxHashMap<Point, Vec<[Corner; 2]>> = FxHashMap::default();
         let mut sides: Vec<_> = self
@@ -269,12 +269,16 @@ impl<'a> Bevel<'a> {
                 let [f0, f1] = [*start, end].map(|point| self.corner(f, point));
                 let [g0, g1] = [*start, end].map(|point| self.corner(g, point));
                 if columns.contains(&start[0]) {
-                    let look = [f0, g0]
+                    let material = [f0, g0]
                         .into_iter()
                         .min_by_key(|corner| rank(corner.fan.facing));
                     let ring = [f1, f0, g0, g1];
                     let ring = ring.map(|corner| (self.place(&corner), corner.fan.facing));
-                    mesh.soft(look.map_or(f0.look, |corner| corner.look), f.0, &ring);
+                    mesh.smooth_polygon(
+                        material.map_or(f0.material, |corner| corner.material),
+                        f.0,
+                        &ring,
+                    );
                 }
                 ends.entry(*start).or_default().push([g0, f0]);
                 ends.entry(end).or_default().push([f1, g1]);
@@ -292,7 +296,7 @@ impl<'a> Bevel<'a> {
         }
     }
 
-    /// Closes the holes that strips leave at a corner.
+    /// Closes the holes between the strips at a corner.
     fn patches(&self, mesh: &mut Mesh, mut ends: Vec<[Corner; 2]>) {
         while let Some([first, mut last]) = ends.pop() {
             let mut ring = vec![first, last];
@@ -304,19 +308,19 @@ impl<'a> Bevel<'a> {
             }
             ring.pop();
             if ring.len() > 2 {
-                let look = ring.iter().min_by_key(|corner| rank(corner.fan.facing));
-                let look = look.map_or(first.look, |corner| corner.look);
+                let material = ring.iter().min_by_key(|corner| rank(corner.fan.facing));
+                let material = material.map_or(first.material, |corner| corner.material);
                 let places: Vec<_> = ring
                     .iter()
                     .map(|corner| (self.place(corner), corner.fan.facing))
                     .collect();
-                mesh.soft(look, first.fan.facing, &places);
+                mesh.smooth_polygon(material, first.fan.facing, &places);
             }
         }
     }
 }
 
-/// Whose look strips and patches have: grass grows over edges.
+/// Strips and patches have the material of the adjacent face with the lowest rank: grass grows over edges.
 fn rank(facing: Facing) -> u8 {
     match facing {
         Facing::Up => 0,
@@ -339,8 +343,8 @@ fn touches(house: &House, [x, y, z]: Point) -> bool {
         && (house.back()..=house.front).contains(&z)
 }
 
-/// At which quarter around a side a face lies, counter-clockwise about the axis, and whether air lies counter-clockwise of
-/// it.
+/// The quarter turn at which a face lies around a side, counter-clockwise about the axis, and whether air is counter-clockwise
+/// of it.
 fn angle((facing, square): (Facing, Point), start: Point, axis: usize) -> (u8, bool) {
     let [first, second] = [(axis + 1) % 3, (axis + 2) % 3];
     let stands_on = facing.axes()[2];
@@ -353,7 +357,7 @@ fn angle((facing, square): (Facing, Point), start: Point, axis: usize) -> (u8, b
         (false, false) => 3,
     };
     let positive = facing.normal()[stands_on] > 0.0;
-    // Counter-clockwise of the first axis lies the second, of the second the first backwards.
+    // Counter-clockwise of the first axis is the second; counter-clockwise of the second is the negative first.
     let air = match quarter {
         0 | 3 => positive,
         _ => !positive,
@@ -366,7 +370,7 @@ fn runs_forward((facing, square): (Facing, Point), start: Point, axis: usize) ->
     let [across, along, up] = facing.axes();
     let other = if axis == across { along } else { across };
     let low_side = square[other] == start[other];
-    // With the side at its lower end, the corners run forward if axis, other and normal are right-handed.
+    // If the side is at the lower end of the square, the corners run forward if axis, other axis and normal are right-handed.
     let right_handed = (axis + 1) % 3 == other;
     let positive = facing.normal()[up] > 0.0;
     (right_handed == positive) == low_side

@@ -1,10 +1,11 @@
-//! Where corners of rectangles lie on the sides of others, so that neighbours share all points of their common sides.
+//! Finds the corners of rectangles on the sides of others, so that neighbours share all points of their common sides (no
+//! T-junctions).
 
 use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
-use super::super::ties::STRIPE;
-use super::sweep::Rect;
+use super::super::constraints::STRIPE;
+use super::greedy::Rect;
 
 /// The corners of all rectangles, stripe by stripe.
 #[derive(Debug)]
@@ -12,8 +13,8 @@ pub(super) struct Corners {
     stripes: Vec<FxHashSet<u64>>,
 }
 
-/// A point in one number: its column counts from where its stripe begins. Heights and depths keep below 2²⁷: both are
-/// sums of rows of a map of 2²⁶ cells.
+/// A point in one number, its column relative to its stripe. Heights and depths are below 2²⁷, because both are sums of
+/// rows of a map of 2²⁶ cells.
 fn packed(stripe: usize, [x, y, z]: [i32; 3]) -> u64 {
     const HALF: i64 = 1 << 27;
     let x = (i64::from(x) - (stripe * STRIPE) as i64) as u64;
@@ -22,7 +23,7 @@ fn packed(stripe: usize, [x, y, z]: [i32; 3]) -> u64 {
 }
 
 impl Corners {
-    /// Collects the corners of rectangles, stripe by stripe, and some more.
+    /// Collects the corners of rectangles, stripe by stripe, and the points in `more`.
     pub(super) fn new(rects: &[Vec<Rect>], squares: &[Vec<Rect>], more: &[[i32; 3]]) -> Self {
         let stripe_of = |x: i32| (x as usize / STRIPE).min(rects.len() - 1);
         let mut extra: Vec<Vec<[i32; 3]>> = vec![vec![]; rects.len()];
@@ -37,7 +38,7 @@ impl Corners {
         let stripes = (0..rects.len()).into_par_iter().map(|stripe| {
             let mut points = FxHashSet::default();
             points.extend(all(stripe).map(|point| packed(stripe, point)));
-            // On the border both stripes know all corners.
+            // Both stripes have all corners on their common border.
             let mut from = |other: usize, x: i32| {
                 let corners = all(other).chain(extra[other].iter().copied());
                 let here = corners.filter(|point| point[0] == x);
@@ -57,12 +58,12 @@ impl Corners {
         }
     }
 
-    /// Whether there is a corner at a point, as seen from a stripe.
+    /// Whether a stripe has a corner at a point.
     pub(super) fn has(&self, stripe: usize, point: [i32; 3]) -> bool {
         self.stripes[stripe].contains(&packed(stripe, point))
     }
 
-    /// The corners between two points of a line along an axis, in their order.
+    /// The corners between two points on a line along an axis, in order.
     pub(super) fn between(
         &self,
         stripe: Option<usize>,

@@ -1,80 +1,80 @@
-//! The faces of solids: where something solid ends (terrain.md: no faces between solids that touch).
+//! The faces of solids: where solid space borders on air (terrain.md: no faces between solids that touch).
 
 use std::ops::Range;
 
-use super::super::solids::{Known, Seen, Solids};
+use super::super::solids::{MapContext, Solids, Visible};
+use super::greedy::{FaceRun, Facing, GreedyMesher, Rect};
 use super::slices::{Slice, Slices, Span};
-use super::sweep::{Facing, Rect, Strip, Sweep};
 
-/// Finds the faces of neighbouring columns.
+/// Finds the faces of columns and between neighbouring columns.
 struct Faces<'a> {
-    known: &'a Known<'a>,
+    context: &'a MapContext<'a>,
     solids: Solids,
     /// The column before, and this one.
     columns: [Slices; 2],
-    /// Sweeps for what looks up, down, to the front and back.
-    sweeps: [Sweep; 4],
-    /// Sweeps for what looks right and left.
-    sides: [Sweep; 2],
-    strips: [Vec<Strip>; 4],
+    /// For faces that look up, down, to the front and back.
+    meshers: [GreedyMesher; 4],
+    /// For faces that look right and left.
+    sides: [GreedyMesher; 2],
+    runs: [Vec<FaceRun>; 4],
     rects: Vec<Rect>,
 }
 
-/// The faces of a range of columns, and of their left sides; the last columns' right sides are those of the border.
-pub(super) fn faces(known: &Known<'_>, columns: Range<usize>) -> Vec<Rect> {
+/// The faces of a range of columns with their left sides, and with the right side of the map's last column.
+pub(super) fn faces(context: &MapContext<'_>, columns: Range<usize>) -> Vec<Rect> {
     let mut faces = Faces {
-        known,
+        context,
         solids: Solids::default(),
         columns: Default::default(),
-        sweeps: [Facing::Up, Facing::Down, Facing::Front, Facing::Back].map(Sweep::new),
-        sides: [Facing::Right, Facing::Left].map(Sweep::new),
-        strips: Default::default(),
+        meshers: [Facing::Up, Facing::Down, Facing::Front, Facing::Back].map(GreedyMesher::new),
+        sides: [Facing::Right, Facing::Left].map(GreedyMesher::new),
+        runs: Default::default(),
         rects: Vec::new(),
     };
     if let Some(before) = columns.start.checked_sub(1) {
-        faces.solids.build(known, before);
+        faces.solids.build(context, before);
         faces.columns[1].build(&faces.solids.blocks);
     }
     for column in columns.clone() {
-        faces.solids.build(known, column);
+        faces.solids.build(context, column);
         faces.columns.swap(0, 1);
         faces.columns[1].build(&faces.solids.blocks);
         faces.column(column);
         faces.between(column as i32);
     }
-    if columns.end == known.grid.columns {
+    if columns.end == context.grid.columns {
         faces.columns.swap(0, 1);
         faces.columns[1].clear();
         faces.between(columns.end as i32);
     }
     let Faces {
-        mut sweeps,
+        mut meshers,
         mut sides,
         mut rects,
         ..
     } = faces;
-    let all = sweeps.iter_mut().chain(&mut sides);
-    all.for_each(|sweep| sweep.finish(&mut rects));
+    let all = meshers.iter_mut().chain(&mut sides);
+    all.for_each(|mesher| mesher.finish(&mut rects));
     rects
 }
 
 impl Faces<'_> {
-    /// What looks up, down, to the front and back in a column.
+    /// Adds the faces of a column that look up, down, to the front and back.
     fn column(&mut self, number: usize) {
         let slices = &self.columns[1];
-        let [up, down, front, back] = &mut self.strips;
-        let (known, solids) = (self.known, &self.solids);
+        let [up, down, front, back] = &mut self.runs;
+        let (context, solids) = (self.context, &self.solids);
         for (index, slice) in slices.list.iter().enumerate() {
             let spans = slices.spans(slice);
             for span in spans {
-                let under = Strip {
+                let under = FaceRun {
                     plane: span.y[0],
-                    look: span.bottom,
+                    material: span.bottom,
                     along: slice.z,
                 };
                 down.push(under);
-                if let Some(look) = span.top {
-                    top(known, solids, number, slice, span.y[1], look, up);
+                if let Some(material) = span.top {
+                    top_runs(context, solids, number, slice, span.y[1], material, up);
                 }
             }
             let touches = |next: &&Slice| next.z[0] == slice.z[1];
@@ -83,7 +83,7 @@ impl Faces<'_> {
             let z = slice.z[1];
             difference(spans, next, |y| {
                 slices.sides(slice, y, |y, side| {
-                    before(known, solids, number, z, y, side, front);
+                    front_runs(context, solids, number, z, y, side, front);
                 });
             });
             let touches = |last: &&Slice| last.z[1] == slice.z[0];
@@ -92,28 +92,32 @@ impl Faces<'_> {
             let last = last.map_or(&[][..], |last| slices.spans(last));
             difference(spans, last, |y| {
                 let plane = slice.z[0];
-                slices.sides(slice, y, |along, look| {
-                    back.push(Strip { plane, look, along });
+                slices.sides(slice, y, |along, material| {
+                    back.push(FaceRun {
+                        plane,
+                        material,
+                        along,
+                    });
                 });
             });
         }
-        let inner = slices.inner.iter().map(|(plane, along, look)| Strip {
+        let inner = slices.inner.iter().map(|(plane, along, material)| FaceRun {
             plane: *plane,
-            look: *look,
+            material: *material,
             along: *along,
         });
         down.extend(inner);
         let across = [number as i32, number as i32 + 1];
-        for (sweep, strips) in self.sweeps.iter_mut().zip(&mut self.strips) {
-            sweep.line(across, strips, &mut self.rects);
-            strips.clear();
+        for (mesher, runs) in self.meshers.iter_mut().zip(&mut self.runs) {
+            mesher.line(across, runs, &mut self.rects);
+            runs.clear();
         }
     }
 
-    /// What looks right and left between the column before and this one.
+    /// Adds the faces between the column before and this one, which look right and left.
     fn between(&mut self, plane: i32) {
         let [one, other] = &self.columns;
-        let [right, left] = &mut self.strips[..2] else {
+        let [right, left] = &mut self.runs[..2] else {
             return;
         };
         let [mut a, mut b] = [one.list.as_slice(), other.list.as_slice()];
@@ -133,15 +137,23 @@ impl Faces<'_> {
             let spans_b = slice_b.as_ref().map_or(&[][..], |slice| other.spans(slice));
             if let Some(slice) = &slice_a {
                 difference(spans_a, spans_b, |y| {
-                    one.sides(slice, y, |along, look| {
-                        right.push(Strip { plane, look, along });
+                    one.sides(slice, y, |along, material| {
+                        right.push(FaceRun {
+                            plane,
+                            material,
+                            along,
+                        });
                     });
                 });
             }
             if let Some(slice) = &slice_b {
                 difference(spans_b, spans_a, |y| {
-                    other.sides(slice, y, |along, look| {
-                        left.push(Strip { plane, look, along });
+                    other.sides(slice, y, |along, material| {
+                        left.push(FaceRun {
+                            plane,
+                            material,
+                            along,
+                        });
                     });
                 });
             }
@@ -158,61 +170,61 @@ impl Faces<'_> {
             pass(&mut b);
             z = end;
         }
-        // The next plane's faces do not go on from these.
+        // Faces of the next plane do not continue these.
         self.sides
             .iter_mut()
-            .for_each(|sweep| sweep.finish(&mut self.rects));
+            .for_each(|mesher| mesher.finish(&mut self.rects));
     }
 }
 
-/// The pieces of a top.
-fn top(
-    known: &Known<'_>,
+/// The runs of a top.
+fn top_runs(
+    context: &MapContext<'_>,
     solids: &Solids,
     number: usize,
     slice: &Slice,
     plane: i32,
     hidden: u8,
-    strips: &mut Vec<Strip>,
+    runs: &mut Vec<FaceRun>,
 ) {
     let rows = slice.z[0] - plane..slice.z[1] - plane;
-    let is = |seen| seen == Seen::Top(plane);
-    solids.looks(known, number, rows, is, |rows, look| {
-        strips.push(Strip {
+    let is = |visible| visible == Visible::Top(plane);
+    solids.drawn_materials(context, number, rows, is, |rows, material| {
+        runs.push(FaceRun {
             plane,
-            look: look.unwrap_or(hidden),
+            material: material.unwrap_or(hidden),
             along: [rows.start + plane, rows.end + plane],
         });
     });
 }
 
-/// The pieces of a front.
-fn before(
-    known: &Known<'_>,
+/// The runs of a front.
+fn front_runs(
+    context: &MapContext<'_>,
     solids: &Solids,
     number: usize,
     plane: i32,
     y: [i32; 2],
     hidden: u8,
-    strips: &mut Vec<Strip>,
+    runs: &mut Vec<FaceRun>,
 ) {
-    let is = |seen| seen == Seen::Front(plane);
-    solids.looks(
-        known,
+    let is = |visible| visible == Visible::Front(plane);
+    solids.drawn_materials(
+        context,
         number,
         plane - y[1]..plane - y[0],
         is,
-        |rows, look| {
-            strips.push(Strip {
+        |rows, material| {
+            runs.push(FaceRun {
                 plane,
-                look: look.unwrap_or(hidden),
+                material: material.unwrap_or(hidden),
                 along: [plane - rows.end, plane - rows.start],
             });
         },
     );
 }
 
-/// What is in one list of spans and not in another.
+/// The set difference of two lists of spans.
 fn difference(one: &[Span], other: &[Span], mut each: impl FnMut([i32; 2])) {
     let mut at = 0;
     for span in one {

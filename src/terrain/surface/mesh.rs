@@ -1,47 +1,49 @@
-//! Triangles: polygons whose sides are straight lines with points on them.
+//! Triangulates polygons that have additional points on their sides.
 
 use rustc_hash::FxHashMap;
 
-use super::sweep::Facing;
+use super::greedy::Facing;
 use crate::scene::Surface;
 
-/// Surfaces on their way, one a look.
+/// The surfaces under construction, one for each material.
 #[derive(Debug)]
 pub(super) struct Mesh {
-    /// Half the map's extent: x and z of the middle, which is where the model's origin is.
+    /// x and z of the map's middle, which is the model's origin.
     middle: [f64; 2],
-    looks: Vec<Look>,
+    materials: Vec<MaterialSurface>,
 }
 
 #[derive(Debug, Default)]
-struct Look {
+struct MaterialSurface {
     surface: Surface,
-    /// Corners that are there already.
+    /// The index of each corner by its position and facing.
     known: FxHashMap<([i32; 3], Facing), u32>,
 }
 
 impl Mesh {
-    pub(super) fn new(columns: usize, rows: usize, looks: usize) -> Self {
+    pub(super) fn new(columns: usize, rows: usize, materials: usize) -> Self {
         Self {
             middle: [columns as f64 / 2.0, rows as f64 / 2.0],
-            looks: (0..looks.max(1)).map(|_| Look::default()).collect(),
+            materials: (0..materials.max(1))
+                .map(|_| MaterialSurface::default())
+                .collect(),
         }
     }
 
     /// The surfaces that something was added to.
     pub(super) fn finish(self) -> Vec<(u8, Surface)> {
-        let all = self.looks.into_iter().enumerate();
-        let made = all.filter(|(_, look)| !look.surface.triangles.is_empty());
-        made.map(|(index, look)| (index as u8, look.surface))
+        let all = self.materials.into_iter().enumerate();
+        let made = all.filter(|(_, material)| !material.surface.triangles.is_empty());
+        made.map(|(index, material)| (index as u8, material.surface))
             .collect()
     }
 
-    /// Adds a corner, once for all polygons that look the same way.
-    fn corner(&mut self, look: u8, facing: Facing, point: [i32; 3]) -> u32 {
+    /// Adds a corner, shared by all polygons that look in the same direction.
+    fn corner(&mut self, material: u8, facing: Facing, point: [i32; 3]) -> u32 {
         let place = point.map(f64::from);
-        let Look { surface, known } = &mut self.looks[usize::from(look)];
+        let MaterialSurface { surface, known } = &mut self.materials[usize::from(material)];
         *known.entry((point, facing)).or_insert_with(|| {
-            push(
+            push_corner(
                 surface,
                 self.middle,
                 facing.normal(),
@@ -51,25 +53,25 @@ impl Mesh {
         })
     }
 
-    /// Adds a flat polygon that looks along an axis: a rectangle with points on its sides. `sides` are the four sides, each
-    /// without its end, counter-clockwise seen from outside.
-    pub(super) fn rectangle(&mut self, look: u8, facing: Facing, sides: &[Vec<[i32; 3]>; 4]) {
+    /// Adds an axis-aligned rectangle with points on its sides. `sides` are the four sides, each without its end, counter-clockwise
+    /// seen from outside.
+    pub(super) fn rectangle(&mut self, material: u8, facing: Facing, sides: &[Vec<[i32; 3]>; 4]) {
         let ids = sides.each_ref().map(|side| -> Vec<u32> {
             side.iter()
-                .map(|point| self.corner(look, facing, *point))
+                .map(|point| self.corner(material, facing, *point))
                 .collect()
         });
         let plain = |side: usize| ids[side].len() == 1;
         if plain(1) && plain(3) {
-            self.zip(look, &ids, 0);
+            self.zip(material, &ids, 0);
         } else if plain(0) && plain(2) {
-            self.zip(look, &ids, 1);
+            self.zip(material, &ids, 1);
         } else {
-            // A point in the middle sees all sides, and no triangle is flat.
+            // A fan about the middle has no degenerate triangle.
             let [a, b] = [sides[0][0], sides[2][0]];
             let middle = [0, 1, 2].map(|axis| f64::from(a[axis] + b[axis]) / 2.0);
-            let surface = &mut self.looks[usize::from(look)].surface;
-            let centre = push(
+            let surface = &mut self.materials[usize::from(material)].surface;
+            let centre = push_corner(
                 surface,
                 self.middle,
                 facing.normal(),
@@ -86,8 +88,8 @@ impl Mesh {
         }
     }
 
-    /// Joins the points of a side with those of the opposite one, where the other two have none.
-    fn zip(&mut self, look: u8, ids: &[Vec<u32>; 4], first: usize) {
+    /// Joins the points of two opposite sides if the other two sides have no points.
+    fn zip(&mut self, material: u8, ids: &[Vec<u32>; 4], first: usize) {
         let line = |side: usize| {
             let end = ids[(side + 1) % 4][0];
             ids[side].iter().copied().chain([end]).collect::<Vec<_>>()
@@ -95,10 +97,10 @@ impl Mesh {
         let below = line(first);
         let mut above = line(first + 2);
         above.reverse();
-        let triangles = &mut self.looks[usize::from(look)].surface.triangles;
+        let triangles = &mut self.materials[usize::from(material)].surface.triangles;
         let [mut i, mut j] = [0, 0];
         while i + 1 < below.len() || j + 1 < above.len() {
-            // The side that lags behind goes on.
+            // Advance on the side that lags behind.
             let lags = j + 1 == above.len()
                 || (i + 1 < below.len() && i * (above.len() - 1) <= j * (below.len() - 1));
             if lags {
@@ -111,9 +113,14 @@ impl Mesh {
         }
     }
 
-    /// Adds a polygon whose corners keep the normals of the faces that they come from. Points that fall together are one.
-    pub(super) fn soft(&mut self, look: u8, facing: Facing, points: &[([f64; 3], Facing)]) {
-        let surface = &mut self.looks[usize::from(look)].surface;
+    /// Adds a polygon whose corners have the normals of the given facings. Points at the same position are merged.
+    pub(super) fn smooth_polygon(
+        &mut self,
+        material: u8,
+        facing: Facing,
+        points: &[([f64; 3], Facing)],
+    ) {
+        let surface = &mut self.materials[usize::from(material)].surface;
         let mut ring: Vec<([f64; 3], Facing)> = points.to_vec();
         ring.dedup_by(|next, last| next.0 == last.0);
         if ring.len() > 1 && ring[0].0 == ring[ring.len() - 1].0 {
@@ -123,7 +130,7 @@ impl Mesh {
             return;
         }
         let mut add = |place: [f64; 3], normal: [f32; 3]| {
-            push(surface, self.middle, normal, uv(facing, place), place)
+            push_corner(surface, self.middle, normal, uv(facing, place), place)
         };
         let ids: Vec<u32> = ring
             .iter()
@@ -135,7 +142,7 @@ impl Mesh {
             let two = [[*a, *b, *c]]
                 .into_iter()
                 .chain(rest.iter().map(|d| [*a, *c, *d]));
-            two.for_each(|triangle| whole(surface, triangle));
+            two.for_each(|triangle| push_triangle(surface, triangle));
             return;
         }
         let sum = |of: &dyn Fn(usize) -> [f64; 3]| {
@@ -153,17 +160,16 @@ impl Mesh {
         let centre = add(middle, normal);
         let next = ids.iter().cycle().skip(1);
         for (one, other) in ids.iter().zip(next) {
-            whole(surface, [centre, *one, *other]);
+            push_triangle(surface, [centre, *one, *other]);
         }
     }
 
-    /// Adds a fan of triangles around its first point: a flat convex polygon no other point of which lies on a line with
-    /// the first and its neighbour.
-    pub(super) fn fan(&mut self, look: u8, normal: [f32; 3], points: &[([f64; 3], [f64; 2])]) {
-        let surface = &mut self.looks[usize::from(look)].surface;
+    /// Adds a flat convex polygon as a triangle fan about its first point, which must not be collinear with any two neighbours.
+    pub(super) fn fan(&mut self, material: u8, normal: [f32; 3], points: &[([f64; 3], [f64; 2])]) {
+        let surface = &mut self.materials[usize::from(material)].surface;
         let ids: Vec<u32> = points
             .iter()
-            .map(|(place, uv)| push(surface, self.middle, normal, *uv, *place))
+            .map(|(place, uv)| push_corner(surface, self.middle, normal, *uv, *place))
             .collect();
         let pairs = ids[1..].windows(2);
         surface
@@ -172,16 +178,16 @@ impl Mesh {
     }
 }
 
-/// Adds a triangle, unless two of its corners are one: such a triangle closes nothing.
-fn whole(surface: &mut Surface, triangle: [u32; 3]) {
+/// Adds a triangle, unless two of its corners coincide.
+fn push_triangle(surface: &mut Surface, triangle: [u32; 3]) {
     let [a, b, c] = triangle.map(|corner| surface.positions[corner as usize]);
     if a != b && b != c && c != a {
         surface.triangles.push(triangle);
     }
 }
 
-/// Adds a corner and says which it is.
-fn push(
+/// Adds a corner; its index.
+fn push_corner(
     surface: &mut Surface,
     middle: [f64; 2],
     normal: [f32; 3],
@@ -196,7 +202,7 @@ fn push(
     index
 }
 
-/// Texture coordinates in tiles: on tops as the map lies, on fronts upright.
+/// Texture coordinates in tiles: aligned with the map on tops, upright on fronts.
 fn uv(facing: Facing, [x, y, z]: [f64; 3]) -> [f64; 2] {
     match facing {
         Facing::Up | Facing::Down => [x, z],

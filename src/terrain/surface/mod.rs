@@ -1,31 +1,36 @@
-//! The surface of the landscape: coplanar faces merged, no faces between solids that touch, and no point of one face
-//! on the side of another that does not have it too: so nothing shines through where faces meet, and what is solid is
-//! closed.
+//! The surface of the landscape.
+//!
+//! Invariant: the surface is closed. Coplanar faces are merged, there are no faces between solids that touch, and a corner on
+//! the side of another face is a point of that face too (no T-junctions), so that no gaps show.
 
 mod bevel;
 mod corners;
 mod faces;
+mod greedy;
 mod mesh;
 mod roofs;
 mod slices;
-mod sweep;
 
 use rayon::prelude::*;
 
+use super::constraints::STRIPE;
 use super::houses::House;
-use super::solids::Known;
-use super::ties::STRIPE;
+use super::solids::MapContext;
 use crate::scene::Surface;
 
 use bevel::Bevel;
 use corners::Corners;
+use greedy::Rect;
 use mesh::Mesh;
-use sweep::Rect;
 
-/// The triangles of all solids: per look pieces of its surface, in tiles, about the map's middle at height 0.
-/// `factor` is the height of roofs over their depth, `radius` that of bevels.
-pub(super) fn surface(known: &Known<'_>, factor: f64, radius: f64) -> Vec<(u8, Vec<Surface>)> {
-    let grid = known.grid;
+/// The triangles of all solids: per material the pieces of its surface, in tiles, about the map's middle at height 0.
+/// `factor` is the ratio of a roof's height to its depth, `radius` the radius of bevels.
+pub(super) fn surface(
+    context: &MapContext<'_>,
+    factor: f64,
+    radius: f64,
+) -> Vec<(u8, Vec<Surface>)> {
+    let grid = context.grid;
     let stripes = grid.columns.div_ceil(STRIPE);
     if stripes == 0 || grid.rows == 0 {
         return vec![];
@@ -33,11 +38,11 @@ pub(super) fn surface(known: &Known<'_>, factor: f64, radius: f64) -> Vec<(u8, V
     let columns = |stripe: usize| stripe * STRIPE..((stripe + 1) * STRIPE).min(grid.columns);
     let all = (0..stripes).into_par_iter();
     let mut rects: Vec<Vec<Rect>> = all
-        .map(|stripe| faces::faces(known, columns(stripe)))
+        .map(|stripe| faces::faces(context, columns(stripe)))
         .collect();
     let roofed = |house: &&House| house.depth > 0 && !house.roof.is_empty();
     let mut eaves = vec![];
-    for house in known.houses.iter().filter(roofed) {
+    for house in context.houses.iter().filter(roofed) {
         eaves.extend(roofs::eaves(house));
         for rect in roofs::soffits(house) {
             rects[rect.across[0] as usize / STRIPE].push(rect);
@@ -52,8 +57,8 @@ pub(super) fn surface(known: &Known<'_>, factor: f64, radius: f64) -> Vec<(u8, V
         *rects = rest;
     }
     let corners = Corners::new(&rects, &squares, &eaves);
-    let looks = 256;
-    let mesh = || Mesh::new(grid.columns, grid.rows, looks);
+    let materials = 256;
+    let mesh = || Mesh::new(grid.columns, grid.rows, materials);
     let mut made: Vec<Vec<(u8, Surface)>> = rects
         .into_par_iter()
         .enumerate()
@@ -68,29 +73,36 @@ pub(super) fn surface(known: &Known<'_>, factor: f64, radius: f64) -> Vec<(u8, V
                     list.push(from);
                     corners.between(Some(stripe), from, to, |point| list.push(point));
                 }
-                mesh.rectangle(rect.look, rect.facing, &sides);
+                mesh.rectangle(rect.material, rect.facing, &sides);
             }
             if radius > 0.0 {
-                bevelled(known, radius, &squares, stripe, &mut mesh);
+                bevelled(context, radius, &squares, stripe, &mut mesh);
             }
             mesh.finish()
         })
         .collect();
     let mut roof = mesh();
-    for house in known.houses.iter().filter(roofed) {
+    for house in context.houses.iter().filter(roofed) {
         roofs::roof(&mut roof, &corners, house, factor);
     }
     made.push(roof.finish());
-    let mut surfaces: Vec<(u8, Vec<Surface>)> = (0..=255).map(|look| (look, vec![])).collect();
-    for (look, surface) in made.into_iter().flatten() {
-        surfaces[usize::from(look)].1.push(surface);
+    let mut surfaces: Vec<(u8, Vec<Surface>)> =
+        (0..=255).map(|material| (material, vec![])).collect();
+    for (material, surface) in made.into_iter().flatten() {
+        surfaces[usize::from(material)].1.push(surface);
     }
     surfaces.retain(|(_, pieces)| !pieces.is_empty());
     surfaces
 }
 
 /// Adds the bevelled squares of a stripe.
-fn bevelled(known: &Known<'_>, radius: f64, squares: &[Vec<Rect>], stripe: usize, mesh: &mut Mesh) {
+fn bevelled(
+    context: &MapContext<'_>,
+    radius: f64,
+    squares: &[Vec<Rect>],
+    stripe: usize,
+    mesh: &mut Mesh,
+) {
     let start = (stripe * STRIPE) as i32;
     let end = start + STRIPE as i32;
     let touches = |rect: &&Rect| {
@@ -100,7 +112,7 @@ fn bevelled(known: &Known<'_>, radius: f64, squares: &[Vec<Rect>], stripe: usize
     };
     let near = stripe.saturating_sub(1)..(stripe + 2).min(squares.len());
     let mut around = squares[near].iter().flatten().filter(touches);
-    let houses = known.houses.iter().filter(|house| {
+    let houses = context.houses.iter().filter(|house| {
         house.roof.start.min(house.walls.start) <= end + 1
             && house.roof.end.max(house.walls.end) >= start - 1
     });

@@ -1,10 +1,10 @@
 //! Roofs: triangular prisms on the walls of houses (terrain.md, rule 8; equation 3.1).
 
+use super::super::constraints::STRIPE;
 use super::super::houses::House;
-use super::super::ties::STRIPE;
 use super::corners::Corners;
+use super::greedy::{Facing, Rect};
 use super::mesh::Mesh;
-use super::sweep::{Facing, Rect};
 
 /// The corners of a roof's eaves.
 pub(super) fn eaves(house: &House) -> [[i32; 3]; 4] {
@@ -18,7 +18,7 @@ pub(super) fn eaves(house: &House) -> [[i32; 3]; 4] {
     ]
 }
 
-/// What is seen of a roof from below, where it reaches out over the walls.
+/// The undersides of a roof where it extends beyond the walls.
 pub(super) fn soffits(house: &House) -> Vec<Rect> {
     let (roof, walls) = (&house.roof, &house.walls);
     let sides = [
@@ -32,7 +32,7 @@ pub(super) fn soffits(house: &House) -> Vec<Rect> {
             let end = ((x / STRIPE as i32 + 1) * STRIPE as i32).min(to);
             rects.push(Rect {
                 facing: Facing::Down,
-                look: house.looks[0],
+                material: house.materials[0],
                 plane: house.eaves(),
                 across: [x, end],
                 along: [house.back(), house.front],
@@ -43,7 +43,7 @@ pub(super) fn soffits(house: &House) -> Vec<Rect> {
     rects
 }
 
-/// Adds a roof: two slopes and two gables. `factor` is the ridge's height over the depth.
+/// Adds a roof: two slopes and two gables. `factor` is the ratio of the ridge's height to the depth.
 pub(super) fn roof(mesh: &mut Mesh, corners: &Corners, house: &House, factor: f64) {
     let depth = f64::from(house.depth);
     let rise = factor * depth;
@@ -58,7 +58,7 @@ pub(super) fn roof(mesh: &mut Mesh, corners: &Corners, house: &House, factor: f6
         points.push(to);
         points
     };
-    let look = house.looks[0];
+    let material = house.materials[0];
     let [up, out] = [(depth / 2.0 / slope) as f32, (rise / slope) as f32];
     for (eave, normal) in [
         (line(near_left, near_right), [0.0, up, out]),
@@ -71,17 +71,21 @@ pub(super) fn roof(mesh: &mut Mesh, corners: &Corners, house: &House, factor: f6
             let place = point.map(f64::from);
             (place, uv(place[0], slope))
         };
-        // Both ends of the ridge see the whole eave; the first sees all but no flat triangle.
+        // A fan about the first end of the ridge covers the eave, and one more triangle the rest of the slope.
         let mut fan = vec![top(first[0])];
         fan.extend(eave.iter().map(foot));
-        mesh.fan(look, normal, &fan);
-        mesh.fan(look, normal, &[top(first[0]), foot(&last), top(last[0])]);
+        mesh.fan(material, normal, &fan);
+        mesh.fan(
+            material,
+            normal,
+            &[top(first[0]), foot(&last), top(last[0])],
+        );
     }
     for (base, normal) in [
         (line(near_right, far_right), [1.0, 0.0, 0.0]),
         (line(far_left, near_left), [-1.0, 0.0, 0.0]),
     ] {
-        let wall = house.looks[1];
+        let wall = house.materials[1];
         let place = |[x, y, z]: [f64; 3]| ([x, y, z], [z, -y]);
         let mut fan = vec![place(ridge(base[0][0]))];
         fan.extend(base.iter().map(|point| place(point.map(f64::from))));

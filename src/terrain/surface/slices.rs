@@ -1,38 +1,38 @@
-//! Blocks that may overlap as slices that do not.
+//! Splits overlapping blocks into slices that do not overlap.
 
 use std::cmp::Ordering;
 
 use super::super::solids::Block;
 
-/// What is solid at one height, and what its top looks like.
+/// A solid range of heights in a slice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Span {
-    /// From below to above; a sheet has no height.
+    /// `[bottom, top]`, which are equal for a sheet.
     pub(super) y: [i32; 2],
-    /// The look of its top where nothing is drawn; `None` where something stands on it that is made elsewhere.
+    /// The material of its top where none is drawn; `None` under a roof.
     pub(super) top: Option<u8>,
-    /// The look of what is seen from below.
+    /// The material of its underside.
     pub(super) bottom: u8,
 }
 
-/// Part of a column in which the same is solid everywhere.
+/// A range of z in which a column has the same spans.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Slice {
-    /// From back to front.
+    /// `[back, front]`.
     pub(super) z: [i32; 2],
-    /// Where its spans stand in the list, and its sides.
+    /// The range of its spans in the list; `sides` likewise.
     spans: [usize; 2],
     sides: [usize; 2],
 }
 
-/// The solids of a column, from back to front. Slices without spans are left out. Used again.
+/// The slices of a column, from back to front, without those that have no spans; in reused lists.
 #[derive(Debug, Default)]
 pub(super) struct Slices {
     pub(super) list: Vec<Slice>,
     spans: Vec<Span>,
-    /// Up to which height sides have a look where nothing is drawn, from below.
+    /// The materials of sides where none is drawn, from below, each with the height up to which it goes.
     sides: Vec<(i32, u8)>,
-    /// Heights of eaves that lie inside of something else, from where to where, and the look of the walls.
+    /// Eaves inside of another solid: height, range of z, and the material of the walls.
     pub(super) inner: Vec<(i32, [i32; 2], u8)>,
     bounds: Vec<i32>,
     order: Vec<Block>,
@@ -52,19 +52,19 @@ impl Slices {
         &self.spans[slice.spans[0]..slice.spans[1]]
     }
 
-    /// The looks that a slice's sides have between two heights, from below.
+    /// The materials of a slice's sides between two heights, from below.
     pub(super) fn sides(&self, slice: &Slice, y: [i32; 2], mut each: impl FnMut([i32; 2], u8)) {
         let mut from = y[0];
-        for (to, look) in &self.sides[slice.sides[0]..slice.sides[1]] {
+        for (to, material) in &self.sides[slice.sides[0]..slice.sides[1]] {
             let to = (*to).min(y[1]);
             if to > from {
-                each([from, to], *look);
+                each([from, to], *material);
                 from = to;
             }
         }
     }
 
-    /// Puts the blocks of a column together.
+    /// Builds the slices of a column.
     pub(super) fn build(&mut self, blocks: &[Block]) {
         self.clear();
         self.order.clear();
@@ -111,7 +111,7 @@ impl Slices {
             match self.spans[start..].last_mut() {
                 Some(last) if last.y[1] >= span.y[0] => {
                     let order = span.y[1].cmp(&last.y[1]);
-                    // A roof whose place is taken by something else is closed from below.
+                    // A roof that is covered by another block needs an underside.
                     let roofed = match order {
                         Ordering::Greater => last.top.is_none().then_some(last.y[1]),
                         Ordering::Less => span.top.is_none().then_some(span.y[1]),

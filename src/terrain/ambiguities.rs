@@ -1,36 +1,36 @@
-//! What a map leaves open, and how it was decided (terrain.md: one warning a group, with its cells).
+//! The ambiguities of a map, and how each was decided (terrain.md: one warning a group, with its cells).
 
 use rayon::prelude::*;
 
+use super::constraints::{Constraints, STRIPE};
 use super::grid::Grid;
-use super::groups::{Groups, Role};
+use super::groups::{GroupKind, Groups};
 use super::houses::House;
 use super::levels::Levels;
 use super::map::Tile;
-use super::solids::{Known, Seen, Solids};
-use super::ties::{STRIPE, Ties};
+use super::solids::{MapContext, Solids, Visible};
 
-/// Something that a map leaves open.
+/// A place in a map that can be read in more than one way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Note {
-    /// What it is.
-    pub what: Open,
+pub struct Ambiguity {
+    /// The kind of ambiguity.
+    pub kind: AmbiguityKind,
     /// Column and row of a cell that shows it.
     pub cell: [usize; 2],
-    /// How many cells it is about.
+    /// The number of cells concerned.
     pub cells: usize,
 }
 
-/// The kinds of what a map leaves open.
+/// The kinds of ambiguities, each with the decision that was made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Open {
-    /// Nothing says how high a group lies: its lowest part is put on the ground.
-    Loose,
+pub enum AmbiguityKind {
+    /// No constraint leads to the height of a group: its lowest part is put on the ground.
+    Unconstrained,
     /// A group hangs in the air: its front has fewer rows than it is high.
     Hangs {
         /// Rows that are drawn.
         drawn: i32,
-        /// Rows that its height asks for.
+        /// Rows that its height requires.
         needed: i32,
     },
     /// A wall's colour without a roof, or a roof's without a wall: read as a top.
@@ -41,60 +41,60 @@ pub enum Open {
     Pits,
 }
 
-/// Finds out what is open.
-pub(super) fn notes(known: &Known<'_>, ties: &Ties) -> Vec<Note> {
-    let Known {
+/// Finds the ambiguities of a map.
+pub(super) fn ambiguities(context: &MapContext<'_>, constraints: &Constraints) -> Vec<Ambiguity> {
+    let MapContext {
         grid,
         groups,
         levels,
         ..
-    } = *known;
-    let mut notes = vec![];
-    loose(grid, groups, levels, &mut notes);
-    hanging(grid, groups, levels, &mut notes);
+    } = *context;
+    let mut ambiguities = vec![];
+    unconstrained(grid, groups, levels, &mut ambiguities);
+    hanging(grid, groups, levels, &mut ambiguities);
     for (first, cells) in &groups.plain {
-        notes.push(Note {
-            what: Open::Plain(grid.tile(*first)),
+        ambiguities.push(Ambiguity {
+            kind: AmbiguityKind::Plain(grid.tile(*first)),
             cell: grid.place(*first),
             cells: *cells,
         });
     }
-    hiding(known, &mut notes);
-    if let Some(pit) = ties.pit
+    hiding(context, &mut ambiguities);
+    if let Some(pit) = constraints.pit
         && grid.edges.iter().all(|edges| *edges == 0)
     {
-        notes.push(Note {
-            what: Open::Pits,
+        ambiguities.push(Ambiguity {
+            kind: AmbiguityKind::Pits,
             cell: [pit[1], pit[0]],
             cells: 1,
         });
     }
-    notes
+    ambiguities
 }
 
-fn loose(grid: &Grid, groups: &Groups, levels: &Levels, notes: &mut Vec<Note>) {
-    notes.extend(levels.loose.iter().map(|surface| {
+fn unconstrained(grid: &Grid, groups: &Groups, levels: &Levels, ambiguities: &mut Vec<Ambiguity>) {
+    ambiguities.extend(levels.unconstrained.iter().map(|surface| {
         let surface = &groups.surfaces[*surface as usize];
-        Note {
-            what: Open::Loose,
+        Ambiguity {
+            kind: AmbiguityKind::Unconstrained,
             cell: grid.place(surface.first),
             cells: surface.area,
         }
     }));
 }
 
-/// Groups that hang above another one than that whose tie decided their height; one note a group.
-fn hanging(grid: &Grid, groups: &Groups, levels: &Levels, notes: &mut Vec<Note>) {
-    let mut told = vec![false; groups.surfaces.len()];
-    for tie in &levels.hanging {
-        let (upper, lower) = (tie.upper as usize, tie.lower as usize);
-        if std::mem::replace(&mut told[upper], true) {
+/// Groups whose height was decided by one constraint and that hang in the air by another; one ambiguity a group.
+fn hanging(grid: &Grid, groups: &Groups, levels: &Levels, ambiguities: &mut Vec<Ambiguity>) {
+    let mut is_reported = vec![false; groups.surfaces.len()];
+    for constraint in &levels.hanging {
+        let (upper, lower) = (constraint.upper as usize, constraint.lower as usize);
+        if std::mem::replace(&mut is_reported[upper], true) {
             continue;
         }
         let surface = &groups.surfaces[upper];
-        notes.push(Note {
-            what: Open::Hangs {
-                drawn: tie.rise,
+        ambiguities.push(Ambiguity {
+            kind: AmbiguityKind::Hangs {
+                drawn: constraint.rise,
                 needed: levels.level[upper] - levels.level[lower],
             },
             cell: grid.place(surface.first),
@@ -103,25 +103,25 @@ fn hanging(grid: &Grid, groups: &Groups, levels: &Levels, notes: &mut Vec<Note>)
     }
 }
 
-/// Houses that hide tiles that are drawn; one note a house.
-fn hiding(known: &Known<'_>, notes: &mut Vec<Note>) {
-    let stripes = known.houses_of.par_iter().enumerate();
+/// Houses that hide tiles that are drawn; one ambiguity a house.
+fn hiding(context: &MapContext<'_>, ambiguities: &mut Vec<Ambiguity>) {
+    let stripes = context.houses_of.par_iter().enumerate();
     let found = stripes.map(|(stripe, houses)| {
         let mut found = vec![];
         let mut solids = Solids::default();
-        let columns = stripe * STRIPE..((stripe + 1) * STRIPE).min(known.grid.columns);
+        let columns = stripe * STRIPE..((stripe + 1) * STRIPE).min(context.grid.columns);
         for number in columns.filter(|_| !houses.is_empty()) {
             let here = |house: &&u32| {
-                let columns = known.houses[**house as usize].columns();
+                let columns = context.houses[**house as usize].columns();
                 columns.contains(&(number as i32))
             };
             let mut houses = houses.iter().filter(here).peekable();
             if houses.peek().is_some() {
-                solids.look_at(known, number);
+                solids.read_views(context, number);
             }
             for index in houses {
-                let house = &known.houses[*index as usize];
-                let hidden = hidden_by(known, house, &solids, number);
+                let house = &context.houses[*index as usize];
+                let hidden = hidden_by(context, house, &solids, number);
                 found.extend(hidden.map(|(cells, row)| (*index, cells, [number, row])));
             }
         }
@@ -130,8 +130,8 @@ fn hiding(known: &Known<'_>, notes: &mut Vec<Note>) {
     let mut found: Vec<(u32, usize, [usize; 2])> = found.flatten().collect();
     found.sort_unstable();
     for hidden in found.chunk_by(|one, other| one.0 == other.0) {
-        notes.push(Note {
-            what: Open::House,
+        ambiguities.push(Ambiguity {
+            kind: AmbiguityKind::House,
             cell: hidden[0].2,
             cells: hidden.iter().map(|(_, cells, _)| cells).sum(),
         });
@@ -140,7 +140,7 @@ fn hiding(known: &Known<'_>, notes: &mut Vec<Note>) {
 
 /// How many drawn cells of a column a house hides, and the first one's row.
 fn hidden_by(
-    known: &Known<'_>,
+    context: &MapContext<'_>,
     house: &House,
     solids: &Solids,
     number: usize,
@@ -168,20 +168,20 @@ fn hidden_by(
         .take_while(|view| view.start < to)
     {
         for row in view.start.max(from)..view.end.min(to) {
-            let cell = number * known.grid.rows + row as usize;
-            // How high the house is where it is seen in this row, with a roof that looks as it is drawn.
+            let cell = number * context.grid.rows + row as usize;
+            // The height of the house that is visible in this row, if its roof is as steep as drawn.
             let own = if row < eaves {
                 house.eaves() + (eaves - row).div_euclid(2)
             } else {
                 house.front - row - 1
             };
-            let nearer = match (known.groups.role(cell), view.seen) {
-                (Role::Roof(_) | Role::Wall(_), Seen::Roof(level)) => {
+            let nearer = match (context.groups.kind(cell), view.visible) {
+                (GroupKind::Roof(_) | GroupKind::Wall(_), Visible::Roof(level)) => {
                     level == house.eaves() || level > own
                 }
-                (_, Seen::Front(plane)) => plane >= house.front,
-                (_, Seen::Top(level) | Seen::Roof(level)) => level > own,
-                (_, Seen::Nothing) => true,
+                (_, Visible::Front(plane)) => plane >= house.front,
+                (_, Visible::Top(level) | Visible::Roof(level)) => level > own,
+                (_, Visible::Nothing) => true,
             };
             if !nearer {
                 cells += 1;

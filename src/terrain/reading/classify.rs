@@ -1,27 +1,27 @@
-//! From what is painted to the map: each cell gets the index of its look.
+//! Classifies the painted cells: each gets the index of its material.
 
 use std::collections::BTreeMap;
 
 use rustc_hash::FxHashMap;
 
-use super::looks::{Meaning, Paints, TileLook};
+use super::materials::{Meaning, Paints, TileMaterial};
 use super::raster::{Canvas, Code, NOTHING, paint_of};
 use crate::svg::PaintKey;
 use crate::terrain::Tile;
 
-/// The most paints that each have a look of their own; in a layer with more, as painted by hand or photographed, each
-/// kind has one, of their mean colour.
-const MOST_PAINTS: usize = 200;
-/// The most legends whose tiles have a look of their own where paints have none.
-const MOST_LEGENDS: usize = 240;
-/// The most unclear colours that are told apart in one stretch of a layer.
-const MOST_UNCLEAR: usize = 4096;
-/// Codes whose meaning is remembered in one stretch of a layer.
-const MOST_KNOWN: usize = 1 << 16;
-/// Cells that are remembered by place.
+/// The largest number of paints that each have their own material. In a layer with more, such as a photograph, each kind has
+/// one material of the mean colour.
+const MAX_PAINTS: usize = 200;
+/// The largest number of legends that have their own material where paints have none.
+const MAX_LEGENDS: usize = 240;
+/// The largest number of unclear colours that are distinguished in a band.
+const MAX_UNCLEAR: usize = 4096;
+/// The largest number of codes whose meaning is cached in a band.
+const MAX_CACHED: usize = 1 << 16;
+/// The number of cells that are listed one by one.
 const PLACES: usize = 3;
 
-/// In how many cells something is, and the first ones.
+/// A number of cells, and the first ones.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Tally {
     pub(super) count: usize,
@@ -37,7 +37,7 @@ impl Tally {
         }
     }
 
-    /// Takes in what was counted further down.
+    /// Adds the tally of a later band.
     fn append(&mut self, other: Self) {
         self.count += other.count;
         let room = PLACES.saturating_sub(self.first.len());
@@ -45,41 +45,41 @@ impl Tally {
     }
 }
 
-/// What a layer shows.
-pub(super) struct Survey {
-    /// Per cell the index of its look.
+/// The cells of a layer with their materials.
+pub(super) struct Classification {
+    /// Per cell the index of its material.
     pub(super) cells: Vec<u8>,
-    pub(super) looks: Vec<TileLook>,
-    /// The unclear colours, the ones in most cells first.
+    pub(super) materials: Vec<TileMaterial>,
+    /// The unclear colours, those in most cells first.
     pub(super) unclear: Vec<(Code, Tally)>,
-    /// Indices of the legends whose paint is in some cell, in order.
+    /// Indices of the legends whose paint is used, in order.
     pub(super) legends: Vec<usize>,
-    /// Indices of the gradients and patterns, among the paints, that are in some cell with their mean colour, in order.
+    /// Indices of the paints that are gradients or patterns and are used with their mean colour, in order.
     pub(super) plain: Vec<usize>,
-    /// Whether so many legends are used that some were not heeded.
+    /// Whether so many legends are used that some were ignored.
     pub(super) too_many_legends: bool,
 }
 
-/// Looks at every cell.
-pub(super) fn survey(canvas: &Canvas<'_>, paints: &Paints<'_>, cells: Vec<u8>) -> Survey {
+/// Classifies every cell.
+pub(super) fn classify(canvas: &Canvas<'_>, paints: &Paints<'_>, cells: Vec<u8>) -> Classification {
     let mut cells = cells;
-    match few(canvas, &mut cells) {
-        Some(bands) => one_by_one(canvas, paints, cells, bands),
-        None => by_kind(canvas, paints, cells),
+    match tally_codes(canvas, &mut cells) {
+        Some(bands) => material_per_paint(canvas, paints, cells, bands),
+        None => material_per_kind(canvas, paints, cells),
     }
 }
 
-/// The codes in a band, in the order in which they come; a cell's byte is their place among them, 1 for the first.
-type Found = Vec<(Code, Tally)>;
+/// The codes of a band in the order in which they occur. A cell's byte is the index of its code plus 1.
+type CodeTallies = Vec<(Code, Tally)>;
 
-/// Looks which codes there are, band by band; `None` if they are many.
-fn few(canvas: &Canvas<'_>, cells: &mut [u8]) -> Option<Vec<Found>> {
+/// Collects the codes of each band; `None` if a band has more than [`MAX_PAINTS`].
+fn tally_codes(canvas: &Canvas<'_>, cells: &mut [u8]) -> Option<Vec<CodeTallies>> {
     let bands = canvas.bands(cells, |band, cells| {
-        let mut found: Found = Vec::new();
+        let mut found: CodeTallies = Vec::new();
         let mut known: FxHashMap<Code, u8> = FxHashMap::default();
         let mut last = (NOTHING, 0);
         band.draw(|place, cell, codes| {
-            if known.len() > MOST_PAINTS {
+            if known.len() > MAX_PAINTS {
                 return;
             }
             for (offset, code) in codes.iter().enumerate() {
@@ -88,14 +88,14 @@ fn few(canvas: &Canvas<'_>, cells: &mut [u8]) -> Option<Vec<Found>> {
                     let number = match *code {
                         NOTHING => 0,
                         code => *known.entry(code).or_insert_with(|| {
-                            if next < MOST_PAINTS {
+                            if next < MAX_PAINTS {
                                 found.push((code, Tally::default()));
                             }
-                            (next + 1).min(MOST_PAINTS + 1) as u8
+                            (next + 1).min(MAX_PAINTS + 1) as u8
                         }),
                     };
                     last = (*code, number);
-                    if known.len() > MOST_PAINTS {
+                    if known.len() > MAX_PAINTS {
                         return;
                     }
                 }
@@ -105,38 +105,38 @@ fn few(canvas: &Canvas<'_>, cells: &mut [u8]) -> Option<Vec<Found>> {
                 }
             }
         });
-        (known.len() <= MOST_PAINTS).then_some(found)
+        (known.len() <= MAX_PAINTS).then_some(found)
     });
     bands.into_iter().collect()
 }
 
-/// A look for each paint.
-fn one_by_one(
+/// A material for each paint.
+fn material_per_paint(
     canvas: &Canvas<'_>,
     paints: &Paints<'_>,
     mut cells: Vec<u8>,
-    bands: Vec<Found>,
-) -> Survey {
+    bands: Vec<CodeTallies>,
+) -> Classification {
     let mut all: BTreeMap<Code, Tally> = BTreeMap::new();
     for (code, tally) in bands.iter().flatten() {
         all.entry(*code).or_default().append(tally.clone());
     }
-    if all.len() > MOST_PAINTS {
+    if all.len() > MAX_PAINTS {
         cells.fill(0);
-        return by_kind(canvas, paints, cells);
+        return material_per_kind(canvas, paints, cells);
     }
-    let mut survey = Survey::new();
-    // By kind and paint, so that looks do not depend on what lies where.
+    let mut classification = Classification::new();
+    // Sorted by kind and paint, so that the order of materials does not depend on the cells.
     let mut drawn: BTreeMap<(Tile, PaintKey, u64), Vec<(Code, Meaning)>> = BTreeMap::new();
     for (code, tally) in all {
         let meaning = paints.meaning(code);
-        survey.legends.extend(meaning.legend);
+        classification.legends.extend(meaning.legend);
         let key = match paint_of(code) {
             Some(paint) => paints.list[paint].key.clone(),
             None => PaintKey::Solid(meaning.color),
         };
         match meaning.tile {
-            None => survey.unclear.push((code, tally)),
+            None => classification.unclear.push((code, tally)),
             Some(Tile::None) => {}
             Some(tile) => {
                 let same = drawn.entry((tile, key, meaning.opacity.to_bits()));
@@ -144,40 +144,44 @@ fn one_by_one(
             }
         }
     }
-    let mut look_of: FxHashMap<Code, u8> = FxHashMap::default();
+    let mut material_of: FxHashMap<Code, u8> = FxHashMap::default();
     for ((tile, key, _), same) in drawn {
-        // A pixel and a shape may show the same.
+        // A pixel and a shape may have the same colour.
         let Some((code, meaning)) = same.first() else {
             continue;
         };
         let color = meaning.color.map(f64::from);
-        let look = paints.look(tile, meaning.legend, color, meaning.opacity);
-        let is_plain = look.texture.is_none() && !look.is_tinted;
+        let material = paints.material(tile, meaning.legend, color, meaning.opacity);
+        let is_plain = material.texture.is_none() && !material.is_tinted;
         let is_server = matches!(key, PaintKey::Server(_));
-        survey
+        classification
             .plain
             .extend(paint_of(*code).filter(|_| is_plain && is_server));
-        look_of.extend(
+        material_of.extend(
             same.iter()
-                .map(|(code, _)| (*code, survey.looks.len() as u8)),
+                .map(|(code, _)| (*code, classification.materials.len() as u8)),
         );
-        survey.looks.push(look);
+        classification.materials.push(material);
     }
     let tables: Vec<Vec<u8>> = bands
         .iter()
         .map(|found| {
-            let looks = found.iter().map(|(code, _)| look_of.get(code).copied());
+            let materials = found.iter().map(|(code, _)| material_of.get(code).copied());
             std::iter::once(0)
-                .chain(looks.map(Option::unwrap_or_default))
+                .chain(materials.map(Option::unwrap_or_default))
                 .collect()
         })
         .collect();
     canvas.remap(&mut cells, &tables);
-    survey.finish(cells)
+    classification.finish(cells)
 }
 
-/// A look for each kind, and for each legend.
-fn by_kind(canvas: &Canvas<'_>, paints: &Paints<'_>, mut cells: Vec<u8>) -> Survey {
+/// A material for each kind, and for each legend.
+fn material_per_kind(
+    canvas: &Canvas<'_>,
+    paints: &Paints<'_>,
+    mut cells: Vec<u8>,
+) -> Classification {
     const KINDS: usize = Tile::DRAWN.len();
     let number = |meaning: Meaning| -> u8 {
         let Some(kind) = Tile::DRAWN
@@ -186,7 +190,7 @@ fn by_kind(canvas: &Canvas<'_>, paints: &Paints<'_>, mut cells: Vec<u8>) -> Surv
         else {
             return 0;
         };
-        let legend = meaning.legend.filter(|legend| *legend < MOST_LEGENDS);
+        let legend = meaning.legend.filter(|legend| *legend < MAX_LEGENDS);
         legend.map_or(kind + 1, |legend| KINDS + 1 + legend) as u8
     };
     let bands = canvas.bands(&mut cells, |band, cells| {
@@ -199,39 +203,42 @@ fn by_kind(canvas: &Canvas<'_>, paints: &Paints<'_>, mut cells: Vec<u8>) -> Surv
                 if *code == NOTHING {
                     continue;
                 }
-                if known.len() > MOST_KNOWN {
+                if known.len() > MAX_CACHED {
                     known.clear();
                 }
-                let (look, tile) = *known.entry(*code).or_insert_with(|| {
+                let (material, tile) = *known.entry(*code).or_insert_with(|| {
                     let meaning = paints.meaning(*code);
                     legends.extend(meaning.legend.map(|legend| (legend, ())));
                     (number(meaning), meaning.tile)
                 });
-                if tile.is_none() && (unclear.len() < MOST_UNCLEAR || unclear.contains_key(code)) {
+                if tile.is_none() && (unclear.len() < MAX_UNCLEAR || unclear.contains_key(code)) {
                     unclear.entry(*code).or_default().add(cell + offset);
                 }
-                cells[place + offset] = look;
-                sums[usize::from(look)].add(paints, *code);
+                cells[place + offset] = material;
+                sums[usize::from(material)].add(paints, *code);
             }
         });
         (sums, legends, unclear)
     });
-    let mut survey = Survey::new();
+    let mut classification = Classification::new();
     let mut sums = vec![Sum::default(); 256];
     let mut unclear: BTreeMap<Code, Tally> = BTreeMap::new();
     for (band_sums, legends, found) in bands {
         sums.iter_mut()
             .zip(band_sums)
             .for_each(|(sum, other)| sum.append(other));
-        survey.legends.extend(legends.into_keys());
+        classification.legends.extend(legends.into_keys());
         let mut found: Vec<(Code, Tally)> = found.into_iter().collect();
         found.sort_by_key(|(code, _)| *code);
         for (code, tally) in found {
             unclear.entry(code).or_default().append(tally);
         }
     }
-    survey.unclear = unclear.into_iter().collect();
-    survey.too_many_legends = survey.legends.iter().any(|legend| *legend >= MOST_LEGENDS);
+    classification.unclear = unclear.into_iter().collect();
+    classification.too_many_legends = classification
+        .legends
+        .iter()
+        .any(|legend| *legend >= MAX_LEGENDS);
     let mut table = vec![0; 256];
     for (index, sum) in sums
         .iter()
@@ -245,17 +252,19 @@ fn by_kind(canvas: &Canvas<'_>, paints: &Paints<'_>, mut cells: Vec<u8>) -> Surv
             Some(_) => sum.tile,
             None => Tile::DRAWN[index - 1],
         };
-        table[index] = survey.looks.len() as u8;
+        table[index] = classification.materials.len() as u8;
         let opacity = sum.opacity / sum.count as f64;
-        survey.looks.push(paints.look(tile, legend, color, opacity));
+        classification
+            .materials
+            .push(paints.material(tile, legend, color, opacity));
     }
     for cell in &mut cells {
         *cell = table[usize::from(*cell)];
     }
-    survey.finish(cells)
+    classification.finish(cells)
 }
 
-/// What cells of one look have in common.
+/// The sum of the colours of the cells of one material.
 #[derive(Clone, Default)]
 struct Sum {
     color: [u64; 3],
@@ -285,11 +294,11 @@ impl Sum {
     }
 }
 
-impl Survey {
+impl Classification {
     fn new() -> Self {
         Self {
             cells: Vec::new(),
-            looks: vec![TileLook::none()],
+            materials: vec![TileMaterial::none()],
             unclear: Vec::new(),
             legends: Vec::new(),
             plain: Vec::new(),

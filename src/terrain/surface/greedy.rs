@@ -1,6 +1,8 @@
-//! Coplanar faces merged while lines of them go by: as large rectangles as can be had in one passage.
+//! Greedy meshing (Lysenko, *Meshing in a Minecraft Game*, 2012): coplanar faces of one material are merged to large rectangles.
+//!
+//! Faces come as lines of runs, in order. A rectangle grows as long as the next line covers it.
 
-/// Directions that faces look in.
+/// The direction that a face looks in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum Facing {
     Right,
@@ -12,7 +14,7 @@ pub(super) enum Facing {
 }
 
 impl Facing {
-    /// The unit vector.
+    /// Its unit vector.
     pub(super) fn normal(self) -> [f32; 3] {
         match self {
             Self::Right => [1.0, 0.0, 0.0],
@@ -24,7 +26,7 @@ impl Facing {
         }
     }
 
-    /// The axes of the plane, the one across lines first, and the axis that it stands on.
+    /// The axis across the lines of a face, the axis along them, and the axis of its normal.
     pub(super) fn axes(self) -> [usize; 3] {
         match self {
             Self::Right | Self::Left => [2, 1, 0],
@@ -34,25 +36,25 @@ impl Facing {
     }
 }
 
-/// A piece of a face on one line.
+/// A run of faces of one material on a line.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Strip {
-    /// Where the plane stands.
+pub(super) struct FaceRun {
+    /// The position of the plane on its normal's axis.
     pub(super) plane: i32,
-    pub(super) look: u8,
-    /// Along the line.
+    pub(super) material: u8,
+    /// Its range along the line.
     pub(super) along: [i32; 2],
 }
 
-/// A rectangle of one look.
+/// A rectangle of one material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Rect {
     pub(super) facing: Facing,
-    pub(super) look: u8,
+    pub(super) material: u8,
     pub(super) plane: i32,
-    /// Across the lines.
+    /// Its range across the lines.
     pub(super) across: [i32; 2],
-    /// Along them.
+    /// Its range along the lines.
     pub(super) along: [i32; 2],
 }
 
@@ -77,18 +79,18 @@ impl Rect {
     }
 }
 
-/// Rectangles that may still grow.
+/// Merges the faces of one direction.
 #[derive(Debug)]
-pub(super) struct Sweep {
+pub(super) struct GreedyMesher {
     facing: Facing,
-    /// The last line's pieces and where each began, in order.
-    open: Vec<(Strip, i32)>,
-    next: Vec<(Strip, i32)>,
-    /// Where the last line ended.
+    /// The runs of the last line, in order, and the line at which the rectangle of each began.
+    open: Vec<(FaceRun, i32)>,
+    next: Vec<(FaceRun, i32)>,
+    /// The end of the last line, across.
     end: i32,
 }
 
-impl Sweep {
+impl GreedyMesher {
     pub(super) fn new(facing: Facing) -> Self {
         Self {
             facing,
@@ -98,30 +100,30 @@ impl Sweep {
         }
     }
 
-    fn close(&self, (strip, start): (Strip, i32), rects: &mut Vec<Rect>) {
+    fn close(&self, (run, start): (FaceRun, i32), rects: &mut Vec<Rect>) {
         rects.push(Rect {
             facing: self.facing,
-            look: strip.look,
-            plane: strip.plane,
+            material: run.material,
+            plane: run.plane,
             across: [start, self.end],
-            along: strip.along,
+            along: run.along,
         });
     }
 
-    /// Takes the next line: its place, and its pieces, which do not overlap and are sorted here.
+    /// Takes the next line: its range across, and its runs, which do not overlap and are sorted here.
     pub(super) fn line(
         &mut self,
         across: [i32; 2],
-        strips: &mut Vec<Strip>,
+        runs: &mut Vec<FaceRun>,
         rects: &mut Vec<Rect>,
     ) {
         if across[0] != self.end {
             self.finish(rects);
         }
-        strips.sort_unstable();
-        strips.dedup_by(|next, last| {
-            let joins =
-                (next.plane, next.look, next.along[0]) == (last.plane, last.look, last.along[1]);
+        runs.sort_unstable();
+        runs.dedup_by(|next, last| {
+            let joins = (next.plane, next.material, next.along[0])
+                == (last.plane, last.material, last.along[1]);
             if joins {
                 last.along[1] = next.along[1];
             }
@@ -129,31 +131,31 @@ impl Sweep {
         });
         let mut open = 0;
         self.next.clear();
-        for strip in strips.iter() {
-            let key = (strip.plane, strip.look);
-            let mut from = strip.along[0];
+        for run in runs.iter() {
+            let key = (run.plane, run.material);
+            let mut from = run.along[0];
             while let Some((last, start)) = self.open.get(open).copied() {
-                let before = (last.plane, last.look, last.along[0]) < (key.0, key.1, from);
+                let before = (last.plane, last.material, last.along[0]) < (key.0, key.1, from);
                 if before {
-                    // It reaches out of what is here, or belongs elsewhere: it ends.
+                    // Its rectangle ends: the run is not covered by this line.
                     self.close((last, start), rects);
                     open += 1;
                     continue;
                 }
-                if (last.plane, last.look) != key || last.along[1] > strip.along[1] {
+                if (last.plane, last.material) != key || last.along[1] > run.along[1] {
                     break;
                 }
                 if last.along[0] > from {
                     let along = [from, last.along[0]];
-                    self.next.push((Strip { along, ..*strip }, across[0]));
+                    self.next.push((FaceRun { along, ..*run }, across[0]));
                 }
                 self.next.push((last, start));
                 from = last.along[1];
                 open += 1;
             }
-            if from < strip.along[1] {
-                let along = [from, strip.along[1]];
-                self.next.push((Strip { along, ..*strip }, across[0]));
+            if from < run.along[1] {
+                let along = [from, run.along[1]];
+                self.next.push((FaceRun { along, ..*run }, across[0]));
             }
         }
         for at in open..self.open.len() {
@@ -163,7 +165,7 @@ impl Sweep {
         self.end = across[1];
     }
 
-    /// Ends all rectangles.
+    /// Ends all open rectangles.
     pub(super) fn finish(&mut self, rects: &mut Vec<Rect>) {
         for at in 0..self.open.len() {
             self.close(self.open[at], rects);

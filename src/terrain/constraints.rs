@@ -1,4 +1,4 @@
-//! Ties: what the columns say about how much higher one surface is than another (terrain.md, rule 3).
+//! Height constraints: by how much one surface is higher than another, as read from the columns (terrain.md, rule 3).
 
 use std::cmp::{Ordering, Reverse};
 use std::hash::Hash;
@@ -8,52 +8,52 @@ use rustc_hash::FxHashMap;
 
 use super::column::{Below, Column};
 use super::grid::Grid;
-use super::groups::{GROUND, Groups, Role};
+use super::groups::{GROUND, GroupKind, Groups};
 
-/// How many columns a thread reads before it looks for more.
+/// The number of columns that a thread takes at a time.
 pub(super) const STRIPE: usize = 64;
 
-/// A is n above B, say some columns.
+/// One surface is higher than another by a number of tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Tie {
+pub(super) struct HeightConstraint {
     /// The upper surface.
     pub(super) upper: u32,
     /// The lower surface.
     pub(super) lower: u32,
     /// By how much the upper one is higher.
     pub(super) rise: i32,
-    /// How many columns say so.
+    /// The number of columns that show it.
     pub(super) columns: usize,
-    /// Where it is said first: the row, then the column.
+    /// Row and column of the first cell that shows it.
     pub(super) first: [usize; 2],
 }
 
-/// All ties of a map.
+/// All constraints of a map.
 #[derive(Debug, Default)]
-pub(super) struct Ties {
-    /// Those between a surface and what is seen right below it or its front; one a pair. Strongest first.
-    pub(super) strong: Vec<Tie>,
-    /// Those that only suggest themselves. Strongest first.
-    pub(super) weak: Vec<Tie>,
+pub(super) struct Constraints {
+    /// Those between a surface and what is visible right below it or below its front; one a pair. Strongest first.
+    pub(super) strong: Vec<HeightConstraint>,
+    /// Those that are only likely. Strongest first.
+    pub(super) weak: Vec<HeightConstraint>,
     /// Row and column of the first pit: fronts between parts of one surface.
     pub(super) pit: Option<[usize; 2]>,
 }
 
 #[derive(Debug, Default)]
-struct Found {
-    strong: FxHashMap<(u32, u32), Tie>,
-    weak: FxHashMap<(u32, u32, i32), Tie>,
+struct Collected {
+    strong: FxHashMap<(u32, u32), HeightConstraint>,
+    weak: FxHashMap<(u32, u32, i32), HeightConstraint>,
     pit: Option<[usize; 2]>,
 }
 
-impl Ties {
-    /// Reads the ties off all columns.
+impl Constraints {
+    /// Reads the constraints from all columns.
     pub(super) fn read(grid: &Grid, groups: &Groups) -> Self {
         let stripes = grid.columns.div_ceil(STRIPE);
         let found = (0..stripes)
             .into_par_iter()
             .map(|stripe| {
-                let mut found = Found::default();
+                let mut found = Collected::default();
                 let mut column = Column::default();
                 let end = ((stripe + 1) * STRIPE).min(grid.columns);
                 for index in stripe * STRIPE..end {
@@ -62,19 +62,27 @@ impl Ties {
                 }
                 found
             })
-            .reduce(Found::default, Found::with);
+            .reduce(Collected::default, Collected::with);
         found.border(grid, groups).sorted(groups)
     }
 }
 
-impl Found {
-    fn strong(&mut self, tie: Tie) {
-        add(&mut self.strong, (tie.upper, tie.lower), tie);
+impl Collected {
+    fn strong(&mut self, constraint: HeightConstraint) {
+        add(
+            &mut self.strong,
+            (constraint.upper, constraint.lower),
+            constraint,
+        );
     }
 
-    fn weak(&mut self, tie: Tie) {
-        if tie.upper != tie.lower {
-            add(&mut self.weak, (tie.upper, tie.lower, tie.rise), tie);
+    fn weak(&mut self, constraint: HeightConstraint) {
+        if constraint.upper != constraint.lower {
+            add(
+                &mut self.weak,
+                (constraint.upper, constraint.lower, constraint.rise),
+                constraint,
+            );
         }
     }
 
@@ -83,12 +91,12 @@ impl Found {
             return other.with(self);
         }
         self.pit = self.pit.into_iter().chain(other.pit).min();
-        // What is joined does not depend on the order in which it comes.
-        for tie in other.strong.into_values() {
-            self.strong(tie);
+        // The result of merging does not depend on the order.
+        for constraint in other.strong.into_values() {
+            self.strong(constraint);
         }
-        for tie in other.weak.into_values() {
-            self.weak(tie);
+        for constraint in other.weak.into_values() {
+            self.weak(constraint);
         }
         self
     }
@@ -96,11 +104,11 @@ impl Found {
     fn column(&mut self, groups: &Groups, column: &Column, number: usize) {
         let water = |surface: u32| groups.surfaces[surface as usize].water;
         for (index, segment) in column.segments.iter().enumerate() {
-            let Role::Surface(upper) = segment.role else {
+            let GroupKind::Surface(upper) = segment.kind else {
                 continue;
             };
             let first = [segment.start as usize, number];
-            let tie = |lower: u32, rise: i32| Tie {
+            let constraint = |lower: u32, rise: i32| HeightConstraint {
                 upper,
                 lower,
                 rise,
@@ -112,27 +120,27 @@ impl Found {
                 Below::Surface(lower) if lower == upper => {
                     self.pit = self.pit.into_iter().chain([first]).min();
                 }
-                Below::Surface(GROUND) => self.strong(tie(GROUND, fronts)),
+                Below::Surface(GROUND) => self.strong(constraint(GROUND, fronts)),
                 Below::Surface(lower) if fronts > 0 || (!water(upper) && water(lower)) => {
-                    self.strong(tie(lower, fronts));
+                    self.strong(constraint(lower, fronts));
                 }
                 // Water's near bank hides how deep the water lies.
                 Below::Surface(_) if water(upper) => {}
-                // (a) What is hidden behind something stands where that stands.
+                // (a) A surface whose foot is hidden by something stands on what that stands on.
                 Below::Surface(_) => {
                     if let Some((lower, _)) = column.stands_on(groups, next) {
-                        self.weak(tie(lower, 0));
+                        self.weak(constraint(lower, 0));
                     }
                 }
                 // (a) and (c): behind a house, and on its roof.
                 Below::House(_) => {
                     if let Some((lower, more)) = column.foot(next) {
                         let rise = if fronts > 0 { fronts + more } else { 0 };
-                        self.weak(tie(lower, rise));
+                        self.weak(constraint(lower, rise));
                     }
                 }
             }
-            // (b) Both banks of water are of one height.
+            // (b) Both banks of water have the same height.
             if let Below::Surface(between) = below
                 && !water(upper)
                 && water(between)
@@ -140,42 +148,44 @@ impl Found {
                 && bank != GROUND
                 && !water(bank)
             {
-                self.weak(tie(bank, 0));
+                self.weak(constraint(bank, 0));
             }
         }
     }
 
-    /// Water that runs to the border is open water at the ground (rule 7), if it is not seen to fall down there.
+    /// Water at the map's border is open water at ground level (rule 7), unless the map shows it falling there.
     fn border(mut self, grid: &Grid, groups: &Groups) -> Self {
         let surfaces = groups.surfaces.iter().enumerate().skip(1);
         for (index, surface) in surfaces.filter(|(_, surface)| surface.water && surface.at_border) {
             let [column, row] = grid.place(surface.first);
             let upper = index as u32;
-            self.strong.entry((upper, GROUND)).or_insert(Tie {
-                upper,
-                lower: GROUND,
-                rise: 0,
-                columns: 1,
-                first: [row, column],
-            });
+            self.strong
+                .entry((upper, GROUND))
+                .or_insert(HeightConstraint {
+                    upper,
+                    lower: GROUND,
+                    rise: 0,
+                    columns: 1,
+                    first: [row, column],
+                });
         }
         self
     }
 
-    fn sorted(self, groups: &Groups) -> Ties {
-        let mut strong: Vec<Tie> = self.strong.into_values().collect();
-        let mut weak: Vec<Tie> = self.weak.into_values().collect();
+    fn sorted(self, groups: &Groups) -> Constraints {
+        let mut strong: Vec<HeightConstraint> = self.strong.into_values().collect();
+        let mut weak: Vec<HeightConstraint> = self.weak.into_values().collect();
         let mut all = vec![0_usize; groups.surfaces.len()];
-        for tie in &strong {
-            all[tie.upper as usize] += tie.columns;
+        for constraint in &strong {
+            all[constraint.upper as usize] += constraint.columns;
         }
-        let share = |one: &Tie, other: &Tie| -> Ordering {
-            let [one_all, other_all] = [one, other].map(|tie| all[tie.upper as usize] as u128);
+        let share = |one: &HeightConstraint, other: &HeightConstraint| -> Ordering {
+            let [one_all, other_all] = [one, other].map(|c| all[c.upper as usize] as u128);
             (other.columns as u128 * one_all).cmp(&(one.columns as u128 * other_all))
         };
-        let stands_free = |tie: &Tie| tie.lower == GROUND && tie.rise > 0;
+        let stands_free = |c: &HeightConstraint| c.lower == GROUND && c.rise > 0;
         strong.par_sort_unstable_by(|one, other| {
-            let area = |tie: &Tie| groups.surfaces[tie.lower as usize].area;
+            let area = |c: &HeightConstraint| groups.surfaces[c.lower as usize].area;
             (stands_free(other).cmp(&stands_free(one)))
                 .then_with(|| share(one, other))
                 .then_with(|| area(other).cmp(&area(one)))
@@ -183,8 +193,8 @@ impl Found {
                 .then_with(|| other.rise.cmp(&one.rise))
                 .then_with(|| (one.first, one.lower).cmp(&(other.first, other.lower)))
         });
-        weak.par_sort_unstable_by_key(|tie| (Reverse(tie.columns), tie.first, tie.lower, tie.rise));
-        Ties {
+        weak.par_sort_unstable_by_key(|c| (Reverse(c.columns), c.first, c.lower, c.rise));
+        Constraints {
             strong,
             weak,
             pit: self.pit,
@@ -192,14 +202,20 @@ impl Found {
     }
 }
 
-/// Adds a tie to those that say the same.
-fn add<Key: Eq + Hash>(ties: &mut FxHashMap<Key, Tie>, key: Key, tie: Tie) {
-    let known = ties.entry(key);
-    known.and_modify(|known| known.join(&tie)).or_insert(tie);
+/// Adds a constraint, merged with an earlier one of the same key.
+fn add<Key: Eq + Hash>(
+    constraints: &mut FxHashMap<Key, HeightConstraint>,
+    key: Key,
+    constraint: HeightConstraint,
+) {
+    let known = constraints.entry(key);
+    known
+        .and_modify(|known| known.join(&constraint))
+        .or_insert(constraint);
 }
 
-impl Tie {
-    /// Ties of one pair are one, with the largest rise: the others hang.
+impl HeightConstraint {
+    /// Merges two constraints of a pair. The largest rise counts: where the map shows less, the upper surface hangs.
     fn join(&mut self, other: &Self) {
         self.rise = self.rise.max(other.rise);
         self.columns += other.columns;

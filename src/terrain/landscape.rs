@@ -1,22 +1,22 @@
-//! The landscape that a map shows.
+//! The landscape of a map: heights and houses, from which its surface is built.
 
+use super::ambiguities::{self, Ambiguity};
+use super::constraints::Constraints;
 use super::grid::Grid;
-use super::groups::{Groups, Role};
+use super::groups::{GroupKind, Groups};
 use super::houses::{self, House};
 use super::levels::Levels;
 use super::map::{Map, Tile};
-use super::notes::{self, Note};
-use super::solids::{self, Known, Seen, Solids};
+use super::solids::{self, MapContext, Solids, Visible};
 use super::surface;
-use super::ties::Ties;
 use crate::scene::Surface;
 
-/// The height of a roof over its depth, if nothing else is said (equation 3.1).
-pub const ROOF: f64 = std::f64::consts::FRAC_1_SQRT_2;
+/// The default ratio of a roof's height to its depth (equation 3.1).
+pub const DEFAULT_ROOF: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// A landscape, in tiles.
 #[derive(Debug)]
-pub struct Land {
+pub struct Landscape {
     grid: Grid,
     groups: Groups,
     levels: Levels,
@@ -24,7 +24,7 @@ pub struct Land {
     houses_of: Vec<Vec<u32>>,
     flush: Vec<Option<i32>>,
     earth: Option<u8>,
-    ties: Ties,
+    constraints: Constraints,
 }
 
 /// A group of ground or a body of water.
@@ -34,7 +34,7 @@ pub struct Group {
     pub water: bool,
     /// Its height.
     pub height: i32,
-    /// How many cells it has.
+    /// The number of its cells.
     pub cells: usize,
     /// Column and row of its first cell.
     pub first: [usize; 2],
@@ -42,32 +42,32 @@ pub struct Group {
 
 /// A house.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Built {
+pub struct HouseInfo {
     /// Height of its floor.
     pub base: i32,
-    /// Columns of its walls.
+    /// The number of columns of its walls.
     pub width: i32,
-    /// From front to back.
+    /// Its extent from front to back.
     pub depth: i32,
     /// Height of its walls.
     pub height: i32,
 }
 
-impl Built {
-    /// Height of its ridge; `roof` is the height of roofs over their depth.
+impl HouseInfo {
+    /// Height of its ridge; `roof` is the ratio of a roof's height to its depth.
     pub fn ridge(&self, roof: f64) -> f64 {
         f64::from(self.base + self.height) + roof * f64::from(self.depth)
     }
 }
 
-impl Land {
-    /// Works out how high everything on a map lies. Never fails: what is ambiguous is decided by the rules. Takes about as
-    /// long as reading the map a few times.
+impl Landscape {
+    /// Computes the height of everything on a map, in time linear in its cells. Never fails: ambiguities are decided by the
+    /// rules (see [`ambiguities`](Self::ambiguities)).
     pub fn new(map: &Map) -> Self {
         let grid = Grid::new(map);
         let groups = Groups::new(&grid);
-        let ties = Ties::read(&grid, &groups);
-        let levels = Levels::new(&groups, &ties);
+        let constraints = Constraints::read(&grid, &groups);
+        let levels = Levels::new(&groups, &constraints);
         let houses = houses::measure(&grid, &groups, &levels);
         let flush = solids::flush(&grid, &groups, &levels);
         let earth = commonest(map, Tile::Brown);
@@ -79,44 +79,44 @@ impl Land {
             houses,
             flush,
             earth,
-            ties,
+            constraints,
         }
     }
 
     /// The height of the top that is drawn in a cell: ground or water; `None` where there is none.
     pub fn top(&self, column: usize, row: usize) -> Option<i32> {
-        match self.groups.role(column * self.grid.rows + row) {
-            Role::Surface(surface) => Some(self.levels.level[surface as usize]),
+        match self.groups.kind(column * self.grid.rows + row) {
+            GroupKind::Surface(surface) => Some(self.levels.level[surface as usize]),
             _ => None,
         }
     }
 
-    /// The height of what is seen in each cell of a column, at the cell's lower edge: of the top or the eaves, or of that place
-    /// on a front. `None` where nothing is drawn.
-    pub fn seen(&self, column: usize) -> Vec<Option<i32>> {
+    /// The height of the visible point at the lower edge of each cell of a column: of the top or the eaves, or of the place on
+    /// a front. `None` where nothing is drawn.
+    pub fn visible_heights(&self, column: usize) -> Vec<Option<i32>> {
         let mut solids = Solids::default();
-        solids.look_at(&self.known(), column);
+        solids.read_views(&self.context(), column);
         let heights = solids.views.iter().flat_map(|view| {
             let rows = view.start..view.end;
-            rows.map(|row| match view.seen {
-                Seen::Nothing => None,
-                Seen::Top(level) | Seen::Roof(level) => Some(level),
-                Seen::Front(plane) => Some(plane - row - 1),
+            rows.map(|row| match view.visible {
+                Visible::Nothing => None,
+                Visible::Top(level) | Visible::Roof(level) => Some(level),
+                Visible::Front(plane) => Some(plane - row - 1),
             })
         });
         heights.collect()
     }
 
-    /// How many columns the map has.
+    /// The number of columns of the map.
     pub fn columns(&self) -> usize {
         self.grid.columns
     }
 
-    /// The blocks of a column that are solid, in no order: from back to front and from below to above. They may overlap, and
-    /// sheets have no height; roofs are not among them.
+    /// The solid blocks of a column in no order, each as `[back, front]` and `[bottom, top]`. They may overlap, some have no
+    /// height, and roofs are not among them.
     pub fn blocks(&self, column: usize) -> Vec<[[i32; 2]; 2]> {
         let mut solids = Solids::default();
-        solids.build(&self.known(), column);
+        solids.build(&self.context(), column);
         solids
             .blocks
             .iter()
@@ -124,22 +124,22 @@ impl Land {
             .collect()
     }
 
-    /// What the map leaves open.
-    pub fn notes(&self) -> Vec<Note> {
-        notes::notes(&self.known(), &self.ties)
+    /// The places of the map that can be read in more than one way.
+    pub fn ambiguities(&self) -> Vec<Ambiguity> {
+        ambiguities::ambiguities(&self.context(), &self.constraints)
     }
 
     /// The group that a cell's top belongs to: its index among [`groups`](Self::groups).
     pub fn group_at(&self, column: usize, row: usize) -> Option<usize> {
-        match self.groups.role(column * self.grid.rows + row) {
-            Role::Surface(surface) => Some(surface as usize - 1),
+        match self.groups.kind(column * self.grid.rows + row) {
+            GroupKind::Surface(surface) => Some(surface as usize - 1),
             _ => None,
         }
     }
 
     /// The groups of ground and the bodies of water, in the order of their first cells, column by column.
     pub fn groups(&self) -> impl Iterator<Item = Group> + '_ {
-        // The first surface is the ground that is not drawn.
+        // The first surface is the ground, which is not drawn.
         let surfaces = self.groups.surfaces.iter().zip(&self.levels.level).skip(1);
         surfaces.map(|(surface, level)| Group {
             water: surface.water,
@@ -151,13 +151,13 @@ impl Land {
 
     /// The house that a cell's roof or wall belongs to: its index among [`houses`](Self::houses).
     pub fn house_at(&self, column: usize, row: usize) -> Option<usize> {
-        let role = self.groups.role(column * self.grid.rows + row);
-        role.house().map(|house| house as usize)
+        let kind = self.groups.kind(column * self.grid.rows + row);
+        kind.house().map(|house| house as usize)
     }
 
     /// The houses.
-    pub fn houses(&self) -> impl Iterator<Item = Built> + '_ {
-        self.houses.iter().map(|house| Built {
+    pub fn houses(&self) -> impl Iterator<Item = HouseInfo> + '_ {
+        self.houses.iter().map(|house| HouseInfo {
             base: house.base,
             width: house.walls.len() as i32,
             depth: house.depth,
@@ -165,14 +165,14 @@ impl Land {
         })
     }
 
-    /// The triangles: per look the pieces of its surface, in tiles, about the map's middle at height 0. `roof` is the height of
-    /// roofs over their depth, `bevel` the radius of bevels in tiles, at most a half.
+    /// The triangles: per material the pieces of its surface, in tiles, about the map's middle at height 0. `roof` is the ratio
+    /// of a roof's height to its depth, `bevel` the radius of bevels in tiles, at most a half.
     pub fn surface(&self, roof: f64, bevel: f64) -> Vec<(u8, Vec<Surface>)> {
-        surface::surface(&self.known(), roof, bevel)
+        surface::surface(&self.context(), roof, bevel)
     }
 
-    fn known(&self) -> Known<'_> {
-        Known {
+    fn context(&self) -> MapContext<'_> {
+        MapContext {
             grid: &self.grid,
             groups: &self.groups,
             levels: &self.levels,
@@ -184,14 +184,15 @@ impl Land {
     }
 }
 
-/// The look of a kind that most cells have.
+/// The commonest material of a kind of tile.
 fn commonest(map: &Map, tile: Tile) -> Option<u8> {
     let mut counts = [0_usize; 256];
-    for look in &map.cells {
-        counts[usize::from(*look)] += 1;
+    for material in &map.cells {
+        counts[usize::from(*material)] += 1;
     }
-    let looks = map.looks.iter().enumerate();
-    let of_kind = looks.filter(|(look, kind)| **kind == tile && counts[*look] > 0);
-    let best = of_kind.max_by_key(|(look, _)| (counts[*look], std::cmp::Reverse(*look)));
-    best.map(|(look, _)| look as u8)
+    let materials = map.tiles.iter().enumerate();
+    let of_kind = materials.filter(|(material, kind)| **kind == tile && counts[*material] > 0);
+    let best =
+        of_kind.max_by_key(|(material, _)| (counts[*material], std::cmp::Reverse(*material)));
+    best.map(|(material, _)| material as u8)
 }

@@ -1,30 +1,29 @@
-//! What there is to say of a tile layer.
+//! The diagnostics of tile layers.
 
 use glam::DVec2;
 
 use super::Layer;
+use super::classify::Tally;
 use super::content::Content;
 use super::grid::{Grid, rectangle};
-use super::looks::Paints;
+use super::materials::Paints;
 use super::raster::Code as Painted;
-use super::survey::Tally;
 use crate::bind::Bindings;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 use crate::svg::{Drawing, PaintKey};
-use crate::terrain::{MOST_CELLS, Open, Tile};
+use crate::terrain::{AmbiguityKind, MAX_CELLS, Tile};
 
-/// How far borders of tiles may lie off the grid, cells.
+/// The largest distance of tiles' borders from the grid, cells.
 const OFF: f64 = 0.1;
-/// How many colours are spoken of one by one.
-const MOST_TOLD: usize = 5;
-/// How many open questions of a map are asked one by one.
-const MOST_NOTES: usize = 12;
-/// How many places are shown.
-const MOST_SHOWN: usize = 3;
+/// The largest number of unclear colours that are reported one by one.
+const MAX_COLORS: usize = 5;
+/// The largest number of ambiguities that are reported one by one.
+const MAX_AMBIGUITIES: usize = 12;
+/// The largest number of shapes that a diagnostic refers to.
+const MAX_SHOWN: usize = 3;
 
-/// Cells for people, `column 3, row 1`, columns and rows counted from the top left, which is 1: the ones that are
-/// given, and how many more there are.
+/// Names the first cells for people, as in `column 3, row 1 and 4 more`. Columns and rows count from 1 at the top left.
 pub fn cells_named(columns: usize, first: &[usize], count: usize) -> String {
     let cell = |cell: &usize| {
         let (column, row) = (cell % columns.max(1), cell / columns.max(1));
@@ -38,7 +37,7 @@ pub fn cells_named(columns: usize, first: &[usize], count: usize) -> String {
     }
 }
 
-/// Where a layer's string says how large tiles are.
+/// The span of the size of tiles in a layer's string.
 pub(super) fn size_span(bindings: &Bindings, layer: usize) -> Span {
     let string = &bindings.strings[bindings.layers[layer].string];
     let size = bindings.layer_attributes(layer).tile_size();
@@ -82,29 +81,29 @@ pub(super) fn too_large(
     [columns, rows]: [f64; 2],
 ) -> Diagnostic {
     let message = format!(
-        "tiles of {size} make a grid of {columns:.0} × {rows:.0} = {:.0} cells, more than the limit of {MOST_CELLS}",
+        "tiles of {size} make a grid of {columns:.0} × {rows:.0} = {:.0} cells, more than the limit of {MAX_CELLS}",
         columns * rows
     );
     Diagnostic::new(Code::LimitPassed, size_span(bindings, layer), message)
         .help("write the side of a tile in drawing units, and check that nothing is drawn far away")
 }
 
-/// What the map leaves open, and how it was decided.
+/// Warns about the ambiguities of a map.
 pub(super) fn open(drawing: &Drawing, layer: &Layer, diagnostics: &mut Vec<Diagnostic>) {
-    let notes = layer.land.notes();
-    for note in notes.iter().take(MOST_NOTES) {
-        let [column, row] = note.cell;
+    let ambiguities = layer.landscape.ambiguities();
+    for ambiguity in ambiguities.iter().take(MAX_AMBIGUITIES) {
+        let [column, row] = ambiguity.cell;
         let shape = layer.source_at(column, row);
         let span = shape.map_or(Span::at(0), |shape| drawing.shapes[shape].element.span);
         let cell = layer.map.index(column, row);
-        let cells = cells_named(layer.map.columns, &[cell], note.cells);
-        let (message, help) = note.what.told();
+        let cells = cells_named(layer.map.columns, &[cell], ambiguity.cells);
+        let (message, help) = ambiguity.kind.message_and_help();
         let message = format!("`{}`: {message}: {cells}", layer.name);
         diagnostics.push(Diagnostic::new(Code::OpenTerrain, span, message).help(help));
     }
-    if notes.len() > MOST_NOTES {
+    if ambiguities.len() > MAX_AMBIGUITIES {
         let span = drawing.groups[layer.group].element.span;
-        let more = notes.len() - MOST_NOTES;
+        let more = ambiguities.len() - MAX_AMBIGUITIES;
         let message = format!(
             "`{}`: {more} more places can be read in more than one way",
             layer.name
@@ -114,11 +113,11 @@ pub(super) fn open(drawing: &Drawing, layer: &Layer, diagnostics: &mut Vec<Diagn
     }
 }
 
-impl Open {
-    /// What is open, and the way out.
-    fn told(self) -> (String, String) {
+impl AmbiguityKind {
+    /// The message and the help of its warning.
+    fn message_and_help(self) -> (String, String) {
         match self {
-            Self::Loose => (
+            Self::Unconstrained => (
                 "nothing gives the height of this group, so its lowest part is on the ground".into(),
                 "draw brown tiles below it, down to what it stands on".into(),
             ),
@@ -146,7 +145,7 @@ impl Open {
     }
 }
 
-/// Colours that could mean more than one thing.
+/// Reports colours that are not clearly those of one kind.
 pub(super) fn unclear(
     drawing: &Drawing,
     layer: &Layer,
@@ -154,7 +153,7 @@ pub(super) fn unclear(
     colors: &[(Painted, Tally)],
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    for (code, tally) in colors.iter().take(MOST_TOLD) {
+    for (code, tally) in colors.iter().take(MAX_COLORS) {
         let shape = shape_of(drawing, layer, paints, *code, tally);
         let ([r, g, b], _) = paints.appearance(*code);
         let hex = format!("#{r:02x}{g:02x}{b:02x}");
@@ -173,7 +172,7 @@ pub(super) fn unclear(
         let span = drawing.shapes[shape].element.span;
         diagnostics.push(Diagnostic::new(Code::UnclearTile, span, message).help(help));
     }
-    let rest = colors.get(MOST_TOLD..).unwrap_or_default();
+    let rest = colors.get(MAX_COLORS..).unwrap_or_default();
     if let [(code, first), ..] = rest {
         let shape = shape_of(drawing, layer, paints, *code, first);
         let count: usize = rest.iter().map(|(_, tally)| tally.count).sum();
@@ -189,7 +188,7 @@ pub(super) fn unclear(
     }
 }
 
-/// The shape in which a colour is seen.
+/// The shape that has a colour.
 fn shape_of(
     drawing: &Drawing,
     layer: &Layer,
@@ -211,7 +210,7 @@ fn shape_of(
         .map_or(0, |source| source.shape)
 }
 
-/// Gradients and patterns that appear as colours.
+/// Warns about gradients and patterns that are replaced by their mean colours.
 pub(super) fn plain(drawing: &Drawing, paints: &Paints<'_>, list: &[usize]) -> Vec<Diagnostic> {
     let finding = |index: &usize| {
         let paint = &paints.list[*index];
@@ -229,7 +228,7 @@ pub(super) fn plain(drawing: &Drawing, paints: &Paints<'_>, list: &[usize]) -> V
     list.iter().filter_map(finding).collect()
 }
 
-/// Tiles that are off the grid.
+/// TileSource that are off the grid.
 pub(super) fn off_grid(
     drawing: &Drawing,
     bindings: &Bindings,
@@ -243,7 +242,7 @@ pub(super) fn off_grid(
     };
     let mut count = 0;
     let mut found: Vec<(usize, DVec2)> = Vec::new();
-    // By how much all of them are off, if it is the same.
+    // The offset that all of them have in common, if there is one.
     let mut common: Option<Option<DVec2>> = None;
     for (shape, [low, high]) in &content.fills {
         if rectangle(&drawing.shapes[*shape].outline).is_none() {
@@ -252,7 +251,7 @@ pub(super) fn off_grid(
         count += 1;
         let [from, to] = [off(*low), off(*high)];
         let alike = |one: DVec2, other: DVec2| {
-            // Half a cell to the left is half a cell to the right.
+            // Offsets are equal modulo a cell.
             let apart = one - other;
             (apart - apart.round()).abs().max_element() < OFF / 10.0
         };
@@ -290,7 +289,7 @@ pub(super) fn off_grid(
     };
     let mut finding =
         Diagnostic::new(Code::OffGrid, size_span(bindings, layer), message).help(help);
-    for (shape, _) in found.iter().take(MOST_SHOWN) {
+    for (shape, _) in found.iter().take(MAX_SHOWN) {
         let element = &drawing.shapes[*shape].element;
         finding = finding.related(
             element.span,

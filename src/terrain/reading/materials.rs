@@ -1,4 +1,4 @@
-//! What the paints of a layer mean and how they look in the model (terrain.md, Input; figure.md, Attributes of a part).
+//! The kinds and the materials of a layer's paints (terrain.md, Input; figure.md, Attributes of a part).
 
 use rustc_hash::FxHashMap;
 
@@ -9,10 +9,10 @@ use crate::source::Span;
 use crate::svg::PaintKey;
 use crate::terrain::Tile;
 
-/// How tiles of one kind and paint look.
+/// The material of tiles of one kind and paint.
 #[derive(Debug, Clone, PartialEq)]
-pub struct TileLook {
-    /// What they stand for.
+pub struct TileMaterial {
+    /// The kind of the tiles.
     pub tile: Tile,
     /// The factors of their material.
     pub factors: MaterialFactors,
@@ -35,8 +35,8 @@ pub struct TileTexture {
     pub span: Span,
 }
 
-impl TileLook {
-    /// The look of cells in which nothing is.
+impl TileMaterial {
+    /// The material of empty cells.
     pub(super) fn none() -> Self {
         Self {
             tile: Tile::None,
@@ -60,21 +60,21 @@ pub(super) struct Painted<'a> {
     pub(super) color: [u8; 3],
     /// 0 to 1.
     pub(super) opacity: f64,
-    /// Index of the hindmost shape that has it.
+    /// Index of the back-most shape that has it.
     pub(super) shape: usize,
 }
 
-/// What a code means.
+/// The meaning of a code.
 #[derive(Clone, Copy)]
 pub(super) struct Meaning {
-    /// `None`: it is not clear.
+    /// `None` if it is not clear.
     pub(super) tile: Option<Tile>,
     pub(super) legend: Option<usize>,
     pub(super) color: [u8; 3],
     pub(super) opacity: f64,
 }
 
-/// All paints of a layer's shapes, and who says what of them.
+/// All paints of a layer's shapes, and the legends about them.
 pub(super) struct Paints<'a> {
     bindings: &'a Bindings,
     /// Index of the layer.
@@ -116,7 +116,7 @@ impl<'a> Paints<'a> {
         }
     }
 
-    /// What a code means that is not that of nothing.
+    /// The meaning of a code other than [`NOTHING`](super::raster::NOTHING).
     pub(super) fn meaning(&self, code: Code) -> Meaning {
         let (color, opacity) = self.appearance(code);
         let legend = match paint_of(code) {
@@ -137,19 +137,19 @@ impl<'a> Paints<'a> {
         }
     }
 
-    /// How tiles look; `color` is that with which they are drawn, sRGB, each 0 to 255.
-    pub(super) fn look(
+    /// The material of tiles that are drawn in `color`, sRGB from 0 to 255.
+    pub(super) fn material(
         &self,
         tile: Tile,
         legend: Option<usize>,
         color: [f64; 3],
         opacity: f64,
-    ) -> TileLook {
+    ) -> TileMaterial {
         let attributes = self.bindings.tile_attributes(self.layer, legend);
         let set_color = attributes.color();
         let [r, g, b] = color.map(|channel| channel / 255.0);
         let texture = attributes.texture();
-        TileLook {
+        TileMaterial {
             tile,
             factors: attributes.material_factors([r, g, b, opacity], set_color),
             texture: texture.map(|texture| TileTexture {
