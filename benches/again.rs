@@ -1,4 +1,4 @@
-//! How long compiling again takes after a keystroke, as a ratio to what usvg alone needs to read the drawing.
+//! How long incremental compiling takes after a keystroke, as a ratio to what usvg alone needs to read the drawing.
 //!
 //! `cargo bench --bench again [-- PARTS…]` prints, for drawings of 1,000 and 10,000 parts, a third of them with
 //! strings: medians and 99th percentiles of 200 interleaved rounds, all in one warm process on okoshi's allocator. As
@@ -84,12 +84,12 @@ fn timed<R>(work: impl FnOnce() -> R) -> (R, Duration) {
     (made, start.elapsed())
 }
 
-/// Somebody who edits a drawing.
+/// An editor that types into a drawing.
 struct Typist {
     text: String,
     compiler: Compiler,
     last: Compiled,
-    /// Where a character was put in that is to be taken out again.
+    /// Where a character was inserted that the next edit removes.
     put_in: Option<usize>,
 }
 
@@ -103,7 +103,7 @@ impl Typist {
         }
     }
 
-    /// Takes out what was put in, or replaces or puts in a character behind one of the places with `mark`.
+    /// Removes the inserted character, or replaces or inserts one after an occurrence of `mark`.
     fn edit(&mut self, random: &mut Random, mark: &str, character: &str) {
         if let Some(at) = self.put_in.take() {
             self.text.replace_range(at..at + character.len(), "");

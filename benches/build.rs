@@ -2,7 +2,7 @@
 //!
 //! `cargo bench --bench build [-- PARTS…]` prints, for drawings of 1,000, 10,000 and 100,000 parts, a third of
 //! them with strings: medians and least times of interleaved rounds, the triangles that were made, and how near the
-//! parts' area comes to the true one, so that coarse curves buy nothing. Both sides are whole processes, as a person
+//! parts' area comes to the true one, so that coarse curves gain nothing. Both sides are whole processes, as a user
 //! starts them: `okoshi build` into a new file, and this program, on the system's allocator, calling usvg on the drawing.
 
 #![allow(clippy::print_stdout, reason = "a benchmark prints its figures")]
@@ -19,7 +19,7 @@ use okoshi::resolver::MemoryResolver;
 
 use drawing::drawing;
 
-/// With this, the program is the baseline: it reads the drawing that is named next.
+/// With this argument, the program is the baseline: it only reads the drawing.
 const BASELINE: &str = "--usvg";
 
 fn main() {
@@ -32,7 +32,7 @@ fn main() {
         let path = arguments.next().expect("a drawing");
         let text = std::fs::read_to_string(path).expect("a drawing");
         let tree = usvg::Tree::from_str(&text, &usvg::Options::default()).expect("a sound drawing");
-        // Taking it apart is no part of reading it.
+        // Dropping it is not measured.
         std::mem::forget(std::hint::black_box(tree));
         return;
     }

@@ -19,7 +19,7 @@ use std::time::{Duration, Instant};
 use editor::{Editor, position, range};
 use serde_json::json;
 
-/// The server's allocator, so that both sides read drawings alike.
+/// The server's allocator, for a fair comparison.
 #[global_allocator]
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
@@ -27,7 +27,7 @@ const URI: &str = "untitled:bench.svg";
 /// A multiple of what it takes to type [`TYPED`] and to delete it, so that every round finds the same text.
 const EDITS: usize = 200;
 const ROUNDS: usize = 5;
-/// What is typed, over and over, behind a string that says only a name.
+/// The text that is typed again and again after a string with only a name.
 const TYPED: &str = "$Shape roundv -90 90 Smooth 20 Offset 3";
 
 fn main() {

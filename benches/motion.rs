@@ -1,4 +1,4 @@
-//! ExposureMethod long limited animation takes, beside the plain algorithm that computes all speeds anew in each step.
+//! How long limited animation takes, beside the plain algorithm that computes all speeds again in each step.
 //!
 //!   cargo bench --bench motion [-- FRAMES…]
 //!

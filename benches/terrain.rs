@@ -21,13 +21,13 @@ use ndshape::{ConstShape, ConstShape3u32};
 use okoshi::terrain::{Landscape, Map};
 use rayon::prelude::*;
 
-/// Times that everything is done; the median is told.
+/// Repetitions, of which the median is printed.
 const ROUNDS: usize = 5;
 /// Cells of a chunk along a side, and of a chunk with its border.
 const CHUNK: i32 = 32;
 const PADDED: u32 = 34;
 type Shape = ConstShape3u32<PADDED, PADDED, PADDED>;
-/// Set where a child only measures how much memory something takes.
+/// Set in child processes that only measure memory.
 const MEASURED: &str = "OKOSHI_BENCH_TERRAIN";
 
 fn main() {
@@ -185,7 +185,7 @@ fn compare(side: usize) {
     );
 }
 
-/// Prints how many bytes something takes at its peak.
+/// Prints the peak memory of a step, bytes.
 fn measured(what: &str) {
     let (what, side) = what.split_once(' ').expect("what, and of which size");
     let map = map(side.parse().expect("a number"));
@@ -203,7 +203,7 @@ fn measured(what: &str) {
     println!("{}", peak());
 }
 
-/// The most memory that this process has had, bytes.
+/// The peak memory of this process, bytes.
 fn peak() -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));

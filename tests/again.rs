@@ -1,4 +1,4 @@
-//! Compiling again gives what compiling gives, whatever was edited before.
+//! Incremental compiling gives what compiling from scratch gives, whatever was edited before.
 
 mod common;
 
@@ -78,7 +78,7 @@ const PIECES: &[&str] = &[
     "Group",
 ];
 
-/// What is put in anywhere.
+/// Markup that is inserted anywhere.
 const SIGNS: &[&str] = &[
     "<",
     ">",
@@ -115,7 +115,7 @@ const SIGNS: &[&str] = &[
     "id=\"b\"",
 ];
 
-/// Drawings in which texts are written in all the ways there are.
+/// Drawings with strings in every notation.
 const DRAWINGS: &[&str] = &[
     // Entities, CDATA, lines, spaces, comments between.
     r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 90 60" width="9cm">
@@ -138,7 +138,7 @@ const DRAWINGS: &[&str] = &[
 <path d="M150 178 L82 42" fill="none" stroke="black"/><path d="M0 0 9 9" fill="none" stroke="black" inkscape:connection-start="#far" inkscape:connection-end="#head"/>
 <text x="5" y="190" display="none">hidden</text><text x="9" y="199"> </text><text x="5" y="195"><desc>of a text</desc>* left out</text><rect x="2" y="188" width="5" height="5"/>
 <rect x="180" y="5" width="9" height="9" fill="#00f"/><text x="181" y="9">=$Color red</text></svg>"##,
-    // Entities of the drawing's own, one with markup; Japanese, emoji; a link that leads somewhere and one that does not.
+    // Entities of the drawing, one with markup; Japanese, emoji; a link to a file and a broken one.
     "<!DOCTYPE svg [<!ENTITY e \"胴\"><!ENTITY m \"<tspan>腕＠胴</tspan>\"><!ENTITY t \"<text x='5' y='30'>twice</text>\">]>\r\n\
 <svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"100\" height=\"100\">\r\n\
 <rect x=\"20\" y=\"20\" width=\"30\" height=\"40\"/><text x=\"22\" y=\"30\">&e;＄形 丸 －９０ ９０</text>\r\n\
@@ -146,7 +146,7 @@ const DRAWINGS: &[&str] = &[
 <circle cx=\"30\" cy=\"80\" r=\"9\"/><text x=\"30\" y=\"80\">🦀🦀@胴\r\n  $Offset 3\r\n</text>&t;&t;<rect x=\"3\" y=\"29\" width=\"4\" height=\"4\"/>\r\n\
 <image x=\"60\" y=\"60\" width=\"30\" height=\"30\" xlink:href=\"gull.png\"/><text x=\"70\" y=\"75\">bird$Texture gull.png</text>\
 <image x=\"0\" y=\"60\" width=\"9\" height=\"9\" xlink:href=\"missing.png\"/></svg>\r\n",
-    // Tiles: drawn, in a picture that can be read and in one that cannot.
+    // Tiles: drawn, in a readable picture and in a broken one.
     r##"<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" width="200" height="200">
 <g><rect width="40" height="30" fill="#4caf50"/><rect y="30" width="40" height="10" fill="#8d6e63"/><rect x="60" width="10" height="10" fill="#4caf50"/>
 <text x="65" y="4" font-size="5">$Tile green</text><text y="150">Land$Tiles 10</text></g>
@@ -161,7 +161,7 @@ static EXAMPLES: LazyLock<Vec<String>> = LazyLock::new(|| {
     common::examples().into_iter().map(read).collect()
 });
 
-/// The pictures and models beside the examples, which come and go.
+/// The pictures and models beside the examples, which can be missing.
 struct Files {
     gull: Option<Arc<[u8]>>,
     canvas: Arc<[u8]>,
@@ -191,36 +191,36 @@ impl Resolver for Files {
     }
 }
 
-/// Something that is done to a drawing.
+/// A step of a history.
 #[derive(Debug, Clone)]
-enum Act {
-    /// Puts a piece into a text, for so many characters.
+enum Step {
+    /// Replaces so many characters of a text by a piece.
     Type(Index, Index, Index, usize),
-    /// Puts signs anywhere, for so many characters.
+    /// Replaces so many characters anywhere by signs.
     Anywhere(Index, Index, usize),
     /// Changes a digit in a tag.
     Tag(Index, u8),
-    /// Takes back so many acts.
+    /// Undoes so many steps.
     Undo(usize),
     /// Changes a linked file.
     File(u8),
-    /// Drops what is remembered.
+    /// Clears the caches.
     Forget,
     /// Chooses a tolerance.
     Tolerance(bool),
 }
 
-fn act() -> impl Strategy<Value = Act> {
+fn step() -> impl Strategy<Value = Step> {
     let index = any::<Index>;
     prop_oneof![
-        12 => (index(), index(), index(), 0..3_usize).prop_map(|(t, at, piece, gone)| Act::Type(t, at, piece, gone)),
-        6 => (index(), index(), index()).prop_map(|(t, at, piece)| Act::Type(t, at, piece, 0)),
-        2 => (index(), index(), 0..3_usize).prop_map(|(at, signs, gone)| Act::Anywhere(at, signs, gone)),
-        2 => (index(), 0..10_u8).prop_map(|(at, digit)| Act::Tag(at, digit)),
-        3 => (1..4_usize).prop_map(Act::Undo),
-        1 => (0..3_u8).prop_map(Act::File),
-        1 => Just(Act::Forget),
-        1 => any::<bool>().prop_map(Act::Tolerance),
+        12 => (index(), index(), index(), 0..3_usize).prop_map(|(t, at, piece, gone)| Step::Type(t, at, piece, gone)),
+        6 => (index(), index(), index()).prop_map(|(t, at, piece)| Step::Type(t, at, piece, 0)),
+        2 => (index(), index(), 0..3_usize).prop_map(|(at, signs, gone)| Step::Anywhere(at, signs, gone)),
+        2 => (index(), 0..10_u8).prop_map(|(at, digit)| Step::Tag(at, digit)),
+        3 => (1..4_usize).prop_map(Step::Undo),
+        1 => (0..3_u8).prop_map(Step::File),
+        1 => Just(Step::Forget),
+        1 => any::<bool>().prop_map(Step::Tolerance),
     ]
 }
 
@@ -234,7 +234,7 @@ fn texts(compiled: &Compiled) -> Vec<&Text> {
     descs.chain(labels).collect()
 }
 
-/// The byte range of so many characters from one of a text's on.
+/// The byte range of so many characters of a text from a random one on.
 fn range(text: &str, at: &Index, count: usize) -> (usize, usize) {
     let mut bounds: Vec<usize> = text.char_indices().map(|(at, _)| at).collect();
     bounds.push(text.len());
@@ -242,17 +242,17 @@ fn range(text: &str, at: &Index, count: usize) -> (usize, usize) {
     (bounds[from], bounds[(from + count).min(bounds.len() - 1)])
 }
 
-/// The text that an act makes of a drawing's.
-fn edited(text: &str, last: &Compiled, act: &Act) -> String {
+/// The text after a step.
+fn edited(text: &str, last: &Compiled, act: &Step) -> String {
     let mut text = text.to_owned();
     match act {
-        Act::Type(which, at, piece, count) => {
+        Step::Type(which, at, piece, count) => {
             let texts = texts(last);
             if !texts.is_empty() {
                 let chosen = texts[which.index(texts.len())];
                 let (from, to) = range(chosen.as_str(), at, *count);
                 let span = chosen.span(from..to);
-                // Half of what takes something away puts nothing in.
+                // Half of the replacements only delete.
                 let piece = match piece.index(2 * PIECES.len()) {
                     pick if pick < PIECES.len() => PIECES[pick],
                     pick if *count == 0 => PIECES[pick - PIECES.len()],
@@ -261,11 +261,11 @@ fn edited(text: &str, last: &Compiled, act: &Act) -> String {
                 text.replace_range(span.start..span.end, piece);
             }
         }
-        Act::Anywhere(at, signs, count) => {
+        Step::Anywhere(at, signs, count) => {
             let (from, to) = range(&text, at, *count);
             text.replace_range(from..to, SIGNS[signs.index(SIGNS.len())]);
         }
-        Act::Tag(at, digit) => {
+        Step::Tag(at, digit) => {
             let digits: Vec<usize> = text
                 .char_indices()
                 .filter(|(_, c)| c.is_ascii_digit())
@@ -276,13 +276,13 @@ fn edited(text: &str, last: &Compiled, act: &Act) -> String {
                 text.replace_range(at..=at, &digit.to_string());
             }
         }
-        Act::Undo(_) | Act::File(_) | Act::Forget | Act::Tolerance(_) => {}
+        Step::Undo(_) | Step::File(_) | Step::Forget | Step::Tolerance(_) => {}
     }
     text
 }
 
-/// All that is said of a drawing but its scene.
-fn told(compiled: &Compiled) -> String {
+/// A compiled drawing without its scene, as text.
+fn described(compiled: &Compiled) -> String {
     format!(
         "{:#?}\n{:#?}\n{:#?}\n{:#?}",
         compiled.diagnostics,
@@ -292,7 +292,7 @@ fn told(compiled: &Compiled) -> String {
     )
 }
 
-/// All of a compiled drawing, in one line.
+/// Bindings and drawing, in one line.
 fn all(compiled: &Compiled) -> String {
     format!("{:?}\n{:?}", compiled.bindings, compiled.drawing)
 }
@@ -303,9 +303,9 @@ fn written(compiled: &Compiled, surfaces: &mut SurfaceCache) -> Vec<u8> {
     model.expect("a scene keeps its own rules").bytes
 }
 
-/// Does some acts one after another, and looks every time whether both ways to compile agree. Tells how often the
-/// drawing was not read anew.
-fn agree(drawing: &str, acts: &[Act]) -> Result<usize, TestCaseError> {
+/// Does some steps and checks after each that both ways to compile agree. Returns how often the
+/// drawing was only updated, not parsed again.
+fn agree(drawing: &str, acts: &[Step]) -> Result<usize, TestCaseError> {
     let mut files = Files::new();
     let mut options = Options::default();
     let mut compiler = Compiler::default();
@@ -316,16 +316,16 @@ fn agree(drawing: &str, acts: &[Act]) -> Result<usize, TestCaseError> {
     let mut surfaces = SurfaceCache::default();
     for (step, act) in acts.iter().enumerate() {
         match act {
-            Act::Undo(count) => {
+            Step::Undo(count) => {
                 for _ in 0..*count {
                     text = undo.pop().unwrap_or(text);
                 }
             }
-            Act::File(0) => files.gull = None,
-            Act::File(1) => files.gull = Some(Arc::clone(&files.canvas)),
-            Act::File(_) => files.gull = Files::new().gull,
-            Act::Forget => compiler.forget(),
-            Act::Tolerance(coarse) => options.tolerance = if *coarse { 0.01 } else { 0.001 },
+            Step::File(0) => files.gull = None,
+            Step::File(1) => files.gull = Some(Arc::clone(&files.canvas)),
+            Step::File(_) => files.gull = Files::new().gull,
+            Step::Forget => compiler.forget(),
+            Step::Tolerance(coarse) => options.tolerance = if *coarse { 0.01 } else { 0.001 },
             _ => {
                 let next = edited(&text, &last, act);
                 undo.push(std::mem::replace(&mut text, next));
@@ -334,14 +334,20 @@ fn agree(drawing: &str, acts: &[Act]) -> Result<usize, TestCaseError> {
         let again = compiler.compile(&text, &options, &files);
         let anew = compile(&text, &options, &files);
         partial += usize::from(compiler.last_was_partial());
-        prop_assert_eq!(told(&again), told(&anew), "{:?} made {}", act, text);
+        prop_assert_eq!(
+            described(&again),
+            described(&anew),
+            "{:?} made {}",
+            act,
+            text
+        );
         prop_assert!(all(&again) == all(&anew), "{:?} made {}", act, text);
         prop_assert!(again.scene == anew.scene, "{:?} made {}", act, text);
         if step % 3 == 0 {
             let written = written(&again, &mut surfaces);
             prop_assert!(written == common::glb(&anew), "{:?} made {}", act, text);
         }
-        // What the last one held must not have changed under it; every other time nobody holds it.
+        // A result that is still held must not change; every other time it is dropped.
         last = if undo.len() % 2 == 0 { again } else { anew };
     }
     let anew = compile(&text, &options, &files);
@@ -350,9 +356,9 @@ fn agree(drawing: &str, acts: &[Act]) -> Result<usize, TestCaseError> {
     Ok(partial)
 }
 
-/// Looks at so many random histories of drawings. Some of what is done, though not all, must leave the drawing as it
-/// was read, or the law says nothing.
-fn look_at(drawings: &[&str], histories: u32, longest: usize) {
+/// Checks so many random histories of drawings. In a share of the steps, though not all, the drawing must only be
+/// updated, or the law says nothing.
+fn check_histories(drawings: &[&str], histories: u32, longest: usize) {
     let config = ProptestConfig {
         cases: std::env::var("PROPTEST_CASES")
             .ok()
@@ -364,7 +370,7 @@ fn look_at(drawings: &[&str], histories: u32, longest: usize) {
         ..ProptestConfig::default()
     };
     let (done, partial) = (Cell::new(0), Cell::new(0));
-    let strategy = (any::<Index>(), prop::collection::vec(act(), 1..longest));
+    let strategy = (any::<Index>(), prop::collection::vec(step(), 1..longest));
     let found = TestRunner::new(config).run(&strategy, |(which, acts)| {
         partial.set(partial.get() + agree(drawings[which.index(drawings.len())], &acts)?);
         done.set(done.get() + acts.len());
@@ -381,17 +387,17 @@ fn look_at(drawings: &[&str], histories: u32, longest: usize) {
 }
 
 #[test]
-fn histories_leave_no_trace() {
-    look_at(DRAWINGS, 300, 24);
+fn incremental_compiling_equals_compiling() {
+    check_histories(DRAWINGS, 300, 24);
 }
 
 #[test]
-fn histories_of_examples_leave_no_trace() {
+fn incremental_compiling_of_examples_equals_compiling() {
     let examples: Vec<&str> = EXAMPLES.iter().map(String::as_str).collect();
-    look_at(&examples, 24, 12);
+    check_histories(&examples, 24, 12);
 }
 
-/// Whether a drawing was not read anew after one text took another's place in it.
+/// Whether a drawing was only updated, not parsed again, after a replacement in its text.
 fn is_partial(drawing: &str, from: &str, to: &str) -> bool {
     let (options, files) = (Options::default(), Files::new());
     let mut compiler = Compiler::default();
@@ -403,7 +409,7 @@ fn is_partial(drawing: &str, from: &str, to: &str) -> bool {
     let again = compiler.compile(&text, &options, &files);
     assert_eq!(all(&first), before, "what was given away has changed");
     let anew = compile(&text, &options, &files);
-    assert_eq!(told(&again), told(&anew), "{from} -> {to}");
+    assert_eq!(described(&again), described(&anew), "{from} -> {to}");
     assert!(
         all(&again) == all(&anew) && again.scene == anew.scene,
         "{from} -> {to}"
@@ -412,7 +418,7 @@ fn is_partial(drawing: &str, from: &str, to: &str) -> bool {
 }
 
 #[test]
-fn keystrokes_in_strings_do_not_read_the_drawing_anew() {
+fn keystrokes_in_strings_do_not_parse_the_drawing_again() {
     for (which, from, to) in [
         (0, ">Ubody", ">Uboody"),
         (0, ">Ubody<", ">Ubody$<"),
@@ -441,9 +447,9 @@ fn keystrokes_in_strings_do_not_read_the_drawing_anew() {
 }
 
 #[test]
-fn what_may_mean_more_is_read_anew() {
+fn edits_that_may_change_markup_parse_the_drawing_again() {
     for (which, from, to) in [
-        // Texts that come, go, or are not read.
+        // Texts that appear, vanish, or are not strings.
         (0, ">Ubody<", "><"),
         (0, ">Ubody<", "> <"),
         (1, "\"199\"> <", "\"199\"> x<"),
@@ -452,7 +458,7 @@ fn what_may_mean_more_is_read_anew() {
         (1, ">not this", ">not that"),
         (1, "fill: blue", "fill: red"),
         (1, ">of a text", ">of text"),
-        // Markup, and what becomes markup.
+        // Markup, and characters that become markup.
         (0, ">Ubody<", ">U<b/>ody<"),
         (0, ">Ubody<", ">U&amp;body<"),
         (0, "a&amp;b", "a&gt;b"),
@@ -460,16 +466,16 @@ fn what_may_mean_more_is_read_anew() {
         (0, "<!-- an -->", "<!-- a -->"),
         (0, ">Ubody<", ">]]>Ubody<"),
         (0, "\"30\"", "\"31\""),
-        // What is in entities counts wherever they are.
+        // Entities count wherever they are used.
         (2, ">twice", ">thrice"),
         (2, "\"胴\"", "\"体\""),
-        // A line end beside another, and a name like those that are made up.
+        // A line end beside another, and a name like a generated one.
         (2, "3\r\n<", "3\r<"),
         (0, ">Ubody<", ">\"okoshi-Ubody<"),
     ] {
         assert!(!is_partial(DRAWINGS[which], from, to), "{from} -> {to}");
     }
-    // What was broken by one change is mended by the next.
+    // A change that repairs what the one before broke.
     let broken = DRAWINGS[0].replacen("Ubody", "U]]body", 1);
     assert!(!is_partial(&broken, "]]body", "]]>body"));
     let held_apart = DRAWINGS[0].replacen("Ubody", "U]x]&gt;body", 1);
@@ -479,7 +485,7 @@ fn what_may_mean_more_is_read_anew() {
 }
 
 #[test]
-fn linked_files_are_seen_to() {
+fn changed_links_are_read_again() {
     let options = Options::default();
     let mut files = Files::new();
     let mut compiler = Compiler::default();
@@ -491,12 +497,15 @@ fn linked_files_are_seen_to() {
     let gone = compiler.compile(text, &options, &files);
     assert!(!compiler.last_was_partial());
     assert!(gone.diagnostics.len() > first.diagnostics.len());
-    assert_eq!(told(&gone), told(&compile(text, &options, &files)));
+    assert_eq!(
+        described(&gone),
+        described(&compile(text, &options, &files))
+    );
     files = Files::new();
     compiler.forget();
     let back = compiler.compile(text, &options, &files);
     assert!(!compiler.last_was_partial());
-    assert_eq!(told(&back), told(&first));
+    assert_eq!(described(&back), described(&first));
 }
 
 #[test]
@@ -524,6 +533,6 @@ fn only_solids_that_changed_are_made_again() {
     assert_eq!(made(&text), 0);
     assert_eq!(made(&text.replace("Shape round", "Shape roundv")), 1);
     assert_eq!(made(&text.replacen("r=\"9\"", "r=\"9.5\"", 1)), 2);
-    // What makes the page deeper makes all plates deeper.
+    // A deeper page makes all plates deeper.
     assert!(made(&text.replacen("width=\"600\"", "width=\"700\"", 1)) > 290);
 }

@@ -1,4 +1,4 @@
-//! Drawings with what becomes of them: `tests/cases/<name>/drawing.svg` and `expected.txt` beside it.
+//! Drawings with their expected results: `tests/cases/<name>/drawing.svg` and `expected.txt` beside it.
 //!
 //! A new case is a new folder, and each is a test of its own: `cargo test --test cases NAME` runs those with NAME in their names. `OKOSHI_REWRITE=cases cargo test --test cases` writes what is expected; look at it
 //! against the design before you keep it. The comment in a drawing says the rule that it is a case of.
@@ -30,7 +30,7 @@ fn cases() -> Vec<PathBuf> {
     cases
 }
 
-/// Everything that is expected of a drawing.
+/// The result of a drawing: diagnostics, report, nodes and clips.
 fn outcome(case: &Path) -> Result<String, String> {
     let drawing = case.join("drawing.svg");
     let text = fs::read_to_string(&drawing).map_err(|error| error.to_string())?;
@@ -68,7 +68,7 @@ fn outcome(case: &Path) -> Result<String, String> {
     ))
 }
 
-/// Compares what becomes of a drawing with its `expected.txt`, or writes that.
+/// Compares the result of a drawing with its `expected.txt`, or writes that.
 fn check(case: &Path) -> Result<(), Failed> {
     let file = case.join("expected.txt");
     let outcome = outcome(case)?;

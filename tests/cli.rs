@@ -65,7 +65,7 @@ fn a_gltf_holds_its_buffers() {
 }
 
 #[test]
-fn a_skin_has_a_joint_a_part() {
+fn a_skin_has_a_joint_per_part() {
     let room = Room::with("a.svg", GOOD);
     room.run(&["build", "a.svg", "--skin", "-q"])
         .ends(0, "", "");
@@ -123,7 +123,7 @@ fn nothing_is_written_on_errors() {
     assert_eq!(names(&room.read("bad.glb")), ["Root", "Body"]);
 }
 
-/// A file that is no drawing: its name, its bytes, and what is said of it.
+/// Files that are no drawings: name, bytes, exit status, and message.
 const NO_DRAWINGS: &[(&str, &[u8], i32, &str)] = &[
     ("text.svg", b"hello", 1, "error[E001]: not well-formed XML"),
     (
@@ -160,7 +160,7 @@ const NO_DRAWINGS: &[(&str, &[u8], i32, &str)] = &[
 ];
 
 #[test]
-fn what_is_no_drawing() {
+fn files_that_are_no_drawings_are_refused() {
     for (name, bytes, status, message) in NO_DRAWINGS {
         let room = Room::with(name, bytes);
         room.run(&["build", name]).ends(*status, "", message);
@@ -262,7 +262,7 @@ fn files_without_permission() {
         room.run(&["build", "shut/b.svg"]).ends(2, "", "error: ");
         assert!(!room.path("shut/b.glb").exists());
     } else {
-        // The administrator may read and write everything; then this says nothing.
+        // Root can read and write everything; then this test checks nothing.
         room.run(&["build", "a.svg"]).ends(0, "", "wrote");
     }
     mode("shut", 0o755);
@@ -352,7 +352,7 @@ fn depfiles_are_escaped_for_make() {
 }
 
 #[test]
-fn stats_say_what_was_built() {
+fn stats_report_what_was_built() {
     let room = Room::with("a.svg", GOOD);
     let run = room.run(&["build", "a.svg", "--stats"]);
     assert_eq!(run.out, "");
@@ -388,7 +388,7 @@ fn quiet_and_verbose() {
     );
     room.run(&["build", "-q", "-v", "a.svg"])
         .ends(2, "", "cannot be used with");
-    // Many hints: a build shows some, and all if asked to.
+    // Many hints: a build shows some, and all with `-v`.
     let many: String = (0..30)
         .map(|i| format!("<rect x=\"{i}\" y=\"90\" width=\"9\" height=\"9\"/>"))
         .collect();
@@ -519,7 +519,7 @@ fn the_manual() {
     );
     room.run(&["explain", "E999"])
         .ends(2, "", "there is no page on `E999`");
-    // What a report names can be looked up.
+    // Codes of a report can be looked up.
     for code in okoshi::diagnostic::Code::ALL {
         room.run(&["explain", code.id()]).ends(0, code.title(), "");
     }
@@ -557,7 +557,7 @@ fn completions() {
 }
 
 #[test]
-fn help_teaches() {
+fn help_describes_every_command() {
     let room = Room::new();
     for topic in [
         "okoshi build human.svg",
@@ -582,9 +582,9 @@ fn help_teaches() {
     );
 }
 
-/// A reader that goes away early, like `head -1`, is no failure.
+/// A reader that closes the pipe early, like `head -1`, is no failure.
 #[test]
-fn a_broken_pipe_is_no_panic() {
+fn a_broken_pipe_does_not_panic() {
     let many: String = (0..3000)
         .map(|i| format!("<rect x=\"{i}\" y=\"90\" width=\"9\" height=\"9\"/>"))
         .collect();
@@ -593,7 +593,7 @@ fn a_broken_pipe_is_no_panic() {
         (&["inspect", "many.svg"][..], 0),
         (&["inspect", "--json", "many.svg"], 0),
         (&["check", "-v", "many.svg"], 0),
-        // Half a model is none.
+        // A truncated model is an error.
         (&["build", "many.svg", "-o", "-"], 2),
     ] {
         let mut child = room

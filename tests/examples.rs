@@ -1,4 +1,4 @@
-//! The drawings in `examples/`: nothing is wrong with them, they are in the gallery, and they show what they are to show.
+//! The drawings in `examples/`: they compile without warnings, are in the gallery, and show their features.
 
 mod common;
 
@@ -12,7 +12,7 @@ use okoshi::disk::FolderResolver;
 use okoshi::lang::keyword::Status;
 use okoshi::lang::keyword::kinds::KINDS;
 
-/// The largest picture in the gallery, bytes.
+/// The size limit of pictures in the gallery, bytes.
 const PICTURE: u64 = 60 << 10;
 
 fn root() -> &'static Path {
@@ -29,7 +29,7 @@ fn nodes(name: &str) -> Vec<Node> {
     let folder = path.parent().expect("a folder");
     let compiled = common::compiled(&text, &FolderResolver::new(folder));
     for diagnostic in &compiled.diagnostics {
-        // What a later version builds is told of until then.
+        // Keywords of later versions are reported as not built yet.
         assert!(
             diagnostic.severity() == Severity::Hint || diagnostic.code == Code::NotBuiltYet,
             "{name}: {}",
@@ -124,7 +124,7 @@ fn near(a: f32, b: f32) -> bool {
 }
 
 #[test]
-fn the_cars_doors_and_tyres_stand_on_both_sides() {
+fn the_cars_doors_and_tyres_are_on_both_sides() {
     let nodes = nodes("car");
     let named = |name: &str| {
         let found = nodes.iter().find(|node| node.name == name);

@@ -1,4 +1,4 @@
-//! No two faces that look the same way lie in one plane and cover each other, or a warning says so: they would
+//! No two faces with the same normal overlap in one plane (z-fighting), or a warning says so: they would
 //! flicker.
 
 mod common;
@@ -14,23 +14,23 @@ use okoshi::geometry::{FillRule, area, intersect, resolve_overlaps};
 use okoshi::scene::{Piece, Scene};
 use okoshi::solid::{Sides, Solid};
 
-/// How near planes are one, metres, as a share of the model's extent.
+/// The distance below which planes coincide, as a share of the model's extent.
 const NEAR: f64 = 1e-6;
-/// Common area that is none, as a share of the smaller triangle.
+/// The common area that is ignored, as a share of the smaller triangle.
 const COMMON: f64 = 1e-3;
 /// The most pairs that are compared in a drawing.
 const PAIRS: usize = 400_000;
 
-/// A triangle that looks along the viewer's axis.
+/// A triangle that faces along the viewer's axis.
 struct Face {
     owner: usize,
-    /// Which way it looks, towards the viewer or away.
+    /// Whether it faces the viewer.
     front: bool,
     z: f64,
     corners: [DVec2; 3],
 }
 
-/// All triangles across the viewer's axis, each with the number of its solid.
+/// All triangles perpendicular to the viewer's axis, each with the number of its solid.
 fn faces(scene: &Scene) -> Vec<Face> {
     let mut places = vec![DAffine3::IDENTITY; scene.nodes.len()];
     let mut out = Vec::new();
@@ -146,9 +146,9 @@ fn no_faces_flicker() {
     assert!(bad.is_empty(), "{bad:#?}");
 }
 
-/// The measure sees what flickers.
+/// The measure finds faces that flicker.
 #[test]
-fn faces_in_one_place_are_seen() {
+fn faces_in_one_plane_are_found() {
     let drawing = |second: &str| {
         let text = format!(
             r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">

@@ -1,4 +1,4 @@
-//! What is generated from the keyword table is what the repository has.
+//! The pages and grammars that are generated from the keyword table are up to date.
 //!
 //! `OKOSHI_REWRITE=generated cargo test --test generated` rewrites it.
 

@@ -1,4 +1,4 @@
-//! Which joint drives which part, as `inspect` and the language server tell it.
+//! Which joint drives which part, in `inspect` and in the language server.
 
 mod common;
 
@@ -9,7 +9,7 @@ use common::editor::{Editor, address, position, slice};
 use common::program::Room;
 use serde_json::{Value, json};
 
-/// What moves the parts of the kicker.
+/// The parts of the kicker with their joints.
 const JOINTS: [(&str, &str); 13] = [
     ("Body", "Chest"),
     ("Head", "Head"),
@@ -70,7 +70,7 @@ fn inspect_names_the_joint_of_every_part() {
 }
 
 #[test]
-fn inspect_says_why_a_joint_drives_a_part() {
+fn inspect_explains_why_a_joint_drives_a_part() {
     let room = kicker();
     let run = room.run(&["inspect", "kick.svg"]);
     assert_eq!(run.status, 0, "{}", run.err);
@@ -82,7 +82,7 @@ fn inspect_says_why_a_joint_drives_a_part() {
     ] {
         assert!(run.out.contains(line), "{line:?} is not in:\n{}", run.out);
     }
-    // A part that no joint drives says so.
+    // A part without a joint.
     let button = "<rect id=\"button\" x=\"150\" y=\"150\" width=\"6\" height=\"6\"><desc>Button@Body</desc></rect></svg>";
     room.write("kick.svg", example("kick.svg").replace("</svg>", button));
     let run = room.run(&["inspect", "kick.svg"]);
@@ -92,7 +92,7 @@ fn inspect_says_why_a_joint_drives_a_part() {
         button.contains("  -  ") && button.contains("follows its parent: "),
         "{button}"
     );
-    // Without a motion there is nothing to tell.
+    // Without a motion no part has a joint.
     let run = room.run(&["inspect", "--json", "kick.svg"]);
     assert!(run.out.contains("\"joint\": null"), "{}", run.out);
 }
@@ -135,11 +135,11 @@ fn editors_complete_joints_and_motions() {
     assert_eq!(found.len(), 1, "{found:?}");
     assert_eq!(found[0]["label"], "kick.bvh");
     assert_eq!(slice(&next, &found[0]["textEdit"]["range"]), "\"kick.bvh\"");
-    assert!(editor.leave().success());
+    assert!(editor.shut_down().success());
 }
 
 #[test]
-fn editors_tell_what_moves_a_part() {
+fn hovers_name_the_joint_of_a_part() {
     let room = kicker();
     let uri = address(&room.path("kick.svg"));
     let mut editor = Editor::new();
@@ -173,5 +173,5 @@ fn editors_tell_what_moves_a_part() {
         let card = hover["contents"]["value"].as_str().unwrap_or_default();
         assert!(card.contains(told), "{word}: {told} is not in:\n{card}");
     }
-    assert!(editor.leave().success());
+    assert!(editor.shut_down().success());
 }

@@ -1,4 +1,4 @@
-//! Laws that hold for every drawing, and drawings that mean harm.
+//! Laws that hold for every drawing, and malicious drawings.
 
 mod common;
 
@@ -58,7 +58,7 @@ fn escaped(text: &str) -> String {
 
 // ---- generated drawings
 
-/// Words that strings are made of, good ones and bad ones.
+/// Words of strings, valid and invalid.
 fn word() -> impl Strategy<Value = String> {
     let words = [
         "A",
@@ -149,7 +149,7 @@ fn word() -> impl Strategy<Value = String> {
     ]
 }
 
-/// A string, mostly of the form that parts have.
+/// A string, usually of a part.
 fn string() -> impl Strategy<Value = String> {
     let names = || prop::sample::select(vec!["A", "B", "C", "D", "U-1", "A.back", "\"a b\""]);
     let kinds = prop::sample::select(vec![
@@ -309,12 +309,12 @@ proptest! {
     #[test]
     fn every_drawing_becomes_closed_solids(text in drawing()) {
         let compiled = laws(&text).map_err(TestCaseError::fail)?;
-        // The same again.
+        // Deterministic.
         prop_assert_eq!(common::glb(&compiled), common::glb(&compile(&text)));
     }
 
     #[test]
-    fn every_string_is_read(words in prop::collection::vec(word(), 0..24), desc in any::<bool>()) {
+    fn every_string_compiles(words in prop::collection::vec(word(), 0..24), desc in any::<bool>()) {
         let string = escaped(&words.join(" "));
         let text = if desc {
             format!("<rect width=\"30\" height=\"50\"><desc>{string}</desc></rect>")
@@ -325,7 +325,7 @@ proptest! {
     }
 
     #[test]
-    fn every_cut_off_file_is_an_error(at in 1_usize..7000) {
+    fn truncated_files_are_errors(at in 1_usize..7000) {
         let text = include_str!("cases/inkscape-human-gui/drawing.svg");
         let cut = text.char_indices().map(|(index, _)| index).take_while(|index| *index <= at).last().unwrap_or(0);
         let compiled = laws(&text[..cut]).map_err(TestCaseError::fail)?;
@@ -333,7 +333,7 @@ proptest! {
     }
 
     #[test]
-    fn every_damaged_file_is_survived(at in 0_usize..8000, with in any::<char>()) {
+    fn damaged_files_compile(at in 0_usize..8000, with in any::<char>()) {
         let text = include_str!("cases/inkscape-human-features-inkex/drawing.svg");
         let at = text.char_indices().map(|(index, _)| index).take_while(|index| *index <= at).last().unwrap_or(0);
         let next = text[at..].chars().next().map_or(0, char::len_utf8);
@@ -342,9 +342,9 @@ proptest! {
     }
 }
 
-// ---- drawings that mean harm
+// ---- malicious drawings
 
-/// Compiles within a time that no honest drawing needs.
+/// Compiles within a time limit.
 #[track_caller]
 fn survived(text: &str) -> Compiled {
     let start = Instant::now();
@@ -396,7 +396,7 @@ fn entity_bombs_are_refused() {
         &format!("{bomb}]>{}", svg("<text>&a29;</text>")),
         Code::LimitPassed,
     );
-    // One that names itself.
+    // An entity that refers to itself.
     let compiled = compile(&format!(
         "<!DOCTYPE svg [<!ENTITY a \"&a;\">]>{}",
         svg("<text>&a;</text>")
@@ -417,7 +417,7 @@ fn bombs_of_clones_are_refused() {
     );
 }
 
-/// What is drawn again wherever it is referred to can grow without end too.
+/// References to patterns, clips, masks and markers can grow exponentially too.
 #[test]
 fn bombs_of_definitions_are_refused() {
     for (element, property) in [
@@ -445,7 +445,7 @@ fn bombs_of_definitions_are_refused() {
             &svg(&format!("{bomb}</defs>{inherited}")),
             Code::LimitPassed,
         );
-        // What is nested but small, or refers to itself, is none.
+        // Small nested definitions, and those that refer to themselves, are no bombs.
         for small in [format!("{property}=\"url(#d1)\""), String::new()] {
             let itself = format!(
                 "<{element} id=\"e\"><path {property}=\"url(#e)\" d=\"M0 0 9 9 9 0\"/></{name}>"

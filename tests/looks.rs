@@ -1,4 +1,4 @@
-//! Seen from the front, parts look as they are drawn: textures are sampled where their surfaces are and compared
+//! From the front, parts look like the drawing: textures are sampled on their surfaces and compared
 //! with a picture of the drawing.
 
 mod common;
@@ -33,7 +33,7 @@ fn compiled(text: &str, files: &MemoryResolver) -> Compiled {
     compiled
 }
 
-/// A 20 by 10 picture: a colour to each corner, and a hole in the middle if it is wanted.
+/// A 20 × 10 picture with a colour in each corner, and optionally a hole in the middle.
 fn png(hole: bool) -> Vec<u8> {
     let picture = image::RgbaImage::from_fn(40, 20, |x, y| {
         let clear = hole && (14..26).contains(&x) && (6..14).contains(&y);
@@ -56,7 +56,7 @@ fn data_uri(bytes: &[u8]) -> String {
     format!("data:image/png;base64,{text}")
 }
 
-/// The drawing as resvg shows it.
+/// The drawing as rendered by resvg.
 fn picture(text: &str) -> Pixmap {
     let tree = usvg::Tree::from_str(text, &usvg::Options::default()).expect("a drawing");
     let mut pixmap = Pixmap::new(120 * ZOOM as u32, 100 * ZOOM as u32).expect("a pixmap");
@@ -68,7 +68,7 @@ fn picture(text: &str) -> Pixmap {
     pixmap
 }
 
-/// An image's pixels, and how it goes on beyond its borders.
+/// An image's pixels, and its wrap modes.
 struct Sampler {
     pixels: image::RgbaImage,
     wrap: [Wrap; 2],
@@ -84,7 +84,7 @@ impl Sampler {
         }
     }
 
-    /// What a renderer sees: the mean of four pixels.
+    /// Bilinear sampling.
     fn at(&self, uv: [f64; 2]) -> [f64; 4] {
         let size = [self.pixels.width(), self.pixels.height()];
         let pixel = |i: usize, at: i64| {
@@ -115,11 +115,11 @@ impl Sampler {
     }
 }
 
-/// Points of all faces that look at the viewer: where they are in the drawing, and what is seen there.
+/// Points of all faces towards the viewer: their position in the drawing, and their colour.
 fn seen(scene: &Scene) -> Vec<(DVec2, [f64; 4])> {
     let mut places = vec![DAffine3::IDENTITY; scene.nodes.len()];
     let mut out = Vec::new();
-    // Clear of the edges, where the picture of the drawing is smoothed.
+    // Away from the edges, where the picture of the drawing is antialiased.
     let parts = 24;
     let inside: Vec<[f64; 3]> = (1..parts)
         .flat_map(|i| (1..parts - i).map(move |j| [i, j, parts - i - j]))
@@ -177,7 +177,7 @@ fn difference(text: &str, files: &MemoryResolver, shown: &str, odd: usize) -> f6
         else {
             continue;
         };
-        // The picture is smoothed along the border of what is drawn, where thin triangles have all their points.
+        // The picture is antialiased along the border of shapes, where thin triangles have all their points.
         let alphas = [a, b, c, d].map(|pixel| pixel.alpha());
         let [least, most] =
             [alphas.iter().min(), alphas.iter().max()].map(|alpha| i32::from(*alpha.unwrap_or(&0)));
@@ -186,7 +186,7 @@ fn difference(text: &str, files: &MemoryResolver, shown: &str, odd: usize) -> f6
         }
         let pixel = pixel.demultiply();
         let drawn = [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()].map(f64::from);
-        // The colour of what is hardly seen says little.
+        // The colour of a nearly transparent pixel says little.
         let weight = |i: usize| {
             if i == 3 {
                 1.0
@@ -216,7 +216,7 @@ const STOPS: &str = r##"<stop offset="0.1" stop-color="#ff2010"/><stop offset="0
 
 /// Paints, how far colours may be off, and how many of a hundred points may be further off: those on sharp edges.
 #[test]
-fn paints_lie_where_they_are_drawn() {
+fn paints_match_the_drawing() {
     let cases: &[(&str, String, f64, usize)] = &[
         ("a linear gradient over boxes", format!(r##"<linearGradient id="paint">{STOPS}</linearGradient>"##), 3.0, 1),
         (
@@ -281,7 +281,7 @@ fn paints_lie_where_they_are_drawn() {
 }
 
 #[test]
-fn pictures_lie_where_they_are_drawn() {
+fn pictures_match_the_drawing() {
     for hole in [false, true] {
         let uri = data_uri(&png(hole));
         let image = format!(
@@ -294,7 +294,7 @@ fn pictures_lie_where_they_are_drawn() {
 }
 
 #[test]
-fn a_file_is_laid_over_the_box_of_its_part() {
+fn a_texture_file_covers_the_bounding_box_of_its_part() {
     let bytes: Arc<[u8]> = png(false).into();
     let files = MemoryResolver::default().with("cloth.png", Arc::clone(&bytes));
     let outline = r##"M 20 20 L 90 30 L 60 80 Z"##;
@@ -308,7 +308,7 @@ fn a_file_is_laid_over_the_box_of_its_part() {
     );
     let found = difference(&text, &files, &drawing("", &clipped), 0);
     assert!(found <= 10.0, "off by {found}");
-    // The file itself is in the model, and is known to be needed.
+    // The file itself is in the model, and is a dependency.
     let compiled = compiled(&text, &files);
     assert_eq!(compiled.scene.images[0].bytes, bytes);
     assert_eq!(compiled.scene.images[0].name, "cloth.png");
@@ -329,7 +329,7 @@ fn material(paint: &str, defs: &str, string: &str) -> okoshi::scene::Material {
 }
 
 #[test]
-fn alpha_is_blended_only_where_something_is_seen_through() {
+fn alpha_is_blended_only_if_something_is_transparent() {
     let red = r##"fill="red""##;
     let gradient = r##"fill="url(#g)""##;
     let whole = r##"<linearGradient id="g"><stop stop-color="red"/><stop offset="1" stop-color="blue"/></linearGradient>"##;
@@ -438,7 +438,7 @@ fn equal_paints_share_a_texture_and_a_material() {
 }
 
 #[test]
-fn patterns_that_ask_for_too_much_are_told_of() {
+fn patterns_beyond_the_limits_are_reported() {
     let row =
         |inner: &str| format!(r##"<rect width="9" height="9" fill="url(#{inner})"/>"##).repeat(12);
     let nest = |id: &str, inner: &str| {
@@ -461,7 +461,7 @@ fn patterns_that_ask_for_too_much_are_told_of() {
     ] {
         let compiled = compiled(&drawing(&defs, SHAPES), &MemoryResolver::default());
         let told: Vec<_> = compiled.diagnostics.iter().filter(|d| d.code == Code::PlainPaint).collect();
-        // Once for the paint, not once a part.
+        // Once per paint, not per part.
         assert_eq!(told.len(), 1, "{:?}", compiled.diagnostics);
         assert!(told[0].message.contains(why), "{}", told[0].message);
         assert!(compiled.scene.textures.is_empty());

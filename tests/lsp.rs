@@ -1,4 +1,4 @@
-//! The language server over real stdio: what an editor sees.
+//! The language server over real stdio.
 
 mod common;
 
@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 const URI: &str = "untitled:a.svg";
 
-/// A body and an arm, with strings of all kinds beside them; `¦` marks a place.
+/// A body and an arm with strings of all kinds; `¦` marks an offset.
 const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100">
   <rect id="body" x="80" y="20" width="40" height="60" fill="#336699"/>
   <rect id="right" x="20" y="40" width="60" height="10" fill="#ffcc99"/>
@@ -32,7 +32,7 @@ fn document() -> Value {
     json!({"textDocument": {"uri": URI}})
 }
 
-/// The drawing with many small parts more, each with its string.
+/// The drawing with many small parts added, each with its string.
 fn many(parts: usize) -> String {
     let more: String = (0..parts)
         .map(|index| {
@@ -51,7 +51,7 @@ fn codes(diagnostics: &[Value]) -> Vec<&str> {
 }
 
 #[test]
-fn diagnostics_have_all_that_editors_show() {
+fn diagnostics_have_all_fields_that_editors_show() {
     let mut editor = Editor::new();
     let text = DRAWING.replace("Rarm@Ubody", "Rarm@Ubdoy");
     let found = editor.opened(URI, &text);
@@ -72,7 +72,7 @@ fn diagnostics_have_all_that_editors_show() {
         .lines()
         .nth(line.parse::<usize>().expect("a number") - 1);
     assert!(heading.expect("a heading").contains("E204"));
-    // A legend that nobody goes by could as well be left out.
+    // A legend that no part uses has no effect.
     let text = DRAWING.replace(
         "width=\"5\" height=\"5\" fill=\"#ffcc99\"",
         "width=\"5\" height=\"5\" fill=\"#000001\"",
@@ -84,7 +84,7 @@ fn diagnostics_have_all_that_editors_show() {
     assert_eq!(legend["tags"], json!([1]));
     let related = &legend["relatedInformation"][0];
     assert_eq!(slice(&text, &related["location"]["range"]), "<rect");
-    assert!(editor.leave().success());
+    assert!(editor.shut_down().success());
 }
 
 #[test]
@@ -96,7 +96,7 @@ fn drawings_without_strings_are_left_alone() {
         .collect::<Vec<_>>()
         .join("\n");
     assert_eq!(editor.opened(URI, &text), Vec::<Value>::new());
-    // Not even that it is no XML is said: others do.
+    // Not even malformed XML is reported: other servers do that.
     let broken = text.replace("</svg>", "<");
     editor.change(URI, 2, &[json!({"text": broken})]);
     assert_eq!(editor.diagnostics(URI, 2), Vec::<Value>::new());
@@ -109,7 +109,7 @@ fn drawings_without_strings_are_left_alone() {
 }
 
 #[test]
-fn tiles_say_what_they_are() {
+fn hovers_describe_tiles() {
     let mut editor = Editor::new();
     let text = "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 50 60'><g id='g'>
         <text x='0' y='5' font-size='5'>Hill$Tiles 10</text>
@@ -131,7 +131,7 @@ fn tiles_say_what_they_are() {
         assert!(markdown.contains("**Tiles** of Hill"), "{markdown}");
         assert!(markdown.contains(told), "{markdown}");
     }
-    assert!(editor.leave().success());
+    assert!(editor.shut_down().success());
 }
 
 #[test]
@@ -232,11 +232,11 @@ fn every_request_is_answered() {
             .expect("text")
             .contains("nonsense")
     );
-    assert!(editor.leave().success());
+    assert!(editor.shut_down().success());
 }
 
 #[test]
-fn edits_change_nothing_else() {
+fn edits_touch_nothing_else() {
     let mut editor = Editor::new();
     let text = DRAWING
         .replace("$Shape roundv", "$ shape  ROUNDV")
@@ -262,12 +262,12 @@ fn edits_change_nothing_else() {
 }
 
 #[test]
-fn sixty_changes_at_once_end_with_the_last() {
+fn sixty_changes_at_once_give_the_last_state() {
     let mut editor = Editor::new();
     editor.open(URI, 1, DRAWING);
     let mut text = DRAWING.to_owned();
     for version in 2..=61 {
-        // Each types one more letter into the parent's name.
+        // Each change inserts a letter into the parent's name.
         let at = text.find("$Shape roundv").expect("the string");
         let change = json!({"range": range(&text, at, at), "text": "x"});
         editor.change(URI, version, &[change]);
@@ -288,7 +288,7 @@ fn sixty_changes_at_once_end_with_the_last() {
 }
 
 #[test]
-fn versions_never_go_back() {
+fn versions_of_diagnostics_never_decrease() {
     let mut editor = Editor::new();
     editor.open(URI, 1, DRAWING);
     for version in 2..=200 {
@@ -312,7 +312,7 @@ fn versions_never_go_back() {
 }
 
 #[test]
-fn answers_go_on_while_somebody_types_xml() {
+fn requests_are_answered_while_xml_is_broken() {
     let mut editor = Editor::new();
     editor.opened(URI, DRAWING);
     let at = DRAWING.find("  <text x=\"5\"").expect("a line");
@@ -325,7 +325,7 @@ fn answers_go_on_while_somebody_types_xml() {
     let mut text = DRAWING.to_owned();
     text.insert_str(at, typed);
     assert_eq!(codes(&editor.diagnostics(URI, 2)), ["E001"]);
-    // Before and behind what is typed.
+    // Before and after the edit.
     for (word, told) in [("Rarm@", "Root › Ubody › **Rarm**"), ("Let thick", "# Let")] {
         let hover = editor.ask("textDocument/hover", place(&text, word));
         assert!(
@@ -352,7 +352,7 @@ fn answers_go_on_while_somebody_types_xml() {
         labels.contains(&"Ubody") && labels.contains(&"Rarm"),
         "{labels:?}"
     );
-    // A text that cannot be read whole is not edited.
+    // A text that is not well-formed is not edited.
     let mut rename = place(&text, "Ubody<");
     rename["newName"] = json!("x");
     let error = editor.refused("textDocument/rename", rename);
@@ -365,7 +365,7 @@ fn answers_go_on_while_somebody_types_xml() {
 }
 
 #[test]
-fn columns_count_what_was_agreed() {
+fn columns_count_in_the_negotiated_encoding() {
     let text = DRAWING.replace("Rarm@Ubody", "腕😀@Ubdoy");
     for (offered, agreed, expected) in [
         (json!(["utf-8", "utf-16"]), "utf-8", 8),
@@ -396,7 +396,7 @@ fn columns_count_what_was_agreed() {
 }
 
 #[test]
-fn linked_files_that_change_are_seen() {
+fn changed_links_are_analysed_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = DRAWING.replace("Color #ff8000", "Texture \"sail.png\"");
     let uri = address(&folder.path().join("a.svg"));
@@ -414,7 +414,7 @@ fn linked_files_that_change_are_seen() {
     without(&mut editor, false);
     fs::remove_file(folder.path().join("sail.png")).expect("gone");
     without(&mut editor, true);
-    // Completion knows the folder, and the definition is the file.
+    // Completion lists the folder, and the definition is the file.
     fs::copy(gull, folder.path().join("sail.png")).expect("a picture");
     without(&mut editor, false);
     let at = text.find("sail.png").expect("the name");
@@ -429,7 +429,7 @@ fn linked_files_that_change_are_seen() {
 }
 
 #[test]
-fn diagnostics_can_be_fetched() {
+fn diagnostics_can_be_requested() {
     let mut editor = Editor::with(json!({
         "textDocument": {"diagnostic": {}},
         "workspace": {"diagnostics": {"refreshSupport": true}},
@@ -450,7 +450,7 @@ fn diagnostics_can_be_fetched() {
     );
     let report = editor.ask("textDocument/diagnostic", again);
     assert!(codes(report["items"].as_array().expect("items")).contains(&"E204"));
-    // Who fetches is not sent the same.
+    // A client that requests diagnostics is not sent them.
     let sent = editor.during(
         Duration::from_millis(300),
         "textDocument/publishDiagnostics",
@@ -460,14 +460,14 @@ fn diagnostics_can_be_fetched() {
             .all(|note| note["params"]["diagnostics"] == json!([])),
         "{sent:?}"
     );
-    // Who does not say that it can fetch is not told to.
+    // A client without that capability is not asked to refresh.
     assert!(Editor::new().offered["capabilities"]["diagnosticProvider"].is_null());
 }
 
 #[test]
-fn it_is_analysed_when_wanted() {
+fn texts_are_analysed_on_type_or_on_save() {
     let params = json!({"processId": null, "capabilities": {}, "initializationOptions": {"analyse": "onSave"}});
-    let mut editor = Editor::begun(params);
+    let mut editor = Editor::initialized(params);
     editor.opened(URI, DRAWING);
     let wrong = DRAWING.replace("@Ubody", "@Nobody");
     editor.change(URI, 2, &[json!({"text": wrong})]);
@@ -478,13 +478,13 @@ fn it_is_analysed_when_wanted() {
         ),
         Vec::<Value>::new()
     );
-    editor.tell("textDocument/didSave", document());
+    editor.notify("textDocument/didSave", document());
     assert!(codes(&editor.diagnostics(URI, 2)).contains(&"E204"));
-    // What is asked is about the text as it is, saved or not.
+    // Requests are answered for the present text, saved or not.
     editor.change(URI, 3, &[json!({"text": DRAWING})]);
     let definition = editor.ask("textDocument/definition", place(DRAWING, "Ubody$"));
     assert_eq!(definition.as_array().expect("places").len(), 1);
-    editor.tell(
+    editor.notify(
         "workspace/didChangeConfiguration",
         json!({"settings": {"okoshi": {"analyse": "onType"}}}),
     );
@@ -493,16 +493,16 @@ fn it_is_analysed_when_wanted() {
 }
 
 #[test]
-fn requests_can_be_called_off() {
+fn requests_can_be_cancelled() {
     let mut editor = Editor::new();
-    // Large enough that its analysis is still under way when the request is called off.
+    // Large enough that its analysis is still running when the request is cancelled.
     let text = many(4_000);
     editor.open(URI, 1, &text);
     let id = editor.request("textDocument/hover", place(&text, "Rarm@"));
-    editor.tell("$/cancelRequest", json!({"id": id}));
+    editor.notify("$/cancelRequest", json!({"id": id}));
     assert_eq!(editor.answer(id)["error"]["code"], -32800);
     editor.diagnostics(URI, 1);
-    assert!(editor.leave().success());
+    assert!(editor.shut_down().success());
 }
 
 #[test]
@@ -522,28 +522,28 @@ fn a_long_analysis_shows_progress() {
 }
 
 #[test]
-fn it_ends_with_its_client() {
-    assert_eq!(Editor::new().leave().code(), Some(0));
-    // Without a word it ends all the same, and says that something was wrong.
-    assert_eq!(Editor::new().vanish().code(), Some(1));
+fn the_server_ends_with_its_client() {
+    assert_eq!(Editor::new().shut_down().code(), Some(0));
+    // Without `exit` it ends too, with an error status.
+    assert_eq!(Editor::new().disconnect().code(), Some(1));
     let mut editor = Editor::new();
-    editor.tell("exit", Value::Null);
-    assert_eq!(editor.vanish().code(), Some(1));
-    // Some clients take their leave with empty parameters.
+    editor.notify("exit", Value::Null);
+    assert_eq!(editor.disconnect().code(), Some(1));
+    // Some clients send `shutdown` with empty parameters.
     let mut editor = Editor::new();
     editor.ask("shutdown", json!({}));
-    editor.tell("exit", json!({}));
-    assert_eq!(editor.vanish().code(), Some(0));
+    editor.notify("exit", json!({}));
+    assert_eq!(editor.disconnect().code(), Some(0));
 }
 
 #[cfg(unix)]
 #[test]
-fn it_ends_when_its_clients_process_is_gone() {
+fn the_server_ends_with_its_clients_process() {
     let mut client = std::process::Command::new("sleep")
         .arg("60")
         .spawn()
         .expect("a process");
-    let editor = Editor::begun(json!({"processId": client.id(), "capabilities": {}}));
+    let editor = Editor::initialized(json!({"processId": client.id(), "capabilities": {}}));
     client.kill().expect("killed");
     client.wait().expect("gone");
     let until = Instant::now() + Duration::from_secs(20);
@@ -555,22 +555,22 @@ fn it_ends_when_its_clients_process_is_gone() {
 }
 
 #[test]
-fn nonsense_is_answered() {
+fn invalid_requests_are_answered() {
     let mut editor = Editor::new();
     assert_eq!(
         editor.refused("textDocument/hover", json!({"nonsense": 1}))["code"],
         -32602
     );
     assert_eq!(editor.refused("no/such", json!({}))["code"], -32601);
-    // What was never opened is not known.
+    // A text that was never opened.
     assert!(
         editor
             .ask("textDocument/hover", place(DRAWING, "Rarm@"))
             .is_null()
     );
     editor.change(URI, 1, &[json!({"text": "x"})]);
-    editor.tell("textDocument/didChange", json!({"nonsense": 1}));
-    // Places outside of the text are moved into it.
+    editor.notify("textDocument/didChange", json!({"nonsense": 1}));
+    // Positions outside of the text are clamped.
     editor.opened(URI, DRAWING);
     let far = json!({"line": 99_999, "character": 99_999});
     editor.change(
@@ -581,7 +581,7 @@ fn nonsense_is_answered() {
     editor.diagnostics(URI, 2);
     let hover = json!({"textDocument": {"uri": URI}, "position": far});
     assert!(editor.ask("textDocument/hover", hover).is_null());
-    assert!(editor.leave().success());
+    assert!(editor.shut_down().success());
 }
 
 #[test]
@@ -594,7 +594,7 @@ fn parts_of_all_drawings_are_found_by_name() {
     )
     .expect("written");
     let root = address(folder.path());
-    let mut editor = Editor::begun(json!({
+    let mut editor = Editor::initialized(json!({
         "processId": null,
         "capabilities": {},
         "workspaceFolders": [{"uri": root, "name": "drawings"}],

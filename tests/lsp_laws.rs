@@ -1,4 +1,4 @@
-//! Laws of the language server, tried with many random edits over real stdio.
+//! Laws of the language server, checked with random edits over real stdio.
 
 mod common;
 
@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 
 const URI: &str = "untitled:a.svg";
 
-/// Drawings with strings in all the places where they can be hard to read.
+/// Drawings with strings in all notations that are hard to map to bytes.
 const DRAWINGS: &[&str] = &[
     include_str!("../examples/human.svg"),
     include_str!("../examples/robot-ja.svg"),
@@ -66,7 +66,7 @@ const STRING_PIECES: &[&str] = &[
     "",
 ];
 
-/// Elements that are put in as a whole.
+/// Elements that are inserted whole.
 const ELEMENTS: &[&str] = &[
     "<text x=\"3\" y=\"4\">Nase@arm</text>",
     "<text x=\"40\" y=\"30\">$Color <![CDATA[red]]></text>\r\n",
@@ -96,13 +96,13 @@ enum Kind {
     String,
     /// A digit of a number in a tag.
     Digit,
-    /// A whole element, put in or removed.
+    /// A whole element, inserted or removed.
     Element,
     /// Anything anywhere, which is repaired by a later edit of this kind.
     Damage,
 }
 
-/// A random edit. Its numbers choose among what the text offers that it meets.
+/// A random edit. Its indices choose among the places that the text has.
 #[derive(Debug, Clone)]
 struct Edit {
     kind: Kind,
@@ -131,14 +131,14 @@ fn edits(most: usize) -> impl Strategy<Value = Vec<Edit>> {
     prop::collection::vec(edit, 1..most)
 }
 
-/// Bytes that are replaced, and by what.
+/// A byte range and its replacement.
 type Replacement = (Range<usize>, String);
 
-/// A well-formed drawing that is edited, and at times damaged and repaired.
+/// A well-formed drawing that is edited, and sometimes damaged and repaired.
 struct Draft {
     /// The drawing without damage.
     sound: String,
-    /// What is damaged in it, and what is there instead.
+    /// The damaged range of it, and the text that replaces it.
     damage: Option<Replacement>,
     repairs: usize,
 }
@@ -160,7 +160,7 @@ impl Draft {
         text
     }
 
-    /// Makes an edit, and gives it as one of [`Draft::text`] before it; `None` if the text offers no place for it.
+    /// Makes an edit, and returns it in terms of [`Draft::text`] before it; `None` if the text has no place for it.
     fn edit(&mut self, edit: &Edit) -> Option<Replacement> {
         if matches!(edit.kind, Kind::Damage) {
             return Some(match self.damage.is_some() {
@@ -248,13 +248,13 @@ fn moved(range: &Range<usize>, by: isize) -> Range<usize> {
     start..end
 }
 
-/// The characters of strings: behind the tags of texts and descriptions, and in sections of characters.
+/// The characters of strings: after the tags of texts and descriptions, and in CDATA sections.
 fn strings(text: &str) -> Vec<Range<usize>> {
     let inside = |open: &'static str, until: &'static str, close: &'static str| {
         text.match_indices(open).filter_map(move |(at, _)| {
             let start = at + text[at..].find(until)? + until.len();
             let end = start + text[start..].find(close)?;
-            // A tag that closes itself has no characters.
+            // A self-closing tag has no characters.
             (!text[..start].ends_with("/>")).then_some(start..end)
         })
     };
@@ -264,7 +264,7 @@ fn strings(text: &str) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Where characters begin, and the end; entities and line ends count as one character.
+/// The offsets of characters, and the end; entities and line ends count as one character.
 fn bounds(text: &str) -> Vec<usize> {
     let mut bounds = vec![];
     let mut at = 0;
@@ -281,7 +281,7 @@ fn bounds(text: &str) -> Vec<usize> {
     bounds
 }
 
-/// What is asked: of whole texts, at places, and otherwise.
+/// The requests: for whole texts, at offsets, and others.
 const METHODS: [&str; 17] = [
     "documentSymbol",
     "foldingRange",
@@ -302,7 +302,7 @@ const METHODS: [&str; 17] = [
     "formatting",
 ];
 
-/// Everything that is asked about a text.
+/// The answers to all requests about a text.
 fn answers(editor: &mut Editor, text: &str, places: &[usize]) -> Vec<(String, Value)> {
     let document = json!({"uri": URI});
     let whole = range(text, 0, text.len());
@@ -350,8 +350,8 @@ fn answers(editor: &mut Editor, text: &str, places: &[usize]) -> Vec<(String, Va
         .collect()
 }
 
-/// Fails if a position anywhere in an answer is none of the text.
-fn check_places(text: &str, answer: &Value) -> Result<(), String> {
+/// Fails if an answer contains a position outside of the text.
+fn check_positions(text: &str, answer: &Value) -> Result<(), String> {
     match answer {
         Value::Object(fields) => {
             if fields.contains_key("line")
@@ -362,16 +362,16 @@ fn check_places(text: &str, answer: &Value) -> Result<(), String> {
             }
             fields
                 .values()
-                .try_for_each(|value| check_places(text, value))
+                .try_for_each(|value| check_positions(text, value))
         }
         Value::Array(values) => values
             .iter()
-            .try_for_each(|value| check_places(text, value)),
+            .try_for_each(|value| check_positions(text, value)),
         _ => Ok(()),
     }
 }
 
-/// Fails if a token is not a stretch of characters in one line.
+/// Fails if a token is not within one line.
 fn check_tokens(text: &str, tokens: &Value) -> Result<(), String> {
     let (mut line, mut character) = (0, 0);
     for token in tokens["data"]
@@ -419,7 +419,7 @@ fn runner(cases: u32) -> TestRunner {
     })
 }
 
-/// Counts cases, and of how many of them something held.
+/// Counts cases, and those in which something held.
 #[derive(Default)]
 struct Tally {
     cases: Cell<u32>,
@@ -432,7 +432,7 @@ impl Tally {
         self.held.set(self.held.get() + u32::from(holds));
     }
 
-    /// Fails if it held of fewer than so many of a hundred cases; a few cases say nothing.
+    /// Fails if it held in less than this share of the cases, with an allowance of five cases.
     #[track_caller]
     fn assert_share(&self, percent: u32) {
         let (cases, held) = (self.cases.get(), self.held.get());
@@ -443,9 +443,9 @@ impl Tally {
     }
 }
 
-/// After any edits the server says what a fresh one says of the text that came out, and all its places are in it.
+/// After any edits the server answers like a fresh one for the final text, and all positions are in the text.
 #[test]
-fn history_does_not_matter() {
+fn answers_do_not_depend_on_history() {
     let histories = (
         any::<Index>(),
         edits(120),
@@ -493,7 +493,7 @@ fn history_does_not_matter() {
         fresh.open(URI, version, &text);
         let expected = fresh.diagnostics(URI, version);
         prop_assert_eq!(&found, &expected, "{}", text);
-        check_places(&text, &json!(found)).map_err(TestCaseError::fail)?;
+        check_positions(&text, &json!(found)).map_err(TestCaseError::fail)?;
         let characters = bounds(&text);
         let places: Vec<usize> = places
             .iter()
@@ -505,13 +505,13 @@ fn history_does_not_matter() {
             .any(|diagnostic| diagnostic["code"] == "E001");
         let old = answers(&mut editor, &text, &places);
         for (method, answer) in &old {
-            check_places(&text, answer)
+            check_positions(&text, answer)
                 .map_err(|error| TestCaseError::fail(format!("{method}: {error} in {text}")))?;
             if method == "semanticTokens/full" {
                 check_tokens(&text, answer).map_err(TestCaseError::fail)?;
             }
         }
-        // Of broken XML an editor that knew it before knows more.
+        // Of broken XML the old server knows more, from the last state that was well-formed.
         if sound {
             let new = answers(&mut fresh, &text, &places);
             prop_assert_eq!(&old, &new, "{}", text);
@@ -535,7 +535,7 @@ fn history_does_not_matter() {
     }
 }
 
-/// Whether an answer says nothing.
+/// Whether an answer is empty or an error.
 fn empty(answer: &Value) -> bool {
     match answer {
         Value::Null => true,
@@ -558,7 +558,7 @@ fn after(text: &str, edits: &[okoshi::diagnostic::Edit]) -> String {
     edited(text, &json!(edits.collect::<Vec<_>>()))
 }
 
-/// A drawing's model without the strings that it was made from, which the file quotes.
+/// A drawing's model without its strings, which the file quotes.
 fn model(analysis: &Analysis) -> (Value, Vec<u8>) {
     let bytes = glb(analysis.compiled());
     let glb = gltf::Glb::from_slice(&bytes).expect("a model");
@@ -573,7 +573,7 @@ fn model(analysis: &Analysis) -> (Value, Vec<u8>) {
 
 /// Formatting again changes nothing, and formatting does not change the model.
 #[test]
-fn formatting_is_done_once_and_changes_no_model() {
+fn formatting_is_idempotent_and_keeps_the_model() {
     let (sound, changed) = (Tally::default(), Tally::default());
     let outcome = runner(192).run(&(any::<Index>(), edits(12)), |(drawing, edits)| {
         let mut draft = Draft::new(DRAWINGS[drawing.index(DRAWINGS.len())]);
@@ -601,10 +601,10 @@ fn formatting_is_done_once_and_changes_no_model() {
     changed.assert_share(40);
 }
 
-/// Renaming there and back restores the bytes, and leaves all errors as they were. (A name that is written with
-/// needless quotes, in entities that it does not need or in full-width letters comes back in its plain form.)
+/// Renaming there and back restores the bytes and keeps all errors. (A name that is written with
+/// needless quotes or entities or in full-width letters comes back in its plain form.)
 #[test]
-fn renaming_leads_back() {
+fn renaming_can_be_reverted() {
     let names = prop_oneof![
         Just("Zz"),
         Just("zwei Wörter"),
@@ -630,16 +630,16 @@ fn renaming_leads_back() {
         places.dedup();
         let at = places[place.index(places.len())];
         let (_, old) = before.prepare_rename(at).expect("a name");
-        // What is refused is no case: the law is tried with so many that are not.
+        // A refused rename is no case: proptest tries another instead.
         let edits = before
             .rename(at, name)
             .map_err(|error| TestCaseError::reject(error.to_string()))?;
-        // A description without a name is given one, which it keeps.
+        // A description without a name keeps the one that it is given.
         prop_assume!(old != "Ｌeg" && old != "Leg");
         let there = after(&text, &edits);
         let renamed = analysis(&there);
         prop_assert!(renamed.is_sound(), "{}", there);
-        // A text that is aligned to its middle may come nearer to another part, and a hint says so.
+        // A centred text may move nearer to another part, which is a hint.
         let errors = |analysis: &Analysis| {
             let found = analysis.diagnostics().iter();
             let errors = found.filter(|found| found.severity() == Severity::Error);

@@ -54,8 +54,8 @@ fn insert(editor: &mut Editor, text: &mut String, version: i64, at: usize, what:
 }
 
 #[test]
-fn a_panel_is_told_of_unsaved_texts() {
-    let mut editor = Editor::begun(json!({
+fn panels_show_unsaved_texts() {
+    let mut editor = Editor::initialized(json!({
         "processId": null,
         "capabilities": {},
         "initializationOptions": {"preview": true},
@@ -69,7 +69,7 @@ fn a_panel_is_told_of_unsaved_texts() {
     let first = model(&mut editor, &build);
     assert_eq!(common::nodes(&first).expect("a sound model").len(), 3);
 
-    // A keystroke that is an error keeps the model; the next one mends it.
+    // A keystroke that is an error keeps the model; the next one fixes it.
     let at = text.find("-5 5<").expect("the depths");
     insert(&mut editor, &mut text, 2, at, "x");
     let build = news(&mut editor, "build");
@@ -84,7 +84,7 @@ fn a_panel_is_told_of_unsaved_texts() {
     assert_eq!(build["build"]["stale"], false);
     assert!(model(&mut editor, &build) != first);
 
-    // The cursor lights parts up, in strings and in tags, and nothing elsewhere.
+    // The cursor highlights parts, in strings and in tags, and nothing elsewhere.
     for (word, part) in [
         ("Rarm@", json!("Rarm")),
         ("rect id=\"body", json!("Ubody")),
@@ -92,7 +92,7 @@ fn a_panel_is_told_of_unsaved_texts() {
     ] {
         let at = text.find(word).expect("the word is there");
         let cursor = json!({"textDocument": {"uri": URI}, "position": position(&text, at)});
-        editor.tell("okoshi/preview/cursor", cursor);
+        editor.notify("okoshi/preview/cursor", cursor);
         assert_eq!(news(&mut editor, "light")["part"], part, "{word}");
     }
 
@@ -110,7 +110,7 @@ fn a_panel_is_told_of_unsaved_texts() {
     );
     assert!(nowhere.is_null());
 
-    editor.tell("okoshi/preview/close", document());
+    editor.notify("okoshi/preview/close", document());
     editor.ask("okoshi/preview/model", json!({"address": "builds/1.glb"}));
     insert(&mut editor, &mut text, 4, at, " ");
     editor.diagnostics(URI, 4);
@@ -121,12 +121,12 @@ fn a_panel_is_told_of_unsaved_texts() {
     );
     editor.ask("okoshi/preview/open", document());
     news(&mut editor, "build");
-    assert!(editor.leave().success());
+    assert!(editor.shut_down().success());
 }
 
 #[test]
-fn landscapes_are_listed_and_lead_to_their_strings() {
-    let mut editor = Editor::begun(json!({
+fn landscapes_are_listed_with_their_strings() {
+    let mut editor = Editor::initialized(json!({
         "capabilities": {},
         "initializationOptions": {"preview": true},
     }));
@@ -151,13 +151,13 @@ fn landscapes_are_listed_and_lead_to_their_strings() {
     assert_eq!(place["range"]["start"], position(text, string));
     let at = text.find("rect id=\"cliff\"").expect("there");
     let cursor = json!({"textDocument": {"uri": URI}, "position": position(text, at)});
-    editor.tell("okoshi/preview/cursor", cursor);
+    editor.notify("okoshi/preview/cursor", cursor);
     assert_eq!(news(&mut editor, "light")["part"], "Hill");
-    assert!(editor.leave().success());
+    assert!(editor.shut_down().success());
 }
 
 #[test]
-fn a_page_shows_texts_of_editors_without_panels() {
+fn texts_of_editors_without_panels_are_shown_on_a_page() {
     let mut editor = Editor::with(json!({"window": {"showDocument": {"support": true}}}));
     let mut text = DRAWING.to_owned();
     editor.opened(URI, &text);
@@ -209,5 +209,5 @@ fn a_page_shows_texts_of_editors_without_panels() {
         shown["selection"]["start"],
         json!({"line": 4, "character": 35})
     );
-    assert!(editor.leave().success());
+    assert!(editor.shut_down().success());
 }

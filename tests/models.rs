@@ -1,4 +1,4 @@
-//! `Shape model`: ready models in the place of solids.
+//! `Shape model`: imported models in place of solids.
 
 use std::io::Cursor;
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use okoshi::scene::{
     Wrap,
 };
 
-/// A box of 2 × 4 × 1 about (10, 0, 0): a textured front, and a bare body.
+/// A box of 2 × 4 × 1 about (10, 0, 0): a textured front, and a plain body.
 fn pillar() -> Vec<u8> {
     let mut png = Cursor::new(Vec::new());
     let pixels = image::RgbaImage::from_pixel(2, 2, image::Rgba([200, 30, 30, 255]));
@@ -154,7 +154,7 @@ fn a_model_is_fitted_to_its_part() {
 }
 
 #[test]
-fn both_sides_and_offsets_are_as_with_solids() {
+fn sides_and_offsets_apply_to_models() {
     let files: &[(&str, &[u8])] = &[("pillar.glb", &pillar())];
     let both = compiled("-s model \"pillar.glb\" Offset 50", files);
     assert_near(
@@ -173,7 +173,7 @@ fn both_sides_and_offsets_are_as_with_solids() {
 }
 
 #[test]
-fn a_models_looks_are_kept() {
+fn a_models_materials_are_kept() {
     let compiled = compiled("model \"pillar.glb\"", &[("pillar.glb", &pillar())]);
     let model = to_memory(&GLB, &compiled.scene, None).expect("sound");
     let document = gltf::Gltf::from_slice(&model.bytes)
@@ -229,9 +229,9 @@ fn a_gltf_links_from_its_own_folder() {
     );
 }
 
-/// Whatever is wrong with a file, it is said, and the part is there as a plate.
+/// A broken file is reported, and the part becomes a plate.
 #[test]
-fn what_is_no_model_is_said() {
+fn files_that_are_no_models_are_reported() {
     let whole = pillar();
     let empty = br#"{"asset":{"version":"2.0"}}"#;
     let cut = &whole[..whole.len() / 2];
@@ -254,9 +254,9 @@ fn what_is_no_model_is_said() {
     }
 }
 
-/// No byte of a file can make it more than a diagnostic.
+/// No damaged byte causes more than a diagnostic.
 #[test]
-fn broken_models_do_no_harm() {
+fn broken_models_are_survived() {
     let whole = pillar();
     for at in (0..whole.len()).step_by(7) {
         let mut bytes = whole.clone();

@@ -14,7 +14,7 @@ fn run(room: &Room, arguments: &[&str]) -> Output {
     room.command(arguments).output().expect("it starts")
 }
 
-/// Runs, and wants an exit status, nothing on stdout, and words on stderr.
+/// Runs, and expects an exit status, nothing on stdout, and words on stderr.
 #[track_caller]
 fn ends(room: &Room, arguments: &[&str], status: i32, words: &[&str]) {
     let output = run(room, arguments);
@@ -27,7 +27,7 @@ fn ends(room: &Room, arguments: &[&str], status: i32, words: &[&str]) {
 }
 
 #[test]
-fn every_template_builds_and_there_is_nothing_to_say() {
+fn every_template_builds_without_diagnostics() {
     for (template, least) in TEMPLATES {
         let room = Room::new();
         ends(
@@ -56,7 +56,7 @@ fn every_template_builds_and_there_is_nothing_to_say() {
 }
 
 #[test]
-fn help_lists_the_templates_there_are() {
+fn help_lists_all_templates() {
     let output = run(&Room::new(), &["new", "--help"]);
     let help = String::from_utf8_lossy(&output.stdout).into_owned();
     for (template, _) in TEMPLATES {
@@ -75,7 +75,7 @@ fn help_lists_the_templates_there_are() {
 }
 
 #[test]
-fn drawings_are_not_written_over() {
+fn existing_drawings_are_not_overwritten() {
     let room = Room::new();
     fs::write(room.path("my me.svg"), "hours of work").expect("written");
     for name in ["my me", "my me.svg"] {
@@ -98,7 +98,7 @@ fn drawings_are_not_written_over() {
 }
 
 #[test]
-fn a_drawing_has_its_ending_once() {
+fn the_extension_is_added_once() {
     let room = Room::new();
     fs::create_dir(room.path("in")).expect("made");
     for name in ["a", "b.svg", "c.d", "in/e"] {
@@ -109,7 +109,7 @@ fn a_drawing_has_its_ending_once() {
 }
 
 #[test]
-fn names_that_are_no_place() {
+fn names_that_are_no_path_are_refused() {
     let room = Room::new();
     ends(
         &room,
@@ -139,14 +139,14 @@ fn names_that_are_no_place() {
 
 #[cfg(unix)]
 #[test]
-fn a_folder_that_may_not_be_written() {
+fn read_only_folders_are_refused() {
     use std::os::unix::fs::PermissionsExt as _;
 
     let room = Room::new();
     let folder = room.path("locked");
     fs::create_dir(&folder).expect("made");
     fs::set_permissions(&folder, fs::Permissions::from_mode(0o555)).expect("locked");
-    // Who may do everything, root for example, cannot be refused.
+    // Root can write everywhere; then this test checks nothing.
     if fs::write(folder.join("probe"), "").is_ok() {
         return;
     }
@@ -161,8 +161,8 @@ fn a_folder_that_may_not_be_written() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn a_system_that_refuses_files() {
-    // Not even root makes files there.
+fn errors_of_the_system_are_reported() {
+    // Not even root can create files there.
     let name = "/proc/okoshi-me";
     ends(&Room::new(), &["new", name], 2, &["error: ", "/proc"]);
 }

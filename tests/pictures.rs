@@ -1,6 +1,6 @@
-//! Every example looks as it did: its picture is compared with the one kept in `tests/pictures/`.
+//! Every example looks the same as before: its picture is compared with the one in `tests/pictures/`.
 //!
-//! `OKOSHI_REWRITE=pictures cargo test --test pictures` makes those anew; look at them before they are committed.
+//! `OKOSHI_REWRITE=pictures cargo test --test pictures` updates those; look at them before you commit them.
 
 mod common;
 
@@ -16,7 +16,7 @@ use okoshi::resolver::MemoryResolver;
 const SIDE: u32 = 160;
 /// The side of the blocks that are compared by their means, pixels: larger than an edge may move by rounding.
 const BLOCK: u32 = 8;
-/// How far two pictures may differ, of 255: all over, and in a block.
+/// The greatest mean difference of two pictures, of 255: in all, and in a block.
 const MEAN: f64 = 0.6;
 const WORST: f64 = 7.0;
 
@@ -51,7 +51,7 @@ fn difference(one: &RgbaImage, other: &RgbaImage) -> (f64, f64) {
         (0..SIDE / BLOCK).flat_map(|y| (0..SIDE / BLOCK).map(move |x| (x * BLOCK, y * BLOCK)));
     let (mut sum, mut worst, mut count) = (0.0, 0.0_f64, 0.0);
     for (left, top) in blocks {
-        // Signed, so that an edge that is a touch softer counts for nothing.
+        // Signed, so that a slightly softer edge does not count.
         let mut far = [0.0_f64; 3];
         for y in top..top + BLOCK {
             for x in left..left + BLOCK {
@@ -76,7 +76,7 @@ fn save(image: &RgbaImage, path: &Path) {
 }
 
 #[test]
-fn examples_look_as_they_did() {
+fn examples_look_the_same() {
     let rewrite = common::rewrite::rewrites("pictures");
     let mut wrong = Vec::new();
     for name in &common::examples() {
@@ -110,7 +110,7 @@ fn examples_look_as_they_did() {
 }
 
 #[test]
-fn a_moved_limb_is_seen() {
+fn a_moved_limb_is_noticed() {
     let whole = picture(&example("human"));
     assert_eq!(difference(&whole, &whole), (0.0, 0.0));
     let path = folder("examples/human.svg");

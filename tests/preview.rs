@@ -1,4 +1,4 @@
-//! `okoshi preview` as a server: what it serves, what it refuses, and that nobody can hold it up.
+//! `okoshi preview` as a server: what it serves, what it refuses, and that no client can block it.
 
 mod common;
 
@@ -22,7 +22,7 @@ const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" he
 
 /// A page of a drawing, and its port.
 fn served(folder: &Path, target: &str) -> (Live, u16) {
-    // On a port that it finds free by itself.
+    // On any free port.
     let live = Live::start(folder, &["preview", target]);
     let [address, _] = live.lines(["http://127.0.0.1:", "watching"]);
     let port = address.rsplit_once("127.0.0.1:").map(|(_, rest)| rest);
@@ -36,7 +36,7 @@ fn folder() -> tempfile::TempDir {
     folder
 }
 
-/// The status and the body of an answer to a request as it is written.
+/// The status and the body of the answer to a raw request.
 fn asked(port: u16, request: &str) -> (u16, Vec<u8>) {
     let mut stream = TcpStream::connect(("127.0.0.1", port)).expect("connected");
     stream
@@ -67,7 +67,7 @@ fn got(port: u16, path: &str) -> (u16, Vec<u8>) {
 
 type Socket = WebSocket<MaybeTlsStream<TcpStream>>;
 
-/// A page's socket, from an origin.
+/// A page's web socket, with an origin.
 fn socket(port: u16, origin: Option<&str>) -> tungstenite::Result<Socket> {
     let mut request = format!("ws://127.0.0.1:{port}/live").into_client_request()?;
     if let Some(origin) = origin {
@@ -127,7 +127,7 @@ fn builds_are_pushed_and_models_can_be_fetched() {
         .filter(|pixel| pixel[3] > 250 && pixel[0] > 2 * pixel[1].max(pixel[2]));
     assert!(reds.count() > 5000, "the part's red is seen");
 
-    // An error keeps the model, and says where it is.
+    // An error keeps the model and names its position.
     fs::write(
         folder.path().join("a.svg"),
         DRAWING.replace("default", "defalt"),
@@ -152,7 +152,7 @@ fn builds_are_pushed_and_models_can_be_fetched() {
 }
 
 #[test]
-fn a_folder_is_a_list() {
+fn a_folder_is_listed() {
     let folder = folder();
     fs::create_dir(folder.path().join("sub")).expect("a folder");
     fs::write(folder.path().join("sub/b.svg"), DRAWING).expect("written");
@@ -226,10 +226,10 @@ fn foreign_pages_and_paths_are_refused() {
 }
 
 #[test]
-fn it_listens_on_loopback_only() {
+fn the_server_listens_on_loopback_only() {
     let folder = folder();
     let (_live, port) = served(folder.path(), "a.svg");
-    // Any other address of this machine, as an outside one would be.
+    // Another address of this machine, like one from outside.
     let outside = std::net::UdpSocket::bind("0.0.0.0:0").and_then(|socket| {
         socket.connect("192.0.2.1:9")?;
         socket.local_addr()
@@ -259,11 +259,11 @@ fn a_thousand_idle_connections_are_survived() {
         "only {} connections could be made",
         idle.len()
     );
-    // A page that is open is told of builds all the same.
+    // An open page is still sent builds.
     fs::write(folder.path().join("a.svg"), DRAWING.replace("-5 5", "-6 6")).expect("written");
     assert_eq!(heard(&mut page, "build")["build"]["revision"], 2);
     live.line("shown in");
-    // And after a while the idle ones make room, though nobody closes them.
+    // After a while the idle connections are dropped.
     let end = Instant::now() + Duration::from_secs(30);
     while got(port, "/").0 != 200 {
         assert!(Instant::now() < end, "new pages are never served again");
@@ -273,7 +273,7 @@ fn a_thousand_idle_connections_are_survived() {
 }
 
 #[test]
-fn pages_that_do_not_read_hold_up_nobody() {
+fn pages_that_do_not_read_block_no_other() {
     let folder = folder();
     let many: String = (0..3000)
         .map(|index| {
@@ -287,7 +287,7 @@ fn pages_that_do_not_read_hold_up_nobody() {
     };
     fs::write(folder.path().join("a.svg"), drawing(5)).expect("written");
     let (live, port) = served(folder.path(), "a.svg");
-    // They are told a megabyte at every build, and never read it; as many as may listen, but one.
+    // All but one of the allowed pages are sent a megabyte at every build and never read it.
     let deaf: Vec<_> = (0..63)
         .map(|_| socket(port, None).expect("let in"))
         .collect();
@@ -310,7 +310,7 @@ fn pages_that_do_not_read_hold_up_nobody() {
 }
 
 #[test]
-fn a_taken_port_is_said() {
+fn a_taken_port_is_an_error() {
     let folder = folder();
     let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
     let port = taken.local_addr().expect("its address").port().to_string();

@@ -1,4 +1,4 @@
-//! `okoshi render` end to end: what it writes, and what it says of wrong use.
+//! `okoshi render` end to end: its output, and its messages about wrong use.
 
 mod common;
 
@@ -73,7 +73,7 @@ fn a_drawing_becomes_a_picture_beside_it() {
         "{r} {g} {b} {alpha}"
     );
     assert_eq!(image.get_pixel(0, 0).0, [0; 4]);
-    // A model gives the very same picture.
+    // A model gives the same picture.
     ends(&room, "build a.svg", 0, "wrote");
     ends(
         &room,
@@ -168,7 +168,7 @@ fn turntables() {
             *frame.buffer() == picture(&room, &numbers[index]),
             "frame {index}"
         );
-        // The GIF's colours are near, and what is clear in it is mostly clear here.
+        // The GIF's colours are close, and its transparent pixels are mostly transparent here.
         let gif = frames[index].buffer();
         let far = gif.pixels().zip(frame.buffer().pixels()).filter(|(a, b)| {
             let apart = (0..3).any(|channel| a.0[channel].abs_diff(b.0[channel]) > 24);
@@ -181,7 +181,7 @@ fn turntables() {
 }
 
 #[test]
-fn wrong_use_is_told() {
+fn wrong_use_is_explained() {
     let room = room();
     let told = [
         (
@@ -326,7 +326,7 @@ fn upright(node: Node, animations: Vec<Animation>) -> Vec<u8> {
     to_memory(&GLB, &scene, None).expect("sound").bytes
 }
 
-/// A model that bends with the view.
+/// A model that is bent with the view.
 fn bent() -> Vec<u8> {
     let node = Node {
         name: "Island".to_owned(),
@@ -377,7 +377,7 @@ fn milliseconds(frames: &[image::Frame]) -> Vec<u32> {
 }
 
 #[test]
-fn a_clip_becomes_a_moving_picture_whose_drawings_stand_as_long_as_they_do() {
+fn gif_delays_match_the_held_drawings_of_a_clip() {
     let room = moving_room();
     ends(
         &room,
@@ -412,7 +412,7 @@ fn a_clip_becomes_a_moving_picture_whose_drawings_stand_as_long_as_they_do() {
         let image = picture(&room, &format!("a-{:02}.png", frame + 1));
         assert!(image == *drawn[shown].buffer(), "{frame}");
     }
-    // What moves all the time has all its frames, and the sum of their delays is the clip's length.
+    // A constantly moving clip has all its frames, and their delays add up to its length.
     let smooth = "render two.glb -o b.gif --size 40x40 --clip wave_hand";
     let run_smooth = |more: &str| {
         let mut words: Vec<&str> = smooth.split(' ').collect();
@@ -441,7 +441,7 @@ fn moments_and_strips_of_clips() {
     }
     assert!(picture(&room, "early.png") == picture(&room, "same.png"));
     assert!(picture(&room, "early.png") != picture(&room, "late.png"));
-    // A moment can be seen from all sides.
+    // A moment can be a turntable.
     ends(
         &room,
         "render one.glb -o t.gif --size 40x40 --clip held --time 0.5 --turntable 4",
@@ -457,7 +457,7 @@ fn moments_and_strips_of_clips() {
     let strip = picture(&room, "strip.png");
     assert_eq!(strip.dimensions(), (200, 30));
     let cell = |index: u32| image::imageops::crop_imm(&strip, index * 40, 0, 40, 30).to_image();
-    // At 0 and 0.25 the first drawing stands, at 0.5 and 0.75 the second.
+    // At 0 and 0.25 the first drawing is shown, at 0.5 and 0.75 the second.
     assert!(cell(0) == cell(1) && cell(2) == cell(3));
     assert!(cell(1) != cell(2) && cell(3) != cell(4));
     ends(
@@ -472,7 +472,7 @@ fn moments_and_strips_of_clips() {
 }
 
 #[test]
-fn wrong_use_of_clips_is_told() {
+fn wrong_use_of_clips_is_explained() {
     let room = moving_room();
     let told = [
         (
@@ -528,7 +528,7 @@ fn wrong_use_of_clips_is_told() {
 }
 
 #[test]
-fn terrain_is_bent_with_the_view_unless_that_is_switched_off() {
+fn terrain_is_bent_with_the_view_by_default() {
     let room = room();
     room.write("bent.glb", bent());
     let ratio = |arguments: &str| {

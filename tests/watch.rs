@@ -51,7 +51,7 @@ fn width(folder: &Path) -> u32 {
     ((0..3).map(extent).fold(0.0, f32::max) * 100.0).round() as u32
 }
 
-/// Writes as Inkscape does: emptied, then piece by piece.
+/// Writes like Inkscape: truncates, then writes piece by piece.
 fn in_pieces(path: &Path, text: &str) {
     let mut file = File::create(path).expect("created");
     for piece in text.as_bytes().chunks(4096) {
@@ -134,7 +134,7 @@ fn a_cut_drawing_is_an_error_only_after_a_while_and_the_model_stays() {
 }
 
 #[test]
-fn linked_files_are_watched_before_they_are_there() {
+fn linked_files_are_watched_before_they_exist() {
     let (folder, live) = watched(&["a.svg"]);
     let linking = drawing(50).replace("-5 5<", "-5 5 Texture \"skin.png\"<");
     fs::write(folder.path().join("a.svg"), linking).expect("written");
@@ -157,7 +157,7 @@ fn linked_files_are_watched_before_they_are_there() {
 }
 
 #[test]
-fn a_folder_is_watched_with_all_that_comes_into_it() {
+fn new_files_in_a_watched_folder_are_watched() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::create_dir(folder.path().join("in")).expect("a folder");
     let live = Live::start(folder.path(), &["watch", "in", "-o", "out"]);
@@ -177,7 +177,7 @@ fn a_folder_is_watched_with_all_that_comes_into_it() {
 
 #[cfg(unix)]
 #[test]
-fn what_a_link_leads_to_is_watched() {
+fn targets_of_links_are_watched() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::create_dir(folder.path().join("elsewhere")).expect("a folder");
     let target = folder.path().join("elsewhere/b.svg");
@@ -191,7 +191,7 @@ fn what_a_link_leads_to_is_watched() {
 }
 
 #[test]
-fn polling_sees_saves_too() {
+fn polling_notices_saves_too() {
     let (folder, live) = watched(&["a.svg", "--poll=30"]);
     for now in 60..65 {
         in_pieces(&folder.path().join("a.svg"), &drawing(now));
@@ -201,7 +201,7 @@ fn polling_sees_saves_too() {
 }
 
 #[test]
-fn what_cannot_be_watched_is_said_at_once() {
+fn paths_that_cannot_be_watched_are_errors_at_once() {
     let folder = tempfile::tempdir().expect("a folder");
     let live = Live::start(folder.path(), &["watch", "nowhere.svg"]);
     live.line("error: `nowhere.svg` is not there; check the path");

@@ -1,4 +1,4 @@
-//! The drawings that benchmarks measure with.
+//! The drawings of the benchmarks.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use kurbo::{BezPath, Circle, Ellipse, Point, Rect, Shape};
 /// Side of the cell that each part has to itself, drawing units.
 const CELL: f64 = 40.0;
 
-/// How many parts to measure with: what the command asks for, else `usual`.
+/// The numbers of parts to measure with: from the arguments, else `usual`.
 pub(crate) fn sizes(arguments: impl Iterator<Item = String>, usual: &[usize]) -> Vec<usize> {
     // cargo passes `--bench`, which is no number.
     let asked: Vec<usize> = arguments
@@ -156,7 +156,7 @@ fn blob(random: &mut Random, center: Point, radius: f64) -> BezPath {
     path
 }
 
-/// A linear congruential generator (Knuth's MMIX constants): the same drawing on every machine.
+/// A linear congruential generator (Knuth's MMIX constants), kept by hand: a library may change its numbers, and figures measured earlier are of these drawings.
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {

@@ -1,4 +1,4 @@
-//! Every drawing compiles, what comes out can be written, and what is said points into the drawing.
+//! Every drawing compiles, its scene can be written, and diagnostics point into the drawing.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,4 +1,4 @@
-//! Every file of motion is read or refused in one of its lines, and what was read can be resampled, written and read again.
+//! Every motion file is read, or refused with a line; a clip that was read can be resampled, written and read again.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
@@ -7,7 +7,7 @@ use okoshi::motion::lead::lead;
 use okoshi::motion::resample::resample;
 use okoshi::motion::skeleton::Clip;
 
-/// Numbers of a clip that are worked on further: enough to meet every case, and done in time.
+/// The most numbers of a clip that is processed further: enough for every case, and fast.
 const WORKED_ON: usize = 1 << 14;
 
 fuzz_target!(|text: &[u8]| {

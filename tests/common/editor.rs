@@ -17,21 +17,21 @@ pub(crate) struct Editor {
     server: Child,
     input: Option<ChildStdin>,
     messages: Receiver<Value>,
-    /// What the server sent unasked and was not looked at yet.
+    /// Messages from the server that were not read yet.
     notes: VecDeque<Value>,
     next: i64,
-    /// What the server said of itself.
+    /// The server's answer to `initialize`.
     pub(crate) offered: Value,
 }
 
 impl Editor {
-    /// Starts a server and introduces an editor that can do `can`.
+    /// Starts a server for an editor with the capabilities `can`.
     pub(crate) fn with(can: Value) -> Self {
-        Self::begun(json!({"processId": null, "rootUri": null, "capabilities": can}))
+        Self::initialized(json!({"processId": null, "rootUri": null, "capabilities": can}))
     }
 
-    /// Starts a server and introduces an editor with these parameters.
-    pub(crate) fn begun(params: Value) -> Self {
+    /// Starts a server and sends `initialize` with these parameters.
+    pub(crate) fn initialized(params: Value) -> Self {
         let mut server = Command::new(env!("CARGO_BIN_EXE_okoshi"))
             .arg("lsp")
             .stdin(Stdio::piped())
@@ -57,11 +57,11 @@ impl Editor {
             offered: Value::Null,
         };
         editor.offered = editor.ask("initialize", params);
-        editor.tell("initialized", json!({}));
+        editor.notify("initialized", json!({}));
         editor
     }
 
-    /// A server for an editor with all that tests look at.
+    /// A server for an editor with the capabilities that the tests need.
     pub(crate) fn new() -> Self {
         Self::with(json!({
             "textDocument": {
@@ -76,7 +76,7 @@ impl Editor {
         self.server.id()
     }
 
-    /// Sends a message as it is.
+    /// Sends a raw message.
     pub(crate) fn send(&mut self, message: &Value) {
         let body = message.to_string();
         let input = self.input.as_mut().expect("the conversation is open");
@@ -87,7 +87,7 @@ impl Editor {
     }
 
     /// Sends a notification.
-    pub(crate) fn tell(&mut self, method: &str, params: Value) {
+    pub(crate) fn notify(&mut self, method: &str, params: Value) {
         self.send(&json!({"jsonrpc": "2.0", "method": method, "params": params}));
     }
 
@@ -117,7 +117,7 @@ impl Editor {
         }
     }
 
-    /// Asks, and gives the result; an error is a failure.
+    /// Sends a request and returns its result; an error is a failure.
     pub(crate) fn ask(&mut self, method: &str, params: Value) -> Value {
         let id = self.request(method, params);
         let answer = self.answer(id);
@@ -125,7 +125,7 @@ impl Editor {
         answer["result"].clone()
     }
 
-    /// Asks what is wrong, and gives the error.
+    /// Sends an invalid request and returns its error.
     pub(crate) fn refused(&mut self, method: &str, params: Value) -> Value {
         let id = self.request(method, params);
         let answer = self.answer(id);
@@ -133,7 +133,7 @@ impl Editor {
         answer["error"].clone()
     }
 
-    /// The next message that `wanted` takes; others are dropped.
+    /// The next message that `wanted` accepts; others are dropped.
     pub(crate) fn until(&mut self, wanted: impl Fn(&Value) -> bool) -> Value {
         let until = Instant::now() + PATIENCE;
         while let Some(note) = self.notes.pop_front() {
@@ -149,7 +149,7 @@ impl Editor {
         }
     }
 
-    /// All messages of a kind that come within a time, those that came before included.
+    /// All messages of a kind so far and within a time.
     pub(crate) fn during(&mut self, time: Duration, method: &str) -> Vec<Value> {
         let until = Instant::now() + time;
         let mut all: Vec<Value> = self.notes.drain(..).collect();
@@ -164,7 +164,7 @@ impl Editor {
         let left = until.saturating_duration_since(Instant::now());
         match self.messages.recv_timeout(left) {
             Ok(message) => {
-                // Requests of the server's are granted.
+                // Requests from the server are accepted.
                 if let (Some(id), Some(_)) = (message.get("id"), message.get("method")) {
                     let id = id.clone();
                     self.send(&json!({"jsonrpc": "2.0", "id": id, "result": null}));
@@ -179,7 +179,7 @@ impl Editor {
     /// Opens a text.
     pub(crate) fn open(&mut self, uri: &str, version: i64, text: &str) {
         let document = json!({"uri": uri, "languageId": "xml", "version": version, "text": text});
-        self.tell("textDocument/didOpen", json!({"textDocument": document}));
+        self.notify("textDocument/didOpen", json!({"textDocument": document}));
     }
 
     /// Opens a text and gives its diagnostics.
@@ -188,11 +188,11 @@ impl Editor {
         self.diagnostics(uri, 1)
     }
 
-    /// Changes a text by edits that follow each other.
+    /// Changes a text by successive edits.
     pub(crate) fn change(&mut self, uri: &str, version: i64, changes: &[Value]) {
         let document = json!({"uri": uri, "version": version});
         let params = json!({"textDocument": document, "contentChanges": changes});
-        self.tell("textDocument/didChange", params);
+        self.notify("textDocument/didChange", params);
     }
 
     /// The diagnostics of a state of a text.
@@ -208,15 +208,15 @@ impl Editor {
             .clone()
     }
 
-    /// Takes leave as the protocol wants it.
-    pub(crate) fn leave(mut self) -> ExitStatus {
+    /// Ends the session with `shutdown` and `exit`.
+    pub(crate) fn shut_down(mut self) -> ExitStatus {
         self.ask("shutdown", Value::Null);
-        self.tell("exit", Value::Null);
+        self.notify("exit", Value::Null);
         self.wait()
     }
 
-    /// Goes without a word.
-    pub(crate) fn vanish(mut self) -> ExitStatus {
+    /// Closes the connection without `exit`.
+    pub(crate) fn disconnect(mut self) -> ExitStatus {
         self.input = None;
         self.wait()
     }
@@ -280,7 +280,7 @@ pub(crate) fn position(text: &str, offset: usize) -> Value {
     json!({"line": line, "character": character})
 }
 
-/// The byte at a position, columns in UTF-16; `None` if it is not on a character's border in the text.
+/// The byte at a position, columns in UTF-16; `None` if the text has no character boundary there.
 pub(crate) fn offset(text: &str, position: &Value) -> Option<usize> {
     let line = usize::try_from(position["line"].as_u64()?).ok()?;
     let character = usize::try_from(position["character"].as_u64()?).ok()?;
@@ -310,7 +310,7 @@ pub(crate) fn slice<'a>(text: &'a str, range: &Value) -> &'a str {
     &text[start..end]
 }
 
-/// A text after edits, all of which are about it as it was.
+/// A text after edits, all in terms of the original.
 pub(crate) fn edited(text: &str, edits: &Value) -> String {
     let mut places: Vec<(usize, usize, &str)> = edits
         .as_array()

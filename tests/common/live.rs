@@ -1,4 +1,4 @@
-//! A program that runs until it is stopped, and what it says meanwhile.
+//! A long-running program and its output.
 
 use std::io::{BufRead, BufReader, Read};
 use std::path::Path;
@@ -6,10 +6,10 @@ use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, channel};
 use std::time::{Duration, Instant};
 
-/// How long something may take that must happen.
+/// The longest wait for an expected line.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// A process, which ends with this.
+/// A process that is killed when this is dropped.
 pub(crate) struct Live {
     child: Child,
     lines: Receiver<String>,
@@ -43,7 +43,7 @@ impl Live {
         Self { child, lines }
     }
 
-    /// The next line that holds `wanted`.
+    /// The next line that contains `wanted`.
     #[track_caller]
     pub(crate) fn line(&self, wanted: &str) -> String {
         let end = Instant::now() + PATIENCE;
@@ -60,7 +60,7 @@ impl Live {
         panic!("nothing with `{wanted}` was said, but {said:#?}");
     }
 
-    /// The next lines that hold each of these, in whatever order they come: what is said on two streams has none.
+    /// The next lines that contain each of these, in any order, since two streams have none.
     #[track_caller]
     pub(crate) fn lines<const COUNT: usize>(&self, wanted: [&str; COUNT]) -> [String; COUNT] {
         let end = Instant::now() + PATIENCE;
@@ -89,7 +89,7 @@ impl Live {
         std::iter::from_fn(|| next().ok()).collect()
     }
 
-    /// Ends it as a power cut would.
+    /// Kills it, like a power cut.
     pub(crate) fn kill(mut self) -> Vec<String> {
         let _ = self.child.kill();
         let _ = self.child.wait();

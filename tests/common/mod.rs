@@ -1,4 +1,4 @@
-//! What the tests share: models read back from GLB with the `gltf` crate.
+//! Shared by the tests: models read back from GLB with the `gltf` crate.
 #![allow(
     dead_code,
     reason = "each test file is a crate of its own and uses its share"
@@ -19,7 +19,7 @@ use okoshi::compile::{Compiled, Options, compile};
 use okoshi::export::{GLB, to_memory};
 use okoshi::resolver::Resolver;
 
-/// A solid, or several solids of one material, as the file has them.
+/// A primitive of the file: a solid, or several of one material.
 pub(crate) struct Primitive {
     pub(crate) positions: Vec<[f32; 3]>,
     pub(crate) normals: Vec<[f32; 3]>,
@@ -28,7 +28,7 @@ pub(crate) struct Primitive {
     pub(crate) double_sided: bool,
 }
 
-/// A node as the file has it.
+/// A node of the file.
 pub(crate) struct Node {
     pub(crate) name: String,
     pub(crate) parent: Option<String>,
@@ -37,7 +37,7 @@ pub(crate) struct Node {
     pub(crate) primitives: Vec<Primitive>,
 }
 
-/// All examples, folders within folders included: their names without ending, from `examples` on.
+/// All examples, including subfolders: their paths in `examples` without extension.
 pub(crate) fn examples() -> BTreeSet<String> {
     let top = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let mut folders = vec![top.clone()];
@@ -166,8 +166,8 @@ pub(crate) fn closed(primitive: &Primitive) -> Result<(), String> {
     closed_together(&[primitive])
 }
 
-/// Whether the solids of primitives are closed, all taken together: after corners in one place are taken for one, every edge is
-/// walked as often one way as the other. (Solids that touch may share an edge, so once each way is not due.)
+/// Whether the solids of primitives are closed, all taken together: after vertices at one position are merged, every edge is
+/// used as often in one direction as in the other. (Solids that touch may share an edge, so that may be more than once.)
 fn closed_together(primitives: &[&Primitive]) -> Result<(), String> {
     let mut edges: HashMap<[[u32; 3]; 2], i64> = HashMap::new();
     let all = primitives.iter().flat_map(|primitive| {
@@ -202,7 +202,7 @@ fn extent(primitive: &Primitive) -> f64 {
     all.fold(0.0, |most, x| f64::from(x.abs()).max(most))
 }
 
-/// What every model must keep, whatever the drawing.
+/// The laws of every model.
 pub(crate) fn check_laws(nodes: &[Node]) -> Result<(), String> {
     for node in nodes {
         let solid = |primitive: &&Primitive| !primitive.double_sided;
@@ -211,13 +211,13 @@ pub(crate) fn check_laws(nodes: &[Node]) -> Result<(), String> {
             .iter()
             .filter(solid)
             .partition(|primitive| closed(primitive).is_ok());
-        // The looks of a landscape close each other.
+        // The primitives of a landscape's materials are closed together.
         closed_together(&open).map_err(|error| format!("`{}`: {error}", node.name))?;
         let volumes = closed.iter().map(|one| (volume(one), extent(one)));
         let together = open.iter().map(|one| volume(one)).sum();
         let largest = open.iter().map(|one| extent(one)).fold(0.0, f64::max);
         for (volume, extent) in volumes.chain([(together, largest)]) {
-            // A speck far from its joint may fall together when it is written in single precision.
+            // A tiny solid far from its joint may collapse in single precision.
             if volume < -1e-6 * extent.powi(3) {
                 return Err(format!("`{}` has the volume {volume:e}", node.name));
             }
@@ -226,14 +226,14 @@ pub(crate) fn check_laws(nodes: &[Node]) -> Result<(), String> {
     Ok(())
 }
 
-/// A name that two nodes have: never without an error in the drawing.
+/// A name that two nodes share, which is always an error in the drawing.
 pub(crate) fn repeated_name(nodes: &[Node]) -> Option<&str> {
     let mut names = HashSet::new();
     let mut nodes = nodes.iter().map(|node| node.name.as_str());
     nodes.find(|name| !names.insert(*name))
 }
 
-/// The nodes as text: names, parents, places to four digits, what hangs on them.
+/// The nodes as text: names, parents, transforms to four digits, primitives.
 pub(crate) fn tree(nodes: &[Node]) -> String {
     let mut out = String::new();
     for node in nodes {
@@ -269,7 +269,7 @@ pub(crate) fn tree(nodes: &[Node]) -> String {
     out
 }
 
-/// The clips of a GLB as text: what moves, its keys, the first and the last of them.
+/// The clips of a GLB as text: channels with their number of keys, the first and the last key.
 pub(crate) fn clips(glb: &[u8]) -> Result<String, String> {
     let gltf::Gltf { document, blob } =
         gltf::Gltf::from_slice(glb).map_err(|error| error.to_string())?;

@@ -1,4 +1,4 @@
-//! The program, run in a folder of its own.
+//! Runs the program in a temporary folder.
 
 use std::fs;
 use std::io::Write as _;
@@ -14,10 +14,10 @@ pub(crate) const BAD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="
 </svg>
 "##;
 
-/// A folder of its own for a test.
+/// A temporary folder for a test.
 pub(crate) struct Room(TempDir);
 
-/// What a run gave.
+/// The result of a run.
 pub(crate) struct Run {
     pub(crate) status: i32,
     pub(crate) out: String,
@@ -74,7 +74,7 @@ impl Room {
             .spawn()
             .expect("it starts");
         let mut stdin = child.stdin.take().expect("stdin");
-        // Who refuses to work does not read.
+        // A program that fails early does not read its input.
         let _ = stdin.write_all(input);
         drop(stdin);
         child.wait_with_output().expect("it ends")

@@ -1,4 +1,4 @@
-//! `OKOSHI_REWRITE`: what tests write anew instead of comparing it.
+//! `OKOSHI_REWRITE`: expected results that tests rewrite instead of comparing them.
 
 /// What can be rewritten.
 const ALL: [&str; 3] = ["cases", "pictures", "generated"];

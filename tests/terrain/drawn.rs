@@ -1,5 +1,5 @@
-//! The drawing is the test: from 45° above, in parallel projection and bent, every tile of a drawing is seen again in its own
-//! colour at its own place, from the SVG to the model that `render` reads.
+//! From 45° above, in parallel projection and bent, every tile of a drawing is visible in its own
+//! colour at its own position in the model that `render` reads.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -17,7 +17,7 @@ use crate::worlds::World;
 /// Side of a tile, drawing units.
 const TILE: usize = 10;
 
-/// A map as a person could draw it: a rectangle for neighbours of one kind in a row, a line for each edge.
+/// A map as a drawing: a rectangle for neighbours of one kind in a row, a line for each edge.
 fn drawn(map: &Map) -> String {
     let mut shapes = String::new();
     for (row, cells) in map.cells.chunks(map.columns).enumerate() {
@@ -53,7 +53,7 @@ fn drawn(map: &Map) -> String {
     )
 }
 
-/// Which cells of each landscape are not seen in the material of their look.
+/// The cells of each landscape that are not visible in the material of their tile.
 fn hidden(compiled: &Compiled, resolver: &dyn Resolver) -> Vec<String> {
     let written = to_memory(&GLB, &compiled.scene, None).expect("written");
     let model = render::read(&written.bytes, resolver).expect("a model");
@@ -129,7 +129,7 @@ fn hidden(compiled: &Compiled, resolver: &dyn Resolver) -> Vec<String> {
 }
 
 #[test]
-fn a_thousand_maps_are_seen_as_drawn() {
+fn a_thousand_maps_look_as_drawn() {
     let is_seen = |seed: u64| {
         let source = drawn(&World::random(seed).draw().map);
         let compiled = compile(&source, &Options::default(), &MemoryResolver::default());
@@ -145,14 +145,14 @@ fn a_thousand_maps_are_seen_as_drawn() {
         assert!(wrong.is_empty(), "landscape {seed}: {wrong:?}\n{source}");
         true
     };
-    // One after the other: on threads that wait for the compiler's, maps would be begun within each other, too deep for a stack.
+    // One after the other: threads that wait for the compiler would begin further maps, nested too deep for the stack.
     let tried: Vec<bool> = (0..1100).map(is_seen).collect();
     let count = tried.iter().filter(|seen| **seen).count();
     assert!(count >= 1000, "only {count} maps give no diagnostic");
 }
 
 #[test]
-fn examples_are_seen_as_drawn() {
+fn example_landscapes_look_as_drawn() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples");
     let mut count = 0;
     for folder in [root.clone(), root.join("terrain")] {
@@ -161,7 +161,7 @@ fn examples_are_seen_as_drawn() {
             .map(|file| file.expect("a file").path());
         for path in files.filter(|path| path.extension().is_some_and(|ending| ending == "svg")) {
             let source = std::fs::read_to_string(&path).expect("the drawing");
-            // With roofs that look as they are drawn, and without bevels, which are seen.
+            // With roofs of the drawn slope, and without bevels, which would be visible.
             let source = source.replace(" Roof 0.7071", "").replace(" Roof 0.5", "");
             let words: Vec<&str> = source.split("$Tiles ").collect();
             let (first, rest) = words.split_first().expect("some text");

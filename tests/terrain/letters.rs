@@ -1,4 +1,4 @@
-//! Tile maps written down as letters.
+//! Tile maps as letters.
 
 use okoshi::terrain::{EDGE_BELOW, EDGE_RIGHT, Map};
 

@@ -1,4 +1,4 @@
-//! Terrain: what maps mean, what is made of them, and what that looks like.
+//! Terrain: the meaning of maps, their surfaces, and their appearance.
 
 mod drawn;
 mod letters;

@@ -1,4 +1,4 @@
-//! Each rule of terrain with heights that were worked out by hand, and what the thesis states of its figures.
+//! Each rule of terrain with heights that were computed by hand, and the figures of the thesis.
 
 use okoshi::terrain::{AmbiguityKind, HouseInfo, Landscape, Map};
 
@@ -29,7 +29,7 @@ fn assert_tops(lines: &str, expected: &str) {
     assert_eq!(tops(&map(lines)), expected);
 }
 
-/// Volume of what is solid, and its least and greatest corner: x from the left, y from the ground, z from the map's first row.
+/// The volume of the solid, and its bounds: x from the left, y from the ground, z from the map's first row.
 fn measured(map: &Map) -> (f64, [[f64; 3]; 2]) {
     let middle = [map.columns as f64 / 2.0, 0.0, map.rows as f64 / 2.0];
     let mut volume = 0.0;
@@ -92,11 +92,11 @@ fn a_basic_solid_is_as_wide_high_and_deep_as_it_is_drawn() {
         [0, 1, 2].map(|axis| high[axis] - low[axis]),
         [3.0, 3.0, 2.0]
     );
-    // Its foot is seen at row 5, and z = r + y.
+    // Its foot is visible at row 5, and z = r + y.
     assert_eq!((low[1], high[2]), (0.0, 5.0));
 }
 
-/// Rule 2, figure 3.6 without edges: all tops are at one height, and what has fewer browns hangs.
+/// Rule 2, figure 3.6 without edges: all tops are at one height, and columns with fewer browns hang.
 #[test]
 fn columns_with_fewer_browns_hang_below_the_common_top() {
     let stairs = "
@@ -141,7 +141,7 @@ fn edges_make_stairs() {
     assert_volume(stairs, 10.0);
 }
 
-/// Rule 3, figure 3.5: what is drawn on a plate stands on it; beside it the same thing stands on the ground.
+/// Rule 3, figure 3.5: a box that is drawn on a plate stands on it; beside it the same box stands on the ground.
 #[test]
 fn a_thin_box_stands_on_a_plate() {
     assert_tops(
@@ -182,7 +182,7 @@ fn without_edges_a_plate_has_a_hole() {
     assert_eq!(notes(plate), [AmbiguityKind::Pits]);
 }
 
-/// Rules 4 and 5, figure 3.7 on the right: a ring of edges lifts a block onto the plate, which goes on below and behind it.
+/// Rules 4 and 5, figure 3.7 on the right: a ring of edges lifts a block onto the plate, which continues below and behind it.
 #[test]
 fn a_ring_of_edges_lifts_a_block_onto_the_plate() {
     let plate = "
@@ -201,14 +201,14 @@ fn a_ring_of_edges_lifts_a_block_onto_the_plate() {
         1 1 1 1 1
         . . . . .",
     );
-    // The whole plate and one cube: what is hidden is filled.
+    // The whole plate and one cube: hidden cells are filled.
     assert_volume(plate, 21.0);
     assert_eq!(notes(plate), []);
 }
 
-/// Rule 5: before a cliff whose foot a house hides, what both stand on goes on.
+/// Rule 5: in front of a cliff whose foot a house hides, their common ground continues.
 #[test]
-fn the_ground_goes_on_behind_a_house_at_a_cliff() {
+fn the_ground_continues_behind_a_house_at_a_cliff() {
     let map = map("
         g g g g g
         g g g g g
@@ -229,7 +229,7 @@ fn the_ground_goes_on_behind_a_house_at_a_cliff() {
     );
 }
 
-/// Rule 6, figure 3.8: without edges the tongue hangs, with edges it goes on to the front behind it.
+/// Rule 6, figure 3.8: without edges the tongue hangs, with edges it continues to the front behind it.
 #[test]
 fn fronts_with_edges_end_flush_with_what_is_behind() {
     let lines = |edge: &str| {
@@ -279,7 +279,7 @@ fn ponds_are_as_deep_as_their_far_wall() {
         . . . . .
         . . . . .",
     );
-    // 5 × 5 tiles of 3, less the pond: what is drawn and one hidden row.
+    // 5 × 5 tiles of 3, less the pond: the drawn rows and a hidden one.
     assert_volume(&pond("g b b b g"), 75.0 - 9.0);
     assert_tops(
         &pond("g b b b g\n g b b b g"),
@@ -421,9 +421,9 @@ fn a_house_stands_on_its_hill() {
     );
 }
 
-/// Rule 8: edges part houses that stand side by side.
+/// Rule 8: edges separate adjacent houses.
 #[test]
-fn edges_part_houses() {
+fn edges_separate_houses() {
     let pair = |edge: &str| {
         let land = Landscape::new(&map(&format!(
             "
@@ -439,7 +439,7 @@ fn edges_part_houses() {
 
 /// Rule 9: paths are tops, with a note; fronts without a top are one tile deep.
 #[test]
-fn what_is_left_is_built_too() {
+fn remaining_tiles_are_built_too() {
     let path = "
         g g g
         g B g
@@ -468,9 +468,9 @@ fn what_is_left_is_built_too() {
     );
 }
 
-/// Rule 3: what nothing leads to is put on the ground, with a note.
+/// Rule 3: groups without a connection are put on the ground, with a note.
 #[test]
-fn loose_groups_are_told() {
+fn loose_groups_are_reported() {
     let lines = "
         . w .
         R R R
@@ -485,7 +485,7 @@ fn loose_groups_are_told() {
     assert!(notes(lines).contains(&AmbiguityKind::Unconstrained));
 }
 
-/// An arch: the lintel hangs between its posts, and what is behind is seen below it.
+/// An arch: the lintel hangs between its posts, and the ground behind is visible below it.
 #[test]
 fn arches_are_open() {
     let arch = "

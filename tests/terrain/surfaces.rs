@@ -1,4 +1,4 @@
-//! Terrain: maps of landscapes whose heights are known come out as those landscapes, and what comes out looks like its
+//! Terrain: maps of landscapes with known heights give these landscapes, and each looks like its
 //! map.
 
 use std::collections::BTreeMap;
@@ -7,7 +7,7 @@ use okoshi::terrain::{Landscape, Map, Tile};
 
 use crate::worlds::{World, picture, scribble};
 
-/// Cells that come out right, and all that something is drawn in.
+/// The number of cells with the right height, and of all cells with a tile.
 fn score(seed: u64) -> [usize; 2] {
     let drawn = World::random(seed).draw();
     let land = Landscape::new(&drawn.map);
@@ -24,7 +24,7 @@ fn score(seed: u64) -> [usize; 2] {
 }
 
 #[test]
-fn landscapes_come_out_of_their_maps() {
+fn landscapes_are_reconstructed_from_their_maps() {
     let scores: Vec<[usize; 2]> = (0..2000).map(score).collect();
     let sum = |at: usize| scores.iter().map(|score| score[at]).sum::<usize>() as f64;
     let exact = scores.iter().filter(|[right, all]| right == all).count();
@@ -33,7 +33,7 @@ fn landscapes_come_out_of_their_maps() {
     assert!(exact * 2 >= scores.len(), "{exact} maps are right");
 }
 
-/// A triangle with the look that it shows: corners in tiles from the map's top left.
+/// A triangle with its material: corners in tiles from the map's top left.
 type Shown = (u8, [[f64; 3]; 3]);
 
 /// All triangles of a landscape.
@@ -57,9 +57,9 @@ fn triangles(map: &Map, land: &Landscape, roof: f64, bevel: f64) -> Vec<Shown> {
     shown
 }
 
-/// The look that is seen at the middle of each cell, where a point (x, y, z) is seen at column x and row z − y.
+/// The material that is visible at the middle of each cell, where a point (x, y, z) appears at column x and row z − y.
 fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
-    // Not quite the middle: diagonals of squares run through that.
+    // Slightly off the middle, which is on the diagonals of squares.
     const SPOT: [f64; 2] = [0.47, 0.56];
     let mut nearest = vec![(f64::NEG_INFINITY, 0); map.cells.len()];
     for (look, corners) in triangles {
@@ -96,7 +96,7 @@ fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
                 };
                 let near = near(1) + near(2);
                 let cell = &mut nearest[row * map.columns + column];
-                // Where a wall stands on the ground both are equally near: what faces the viewer is seen.
+                // Where a wall meets the ground both are equally near: the face towards the viewer is visible.
                 let faces = area < 0.0;
                 if near > cell.0 + 1e-9 || (near > cell.0 - 1e-9 && faces) {
                     *cell = (near, *look);
@@ -107,7 +107,7 @@ fn looked_at(map: &Map, triangles: &[Shown]) -> Vec<u8> {
     nearest.into_iter().map(|(_, look)| look).collect()
 }
 
-/// Says which cells of a map are not seen as they are drawn.
+/// Fails with the cells of a map that do not look as drawn.
 fn assert_seen_as_drawn(map: &Map, name: &str) {
     let land = Landscape::new(map);
     let seen = looked_at(map, &triangles(map, &land, 0.5, 0.0));
@@ -125,7 +125,7 @@ fn assert_seen_as_drawn(map: &Map, name: &str) {
     );
 }
 
-/// Says where a surface is open: each side of a triangle must lie at that of another one that runs the other way.
+/// Fails where a surface is open: each edge of a triangle must meet an opposite one.
 fn assert_closed(map: &Map, roof: f64, bevel: f64, name: &str) {
     let land = Landscape::new(map);
     let mut sides: BTreeMap<[[i64; 3]; 2], i32> = BTreeMap::new();
@@ -149,7 +149,7 @@ fn assert_closed(map: &Map, roof: f64, bevel: f64, name: &str) {
 }
 
 #[test]
-fn the_drawing_is_seen_again() {
+fn surfaces_look_like_their_maps() {
     let open = |map: &Map| !Landscape::new(map).ambiguities().is_empty();
     let drawn = (0..).map(|seed| (seed, World::random(seed).draw().map));
     for (seed, map) in drawn.filter(|(_, map)| !open(map)).take(1000) {

@@ -1,19 +1,19 @@
-//! Landscapes whose heights are known, and the maps that the law of terrain draws of them.
+//! Random landscapes with known heights, and their maps.
 
 use okoshi::terrain::{EDGE_BELOW, EDGE_RIGHT, Map};
 
 use fastrand::Rng;
 
-/// What a column of earth has on top.
+/// The top of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Top {
     Green,
     Blue,
-    /// Eaves of a house, which has a number, over walls down to a height.
+    /// The eaves of the house with this number, over walls down to a height.
     Roof(usize, i32),
 }
 
-/// A landscape: per place on the ground how high it is there and what is on top; `None` where there is nothing.
+/// A landscape: the height and the top of each column; `None` where there is nothing.
 #[derive(Debug, Clone)]
 pub(crate) struct World {
     columns: i32,
@@ -22,17 +22,17 @@ pub(crate) struct World {
     houses: usize,
 }
 
-/// What is seen in a cell.
+/// The visible face in a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Sight {
     look: u8,
     /// Height at the cell's lower edge.
     height: i32,
-    /// What tells faces of one kind apart: height of tops, place of fronts, number of houses.
+    /// Distinguishes faces of one kind: height of tops, position of fronts, number of houses.
     face: (i32, usize),
 }
 
-/// A map, and the height of what is seen in each cell, at its lower edge, row by row.
+/// A map, and the height of the visible face at the lower edge of each cell, row by row.
 pub(crate) struct Drawn {
     pub(crate) map: Map,
     pub(crate) heights: Vec<Option<i32>>,
@@ -80,7 +80,7 @@ impl World {
         inside.then(|| self.places[self.index(x, z)]).flatten()
     }
 
-    /// A rectangle: left, right, back, front; the latter of each pair is not in it.
+    /// A rectangle: left, right, back, front; right and front are exclusive.
     fn rectangle(&self, random: &mut Rng, width: [i32; 2], depth: [i32; 2]) -> [i32; 4] {
         let width = random.i32(width[0]..=width[1]).min(self.columns);
         let depth = random.i32(depth[0]..=depth[1]).min(self.depth);
@@ -167,7 +167,7 @@ impl World {
         }
     }
 
-    /// What is seen in a cell: the nearest that the line of sight z = row + y meets.
+    /// The visible face in a cell: the nearest on the line of sight z = row + y.
     fn sight(&self, x: i32, row: i32, [low, high]: [i32; 2]) -> Option<Sight> {
         (low..=high).rev().find_map(|y| {
             let z = row + y;
@@ -194,7 +194,7 @@ impl World {
         })
     }
 
-    /// The map: edges stand wherever heights or faces of neighbours differ.
+    /// The map: with edges wherever heights or faces of neighbours differ.
     pub(crate) fn draw(&self) -> Drawn {
         let heights = self.places.iter().flatten().map(|(height, _)| *height);
         let (low, high) = (
@@ -231,7 +231,7 @@ impl World {
     }
 }
 
-/// A map that nobody meant: rectangles of all kinds over each other, and edges anywhere.
+/// A meaningless map: overlapping rectangles of all kinds, and edges anywhere.
 pub(crate) fn scribble(seed: u64) -> Map {
     let mut random = Rng::with_seed(seed ^ 0x5c21_bb1e);
     let (columns, rows) = (random.i32(1..=18), random.i32(1..=22));
@@ -256,7 +256,7 @@ pub(crate) fn scribble(seed: u64) -> Map {
     map
 }
 
-/// A map for people: a letter a cell.
+/// A map as text: a letter per cell.
 pub(crate) fn picture(map: &Map) -> String {
     let letters = [' ', 'g', 'b', 'w', 'R', 'B'];
     let rows = map.cells.chunks(map.columns);
