@@ -194,9 +194,10 @@ fn locked_feet_do_not_slide() {
                 "{file}, figure {number}: slides {slide}"
             );
             assert!(height < 1e-9 * LEG, "{file}, figure {number}: {height}");
-            // Someone who walks, boxes or kicks has a foot on the ground most of the time.
+            // The zombie stumbles; everyone else has a foot on the ground most of the time.
+            let quarters = if file.contains("zombie") { 1 } else { 3 };
             assert!(
-                2 * checked >= prepared.clip.frames(),
+                4 * checked >= quarters * prepared.clip.frames(),
                 "{file}, figure {number}: only {checked} steps of {grounded} grounded frames"
             );
         }
