@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::args::{Common, Noticing, Reading, Watch};
 use super::loading::{Detail, count, describe, tally};
 use super::{Findings, Outcome, counted, fail, style};
-use crate::disk::{Notice, ReadError, make_folder, write_atomic};
+use crate::disk::{ChangeDetection, ReadError, make_folder, write_atomic};
 use crate::export::Model;
 use crate::watch::{Build, Event, NoModel, Options, watch};
 
@@ -47,8 +47,8 @@ pub(super) fn options(reading: &Reading, noticing: &Noticing) -> Options {
     Options {
         root: reading.root.clone(),
         tolerance: reading.tolerance,
-        notice: noticing.poll.map_or(Notice::Told, |pause| {
-            Notice::Polled(Duration::from_millis(pause))
+        detection: noticing.poll.map_or(ChangeDetection::Native, |pause| {
+            ChangeDetection::Polling(Duration::from_millis(pause))
         }),
     }
 }

@@ -1,4 +1,4 @@
-//! Files for other programs to look at, in the user's cache folder: they may be deleted at any time.
+//! Files for other programs, in the user's cache folder. They may be deleted at any time.
 
 use std::fs;
 use std::io;
@@ -9,8 +9,8 @@ use etcetera::BaseStrategy as _;
 use super::write::write_atomic;
 use crate::export::Output;
 
-/// Writes a file of this name into okoshi's folder among the user's caches, whole or not at all, and says where it is;
-/// `None` if there is no such place.
+/// Writes a file into okoshi's folder in the user's cache, atomically, and returns its path; `None` if the user has no
+/// cache folder.
 pub fn write_cached(
     name: &str,
     fill: impl FnOnce(&mut dyn Output) -> io::Result<()>,

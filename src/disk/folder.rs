@@ -1,4 +1,4 @@
-//! Links of a drawing, read from its folder.
+//! Resolves the links of a drawing in its folder.
 
 use std::fs::{self, File};
 use std::io;
@@ -27,8 +27,8 @@ impl FolderResolver {
         }
     }
 
-    /// Where the file behind `link` is, or would be if it existed: what a watcher watches. Named from where the
-    /// root is named from, so that the same drawing in another place has the same answer.
+    /// The path of the linked file, whether it exists or not, for a watcher. It is relative if the root is, so that
+    /// moving a drawing does not change the result.
     pub fn place(&self, link: &str) -> Result<PathBuf, LinkError> {
         match first_spelling(link, |path| self.locate(path)) {
             Err(LinkError::Missing) => inside(link).map(|path| self.named(Path::new(&path))),
@@ -42,7 +42,7 @@ impl FolderResolver {
         }
     }
 
-    /// A path in the root as seen from here.
+    /// The path of a file in the root, relative to the working directory if the root is.
     fn named(&self, path: &Path) -> PathBuf {
         if self.root == Path::new(".") {
             path.to_owned()
@@ -51,7 +51,7 @@ impl FolderResolver {
         }
     }
 
-    /// The true place of a file that exists.
+    /// The canonical path of an existing file.
     fn locate(&self, path: &str) -> Result<PathBuf, LinkError> {
         let root = fs::canonicalize(&self.root).map_err(failure)?;
         let place = fs::canonicalize(root.join(path)).map_err(failure)?;
@@ -70,7 +70,7 @@ impl Resolver for FolderResolver {
 }
 
 fn read_file(place: &Path, limit: u64) -> Result<Arc<[u8]>, LinkError> {
-    // Asked before opening: opening a pipe would wait for its other end.
+    // Checked before opening: opening a pipe would wait for its other end.
     let metadata = fs::metadata(place).map_err(failure)?;
     if metadata.is_dir() {
         return Err(LinkError::Unreadable("it is a folder".to_owned()));
@@ -88,7 +88,7 @@ fn read_file(place: &Path, limit: u64) -> Result<Arc<[u8]>, LinkError> {
 
 fn failure(error: io::Error) -> LinkError {
     match error.kind() {
-        // A name that the system cannot even look for is no file either.
+        // A name that is invalid on this system counts as a missing file.
         io::ErrorKind::NotFound
         | io::ErrorKind::NotADirectory
         | io::ErrorKind::InvalidFilename
@@ -137,7 +137,7 @@ mod tests {
         symlink("../secret", root.join("file")).unwrap();
         symlink("..", root.join("up")).unwrap();
         symlink("own", root.join("alias")).unwrap();
-        // A sibling folder whose name begins like the root's is outside too.
+        // A sibling folder whose name starts with the root's name is outside, too.
         fs::create_dir(folder.path().join("root2")).unwrap();
         fs::write(folder.path().join("root2/a"), "").unwrap();
         symlink("../root2/a", root.join("sibling")).unwrap();

@@ -1,4 +1,4 @@
-//! Files. No other module opens, reads, writes or renames one.
+//! File access. No other module opens, reads, writes or renames files.
 
 mod cache;
 mod folder;
@@ -14,7 +14,7 @@ pub use folder::{FolderResolver, LINK_LIMIT};
 pub use read::{DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, open_stream, read_drawing};
 pub use search::{Below, Stamp, below, is_drawing, stamp};
 pub use text::{Decode, decode};
-pub use watch::{Changed, FolderWatch, Notice, WatchError, as_told, names_told};
+pub use watch::{ChangeDetection, Changed, FolderWatch, WatchError, event_path, event_paths};
 pub use write::{WriteError, make_folder, write_atomic, write_new};
 
 use std::path::Path;
@@ -22,13 +22,13 @@ use std::path::Path;
 /// The path that stands for stdin and stdout.
 const STANDARD_STREAM: &str = "-";
 
-/// Whether two paths lead to one file that is there, however they are written.
+/// Whether two paths refer to the same existing file.
 pub fn is_same_file(one: &Path, other: &Path) -> bool {
     let place = |path: &Path| std::fs::canonicalize(path).ok();
     one == other || place(one).is_some_and(|one| place(other) == Some(one))
 }
 
-/// Whether a path names stdin or stdout.
+/// Whether a path stands for stdin or stdout.
 pub fn is_standard_stream(path: &Path) -> bool {
     path.as_os_str() == STANDARD_STREAM
 }

@@ -1,7 +1,7 @@
-//! Looks at folders again and again, for file systems that tell nothing.
+//! Polls folders, for file systems that do not report changes.
 //!
-//! notify has such a watcher too, but it sees times of change in whole seconds: of two saves in one second it misses
-//! the second, unless it reads all files in the folder every time.
+//! notify has a polling watcher, too, but it compares modification times in whole seconds: it misses the second of two
+//! saves in one second, unless it reads all files in the folder every time.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -11,7 +11,7 @@ use std::time::Duration;
 
 use super::search::{Stamp, stamp};
 
-/// Folders that are looked at until this is dropped.
+/// Folders that are polled until this is dropped.
 #[derive(Debug)]
 pub(super) struct Poll {
     folders: Arc<Mutex<BTreeMap<PathBuf, Listing>>>,
@@ -21,17 +21,17 @@ pub(super) struct Poll {
 type Listing = BTreeMap<PathBuf, Stamp>;
 
 impl Poll {
-    /// Looks at folders every `pause`, and calls `changed` with what is new, gone or another than before.
+    /// Polls the folders every `pause`, and calls `changed` with the new, deleted and modified files.
     pub(super) fn new(
         pause: Duration,
         changed: impl Fn(Vec<PathBuf>) -> bool + Send + 'static,
     ) -> Self {
         let folders: Arc<Mutex<BTreeMap<PathBuf, Listing>>> = Arc::default();
-        let looked_at = Arc::downgrade(&folders);
+        let polled = Arc::downgrade(&folders);
         std::thread::spawn(move || {
             loop {
                 std::thread::sleep(pause);
-                match look(&looked_at) {
+                match poll(&polled) {
                     Some(paths) if paths.is_empty() || changed(paths.clone()) => {}
                     _ => return,
                 }
@@ -40,7 +40,7 @@ impl Poll {
         Self { folders }
     }
 
-    /// Looks at these folders and no others from now on.
+    /// Sets the folders to poll.
     pub(super) fn set(&self, folders: &BTreeSet<PathBuf>) {
         let mut known = self
             .folders
@@ -54,8 +54,8 @@ impl Poll {
     }
 }
 
-/// What has changed since the last look; `None` if nobody wants to know any more.
-fn look(folders: &Weak<Mutex<BTreeMap<PathBuf, Listing>>>) -> Option<Vec<PathBuf>> {
+/// The files that changed since the last poll; `None` if the watch was dropped.
+fn poll(folders: &Weak<Mutex<BTreeMap<PathBuf, Listing>>>) -> Option<Vec<PathBuf>> {
     let folders = folders.upgrade()?;
     let mut folders = folders
         .lock()
@@ -63,8 +63,8 @@ fn look(folders: &Weak<Mutex<BTreeMap<PathBuf, Listing>>>) -> Option<Vec<PathBuf
     let mut paths = vec![];
     for (folder, before) in folders.iter_mut() {
         let now = listing(folder);
-        let other = |(path, stamp): &(&PathBuf, &Stamp)| before.get(*path) != Some(*stamp);
-        paths.extend(now.iter().filter(other).map(|(path, _)| path.clone()));
+        let changed = |(path, stamp): &(&PathBuf, &Stamp)| before.get(*path) != Some(*stamp);
+        paths.extend(now.iter().filter(changed).map(|(path, _)| path.clone()));
         let gone = before.keys().filter(|path| !now.contains_key(*path));
         paths.extend(gone.cloned());
         *before = now;

@@ -1,4 +1,4 @@
-//! Drawings as bytes.
+//! Reads the bytes of drawings.
 
 use std::fs::{File, Metadata};
 use std::io::{self, Read};
@@ -9,52 +9,52 @@ use flate2::read::MultiGzDecoder;
 /// The largest drawing that is read, in bytes.
 pub const DRAWING_LIMIT: u64 = 1 << 30;
 
-/// The largest size to which a packed drawing (`.svgz`) is unpacked, in bytes. A small file can
-/// unpack to anything.
+/// The largest size to which a compressed drawing (`.svgz`) may expand, in bytes. A small file can
+/// expand to any size.
 pub const UNPACKED_LIMIT: u64 = 256 << 20;
 
-/// Why a drawing cannot be read. Each message names the file and says what to do.
+/// Why a drawing cannot be read. Each message names the file and says how to fix it.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// No such file.
     #[error("`{}` is not there; check the path", .0.display())]
     Missing(PathBuf),
-    /// A folder where a drawing is due.
+    /// A folder instead of a drawing.
     #[error("`{}` is a folder; name a drawing in it", .0.display())]
     Folder(PathBuf),
-    /// The file may not be read.
+    /// No permission to read the file.
     #[error("`{}` cannot be read: permission denied; change its permissions", .0.display())]
     Denied(PathBuf),
     /// Larger than [`DRAWING_LIMIT`].
     #[error("`{}` is larger than the limit of {} MiB; split the drawing", .0.display(), DRAWING_LIMIT >> 20)]
     TooLarge(PathBuf),
-    /// Larger than [`UNPACKED_LIMIT`] when unpacked.
+    /// Larger than [`UNPACKED_LIMIT`] after decompression.
     #[error(
         "`{}` is packed and larger than the limit of {} MiB when unpacked; save it as plain SVG",
         .0.display(), UNPACKED_LIMIT >> 20
     )]
     TooLargeUnpacked(PathBuf),
-    /// Packed, and the packing is broken.
+    /// Compressed, and damaged.
     #[error("`{}` is compressed, but damaged ({source}); save the drawing again", .path.display())]
     Damaged {
         /// The file.
         path: PathBuf,
-        /// What the unpacker says.
+        /// The error of the decompressor.
         source: io::Error,
     },
-    /// The system fails to read it.
+    /// The operating system cannot read it.
     #[error("`{}` cannot be read: {source}", .path.display())]
     Failed {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The operating system's error.
         source: io::Error,
     },
 }
 
-/// The bytes of the drawing at `path`, unpacked if they are gzip; `-` is stdin.
+/// The bytes of the drawing at `path`, decompressed if they are gzip; `-` is stdin.
 ///
-/// What is packed is seen by its first bytes, not by the file's name.
+/// Compression is recognised by the first bytes, not by the file name.
 pub fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
     let bytes = if super::is_standard_stream(path) {
         read_limited(io::stdin().lock(), DRAWING_LIMIT, 0)
@@ -67,7 +67,7 @@ pub fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
     unpack(path, bytes)
 }
 
-/// The bytes of the file at `path`, as they are and one after the other; `-` is stdin.
+/// A reader of the bytes of the file at `path`; `-` is stdin.
 pub fn open_stream(path: &Path) -> Result<Box<dyn Read>, ReadError> {
     if super::is_standard_stream(path) {
         return Ok(Box::new(io::stdin().lock()));
@@ -85,7 +85,7 @@ fn open(path: &Path) -> Result<io::Result<Option<Vec<u8>>>, ReadError> {
     match metadata.as_ref().is_ok_and(Metadata::is_dir) {
         true => Err(ReadError::Folder(path.to_owned())),
         false => {
-            // Room for all of it at once: a list that grows would touch twice the memory.
+            // Reserves the full size, because a growing buffer would need twice the memory.
             let size = metadata.map_or(0, |metadata| metadata.len().min(DRAWING_LIMIT));
             Ok(read_limited(file, DRAWING_LIMIT, size))
         }
@@ -106,13 +106,13 @@ fn unpack(path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>, ReadError> {
         .ok_or_else(|| ReadError::TooLargeUnpacked(path.to_owned()))
 }
 
-/// Everything that `source` gives, about `expected` bytes; none if that is more than `limit`.
+/// All bytes of `source`, about `expected` of them; `None` if there are more than `limit`.
 pub(super) fn read_limited(
     source: impl Read,
     limit: u64,
     expected: u64,
 ) -> io::Result<Option<Vec<u8>>> {
-    // One more, in which the end is found.
+    // One byte more, to detect the end.
     let mut bytes = Vec::with_capacity(expected as usize + 1);
     source.take(limit + 1).read_to_end(&mut bytes)?;
     Ok((bytes.len() as u64 <= limit).then_some(bytes))

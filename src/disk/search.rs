@@ -1,27 +1,26 @@
-//! What lies in a folder.
+//! Lists the files below a folder.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
-/// How many files are looked at in all, and how deep folders are entered: enough for any project of drawings, and
-/// quickly done in a folder that is none.
-const MOST_FILES: usize = 20_000;
-const DEEPEST: usize = 8;
+/// The limits of a listing: enough for any project with drawings, and fast in a folder that is something else.
+const MAX_FILES: usize = 20_000;
+const MAX_DEPTH: usize = 8;
 
-/// Folders that hold no work of people.
-const PASSED_OVER: &[&str] = &["node_modules", "target"];
+/// Folders that contain only generated files.
+const SKIPPED: &[&str] = &["node_modules", "target"];
 
-/// What lies below a folder.
+/// The contents of a folder and its subfolders.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Below {
-    /// The files, in the order of their names, those of inner folders last.
+    /// The files, sorted by name, those in subfolders last.
     pub files: Vec<PathBuf>,
-    /// The folders, itself the first.
+    /// The folders; the folder itself comes first.
     pub folders: Vec<PathBuf>,
 }
 
-/// The files and folders below a folder. Hidden ones and links are passed over.
+/// The files and folders below a folder, without hidden ones and symbolic links.
 pub fn below(folder: &Path) -> Below {
     let mut found = Below::default();
     let mut folders = vec![(folder.to_owned(), 0)];
@@ -30,7 +29,7 @@ pub fn below(folder: &Path) -> Below {
         let Ok(entries) = fs::read_dir(&folder) else {
             continue;
         };
-        let mut entries: Vec<_> = entries.flatten().take(MOST_FILES - seen).collect();
+        let mut entries: Vec<_> = entries.flatten().take(MAX_FILES - seen).collect();
         entries.sort_by_key(fs::DirEntry::file_name);
         seen += entries.len();
         found.folders.push(folder);
@@ -41,12 +40,12 @@ pub fn below(folder: &Path) -> Below {
             let Ok(kind) = entry.file_type() else {
                 continue;
             };
-            if name.starts_with('.') || PASSED_OVER.contains(&&*name) {
+            if name.starts_with('.') || SKIPPED.contains(&&*name) {
                 continue;
             }
             if kind.is_file() {
                 found.files.push(entry.path());
-            } else if kind.is_dir() && depth < DEEPEST {
+            } else if kind.is_dir() && depth < MAX_DEPTH {
                 inner.push((entry.path(), depth + 1));
             }
         }
@@ -55,7 +54,7 @@ pub fn below(folder: &Path) -> Below {
     found
 }
 
-/// Whether a file is taken for a drawing, by its name.
+/// Whether a file is a drawing, judged by its name.
 pub fn is_drawing(path: &Path) -> bool {
     let name = path.file_name().map(|name| name.to_string_lossy());
     let hidden = name.is_none_or(|name| name.starts_with('.'));
@@ -63,10 +62,10 @@ pub fn is_drawing(path: &Path) -> bool {
     !hidden && ending.is_some_and(|ending| ending == "svg" || ending == "svgz")
 }
 
-/// What tells that a file is the one that it was: its length and when it was written.
+/// The length and modification time of a file; if they are equal, the file counts as unchanged.
 pub type Stamp = (u64, SystemTime);
 
-/// The stamp of a file that is there.
+/// The stamp of a file; `None` if it does not exist.
 pub fn stamp(path: &Path) -> Option<Stamp> {
     let metadata = fs::metadata(path).ok()?;
     Some((metadata.len(), metadata.modified().ok()?))

@@ -1,40 +1,40 @@
-//! From bytes to text. Drawings are UTF-8; anything else is refused with its name.
+//! Decodes the text of drawings. Drawings are UTF-8; other encodings are rejected by name.
 
 /// Why bytes are not the text of a drawing.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum Decode {
-    /// Two bytes a character.
+    /// UTF-16.
     #[error("the drawing is UTF-16; save it as UTF-8")]
     Utf16,
-    /// Four bytes a character.
+    /// UTF-32.
     #[error("the drawing is UTF-32; save it as UTF-8")]
     Utf32,
-    /// A zero byte, which no XML holds.
+    /// A zero byte, which XML cannot contain.
     #[error("byte {offset} is zero: this is not an SVG drawing")]
     Nul {
-        /// Where the byte is.
+        /// The byte's offset.
         offset: usize,
     },
-    /// Bytes that are no UTF-8.
+    /// Bytes that are not UTF-8.
     #[error("byte {offset} is not UTF-8; save the drawing as UTF-8")]
     NotUtf8 {
-        /// Where the first such byte is.
+        /// The offset of the first such byte.
         offset: usize,
     },
-    /// The XML declaration names an encoding in which the bytes mean something else.
+    /// The XML declaration names an encoding in which the bytes have another meaning.
     #[error(
         "the drawing declares the encoding {encoding}, which is not supported; save it as UTF-8"
     )]
     Declared {
-        /// The encoding, as the drawing names it.
+        /// The encoding's name in the drawing.
         encoding: String,
-        /// Where the first character is that depends on it.
+        /// The offset of the first character that depends on it.
         offset: usize,
     },
 }
 
 impl Decode {
-    /// The byte that it is about.
+    /// The offset that the error is about.
     pub fn offset(&self) -> usize {
         match self {
             Self::Utf16 | Self::Utf32 => 0,
@@ -47,8 +47,8 @@ impl Decode {
 
 /// The text of a drawing.
 ///
-/// A byte order mark of UTF-8 stays in the text, as its first character, so that offsets are those of
-/// the file. Bytes of a declared one-byte encoding such as ISO-8859-1 pass if they are plain ASCII.
+/// A UTF-8 byte order mark stays in the text as its first character, so that offsets are those of the
+/// file. Text in a declared one-byte encoding such as ISO-8859-1 is accepted if it is plain ASCII.
 pub fn decode(bytes: Vec<u8>) -> Result<String, Decode> {
     if let Some(error) = wide(&bytes) {
         return Err(error);
@@ -65,7 +65,7 @@ pub fn decode(bytes: Vec<u8>) -> Result<String, Decode> {
     })
 }
 
-/// Encodings of more than one byte a character, by their mark or by the zeros around the first `<`.
+/// Recognises UTF-16 and UTF-32 by their byte order mark, or by the zeros around the first `<`.
 fn wide(bytes: &[u8]) -> Option<Decode> {
     match bytes {
         [0xFF, 0xFE, 0, 0, ..] | [0, 0, 0xFE, 0xFF, ..] => Some(Decode::Utf32),
@@ -95,10 +95,10 @@ fn declared_encoding(bytes: &[u8]) -> Option<&str> {
     value[1..].split(quote).next()
 }
 
-/// Whether bytes over 127 mean something else in this encoding than in UTF-8.
+/// Whether bytes over 127 have another meaning in this encoding than in UTF-8.
 ///
-/// Without zeros the bytes are not UTF-16 whatever they say: some programs write that declaration
-/// and then UTF-8.
+/// Bytes without zeros are not UTF-16, whatever the declaration says: some programs declare UTF-16
+/// and write UTF-8.
 fn reads_otherwise(encoding: &str) -> bool {
     let encoding = encoding.trim().to_ascii_lowercase();
     let same = ["", "utf-8", "utf8", "us-ascii", "ascii"];

@@ -1,4 +1,7 @@
-//! Tells when files change.
+//! Watches files, and reports changes once they have settled.
+//!
+//! Changes are debounced here, because the debouncers for notify wait a fixed time after every change: this one reports a
+//! file as soon as its writer has closed it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
@@ -11,81 +14,82 @@ use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher};
 
 use super::poll::Poll;
 
-/// How long nothing must happen before files count as settled, where the system does not say that they were closed:
-/// programs write in pieces.
+/// How long a file must stay unchanged to count as settled if the system does not report that it was closed: programs
+/// write in pieces.
 const SETTLED: Duration = Duration::from_millis(60);
-/// How long nothing must happen to files that were closed, or renamed to their name: programs touch several in a row.
+/// How long files must stay unchanged after they were closed or renamed: programs save several files in a row.
 const CLOSED: Duration = Duration::from_millis(3);
-/// After how long files are told of that never settle.
-const PATIENCE: Duration = Duration::from_secs(1);
+/// After how long files are reported even if they never settle.
+const MAX_DELAY: Duration = Duration::from_secs(1);
 
-/// How changes are noticed.
+/// How changes are detected.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Notice {
-    /// The system tells of them.
+pub enum ChangeDetection {
+    /// The operating system reports them.
     #[default]
-    Told,
-    /// Folders are looked at again and again, so often: for file systems that tell nothing.
-    Polled(Duration),
+    Native,
+    /// Folders are polled at this interval, for file systems that do not report changes.
+    Polling(Duration),
 }
 
-/// Files that changed, and have settled.
+/// Files that changed and have settled.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Changed {
-    /// The files, and folders in which something was created or deleted, as the system names them.
+    /// The files, and the folders in which something was created or deleted, with the paths that the system reports.
     pub paths: BTreeSet<PathBuf>,
-    /// When the first sign of it came.
+    /// When the first change was detected.
     pub noticed: SystemTime,
 }
 
-/// Watches folders, since programs replace files as well as write them, and files may not be there yet.
+/// Watches folders rather than files, because programs replace files as well as write them, and files may not exist yet.
 #[derive(Debug)]
 pub struct FolderWatch {
-    way: Way,
+    backend: Backend,
 }
 
-/// How folders are watched.
+/// The implementation that watches the folders.
 #[derive(Debug)]
-enum Way {
-    Told(Mutex<(RecommendedWatcher, BTreeSet<PathBuf>)>),
-    Polled(Poll),
+enum Backend {
+    Native(Mutex<(RecommendedWatcher, BTreeSet<PathBuf>)>),
+    Polling(Poll),
 }
 
 impl FolderWatch {
-    /// A watch that calls `changed` with the files that changed, on a thread of its own, once they have settled.
+    /// Calls `changed` on a thread of its own with the files that changed, once they have settled.
     ///
     /// # Errors
-    /// Where the system cannot tell of changes.
+    ///
+    /// If the system cannot report changes.
     pub fn new(
-        notice: Notice,
+        detection: ChangeDetection,
         changed: impl FnMut(Changed) + Send + 'static,
     ) -> Result<Self, WatchError> {
         let (sender, receiver) = channel();
-        let way = match notice {
-            Notice::Told => {
+        let backend = match detection {
+            ChangeDetection::Native => {
                 let watcher = notify::recommended_watcher(move |event: notify::Result<Event>| {
                     if let Ok(event) = event
                         && let Some(state) = State::after(&event.kind)
                     {
-                        // Nobody listens any more only when the process ends.
+                        // The receiver is gone only when the process ends.
                         let _ = sender.send((event.paths, state));
                     }
                 })?;
-                Way::Told(Mutex::new((watcher, BTreeSet::new())))
+                Backend::Native(Mutex::new((watcher, BTreeSet::new())))
             }
-            Notice::Polled(pause) => Way::Polled(Poll::new(pause, move |paths| {
+            ChangeDetection::Polling(pause) => Backend::Polling(Poll::new(pause, move |paths| {
                 sender.send((paths, State::Open)).is_ok()
             })),
         };
-        std::thread::spawn(move || tell(&receiver, changed));
-        Ok(Self { way })
+        std::thread::spawn(move || debounce(&receiver, changed));
+        Ok(Self { backend })
     }
 
-    /// Watches these folders and no others. Those that cannot be watched are answered, with the reason.
+    /// Sets the folders to watch. Returns those that cannot be watched, with the reasons.
     pub fn set(&self, folders: &BTreeSet<PathBuf>) -> Vec<(PathBuf, WatchError)> {
-        let watch = match &self.way {
-            Way::Told(watch) => watch,
-            Way::Polled(poll) => {
+        let watch = match &self.backend {
+            Backend::Native(watch) => watch,
+            Backend::Polling(poll) => {
                 poll.set(folders);
                 return vec![];
             }
@@ -112,17 +116,17 @@ impl FolderWatch {
     }
 }
 
-/// Why changes are not told of.
+/// Why changes cannot be reported.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct WatchError(#[from] notify::Error);
 
-/// What a file is in after something happened to it.
+/// The state of a file after a change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum State {
-    /// More may come.
+    /// More changes may follow.
     Open,
-    /// What wrote it has closed it.
+    /// The writing program has closed it.
     Closed,
 }
 
@@ -138,11 +142,11 @@ impl State {
     }
 }
 
-/// Gathers paths until nothing has happened for a while, then tells them.
-fn tell(receiver: &Receiver<(Vec<PathBuf>, State)>, mut changed: impl FnMut(Changed)) {
+/// Collects paths until nothing has changed for a while, then reports them.
+fn debounce(receiver: &Receiver<(Vec<PathBuf>, State)>, mut changed: impl FnMut(Changed)) {
     while let Ok((paths, state)) = receiver.recv() {
         let noticed = SystemTime::now();
-        let late = Instant::now() + PATIENCE;
+        let late = Instant::now() + MAX_DELAY;
         let mut states: BTreeMap<PathBuf, State> = BTreeMap::new();
         let add = |states: &mut BTreeMap<_, _>, paths: Vec<PathBuf>, state| {
             states.extend(paths.into_iter().map(|path| (path, state)));
@@ -166,8 +170,9 @@ fn tell(receiver: &Receiver<(Vec<PathBuf>, State)>, mut changed: impl FnMut(Chan
     }
 }
 
-/// A file's path as the system tells it: links in the path of its folder are followed, and the file need not be there.
-pub fn as_told(file: &Path) -> PathBuf {
+/// The path by which the system reports a file: symbolic links in the path of its folder are resolved. The file need not
+/// exist.
+pub fn event_path(file: &Path) -> PathBuf {
     let folder = match file.parent() {
         Some(folder) if folder.as_os_str().is_empty() => Path::new("."),
         Some(folder) => folder,
@@ -180,10 +185,10 @@ pub fn as_told(file: &Path) -> PathBuf {
     }
 }
 
-/// All paths by which the system may tell of a file: its own, and that of the file that it is a link to.
-pub fn names_told(file: &Path) -> BTreeSet<PathBuf> {
+/// All paths by which the system may report a file: its own, and that of the file it links to.
+pub fn event_paths(file: &Path) -> BTreeSet<PathBuf> {
     let target = std::fs::canonicalize(file);
-    target.into_iter().chain([as_told(file)]).collect()
+    target.into_iter().chain([event_path(file)]).collect()
 }
 
 #[cfg(test)]
@@ -193,13 +198,13 @@ mod tests {
     use std::io::Write;
     use std::sync::mpsc;
 
-    /// What is told while `act` works in a folder.
-    fn told(notice: Notice, act: impl FnOnce(&Path)) -> Vec<BTreeSet<String>> {
+    /// The changes that are reported while `act` works in a folder.
+    fn changes(detection: ChangeDetection, act: impl FnOnce(&Path)) -> Vec<BTreeSet<String>> {
         let folder = tempfile::tempdir().unwrap();
         let real = fs::canonicalize(folder.path()).unwrap();
         fs::write(real.join("a.svg"), "old").unwrap();
         let (sender, receiver) = mpsc::channel();
-        let watch = FolderWatch::new(notice, move |changed| {
+        let watch = FolderWatch::new(detection, move |changed| {
             let _ = sender.send(changed.paths);
         })
         .unwrap();
@@ -224,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn a_save_in_pieces_is_told_once() {
+    fn a_save_in_pieces_is_reported_once() {
         let save = |folder: &Path| {
             let mut file = fs::File::create(folder.join("a.svg")).unwrap();
             for _ in 0..5 {
@@ -232,28 +237,28 @@ mod tests {
                 std::thread::sleep(Duration::from_millis(10));
             }
         };
-        assert_eq!(told(Notice::Told, save), [a()]);
-        let polled = told(Notice::Polled(Duration::from_millis(50)), save);
+        assert_eq!(changes(ChangeDetection::Native, save), [a()]);
+        let polled = changes(ChangeDetection::Polling(Duration::from_millis(50)), save);
         assert!(!polled.is_empty() && polled.iter().all(|paths| *paths == a()));
     }
 
     #[test]
-    fn files_may_be_replaced_deleted_and_made_anew() {
+    fn replaced_deleted_and_recreated_files_are_reported() {
         let replace = |folder: &Path| {
             fs::write(folder.join("b"), "new").unwrap();
             fs::rename(folder.join("b"), folder.join("a.svg")).unwrap();
         };
-        assert_eq!(told(Notice::Told, replace), [a()]);
+        assert_eq!(changes(ChangeDetection::Native, replace), [a()]);
         let again = |folder: &Path| {
             fs::remove_file(folder.join("a.svg")).unwrap();
             std::thread::sleep(Duration::from_millis(200));
             fs::write(folder.join("a.svg"), "new").unwrap();
         };
-        assert_eq!(told(Notice::Told, again), [a(), a()]);
+        assert_eq!(changes(ChangeDetection::Native, again), [a(), a()]);
     }
 
     #[test]
-    fn what_never_settles_is_told_too() {
+    fn files_that_never_settle_are_reported() {
         let restless = |folder: &Path| {
             let start = Instant::now();
             while start.elapsed() < Duration::from_millis(2200) {
@@ -265,12 +270,12 @@ mod tests {
                 std::thread::sleep(Duration::from_millis(1));
             }
         };
-        assert!(told(Notice::Told, restless).len() >= 2);
+        assert!(changes(ChangeDetection::Native, restless).len() >= 2);
     }
 
     #[test]
-    fn folders_that_are_not_there_are_named() {
-        let watch = FolderWatch::new(Notice::Told, |_| ()).unwrap();
+    fn missing_folders_are_returned() {
+        let watch = FolderWatch::new(ChangeDetection::Native, |_| ()).unwrap();
         let nowhere = PathBuf::from("nowhere/at/all");
         let failed = watch.set(&BTreeSet::from([nowhere.clone()]));
         assert_eq!(failed.len(), 1);

@@ -1,4 +1,7 @@
-//! Outputs, written whole or not at all.
+//! Writes outputs completely or not at all.
+//!
+//! `tempfile` makes the temporary file. The rest is done here, because an output keeps its permissions and symbolic
+//! links, and can be a device or a pipe, which crates for atomic writes do not cover.
 
 use std::fs::{self, File, Permissions};
 use std::io::{self, BufWriter, Seek, Write};
@@ -8,45 +11,49 @@ use tempfile::{SpooledData, SpooledTempFile};
 
 use crate::export::{InMemory, Output};
 
-/// How much is gathered before it is written, bytes; larger pieces, as of models, go past it.
+/// The size of the write buffer in bytes; larger pieces, as in models, bypass it.
 const BUFFER: usize = 16 << 10;
-/// How much data that is set aside stays in memory, bytes.
+/// How much of the data that is set aside stays in memory, in bytes.
 const MAX_ASIDE_IN_MEMORY: usize = 1 << 20;
 
-/// Why an output cannot be written. Each message names the file and says what to do.
+/// Why an output cannot be written. Each message names the file and says how to fix it.
 #[derive(Debug, thiserror::Error)]
 pub enum WriteError {
-    /// A folder where a file is due.
+    /// A folder instead of a file.
     #[error("`{}` is a folder; name a file in it", .0.display())]
     Folder(PathBuf),
-    /// The folder that the file is to lie in is missing.
+    /// The file's folder does not exist.
     #[error("the folder `{}` is not there; create it or choose another with -o", .0.display())]
     NoFolder(PathBuf),
-    /// The folder may not be written to.
+    /// No permission to write in the folder.
     #[error("no permission to write in the folder `{}`; choose another with -o", .0.display())]
     FolderDenied(PathBuf),
-    /// The file exists and is protected.
+    /// The file exists and is write-protected.
     #[error("`{}` is write-protected; change that or choose another file with -o", .0.display())]
     Protected(PathBuf),
-    /// The file exists, and was not to be replaced.
+    /// The file exists and must not be replaced.
     #[error("`{}` exists; choose another name", .0.display())]
     Exists(PathBuf),
-    /// The system fails to write it, or its content cannot be made.
+    /// The operating system cannot write it, or its content cannot be generated.
     #[error("`{}` cannot be written: {source}", .path.display())]
     Failed {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The error.
         source: io::Error,
     },
 }
 
 /// Writes a file through `fill`; `-` is stdout.
 ///
-/// The file changes all at once: the content goes to a temporary file in the same folder
-/// (`.okoshi-….tmp`), which then takes the file's name. A program that is killed on the way leaves the
-/// old file, and so does a `fill` that fails. Permissions of an existing file stay; a symbolic link
-/// stays one, and the file that it points to changes. Devices and pipes are written to directly.
+/// The file is replaced atomically: the content goes to a temporary file in the same folder
+/// (`.okoshi-….tmp`), which is then renamed. If the program is killed, or `fill` fails, the old file
+/// stays. The permissions of an existing file are kept; a symbolic link stays a link, and its target is
+/// replaced. Devices and pipes are written to directly.
+///
+/// # Errors
+///
+/// If the file cannot be written, or `fill` fails.
 pub fn write_atomic<T>(
     path: &Path,
     fill: impl FnOnce(&mut dyn Output) -> io::Result<T>,
@@ -62,7 +69,7 @@ pub fn write_atomic<T>(
     let existing = match fs::metadata(&target) {
         Ok(metadata) if metadata.is_dir() => return Err(WriteError::Folder(path.to_owned())),
         Ok(metadata) if !metadata.is_file() => {
-            // The null device must not be replaced by a file, nor a pipe.
+            // A file must not replace the null device or a pipe.
             let device = File::options().write(true).open(&target).map_err(failed)?;
             return fill_stream(device, fill).map_err(failed);
         }
@@ -79,7 +86,7 @@ pub fn write_atomic<T>(
 
     let mut temporary =
         temporary_beside(&target).map_err(|error| folder_failure(&target, path, error))?;
-    // What is set aside lies in the same folder, so that the system can move it without copying where it knows how.
+    // The data that is set aside is in the same folder, so that some file systems can append it without copying.
     let aside = SpooledTempFile::new_in(MAX_ASIDE_IN_MEMORY, folder_of(&target));
     let mut out = FileOutput {
         out: BufWriter::with_capacity(BUFFER, temporary.as_file_mut()),
@@ -95,15 +102,15 @@ pub fn write_atomic<T>(
             .set_permissions(permissions)
             .map_err(failed)?;
     }
-    // Without waiting for the disk: outputs can be made again, and renaming is ordered behind the
-    // data on the file systems that people have.
+    // Does not wait for the disk: outputs can be built again, and common file systems write the data
+    // before the rename.
     temporary
         .persist(&target)
         .map_err(|error| failed(error.error))?;
     Ok(answer)
 }
 
-/// Makes a folder, and those that it lies in.
+/// Creates a folder and its parents.
 pub fn make_folder(path: &Path) -> Result<(), WriteError> {
     fs::create_dir_all(path).map_err(|source| WriteError::Failed {
         path: path.to_owned(),
@@ -111,9 +118,7 @@ pub fn make_folder(path: &Path) -> Result<(), WriteError> {
     })
 }
 
-/// Writes a file that does not exist yet; what has the name already, a dangling link too, is left as it is.
-///
-/// The file is there with all its content or not at all.
+/// Writes a new file, completely or not at all. An existing file, or a dangling link, is left unchanged.
 pub fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
     if ends_with_separator(path) {
         return Err(WriteError::Folder(path.to_owned()));
@@ -132,7 +137,7 @@ pub fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
     temporary.write_all(content).map_err(failed)?;
     match temporary.persist_noclobber(path) {
         Ok(_) => Ok(()),
-        // Somebody was faster.
+        // Another program created the file meanwhile.
         Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => {
             Err(WriteError::Exists(path.to_owned()))
         }
@@ -140,7 +145,7 @@ pub fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
     }
 }
 
-/// Fills a stream, which gets everything or, if `fill` fails, nothing.
+/// Fills a stream, which gets the complete output or, if `fill` fails, nothing.
 fn fill_stream<T>(
     mut out: impl Write,
     fill: impl FnOnce(&mut dyn Output) -> io::Result<T>,
@@ -183,7 +188,7 @@ impl Output for FileOutput<'_> {
             SpooledData::InMemory(data) => self.out.write_all(data.get_ref()),
             SpooledData::OnDisk(mut file) => {
                 file.rewind()?;
-                // Between files the system copies by itself, without reading them into the program.
+                // The system can copy between files without reading them into the process.
                 io::copy(&mut file, &mut self.out).map(|_| ())
             }
         }
@@ -200,7 +205,7 @@ fn temporary_beside(target: &Path) -> io::Result<tempfile::NamedTempFile> {
     builder.tempfile_in(folder_of(target))
 }
 
-/// What any program gives a new file; the system takes the user's mask off.
+/// The permissions with which programs create files; the system subtracts the user's umask.
 #[cfg(unix)]
 fn new_file_permissions() -> Option<Permissions> {
     use std::os::unix::fs::PermissionsExt as _;
@@ -212,12 +217,12 @@ fn new_file_permissions() -> Option<Permissions> {
     None
 }
 
-/// The file that a chain of symbolic links ends at, which need not exist.
+/// The target of a chain of symbolic links. It need not exist.
 fn follow_links(path: &Path) -> io::Result<PathBuf> {
-    const LONGEST_CHAIN: usize = 40;
+    const MAX_LINKS: usize = 40;
 
     let mut path = path.to_owned();
-    for _ in 0..LONGEST_CHAIN {
+    for _ in 0..MAX_LINKS {
         match fs::symlink_metadata(&path) {
             Ok(metadata) if metadata.is_symlink() => {
                 path = folder_of(&path).join(fs::read_link(&path)?);
@@ -285,7 +290,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.glb");
         let data = vec![7; MAX_ASIDE_IN_MEMORY / 2 + 1];
-        // The second part no longer fits into memory.
+        // The second part does not fit into memory.
         for parts in 0..3 {
             let fill = |out: &mut dyn Output| {
                 (0..parts).try_for_each(|_| out.set_aside(&data))?;
@@ -416,7 +421,7 @@ mod tests {
 
     const VICTIM: &str = "OKOSHI_TEST_VICTIM";
 
-    /// Not a test by itself: the program that `a_kill_leaves_the_old_file` kills.
+    /// Not a test: the program that `a_kill_leaves_the_old_file` kills.
     #[test]
     fn victim() {
         let Some(path) = std::env::var_os(VICTIM) else {

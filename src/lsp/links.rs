@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard};
 
 use super::scheduler::Scheduler;
-use crate::disk::{FolderWatch, Notice, as_told};
+use crate::disk::{ChangeDetection, FolderWatch, event_path};
 
 /// See the [module](self).
 pub(super) struct Links {
@@ -33,7 +33,7 @@ impl Links {
     pub(super) fn new(scheduler: Arc<Scheduler>) -> Self {
         let linked: Arc<LinkedFiles> = Arc::default();
         let known = linked.clone();
-        let watch = FolderWatch::new(Notice::Told, move |changed| {
+        let watch = FolderWatch::new(ChangeDetection::Native, move |changed| {
             for uri in affected(&known, &changed.paths) {
                 scheduler.link_changed(&uri);
             }
@@ -50,7 +50,7 @@ impl Links {
 
     /// Watches the files that a text now links to.
     pub(super) fn watch(&self, uri: &str, files: Vec<PathBuf>) {
-        let files: BTreeSet<PathBuf> = files.iter().map(|file| as_told(file)).collect();
+        let files: BTreeSet<PathBuf> = files.iter().map(|file| event_path(file)).collect();
         let mut linked = lock(&self.linked);
         if linked.get(uri).is_some_and(|old| *old == files)
             || (files.is_empty() && !linked.contains_key(uri))
@@ -79,7 +79,7 @@ impl Links {
 }
 
 fn affected(linked: &LinkedFiles, changed: &BTreeSet<PathBuf>) -> Vec<String> {
-    let changed: BTreeSet<PathBuf> = changed.iter().map(|file| as_told(file)).collect();
+    let changed: BTreeSet<PathBuf> = changed.iter().map(|file| event_path(file)).collect();
     let linked = lock(linked);
     let texts = linked.iter();
     texts

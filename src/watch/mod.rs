@@ -11,7 +11,7 @@ use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant, SystemTime};
 
 use crate::compile::{Compiled, TOLERANCE};
-use crate::disk::{FolderWatch, Notice, WatchError};
+use crate::disk::{ChangeDetection, FolderWatch, WatchError};
 use crate::export::Model;
 use watcher::Watcher;
 
@@ -25,7 +25,7 @@ pub struct Options {
     /// See [`TOLERANCE`].
     pub tolerance: f64,
     /// How changes are noticed.
-    pub notice: Notice,
+    pub detection: ChangeDetection,
 }
 
 impl Default for Options {
@@ -33,7 +33,7 @@ impl Default for Options {
         Self {
             root: None,
             tolerance: TOLERANCE,
-            notice: Notice::default(),
+            detection: ChangeDetection::default(),
         }
     }
 }
@@ -111,7 +111,7 @@ pub fn watch(
     mut report: impl FnMut(Event<'_>),
 ) -> Result<std::convert::Infallible, WatchError> {
     let (sender, changes) = channel();
-    let watch = FolderWatch::new(options.notice, move |changed| {
+    let watch = FolderWatch::new(options.detection, move |changed| {
         let _ = sender.send(changed);
     })?;
     let mut watcher = Watcher::new(targets, options);

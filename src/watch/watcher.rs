@@ -6,7 +6,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use super::drawing::{Drawing, Outcome};
 use super::{Event, Options};
-use crate::disk::{Changed, FolderWatch, ReadError, as_told, below, is_drawing, names_told};
+use crate::disk::{Changed, FolderWatch, ReadError, below, event_path, event_paths, is_drawing};
 
 /// How long a file may look half written before it is reported.
 const INCOMPLETE_TIMEOUT: Duration = Duration::from_secs(1);
@@ -110,7 +110,7 @@ impl Watcher {
         for folder in &self.folders {
             let found = below(folder);
             let real = found.folders.iter().map(|folder| folder.join("any"));
-            let real = real.filter_map(|file| as_told(&file).parent().map(Path::to_owned));
+            let real = real.filter_map(|file| event_path(&file).parent().map(Path::to_owned));
             self.subfolders.extend(real);
             drawings.extend(found.files.into_iter().filter(|file| is_drawing(file)));
         }
@@ -121,11 +121,11 @@ impl Watcher {
     }
 
     fn add(&mut self, path: &Path, due: Due) {
-        let key = as_told(path);
+        let key = event_path(path);
         let options = &self.options;
         self.drawings.entry(key).or_insert_with(|| Watched {
             drawing: Drawing::new(path, options),
-            files: names_told(path),
+            files: event_paths(path),
             due: Some(due),
             failure: None,
         });
@@ -221,7 +221,7 @@ impl Watched {
                 self.failure = None;
                 let linked = self.drawing.linked();
                 let files = linked.chain([self.drawing.path().to_owned()]);
-                self.files = files.flat_map(|file| names_told(&file)).collect();
+                self.files = files.flat_map(|file| event_paths(&file)).collect();
                 report(Event::Built(self.drawing.path(), &build));
                 return;
             }
@@ -251,7 +251,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::disk::Notice;
+    use crate::disk::ChangeDetection;
     use crate::watch::NoModel;
 
     const DRAWING: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">
@@ -284,7 +284,7 @@ mod tests {
     fn changed(paths: &[&Path]) -> Changed {
         Changed {
             noticed: SystemTime::now(),
-            paths: paths.iter().map(|path| as_told(path)).collect(),
+            paths: paths.iter().map(|path| event_path(path)).collect(),
         }
     }
 
@@ -369,7 +369,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.svg");
         fs::write(&path, DRAWING).unwrap();
-        let watch = FolderWatch::new(Notice::default(), |_| ()).unwrap();
+        let watch = FolderWatch::new(ChangeDetection::default(), |_| ()).unwrap();
         let mut watcher = Watcher::new(std::slice::from_ref(&path), &Options::default());
         events(&mut watcher);
         watcher.watch_folders(&watch, &mut |_| ());
