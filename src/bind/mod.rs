@@ -15,6 +15,8 @@ mod nearest;
 mod parents;
 mod settings;
 mod strings;
+#[cfg(test)]
+mod tests;
 mod units;
 
 pub use attributes::{

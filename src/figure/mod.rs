@@ -7,6 +7,8 @@ mod copies;
 mod models;
 mod nodes;
 mod relief;
+#[cfg(test)]
+mod tests;
 mod tree;
 
 use std::sync::Arc;

@@ -54,3 +54,53 @@ impl Frame {
         DAffine2::from_angle(-self.angle) * DAffine2::from_translation(-self.center) * flip
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A part of 20 by 10 along an axis, y down, with its centre at 50, 50.
+    fn measure(axis: DVec2) -> Measure {
+        let center = DVec2::new(50.0, 50.0);
+        Measure {
+            center,
+            axis,
+            ends: [center - axis * 10.0, center + axis * 10.0],
+            half_along: 10.0,
+            half_across: 5.0,
+            bounds: (center - 10.0, center + 10.0),
+            certain: true,
+        }
+    }
+
+    #[test]
+    fn y_leads_from_the_joint_to_the_far_end() {
+        let right = measure(DVec2::X);
+        for (joint, angle) in [(40.0, -90.0_f64), (60.0, 90.0)] {
+            let frame = Frame::new(&right, DVec2::new(joint, 50.0));
+            assert!((frame.angle.to_degrees() - angle).abs() < 1e-9, "{frame:?}");
+            let far = frame.to_local(DVec2::new(100.0 - joint, -50.0));
+            assert!(far.distance(DVec2::new(0.0, 20.0)) < 1e-9, "{far}");
+        }
+    }
+
+    #[test]
+    fn y_leads_up_or_right_where_the_joint_is_the_centre() {
+        let center = DVec2::new(50.0, 50.0);
+        for axis in [DVec2::Y, -DVec2::Y] {
+            assert!(Frame::new(&measure(axis), center).angle.abs() < 1e-9);
+        }
+        for axis in [DVec2::X, -DVec2::X] {
+            let angle = Frame::new(&measure(axis), center).angle.to_degrees();
+            assert!((angle + 90.0).abs() < 1e-9, "{angle}");
+        }
+    }
+
+    #[test]
+    fn the_drawing_is_turned_about_the_centre() {
+        let frame = Frame::new(&measure(DVec2::X), DVec2::new(40.0, 50.0));
+        let to_frame = frame.from_drawing_about_center();
+        let [center, far] = [50.0, 60.0].map(|x| to_frame.transform_point2(DVec2::new(x, 50.0)));
+        assert!(center.length() < 1e-9 && far.distance(DVec2::new(0.0, 10.0)) < 1e-9);
+    }
+}

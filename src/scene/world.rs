@@ -32,3 +32,30 @@ impl WorldTransform {
         self.rotation * DVec3::new(point.x, 0.0, point.y) * self.scale
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_are_moved_turned_and_scaled() {
+        let world = WorldTransform {
+            origin: DVec2::new(10.0, 20.0),
+            // Right stays, up becomes -z, towards the viewer becomes y.
+            rotation: DQuat::from_rotation_x(-std::f64::consts::FRAC_PI_2),
+            scale: 0.5,
+        };
+        let close = |a: DVec3, b: DVec3| assert!(a.distance(b) < 1e-12, "{a} {b}");
+        close(world.point(DVec3::new(10.0, -20.0, 0.0)), DVec3::ZERO);
+        close(
+            world.point(DVec3::new(12.0, -14.0, 4.0)),
+            DVec3::new(1.0, 2.0, -3.0),
+        );
+        // Lower on the page is nearer to the viewer.
+        close(
+            world.point_on_ground(DVec2::new(12.0, 26.0)),
+            DVec3::new(1.0, 3.0, 0.0),
+        );
+        close(world.rotate(DQuat::IDENTITY) * DVec3::Y, -DVec3::Z);
+    }
+}

@@ -159,7 +159,7 @@ fn unused_legends_are_reported() {
         let (_, told) = read_with(&svg, files);
         assert_eq!(told.len(), 1, "{told:?}");
         assert!(
-            told[0].starts_with("W303: no tile is painted like this legend"),
+            told[0].starts_with("W303: no tile has the paint of this legend"),
             "{told:?}"
         );
     }

@@ -1,0 +1,357 @@
+use super::*;
+use crate::compile::{Compiled, Options, compile};
+use crate::resolver::MemoryResolver;
+use glam::{DQuat, DVec2, DVec3};
+
+/// Compiles a page of 200 by 200 with these elements.
+fn drawing(elements: &str) -> Compiled {
+    let source = format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">{elements}</svg>"#
+    );
+    compile(&source, &Options::default(), &MemoryResolver::default())
+}
+
+/// A square of 20 units with this centre and description.
+fn square(x: i32, y: i32, desc: &str) -> String {
+    filled(x, y, "#888888", desc)
+}
+
+fn filled(x: i32, y: i32, fill: &str, desc: &str) -> String {
+    let desc = match desc {
+        "" => String::new(),
+        desc => format!("<desc>{desc}</desc>"),
+    };
+    let (x, y) = (x - 10, y - 10);
+    format!(r#"<rect x="{x}" y="{y}" width="20" height="20" fill="{fill}">{desc}</rect>"#)
+}
+
+fn text(x: i32, y: i32, text: &str) -> String {
+    format!(r#"<text x="{x}" y="{y}" font-size="4">{text}</text>"#)
+}
+
+fn part(compiled: &Compiled, name: &str) -> usize {
+    let mut parts = compiled.bindings.parts.iter();
+    parts.position(|part| part.name == name).unwrap()
+}
+
+fn has(compiled: &Compiled, code: Code) -> bool {
+    compiled
+        .diagnostics
+        .iter()
+        .any(|diagnostic| diagnostic.code == code)
+}
+
+#[test]
+fn each_rule_binds_what_the_rules_before_it_leave() {
+    let group = format!("<g>{}{}</g>", square(60, 20, ""), text(150, 100, "Grouped"));
+    let line = r##"<path d="M 34 152 L 155 155" fill="none" stroke="#000000"/>"##;
+    let elements = [
+        square(20, 20, "Described$"),
+        group,
+        square(155, 155, ""),
+        text(25, 155, "Led"),
+        line.to_owned(),
+        square(20, 100, ""),
+        text(60, 110, "Near"),
+    ];
+    let compiled = drawing(&elements.concat());
+    for (name, by) in [
+        ("Described", BoundBy::Desc),
+        ("Grouped", BoundBy::Group),
+        ("Led", BoundBy::Leader),
+        ("Near", BoundBy::Nearest),
+    ] {
+        let part = &compiled.bindings.parts[part(&compiled, name)];
+        let string = &compiled.bindings.strings[part.string.unwrap()];
+        assert_eq!(string.binding.unwrap().by, by, "{name}");
+    }
+    let center = |name| {
+        compiled.bindings.parts[part(&compiled, name)]
+            .measure
+            .center
+    };
+    assert_eq!(center("Led"), DVec2::new(155.0, 155.0));
+    assert_eq!(center("Near"), DVec2::new(20.0, 100.0));
+}
+
+#[test]
+fn the_closest_pair_is_bound_first() {
+    // Both strings are nearest to the left square; the closer one gets it.
+    let elements = [
+        square(20, 50, ""),
+        square(120, 50, ""),
+        text(60, 50, "Second$"),
+        text(22, 50, "First$"),
+    ];
+    let compiled = drawing(&elements.concat());
+    let x = |name| {
+        compiled.bindings.parts[part(&compiled, name)]
+            .measure
+            .center
+            .x
+    };
+    assert_eq!([x("First"), x("Second")], [20.0, 120.0]);
+}
+
+#[test]
+fn strings_in_a_group_of_several_stay_in_it() {
+    // Without the container, the squares outside would be nearer.
+    let group = [
+        square(150, 150, ""),
+        square(180, 150, ""),
+        text(20, 22, "Inner$"),
+        text(60, 22, "Other$"),
+    ];
+    let elements = [
+        square(20, 20, ""),
+        square(60, 20, ""),
+        format!("<g>{}</g>", group.concat()),
+    ];
+    let compiled = drawing(&elements.concat());
+    for name in ["Inner", "Other"] {
+        let center = compiled.bindings.parts[part(&compiled, name)]
+            .measure
+            .center;
+        assert_eq!(center.y, 150.0, "{name}");
+    }
+}
+
+#[test]
+fn a_string_too_many_has_no_part() {
+    let one = drawing(&(square(20, 20, "") + &text(20, 20, "A$")));
+    assert!(!has(&one, Code::NoPartLeft));
+    let two = [square(20, 20, ""), text(20, 20, "A$"), text(50, 20, "B$")];
+    assert!(has(&drawing(&two.concat()), Code::NoPartLeft));
+}
+
+#[test]
+fn own_strings_win_over_legends_and_legends_over_defaults() {
+    let elements = [
+        filled(20, 20, "#ff0000", "Own$Smooth 40"),
+        filled(60, 20, "#ff0000", "OfLegend$"),
+        filled(100, 20, "#0000ff", "OfDefault$"),
+        filled(180, 150, "#ff0000", ""),
+        text(180, 150, "$Smooth 20 Offset 2"),
+        text(10, 190, "%Smooth 10"),
+        text(50, 190, "%Metallic 0.5"),
+    ];
+    let compiled = drawing(&elements.concat());
+    let bindings = &compiled.bindings;
+    let expected = [
+        ("Own", 40.0, SetBy::Own, 2.0),
+        ("OfLegend", 20.0, SetBy::Legend, 2.0),
+        ("OfDefault", 10.0, SetBy::Default, 0.0),
+    ];
+    for (name, crease, from, offset) in expected {
+        let part = part(&compiled, name);
+        let attributes = bindings.attributes(part);
+        assert_eq!(attributes.crease(), crease, "{name}");
+        assert_eq!(
+            attributes.offset().map_or(0.0, |offset| offset.value),
+            offset
+        );
+        let resolved = bindings.resolved(&compiled.drawing, part);
+        let smooth = resolved
+            .iter()
+            .find(|resolved| resolved.keyword.name() == "Smooth");
+        assert_eq!(smooth.unwrap().from, from, "{name}");
+        assert_eq!(attributes.segments(), 16, "the program's default");
+        let factors = bindings.material_factors(&compiled.drawing, part);
+        assert_eq!([factors.metallic, factors.roughness], [0.5, 0.9]);
+    }
+    let span = bindings.span_of(
+        &bindings
+            .attributes(part(&compiled, "Own"))
+            .offset()
+            .unwrap()
+            .source,
+    );
+    let legend = &bindings.strings[bindings.legends[0].string];
+    assert!(span.start > legend.text.whole().start && span.end <= legend.text.whole().end);
+}
+
+#[test]
+fn color_replaces_the_fill_and_alpha_its_opacity() {
+    let elements = [
+        filled(20, 20, "#ff0000", "Filled$"),
+        filled(60, 20, "#ff0000", "Colored$Color 0 1 0 0.5"),
+        filled(100, 20, "#ff0000", "Clear$Color 0 1 0 0.5 Alpha 0.25"),
+    ];
+    let compiled = drawing(&elements.concat());
+    let color = |name| {
+        let part = part(&compiled, name);
+        compiled
+            .bindings
+            .material_factors(&compiled.drawing, part)
+            .color
+    };
+    assert_eq!(color("Filled"), [1.0, 0.0, 0.0, 1.0]);
+    assert_eq!(color("Colored"), [0.0, 1.0, 0.0, 0.5]);
+    assert_eq!(color("Clear"), [0.0, 1.0, 0.0, 0.25]);
+}
+
+#[test]
+fn settings_of_the_drawing_have_defaults() {
+    let settings = |strings: &str| drawing(&(square(20, 20, "A$") + strings)).bindings.settings;
+    let default = settings("");
+    assert_eq!(default.scale, 1.0);
+    assert_eq!(default.axes, DQuat::IDENTITY);
+    assert_eq!(default.ground, None);
+    assert_eq!(default.bind, DistanceMode::Center);
+    assert_eq!(default.strokes, Strokes::None);
+    assert_eq!(
+        drawing(&square(20, 20, "")).bindings.settings.strokes,
+        Strokes::Lines
+    );
+    let strings = "%Scale 2 Axes +x -z +y Ground 30 40 Bind outline Strokes all";
+    let set = settings(&text(100, 100, strings));
+    assert_eq!(set.scale, 2.0);
+    assert!((set.axes * DVec3::Y).distance(-DVec3::Z) < 1e-12);
+    assert_eq!(set.ground, Some(DVec2::new(30.0, 40.0)));
+    assert_eq!(set.bind, DistanceMode::Outline);
+    assert_eq!(set.strokes, Strokes::All);
+    let page = settings(&text(100, 100, "%Ground page Strokes lines"));
+    assert_eq!(
+        (page.ground, page.strokes),
+        (Some(DVec2::ZERO), Strokes::Lines)
+    );
+}
+
+#[test]
+fn group_strings_make_layers_and_only_maps_hold_tiles() {
+    let group = |string: &str, x| format!("<g>{}{}</g>", square(x, 20, ""), text(x, 60, string));
+    let elements = [
+        group("Island$Tiles 20", 20),
+        group("Boy$View 45 0", 60),
+        group("Boy$Pose 1.5", 100),
+        square(150, 150, "Rock$"),
+    ];
+    let compiled = drawing(&elements.concat());
+    let bindings = &compiled.bindings;
+    let layers = bindings.layers.iter();
+    let layers: Vec<_> = layers
+        .map(|layer| (layer.kind, layer.name.as_str()))
+        .collect();
+    let expected = [
+        (LayerKind::Tiles, "Island"),
+        (LayerKind::View, "Boy"),
+        (LayerKind::Pose, "Boy"),
+    ];
+    assert_eq!(layers, expected);
+    let tile_layers: Vec<usize> = bindings.tile_layers().map(|(index, _)| index).collect();
+    assert_eq!(tile_layers, [0]);
+    // Squares by number: only the one of the map is a tile, and no group string belongs to a part.
+    let kinds: Vec<PartKind> = bindings.parts.iter().map(|part| part.kind).collect();
+    let main = PartKind::Main;
+    assert_eq!(kinds, [PartKind::Tile, main, main, main]);
+    assert!(bindings.layers.iter().all(|layer| {
+        let string = &bindings.strings[layer.string];
+        string.binding.is_none() && !string.wants_part()
+    }));
+    let group_of = |shape: usize| compiled.drawing.shapes[shape].group;
+    let in_layers = in_tile_layers(&compiled.drawing);
+    assert!(in_layers[group_of(0)] && !in_layers[group_of(1)]);
+    assert_eq!(bindings.tile_layer_of_group(group_of(0)), Some(0));
+    assert_eq!(bindings.tile_layer_of_group(group_of(1)), None);
+    assert_eq!(
+        bindings.layer_attributes(0).tile_size().unwrap().value,
+        20.0
+    );
+}
+
+#[test]
+fn two_strings_cannot_make_tile_layers_of_one_group() {
+    let group = |second: &str| {
+        let strings = text(20, 60, "Island$Tiles 20") + &text(20, 80, second);
+        drawing(&format!("<g>{}{strings}</g>", square(20, 20, "")))
+    };
+    assert!(has(&group("Other$Tiles 10"), Code::TwoStrings));
+    assert!(!has(&group("Boy$View 0 0"), Code::TwoStrings));
+}
+
+#[test]
+fn joints_lie_at_the_end_near_the_parent() {
+    let arm = |desc: &str| {
+        let arm = format!(
+            r##"<rect x="40" y="15" width="60" height="10" fill="#888888"><desc>{desc}</desc></rect>"##
+        );
+        let compiled = drawing(&(square(20, 20, "Body$") + &arm));
+        compiled.bindings.parts[part(&compiled, "Arm")].origin
+    };
+    let near = DVec2::new(40.0, 20.0);
+    let far = DVec2::new(100.0, 20.0);
+    let middle = DVec2::new(70.0, 20.0);
+    let expected = [
+        ("Arm@Body", near),
+        ("Arm@Body$Origin end", far),
+        ("Arm@Body$Origin start", near),
+        ("Arm@Body$Shape -c roundv", middle),
+        ("Arm@Body$Shape -c roundv Origin end", far),
+        ("Arm@Body$Origin 7 9", DVec2::new(7.0, 9.0)),
+        ("Arm$", middle),
+    ];
+    for (desc, expected) in expected {
+        let origin = arm(desc);
+        assert!(origin.distance(expected) < 1e-6, "{desc}: {origin}");
+    }
+}
+
+#[test]
+fn parts_without_strings_are_named_and_hang_on_the_nearest_named_part() {
+    let elements = [
+        square(20, 20, "A$"),
+        square(180, 20, "U-1$"),
+        square(150, 20, ""),
+        square(50, 20, ""),
+    ];
+    let compiled = drawing(&elements.concat());
+    let bindings = &compiled.bindings;
+    let found = bindings.parts.iter().map(|part| {
+        let parent = part
+            .parent
+            .map(|parent| bindings.parts[parent].name.as_str());
+        (part.name.as_str(), parent)
+    });
+    let found: Vec<_> = found.collect();
+    let expected = [
+        ("A", None),
+        ("U-1", None),
+        ("U-2", Some("U-1")),
+        ("U-3", Some("A")),
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn a_cycle_of_parents_is_broken_at_one_part() {
+    let elements = [
+        square(20, 20, "A@C"),
+        square(60, 20, "B@A"),
+        square(100, 20, "C@B"),
+    ];
+    let compiled = drawing(&elements.concat());
+    assert!(has(&compiled, Code::ParentCycle));
+    let parts = compiled.bindings.parts.iter();
+    assert_eq!(parts.filter(|part| part.parent.is_none()).count(), 1);
+}
+
+#[test]
+fn clips_are_requested_for_a_part_or_for_all() {
+    let elements = [
+        square(20, 20, "A$"),
+        square(60, 20, "B@A$Motion \"b.bvh\" wave"),
+        text(150, 150, "%Motion \"all.bvh\""),
+    ];
+    let compiled = drawing(&elements.concat());
+    let requests = compiled.bindings.clip_requests();
+    let mut requests: Vec<_> = requests
+        .iter()
+        .map(|request| (request.file, request.name, request.part))
+        .collect();
+    requests.sort_unstable();
+    let b = Some(part(&compiled, "B"));
+    assert_eq!(
+        requests,
+        [("all.bvh", None, None), ("b.bvh", Some("wave"), b)]
+    );
+}

@@ -1,0 +1,193 @@
+use glam::DVec3;
+
+use crate::compile::{Compiled, Options, compile};
+use crate::diagnostic::Code;
+use crate::resolver::MemoryResolver;
+use crate::scene::{Node, Scene};
+
+/// Compiles a page of 200 by 200 with these elements; a unit is a centimetre.
+fn drawing(elements: &str) -> Compiled {
+    let source = format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">{elements}</svg>"#
+    );
+    compile(&source, &Options::default(), &MemoryResolver::default())
+}
+
+fn rect([x, y, width, height]: [i32; 4], desc: &str) -> String {
+    format!(
+        r##"<rect x="{x}" y="{y}" width="{width}" height="{height}" fill="#888888"><desc>{desc}</desc></rect>"##
+    )
+}
+
+fn node<'a>(scene: &'a Scene, name: &str) -> &'a Node {
+    let mut nodes = scene.nodes.iter();
+    nodes.find(|node| node.name == name).unwrap()
+}
+
+/// The least and the greatest corner of a node's mesh, in centimetres.
+fn bounds(scene: &Scene, name: &str) -> [DVec3; 2] {
+    let mesh = &scene.meshes[node(scene, name).mesh.unwrap()];
+    let mut bounds = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    for primitive in &mesh.primitives {
+        for position in &primitive.surface().positions {
+            let position = DVec3::from(position.map(f64::from)) * 100.0;
+            bounds = [bounds[0].min(position), bounds[1].max(position)];
+        }
+    }
+    bounds
+}
+
+fn close(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-4
+}
+
+#[test]
+fn meshes_lie_along_y_away_from_the_joint() {
+    let elements = [
+        rect([40, 40, 20, 20], "Body$"),
+        rect([60, 45, 60, 10], "Right@Body"),
+        rect([45, 60, 10, 60], "Down@Body"),
+    ];
+    let scene = drawing(&elements.concat()).scene;
+    for name in ["Right", "Down"] {
+        let [low, high] = bounds(&scene, name);
+        assert!(
+            close(low.y, 0.0) && close(high.y, 60.0),
+            "{name}: {low} {high}"
+        );
+        assert!(
+            close(low.x, -5.0) && close(high.x, 5.0),
+            "{name}: {low} {high}"
+        );
+        // Turned back, +Y points the way in which the part is drawn.
+        let way = node(&scene, name).rotation * DVec3::Y;
+        let expected = if name == "Right" { DVec3::X } else { -DVec3::Y };
+        assert!(way.distance(expected) < 1e-9, "{name}: {way}");
+    }
+    let joint = node(&scene, "Right").translation * 100.0;
+    assert!(joint.distance(DVec3::new(10.0, 0.0, 0.0)) < 1e-6, "{joint}");
+}
+
+#[test]
+fn the_middle_of_the_lower_edge_is_the_origin() {
+    let elements = rect([20, 30, 40, 50], "Body$");
+    let body = |strings: &str| {
+        let scene = drawing(&(elements.clone() + strings)).scene;
+        node(&scene, "Body").translation * 100.0
+    };
+    assert!(body("").distance(DVec3::new(0.0, 25.0, 0.0)) < 1e-6);
+    let page = body(r#"<text x="150" y="150">%Ground page Scale 2</text>"#);
+    assert!(
+        page.distance(DVec3::new(80.0, -110.0, 0.0)) < 1e-6,
+        "{page}"
+    );
+}
+
+#[test]
+fn copies_have_names_of_their_own_and_follow_their_originals() {
+    let elements = [
+        rect([40, 40, 20, 20], "Body$"),
+        rect([60, 45, 60, 10], "Arm@Body$Shape -d roundv Offset 9"),
+        rect([120, 45, 30, 10], "Hand@Arm$Shape -d roundv Offset 4"),
+    ];
+    let scene = drawing(&elements.concat()).scene;
+    let names: Vec<&str> = scene.nodes.iter().map(|node| node.name.as_str()).collect();
+    let expected = [
+        "Body",
+        "Arm",
+        "Hand",
+        "Hand.back",
+        "Arm.back",
+        "Hand.back-2",
+        "Hand.back.back",
+    ];
+    assert_eq!(names, expected);
+    let depth = |name| node(&scene, name).translation.z * 100.0;
+    assert!(close(depth("Arm"), 9.0) && close(depth("Arm.back"), -9.0));
+    // On a mirrored node the original is mirrored, and its copy is not.
+    assert!(close(depth("Hand.back-2"), -4.0) && close(depth("Hand.back.back"), 4.0));
+    let [arm, back] = ["Arm", "Arm.back"].map(|name| node(&scene, name).children.len());
+    assert_eq!([arm, back], [2, 2]);
+}
+
+#[test]
+fn parts_drawn_later_stand_out_where_faces_would_coincide() {
+    let shape = "Shape default 0 10";
+    let elements = [
+        rect([10, 10, 50, 50], &format!("First${shape}")),
+        rect([20, 20, 50, 50], &format!("Second${shape}")),
+        rect([30, 30, 50, 50], &format!("Third${shape}")),
+        rect([120, 120, 50, 50], &format!("Apart${shape}")),
+        rect([40, 40, 50, 50], "Other$Shape default 0 20"),
+    ];
+    let scene = drawing(&elements.concat()).scene;
+    // A step is a hundredth of the thickness.
+    for (name, back, front) in [
+        ("First", 0.0, 10.0),
+        ("Second", -0.1, 10.1),
+        ("Third", -0.2, 10.2),
+        ("Apart", 0.0, 10.0),
+        ("Other", -0.4, 20.0),
+    ] {
+        let [low, high] = bounds(&scene, name);
+        assert!(
+            close(low.z, back) && close(high.z, front),
+            "{name}: {low} {high}"
+        );
+    }
+}
+
+#[test]
+fn a_default_offset_moves_a_node_once_with_its_sub_parts() {
+    let group = |own: &str| {
+        let main = rect([20, 20, 50, 50], "Body$Shape default 0 10");
+        let sub = rect([100, 20, 20, 20], &format!("Sub$Shape default 0 10 {own}"));
+        // A group that is alone on its page would not count.
+        let other = rect([150, 150, 20, 20], "Other$");
+        let scene = drawing(&format!(
+            r#"<g>{main}{sub}</g>{other}<text x="150" y="190">%Offset 5</text>"#
+        ));
+        let scene = scene.scene;
+        (
+            node(&scene, "Body").translation.z * 100.0,
+            bounds(&scene, "Body")[1].z,
+        )
+    };
+    let (node, front) = group("");
+    assert!(close(node, 5.0) && close(front, 10.0), "{node} {front}");
+    let (node, front) = group("Offset 7");
+    assert!(close(node, 5.0) && close(front, 17.0), "{node} {front}");
+}
+
+#[test]
+fn copies_that_coincide_are_reported() {
+    let has = |desc: &str| {
+        let compiled = drawing(&rect([20, 20, 50, 50], desc));
+        let mut diagnostics = compiled.diagnostics.iter();
+        diagnostics.any(|diagnostic| diagnostic.code == Code::CopiesCoincide)
+    };
+    assert!(has("Body$Shape -d default -5 5"));
+    assert!(has("Body$Shape -s roundv"));
+    assert!(!has("Body$Shape -d default -5 5 Offset 9"));
+    assert!(!has("Body$Shape -s default 5 8"));
+    assert!(!has("Body$Shape default -5 5"));
+}
+
+#[test]
+fn mirrored_solids_share_a_node_and_mirrored_copies_do_not() {
+    let part = |desc: &str| {
+        let scene = drawing(&rect([20, 20, 50, 50], desc)).scene;
+        let [low, high] = bounds(&scene, "Body");
+        (scene.nodes.len(), low.z, high.z)
+    };
+    let (nodes, low, high) = part("Body$Shape -s default 5 8");
+    assert!(
+        nodes == 1 && close(low, -8.0) && close(high, 8.0),
+        "{nodes} {low} {high}"
+    );
+    let (nodes, low, high) = part("Body$Shape -d default 5 8");
+    assert!(
+        nodes == 2 && close(low, 5.0) && close(high, 8.0),
+        "{nodes} {low} {high}"
+    );
+}
