@@ -1,21 +1,24 @@
-//! What a drawing links to, as the drawing names it.
+//! Links of a drawing, resolved to the bytes of files.
 //!
-//! The compiler never opens files: it asks a [`Resolver`]. Every resolver follows the same rule, kept
-//! in [`inside`]: a link is a relative path that stays in the drawing's folder.
+//! The compiler never opens files: it asks a [`Resolver`]. Every resolver follows the rule of [`inside`]: a link is a
+//! relative path that stays in the drawing's folder.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use percent_encoding::percent_decode_str;
 
-/// Gives the bytes behind a link.
+/// Reads the files that a drawing links to.
 pub trait Resolver: Sync {
-    /// Reads what `link`, written as in the drawing, leads to.
+    /// Reads the file that `link`, written as in the drawing, leads to.
+    ///
+    /// # Errors
+    /// If the link leads out of the drawing's folder, or its file cannot be read.
     fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError>;
 }
 
-/// Why a link leads nowhere. Messages go behind the link's name: ``link `a.png` `` …
+/// Why a link cannot be followed. Messages go behind the link's name: ``link `a.png` `` …
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum LinkError {
     /// No such file.
@@ -27,10 +30,10 @@ pub enum LinkError {
     /// It names a place on one machine.
     #[error("is an absolute path")]
     Absolute,
-    /// It names something on the net, or its scheme is not a file's.
+    /// It is a web address, or has another scheme that is not a file's.
     #[error("is a web address, not a file beside the drawing")]
     Remote,
-    /// It is there but cannot be read; says why.
+    /// It is there but cannot be read, with the reason.
     #[error("cannot be read: {0}")]
     Unreadable(String),
     /// It is longer than okoshi reads.
@@ -45,6 +48,9 @@ pub enum LinkError {
 /// the folder that it starts from.
 ///
 /// A backslash separates like a slash, so that a drawing means the same on every system.
+///
+/// # Errors
+/// If the link is not a relative path, leaves the folder, or is empty.
 pub fn inside(link: &str) -> Result<String, LinkError> {
     let link = link.replace('\\', "/");
     if link.starts_with("//") {
@@ -80,19 +86,21 @@ pub fn inside(link: &str) -> Result<String, LinkError> {
     }
 }
 
-/// The spellings under which `link` is looked for: as it stands, then with `%20` and the like decoded,
-/// as links in XML are written.
+/// The spellings under which `link` is looked for: as it is written, then percent-decoded (`%20`), as links in XML are
+/// encoded.
 pub fn spellings(link: &str) -> impl Iterator<Item = String> {
+    // `%` without two hexadecimal digits stands for itself; bytes that are no text are no spelling.
     let decoded = percent_decode_str(link).decode_utf8().ok();
-    let decoded = decoded
-        .filter(|decoded| decoded != link)
-        .map(Cow::into_owned);
-    std::iter::once(link.to_owned()).chain(decoded)
+    let decoded = decoded.filter(|decoded| decoded != link);
+    std::iter::once(link.to_owned()).chain(decoded.map(Cow::into_owned))
 }
 
 /// The first answer of `read` over the spellings of a link that is not [`LinkError::Missing`].
 ///
-/// Both spellings are held to the rule of [`inside`]; an encoded `..` gains nothing.
+/// Both spellings must follow the rule of [`inside`], so that an encoded `..` leads nowhere either.
+///
+/// # Errors
+/// If no spelling leads anywhere.
 pub fn first_spelling<T>(
     link: &str,
     read: impl Fn(&str) -> Result<T, LinkError>,
@@ -108,6 +116,56 @@ fn scheme(link: &str) -> Option<&str> {
     let letter = scheme.starts_with(|c: char| c.is_ascii_alphabetic());
     let rest = |c: char| c.is_ascii_alphanumeric() || matches!(c, '+' | '-' | '.');
     (letter && scheme.chars().all(rest)).then_some(scheme)
+}
+
+/// A resolver that records what is read through it.
+pub struct Recorder<'a> {
+    inner: &'a dyn Resolver,
+    read: Mutex<BTreeMap<String, Result<Arc<[u8]>, LinkError>>>,
+}
+
+/// A link that was read, and what it led to.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dependency {
+    /// The link as it was written.
+    pub link: String,
+    /// The bytes of the file, or why there are none.
+    pub content: Result<Arc<[u8]>, LinkError>,
+}
+
+impl Dependency {
+    /// Whether the link still leads to the same bytes, or to the same error.
+    pub fn is_unchanged(&self, resolver: &dyn Resolver) -> bool {
+        resolver.read(&self.link) == self.content
+    }
+}
+
+impl<'a> Recorder<'a> {
+    /// Records what is read from `inner`.
+    pub fn new(inner: &'a dyn Resolver) -> Self {
+        Self {
+            inner,
+            read: Mutex::default(),
+        }
+    }
+
+    /// All links that were read, in alphabetical order, each with what it led to the first time.
+    pub fn into_dependencies(self) -> Vec<Dependency> {
+        let read = self.read.into_inner();
+        let read = read.unwrap_or_else(PoisonError::into_inner).into_iter();
+        read.map(|(link, content)| Dependency { link, content })
+            .collect()
+    }
+}
+
+impl Resolver for Recorder<'_> {
+    fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
+        let content = self.inner.read(link);
+        let mut read = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+        let first = read.entry(link.to_owned());
+        first.or_insert_with(|| content.clone());
+        content
+    }
 }
 
 /// Files held in memory: for tests, and for drawings that come without a folder (then it is empty).

@@ -4,10 +4,12 @@
 //! (of the unpacked text for `.svgz`), whatever was decoded or rewritten on the way.
 
 mod change;
+mod line_index;
 
 use std::ops::Range;
 
 pub use change::Change;
+pub use line_index::{LineEnds, LineIndex, starts_character};
 
 /// A byte range of the drawing's text, half open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
@@ -275,36 +277,6 @@ pub fn escape_xml(text: &str) -> String {
     out
 }
 
-/// Line starts of a text, to turn byte offsets into lines and columns.
-#[derive(Debug, Clone)]
-pub struct Lines {
-    starts: Vec<usize>,
-}
-
-impl Lines {
-    /// Reads the line starts of `text`.
-    pub fn new(text: &str) -> Self {
-        let mut starts = vec![0];
-        starts.extend(
-            text.bytes()
-                .enumerate()
-                .filter(|(_, byte)| *byte == b'\n')
-                .map(|(at, _)| at + 1),
-        );
-        Self { starts }
-    }
-
-    /// Line and column of byte `offset`, both from 1; columns count characters of `text`.
-    pub fn line_column(&self, text: &str, offset: usize) -> (usize, usize) {
-        let line = self.starts.partition_point(|start| *start <= offset);
-        let start = self.starts[line - 1];
-        let column = text
-            .get(start..offset)
-            .map_or(offset - start, |head| head.chars().count());
-        (line, column + 1)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -382,14 +354,5 @@ mod tests {
         ] {
             assert_eq!(text.offset_of(raw), offset, "raw {raw}");
         }
-    }
-
-    #[test]
-    fn lines_and_columns_count_from_one() {
-        let text = "a\nbあc\n";
-        let lines = Lines::new(text);
-        assert_eq!(lines.line_column(text, 0), (1, 1));
-        assert_eq!(lines.line_column(text, 2), (2, 1));
-        assert_eq!(lines.line_column(text, 6), (2, 3));
     }
 }

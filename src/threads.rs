@@ -1,14 +1,16 @@
-//! The threads that drawings are compiled on: one pool for everything, so that memory is used again where it was
-//! used before, with room for deep drawings. usvg recurses over groups and clones, up to a thousand deep, and that
-//! is more than a thread's usual stack holds.
+//! The thread pool that everything runs on: one pool for all drawings, so that the allocator reuses memory on the same
+//! threads.
+//!
+//! Its stacks are large: usvg recurses over groups and clones, up to a thousand deep, which overflows a default stack.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::LazyLock;
 
-/// Stack of each thread, bytes. It is address space: memory is taken where a drawing is deep.
+use crate::crash::{self, Crash};
+
+/// The stack of each thread, bytes. It is address space: only deep drawings use that much memory.
 const STACK: usize = 256 << 20;
 
-/// How many parts, or strings, a thread takes at once: to hand over fewer takes longer than doing them.
+/// How many parts, or strings, a thread takes at once: handing over fewer costs more than the work itself.
 pub(crate) const GRAIN: usize = 64;
 
 static POOL: LazyLock<Option<rayon::ThreadPool>> = LazyLock::new(|| {
@@ -18,15 +20,23 @@ static POOL: LazyLock<Option<rayon::ThreadPool>> = LazyLock::new(|| {
     pool.build().ok()
 });
 
-/// What `work` makes, on such threads; `None` if it panics, or there can be no threads.
+/// Runs `work` on the pool and waits for its result.
 ///
-/// A pool and not a thread: whoever waits for it from a pool of rayon's goes on with other work there.
-pub(crate) fn run<R: Send>(work: impl FnOnce() -> R + Send) -> Option<R> {
-    let pool = POOL.as_ref()?;
-    catch_unwind(AssertUnwindSafe(|| pool.install(work))).ok()
+/// A thread of another rayon pool that waits here takes other jobs of its pool meanwhile.
+///
+/// # Errors
+/// If `work` panics, or no threads can be started.
+pub(crate) fn run<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, Crash> {
+    let Some(pool) = POOL.as_ref() else {
+        return Err(Crash {
+            message: "no threads can be started".to_owned(),
+            location: None,
+        });
+    };
+    crash::catch(|| pool.install(work))
 }
 
-/// Does `work` on such a thread without waiting for it.
+/// Runs `work` on the pool without waiting for it.
 pub(crate) fn run_aside(work: impl FnOnce() + Send + 'static) {
     if let Some(pool) = POOL.as_ref() {
         pool.spawn(work);

@@ -128,10 +128,16 @@ fn difference(expected: &str, outcome: &str) -> String {
 }
 
 /// Codes that no drawing of the cases can show, and where they are tested instead.
-const ELSEWHERE: &[(Code, &str)] = &[(
-    Code::NotUtf8,
-    "the file is no text; tests/cli.rs, `encodings`",
-)];
+const ELSEWHERE: &[(Code, &str)] = &[
+    (
+        Code::NotUtf8,
+        "the file is no text; tests/cli.rs, `encodings`",
+    ),
+    (
+        Code::Crash,
+        "no drawing is known to crash okoshi; tests/crash.rs",
+    ),
+];
 
 fn every_diagnostic_has_a_case() {
     let mut seen = BTreeSet::new();

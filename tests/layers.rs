@@ -19,6 +19,7 @@ const USES: &[(&str, &[&str])] = &[
             "diagnostic",
             "figure",
             "lang",
+            "memo",
             "resolver",
             "rig",
             "scene",
@@ -34,8 +35,8 @@ const USES: &[(&str, &[&str])] = &[
         &[
             "diagnostic",
             "geometry",
-            "kept",
             "lang",
+            "memo",
             "solid",
             "source",
             "svg",
@@ -47,6 +48,7 @@ const USES: &[(&str, &[&str])] = &[
         &[
             "bind",
             "compile",
+            "crash",
             "diagnostic",
             "disk",
             "export",
@@ -66,7 +68,9 @@ const USES: &[(&str, &[&str])] = &[
         &[
             "assemble",
             "bind",
+            "crash",
             "diagnostic",
+            "memo",
             "resolver",
             "rig",
             "scene",
@@ -76,9 +80,10 @@ const USES: &[(&str, &[&str])] = &[
             "threads",
         ],
     ),
+    ("crash", &[]),
     ("diagnostic", &["source"]),
     ("disk", &["export", "resolver"]),
-    ("export", &["scene", "threads"]),
+    ("export", &["crash", "scene", "threads"]),
     (
         "figure",
         &[
@@ -86,8 +91,8 @@ const USES: &[(&str, &[&str])] = &[
             "diagnostic",
             "geometry",
             "import",
-            "kept",
             "lang",
+            "memo",
             "resolver",
             "scene",
             "solid",
@@ -119,6 +124,7 @@ const USES: &[(&str, &[&str])] = &[
         "lsp",
         &[
             "compile",
+            "crash",
             "diagnostic",
             "disk",
             "export",
@@ -131,6 +137,7 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("main", &["cli"]),
+    ("memo", &["resolver", "threads"]),
     ("motion", &["scene"]),
     (
         "preview",
@@ -141,11 +148,12 @@ const USES: &[(&str, &[&str])] = &[
             "render",
             "report",
             "resolver",
+            "source",
             "watch",
         ],
     ),
-    ("render", &["import", "resolver", "threads"]),
-    ("report", &["bind", "compile", "rig", "terrain"]),
+    ("render", &["crash", "import", "resolver", "threads"]),
+    ("report", &["bind", "compile", "rig", "source", "terrain"]),
     ("resolver", &[]),
     (
         "rig",
@@ -189,7 +197,7 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("texture", &["scene"]),
-    ("threads", &[]),
+    ("threads", &["crash"]),
     ("watch", &["compile", "disk", "export", "resolver"]),
 ];
 

@@ -2,10 +2,11 @@
 
 use rustc_hash::FxHashMap;
 
-use super::textures::{self, Textures};
+use super::textures::Textures;
 use crate::bind::{Bindings, MaterialFactors, PartKind};
 use crate::diagnostic::Diagnostic;
 use crate::figure::{LinkedModels, PartMaterial};
+use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::scene::{AlphaMode, Image, Material, Scene, Texture, TextureUse};
 use crate::svg::Drawing;
@@ -76,7 +77,7 @@ impl Materials {
         models: &LinkedModels,
         layers: &[Layer],
         resolver: &dyn Resolver,
-        memory: &mut textures::Memory,
+        memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let textures = Textures::collect(
@@ -85,7 +86,7 @@ impl Materials {
             models,
             layers,
             resolver,
-            memory,
+            memo,
             diagnostics,
         );
         let mut shared = Shared::default();

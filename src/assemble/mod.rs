@@ -9,21 +9,14 @@ mod world;
 
 use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
-use crate::figure::{self, Figures, LinkedModels};
+use crate::figure::{Figures, LinkedModels};
+use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::rig::{self, FigureClip, RestNode};
 use crate::scene::Scene;
 use crate::svg::Drawing;
 use crate::terrain::{self, Layer};
 use materials::Materials;
-
-/// Results kept between compiles.
-#[derive(Debug, Default)]
-pub struct Memory {
-    figure: figure::Memory,
-    textures: textures::Memory,
-    rig: rig::Memory,
-}
 
 /// A drawing's scene, and what is in it.
 #[derive(Debug, Default)]
@@ -36,30 +29,29 @@ pub struct Assembled {
     pub clips: Vec<FigureClip>,
 }
 
-/// Builds the scene of a drawing. The result does not depend on what is in `memory`.
+/// Builds the scene of a drawing.
 pub fn assemble(
     drawing: &Drawing,
     bindings: &Bindings,
     resolver: &dyn Resolver,
-    memory: &mut Memory,
+    memo: &Memo,
+    known_clips: &mut rig::Memory,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Assembled {
     let layers = terrain::read(drawing, bindings, diagnostics);
     let world = world::world_transform(bindings, &layers);
-    let known = &mut memory.figure;
-    let mut models = LinkedModels::read(bindings, resolver, known, diagnostics);
+    let mut models = LinkedModels::read(bindings, resolver, memo, diagnostics);
     let mut found = Vec::new();
     let (figures, materials) = rayon::join(
-        || Figures::lay_out(drawing, bindings, known, &mut found),
+        || Figures::lay_out(drawing, bindings, memo, &mut found),
         || {
-            let known = &mut memory.textures;
             Materials::collect(
                 drawing,
                 bindings,
                 &models,
                 &layers,
                 resolver,
-                known,
+                memo,
                 diagnostics,
             )
         },
@@ -99,7 +91,7 @@ pub fn assemble(
         &context,
         nodes,
         resolver,
-        &mut memory.rig,
+        known_clips,
         &mut scene,
         diagnostics,
     );

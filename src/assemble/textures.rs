@@ -8,13 +8,14 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::bind::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::figure::LinkedModels;
+use crate::memo::Memo;
 use crate::resolver::{LinkError, Resolver};
 use crate::scene::{self, Image, Texture, Wrap};
 use crate::source::Span;
 use crate::svg::{Drawing, PaintKey, broken_link};
 use crate::terrain::{Layer, TileTexture};
 use crate::texture::{
-    self, Alpha, Baked, Baker, Holes, PaintServer, Picture, PictureError, Plan, PlanKey, Source,
+    self, Alpha, Baked, Holes, PaintServer, Picture, PictureError, Plan, PlanKey, Source,
 };
 
 /// Pixels of a tile along as much of the drawing as the page's diagonal is long.
@@ -56,7 +57,7 @@ impl Textures {
         models: &LinkedModels,
         layers: &'a [Layer],
         resolver: &dyn Resolver,
-        memory: &mut Memory,
+        memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let mut collector = Collector {
@@ -64,7 +65,7 @@ impl Textures {
             bindings,
             files: Files {
                 resolver,
-                last: &memory.pictures,
+                memo,
                 read: FxHashMap::default(),
                 told: FxHashSet::default(),
             },
@@ -84,12 +85,8 @@ impl Textures {
             collector.layer(index, layer, diagnostics);
         }
         texture::fit(&mut collector.plans);
-        let baked = memory.baker.bake(&collector.plans);
-        let read = std::mem::take(&mut collector.files.read);
-        let textures = collector.finish(baked, diagnostics);
-        let held = |(link, held): (&str, Result<Held, _>)| Some((link.to_owned(), held.ok()?));
-        memory.pictures = read.into_iter().filter_map(held).collect();
-        textures
+        let baked = memo.get_each(collector.plans.clone(), Plan::bake);
+        collector.finish(baked, diagnostics)
     }
 
     /// How a part is textured.
@@ -308,31 +305,19 @@ fn file_name(link: &str) -> &str {
 /// The files that `Texture` names.
 struct Files<'a> {
     resolver: &'a dyn Resolver,
-    /// What files held the last time.
-    last: &'a Pictures,
-    /// Each with its picture, or with what is wrong with it.
-    read: FxHashMap<&'a str, Result<Held, LinkError>>,
+    memo: &'a Memo,
+    /// The pictures that were read, by link.
+    read: FxHashMap<&'a str, ReadPicture>,
     /// Strings that were told what is wrong.
     told: FxHashSet<usize>,
 }
 
-/// What is in files, by link.
-type Pictures = FxHashMap<String, Held>;
+/// The key of a picture file, by its link.
+#[derive(PartialEq, Eq, Hash)]
+struct PictureFile(String);
 
-/// What a file holds.
-#[derive(Debug, Clone)]
-struct Held {
-    bytes: Arc<[u8]>,
-    /// The picture that the bytes are, or what is wrong with it.
-    picture: Result<Picture, (Code, String)>,
-}
-
-/// What the next drawing may have use for.
-#[derive(Debug, Default)]
-pub(super) struct Memory {
-    baker: Baker,
-    pictures: Pictures,
-}
+/// The picture in a file, or what is wrong with it.
+type ReadPicture = Result<Result<Picture, (Code, String)>, LinkError>;
 
 impl<'a> Files<'a> {
     /// A file's name and picture; if there is none, it is reported once for each string.
@@ -343,20 +328,16 @@ impl<'a> Files<'a> {
         span: Span,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<(&'a str, Picture)> {
-        let (resolver, last) = (self.resolver, self.last);
-        let read = self
-            .read
-            .entry(link)
-            .or_insert_with(|| read(resolver, link, last));
-        if let Ok(Held {
-            picture: Ok(picture),
-            ..
-        }) = read
-        {
+        let found = self.read.entry(link).or_insert_with(|| {
+            let file = PictureFile(link.to_owned());
+            let read = |file: &PictureFile, resolver: &dyn Resolver| read(&file.0, resolver);
+            self.memo.get_reading(file, self.resolver, read)
+        });
+        if let Ok(Ok(picture)) = found {
             return Some((link, picture.clone()));
         }
         if self.told.insert(string) {
-            diagnostics.extend(match read.as_ref().map(|held| &held.picture) {
+            diagnostics.extend(match found {
                 Err(error) => Some(broken_link(link, error, span)),
                 Ok(Err((code, message))) => Some(
                     Diagnostic::new(*code, span, format!("the picture `{link}` {message}"))
@@ -369,12 +350,9 @@ impl<'a> Files<'a> {
     }
 }
 
-fn read(resolver: &dyn Resolver, link: &str, last: &Pictures) -> Result<Held, LinkError> {
+fn read(link: &str, resolver: &dyn Resolver) -> ReadPicture {
     let bytes = resolver.read(link)?;
-    if let Some(held) = last.get(link).filter(|held| held.bytes == bytes) {
-        return Ok(held.clone());
-    }
-    let picture = match texture::decode(&bytes) {
+    Ok(match texture::decode(&bytes) {
         Ok(decoded) => texture::picture(decoded, &bytes, Holes::Alpha).ok_or_else(|| {
             let message = "cannot be written as PNG".to_owned();
             (Code::LimitPassed, message)
@@ -383,6 +361,5 @@ fn read(resolver: &dyn Resolver, link: &str, last: &Pictures) -> Result<Held, Li
             PictureError::TooLarge => (Code::LimitPassed, error.to_string()),
             PictureError::Unreadable(_) => (Code::MissingFile, error.to_string()),
         }),
-    };
-    Ok(Held { bytes, picture })
+    })
 }

@@ -9,12 +9,13 @@ use rstar::{PointDistance, RTree};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::bindings::{Bindings, DrawingString, Part, PartKind};
-use super::memory::Hangers;
+
 use super::parents;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Measure, measure_along};
 use crate::lang::ast::{self, Annotation, Name};
 use crate::lang::value::Origin;
+use crate::memo::{Bits, Long, Memo};
 use crate::source::Span;
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
@@ -30,11 +31,11 @@ const MOST_NAMED: usize = 200;
 pub(super) fn build(
     drawing: &Drawing,
     bindings: &mut Bindings,
-    hangers: &mut Hangers,
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     let mut names = names(drawing, bindings, diagnostics);
-    automatic(drawing, bindings, &mut names, hangers, diagnostics);
+    automatic(drawing, bindings, &mut names, memo, diagnostics);
     parents::parents(drawing, bindings, &names, diagnostics);
     parents::of_layers(drawing, bindings, &names, diagnostics);
     parents::break_cycles(drawing, bindings, diagnostics);
@@ -140,7 +141,7 @@ fn automatic(
     drawing: &Drawing,
     bindings: &mut Bindings,
     names: &mut FxHashMap<String, usize>,
-    hangers: &mut Hangers,
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     let main = |part: &usize| bindings.parts[*part].kind == PartKind::Main;
@@ -148,13 +149,18 @@ fn automatic(
         .filter(main)
         .partition(|part| !bindings.parts[*part].name.is_empty());
     let center = |part: usize| bindings.parts[part].measure.center.to_array();
-    let named = named.into_iter().map(|part| (center(part), part)).collect();
-    let centers = waiting.iter().map(|part| center(*part)).collect();
+    let question = NearestNamed {
+        named: named
+            .into_iter()
+            .map(|part| (Bits(center(part)), part))
+            .collect(),
+        centers: waiting.iter().map(|part| Bits(center(*part))).collect(),
+    };
     let of_layers: FxHashSet<String> = bindings
         .tile_layers()
         .map(|(_, layer)| layer.name.clone())
         .collect();
-    let parents = hangers.get((named, centers), |(named, centers)| nearest(named, centers));
+    let parents = memo.get(question, NearestNamed::answer);
     let mut counter = 0;
     for (place, (index, parent)) in waiting
         .iter()
@@ -192,19 +198,29 @@ fn automatic(
     }
 }
 
-/// For each centre the nearest of the parts, of several as near the hindmost.
-fn nearest(parts: &[([f64; 2], usize)], centers: &[[f64; 2]]) -> Arc<[Option<usize>]> {
-    let parts = parts
-        .iter()
-        .map(|(center, part)| GeomWithData::new(*center, *part));
-    let tree = RTree::bulk_load(parts.collect());
-    let nearest = |center: &[f64; 2]| {
-        let distance = tree.nearest_neighbor(*center)?.distance_2(center);
-        let as_near = tree.locate_within_distance(*center, distance);
-        as_near.map(|found| found.data).min()
-    };
-    let centers = centers.par_iter().with_min_len(GRAIN);
-    centers.map(nearest).collect::<Vec<_>>().into()
+/// Which named part is nearest to each part without a string?
+#[derive(PartialEq, Eq, Hash)]
+struct NearestNamed {
+    /// The centres of the named parts, with their indices.
+    named: Long<(Bits<[f64; 2]>, usize)>,
+    /// The centres of the parts without a string.
+    centers: Long<Bits<[f64; 2]>>,
+}
+
+impl NearestNamed {
+    /// The nearest named part of each; of several at the same distance, the back-most.
+    fn answer(&self) -> Arc<[Option<usize>]> {
+        let named = self.named.0.iter();
+        let named = named.map(|(center, part)| GeomWithData::new(center.0, *part));
+        let tree = RTree::bulk_load(named.collect());
+        let nearest = |Bits(center): &Bits<[f64; 2]>| {
+            let distance = tree.nearest_neighbor(*center)?.distance_2(center);
+            let as_near = tree.locate_within_distance(*center, distance);
+            as_near.map(|found| found.data).min()
+        };
+        let centers = self.centers.0.par_iter().with_min_len(GRAIN);
+        centers.map(nearest).collect::<Vec<_>>().into()
+    }
 }
 
 /// Says how a part without a string is called.

@@ -3,13 +3,13 @@
 //! This module knows both the drawing and the language. [`bind`] follows figure.md's order of rules; the
 //! result, a [`Bindings`], holds everything that the model is built from and that editors ask about.
 
+mod areas;
 mod attributes;
 mod bindings;
 mod hierarchy;
 mod layers;
 mod leaders;
 mod legends;
-mod memory;
 mod motions;
 mod nearest;
 mod parents;
@@ -25,7 +25,6 @@ pub use attributes::{
 pub use bindings::{Binding, Bindings, BoundBy, DrawingString, Part, PartKind, Place};
 pub use layers::{Layer, LayerKind, in_tile_layers};
 pub use legends::Legend;
-pub use memory::Memory;
 pub use motions::ClipRequest;
 pub use nearest::Mode as DistanceMode;
 pub use settings::{DrawingSettings, Strokes};
@@ -35,50 +34,39 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::diagnostic::{Code, Diagnostic};
-use crate::kept::Same;
 use crate::lang::ast::Annotation;
+use crate::memo::{Bits, Memo, Same};
 use crate::svg::{Drawing, Element};
 use crate::threads::GRAIN;
-use memory::Area;
+use areas::{Area, areas};
 use units::Units;
 
-/// Binds the strings of a drawing to its parts. The bindings do not depend on what is remembered.
-pub fn bind(
-    drawing: &Drawing,
-    mut memory: Option<&mut Memory>,
-    diagnostics: &mut Vec<Diagnostic>,
-) -> Bindings {
+/// Binds the strings of a drawing to its parts.
+pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
     let mut bindings = strings::read(drawing, diagnostics);
     layers::find(drawing, &mut bindings, diagnostics);
     layers::misplaced(&bindings, diagnostics);
     let units = Units::read(drawing, &bindings);
+    let areas = areas(drawing, &units.members, memo);
     bindings.parts = units
         .members
         .par_iter()
+        .zip(areas)
         .with_min_len(GRAIN)
-        .filter_map(|member| {
-            let known = memory.as_deref();
-            let known = known.and_then(|memory| memory.area(drawing, member));
-            let Area {
-                outline, measure, ..
-            } = known.or_else(|| Area::of(member, drawing))?;
+        .filter_map(|(member, area)| {
+            let Area { outline, measure } = area?;
             Some(Part::new(member, outline, measure))
         })
         .collect();
-    if let Some(memory) = &mut memory {
-        memory.keep(drawing, &bindings.parts);
-    }
-    let mut nothing = Memory::default();
-    let memory = memory.unwrap_or(&mut nothing);
     let mut binder = Binder::new(drawing, &units, &mut bindings, diagnostics);
     binder.descriptions();
     binder.groups();
     binder.leaders();
-    binder.nearest(&mut memory.nearest);
+    binder.nearest(memo);
     binder.left_over();
     classify(drawing, &mut bindings);
     legends::merge(drawing, &mut bindings, diagnostics);
-    hierarchy::build(drawing, &mut bindings, &mut memory.hangers, diagnostics);
+    hierarchy::build(drawing, &mut bindings, memo, diagnostics);
     motions::without_motion(&bindings, diagnostics);
     hints(drawing, &bindings, diagnostics);
     bindings
@@ -185,7 +173,7 @@ impl<'a> Binder<'a> {
     }
 
     /// Rule 4: every other string to the nearest main part candidate, containers among themselves first.
-    fn nearest(&mut self, known: &mut memory::Nearest) {
+    fn nearest(&mut self, memo: &Memo) {
         let mode = self.bindings.settings.bind;
         let mut waiting: Vec<(Option<usize>, usize)> = (0..self.bindings.strings.len())
             .filter(|string| self.waiting_label(*string).is_some())
@@ -202,7 +190,7 @@ impl<'a> Binder<'a> {
             .map(|strings| {
                 let candidates = strings[0].0.and_then(|container| contained.get(&container));
                 let candidates = candidates.map_or(&[][..], Vec::as_slice);
-                self.matches(strings, candidates, mode, &mut memory::Nearest::default())
+                self.matches(strings, candidates, mode, memo)
             })
             .collect();
         self.bind_matches(found.into_iter().flatten());
@@ -212,7 +200,7 @@ impl<'a> Binder<'a> {
             let candidates: Vec<usize> = (0..self.bindings.parts.len())
                 .filter(|part| is_free(&self.bindings.parts[*part]))
                 .collect();
-            let found = self.matches(&waiting[free..], &candidates, mode, known);
+            let found = self.matches(&waiting[free..], &candidates, mode, memo);
             self.bind_matches(found.into_iter());
         }
     }
@@ -223,7 +211,7 @@ impl<'a> Binder<'a> {
         strings: &[(Option<usize>, usize)],
         candidates: &[usize],
         mode: nearest::Mode,
-        known: &mut memory::Nearest,
+        memo: &Memo,
     ) -> Vec<Match> {
         let corner =
             |(_, string): &(Option<usize>, usize)| match self.bindings.strings[*string].place {
@@ -236,15 +224,15 @@ impl<'a> Binder<'a> {
             .filter(|part| self.bindings.parts[*part].string.is_none())
             .collect();
         let target = |part: &usize| nearest::Target {
-            center: self.bindings.parts[*part].measure.center,
+            center: Bits(self.bindings.parts[*part].measure.center),
             outline: Same(Arc::clone(&self.bindings.parts[*part].outline)),
         };
         let question = nearest::Question {
-            corners: strings.iter().map(corner).collect(),
+            corners: strings.iter().map(corner).map(Bits).collect(),
             targets: candidates.iter().map(target).collect(),
             mode,
         };
-        let found = known.get(question, |question| question.answer().into());
+        let found = memo.get(question, |question| Arc::<[_]>::from(question.answer()));
         let pairs = strings.iter().zip(found.iter());
         pairs
             .filter_map(|((_, string), found)| {

@@ -14,11 +14,11 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use rustc_hash::FxHashMap;
 
 use crate::geometry::{Outline, bounds, distance_squared};
-use crate::kept::Same;
+use crate::memo::{Bits, Long, Same};
 use crate::threads::GRAIN;
 
 /// How the distance from a string to a part is measured.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Mode {
     /// From a string's corner to a part's centre, as in the paper.
     Center,
@@ -27,17 +27,17 @@ pub enum Mode {
 }
 
 /// A part that a string can be bound to.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(super) struct Target {
-    pub(super) center: DVec2,
+    pub(super) center: Bits<DVec2>,
     pub(super) outline: Same<Outline>,
 }
 
 /// Strings' corners, and the parts that they can be bound to.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, PartialEq, Eq, Hash)]
 pub(super) struct Question {
-    pub(super) corners: Vec<DVec2>,
-    pub(super) targets: Vec<Target>,
+    pub(super) corners: Long<Bits<DVec2>>,
+    pub(super) targets: Long<Target>,
     pub(super) mode: Mode,
 }
 
@@ -53,13 +53,10 @@ pub(super) struct Found {
 impl Question {
     /// For each string what it is bound to.
     pub(super) fn answer(&self) -> Vec<Found> {
-        let Self {
-            corners,
-            targets,
-            mode,
-        } = self;
-        let pairs = pairs(corners, targets, *mode);
-        let rivals = rivals(corners, targets, &pairs, *mode);
+        let corners: Vec<DVec2> = self.corners.0.iter().map(|corner| corner.0).collect();
+        let targets = &self.targets.0;
+        let pairs = pairs(&corners, targets, self.mode);
+        let rivals = rivals(&corners, targets, &pairs, self.mode);
         let found = pairs.into_iter().zip(rivals);
         found
             .map(|(target, rival)| Found { target, rival })
@@ -70,7 +67,7 @@ impl Question {
 impl Target {
     fn distance_squared(&self, corner: DVec2, mode: Mode) -> f64 {
         match mode {
-            Mode::Center => self.center.distance_squared(corner),
+            Mode::Center => self.center.0.distance_squared(corner),
             Mode::Outline => distance_squared(&self.outline.0, corner),
         }
     }
@@ -278,7 +275,7 @@ impl<'a> Parts<'a> {
         match mode {
             Mode::Center => Self::Centers {
                 targets,
-                points: Points::new(targets.iter().map(|target| target.center)),
+                points: Points::new(targets.iter().map(|target| target.center.0)),
             },
             Mode::Outline => {
                 let shapes = targets.iter().enumerate().map(|(index, target)| Shape {
@@ -308,12 +305,12 @@ impl<'a> Parts<'a> {
     /// The string nearest to a part.
     fn nearest_string(&self, part: usize, strings: &Points, corners: &[DVec2]) -> Option<usize> {
         match self {
-            Self::Centers { targets, .. } => strings.nearest(targets[part].center),
+            Self::Centers { targets, .. } => strings.nearest(targets[part].center.0),
             Self::Outlines { targets, .. } => {
                 let target = &targets[part];
                 let reach = reach(target);
                 let mut best: Option<(f64, usize)> = None;
-                let center = [target.center.x, target.center.y];
+                let center = target.center.0.to_array();
                 for (point, from_center) in
                     strings.tree.nearest_neighbor_iter_with_distance_2(center)
                 {
@@ -354,7 +351,7 @@ impl<'a> Parts<'a> {
 
     fn remove(&mut self, part: usize) {
         match self {
-            Self::Centers { targets, points } => points.remove(targets[part].center),
+            Self::Centers { targets, points } => points.remove(targets[part].center.0),
             Self::Outlines { targets, tree } => {
                 let envelope = envelope(&targets[part]);
                 tree.remove_with_selection_function(Selected { part, envelope });
@@ -381,7 +378,7 @@ impl<'a> rstar::SelectionFunction<Shape<'a>> for Selected {
 }
 
 fn envelope(target: &Target) -> AABB<[f64; 2]> {
-    let (low, high) = bounds(&target.outline.0).unwrap_or((target.center, target.center));
+    let (low, high) = bounds(&target.outline.0).unwrap_or((target.center.0, target.center.0));
     AABB::from_corners(low.to_array(), high.to_array())
 }
 
@@ -394,7 +391,7 @@ fn reach(target: &Target) -> f64 {
         .iter()
         .flat_map(|polygon| polygon.rings.iter().flatten());
     points
-        .map(|point| point.distance(target.center))
+        .map(|point| point.distance(target.center.0))
         .fold(0.0, f64::max)
 }
 
@@ -427,7 +424,7 @@ mod tests {
             let targets: Vec<_> = centers
                 .iter()
                 .zip(outlines)
-                .map(|(center, outline)| Target { center: point(*center), outline: Same(Arc::new(outline)) })
+                .map(|(center, outline)| Target { center: Bits(point(*center)), outline: Same(Arc::new(outline)) })
                 .collect();
             for mode in [Mode::Center, Mode::Outline] {
                 prop_assert_eq!(chains(&corners, &targets, mode), all_pairs(&corners, &targets, mode));

@@ -7,6 +7,7 @@ use super::hierarchy::ROOT;
 use super::layers::LayerKind;
 use crate::diagnostic::{Code, Diagnostic, nearest_word};
 use crate::lang::ast::Annotation;
+use crate::lang::quoting::{NamePlace, quoted_if_needed};
 use crate::svg::Drawing;
 
 /// Finds the parents that strings name.
@@ -103,22 +104,13 @@ fn parent(
             diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
                 format!("Write `{near}`"),
                 span,
-                text.escape_at(parent.range.start, &quoted(near)),
+                text.escape_at(parent.range.start, &quoted_if_needed(near, NamePlace::Head)),
             );
         }
         diagnostic = diagnostic
             .help("the name after `@` must be the name of a part, spelled exactly the same");
     }
     Err(Box::new(diagnostic))
-}
-
-/// A name as it must be written in a string.
-fn quoted(name: &str) -> String {
-    if name.contains(|c: char| c.is_whitespace() || "@$\"()".contains(c)) {
-        format!("\"{name}\"")
-    } else {
-        name.to_owned()
-    }
 }
 
 /// Hangs one part of every cycle of parents on the root.
@@ -187,5 +179,40 @@ pub(super) fn break_cycles(
         }
         diagnostics.push(diagnostic);
         bindings.parts[part].parent = None;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::compile::{Options, compile};
+    use crate::diagnostic::Code;
+    use crate::resolver::MemoryResolver;
+
+    /// The fix for a misspelled parent names the part as the parser reads it: a name in full-width letters without
+    /// quotes would be read in ASCII letters, which is another name.
+    #[test]
+    fn fixes_quote_names_that_need_it() {
+        for (name, misspelled, fixed) in [
+            ("\"Ｂody\"", "\"Ｂodi\"", "@\"Ｂody\""),
+            ("\"#Body\"", "\"#Bodi\"", "@\"#Body\""),
+            ("\"left arm\"", "\"left arn\"", "@\"left arm\""),
+            ("Body", "Bodi", "@Body"),
+        ] {
+            let svg = format!(
+                r#"<svg xmlns="http://www.w3.org/2000/svg" width="90" height="90">
+<rect width="30" height="40"/><text x="9" y="9">{name}</text>
+<rect x="50" width="30" height="40"/><text x="59" y="9">Arm@{misspelled}</text></svg>"#
+            );
+            let compile = |svg: &str| compile(svg, &Options::default(), &MemoryResolver::default());
+            let compiled = compile(&svg);
+            let mut found = compiled.diagnostics.iter();
+            let found = found.find(|found| found.code == Code::UnknownParent);
+            let edit = &found.unwrap().fixes[0].edits[0];
+            let mut after = svg.clone();
+            after.replace_range(edit.span.start..edit.span.end, &edit.text);
+            assert!(after.contains(fixed), "{after}");
+            let codes: Vec<Code> = compile(&after).diagnostics.iter().map(|d| d.code).collect();
+            assert!(!codes.contains(&Code::UnknownParent), "{after}");
+        }
     }
 }

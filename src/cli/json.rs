@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::Findings;
 use crate::diagnostic::{Diagnostic, Edit, Fix, Related};
-use crate::report::Places;
+use crate::source::LineIndex;
 use crate::source::Span;
 
 /// The findings as JSON, with a line feed at the end.
@@ -78,7 +78,7 @@ struct Change<'a> {
 }
 
 fn drawing<'a>(findings: &Findings<'a>) -> Drawing<'a> {
-    let places = Places::new(findings.text);
+    let places = LineIndex::new(findings.text);
     let diagnostics = findings.diagnostics.iter();
     Drawing {
         drawing: findings.path,
@@ -86,7 +86,7 @@ fn drawing<'a>(findings: &Findings<'a>) -> Drawing<'a> {
     }
 }
 
-fn finding<'a>(diagnostic: &'a Diagnostic, places: &Places) -> Finding<'a> {
+fn finding<'a>(diagnostic: &'a Diagnostic, places: &LineIndex<&str>) -> Finding<'a> {
     let related = |related: &'a Related| Other {
         message: &related.message,
         place: place(related.span, places),
@@ -111,7 +111,7 @@ fn finding<'a>(diagnostic: &'a Diagnostic, places: &Places) -> Finding<'a> {
     }
 }
 
-fn place(span: Span, places: &Places) -> Place {
+fn place(span: Span, places: &LineIndex<&str>) -> Place {
     let (line, column) = places.line_column(span.start);
     let (end_line, end_column) = places.line_column(span.end);
     Place {

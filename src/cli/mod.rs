@@ -33,6 +33,7 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser};
 
+use crate::crash;
 use crate::diagnostic::Diagnostic;
 use args::{Cli, Color, Command, Common};
 use report::Style;
@@ -72,6 +73,7 @@ enum Outcome {
 
 /// Runs the command with its arguments, the program's name first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+    crash::record_locations();
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(error) => {

@@ -7,7 +7,7 @@ use annotate_snippets::{AnnotationKind, Group, Level, Patch, Renderer, Snippet};
 
 use super::Findings;
 use crate::diagnostic::{Diagnostic, Fix, Severity};
-use crate::report::Places;
+use crate::source::LineIndex;
 use crate::source::Span;
 
 /// Whether the report goes to a terminal that shows colours.
@@ -46,7 +46,7 @@ pub fn human(findings: Findings, style: Style) -> String {
     let page = Page {
         path: findings.path,
         text: findings.text,
-        places: Places::new(findings.text),
+        places: LineIndex::new(findings.text),
     };
     let mut out = String::new();
     for diagnostic in findings.diagnostics {
@@ -61,7 +61,7 @@ pub fn human(findings: Findings, style: Style) -> String {
 struct Page<'a> {
     path: &'a str,
     text: &'a str,
-    places: Places<'a>,
+    places: LineIndex<&'a str>,
 }
 
 impl Page<'_> {

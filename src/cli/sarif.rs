@@ -5,13 +5,13 @@ use serde::Serialize;
 
 use super::Findings;
 use crate::diagnostic::{Code, Diagnostic, Severity};
-use crate::report::Places;
+use crate::source::LineIndex;
 use crate::source::Span;
 
 /// The findings as SARIF, with a line feed at the end.
 pub fn sarif(drawings: &[Findings]) -> String {
     let results = drawings.iter().flat_map(|findings| {
-        let places = Places::new(findings.text);
+        let places = LineIndex::new(findings.text);
         let uri = uri(findings.path);
         let result = |diagnostic| result(diagnostic, &uri, &places);
         findings.diagnostics.iter().map(result).collect::<Vec<_>>()
@@ -161,7 +161,7 @@ fn rule(code: Code) -> Rule {
     }
 }
 
-fn result(diagnostic: &Diagnostic, uri: &str, places: &Places) -> Finding {
+fn result(diagnostic: &Diagnostic, uri: &str, places: &LineIndex<&str>) -> Finding {
     let artifact = || Artifact {
         uri: uri.to_owned(),
     };
@@ -217,7 +217,7 @@ fn level(severity: Severity) -> &'static str {
     }
 }
 
-fn region(span: Span, places: &Places) -> Region {
+fn region(span: Span, places: &LineIndex<&str>) -> Region {
     let (start_line, start_column) = places.line_column(span.start);
     let (end_line, end_column) = places.line_column(span.end);
     Region {

@@ -1,14 +1,15 @@
-//! From a drawing to a model: a pure function of the source and what the resolver gives it.
+//! Compiles a drawing to a model: a pure function of the source and of the files that the resolver reads.
 
-mod again;
+mod incremental;
 
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use crate::assemble::{self, Assembled};
 use crate::bind::{self, Bindings};
+use crate::crash::{self, Crash};
 use crate::diagnostic::{self, Code, Diagnostic, Severity};
-use crate::resolver::{LinkError, Resolver};
+use crate::memo::Memo;
+use crate::resolver::{Dependency, Recorder, Resolver};
 use crate::rig;
 use crate::scene::Scene;
 use crate::source::Span;
@@ -16,12 +17,12 @@ use crate::svg::{self, Drawing};
 use crate::terrain;
 use crate::threads;
 
-pub use again::Compiler;
+pub use incremental::Compiler;
 
-/// How far a flattened curve may lie off, as a share of its part's larger extent (figure.md, Parts).
+/// How far a flattened curve may deviate, as a share of its part's larger extent (figure.md, Parts).
 pub const TOLERANCE: f64 = 0.001;
 
-/// What can be chosen.
+/// Options of a compile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// See [`TOLERANCE`].
@@ -36,12 +37,12 @@ impl Default for Options {
     }
 }
 
-/// A compiled drawing. It is never missing: what is wrong is in the diagnostics, the rest is built.
+/// A compiled drawing. Errors are in the diagnostics; whatever they do not affect is built.
 #[derive(Debug, Default)]
 pub struct Compiled {
     /// The model.
     pub scene: Scene,
-    /// Who is bound to what.
+    /// Which strings are bound to which parts.
     pub bindings: Bindings,
     /// The tile maps.
     pub layers: Vec<terrain::Layer>,
@@ -49,14 +50,14 @@ pub struct Compiled {
     pub clips: Vec<rig::FigureClip>,
     /// The drawing. Its outlines and texts are shared with the bindings.
     pub drawing: Arc<Drawing>,
-    /// What is wrong, in the order of the text.
+    /// The diagnostics, in the order of the text.
     pub diagnostics: Vec<Diagnostic>,
-    /// The links that were followed, or tried, in alphabetical order.
+    /// The links that were read, or could not be, in alphabetical order.
     pub dependencies: Vec<String>,
 }
 
 impl Compiled {
-    /// What is said of a drawing whose bytes are no text.
+    /// The result for a drawing whose bytes are not text.
     pub fn undecoded(why: &str) -> Self {
         let help = "in Inkscape, File → Save As writes UTF-8; in an editor, choose the encoding when saving";
         Self {
@@ -65,12 +66,28 @@ impl Compiled {
         }
     }
 
-    /// The nodes of the model with the clips of limited animation as they were before they were cut; `None` if none was.
+    /// The result for a drawing that could not be compiled because of a panic.
+    pub fn crashed(crash: &Crash) -> Self {
+        let diagnostic = Diagnostic::new(Code::Crash, Span::at(0), crash.to_string());
+        Self {
+            diagnostics: vec![diagnostic.help(crash::HELP)],
+            ..Self::default()
+        }
+    }
+
+    /// Whether compiling ended in a panic (see [`Compiled::crashed`]).
+    pub fn has_crashed(&self) -> bool {
+        self.diagnostics
+            .iter()
+            .any(|diagnostic| diagnostic.code == Code::Crash)
+    }
+
+    /// The nodes of the model with the full clips from which limited animation was made; `None` if no clip is limited.
     pub fn originals(&self) -> Option<Scene> {
         rig::originals(&self.scene, &self.clips)
     }
 
-    /// Whether there are errors, which keep the model from being written.
+    /// Whether there are errors: then no model is written.
     pub fn has_errors(&self) -> bool {
         self.diagnostics
             .iter()
@@ -78,84 +95,73 @@ impl Compiled {
     }
 }
 
-/// Compiles a drawing. Never fails and never panics; takes about as long as parsing the SVG does.
+/// Compiles a drawing. Never fails and never panics: a panic becomes a diagnostic. Takes about as long as parsing the SVG
+/// does.
 pub fn compile(source: &str, options: &Options, resolver: &dyn Resolver) -> Compiled {
     threads::run(|| {
-        let (reading, _) = Reading::of(source, options, resolver);
-        reading.compiled(resolver, None)
+        let reading = Reading::read(source, options, resolver);
+        reading.build(resolver, &Memo::none(), &mut rig::Memory::default())
     })
-    .unwrap_or_else(given_up)
+    .unwrap_or_else(|crash| Compiled::crashed(&crash))
 }
 
-/// What is said where compiling panicked.
-fn given_up() -> Compiled {
-    let message = "the drawing cannot be compiled: okoshi gave up on it";
-    let help = "open it in Inkscape, save it as Plain SVG, and tell us: this should not happen";
-    let diagnostic = Diagnostic::new(Code::LimitPassed, Span::at(0), message).help(help);
-    Compiled {
-        diagnostics: vec![diagnostic],
-        ..Compiled::default()
-    }
-}
+/// A comment that makes compiling panic, for tests.
+#[cfg(test)]
+pub(crate) const PLANTED_CRASH: &str = "<!-- planted crash -->";
 
-/// A drawing that was read, and what there is to say of it and not of its strings.
-#[derive(Debug)]
+/// A drawing that was read, before its strings are.
+#[derive(Debug, Clone)]
 struct Reading {
     drawing: Arc<Drawing>,
+    /// The diagnostics about the drawing, not about its strings.
     diagnostics: Vec<Diagnostic>,
-    /// The links that reading it followed.
-    links: Vec<String>,
+    /// The links that were read on the way.
+    dependencies: Vec<Dependency>,
 }
-
-/// What making models remembers from one time to the next.
-#[derive(Debug, Default)]
-struct Memory {
-    areas: bind::Memory,
-    things: assemble::Memory,
-}
-
-/// A link that was followed, and where it led.
-type Followed = (String, Found);
-
-/// The bytes of a file, or why there are none.
-type Found = Result<Arc<[u8]>, LinkError>;
 
 impl Reading {
-    /// Reads a drawing, and tells what its links led to.
-    fn of(source: &str, options: &Options, resolver: &dyn Resolver) -> (Self, Vec<Followed>) {
+    fn read(source: &str, options: &Options, resolver: &dyn Resolver) -> Self {
+        #[cfg(test)]
+        assert!(!source.contains(PLANTED_CRASH), "planted");
         let recorder = Recorder::new(resolver);
         let (drawing, diagnostics) =
             svg::read(source, options.tolerance, &recorder, &bind::in_tile_layers);
-        let followed = recorder.followed();
-        let reading = Self {
+        Self {
             drawing: Arc::new(drawing),
             diagnostics,
-            links: followed.iter().map(|(link, _)| link.clone()).collect(),
-        };
-        (reading, followed)
+            dependencies: recorder.into_dependencies(),
+        }
     }
 
-    /// Builds what was read.
-    fn compiled(self, resolver: &dyn Resolver, memory: Option<&mut Memory>) -> Compiled {
+    /// Reads the strings and builds the model.
+    fn build(
+        self,
+        resolver: &dyn Resolver,
+        memo: &Memo,
+        known_clips: &mut rig::Memory,
+    ) -> Compiled {
         let Self {
             drawing,
             mut diagnostics,
-            links: mut dependencies,
+            dependencies,
         } = self;
         let recorder = Recorder::new(resolver);
-        let mut nothing = assemble::Memory::default();
-        let (areas, things) = match memory {
-            Some(Memory { areas, things }) => (Some(areas), things),
-            None => (None, &mut nothing),
-        };
-        let bindings = bind::bind(&drawing, areas, &mut diagnostics);
+        let bindings = bind::bind(&drawing, memo, &mut diagnostics);
         let Assembled {
             scene,
             layers,
             clips,
-        } = assemble::assemble(&drawing, &bindings, &recorder, things, &mut diagnostics);
+        } = assemble::assemble(
+            &drawing,
+            &bindings,
+            &recorder,
+            memo,
+            known_clips,
+            &mut diagnostics,
+        );
         diagnostic::sort(&mut diagnostics);
-        dependencies.extend(recorder.followed().into_iter().map(|(link, _)| link));
+        let dependencies = dependencies.into_iter().chain(recorder.into_dependencies());
+        let mut dependencies: Vec<String> = dependencies.map(|read| read.link).collect();
         dependencies.sort();
         dependencies.dedup();
         Compiled {
@@ -167,37 +173,5 @@ impl Reading {
             diagnostics,
             dependencies,
         }
-    }
-}
-
-/// A resolver that remembers what it was asked for.
-struct Recorder<'a> {
-    inner: &'a dyn Resolver,
-    followed: Mutex<BTreeMap<String, Found>>,
-}
-
-impl<'a> Recorder<'a> {
-    fn new(inner: &'a dyn Resolver) -> Self {
-        Self {
-            inner,
-            followed: Mutex::default(),
-        }
-    }
-
-    /// The links that were followed, each with where it led first.
-    fn followed(self) -> Vec<Followed> {
-        let followed = self.followed.into_inner().unwrap_or_default();
-        followed.into_iter().collect()
-    }
-}
-
-impl Resolver for Recorder<'_> {
-    fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
-        let found = self.inner.read(link);
-        if let Ok(mut followed) = self.followed.lock() {
-            let known = followed.entry(link.to_owned());
-            known.or_insert_with(|| found.clone());
-        }
-        found
     }
 }

@@ -12,6 +12,7 @@ mod surfaces;
 use std::io;
 use std::path::Path;
 
+use crate::crash;
 use crate::scene::Scene;
 use crate::threads;
 
@@ -98,11 +99,8 @@ pub fn write(
     surfaces: Option<&mut SurfaceCache>,
 ) -> io::Result<Written> {
     check::check(scene)?;
-    threads::run(|| exporter.write(scene, out, surfaces)).unwrap_or_else(|| {
-        Err(io::Error::other(
-            "a solid cannot be made: this should not happen, please tell us",
-        ))
-    })
+    let written = threads::run(|| exporter.write(scene, out, surfaces));
+    written.unwrap_or_else(|crash| Err(io::Error::other(format!("{crash}; {}", crash::HELP))))
 }
 
 /// Writes `scene` to memory as [`write()`] does.

@@ -19,6 +19,7 @@ use rayon::prelude::*;
 use crate::bind::{Bindings, Part, PartKind, SetBy};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, area, contains, intersect};
+use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::scene::{Mesh, Piece, Primitive, Scene, WorldTransform};
 use crate::solid::{self, Placement, Profile, Sides, Solid};
@@ -31,12 +32,6 @@ use tree::FigureNode;
 
 pub use nodes::PartNode;
 
-/// Results kept between compiles.
-#[derive(Debug, Default)]
-pub struct Memory {
-    models: models::Memory,
-    relief: relief::Memory,
-}
 
 /// The linked models of a drawing's figures, read before anything else: parts that are models need no material.
 pub struct LinkedModels(Models);
@@ -46,11 +41,10 @@ impl LinkedModels {
     pub fn read(
         bindings: &Bindings,
         resolver: &dyn Resolver,
-        memory: &mut Memory,
+        memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let known = &mut memory.models;
-        Self(Models::collect(bindings, resolver, known, diagnostics))
+        Self(Models::collect(bindings, resolver, memo, diagnostics))
     }
 
     /// Whether a part is a model, with materials of its own.
@@ -94,13 +88,12 @@ impl<'a> Figures<'a> {
     pub fn lay_out(
         drawing: &'a Drawing,
         bindings: &'a Bindings,
-        memory: &mut Memory,
+        memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let context = FigureContext::new(drawing, bindings);
-        let known = &mut memory.relief;
         let (relief, (frames, members, tree)) = rayon::join(
-            || Relief::measure(&context, known),
+            || Relief::measure(&context, memo),
             || {
                 let parts = bindings.parts.par_iter().with_min_len(GRAIN);
                 let frames: Vec<Frame> = parts

@@ -1,6 +1,6 @@
 //! Parts that are ready models: files that `Shape model` names, fitted to their parts.
 
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 
 use glam::{DMat3, DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -9,6 +9,7 @@ use crate::bind::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Frame, Outline};
 use crate::import::{ImportError, StaticModel, read_static_model};
+use crate::memo::Memo;
 use crate::resolver::{LinkError, Resolver};
 use crate::scene::{Scene, Surface};
 use crate::svg::broken_link;
@@ -28,20 +29,12 @@ struct Loaded {
     first_material: usize,
 }
 
-/// What the next drawing may have use for: the models, by link.
-pub(super) type Memory = FxHashMap<String, Known>;
-
-/// A model that was read.
-#[derive(Debug)]
-pub(super) struct Known {
-    asset: Arc<StaticModel>,
-    /// The links that were followed to read it, and where they led.
-    followed: Vec<Followed>,
-}
-
-type Followed = (String, Result<Arc<[u8]>, LinkError>);
+/// The key of a model file, by its link.
+#[derive(PartialEq, Eq, Hash)]
+struct ModelFile(String);
 
 /// Why a model is not used.
+#[derive(Clone)]
 enum Trouble {
     Link(LinkError),
     Import(ImportError),
@@ -51,7 +44,7 @@ impl Models {
     pub(super) fn collect(
         bindings: &Bindings,
         resolver: &dyn Resolver,
-        memory: &mut Memory,
+        memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let mut models = Self {
@@ -59,7 +52,6 @@ impl Models {
             of_part: FxHashMap::default(),
         };
         let mut known: FxHashMap<&str, Result<usize, Trouble>> = FxHashMap::default();
-        let mut now = Memory::default();
         let mut told = FxHashSet::default();
         let mut triangles = 0_usize;
         for (index, part) in bindings.parts.iter().enumerate() {
@@ -73,12 +65,10 @@ impl Models {
                 continue;
             }
             let found = known.entry(link).or_insert_with(|| {
-                let read = match memory.remove(link) {
-                    Some(known) if known.is_as_it_was(resolver) => known,
-                    _ => load(link, resolver)?,
-                };
-                let asset = Arc::clone(&read.asset);
-                now.insert(link.to_owned(), read);
+                let file = ModelFile(link.to_owned());
+                let asset = memo.get_reading(file, resolver, |file, resolver| {
+                    load(&file.0, resolver).map(Arc::new)
+                })?;
                 models.assets.push(Loaded {
                     asset,
                     first_material: 0,
@@ -114,7 +104,6 @@ impl Models {
                 Err(_) => {}
             }
         }
-        *memory = now;
         models
     }
 
@@ -202,47 +191,24 @@ impl Models {
     }
 }
 
-impl Known {
-    /// Whether all links still lead to the same.
-    fn is_as_it_was(&self, resolver: &dyn Resolver) -> bool {
-        let mut followed = self.followed.iter();
-        followed.all(|(link, found)| resolver.read(link) == *found)
-    }
-}
-
-fn load(link: &str, resolver: &dyn Resolver) -> Result<Known, Trouble> {
+fn load(link: &str, resolver: &dyn Resolver) -> Result<StaticModel, Trouble> {
     let folder = link.rfind(['/', '\\']).map_or("", |end| &link[..=end]);
     let bytes = resolver.read(link).map_err(Trouble::Link)?;
-    let beside = Beside {
-        resolver,
-        folder,
-        followed: Mutex::new(vec![(link.to_owned(), Ok(Arc::clone(&bytes)))]),
-    };
-    let asset = read_static_model(&bytes, &beside).map_err(Trouble::Import)?;
-    Ok(Known {
-        asset: Arc::new(asset),
-        followed: beside.followed.into_inner().unwrap_or_default(),
-    })
+    read_static_model(&bytes, &Beside { resolver, folder }).map_err(Trouble::Import)
 }
 
-/// Links of a linked file start from its own folder.
+/// Resolves the links of a linked file, which start from its own folder.
 struct Beside<'a> {
     resolver: &'a dyn Resolver,
     folder: &'a str,
-    followed: Mutex<Vec<Followed>>,
 }
 
 impl Resolver for Beside<'_> {
     fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
         let absolute = link.starts_with(['/', '\\']) || link.contains(':');
-        let link = match absolute {
-            true => link.to_owned(),
-            false => format!("{}{link}", self.folder),
-        };
-        let found = self.resolver.read(&link);
-        if let Ok(mut followed) = self.followed.lock() {
-            followed.push((link, found.clone()));
+        match absolute {
+            true => self.resolver.read(link),
+            false => self.resolver.read(&format!("{}{link}", self.folder)),
         }
-        found
     }
 }

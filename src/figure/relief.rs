@@ -10,7 +10,7 @@ use rstar::{AABB, RTree};
 use super::{FigureContext, overlap};
 use crate::bind::{Part, PartKind, plate_depth};
 use crate::geometry::Outline;
-use crate::kept::{Kept, Same};
+use crate::memo::{Bits, Long, Memo, Same};
 use crate::solid::Profile;
 use crate::threads::GRAIN;
 
@@ -28,30 +28,35 @@ pub(super) struct Relief {
     steps: Arc<[[f64; 2]]>,
 }
 
-/// Per part its plane faces and its outline, and how far the faces stand out.
-pub(super) type Memory = Kept<(Vec<Option<Faces>>, Vec<Same<Outline>>), Arc<[[f64; 2]]>>;
+/// What the steps are computed from: per part its plane faces, and its outline.
+#[derive(PartialEq, Eq, Hash)]
+struct ReliefKey {
+    faces: Long<Option<Faces>>,
+    outlines: Long<Same<Outline>>,
+}
 
 /// The plane faces of a part: back and front, where it has them.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Faces {
-    planes: [Option<f64>; 2],
-    thickness: f64,
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+struct Faces {
+    planes: [Option<Bits<f64>>; 2],
+    thickness: Bits<f64>,
 }
 
 impl Relief {
-    pub(super) fn measure(context: &FigureContext<'_>, memory: &mut Memory) -> Self {
+    pub(super) fn measure(context: &FigureContext<'_>, memo: &Memo) -> Self {
         let bindings = context.bindings;
         let depths = node_depths(context);
-        let faces: Vec<Option<Faces>> = (0..bindings.parts.len())
+        let faces: Vec<_> = (0..bindings.parts.len())
             .into_par_iter()
             .with_min_len(GRAIN)
             .map(|part| faces(context, part, &depths))
             .collect();
         let outline = |part: &Part| Same(Arc::clone(&part.outline));
-        let outlines = bindings.parts.iter().map(outline).collect();
-        let steps = memory.get((faces, outlines), |(faces, _)| {
-            steps(&bindings.parts, faces).into()
-        });
+        let key = ReliefKey {
+            faces: Long(faces),
+            outlines: bindings.parts.iter().map(outline).collect(),
+        };
+        let steps = memo.get(key, |key| steps(&bindings.parts, &key.faces.0).into());
         Self { steps }
     }
 
@@ -88,9 +93,9 @@ fn steps(parts: &[Part], faces: &[Option<Faces>]) -> Vec<[f64; 2]> {
                 .filter(same)
                 .map(|other| steps[*other][side])
                 .reduce(f64::max);
-            highest.map_or(0.0, |highest| highest + STEP * own.thickness)
+            highest.map_or(0.0, |highest| highest + STEP * own.thickness.0)
         });
-        let most = MOST_STEPS * STEP * own.thickness;
+        let most = MOST_STEPS * STEP * own.thickness.0;
         steps[part] = raised.map(|step| step.min(most));
     }
     steps
@@ -98,8 +103,8 @@ fn steps(parts: &[Part], faces: &[Option<Faces>]) -> Vec<[f64; 2]> {
 
 fn same_plane(a: Faces, b: Faces, side: usize) -> bool {
     match (a.planes[side], b.planes[side]) {
-        (Some(one), Some(other)) => {
-            (one - other).abs() <= 1e-3 * STEP * a.thickness.max(b.thickness)
+        (Some(Bits(one)), Some(Bits(other))) => {
+            (one - other).abs() <= 1e-3 * STEP * a.thickness.0.max(b.thickness.0)
         }
         _ => false,
     }
@@ -139,11 +144,10 @@ fn faces(context: &FigureContext<'_>, part: usize, depths: &[f64]) -> Option<Fac
     let moved = part != main || context.bindings.attributes(part).shape().mirrored;
     let depth = depths[part] + if moved { context.offset(part) } else { 0.0 };
     let faces = context.profile(part)?.faces()?;
+    let thickness = faces.thickness;
     Some(Faces {
-        planes: faces.depths.map(|z| z.map(|z| depth + z)),
-        thickness: faces
-            .thickness
-            .unwrap_or_else(|| 2.0 * plate_depth(context.drawing)),
+        planes: faces.depths.map(|z| z.map(|z| Bits(depth + z))),
+        thickness: Bits(thickness.unwrap_or_else(|| 2.0 * plate_depth(context.drawing))),
     })
 }
 

@@ -4,11 +4,11 @@ use std::fmt::Write as _;
 
 use super::Analysis;
 use super::at::{At, attributes};
-use super::quoting::{Role, written};
 use super::rename::replace;
 use crate::bind::{DistanceMode, Part, PartKind};
 use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, Attribute};
+use crate::lang::quoting::{NamePlace, quoted_if_needed};
 use crate::source::{Span, Text, escape_xml};
 use crate::svg::PaintKey;
 
@@ -93,10 +93,10 @@ impl Analysis {
             && self.part_named(own).is_none()
             && self.named_in(own).is_none();
         let name = if is_free { own } else { &part.name };
-        let mut string = written(name, Role::Head);
+        let mut string = quoted_if_needed(name, NamePlace::Head);
         if let Some(parent) = part.parent {
             let parent = &self.bindings().parts[parent].name;
-            let _ = write!(string, "@{}", written(parent, Role::Head));
+            let _ = write!(string, "@{}", quoted_if_needed(parent, NamePlace::Head));
         }
         string
     }

@@ -10,7 +10,6 @@ use std::ops::Range;
 
 use super::Analysis;
 use super::at::attributes;
-use super::quoting::{Role, written};
 use super::typed::{Typed, typed_at};
 use crate::bind::{Bindings, PartKind, Place};
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
@@ -19,6 +18,7 @@ use crate::lang::keyword::kinds::{KINDS, Kind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::vocabulary::{AXES, FUNCTIONS, STRINGS};
 use crate::lang::keyword::{AttributeString, Keyword, Status};
+use crate::lang::quoting::{NamePlace, quoted_if_needed};
 use crate::lang::{self, is_name_char, is_word_char, normalize, parameter_at};
 use crate::source::{Span, Text};
 use snippets::{example_arguments, filled, kind_arguments, plain};
@@ -257,7 +257,7 @@ impl Cursor<'_> {
                     kind: ProposalKind::Part,
                     detail: on.unwrap_or_else(|| "on the root".to_owned()),
                     page: None,
-                    text: self.escape(&written(&part.name, Role::Head)),
+                    text: self.escape(&quoted_if_needed(&part.name, NamePlace::Head)),
                     snippet: None,
                 }
             })
@@ -382,7 +382,7 @@ impl Cursor<'_> {
                 Takes::Names if attribute.keyword == Keyword::Follow => {
                     let parts = self.parents().into_iter();
                     proposals.extend(parts.map(|part| Proposal {
-                        text: self.escape(&written(&part.label, Role::Argument)),
+                        text: self.escape(&quoted_if_needed(&part.label, NamePlace::Argument)),
                         ..part
                     }));
                 }

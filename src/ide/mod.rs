@@ -16,7 +16,6 @@ mod goto;
 mod hover;
 mod inlay;
 mod motion;
-mod quoting;
 mod rename;
 mod selection;
 mod signature;
@@ -84,11 +83,11 @@ impl Analysis {
     }
 
     /// Whether the drawing has strings, or, if it cannot be read, its text seems to have some: for other drawings
-    /// editors show nothing.
+    /// editors show nothing, unless compiling crashed.
     pub fn is_annotated(&self) -> bool {
         match self.is_sound() {
             true => self.bindings().annotated,
-            false => typed::looks_annotated(&self.source),
+            false => self.compiled.has_crashed() || typed::looks_annotated(&self.source),
         }
     }
 

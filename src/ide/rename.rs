@@ -1,11 +1,11 @@
 //! Renaming parts, variables and feature points in all strings.
 
-use super::quoting::{Role, can_be_bare, meant, written};
 use super::uses::own_name;
 use super::{Analysis, Item, Symbol, Use};
 use crate::bind::DrawingString;
 use crate::diagnostic::Edit;
 use crate::lang::keyword::{Keyword, colours, vocabulary};
+use crate::lang::quoting::{NamePlace, can_be_bare, quoted_if_needed, read_name};
 use crate::lang::{is_word_char, looks_like_string};
 use crate::source::{Span, Text};
 
@@ -61,7 +61,7 @@ impl Analysis {
     /// If there is no symbol, or the new name cannot be used.
     pub fn rename(&self, offset: usize, new_name: &str) -> Result<Vec<Edit>, RenameError> {
         let (symbol, _) = self.to_rename(offset)?;
-        let name = meant(new_name).ok_or(RenameError::NotAName)?;
+        let name = read_name(new_name).ok_or(RenameError::NotAName)?;
         if name == symbol.name() {
             return Ok(vec![]);
         }
@@ -126,7 +126,9 @@ impl Analysis {
         let start = head.len() - head.trim_start().len();
         (own_name(string).is_none() && looks_like_string(head)).then(|| Edit {
             span: string.text.span(start..start),
-            text: string.text.escape_at(start, &written(name, Role::Head)),
+            text: string
+                .text
+                .escape_at(start, &quoted_if_needed(name, NamePlace::Head)),
         })
     }
 }
@@ -138,13 +140,13 @@ fn rewritten(string: &DrawingString, found: &Use, symbol: &Symbol, name: &str) -
     }
     let item = super::at::token_at(string, found.range.start).map(|token| token.item);
     let role = match item {
-        Some(Item::Argument(..)) => Role::Argument,
-        _ => Role::Head,
+        Some(Item::Argument(..)) => NamePlace::Argument,
+        _ => NamePlace::Head,
     };
     let quoted = string.text.as_str()[found.range.clone()].starts_with(['"', '＂']);
     match quoted && can_be_bare(symbol.name(), role) {
         true => format!("\"{name}\""),
-        false => written(name, role),
+        false => quoted_if_needed(name, role),
     }
 }
 

@@ -28,7 +28,7 @@ pub use static_model::{StaticModel, read_static_model};
 pub const MAX_TRIANGLES: usize = 32 << 20;
 
 /// Why a file cannot be read. Messages follow the name of the file.
-#[derive(Debug, thiserror::Error)]
+#[derive(Debug, Clone, thiserror::Error)]
 pub enum ImportError {
     /// The bytes are not glTF, or violate the specification.
     #[error(

@@ -13,6 +13,7 @@ pub mod explain;
 pub mod keyword;
 pub mod parameter;
 pub mod parse;
+pub mod quoting;
 pub mod reference;
 pub mod value;
 pub mod variables;

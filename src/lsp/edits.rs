@@ -10,7 +10,7 @@ use super::backend::{Backend, PREVIEW, View};
 use super::convert::{self, PositionMap};
 use super::documents::Document;
 use super::manual;
-use super::ordered::SNAPSHOTS;
+use super::ordered::{SNAPSHOTS, task_error};
 use crate::compile::{Options, compile};
 use crate::ide::{self, Analysis};
 use crate::source::Span;
@@ -197,7 +197,7 @@ impl Backend {
             };
             map.edits(&view.analysis().format(window, &again))
         });
-        edits.await.map_err(|_| Error::internal_error())
+        edits.await.map_err(task_error)
     }
 
     /// The edits of one text, with its version if the client supports versioned edits.

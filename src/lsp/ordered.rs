@@ -16,6 +16,7 @@ use futures::FutureExt;
 use futures::future::BoxFuture;
 use serde::Deserialize;
 use serde_json::Value;
+use tokio::task::JoinError;
 use tower::Service;
 use tower_lsp::jsonrpc::{Error, Request, Response};
 use tower_lsp::ls_types::{
@@ -25,6 +26,7 @@ use tower_lsp::ls_types::{
 
 use super::documents::{Documents, Snapshot};
 use super::scheduler::Scheduler;
+use crate::crash::{self, Crash};
 
 tokio::task_local! {
     /// The open texts when the request came that is being answered.
@@ -112,22 +114,24 @@ where
     fn call(&mut self, request: Request) -> Self::Future {
         let request = without_empty_params(request);
         let id = request.id().cloned();
-        let begun = std::panic::catch_unwind(AssertUnwindSafe(|| {
+        let begun = crash::catch(|| {
             if self.changes_texts(&request) {
                 return None;
             }
             let snapshots = Arc::new(self.documents.snapshots());
             Some(SNAPSHOTS.scope(snapshots, self.inner.call(request)))
-        }));
+        });
         let running = match begun {
             Ok(Some(running)) => running,
             Ok(None) => return Box::pin(std::future::ready(Ok(None))),
-            Err(_) => return Box::pin(std::future::ready(Ok(id.map(internal_error)))),
+            Err(crash) => {
+                return Box::pin(std::future::ready(Ok(id.map(|id| crashed(id, &crash)))));
+            }
         };
         Box::pin(async move {
             match AssertUnwindSafe(running).catch_unwind().await {
                 Ok(answer) => answer,
-                Err(_) => Ok(id.map(internal_error)),
+                Err(payload) => Ok(id.map(|id| crashed(id, &Crash::from_panic(&*payload)))),
             }
         })
     }
@@ -143,10 +147,20 @@ fn without_empty_params(request: Request) -> Request {
 }
 
 /// The answer to a request whose handler panicked.
-fn internal_error(id: tower_lsp::jsonrpc::Id) -> Response {
+fn crashed(id: tower_lsp::jsonrpc::Id, crash: &Crash) -> Response {
+    Response::from_error(id, crash_error(crash))
+}
+
+fn crash_error(crash: &Crash) -> Error {
     let mut error = Error::internal_error();
-    error.message =
-        "this request failed because of a bug in okoshi; the server continues. Please report it"
-            .into();
-    Response::from_error(id, error)
+    error.message = format!("{crash}; {}", crash::HELP).into();
+    error
+}
+
+/// The answer to a request whose task, on a thread of its own, panicked or was cancelled.
+pub(super) fn task_error(error: JoinError) -> Error {
+    match error.try_into_panic() {
+        Ok(payload) => crash_error(&Crash::from_panic(&*payload)),
+        Err(_) => Error::internal_error(),
+    }
 }

@@ -2,14 +2,11 @@
 //!
 //! A line ends at LF, CR LF or CR; a column counts bytes or UTF-16 code units, as client and server agreed.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use tower_lsp::ls_types::{Position, PositionEncodingKind, Range};
 
-use crate::source::Span;
-
-/// The distance in bytes between offsets whose UTF-16 units are cached, so that long lines are fast.
-const STEP: usize = 4096;
+use crate::source::{LineEnds, LineIndex, Span, starts_character};
 
 /// The unit of columns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,58 +40,33 @@ impl Encoding {
 /// A text with its line index.
 #[derive(Debug)]
 pub(super) struct Positions {
-    text: Arc<str>,
-    encoding: Encoding,
-    /// Where each line begins.
-    starts: Vec<usize>,
-    /// How many units begin before each multiple of [`STEP`]; counted on first use.
-    units: OnceLock<Vec<usize>>,
+    index: LineIndex<Arc<str>>,
 }
 
 impl Positions {
     pub(super) fn new(text: Arc<str>, encoding: Encoding) -> Self {
-        let mut starts = vec![0];
-        let bytes = text.as_bytes();
-        for at in memchr::memchr2_iter(b'\n', b'\r', bytes) {
-            // Of CR LF the second one counts.
-            if bytes[at] == b'\n' || bytes.get(at + 1) != Some(&b'\n') {
-                starts.push(at + 1);
-            }
-        }
-        // In ASCII a byte is a unit.
-        let encoding = match text.is_ascii() {
-            true => Encoding::Utf8,
-            false => encoding,
+        let units_in = match encoding {
+            Encoding::Utf16 if !text.is_ascii() => utf16_units,
+            _ => <[u8]>::len,
         };
         Self {
-            text,
-            encoding,
-            starts,
-            units: OnceLock::new(),
+            index: LineIndex::with_units(text, LineEnds::Any, units_in),
         }
     }
 
     /// The text.
     pub(super) fn text(&self) -> &Arc<str> {
-        &self.text
+        self.index.text()
     }
 
-    /// The line that holds byte `offset`, from 0.
-    pub(super) fn line(&self, offset: usize) -> usize {
-        self.starts.partition_point(|start| *start <= offset) - 1
-    }
-
-    /// The position of byte `offset`; within a character that of its start, after the end that of the end, within a line
-    /// break that before it.
+    /// The position of byte `offset`: of the start of its character, of the end of the text if it is behind it, and of
+    /// the end of the line if it is within a line break.
     pub(super) fn position(&self, offset: usize) -> Position {
-        let offset = floor(&self.text, offset);
-        let line = self.line(offset);
-        let offset = offset.min(self.end_of(line));
-        let character = match self.encoding {
-            Encoding::Utf8 => offset - self.starts[line],
-            Encoding::Utf16 => self.units_before(offset) - self.units_before(self.starts[line]),
-        };
-        Position::new(number(line), number(character))
+        let offset = self.index.clamp(offset);
+        let line = self.index.line(offset);
+        let (start, end) = self.index.extent(line);
+        let character = self.length(Span::new(start, offset.min(end)));
+        Position::new(number(line - 1), character)
     }
 
     /// The range of a span.
@@ -104,24 +76,19 @@ impl Positions {
 
     /// The length of a span within one line, in units.
     pub(super) fn length(&self, span: Span) -> u32 {
-        number(match self.encoding {
-            Encoding::Utf8 => span.end - span.start,
-            Encoding::Utf16 => self.units_before(span.end) - self.units_before(span.start),
-        })
+        number(self.index.units_before(span.end) - self.index.units_before(span.start))
     }
 
-    /// The byte at a position; after the end of a line its end, within a character its start.
+    /// The byte at a position: the end of the line if the position is behind it, or the start of its character.
     pub(super) fn offset(&self, position: Position) -> usize {
-        let line = position.line as usize;
-        let Some(start) = self.starts.get(line).copied() else {
-            return self.text.len();
-        };
-        let end = self.end_of(line);
-        let character = position.character as usize;
-        match self.encoding {
-            Encoding::Utf8 => floor(&self.text, start.saturating_add(character).min(end)),
-            Encoding::Utf16 => self.offset_of_unit(start, character, end),
+        let line = position.line as usize + 1;
+        if line > self.index.line_count() {
+            return self.text().len();
         }
+        let (start, end) = self.index.extent(line);
+        let unit = self.index.units_before(start);
+        let unit = unit.saturating_add(position.character as usize);
+        self.index.offset_of_unit(unit, [start, end])
     }
 
     /// The span of a range; empty if its end is before its start.
@@ -129,68 +96,12 @@ impl Positions {
         let start = self.offset(range.start);
         Span::new(start, self.offset(range.end).max(start))
     }
-
-    /// Where a line ends, its line break left out.
-    fn end_of(&self, line: usize) -> usize {
-        let next = self.starts.get(line + 1).copied();
-        let end = next.unwrap_or(self.text.len());
-        let line = &self.text[self.starts[line]..end];
-        match next {
-            None => end,
-            Some(_) if line.ends_with("\r\n") => end - 2,
-            Some(_) => end - 1,
-        }
-    }
-
-    fn units(&self) -> &[usize] {
-        self.units.get_or_init(|| {
-            let mut total = 0;
-            let chunks = self.text.as_bytes().chunks(STEP);
-            let before = chunks.map(|chunk| {
-                let before = total;
-                total += units_of(chunk);
-                before
-            });
-            before.collect()
-        })
-    }
-
-    fn units_before(&self, offset: usize) -> usize {
-        let units = self.units();
-        let step = (offset / STEP).min(units.len().saturating_sub(1));
-        let known = units.get(step).copied().unwrap_or(0);
-        known + units_of(&self.text.as_bytes()[step * STEP..offset])
-    }
-
-    fn offset_of_unit(&self, start: usize, character: usize, end: usize) -> usize {
-        let wanted = self.units_before(start).saturating_add(character);
-        let step = self.units().partition_point(|before| *before <= wanted);
-        let step = floor(&self.text, step.saturating_sub(1) * STEP);
-        let from = step.max(start).min(end);
-        let mut left = wanted - self.units_before(from).min(wanted);
-        for (at, c) in self.text[from..end].char_indices() {
-            if left < c.len_utf16() {
-                return from + at;
-            }
-            left -= c.len_utf16();
-        }
-        end
-    }
 }
 
-/// The number of UTF-16 units of the characters that begin in these bytes of UTF-8: two for those of four bytes.
-fn units_of(bytes: &[u8]) -> usize {
-    bytes
-        .iter()
-        .map(|byte| usize::from((byte & 0xC0) != 0x80) + usize::from(*byte >= 0xF0))
-        .sum()
-}
-
-/// The start of the character that holds byte `offset`.
-fn floor(text: &str, offset: usize) -> usize {
-    let offset = offset.min(text.len());
-    let boundary = |offset: &usize| text.is_char_boundary(*offset);
-    (0..=offset).rev().find(boundary).unwrap_or(0)
+/// How many UTF-16 units the characters have that begin in a stretch of UTF-8: two for those of four bytes.
+fn utf16_units(bytes: &[u8]) -> usize {
+    let units = |byte: &u8| usize::from(starts_character(*byte)) + usize::from(*byte >= 0xF0);
+    bytes.iter().map(units).sum()
 }
 
 fn number(count: usize) -> u32 {
@@ -229,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_count_in_the_clients_unit() {
+    fn characters_count_as_the_client_wants() {
         let text = "a腕😀b";
         for (encoding, columns) in [
             (Encoding::Utf8, [0, 1, 4, 8, 9]),
@@ -241,7 +152,7 @@ mod tests {
                 assert_eq!(positions.position(offset), Position::new(0, column));
                 assert_eq!(positions.offset(Position::new(0, column)), offset);
             }
-            // Positions after the end of the line or of the text are moved there.
+            // Places behind the end of the line or of the text are moved there.
             assert_eq!(positions.offset(Position::new(0, 99)), text.len());
             assert_eq!(positions.offset(Position::new(9, 0)), text.len());
         }
@@ -252,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn the_clients_preferred_encoding_is_chosen() {
+    fn the_clients_order_decides() {
         let of = |kinds: &[&'static str]| {
             let kinds: Vec<_> = kinds
                 .iter()

@@ -16,6 +16,8 @@ use tower_lsp::ls_types::*;
 
 use super::backend::Backend;
 use super::documents::{Analysed, Documents};
+use crate::compile::Compiled;
+use crate::crash;
 use crate::export::{self, GLB, SurfaceCache};
 use crate::preview::{Hub, Picked, Shown, bind, serve};
 use crate::source::Span;
@@ -171,13 +173,24 @@ impl Previews {
             memories.retain(|uri, _| queue.open.contains_key(uri));
             drop(queue);
             let (uri, analysed) = next;
-            self.publish(&uri, &analysed, memories.entry(uri.clone()).or_default());
+            let memory = memories.entry(uri.clone()).or_default();
+            let compiled = analysed.analysis.compiled();
+            if let Err(crash) = crash::catch(|| self.publish(&uri, &analysed, compiled, memory)) {
+                memories.remove(&uri);
+                let crashed = Compiled::crashed(&crash);
+                self.publish(&uri, &analysed, &crashed, &mut SurfaceCache::default());
+            }
         }
     }
 
-    fn publish(&self, uri: &str, analysed: &Analysed, memory: &mut SurfaceCache) {
+    fn publish(
+        &self,
+        uri: &str,
+        analysed: &Analysed,
+        compiled: &Compiled,
+        memory: &mut SurfaceCache,
+    ) {
         let begun = SystemTime::now();
-        let compiled = analysed.analysis.compiled();
         let made = || {
             let model = export::to_memory(&GLB, &compiled.scene, Some(memory)).ok()?;
             Some((model.bytes.into(), model.written.triangles))

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
-use tower_lsp::jsonrpc::{Error, Result};
+use tower_lsp::jsonrpc::Result;
 use tower_lsp::ls_types::*;
 
 use super::backend::{Backend, PREVIEW, View};
 use super::convert::{self, PositionMap};
 use super::documents::Document;
-use super::ordered::SNAPSHOTS;
+use super::ordered::{SNAPSHOTS, task_error};
 use crate::disk::{FolderResolver, below};
 use crate::ide::{self, Target};
 use crate::source::Span;
@@ -168,7 +168,7 @@ impl Backend {
         let encoding = self.documents.encoding();
         let found =
             tokio::task::spawn_blocking(move || workspace.symbols(&params.query, &open, encoding));
-        let found = found.await.map_err(|_| Error::internal_error())?;
+        let found = found.await.map_err(task_error)?;
         Ok(Some(WorkspaceSymbolResponse::Nested(found)))
     }
 

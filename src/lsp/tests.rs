@@ -1,4 +1,4 @@
-//! A handler that panics, which cannot be tested from outside.
+//! Tests that need a planted panic: in a handler, and while compiling.
 
 use serde_json::{Value, json};
 use tokio::io::{AsyncReadExt, AsyncWriteExt, DuplexStream};
@@ -6,6 +6,7 @@ use tower_lsp::LspServiceBuilder;
 use tower_lsp::jsonrpc::Result;
 
 use super::backend::Backend;
+use crate::compile::PLANTED_CRASH;
 
 impl Backend {
     async fn planted_panic(&self) -> Result<()> {
@@ -56,6 +57,8 @@ async fn a_panic_is_answered_with_an_error() {
         let answer = receive(&mut answers).await;
         assert_eq!(answer["id"], id);
         assert_eq!(answer["error"]["code"], -32603);
+        let message = answer["error"]["message"].as_str().unwrap();
+        assert!(message.starts_with("okoshi crashed: planted"), "{message}");
     }
     send(
         &mut client,
@@ -67,4 +70,45 @@ async fn a_panic_is_answered_with_an_error() {
     assert_eq!(answer["result"], Value::Null);
     send(&mut client, json!({"jsonrpc": "2.0", "method": "exit"})).await;
     assert!(server.await.unwrap());
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_crash_is_a_diagnostic() {
+    let (mut client, input) = tokio::io::duplex(1 << 16);
+    let (output, mut answers) = tokio::io::duplex(1 << 16);
+    let _server = tokio::spawn(super::converse(input, output));
+    send(
+        &mut client,
+        json!({"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"capabilities": {}}}),
+    )
+    .await;
+    receive(&mut answers).await;
+    send(
+        &mut client,
+        json!({"jsonrpc": "2.0", "method": "initialized", "params": {}}),
+    )
+    .await;
+    // A drawing without strings, of which editors otherwise show nothing.
+    let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"/>";
+    let uri = "untitled:a.svg";
+    let text = format!("{svg}{PLANTED_CRASH}");
+    let document = json!({"uri": uri, "languageId": "svg", "version": 1, "text": text});
+    send(
+        &mut client,
+        json!({"jsonrpc": "2.0", "method": "textDocument/didOpen", "params": {"textDocument": document}}),
+    )
+    .await;
+    let diagnostics = loop {
+        let message = receive(&mut answers).await;
+        if message["method"] == "textDocument/publishDiagnostics" {
+            break message["params"]["diagnostics"].clone();
+        }
+    };
+    assert_eq!(diagnostics[0]["code"], "E008");
+    let message = diagnostics[0]["message"].as_str().unwrap();
+    assert!(message.starts_with("okoshi crashed: planted"), "{message}");
+    assert!(
+        message.contains("report it to the maintainers"),
+        "{message}"
+    );
 }

@@ -1,10 +1,10 @@
 //! The thread that compiles the open texts: one text at a time, always the newest state.
 //!
 //! An analysis whose state is out of date is thrown away. Diagnostics are sent in the order in which they
-//! were found, with the version of their state. The thread survives panics.
+//! were found, with the version of their state. The thread survives panics, which become
+//! diagnostics.
 
 use std::collections::BTreeMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,6 +18,7 @@ use super::preview::Previews;
 use super::scheduler::{Scheduler, Task};
 use super::{convert, links::Links, manual, progress};
 use crate::compile::{Compiled, Compiler, Options};
+use crate::crash::{self, Crash};
 use crate::disk::FolderResolver;
 use crate::ide::Analysis;
 
@@ -48,9 +49,10 @@ impl Worker {
     pub(super) fn work(&mut self) {
         loop {
             let task = self.scheduler.next_task();
-            let done = catch_unwind(AssertUnwindSafe(|| self.run(task.clone())));
-            if let (Err(_), Task::Analyse(uri)) = (done, task) {
-                self.publish_empty(&uri);
+            let done = crash::catch(|| self.run(task.clone()));
+            if let (Err(crash), Task::Analyse(uri)) = (done, task) {
+                // If even that panics, the next change tries again.
+                let _ = crash::catch(|| self.report_crash(&uri, &crash));
             }
         }
     }
@@ -134,13 +136,16 @@ impl Worker {
         arrived.then_some((analysed, only_links_changed))
     }
 
-    /// Answers the requests that wait for an analysis that panicked with an empty one.
-    fn publish_empty(&mut self, uri: &str) {
+    /// Answers the requests that wait for an analysis that panicked outside of compiling with one whose only diagnostic is the
+    /// crash.
+    fn report_crash(&mut self, uri: &str, crash: &Crash) {
         self.compilers.remove(uri);
         if let Some(document) = self.documents.current(uri) {
             let last = self.documents.last(uri);
-            let nothing = new_analysed(document, Compiled::default(), last);
-            self.documents.publish(nothing);
+            let analysed = new_analysed(document, Compiled::crashed(crash), last);
+            if self.documents.publish(analysed.clone()) {
+                self.publish_diagnostics(&analysed, false);
+            }
         }
     }
 }

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::value::RawValue;
 
 use crate::diagnostic::Diagnostic;
-use crate::report::{Part, Places};
+use crate::report::Part;
+use crate::source::LineIndex;
 use crate::watch::BuildTimes;
 
 /// To a page.
@@ -103,7 +104,7 @@ const MOST_FINDINGS: usize = 500;
 
 /// The findings of a drawing, the worst first where there are many.
 pub(super) fn findings<'a>(diagnostics: &'a [Diagnostic], text: &str) -> Vec<Finding<'a>> {
-    let places = Places::new(text);
+    let places = LineIndex::new(text);
     let mut shown: Vec<&Diagnostic> = diagnostics.iter().collect();
     if shown.len() > MOST_FINDINGS {
         shown.sort_by_key(|diagnostic| diagnostic.severity());

@@ -2,6 +2,7 @@
 
 use std::io;
 
+use crate::crash::Crash;
 use crate::import::ImportError;
 
 /// Why a picture cannot be rendered. Messages follow the name of the file.
@@ -19,8 +20,11 @@ pub enum RenderError {
     /// A film strip with too many pixels.
     #[error("cannot be drawn as a strip of {0} by {1} pixels, more than {limit} in all: ask for fewer moments or a smaller size", limit = super::MAX_FILM_STRIP_PIXELS)]
     FilmStripTooLarge(u64, u32),
-    /// The renderer panicked.
-    #[error("cannot be rendered: this is a bug in okoshi, please report it")]
+    /// Rendering panicked.
+    #[error("cannot be rendered: {0}; {help}", help = crate::crash::HELP)]
+    Crash(#[from] Crash),
+    /// The pixels do not fit the size of the picture.
+    #[error("cannot be rendered: {help}", help = crate::crash::HELP)]
     Broken,
 }
 

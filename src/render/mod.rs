@@ -69,7 +69,7 @@ pub const MAX_FILM_STRIP_PIXELS: u64 = MAX_SIDE as u64 * MAX_SIDE as u64;
 fn on_pool<T: Send>(
     work: impl FnOnce() -> Result<T, RenderError> + Send,
 ) -> Result<T, RenderError> {
-    threads::run(work).unwrap_or(Err(RenderError::Broken))
+    threads::run(work)?
 }
 
 /// How surfaces are shaded.

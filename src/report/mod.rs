@@ -3,11 +3,9 @@
 mod clips;
 mod joints;
 mod parts;
-mod places;
 mod terrain;
 
 pub use clips::{Clip, Held, Joint, PageDetails, Reader, clips, cut_frames};
 pub use joints::{Driver, drivers, ranges, undriven};
 pub use parts::{AttributeReport, Part, StringReport, landscapes, own_name, parts};
-pub use places::Places;
 pub use terrain::{Group, House, Terrain, terrain};

@@ -4,9 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{Places, drivers};
+use super::drivers;
 use crate::bind::{self, DrawingString, PartKind, SetBy};
 use crate::compile::Compiled;
+use crate::source::LineIndex;
 use crate::terrain::Layer;
 
 /// A part. Coordinates are drawing units, y down.
@@ -64,7 +65,7 @@ pub struct AttributeReport {
 /// The parts of a drawing, in paint order.
 pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     let bindings = &compiled.bindings;
-    let places = Places::new(text);
+    let places = LineIndex::new(text);
     let drivers = drivers(compiled);
     let parts = bindings.parts.iter().enumerate();
     let parts = parts.filter(|(_, part)| part.kind != PartKind::Tile);
@@ -95,7 +96,7 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
 
 /// The landscapes of a drawing as parts of the kind `terrain`, for lists of everything in the model.
 pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
-    let (bindings, places) = (&compiled.bindings, Places::new(text));
+    let (bindings, places) = (&compiled.bindings, LineIndex::new(text));
     let report = |layer: &'a Layer| {
         let [low, high] = layer.bounds();
         let (center, middle) = ((low + high) / 2.0, (low.y + high.y) / 2.0);
@@ -125,7 +126,7 @@ pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     compiled.layers.iter().map(report).collect()
 }
 
-fn string_report<'a>(string: &'a DrawingString, places: &Places) -> StringReport<'a> {
+fn string_report<'a>(string: &'a DrawingString, places: &LineIndex<&str>) -> StringReport<'a> {
     let (line, column) = places.line_column(string.text.whole().start);
     StringReport {
         line,

@@ -1,23 +1,23 @@
-//! From one text of a drawing to the next: what was changed between them, and where all else went.
+//! The change between two versions of a drawing's text, and how it moves spans.
 
 use super::{Form, Span, Text};
 
-/// How many bytes are compared at a time.
+/// Bytes compared at a time.
 const BLOCK: usize = 256;
 
-/// One stretch of bytes that another one took the place of.
+/// The replacement of one stretch of bytes by another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Change {
     /// Where it begins, in both texts.
     pub start: usize,
-    /// Where what was there ended in the old text.
+    /// Where the replaced bytes end in the old text.
     pub old_end: usize,
-    /// Where what is there now ends in the new text.
+    /// Where the new bytes end in the new text.
     pub new_end: usize,
 }
 
 impl Change {
-    /// What lies between the common head and the common tail of two texts, in whole characters. Of equal texts, an
+    /// Everything between the common head and the common tail of two texts, in whole characters. For equal texts, an
     /// empty change at their end.
     pub fn between(old: &str, new: &str) -> Self {
         let mut start = common_head(old.as_bytes(), new.as_bytes());
@@ -35,18 +35,18 @@ impl Change {
         }
     }
 
-    /// Whether nothing is taken away and nothing put in.
+    /// Whether nothing is removed and nothing inserted.
     pub fn is_empty(self) -> bool {
         self.start == self.old_end && self.start == self.new_end
     }
 
-    /// Where the byte at `offset`, which lies behind the change, is now.
+    /// The new offset of the byte at `offset`, which is behind the change.
     fn behind(self, offset: usize) -> usize {
         offset - self.old_end + self.new_end
     }
 
-    /// Where something is now that does not begin or end within what was changed. What ends where the change begins
-    /// stays; what begins where it ends moves along.
+    /// The new place of a span that neither begins nor ends inside the change. A span that ends where the change begins
+    /// stays; one that begins where the change ends moves along.
     pub fn moved(self, span: Span) -> Span {
         let Span { start, end } = span;
         let moves = start >= self.old_end;
@@ -60,7 +60,7 @@ impl Change {
     }
 }
 
-/// How many bytes two lists have in common at their start.
+/// The length of the common prefix.
 fn common_head(a: &[u8], b: &[u8]) -> usize {
     let blocks = a.chunks_exact(BLOCK).zip(b.chunks_exact(BLOCK));
     let at = BLOCK * blocks.take_while(|(a, b)| a == b).count();
@@ -68,7 +68,7 @@ fn common_head(a: &[u8], b: &[u8]) -> usize {
     at + rest.take_while(|(a, b)| a == b).count()
 }
 
-/// How many bytes two lists have in common at their end.
+/// The length of the common suffix.
 fn common_tail(a: &[u8], b: &[u8]) -> usize {
     let blocks = a.rchunks_exact(BLOCK).zip(b.rchunks_exact(BLOCK));
     let tail = BLOCK * blocks.take_while(|(a, b)| a == b).count();
@@ -80,8 +80,7 @@ fn common_tail(a: &[u8], b: &[u8]) -> usize {
 }
 
 impl Text {
-    /// The bytes of the drawing around a change that are this text's, written as they are read; `None` where the change
-    /// does not lie in such a stretch or at its border.
+    /// The plain run of this text, as bytes of the drawing, that contains or touches a change; `None` if there is none.
     pub fn plain_around(&self, change: Change) -> Option<Span> {
         let run = &self.runs[self.run_around(change)?];
         Some(Span::new(run.raw, run.raw + run.raw_len))
@@ -95,16 +94,16 @@ impl Text {
         })
     }
 
-    /// Whether any of the text stands where a change begins, or behind that.
+    /// Whether any of the text lies at the start of a change or behind it.
     pub fn reaches(&self, change: Change) -> bool {
-        // What entities hold stands in front of all else, so the last stretch need not be the farthest.
+        // Entities are declared before everything else, so the last run need not be the last in the file.
         let mut runs = self.runs.iter().rev();
         runs.any(|run| run.raw + run.raw_len >= change.start)
     }
 
-    /// Puts `inserted` where the change took something away, if the change lies in a stretch as
-    /// [`Text::plain_around`] gives it, and moves all that stands behind.
-    pub fn retype(&mut self, change: Change, inserted: &str) {
+    /// Applies a change that inserts `inserted`: edits the characters if the change lies in a run of this text (see
+    /// [`Text::plain_around`]), and moves all runs behind it.
+    pub fn edit(&mut self, change: Change, inserted: &str) {
         let grown = |offset: usize| offset + inserted.len() - (change.old_end - change.start);
         let edited = self.run_around(change);
         if let Some(index) = edited {
@@ -158,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn a_text_is_retyped_in_its_place() {
+    fn a_text_is_edited_in_place() {
         // raw: `ab&amp;cd` then, in another element, `de`
         let text = |c: &str| {
             let grown = c.len() - 2;
@@ -176,10 +175,10 @@ mod tests {
                 old_end: at,
                 new_end: at + 3,
             };
-            let mut retyped = text("cd");
-            assert_eq!(retyped.plain_around(change), Some(Span::new(17, 19)));
-            retyped.retype(change, "あ");
-            assert_eq!(retyped, text(c), "{c}");
+            let mut edited = text("cd");
+            assert_eq!(edited.plain_around(change), Some(Span::new(17, 19)));
+            edited.edit(change, "あ");
+            assert_eq!(edited, text(c), "{c}");
         }
         let inside_entity = Change {
             start: 14,

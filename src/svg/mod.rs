@@ -5,11 +5,11 @@
 //! shapes stand in paint order; every element, group and text knows its bytes in the file. This module
 //! knows nothing of the annotation language.
 
-mod again;
 mod clip;
 mod elements;
 mod growth;
 mod image;
+mod incremental;
 mod links;
 mod paint;
 mod paths;
@@ -24,8 +24,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-pub use again::Retyped;
 pub use image::PictureSource;
+pub use incremental::TextEdit;
 pub(crate) use links::broken_link;
 pub use paths::StrokeSource;
 pub(crate) use pictures::LARGE;
@@ -49,8 +49,8 @@ pub struct Drawing {
     pub shapes: Vec<Shape>,
     /// The texts in document order, each with the index of its group.
     pub labels: Vec<(Label, usize)>,
-    /// Per group whether pictures in it were left as they are (see [`AsTheyAre`]); `None` if there were none.
-    pub as_they_are: Option<Vec<bool>>,
+    /// Per group whether its pictures are read pixel by pixel (see [`PixelGroups`]); `None` if there are no pictures.
+    pub pixel_groups: Option<Vec<bool>>,
 }
 
 /// What groups can be.
@@ -143,12 +143,12 @@ pub struct Line {
     pub connects: [Option<String>; 2],
 }
 
-/// Tells of each group whether its pictures are read pixel by pixel: those are left as they are, for their borders
-/// and their use as textures take longer to make than all else about them.
-pub type AsTheyAre<'a> = &'a (dyn Fn(&Drawing) -> Vec<bool> + Sync);
+/// A function that says, per group, whether its pictures are read pixel by pixel. Such pictures are not traced: their
+/// outlines and textures would take longer to make than everything else about them.
+pub type PixelGroups<'a> = &'a (dyn Fn(&Drawing) -> Vec<bool> + Sync);
 
 /// Reads a drawing. `tolerance` is how far a flattened curve may lie off, as a share of its shape's
-/// larger extent; `as_they_are` is asked only where there are pictures.
+/// larger extent; `pixel_groups` is called only if there are pictures.
 ///
 /// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing. Recurses as deep as the
 /// drawing is nested: the thread needs a stack of some 100 MiB, as [`crate::compile::compile`] gives it.
@@ -156,10 +156,10 @@ pub fn read(
     source: &str,
     tolerance: f64,
     resolver: &dyn Resolver,
-    as_they_are: AsTheyAre<'_>,
+    pixel_groups: PixelGroups<'_>,
 ) -> (Drawing, Vec<Diagnostic>) {
     let mut diagnostics = Vec::new();
-    let drawing = read_document(source, tolerance, resolver, as_they_are, &mut diagnostics);
+    let drawing = read_document(source, tolerance, resolver, pixel_groups, &mut diagnostics);
     let drawing = drawing.unwrap_or_else(|diagnostic| {
         diagnostics.push(*diagnostic);
         Drawing::default()
@@ -171,7 +171,7 @@ fn read_document(
     source: &str,
     tolerance: f64,
     resolver: &dyn Resolver,
-    as_they_are: AsTheyAre<'_>,
+    pixel_groups: PixelGroups<'_>,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Drawing, Box<Diagnostic>> {
     if source.trim_start_matches('\u{feff}').trim().is_empty() {
@@ -206,9 +206,9 @@ fn read_document(
     }
     let mut drawing = shapes::read(&document, &prepared, tolerance, resolver, diagnostics)?;
     if drawing.shapes.iter().any(|shape| shape.picture.is_some()) {
-        let left = as_they_are(&drawing);
-        pictures::trace(&mut drawing, &left, diagnostics);
-        drawing.as_they_are = Some(left);
+        let pixel_groups = pixel_groups(&drawing);
+        pictures::trace(&mut drawing, &pixel_groups, diagnostics);
+        drawing.pixel_groups = Some(pixel_groups);
     }
     Ok(drawing)
 }

@@ -115,7 +115,7 @@ pub(super) fn read(
         groups,
         shapes,
         labels,
-        as_they_are: None,
+        pixel_groups: None,
     })
 }
 

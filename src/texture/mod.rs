@@ -8,16 +8,15 @@
 //! x = 0 to 1, the end circle of a radial one is the unit circle, and a picture or the tile of a pattern fills the unit
 //! square, y down.
 
-mod baker;
 mod gradient;
 mod pattern;
 mod picture;
 
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
 use glam::{DAffine2, DMat2, DVec2};
 
-pub use baker::Baker;
 pub use gradient::{Focus, Gradient, Spread, Stop};
 pub use picture::{Decoded, Holes, PictureError, decode, picture, pixels};
 
@@ -94,6 +93,22 @@ pub struct Plan {
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct PlanKey(Vec<u64>);
 
+// Plans with equal keys are drawn alike. A plan holds on to the patterns and pictures that its key knows by their
+// address.
+impl PartialEq for Plan {
+    fn eq(&self, other: &Self) -> bool {
+        self.key() == other.key()
+    }
+}
+
+impl Eq for Plan {}
+
+impl Hash for Plan {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.key().hash(state);
+    }
+}
+
 /// A drawn texture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Baked {
@@ -166,15 +181,15 @@ impl Plan {
             }
             // Patterns and pictures are compared by address, which does not influence the output.
             Source::Pattern(pattern) => {
-                let [width, height] = self.size;
                 key.extend([2, Arc::as_ptr(pattern).addr() as u64]);
-                key.extend([u64::from(width), u64::from(height)]);
             }
             Source::Picture(picture, filter) => {
                 let place = picture.bytes.as_ptr().addr() as u64;
                 key.extend([3, place, *filter as u64]);
             }
         }
+        key.extend(self.size.map(u64::from));
+        key.push(u64::from(self.work.is_infinite()));
         PlanKey(key)
     }
 

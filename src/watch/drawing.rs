@@ -1,16 +1,16 @@
 //! One drawing that is built repeatedly.
 
-use std::collections::BTreeMap;
-use std::hash::{DefaultHasher, Hasher};
+use std::hash::BuildHasher;
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex};
 use std::time::SystemTime;
+
+use rustc_hash::FxBuildHasher;
 
 use super::{Build, BuildTimes, NoModel, Options};
 use crate::compile::{self, Compiled, Compiler};
 use crate::disk::{FolderResolver, ReadError, decode, read_drawing};
 use crate::export::{self, GLB, SurfaceCache};
-use crate::resolver::{LinkError, Resolver};
+use crate::resolver::{Dependency, Recorder};
 
 /// A drawing with the caches that make its next build incremental.
 #[derive(Debug)]
@@ -23,12 +23,13 @@ pub struct Drawing {
     last: Option<Inputs>,
 }
 
-/// Hashes of the files that a build was made from.
+/// The files that a build was made from.
 #[derive(Debug)]
 struct Inputs {
+    /// A hash of the drawing's file.
     drawing: u64,
-    /// By link; `None` for a file that is missing.
-    linked: BTreeMap<String, Option<u64>>,
+    /// The linked files, whose contents the compiler keeps as well.
+    linked: Vec<Dependency>,
 }
 
 /// The outcome of building a drawing.
@@ -65,8 +66,8 @@ impl Drawing {
 
     /// The files that it links to, including missing ones.
     pub(super) fn linked(&self) -> impl Iterator<Item = PathBuf> {
-        let links = self.last.iter().flat_map(|last| last.linked.keys());
-        links.filter_map(|link| self.resolver.place(link).ok())
+        let linked = self.last.iter().flat_map(|last| &last.linked);
+        linked.filter_map(|file| self.resolver.place(&file.link).ok())
     }
 
     /// Builds it, unless nothing has changed. A text without any elements counts as half written, unless `is_final`.
@@ -76,14 +77,11 @@ impl Drawing {
     pub fn build(&mut self, noticed: SystemTime, is_final: bool) -> Result<Outcome, ReadError> {
         let started = SystemTime::now();
         let bytes = read_drawing(&self.path)?;
-        let drawing = hash(&bytes);
+        let drawing = FxBuildHasher.hash_one(&bytes);
         if self.is_unchanged(drawing) {
             return Ok(Outcome::Unchanged);
         }
-        let recorder = Recorder {
-            inner: &self.resolver,
-            found: Mutex::default(),
-        };
+        let recorder = Recorder::new(&self.resolver);
         let lossy = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 12)]).into_owned();
         let (text, compiled) = match decode(bytes) {
             Ok(text) => {
@@ -92,10 +90,10 @@ impl Drawing {
             }
             Err(error) => (lossy, Compiled::undecoded(&error.to_string())),
         };
-        if !is_final && compiled.drawing.groups.is_empty() {
+        if !is_final && compiled.drawing.groups.is_empty() && !compiled.has_crashed() {
             return Ok(Outcome::Incomplete);
         }
-        let linked = recorder.found.into_inner().unwrap_or_default();
+        let linked = recorder.into_dependencies();
         let model = match compiled.has_errors() {
             true => Err(NoModel::Errors),
             false => self.model(&compiled),
@@ -117,8 +115,8 @@ impl Drawing {
     /// Whether the drawing and all linked files are equal to those of the last build.
     fn is_unchanged(&self, drawing: u64) -> bool {
         let Some(last) = &self.last else { return false };
-        let now = |link: &str| self.resolver.read(link).ok().map(|bytes| hash(&bytes));
-        last.drawing == drawing && last.linked.iter().all(|(link, was)| now(link) == *was)
+        let mut linked = last.linked.iter();
+        last.drawing == drawing && linked.all(|file| file.is_unchanged(&self.resolver))
     }
 
     fn model(&mut self, compiled: &Compiled) -> Result<export::Model, NoModel> {
@@ -127,26 +125,31 @@ impl Drawing {
     }
 }
 
-/// A hash of a file's content.
-fn hash(bytes: &[u8]) -> u64 {
-    let mut hasher = DefaultHasher::new();
-    hasher.write(bytes);
-    hasher.finish()
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compile::PLANTED_CRASH;
+    use crate::diagnostic::Code;
 
-/// A resolver that remembers what it gave.
-struct Recorder<'a> {
-    inner: &'a FolderResolver,
-    found: Mutex<BTreeMap<String, Option<u64>>>,
-}
-
-impl Resolver for Recorder<'_> {
-    fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
-        let found = self.inner.read(link);
-        if let Ok(mut known) = self.found.lock() {
-            let content = found.as_ref().ok().map(|bytes| hash(bytes));
-            known.entry(link.to_owned()).or_insert(content);
-        }
-        found
+    #[test]
+    fn a_crash_is_not_an_unfinished_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("drawing.svg");
+        let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"/>";
+        let mut drawing = Drawing::new(&path, &Options::default());
+        let mut build = |text: &str| {
+            std::fs::write(&path, text).unwrap();
+            drawing.build(SystemTime::now(), false).unwrap()
+        };
+        assert!(matches!(build("<svg"), Outcome::Incomplete));
+        let Outcome::Built(crashed) = build(&format!("{svg}{PLANTED_CRASH}")) else {
+            panic!("it is built");
+        };
+        assert_eq!(crashed.compiled.diagnostics[0].code, Code::Crash);
+        assert_eq!(crashed.model.unwrap_err(), NoModel::Errors);
+        let Outcome::Built(build) = build(svg) else {
+            panic!("it is built");
+        };
+        assert!(!build.compiled.has_crashed() && build.model.is_ok());
     }
 }

@@ -1,8 +1,8 @@
 //! The joints that `Bone` can name.
 
 use super::{Cursor, Proposal, ProposalKind, own_name_of, simple};
-use crate::ide::quoting::{Role, written};
 use crate::lang::ast::{ArgumentKind, Attribute};
+use crate::lang::quoting::{NamePlace, quoted_if_needed};
 use crate::rig::FigureClip;
 
 impl Cursor<'_> {
@@ -61,7 +61,7 @@ impl Cursor<'_> {
             (None, None) => "a root".to_owned(),
         };
         Some(Proposal {
-            text: self.escape(&written(name, Role::Argument)),
+            text: self.escape(&quoted_if_needed(name, NamePlace::Argument)),
             ..simple(name, ProposalKind::Joint, &detail)
         })
     }

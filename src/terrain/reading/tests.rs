@@ -5,6 +5,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::bind;
+use crate::memo::Memo;
 use crate::resolver::MemoryResolver;
 use crate::svg;
 use crate::terrain::{EDGE_BELOW, EDGE_RIGHT, Tile};
@@ -17,7 +18,7 @@ fn read_with(svg: &str, files: MemoryResolver) -> (Vec<Layer>, Vec<String>) {
     let svg =
         format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="400" height="400">{svg}</svg>"#);
     let (drawing, mut diagnostics) = svg::read(&svg, 0.001, &files, &bind::in_tile_layers);
-    let bindings = bind::bind(&drawing, None, &mut diagnostics);
+    let bindings = bind::bind(&drawing, &Memo::none(), &mut diagnostics);
     let layers = read(&drawing, &bindings, &mut diagnostics);
     // Heights are tested elsewhere.
     let told = diagnostics.iter();

@@ -1,4 +1,4 @@
-//! A drawing in which nothing changed but the characters of one text.
+//! Updates a drawing in place if only the characters of one text changed.
 
 use std::sync::Arc;
 
@@ -6,27 +6,27 @@ use super::{Drawing, Element, Label};
 use crate::diagnostic::Diagnostic;
 use crate::source::{Change, Span, Text};
 
-/// A change that lies in the characters of texts alone: whatever else the drawing holds stays as it is, further
-/// ahead or back in the file.
+/// An edit that only changes the characters of one text: everything else in the drawing stays, or moves as a whole.
 #[derive(Debug, Clone, Copy)]
-pub struct Retyped<'a> {
+pub struct TextEdit<'a> {
     change: Change,
     inserted: &'a str,
 }
 
-impl<'a> Retyped<'a> {
-    /// Looks whether `change`, which leads from the text `old` of `drawing` to `new`, is such a change.
+impl<'a> TextEdit<'a> {
+    /// The edit that `change`, from the text `old` of `drawing` to `new`, amounts to; `None` if it may be more than an
+    /// edit of one text.
     ///
-    /// It must lie in character data that is written as it is read and was read into labels or descriptions. What
-    /// is put in must not be markup or begin it; whatever depends on there being a text, on its lines or on the
-    /// ids that `prepare` makes up must not change.
+    /// The change must lie in character data that is written as it is read and that became part of a label or a
+    /// description. The inserted text must neither be markup nor complete any. Nothing may change that depends on
+    /// whether there is a text, on its lines, or on the ids that `prepare` generates.
     pub fn find(drawing: &Drawing, old: &str, new: &'a str, change: Change) -> Option<Self> {
         let Change {
             start,
             old_end,
             new_end,
         } = change;
-        // In front of the root element, texts stand in entities, which may be used several times.
+        // Text before the root element is in entities, which may be used several times.
         if start <= drawing.groups.first()?.element.span.start {
             return None;
         }
@@ -47,49 +47,49 @@ impl<'a> Retyped<'a> {
         let around = around?;
         let before = &old[around.start..around.end];
         let after = &new[around.start..around.end - old_end + new_end];
-        // A text's place is that of its first characters that are not blank.
+        // A text is placed by its first characters that are not blank.
         let blank = before.trim().is_empty() || after.trim().is_empty();
-        // No line begins behind a line's end.
+        // A line end at the end of a stretch starts no line.
         let ends = before.ends_with('\n') != after.ends_with('\n');
-        let like_ids = before.contains(ID) || after.contains(ID);
-        if blank || ends || like_ids {
+        let has_id = before.contains(ID) || after.contains(ID);
+        if blank || ends || has_id {
             return None;
         }
-        let retyped = Self { change, inserted };
+        let edit = Self { change, inserted };
         let labels = drawing.labels.iter().map(|(label, _)| label);
-        let has_place = |label: &Label| {
+        let can_be_placed = |label: &Label| {
             label.text.plain_around(change).is_none() || {
                 let mut text = Text::clone(&label.text);
-                text.retype(change, inserted);
+                text.edit(change, inserted);
                 label.frame.place(text.as_str()).is_some()
             }
         };
         labels
             .filter(|label| label.text.reaches(change))
-            .all(has_place)
-            .then_some(retyped)
+            .all(can_be_placed)
+            .then_some(edit)
     }
 
-    /// Makes the change in a drawing.
+    /// Edits the drawing's texts, and moves the spans behind the edit.
     pub fn apply(self, drawing: &mut Drawing) {
         for group in &mut drawing.groups {
-            self.element(&mut group.element);
+            self.apply_to_element(&mut group.element);
         }
         for shape in &mut drawing.shapes {
-            self.element(&mut shape.element);
+            self.apply_to_element(&mut shape.element);
         }
         for (label, _) in &mut drawing.labels {
             label.element = self.change.moved(label.element);
             let edited = label.text.plain_around(self.change).is_some();
-            self.text(&mut label.text);
+            self.apply_to_text(&mut label.text);
             if edited && let Some((corner, bounds)) = label.frame.place(label.text.as_str()) {
                 (label.corner, label.bounds) = (corner, bounds);
             }
         }
     }
 
-    /// Moves a finding that tells of the drawing and not of its texts.
-    pub fn apply_to_finding(self, diagnostic: &mut Diagnostic) {
+    /// Moves the spans of a diagnostic about the drawing, not about its texts.
+    pub fn apply_to_diagnostic(self, diagnostic: &mut Diagnostic) {
         let move_span = |span: &mut Span| *span = self.change.moved(*span);
         move_span(&mut diagnostic.span);
         for related in &mut diagnostic.related {
@@ -100,24 +100,24 @@ impl<'a> Retyped<'a> {
         }
     }
 
-    fn element(self, element: &mut Element) {
+    fn apply_to_element(self, element: &mut Element) {
         element.span = self.change.moved(element.span);
         if let Some(desc) = &mut element.desc {
-            self.text(desc);
+            self.apply_to_text(desc);
         }
     }
 
-    fn text(self, text: &mut Arc<Text>) {
+    fn apply_to_text(self, text: &mut Arc<Text>) {
         if text.reaches(self.change) {
-            Arc::make_mut(text).retype(self.change, self.inserted);
+            Arc::make_mut(text).edit(self.change, self.inserted);
         }
     }
 }
 
-/// What ids that are made up begin with, behind a quote.
+/// What generated ids begin with, after a quote.
 const ID: &str = super::prepare::ID_PREFIX;
 
-/// Whether a character may stand in an XML text and stands for nothing but itself there.
+/// Whether a character is allowed in XML character data and means itself there.
 fn is_plain(c: char) -> bool {
     match c {
         '<' | '&' | '\r' => false,
@@ -126,13 +126,13 @@ fn is_plain(c: char) -> bool {
     }
 }
 
-/// Whether the borders of what was put in, or of what was taken away, make signs that mean something together.
+/// Whether characters on both sides of an edge of the edit form markup, or a line end, together.
 fn joins_markup(new: &str, start: usize, new_end: usize) -> bool {
     let bytes = new.as_bytes();
     let from = start.saturating_sub(2);
     let to = (new_end + 2).min(bytes.len());
     let ends_cdata = bytes[from..to].windows(3).any(|signs| signs == b"]]>");
-    // A line end of two characters is read as one.
+    // XML reads the two characters of such a line end as one.
     let line_end = bytes.get(start.saturating_sub(1)..=start) == Some(b"\r\n".as_slice());
     ends_cdata || line_end
 }

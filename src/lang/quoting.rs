@@ -1,11 +1,11 @@
-//! How names are written: in quotes only where they need them.
+//! Names as they are written in strings: in quotes only if they need them.
 
-use crate::lang::keyword::Keyword;
-use crate::lang::{is_name_char, is_word_char, normalize};
+use super::keyword::Keyword;
+use super::{is_name_char, is_word_char, normalize};
 
-/// The position of a name, which decides whether it needs quotes.
+/// The place of a name in a string, which decides whether it needs quotes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Role {
+pub enum NamePlace {
     /// Before or after `@`.
     Head,
     /// Among the arguments of an attribute.
@@ -13,13 +13,15 @@ pub(super) enum Role {
 }
 
 /// Whether `name` is read as itself without quotes.
-pub(super) fn can_be_bare(name: &str, role: Role) -> bool {
+pub fn can_be_bare(name: &str, place: NamePlace) -> bool {
     if name.is_empty() || normalize(name) != name {
         return false;
     }
-    match role {
-        Role::Head => name.chars().all(is_name_char) && !name.starts_with(['#', '%', '*', '^']),
-        Role::Argument => {
+    match place {
+        NamePlace::Head => {
+            name.chars().all(is_name_char) && !name.starts_with(['#', '%', '*', '^'])
+        }
+        NamePlace::Argument => {
             name.starts_with(char::is_alphabetic)
                 && name.chars().all(is_word_char)
                 && Keyword::from_name(name).is_none()
@@ -28,16 +30,16 @@ pub(super) fn can_be_bare(name: &str, role: Role) -> bool {
 }
 
 /// `name` as it is written in a string.
-pub(super) fn written(name: &str, role: Role) -> String {
-    match can_be_bare(name, role) {
+pub fn quoted_if_needed(name: &str, place: NamePlace) -> String {
+    match can_be_bare(name, place) {
         true => name.to_owned(),
         false => format!("\"{name}\""),
     }
 }
 
-/// The name that typed `input` means: quotes removed, white space collapsed, and without quotes
-/// full-width signs as ASCII. `None` if there is no such name.
-pub(super) fn meant(input: &str) -> Option<String> {
+/// The name that a user means who types `input`, with or without quotes, as the parser would read it: white space is
+/// collapsed, and outside quotes full-width characters become ASCII. `None` if there is no such name.
+pub fn read_name(input: &str) -> Option<String> {
     let input = input.trim();
     let inner = input
         .strip_prefix('"')
@@ -56,7 +58,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn names_are_quoted_where_necessary() {
+    fn names_are_quoted_only_if_they_need_it() {
         for (name, head, argument) in [
             ("Arm", "Arm", "Arm"),
             ("右腕", "右腕", "右腕"),
@@ -67,16 +69,16 @@ mod tests {
             ("#1", "\"#1\"", "\"#1\""),
             ("Ａ", "\"Ａ\"", "\"Ａ\""),
         ] {
-            assert_eq!(written(name, Role::Head), head);
-            assert_eq!(written(name, Role::Argument), argument);
+            assert_eq!(quoted_if_needed(name, NamePlace::Head), head);
+            assert_eq!(quoted_if_needed(name, NamePlace::Argument), argument);
         }
     }
 
     #[test]
-    fn typed_names_are_read_like_names_in_strings() {
-        assert_eq!(meant("  Ａrm ").as_deref(), Some("Arm"));
-        assert_eq!(meant("\"Ａrm  x\"").as_deref(), Some("Ａrm x"));
-        assert_eq!(meant("a\"b"), None);
-        assert_eq!(meant(" \"\" "), None);
+    fn typed_names_are_read_as_in_a_string() {
+        assert_eq!(read_name("  Ａrm ").as_deref(), Some("Arm"));
+        assert_eq!(read_name("\"Ａrm  x\"").as_deref(), Some("Ａrm x"));
+        assert_eq!(read_name("a\"b"), None);
+        assert_eq!(read_name(" \"\" "), None);
     }
 }

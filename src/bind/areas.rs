@@ -1,0 +1,41 @@
+//! The filled areas of parts.
+
+use std::sync::Arc;
+
+use super::units::Member;
+use crate::geometry::{Measure, Outline, measure};
+use crate::memo::{Memo, Same};
+use crate::svg::{Drawing, StrokeSource};
+
+/// A part's outline and its measures.
+#[derive(Debug, Clone)]
+pub(super) struct Area {
+    pub(super) outline: Arc<Outline>,
+    pub(super) measure: Measure,
+}
+
+/// What an area is made from: the fill or the stroke of a shape.
+#[derive(Debug, PartialEq, Eq, Hash)]
+enum AreaKey {
+    Fill(Same<Outline>),
+    Stroke(Same<StrokeSource>),
+}
+
+/// The areas of members; `None` for those that cover nothing.
+pub(super) fn areas(drawing: &Drawing, members: &[Member], memo: &Memo) -> Vec<Option<Area>> {
+    let key = |member: &Member| {
+        let shape = &drawing.shapes[member.shape];
+        match &shape.stroke {
+            Some(stroke) if member.is_stroke => AreaKey::Stroke(Same(Arc::clone(stroke))),
+            _ => AreaKey::Fill(Same(Arc::clone(&shape.outline))),
+        }
+    };
+    memo.get_each(members.iter().map(key).collect(), |key| {
+        let outline = match key {
+            AreaKey::Fill(outline) => Arc::clone(&outline.0),
+            AreaKey::Stroke(stroke) => Arc::new(stroke.0.outline()),
+        };
+        let measure = measure(&outline)?;
+        Some(Area { outline, measure })
+    })
+}
