@@ -32,7 +32,6 @@ use tree::FigureNode;
 
 pub use nodes::PartNode;
 
-
 /// The linked models of a drawing's figures, read before anything else: parts that are models need no material.
 pub struct LinkedModels(Models);
 
