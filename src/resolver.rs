@@ -118,10 +118,13 @@ fn scheme(link: &str) -> Option<&str> {
     (letter && scheme.chars().all(rest)).then_some(scheme)
 }
 
+/// The bytes of a linked file, or why there are none.
+pub type LinkContent = Result<Arc<[u8]>, LinkError>;
+
 /// A resolver that records what is read through it.
 pub struct Recorder<'a> {
     inner: &'a dyn Resolver,
-    read: Mutex<BTreeMap<String, Result<Arc<[u8]>, LinkError>>>,
+    read: Mutex<BTreeMap<String, LinkContent>>,
 }
 
 /// A link that was read, and what it led to.
@@ -129,8 +132,8 @@ pub struct Recorder<'a> {
 pub struct Dependency {
     /// The link as it was written.
     pub link: String,
-    /// The bytes of the file, or why there are none.
-    pub content: Result<Arc<[u8]>, LinkError>,
+    /// Its content.
+    pub content: LinkContent,
 }
 
 impl Dependency {

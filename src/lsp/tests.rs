@@ -76,7 +76,7 @@ async fn a_panic_is_answered_with_an_error() {
 async fn a_crash_is_a_diagnostic() {
     let (mut client, input) = tokio::io::duplex(1 << 16);
     let (output, mut answers) = tokio::io::duplex(1 << 16);
-    let _server = tokio::spawn(super::converse(input, output));
+    let _server = tokio::spawn(super::serve_client(input, output));
     send(
         &mut client,
         json!({"jsonrpc": "2.0", "id": 1, "method": "initialize", "params": {"capabilities": {}}}),

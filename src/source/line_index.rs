@@ -65,7 +65,9 @@ impl<T: Deref<Target = str>> LineIndex<T> {
 
     /// `offset`, moved back to the start of its character, or to the end of the text.
     pub fn clamp(&self, offset: usize) -> usize {
-        self.text.floor_char_boundary(offset)
+        let offset = offset.min(self.text.len());
+        let boundary = |offset: &usize| self.text.is_char_boundary(*offset);
+        (0..=offset).rev().find(boundary).unwrap_or(0)
     }
 
     /// The line of byte `offset`, from 1.
