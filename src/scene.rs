@@ -15,27 +15,27 @@ use glam::{DQuat, DVec3};
 
 pub use animation::{Animation, Interpolation, Timing, Track, Values};
 pub use deferred::SurfaceSource;
-pub use skin::{MOST_JOINTS, Pose, Posed, Skin, TooManyJoints};
+pub use skin::{MAX_JOINTS, RigidTransform, Skin, SkinnedPiece, TooManyJoints};
 pub use world::WorldTransform;
 
 /// A model.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Scene {
-    /// All nodes; a child stands behind its parent.
+    /// All nodes; a child comes after its parent.
     pub nodes: Vec<Node>,
     /// Indices of the nodes without a parent.
     pub roots: Vec<usize>,
-    /// The meshes that nodes point at.
+    /// The meshes that nodes refer to.
     pub meshes: Vec<Mesh>,
-    /// The materials that primitives point at.
+    /// The materials that primitives refer to.
     pub materials: Vec<Material>,
-    /// The textures that materials point at.
+    /// The textures that materials refer to.
     pub textures: Vec<Texture>,
-    /// The images that textures point at.
+    /// The images that textures refer to.
     pub images: Vec<Image>,
     /// The mesh that all nodes move together, if the nodes have no meshes of their own.
     pub skin: Option<Skin>,
-    /// The clips, each with a name of its own.
+    /// The clips, with distinct names.
     pub animations: Vec<Animation>,
 }
 
@@ -44,7 +44,7 @@ pub struct Scene {
 pub struct NewNode {
     /// The node.
     pub node: Node,
-    /// What it shows.
+    /// Its mesh.
     pub mesh: Option<Mesh>,
     /// Index of its parent in the scene; `None` makes it a root.
     pub parent: Option<usize>,
@@ -74,37 +74,36 @@ pub struct Node {
     pub name: String,
     /// Indices of the children.
     pub children: Vec<usize>,
-    /// Where the node stands in its parent's frame, metres.
+    /// Its position in the parent's frame, metres.
     pub translation: DVec3,
-    /// How it is turned there.
+    /// Its rotation in the parent's frame.
     pub rotation: DQuat,
-    /// Its solid.
+    /// Index of its mesh.
     pub mesh: Option<usize>,
-    /// How what it shows follows the viewer.
+    /// How its mesh depends on the viewer.
     pub view_dependent: Option<ViewDependent>,
-    /// Where it comes from.
+    /// Its source in the drawing.
     pub provenance: Option<Provenance>,
 }
 
-/// How a node follows the viewer; glTF carries it as the extension `OKOSHI_view_dependent`.
+/// How a node's mesh depends on the viewer; the extension `OKOSHI_view_dependent` in glTF.
 ///
-/// A viewer that does not know it shows the node as it is: true 3D.
+/// A program that does not know the extension shows the undistorted 3D model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ViewDependent {
     /// The node's mesh and all below it are scaled about the node's origin, in its frame (+Y up, ground level), so that
-    /// from 45° above and with parallel projection both tops and fronts are seen at full size, as role-playing games
-    /// draw them.
+    /// from 45° above and with parallel projection both tops and fronts appear at full size, as in role-playing games.
     ///
     /// With d the unit vector towards the viewer, θ = asin(d.y) its elevation in degrees and h = (d.x, 0, d.z)
     /// normalised, the scale is along u = (+Y − h)/√2, for a viewer in front (0, 1, −1)/√2, by
     /// R = 1 + (√2 − 1)·(1 − ||θ| − 45| / 45): 1 at the ground and from above, √2 at 45°.
     ///
     /// Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, 3.2.6, for viewers in front. Equation 3.2 there swaps
-    /// its two ranges for negative θ, by which R would leap to 1.83 just below the ground; here it depends on |θ| alone.
+    /// its two ranges for negative θ, so that R would jump to 1.83 just below the ground; here it depends on |θ| alone.
     Bend,
 }
 
-/// Where a node comes from; glTF carries it as `extras.okoshi`.
+/// The source of a node in the drawing; `extras.okoshi` in glTF.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Provenance {
     /// The `id` of the source element, if it has one.
@@ -123,7 +122,7 @@ pub struct Mesh {
 /// Triangles of one material.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Primitive {
-    /// What they are made of.
+    /// The pieces that they consist of.
     pub pieces: Vec<Piece>,
     /// Index of the material.
     pub material: usize,
@@ -136,8 +135,8 @@ pub enum Piece {
     Surface(Box<Surface>),
     /// A surface that is made when it is asked for.
     Deferred(Arc<dyn SurfaceSource>),
-    /// Another piece, which follows a joint of a skin.
-    Posed(Box<Posed>),
+    /// Another piece, bound to a joint of a skin.
+    Skinned(Box<SkinnedPiece>),
 }
 
 impl From<Surface> for Piece {
@@ -160,7 +159,7 @@ impl Piece {
         match self {
             Self::Surface(surface) => Cow::Borrowed(surface),
             Self::Deferred(source) => make(source),
-            Self::Posed(posed) => Cow::Owned(posed.surface()),
+            Self::Skinned(skinned) => Cow::Owned(skinned.surface()),
         }
     }
 
@@ -195,7 +194,7 @@ impl Primitive {
     }
 }
 
-/// Triangles with shared corners. All lists of corners have one length; `uvs` and `joints` may be empty.
+/// An indexed triangle mesh. All lists of corners have the same length, except that `uvs` and `joints` may be empty.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Surface {
     /// Positions, in the node's frame, metres.
@@ -204,7 +203,7 @@ pub struct Surface {
     pub normals: Vec<[f32; 3]>,
     /// Texture coordinates, origin at the image's top left.
     pub uvs: Vec<[f32; 2]>,
-    /// The joint that a corner follows with all its weight, in a skin.
+    /// In a skin, the joint that each corner is bound to with its full weight.
     pub joints: Vec<u16>,
     /// Three corners a triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
@@ -217,7 +216,7 @@ impl Surface {
         self.positions.extend_from_slice(&other.positions);
         self.normals.extend_from_slice(&other.normals);
         if self.uvs.is_empty() != other.uvs.is_empty() {
-            // Where only one of them has any, nothing looks at them, but the lists must stay of one length.
+            // If only one of them has any, they are not used, but the lists must keep the same length.
             self.uvs.resize(base as usize, [0.0; 2]);
         }
         self.uvs.extend_from_slice(&other.uvs);
@@ -251,7 +250,7 @@ impl Surface {
     }
 }
 
-/// A glTF metallic-roughness material. Factors multiply what their textures say.
+/// A glTF metallic-roughness material. Factors are multiplied with their textures.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Its name.
@@ -274,14 +273,14 @@ pub struct Material {
     pub emissive: [f32; 3],
     /// Emitted light, sRGB.
     pub emissive_texture: Option<TextureUse>,
-    /// What alpha means.
+    /// The meaning of alpha.
     pub alpha_mode: AlphaMode,
-    /// Seen from both sides: surfaces without thickness.
+    /// Visible from both sides: surfaces without thickness.
     pub double_sided: bool,
 }
 
 impl Default for Material {
-    /// White and opaque, as rough as parts are (language.md, `Roughness`).
+    /// White and opaque, with the default roughness of parts (language.md, `Roughness`).
     fn default() -> Self {
         Self {
             name: String::new(),
@@ -313,7 +312,7 @@ impl Material {
         all.into_iter().flatten()
     }
 
-    /// All textures that it uses, to be changed.
+    /// All textures that it uses, mutable.
     pub fn textures_mut(&mut self) -> impl Iterator<Item = &mut TextureUse> {
         let all = [
             &mut self.base_color_texture,
@@ -326,32 +325,32 @@ impl Material {
     }
 }
 
-/// What a material's alpha means.
+/// The meaning of a material's alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum AlphaMode {
-    /// Nothing.
+    /// Alpha is ignored.
     #[default]
     Opaque,
-    /// What has less alpha than this is not there, the rest is opaque.
+    /// Fully transparent where alpha is below the cutoff, else opaque.
     Mask {
         /// 0 to 1.
         cutoff: f32,
     },
-    /// How much it covers.
+    /// Alpha is the opacity.
     Blend,
 }
 
-/// A texture as a material uses it, with the surface's texture coordinates.
+/// A material's use of a texture, with the surface's texture coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TextureUse {
     /// Index of the texture.
     pub texture: usize,
-    /// How much it counts, 1 for all; for normals and occlusion only.
+    /// The strength, from 0 to 1; for normals and occlusion only.
     pub amount: f32,
 }
 
 impl TextureUse {
-    /// A texture that counts in full.
+    /// A texture at full strength.
     pub fn new(texture: usize) -> Self {
         Self {
             texture,
@@ -365,31 +364,31 @@ impl TextureUse {
 pub struct Texture {
     /// Index of the image.
     pub image: usize,
-    /// What lies beyond the image's left and right, and beyond its top and bottom.
+    /// How the image continues horizontally, and vertically.
     pub wrap: [Wrap; 2],
-    /// What lies between its pixels.
+    /// The interpolation between its pixels.
     pub filter: Filter,
 }
 
-/// What a texture shows beyond its image.
+/// How a texture continues beyond its image.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Wrap {
-    /// The image again.
+    /// The image repeats.
     #[default]
     Repeat,
-    /// The image again, every other time mirrored.
+    /// The image repeats, every other time mirrored.
     MirroredRepeat,
-    /// Its outermost pixels.
+    /// The outermost pixels continue.
     ClampToEdge,
 }
 
-/// What a texture shows between pixels.
+/// The interpolation between pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Filter {
-    /// A mean of the neighbours.
+    /// A weighted mean of the neighbouring pixels.
     #[default]
     Linear,
-    /// The nearest one: sharp squares.
+    /// The nearest pixel: sharp squares.
     Nearest,
 }
 
@@ -398,13 +397,13 @@ pub enum Filter {
 pub struct Image {
     /// Its name.
     pub name: String,
-    /// What the bytes are.
+    /// The format of the bytes.
     pub media_type: MediaType,
-    /// The file.
+    /// The content of the file.
     pub bytes: Arc<[u8]>,
 }
 
-/// The kinds of files that images may be.
+/// The formats of image files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum MediaType {
     /// `image/png`.
@@ -414,7 +413,7 @@ pub enum MediaType {
 }
 
 impl MediaType {
-    /// What a file's first bytes say it is.
+    /// Recognises a format by a file's first bytes.
     pub fn of(bytes: &[u8]) -> Option<Self> {
         match bytes {
             [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1A, b'\n', ..] => Some(Self::Png),

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io;
 
 use super::invalid;
-use crate::scene::{AlphaMode, Animation, MOST_JOINTS, MediaType, Scene, Track, Values};
+use crate::scene::{AlphaMode, Animation, MAX_JOINTS, MediaType, Scene, Track, Values};
 
 /// Refuses nodes, materials and animations that would make an invalid file.
 pub(super) fn check(scene: &Scene) -> io::Result<()> {
@@ -49,7 +49,7 @@ fn check_skin(scene: &Scene) -> io::Result<()> {
     if own || skin.mesh >= scene.meshes.len() || skin.rest.len() != scene.nodes.len() {
         return Err(invalid("a skin that does not fit the nodes"));
     }
-    match scene.nodes.len() > MOST_JOINTS {
+    match scene.nodes.len() > MAX_JOINTS {
         true => Err(invalid("a skin with too many joints")),
         false => Ok(()),
     }

@@ -1,4 +1,4 @@
-//! How nodes move.
+//! Clips: keyframe animations of nodes.
 
 use std::sync::Arc;
 
@@ -9,46 +9,46 @@ use glam::{DQuat, DVec3};
 pub struct Animation {
     /// Its name.
     pub name: String,
-    /// How long it is. The last key may lie earlier: what it shows stands until the end.
+    /// Its duration. The last key may be earlier; its values then hold until the end.
     pub seconds: f64,
-    /// What moves; a node has at most one track of each kind.
+    /// Its tracks; a node has at most one of each kind.
     pub tracks: Vec<Track>,
 }
 
-/// How one node turns, or where it stands.
+/// The rotations or the translations of a node.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
     /// Index of the node.
     pub node: usize,
-    /// When; tracks of one figure share it.
+    /// The times of the keys, shared by the tracks of a figure.
     pub timing: Arc<Timing>,
-    /// How it is then.
+    /// The values at the keys.
     pub values: Values,
 }
 
-/// The moments of keys, and what lies between them.
+/// The times of keys, and the interpolation between them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Timing {
     /// Seconds, ascending, never empty.
     pub times: Vec<f32>,
-    /// What lies between keys.
+    /// The interpolation between keys.
     pub interpolation: Interpolation,
 }
 
-/// What lies between two keys.
+/// The interpolation between two keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
-    /// The way from one to the other, at even speed.
+    /// Linear; spherical for rotations.
     Linear,
-    /// The first of the two, held.
+    /// The value of the first key is held.
     Step,
 }
 
-/// What a node has at each key, in its parent's frame.
+/// The values of a node at each key, in its parent's frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
-    /// How it is turned: unit quaternions, each on the same side as the one before.
+    /// Rotations as unit quaternions, each in the same hemisphere as the one before.
     Rotations(Vec<DQuat>),
-    /// Where it stands, metres.
+    /// Translations, metres.
     Translations(Vec<DVec3>),
 }

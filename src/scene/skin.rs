@@ -1,4 +1,4 @@
-//! One skinned mesh in the place of a mesh a node (figure.md, glTF), for engines that want that.
+//! One skinned mesh instead of a mesh for each node (figure.md, glTF), for engines that need that.
 
 use std::fmt;
 
@@ -6,34 +6,34 @@ use glam::{DQuat, DVec3, Vec3};
 
 use super::{Mesh, Node, Piece, Primitive, Scene, Surface};
 
-/// The most joints of a skin: corners name them in 16 bits.
-pub const MOST_JOINTS: usize = 1 << 16;
+/// The largest number of joints of a skin: corners refer to them by 16 bits.
+pub const MAX_JOINTS: usize = 1 << 16;
 
-/// A mesh that follows the nodes: every node of the scene is a joint, in the order of the nodes.
+/// A mesh that is bound to the nodes: every node of the scene is a joint, in the order of the nodes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Skin {
-    /// Index of the mesh; its corners stand in the world's frame, as the nodes rest.
+    /// Index of the mesh; its corners are in the world's frame, in the rest pose.
     pub mesh: usize,
-    /// Per node its place in the world at rest.
-    pub rest: Vec<Pose>,
+    /// Per node its transform to the world in the rest pose.
+    pub rest: Vec<RigidTransform>,
 }
 
-/// A turn and a move: carries a point to `rotation · point + translation`.
+/// A rotation and a translation: maps a point to `rotation · point + translation`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pose {
-    /// How things are turned.
+pub struct RigidTransform {
+    /// Applied first.
     pub rotation: DQuat,
-    /// How far they are moved then, metres.
+    /// Applied after the rotation, metres.
     pub translation: DVec3,
 }
 
-impl Pose {
+impl RigidTransform {
     const IDENTITY: Self = Self {
         rotation: DQuat::IDENTITY,
         translation: DVec3::ZERO,
     };
 
-    /// The pose of a node in the frame that its parent is in.
+    /// The transform from a node's frame to its parent's.
     fn of(node: &Node) -> Self {
         Self {
             rotation: node.rotation,
@@ -41,12 +41,12 @@ impl Pose {
         }
     }
 
-    /// Where a point goes.
+    /// The image of a point.
     fn place(&self, point: DVec3) -> DVec3 {
         self.rotation * point + self.translation
     }
 
-    /// This pose after `inner`.
+    /// The composition: `inner` first.
     fn after(&self, inner: &Self) -> Self {
         Self {
             rotation: (self.rotation * inner.rotation).normalize(),
@@ -54,7 +54,7 @@ impl Pose {
         }
     }
 
-    /// The way back.
+    /// The inverse transform.
     #[must_use]
     pub fn inverse(&self) -> Self {
         let rotation = self.rotation.conjugate();
@@ -65,18 +65,18 @@ impl Pose {
     }
 }
 
-/// A piece in the world, which follows a joint with all its weight.
+/// A piece in the world's frame that is bound to a joint with its full weight.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Posed {
+pub struct SkinnedPiece {
     /// The piece in the joint's frame.
     pub piece: Piece,
-    /// From there to the world at rest.
-    pub pose: Pose,
+    /// From there to the world in the rest pose.
+    pub pose: RigidTransform,
     /// Index of the joint.
     pub joint: u16,
 }
 
-impl Posed {
+impl SkinnedPiece {
     /// Its triangles.
     pub(super) fn surface(&self) -> Surface {
         let mut surface = self.piece.surface().into_owned();
@@ -96,7 +96,7 @@ impl Posed {
 /// A scene has more nodes than a skin can have joints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TooManyJoints {
-    /// How many there are.
+    /// The number of nodes.
     pub joints: usize,
 }
 
@@ -105,7 +105,7 @@ impl fmt::Display for TooManyJoints {
         let joints = self.joints;
         write!(
             f,
-            "the model has {joints} joints, but a skin holds at most {MOST_JOINTS}; build it without --skin"
+            "the model has {joints} joints, but a skin holds at most {MAX_JOINTS}; build it without --skin"
         )
     }
 }
@@ -113,15 +113,15 @@ impl fmt::Display for TooManyJoints {
 impl std::error::Error for TooManyJoints {}
 
 impl Scene {
-    /// The same model with one skinned mesh, a primitive a material; the nodes become its joints.
+    /// The same model with one skinned mesh, with a primitive for each material. The nodes become its joints.
     ///
-    /// Nodes that follow the viewer and those below them keep meshes of their own: a skin's corners know no viewer.
+    /// View-dependent nodes and their descendants keep their own meshes, because corners of a skin cannot depend on the viewer.
     ///
     /// # Errors
-    /// More nodes than [`MOST_JOINTS`].
+    /// More nodes than [`MAX_JOINTS`].
     pub fn skinned(mut self) -> Result<Self, TooManyJoints> {
         let joints = self.nodes.len();
-        if joints > MOST_JOINTS {
+        if joints > MAX_JOINTS {
             return Err(TooManyJoints { joints });
         }
         let rest = rest(&self.nodes);
@@ -135,14 +135,14 @@ impl Scene {
                 continue;
             };
             for primitive in &self.meshes[mesh].primitives {
-                let posed = primitive.pieces.iter().map(|piece| {
-                    Piece::Posed(Box::new(Posed {
+                let skinned = primitive.pieces.iter().map(|piece| {
+                    Piece::Skinned(Box::new(SkinnedPiece {
                         piece: piece.clone(),
                         pose: rest[joint],
                         joint: joint as u16,
                     }))
                 });
-                by_material[primitive.material].extend(posed);
+                by_material[primitive.material].extend(skinned);
             }
         }
         let primitives: Vec<Primitive> = by_material
@@ -160,7 +160,7 @@ impl Scene {
         Ok(self)
     }
 
-    /// Leaves out the meshes that no node shows.
+    /// Removes the meshes that no node uses.
     fn keep_used_meshes(&mut self) {
         let mut kept = vec![None; self.meshes.len()];
         for mesh in self.nodes.iter().filter_map(|node| node.mesh) {
@@ -178,7 +178,7 @@ impl Scene {
     }
 }
 
-/// Which nodes follow the viewer, by themselves or with a node above them; a child stands behind its parent.
+/// Per node whether it or an ancestor is view-dependent; a child comes after its parent.
 fn below_view_dependent(nodes: &[Node]) -> Vec<bool> {
     let mut found = vec![false; nodes.len()];
     for (index, node) in nodes.iter().enumerate() {
@@ -190,11 +190,11 @@ fn below_view_dependent(nodes: &[Node]) -> Vec<bool> {
     found
 }
 
-/// Where nodes stand in the world; a child stands behind its parent.
-fn rest(nodes: &[Node]) -> Vec<Pose> {
-    let mut outer = vec![Pose::IDENTITY; nodes.len()];
+/// The transforms of nodes to the world; a child comes after its parent.
+fn rest(nodes: &[Node]) -> Vec<RigidTransform> {
+    let mut outer = vec![RigidTransform::IDENTITY; nodes.len()];
     for (index, node) in nodes.iter().enumerate() {
-        outer[index] = outer[index].after(&Pose::of(node));
+        outer[index] = outer[index].after(&RigidTransform::of(node));
         for child in &node.children {
             outer[*child] = outer[index];
         }

@@ -1,4 +1,4 @@
-//! Triangles that fill the rings of an outline, on the rings' own points.
+//! Triangulates outlines without adding points.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -16,9 +16,9 @@ use super::ears;
 use super::rings::Rings;
 use crate::geometry::is_convex;
 
-/// Polygons with more points than this are cut by a sweep.
+/// Polygons with more points than this are triangulated by a sweep, others by ear clipping.
 const SWEEP: usize = 200;
-/// Half the extent of a polygon in grid steps of the sweep.
+/// Half the extent of a polygon in steps of the sweep's integer grid.
 const GRID: f64 = (1u32 << 28) as f64;
 
 /// Triangles of all polygons, counter-clockwise. Their outer edges are the rings' edges.
@@ -36,7 +36,7 @@ pub(super) fn triangles(rings: &Rings) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// A distance that all points are known to keep from each other; 0 where that is not plain to see.
+/// A lower bound of the distances between points; 0 where none is easy to find.
 pub(super) fn least_gap(rings: &Rings) -> f64 {
     let points = &rings.points;
     if rings.rings.len() != 1 || !is_convex(points) {
@@ -72,7 +72,7 @@ thread_local! {
     });
 }
 
-/// Cuts a polygon with whole numbers; false, and nothing added, where these are too coarse for it.
+/// Triangulates a polygon in integer coordinates; `false`, with nothing added, if these are too coarse.
 fn sweep(points: &[DVec2], polygon: &[Range<usize>], triangles: &mut Vec<[u32; 3]>) -> bool {
     let own = || polygon.iter().flat_map(|ring| &points[ring.clone()]);
     let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -127,9 +127,9 @@ pub(super) fn area(points: &[DVec2], [a, b, c]: &[u32; 3]) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Turns edges so that no triangle is empty, or lower than `least` over its longest edge; returns those that are.
-/// The points stand at their final places, or `least` makes up for it.
-pub(super) fn turn_empty(
+/// Flips edges so that no triangle is degenerate, or lower than `least` over its longest edge; returns those that remain.
+/// The points are at their final positions, or `least` allows for the difference.
+pub(super) fn flip_degenerate(
     points: &[DVec2],
     triangles: &mut [[u32; 3]],
     least: f64,
@@ -140,9 +140,9 @@ pub(super) fn turn_empty(
     turn_edges(triangles, &is_empty, &square)
 }
 
-/// Turns edges of a closed surface so that no triangle is empty, also between a cap and a wall: there a point of the cap
-/// may come to lie on the edge of both, when places are rounded.
-pub(super) fn turn_empty_in_space(positions: &[[f32; 3]], triangles: &mut [[u32; 3]]) {
+/// Flips edges of a closed surface so that no triangle is degenerate, also between a cap and a wall, where rounding may put a
+/// point of the cap on their common edge.
+pub(super) fn flip_degenerate_in_space(positions: &[[f32; 3]], triangles: &mut [[u32; 3]]) {
     let place = |i: u32| Vec3::from(positions[i as usize]).as_dvec3();
     let is_empty = |[a, b, c]: &[u32; 3]| {
         let [a, b, c] = [*a, *b, *c].map(place);
@@ -152,7 +152,7 @@ pub(super) fn turn_empty_in_space(positions: &[[f32; 3]], triangles: &mut [[u32;
     turn_edges(triangles, &is_empty, &square);
 }
 
-/// Turns the longest edge of each triangle that is empty; returns those that stay so.
+/// Flips the longest edge of each degenerate triangle; returns the triangles that remain degenerate.
 fn turn_edges(
     triangles: &mut [[u32; 3]],
     is_empty: &dyn Fn(&[u32; 3]) -> bool,
@@ -164,7 +164,7 @@ fn turn_edges(
     };
     let mut left = empty(triangles);
     let mut owner: HashMap<[u32; 2], usize> = HashMap::new();
-    // Every turn mends one triangle, so that few rounds are enough or none are.
+    // Each flip fixes one triangle, so that a few rounds either suffice or nothing helps.
     for _ in 0..8 {
         if left.is_empty() {
             break;

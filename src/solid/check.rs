@@ -1,18 +1,21 @@
-//! The law of closed surfaces, for tests.
+//! Checks of closed surfaces, for tests.
 
 use std::collections::HashMap;
 
 use crate::scene::Surface;
 
-/// Whether every directed edge occurs once and so does its reverse, after corners at the same
-/// position are taken for one; if not, an edge that breaks the law.
+/// Checks that every directed edge and its reverse occur exactly once, with corners at the same
+/// position merged.
+///
+/// # Errors
+/// An edge or a triangle that breaks the rule.
 pub fn closed(surface: &Surface) -> Result<(), String> {
     let mut ids = HashMap::new();
     let welded: Vec<usize> = surface
         .positions
         .iter()
         .map(|p| {
-            // The sum makes one of both zeros.
+            // The sum maps -0.0 to 0.0.
             let next = ids.len();
             *ids.entry(p.map(|x| (x + 0.0).to_bits())).or_insert(next)
         })

@@ -1,14 +1,14 @@
 //! Ear clipping that keeps every point of the rings and never fails.
 //!
 //! Holes are first joined to the border by bridges (Eberly, "Triangulation by Ear Clipping").
-//! Time grows with the square of the points, so this is for small polygons, and for those that
-//! nothing else can cut. However bad the rings, the triangles' outer edges are the rings' edges.
+//! The time is quadratic in the points, so this is for small polygons, and for those that the sweep
+//! cannot triangulate. However bad the rings, the triangles' outer edges are the rings' edges.
 
 use std::ops::Range;
 
 use glam::DVec2;
 
-/// A corner of the ring that is being cut.
+/// A corner of the remaining ring, a node of a linked list.
 #[derive(Clone, Copy)]
 struct Corner {
     point: u32,
@@ -16,28 +16,28 @@ struct Corner {
     before: u32,
 }
 
-/// How picky the choice of an ear is.
+/// The requirements on an ear, from the strictest.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Care {
-    /// Some area, and no other corner in it or on its border.
+    /// It has area, and no other corner is in it or on its border.
     Clean,
-    /// Some area, and no other corner strictly in it.
+    /// It has area, and no other corner is strictly in it.
     Empty,
-    /// Some area.
+    /// It has area.
     Convex,
-    /// Whatever comes.
+    /// None.
     Any,
 }
 
 struct Clip<'a> {
     points: &'a [DVec2],
     corners: Vec<Corner>,
-    /// Twice the area that counts as none.
+    /// Twice the area below which a triangle counts as degenerate.
     nothing: f64,
 }
 
-/// Triangles of a polygon: a border and holes, given as places in a list of points. As many as
-/// there are points, and two more a hole, less two.
+/// Triangulates a polygon: a border and holes, given as ranges of a list of points. With n points and
+/// h holes, that gives n + 2h − 2 triangles.
 pub(super) fn clip(points: &[DVec2], rings: &[Range<usize>], triangles: &mut Vec<[u32; 3]>) {
     let Some(border) = rings.first() else { return };
     let (low, high) = points[border.clone()]
@@ -121,7 +121,7 @@ impl Clip<'_> {
         let base = self.corners.len() as u32;
         self.add(ring);
         let entry = base + (leftmost - ring.start) as u32;
-        // Both ends of the bridge are there twice: once on the way in, once on the way out.
+        // Both ends of the bridge occur twice: once on the way in, once on the way out.
         let (out, back) = (self.corners.len() as u32, self.corners.len() as u32 + 1);
         let after = self.next(bridge);
         let last = self.before(entry);
@@ -143,7 +143,7 @@ impl Clip<'_> {
         border.extend(base..self.corners.len() as u32);
     }
 
-    /// The corner that a hole's point sees: the end of the edge it meets, unless others stand in
+    /// The corner that is visible from a hole's point: the end of the edge it meets, unless others are in
     /// between; then the one of those nearest to the line.
     fn visible(&self, border: &[u32], hole: DVec2, meets: DVec2, end: u32) -> u32 {
         let mut best = end;
@@ -168,7 +168,7 @@ impl Clip<'_> {
         best
     }
 
-    /// Whether a point lies in the inner angle of a corner.
+    /// Whether a point is in the inner angle of a corner.
     fn faces(&self, corner: u32, p: DVec2) -> bool {
         let (a, b, c) = (
             self.at(self.before(corner)),
@@ -258,11 +258,11 @@ impl Clip<'_> {
     }
 }
 
-/// The corners that are not convex: they alone can lie in an ear. Their places lie side by side, since most of the
-/// time goes into looking at them.
+/// The reflex corners: only they can be in an ear. Their positions are stored contiguously, because most of the time is
+/// spent on reading them.
 struct Reflex {
     list: Vec<Other>,
-    /// Per corner its number in the list.
+    /// Per corner its index in the list.
     numbers: Vec<u32>,
 }
 
@@ -291,7 +291,7 @@ impl Reflex {
         });
     }
 
-    /// Takes a corner out, if it is there.
+    /// Removes a corner, if it is there.
     fn remove(&mut self, corner: u32) {
         let number = std::mem::replace(&mut self.numbers[corner as usize], Self::NONE);
         if number != Self::NONE {

@@ -1,9 +1,8 @@
 //! Outlines turned about their axis (language.md, Shapes).
 //!
-//! What is turned is the half of the outline on the right of the axis together with the mirror image of the
-//! half on its left: seen from the front the solid covers all that was drawn, and a small change of the drawing
-//! makes a small change of the solid. A turn of less than 360° is centred on the viewer and closed by two
-//! flat faces.
+//! The turned profile is the union of the outline's right half and the mirror image of its left half. So the solid covers the
+//! whole drawing as seen from the front, and a small change of the drawing makes a small change of the solid. A turn of less
+//! than 360° is centred on the viewer and closed by two flat faces.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -11,23 +10,23 @@ use glam::{DVec2, DVec3};
 
 use super::Options;
 use super::cap;
-use super::groups::Crease;
+use super::crease::Crease;
 use super::layers::steps_per_half_turn;
 use super::rings::Rings;
 use super::shade::shade;
-use super::stack::Put;
+use super::stack::PlacementTransform;
 use crate::geometry::{Outline, Polygon, bounds, intersect, remove_collinear, union};
 use crate::scene::Surface;
 
-/// Points nearer to the axis than this, relative to the extent, lie on it.
+/// Points closer to the axis than this, relative to the extent, are moved onto it.
 const ON_AXIS: f64 = 1e-6;
-/// Points nearer to each other than this, relative to the largest coordinate, are one: `f32` may not tell
-/// them apart.
+/// Points closer to each other than this, relative to the largest coordinate, are merged, because `f32` may not distinguish
+/// them.
 const SAME: f64 = 1e-6;
-/// The least and the greatest turn, degrees.
+/// The range of turns, degrees.
 const TURNS: std::ops::RangeInclusive<f64> = 0.01..=360.0;
 
-/// The angle of a turn that is built, degrees.
+/// The angle of a turn, clamped to the range, degrees.
 pub(super) fn sweep_angle(degrees: f64) -> f64 {
     if degrees.is_finite() {
         degrees.clamp(*TURNS.start(), *TURNS.end())
@@ -36,22 +35,22 @@ pub(super) fn sweep_angle(degrees: f64) -> f64 {
     }
 }
 
-/// The surface of an outline's half turned by so many degrees.
+/// The surface of an outline turned by an angle in degrees.
 pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surface {
     let degrees = sweep_angle(degrees);
     let whole = degrees >= 360.0;
     let half = steps_per_half_turn(options);
     let steps = ((degrees / 180.0 * f64::from(half)) - 1e-9).ceil().max(1.0) as usize;
     let sweep = degrees.to_radians();
-    // Whole turns begin in the drawing plane, so that they are as wide as the drawing.
+    // Full turns begin in the drawing plane, so that the solid is as wide as the drawing.
     let first = if whole { 0.0 } else { FRAC_PI_2 - sweep / 2.0 };
-    let put = Put::new(options);
+    let transform = PlacementTransform::new(options);
     let Some((low, high)) = bounds(outline) else {
         return Surface::default();
     };
     let extent = low.abs().max(high.abs()).max_element();
     let same = SAME * (options.placement.translation.abs().max_element() + extent);
-    let rings = profile(outline, [extent, same], sweep / steps as f64, whole);
+    let rings = turned_profile(outline, [extent, same], sweep / steps as f64, whole);
     if rings.len() < 3 {
         return Surface::default();
     }
@@ -59,20 +58,20 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
     let rows = if whole { steps } else { steps + 1 };
     let turns: Vec<DVec2> = (0..rows)
         .map(|row| match 4 * row {
-            // Exactly in the plane.
+            // Exactly in the drawing plane.
             quarter if whole && quarter == 2 * steps => DVec2::NEG_X,
             _ => DVec2::from_angle(first + sweep * row as f64 / steps as f64),
         })
         .collect();
     let mut written = Vec::with_capacity(rings.len() * rows);
-    // Where each profile point's places start; those on the axis have one place.
+    // The first position of each point of the profile; points on the axis have only one.
     let mut starts = Vec::with_capacity(rings.len());
     for point in &rings.points {
         starts.push(written.len() as u32);
         let count = if point.x == 0.0 { 1 } else { rows };
         for turn in &turns[..count] {
             let place = DVec3::new(point.x * turn.x, point.y, point.x * turn.y);
-            written.push(put.position(place));
+            written.push(transform.position(place));
         }
     }
     let on_axis = |i: usize| rings.points[i].x == 0.0;
@@ -94,13 +93,13 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
     }
     if !whole {
         let mut caps = cap::triangles(&rings);
-        cap::turn_empty(&rings.points, &mut caps, same);
+        cap::flip_degenerate(&rings.points, &mut caps, same);
         for [a, b, c] in caps {
             // The first face is seen with the axis on its left, the last one from behind.
             triangles.push([a, c, b].map(|i| place(i as usize, 0)));
             triangles.push([a, b, c].map(|i| place(i as usize, steps)));
         }
-        cap::turn_empty_in_space(&written, &mut triangles);
+        cap::flip_degenerate_in_space(&written, &mut triangles);
     }
     let tips: Vec<u32> = (0..rings.len())
         .filter(|i| on_axis(*i))
@@ -110,11 +109,11 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
     shade(&written, &triangles, Crease::new(options.crease), is_tip)
 }
 
-/// What is turned: x from the axis, y along it. In whole turns points on the axis have an x of 0; in others the
-/// least that keeps the two flat faces apart, or both would share the edges there. Given are the outline's reach from
-/// its centre, and the distance below which points are one.
-fn profile(outline: &Outline, [extent, same]: [f64; 2], step: f64, whole: bool) -> Rings {
-    // The tools of the drawing plane want y down.
+/// The turned profile: x from the axis, y along it. In full turns, points on the axis have x = 0; in others, the smallest x
+/// that separates the two flat faces, which would share edges otherwise. `extent` is the outline's largest distance from its
+/// centre, `same` the distance below which points are merged.
+fn turned_profile(outline: &Outline, [extent, same]: [f64; 2], step: f64, whole: bool) -> Rings {
+    // Boolean operations expect y down.
     let right = half(outline, DVec2::new(1.0, -1.0), extent);
     let left = half(outline, DVec2::new(-1.0, -1.0), extent);
     let both = union(&[right, left]);
@@ -123,7 +122,7 @@ fn profile(outline: &Outline, [extent, same]: [f64; 2], step: f64, whole: bool) 
     let snap = |p: &DVec2| DVec2::new(if p.x < axis { least } else { p.x }, -p.y);
     let ring = |ring: &Vec<DVec2>| {
         let mut ring: Vec<DVec2> = ring.iter().map(snap).collect();
-        // Of a run on the axis only the ends count; slivers beside it may have folded onto it.
+        // Of a run on the axis only the ends are kept; slivers beside it may have collapsed onto it.
         let n = ring.len();
         let on_axis: Vec<bool> = ring.iter().map(|p| p.x == least).collect();
         let mut place = 0;
@@ -149,8 +148,8 @@ fn profile(outline: &Outline, [extent, same]: [f64; 2], step: f64, whole: bool) 
     rings
 }
 
-/// Moves points on the axis along it until they keep a distance: parts of the outline that met on the axis in
-/// a point would share edges there.
+/// Spreads points on the axis to a minimum distance: parts of the outline that meet in a point on the axis would share
+/// edges there.
 fn keep_apart(points: &mut [DVec2], axis: f64, distance: f64) {
     let mut on_axis: Vec<usize> = (0..points.len()).filter(|i| points[*i].x == axis).collect();
     on_axis.sort_by(|a, b| points[*a].y.total_cmp(&points[*b].y));

@@ -13,7 +13,7 @@ fn point() -> impl Strategy<Value = DVec2> {
     (-1.0..1.0f64, -1.0..1.0f64).prop_map(|(x, y)| DVec2::new(x, y))
 }
 
-/// Points in order round the origin.
+/// Points in order around the origin.
 fn star() -> impl Strategy<Value = Ring> {
     proptest::collection::vec(0.2..1.0f64, 3..40).prop_map(|radii| {
         let step = std::f64::consts::TAU / radii.len() as f64;
@@ -119,8 +119,8 @@ proptest! {
     }
 }
 
-/// The volume of a stack whose copies are scaled alike both ways, cubic model units. It counts with a sign what each
-/// wall and lid encloses, so one triangle that is turned over, left out or there twice is enough to miss it.
+/// The volume of a stack whose copies are scaled evenly, cubic model units. A surface's volume sums signed tetrahedra, so one
+/// triangle that is flipped, missing or duplicated is enough to miss it.
 fn expected_volume(outline: &Outline, kind: &Profile, options: &Options) -> Option<f64> {
     if !matches!(
         kind,
@@ -131,12 +131,12 @@ fn expected_volume(outline: &Outline, kind: &Profile, options: &Options) -> Opti
     let (low, high) = bounds(outline)?;
     let half = low.abs().max(high.abs());
     let stack = kind.layers(half, options);
-    // What has hardly any thickness has it by rounding.
+    // A very small thickness is mostly rounding.
     let thickness = stack.last()?.z - stack.first()?.z;
     if thickness < 1e-2 * half.max_element() {
         return None;
     }
-    // A top that is next to nothing is built as none.
+    // A very small top is built as a point.
     if stack
         .iter()
         .any(|layer| (1e-9..1e-2).contains(&layer.along))
@@ -151,7 +151,7 @@ fn expected_volume(outline: &Outline, kind: &Profile, options: &Options) -> Opti
     Some(sum * area(outline) * options.placement.scale.powi(3))
 }
 
-/// How many triangles of the front turn their back to the viewer.
+/// The number of triangles of the front that face away from the viewer.
 fn turned_over(surface: &Surface) -> usize {
     let at = |i: u32| Vec3::from(surface.positions[i as usize]).as_dvec3();
     let is_turned = |triangle: &&[u32; 3]| {
@@ -173,7 +173,7 @@ fn where_round_turns_over() {
     };
     let round = profile("round", &[-90., 90.]);
     let turned = |rings: Vec<Ring>| turned_over(&build(&outline(rings), &round, &options(16)));
-    // Copies of an outline that sees its centre from everywhere lie in each other, those of others do not.
+    // Scaled copies of a star-shaped outline are nested, those of others are not.
     assert_eq!(turned(vec![disc(1.0, DVec2::ZERO)]), 0);
     assert!(turned(vec![disc(1.0, DVec2::ZERO), disc(0.4, DVec2::ZERO)]) > 0);
     assert!(
@@ -184,7 +184,7 @@ fn where_round_turns_over() {
     );
 }
 
-/// Both sides of a collapsed wedge meet in its tip only, at whichever end that lies.
+/// Both sides of a collapsed wedge meet only in its tip, at either end.
 #[test]
 fn wedges_are_closed() {
     for (x, y) in [(1.0, 1.0), (-1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)] {

@@ -4,14 +4,14 @@ use glam::DVec2;
 
 use super::Options;
 
-/// Scales below this are 0: the copy is a line or a point.
-pub(super) const LEAST: f64 = 1e-3;
-/// The least thickness, relative to the larger extent.
-pub(super) const THIN: f64 = 1e-4;
-/// Layers per 180°, from the fewest that have any volume to more than can be seen.
+/// Smaller scales become 0: the copy is a line or a point.
+pub(super) const MIN_SCALE: f64 = 1e-3;
+/// The smallest thickness, relative to the larger extent.
+pub(super) const MIN_THICKNESS: f64 = 1e-4;
+/// Layers per 180°: from the fewest that enclose a volume to more than are visible.
 const SEGMENTS: std::ops::RangeInclusive<u32> = 2..=512;
 
-/// Steps of a half turn as they are built.
+/// The number of steps per half turn, clamped.
 pub(super) fn steps_per_half_turn(options: &Options) -> u32 {
     options.segments.clamp(*SEGMENTS.start(), *SEGMENTS.end())
 }
@@ -38,12 +38,12 @@ impl Layer {
     }
 }
 
-/// The least thickness of a solid over an outline with these half extents.
+/// The smallest thickness of a solid over an outline with these half extents.
 pub(super) fn least_thickness(half: DVec2) -> f64 {
-    (THIN * 2.0 * half.max_element()).max(f64::MIN_POSITIVE)
+    (MIN_THICKNESS * 2.0 * half.max_element()).max(f64::MIN_POSITIVE)
 }
 
-/// Layers in order of depth, with the least thickness if theirs is less.
+/// Sorts layers by depth and gives them the smallest thickness if theirs is less.
 pub(super) fn with_thickness(mut layers: Vec<Layer>, half: DVec2) -> Vec<Layer> {
     if let [first, .., last] = &layers[..]
         && first.z > last.z
@@ -94,7 +94,7 @@ fn steps([a0, a1]: [f64; 2], segments: u32) -> impl Iterator<Item = f64> {
 
 /// A scale; one that is too small to be built is 0.
 pub(super) fn snap(scale: f64) -> f64 {
-    if scale < LEAST { 0.0 } else { scale }
+    if scale < MIN_SCALE { 0.0 } else { scale }
 }
 
 /// A number; 0 for one that is not finite.

@@ -1,26 +1,26 @@
-//! Solids: outlines that get thickness (Arai & Horry, section 3.4; language.md, Shapes).
+//! Solids: outlines that are given thickness (Arai & Horry, section 3.4; language.md, Shapes).
 //!
-//! Conventions, stated once: outlines stand in their part's frame, x across the axis, y along it,
-//! y **up**, the part's centre at the origin; borders run counter-clockwise, so their shoelace sum
-//! is positive. Depths are towards the viewer, +z. Everything is f64 until the surface is written.
+//! Conventions, stated once: outlines are in their part's frame, x across the axis, y along it,
+//! y **up**, the part's centre at the origin. Borders run counter-clockwise, so their shoelace sum
+//! is positive. Depths are towards the viewer, +z. All numbers are f64 until the surface is written.
 //!
 //! Invariant: a surface other than a flat one is closed ([`check::closed`]) and wound outward.
 
 pub mod check;
 
 mod cap;
+mod crease;
 mod ears;
-mod groups;
 mod inflate;
 mod kinds;
 mod lathe;
 mod layers;
 mod prism;
-mod recipe;
 mod ridge;
 mod rings;
 mod shade;
-mod skin;
+mod shell;
+mod source;
 mod stack;
 
 use glam::{DMat2, DVec3};
@@ -29,20 +29,20 @@ use crate::geometry::{Outline, bounds};
 use crate::scene::Surface;
 
 pub use kinds::{Faces, Profile};
-pub use recipe::{Sides, Solid};
+pub use source::{Sides, Solid};
 
-/// How a solid is made, besides its kind.
+/// What a solid depends on besides its outline and its profile.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Options {
     /// Layers per 180° of a rounding.
     pub segments: u32,
-    /// Edges with less than this angle between their faces are smooth, degrees; 0 makes all flat.
+    /// Edges with a smaller angle between their faces are smooth, degrees; 0 makes all of them sharp.
     pub crease: f64,
-    /// Where the solid goes.
+    /// The solid's position in the model.
     pub placement: Placement,
 }
 
-/// Carries a point to `scale · (rotation · point + translation)`.
+/// Maps a point to `scale · (rotation · point + translation)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
     /// About z, radians, counter-clockwise.

@@ -1,20 +1,20 @@
-//! Prisms, the commonest of solids, without the general machinery of [`super::skin`].
+//! A fast path for prisms, the most common solids; [`super::shell`] is the general case.
 
 use glam::DVec2;
 
-use super::groups::Crease;
+use super::crease::Crease;
 use super::rings::Rings;
-use super::stack::{Form, Level, Put};
+use super::stack::{Form, Level, PlacementTransform};
 use crate::scene::Surface;
 
-/// The prism between two copies of an outline, if the levels are one and its walls never share corners
-/// with its caps.
+/// The prism between two equal copies of an outline; `None` for other levels, or if its walls may share corners with its
+/// caps.
 pub(super) fn prism(
     rings: &Rings,
     levels: &[Level],
     caps: &[Vec<[u32; 3]>; 2],
     crease: Crease,
-    put: &Put,
+    transform: &PlacementTransform,
 ) -> Option<Surface> {
     let [low, high] = levels else { return None };
     let whole = |level: &Level| level.form == Form::Rings && level.scale == DVec2::ONE;
@@ -22,8 +22,12 @@ pub(super) fn prism(
         return None;
     }
     let n = rings.len();
-    let depths = [put.depth(low.z), put.depth(high.z)];
-    let plane: Vec<[f32; 2]> = rings.points.iter().map(|p| put.in_plane(*p)).collect();
+    let depths = [transform.depth(low.z), transform.depth(high.z)];
+    let plane: Vec<[f32; 2]> = rings
+        .points
+        .iter()
+        .map(|p| transform.in_plane(*p))
+        .collect();
     let mut surface = Surface::default();
     surface.positions.reserve(6 * n);
     surface.normals.reserve(6 * n);
@@ -55,12 +59,13 @@ pub(super) fn prism(
             DVec2::new(along.y, -along.x).normalize_or(DVec2::X)
         })
         .collect();
-    // The lower corner at each point: of the wall before it and of the wall after it; the upper one follows it.
+    // The index of the lower corner at each point, of the wall before it and of the wall after it; the upper corner has the next
+    // index.
     let mut corners: Vec<[u32; 2]> = Vec::with_capacity(n);
     let mut edge = |normal: DVec2, [x, y]: [f32; 2]| {
         let corner = surface.positions.len() as u32;
         surface.positions.extend(depths.map(|depth| [x, y, depth]));
-        let normal = put.normal(normal.extend(0.0));
+        let normal = transform.normal(normal.extend(0.0));
         surface.normals.extend([normal; 2]);
         corner
     };

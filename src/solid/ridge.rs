@@ -1,6 +1,6 @@
-//! Outlines that collapse to a line without a seam.
+//! Outlines that can be collapsed to a line without gaps.
 //!
-//! Where every line across the collapse cuts the outline once, its two sides fall onto the same
+//! If every line in the direction of the collapse cuts the outline only once, its two sides collapse onto the same
 //! line. They need the same points there, so each side is given the points of the other.
 
 use glam::DVec2;
@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::rings::Rings;
 use crate::geometry::Outline;
 
-/// Points whose places along the line differ by less than this, relative to the extent, share one.
+/// Points whose positions along the line differ by less than this, relative to the extent, share a station.
 const SAME: f64 = 1e-5;
 
 /// Which scale goes to 0.
@@ -20,18 +20,18 @@ pub(super) enum Collapse {
     Along,
 }
 
-/// A ring of which both sides have a point at every station of the line.
+/// A ring whose two sides both have a point at every station of the line.
 pub(super) struct Matched {
     pub(super) rings: Rings,
-    /// The station of every point, counted along the line.
+    /// The station of every point, numbered along the line.
     pub(super) stations: Vec<u32>,
-    /// How many stations there are.
+    /// The number of stations.
     pub(super) count: usize,
-    /// The points as (collapsing coordinate, place along the line), turned, not mirrored.
+    /// The points as (collapsing coordinate, position along the line), rotated, not mirrored.
     turned: Vec<DVec2>,
 }
 
-/// The ring of an outline with matched sides, `None` where some line cuts it more than once.
+/// The ring of an outline with matched sides; `None` if a line cuts it more than once.
 pub(super) fn matched(outline: &Outline, collapse: Collapse) -> Option<Matched> {
     let [polygon] = &outline.polygons[..] else {
         return None;
@@ -108,7 +108,7 @@ pub(super) fn matched(outline: &Outline, collapse: Collapse) -> Option<Matched> 
     matched.is_open(same).then_some(matched)
 }
 
-/// The points of one side at one station: where the side comes from below and where it leaves above.
+/// The points of one side at one station: the end of the step from below and the start of the step upwards.
 #[derive(Clone, Copy)]
 struct Side {
     below: u32,
@@ -142,7 +142,7 @@ impl Matched {
         sides
     }
 
-    /// Whether steps run straight and both sides keep apart between the ends.
+    /// Whether both sides are apart between the ends and no step folds back.
     fn is_open(&self, same: f64) -> bool {
         let n = self.turned.len();
         let step = |i: usize| {

@@ -6,15 +6,15 @@ use glam::DVec2;
 
 use crate::geometry::Outline;
 
-/// All points of an outline and how they follow each other.
+/// All points of an outline, with each point's neighbours on its ring.
 #[derive(Default)]
 pub(super) struct Rings {
     pub(super) points: Vec<DVec2>,
     pub(super) next: Vec<u32>,
     pub(super) before: Vec<u32>,
-    /// Where the rings stand in the points.
+    /// The range of points of each ring.
     pub(super) rings: Vec<Range<usize>>,
-    /// Where the polygons stand in the rings.
+    /// The range of rings of each polygon.
     pub(super) polygons: Vec<Range<usize>>,
 }
 
@@ -66,7 +66,7 @@ impl Rings {
         self.points.len()
     }
 
-    /// The largest coordinate.
+    /// The largest absolute coordinate.
     pub(super) fn extent(&self) -> f64 {
         self.points
             .iter()

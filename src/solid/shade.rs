@@ -1,8 +1,8 @@
-//! Corners and normals for triangles that come as a plain list.
+//! Computes corners and normals for an indexed list of triangles.
 
 use glam::{DVec3, Vec3};
 
-use super::groups::{Crease, share, share_tip};
+use super::crease::{Crease, share, share_tip};
 use crate::scene::Surface;
 
 /// The surface of triangles over shared points, counter-clockwise seen from outside. `is_tip` names the points
@@ -19,7 +19,7 @@ pub(super) fn shade(
     for triangle in triangles {
         let [a, b, c] = triangle.map(at);
         let sides = [b - a, c - b, a - c].map(DVec3::normalize_or_zero);
-        // Lengths are made 1 first, or their product could vanish.
+        // Sides are normalised first, or their product could underflow.
         let best = (0..3).map(|i| sides[i].cross(sides[(i + 1) % 3]));
         let best = best.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
         faces.push(best.unwrap_or_default().normalize_or(DVec3::Z));
@@ -30,7 +30,7 @@ pub(super) fn shade(
         angles.push([angle(0), angle(1), angle(2)]);
     }
 
-    // The corners of each point: where they start in the list, and three times the triangle's number and the
+    // The corners at each point: where they start in the list, and each as three times the triangle's index plus the
     // corner's.
     let mut starts = vec![0u32; points.len() + 1];
     for i in triangles.iter().flatten() {
@@ -65,7 +65,7 @@ pub(super) fn shade(
         around.sort_unstable_by_key(|corner| other(*corner, 1));
         done.clear();
         done.resize(around.len(), false);
-        // More than one round where parts of the surface meet in a point.
+        // More than one fan if parts of the surface meet in a point.
         for first in 0..around.len() {
             fan.clear();
             let mut next = Some(first);
@@ -100,7 +100,7 @@ pub(super) fn shade(
             for ((corner, id), face) in fan.iter().zip(&ids).zip(&normals) {
                 let (triangle, i) = split(*corner);
                 let mut id = *id;
-                // Where faces fold sharply, one may turn its back to their mean, which at least one faces.
+                // Where faces fold sharply, one may face away from their mean; at least one does not.
                 let shared = Vec3::from(surface.normals[id as usize]).as_dvec3();
                 if shared.dot(*face) <= 0.0 {
                     id = surface.positions.len() as u32;

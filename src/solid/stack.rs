@@ -1,29 +1,29 @@
-//! What a stack of layers is built from: which copies there are, whether they are points, lines or
-//! rings, and that all of it survives being written in `f32`.
+//! Decides how a stack of layers is built: which copies of the outline it has, whether they are points, lines or
+//! rings, and how all triangles stay non-degenerate in `f32`.
 
 use glam::{DMat2, DVec2, DVec3};
 
-use super::groups::Crease;
-use super::layers::{LEAST, Layer};
+use super::crease::Crease;
+use super::layers::{Layer, MIN_SCALE};
 use super::prism::prism;
 use super::ridge::{Collapse, Matched, matched};
 use super::rings::Rings;
-use super::skin::skin;
+use super::shell::shell;
 use super::{Options, cap};
 use crate::geometry::Outline;
 use crate::scene::Surface;
 
-/// Scales below which copies are given up, tried in turn until all points keep apart in `f32`.
-const FLOORS: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
-/// Empty triangles in copies smaller than this are taken to come of the scale.
+/// Minimum scales of copies, tried in turn until all points are distinct in `f32`.
+const MIN_SCALES: [f64; 4] = [0.01, 0.05, 0.25, 1.0];
+/// Degenerate triangles in copies of a smaller scale are attributed to the scale.
 const NARROW: f64 = 0.05;
-/// How often a surface is tried.
+/// The number of attempts at a surface.
 const ATTEMPTS: usize = 12;
-/// How far a point is moved off an edge that it cannot be told from in `f32`, relative to the
-/// largest coordinate.
-const NUDGE: f64 = 1e-6;
-/// The most of it, relative to the extent.
-const MOST: f64 = 1e-4;
+/// The first distance by which a point is moved off an edge that it touches in `f32`, relative to the
+/// largest coordinate; it is doubled at each attempt.
+const FIRST_NUDGE: f64 = 1e-6;
+/// The largest such distance, relative to the extent.
+const MAX_NUDGE: f64 = 1e-4;
 /// Gaps in a copy wider than this, relative to its largest coordinate, survive in `f32`.
 const GAP: f64 = 1e-6;
 /// Copies further away than this, relative to their extent, are checked even if not scaled.
@@ -43,10 +43,10 @@ pub(super) fn surface(outline: &Outline, layers: &[Layer], options: &Options) ->
 /// The outline alone, seen from the front.
 fn flat(outline: &Outline, z: f64, options: &Options) -> Surface {
     let rings = Rings::of(outline);
-    let put = Put::new(options);
-    let put = |p: &DVec2| put.position(p.extend(z));
+    let transform = PlacementTransform::new(options);
+    let transform = |p: &DVec2| transform.position(p.extend(z));
     Surface {
-        positions: rings.points.iter().map(put).collect(),
+        positions: rings.points.iter().map(transform).collect(),
         normals: vec![[0.0, 0.0, 1.0]; rings.len()],
         uvs: Vec::new(),
         joints: Vec::new(),
@@ -54,14 +54,14 @@ fn flat(outline: &Outline, z: f64, options: &Options) -> Surface {
     }
 }
 
-/// An outline as its stack is built from it.
+/// The base of a stack: the outline and how its copies collapse.
 pub(super) enum Base {
-    /// Scaled both ways; copies of scale 0 are points.
+    /// Scaled evenly; copies of scale 0 are points.
     Even(Rings),
     /// Scaled one way, towards a line on which both sides of the outline match.
     Ridge(Matched),
-    /// Scaled one way, towards a line that would be met several times; a narrow copy takes the
-    /// place of copies of scale 0.
+    /// Scaled one way, towards a line that some cuts meet several times; a narrow copy replaces
+    /// copies of scale 0.
     Narrow(Rings),
 }
 
@@ -103,8 +103,8 @@ impl Base {
 }
 
 impl Base {
-    /// Whether walls are so warped, for how thin the outline is, that two triangles are too coarse
-    /// for each: the volumes that they would add or lose come near to the whole.
+    /// Whether walls are too warped for two triangles each: in a thin outline the volumes that these would add or lose are
+    /// close to the whole volume.
     pub(super) fn is_warped(&self) -> bool {
         let Base::Narrow(rings) = self else {
             return false;
@@ -126,7 +126,7 @@ pub(super) fn rises(from: DVec2, to: DVec2) -> bool {
 
 /// The closed surface over two or more layers.
 fn stack(outline: &Outline, layers: &[Layer], options: &Options) -> Surface {
-    let put = Put::new(options);
+    let transform = PlacementTransform::new(options);
     let crease = Crease::new(options.crease);
     let mut base = Base::new(outline, layers);
     if base.rings().len() < 3 {
@@ -137,41 +137,41 @@ fn stack(outline: &Outline, layers: &[Layer], options: &Options) -> Surface {
         .iter()
         .map(|l| l.across.min(l.along))
         .fold(0.0, f64::max);
-    let mut floors = FLOORS.iter().map(|floor| floor.min(largest));
-    let mut floor = LEAST.min(largest);
-    let mut nudge = NUDGE * (extent + put.translation.truncate().abs().max_element());
+    let mut floors = MIN_SCALES.iter().map(|floor| floor.min(largest));
+    let mut floor = MIN_SCALE.min(largest);
+    let mut nudge = FIRST_NUDGE * (extent + transform.translation.truncate().abs().max_element());
     for _ in 0..ATTEMPTS {
-        let levels = levels(layers, &base, floor, &put);
+        let levels = levels(layers, &base, floor, &transform);
         let ends = [levels[0].form, levels[levels.len() - 1].form];
         let mut caps = [Vec::new(), Vec::new()];
         if ends.contains(&Form::Rings) {
-            // Each end may need other edges turned.
+            // Each end may need different edges flipped.
             let cap = base.caps();
             caps = [cap.clone(), cap];
         }
-        match fault(base.rings(), &levels, &mut caps, &put) {
+        match fault(base.rings(), &levels, &mut caps, &transform) {
             None => {
-                let prism = prism(base.rings(), &levels, &caps, crease, &put);
-                return prism.unwrap_or_else(|| skin(&base, &levels, &caps, crease, &put));
+                let prism = prism(base.rings(), &levels, &caps, crease, &transform);
+                return prism.unwrap_or_else(|| shell(&base, &levels, &caps, crease, &transform));
             }
             Some(Fault::Small) => floor = floors.next().unwrap_or(floor),
-            Some(Fault::Empty(empty)) => {
+            Some(Fault::Degenerate(empty)) => {
                 if let Base::Even(rings) | Base::Narrow(rings) = &mut base {
                     rings.widen(&empty, nudge);
-                    nudge = (2.0 * nudge).min(MOST * extent);
+                    nudge = (2.0 * nudge).min(MAX_NUDGE * extent);
                 } else {
                     base = Base::Narrow(Rings::of(outline));
                 }
             }
         }
     }
-    // Some points fall together as they are written; that is all that is wrong with it.
-    let levels = levels(layers, &base, floor, &put);
+    // Some points coincide in `f32`, which is the only fault left.
+    let levels = levels(layers, &base, floor, &transform);
     let caps = base.caps();
-    skin(&base, &levels, &[caps.clone(), caps], crease, &put)
+    shell(&base, &levels, &[caps.clone(), caps], crease, &transform)
 }
 
-/// What a copy consists of.
+/// The form of a copy.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Form {
     Rings,
@@ -186,8 +186,8 @@ pub(super) struct Level {
     pub(super) form: Form,
 }
 
-/// The layers as they are built: without those that are too small or too close.
-fn levels(layers: &[Layer], base: &Base, floor: f64, put: &Put) -> Vec<Level> {
+/// The levels of a stack: its layers without those that are too small or too close to another.
+fn levels(layers: &[Layer], base: &Base, floor: f64, transform: &PlacementTransform) -> Vec<Level> {
     let end = layers.len() - 1;
     let depth = layers[end].z - layers[0].z;
     let mut levels: Vec<Level> = Vec::with_capacity(layers.len());
@@ -202,7 +202,7 @@ fn levels(layers: &[Layer], base: &Base, floor: f64, put: &Put) -> Vec<Level> {
             }
             let tip = scale.x < floor && scale.y < floor;
             form = if tip { Form::Tip } else { Form::Ridge };
-            // A narrow copy that turned out too narrow, though the kind does not collapse.
+            // The copy is narrow, but the base does not collapse to a ridge.
             if form == Form::Ridge && !matches!(base, Base::Ridge(_)) {
                 form = Form::Rings;
                 scale = scale.max(DVec2::splat(floor));
@@ -211,7 +211,8 @@ fn levels(layers: &[Layer], base: &Base, floor: f64, put: &Put) -> Vec<Level> {
             }
         }
         if let Some(before) = levels.last()
-            && (layer.z - before.z <= NEAR * depth || put.depth(layer.z) == put.depth(before.z))
+            && (layer.z - before.z <= NEAR * depth
+                || transform.depth(layer.z) == transform.depth(before.z))
         {
             if i != end {
                 continue;
@@ -229,23 +230,23 @@ fn levels(layers: &[Layer], base: &Base, floor: f64, put: &Put) -> Vec<Level> {
     levels
 }
 
-/// What is wrong with a stack as it would be written.
+/// A fault of a stack in `f32`.
 enum Fault {
-    /// A copy is so small that points fall together.
+    /// A copy is so small that points coincide.
     Small,
-    /// Triangles of a cap are empty.
-    Empty(Vec<[u32; 3]>),
+    /// Triangles of a cap are degenerate.
+    Degenerate(Vec<[u32; 3]>),
 }
 
-/// The first fault of a stack, after edges within the caps were turned to avoid empty triangles.
+/// The first fault of a stack, after edges within the caps were flipped to avoid degenerate triangles.
 fn fault(
     rings: &Rings,
     levels: &[Level],
     caps: &mut [Vec<[u32; 3]>; 2],
-    put: &Put,
+    transform: &PlacementTransform,
 ) -> Option<Fault> {
     let extent = rings.extent();
-    let away = put.translation.truncate().abs().max_element();
+    let away = transform.translation.truncate().abs().max_element();
     let gap = cap::least_gap(rings);
     let ends = [0, levels.len() - 1];
     for (k, level) in levels
@@ -258,7 +259,7 @@ fn fault(
             && level.scale == levels[0].scale
             && levels[0].form == Form::Rings
         {
-            // Both ends of a prism are alike.
+            // Both ends of a prism are equal.
             let [first, last] = caps;
             last.clone_from(first);
             continue;
@@ -270,7 +271,7 @@ fn fault(
             continue;
         }
         let place = |p: &DVec2| {
-            let [x, y, _] = put.position((*p * level.scale).extend(level.z));
+            let [x, y, _] = transform.position((*p * level.scale).extend(level.z));
             DVec2::new(x.into(), y.into())
         };
         let points: Vec<DVec2> = rings.points.iter().map(place).collect();
@@ -286,12 +287,12 @@ fn fault(
             }
         }
         if capped {
-            let empty = cap::turn_empty(&points, &mut caps[usize::from(k > 0)], 0.0);
+            let empty = cap::flip_degenerate(&points, &mut caps[usize::from(k > 0)], 0.0);
             if !empty.is_empty() {
                 return Some(if scale < NARROW {
                     Fault::Small
                 } else {
-                    Fault::Empty(empty)
+                    Fault::Degenerate(empty)
                 });
             }
         }
@@ -299,16 +300,16 @@ fn fault(
     None
 }
 
-/// Carries points to their final places.
-pub(super) struct Put {
+/// Maps points to their final positions: a [`Placement`](super::Placement) with its rotation matrix.
+pub(super) struct PlacementTransform {
     turn: DMat2,
     translation: DVec3,
     scale: f64,
 }
 
-impl Put {
-    pub(super) fn new(options: &Options) -> Put {
-        Put {
+impl PlacementTransform {
+    pub(super) fn new(options: &Options) -> PlacementTransform {
+        PlacementTransform {
             turn: options.placement.turn(),
             translation: options.placement.translation,
             scale: options.placement.scale,
@@ -322,7 +323,7 @@ impl Put {
             .to_array()
     }
 
-    /// Where a point lies seen along z.
+    /// The x and y of a point's final position.
     pub(super) fn in_plane(&self, p: DVec2) -> [f32; 2] {
         (self.scale * (self.turn * p + self.translation.truncate()))
             .as_vec2()

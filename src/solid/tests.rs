@@ -102,7 +102,7 @@ fn the_papers_octagonal_prism() {
     expected.sort();
     assert_eq!(positions(&surface), expected);
     assert_eq!(directions(&surface), 10);
-    // Eight quads round, two octagons.
+    // Eight quads around, two octagons.
     assert_eq!(surface.triangles.len(), 8 * 2 + 2 * 6);
     let area = 10.0 * 10.0 * 2.0 * 2f64.sqrt();
     assert!((volume(&surface) - area * 60.0).abs() < 1.0);
@@ -125,7 +125,7 @@ fn cylinders_have_their_radius() {
     for [x, y, z] in &surface.positions {
         assert!((x.hypot(*z) - 10.0).abs() < 1e-4 && y.abs() == 30.0);
     }
-    // Round about, normals point away from the axis; each corner is there once for the wall and
+    // Normals of the wall point away from the axis; each corner occurs once for the wall and
     // once for the end.
     assert_eq!(surface.positions.len(), 4 * 32);
     for (p, n) in surface.positions.iter().zip(&surface.normals) {

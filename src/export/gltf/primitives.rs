@@ -15,7 +15,7 @@ use super::animations;
 use super::buffer::{Accessor, BufferWriter, Kind, Layout, Sink, floats};
 use super::{SurfaceCache, Written, invalid};
 use crate::export::surfaces::Used;
-use crate::scene::{Image, MediaType, Mesh, Pose, Primitive, Scene, Surface};
+use crate::scene::{Image, MediaType, Mesh, Primitive, RigidTransform, Scene, Surface};
 
 /// Primitives in a window.
 const WINDOW: usize = 512;
@@ -216,7 +216,7 @@ fn write_bind_matrices(
     if of_skin.iter().all(Range::is_empty) {
         return Ok(None);
     }
-    let matrix = |pose: &Pose| {
+    let matrix = |pose: &RigidTransform| {
         let back = pose.inverse();
         let matrix = DMat4::from_rotation_translation(back.rotation, back.translation);
         matrix.as_mat4().to_cols_array()

@@ -1,6 +1,7 @@
 //! Triangles between the points of an inflated outline.
 //!
-//! Points are first put where they will be written, in `f32`, and joined there: what has area then keeps it.
+//! Points are rounded to their final `f32` positions first and triangulated there, so that rounding cannot make a triangle
+//! degenerate.
 
 use glam::DVec2;
 use rustc_hash::FxHashMap;
@@ -8,14 +9,14 @@ use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation
 
 use super::points::Points;
 use crate::geometry::crosses;
-use crate::solid::stack::Put;
+use crate::solid::stack::PlacementTransform;
 
-/// How often triangles without a point inside are given one.
-const MOST_ROUNDS: usize = 3;
-/// Coordinates below this are 0: the triangulation has no room for their products.
+/// The number of rounds in which triangles without an inner point are given one.
+const MAX_ROUNDS: usize = 3;
+/// Smaller coordinates are 0: their products would underflow in the triangulation.
 const NOTHING: f64 = 1e-40;
 
-/// Triangles in the plane, as they will be written.
+/// Triangles in the plane, at their final positions.
 pub(super) struct Mesh {
     pub(super) points: Vec<[f32; 2]>,
     /// Counter-clockwise, all with area; each has a point off the border.
@@ -38,21 +39,21 @@ impl HasPosition for Vertex {
 }
 
 /// Joins points by a Delaunay triangulation that keeps the border's edges.
-pub(super) fn mesh(points: &Points, put: &Put) -> Mesh {
+pub(super) fn mesh(points: &Points, transform: &PlacementTransform) -> Mesh {
     let mut known: FxHashMap<[u32; 2], usize> = FxHashMap::default();
     let mut vertices: Vec<Vertex> = Vec::with_capacity(points.points.len());
     let ids: Vec<usize> = points
         .points
         .iter()
         .map(|point| {
-            let place = clear(put.in_plane(*point));
+            let place = clear(transform.in_plane(*point));
             *known.entry(place.map(f32::to_bits)).or_insert_with(|| {
                 vertices.push(Vertex(place));
                 vertices.len() - 1
             })
         })
         .collect();
-    // Parts of the border that fall together cancel each other out.
+    // Coinciding parts of the border cancel each other out.
     let mut border: Vec<[usize; 2]> = points
         .edges
         .iter()
@@ -77,7 +78,7 @@ pub(super) fn mesh(points: &Points, put: &Put) -> Mesh {
     };
     let walls = crossed.then_some(&walls[..]);
     let mut faces = Faces::of(&delaunay, walls);
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let wanted = faces.wanted(&delaunay);
         if wanted.is_empty() {
             break;
@@ -89,13 +90,13 @@ pub(super) fn mesh(points: &Points, put: &Put) -> Mesh {
         }
         faces = Faces::of(&delaunay, walls);
     }
-    // What has no room for a point in `f32` is left out.
+    // Triangles too small for another `f32` point are left out.
     while faces.drop_flat() {}
     faces.mesh(&delaunay)
 }
 
 fn clear(place: [f32; 2]) -> [f32; 2] {
-    // The sum makes one of both zeros.
+    // The sum maps -0.0 to 0.0.
     place.map(|x| {
         if f64::from(x).abs() < NOTHING {
             0.0
@@ -120,8 +121,8 @@ struct Faces {
 }
 
 impl Faces {
-    /// Goes from triangle to triangle, in and out wherever the border is crossed; or, where walls are
-    /// given because parts of the border cross each other, asks for each triangle alone.
+    /// Walks from triangle to triangle, changing between inside and outside wherever the border is crossed; or, if walls are
+    /// given because parts of the border cross each other, tests each triangle by itself.
     fn of(delaunay: &Delaunay, walls: Option<&[[DVec2; 2]]>) -> Self {
         let mut inside: Vec<Option<bool>> = vec![None; delaunay.num_all_faces()];
         if let Some(walls) = walls {
@@ -191,7 +192,7 @@ impl Faces {
         }
     }
 
-    /// Whether an edge leads from border to border through the outline; front and back would meet there.
+    /// Whether an edge leads from border to border through the outline, where front and back would meet.
     fn is_chord(&self, face: usize, i: usize) -> bool {
         let corners = self.corners[face];
         self.across[face][i].is_some()
@@ -204,7 +205,7 @@ impl Faces {
         self.across[face].iter().all(Option::is_none)
     }
 
-    /// Where points are wanted so that each triangle has one off the border.
+    /// Positions of additional points, so that each triangle has one off the border.
     fn wanted(&self, delaunay: &Delaunay) -> Vec<[f32; 2]> {
         let at = |i: usize| {
             let handle = spade::handles::FixedVertexHandle::from_index(i);
@@ -226,7 +227,7 @@ impl Faces {
         places.into_iter().map(written).collect()
     }
 
-    /// Drops triangles that front and back would share; false where there are none.
+    /// Removes triangles that front and back would share; `false` if there are none.
     fn drop_flat(&mut self) -> bool {
         let flat = |face: usize| self.is_alone(face) || (0..3).any(|i| self.is_chord(face, i));
         let keep: Vec<bool> = (0..self.corners.len()).map(|face| !flat(face)).collect();
@@ -276,7 +277,7 @@ impl Faces {
     }
 }
 
-/// Whether walls stand about a point.
+/// Whether a point is inside of walls.
 fn encloses(walls: &[[DVec2; 2]], point: DVec2) -> bool {
     walls
         .iter()

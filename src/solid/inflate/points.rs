@@ -1,9 +1,9 @@
-//! Where an inflated outline gets its points.
+//! Samples the points of an inflated outline.
 //!
 //! From points along the border, columns lead inward to the middle of the largest disc that touches
 //! the border there and lies in the outline (shrinking ball: Ma, Bae & Choi, "3D medial axis point
-//! approximation using nearest neighbors and the normal field", 2012). Their points stand as on a quarter
-//! circle seen from the side, so they are dense where the surface is steep. Those that come too near to
+//! approximation using nearest neighbors and the normal field", 2012). Their points are spaced as on a quarter
+//! circle seen from the side, so they are dense where the surface is steep. Points too close to
 //! others in space, for instance towards the middle of a disc, are left out.
 
 use glam::{DVec2, DVec3};
@@ -13,16 +13,16 @@ use rustc_hash::FxHashMap;
 
 use crate::geometry::{Outline, bounds};
 
-/// The most points along borders that are added to drawn ones, and the most columns.
-const MOST_COLUMNS: usize = 1 << 13;
-/// The most points inside.
-const MOST_INSIDE: usize = 1 << 16;
-/// Discs are taken to lie in the outline as long as the border comes no nearer than this to their
-/// middle, relative to their radius: corners of flattened curves cut off that little.
+/// The largest number of points added along borders, and of columns.
+const MAX_COLUMNS: usize = 1 << 13;
+/// The largest number of inner points.
+const MAX_INSIDE: usize = 1 << 16;
+/// A disc counts as inside the outline if the border comes no closer to its centre than this, relative
+/// to its radius: flattened curves cut off that little.
 const SLACK: f64 = 0.9;
-/// The most steps to a disc; a handful are usual.
-const MOST_STEPS: usize = 24;
-/// Corners that turn left by more, radians, have no column: discs in them are points.
+/// The largest number of iterations for a disc; a handful is usual.
+const MAX_ITERATIONS: usize = 24;
+/// Corners that turn left by more have no column, because discs in them have no size; radians.
 const CONVEX: f64 = 0.9;
 /// Corners that turn right have columns this far apart, radians.
 const FAN: f64 = 0.4;
@@ -30,11 +30,11 @@ const FAN: f64 = 0.4;
 const SMALL: f64 = 0.1;
 /// Discs smaller than this, relative to the largest, have no columns.
 const NOTHING: f64 = 0.01;
-/// How near points may come to each other, relative to the steps of their columns.
+/// The smallest distance between points, relative to the steps of their columns.
 const NEAR: f64 = 0.62;
-/// How far apart points on the border stand at most, relative to the radius of the disc there.
+/// The largest distance between points on the border, relative to the radius of the disc there.
 const ALONG: f64 = 0.8;
-/// The least of it, relative to the usual distance.
+/// The lower limit of that distance, relative to the usual one.
 const LEAST_ALONG: f64 = 0.25;
 
 /// Points in the part's frame: those of the border, then those inside.
@@ -44,7 +44,7 @@ pub(super) struct Points {
     pub(super) edges: Vec<[usize; 2]>,
 }
 
-/// A way from the border inward.
+/// A line of points from the border inward.
 struct Column {
     foot: DVec2,
     /// A unit vector.
@@ -82,7 +82,7 @@ impl Discs {
     /// The radius of the largest disc that touches the border at `foot`; 0 where there is none.
     fn radius(&self, foot: DVec2, inward: DVec2) -> f64 {
         let mut radius = self.reach;
-        for _ in 0..MOST_STEPS {
+        for _ in 0..MAX_ITERATIONS {
             let middle = foot + radius * inward;
             let Some(edge) = self.border.nearest_neighbor(middle.to_array()) else {
                 return 0.0;
@@ -119,7 +119,7 @@ pub(super) fn points(outline: &Outline, segments: u32) -> Points {
         rings().flat_map(|ring| (0..ring.len()).map(move |i| ring[(i + 1) % ring.len()] - ring[i]));
     let around: f64 = edges.map(DVec2::length).sum();
     let usual = std::f64::consts::PI * size.min_element() / 2.0 / f64::from(segments);
-    let apart = usual.max(4.0 * around / MOST_COLUMNS as f64);
+    let apart = usual.max(4.0 * around / MAX_COLUMNS as f64);
 
     let mut columns = Vec::new();
     for ring in rings() {
@@ -130,8 +130,8 @@ pub(super) fn points(outline: &Outline, segments: u32) -> Points {
         .map(|column| column.radius)
         .fold(0.0, f64::max);
     columns.retain(|column| column.radius > NOTHING * most);
-    if columns.len() > MOST_COLUMNS {
-        let step = columns.len().div_ceil(MOST_COLUMNS);
+    if columns.len() > MAX_COLUMNS {
+        let step = columns.len().div_ceil(MAX_COLUMNS);
         let mut place = 0;
         columns.retain(|_| {
             place += 1;
@@ -139,7 +139,7 @@ pub(super) fn points(outline: &Outline, segments: u32) -> Points {
         });
     }
     let layers =
-        (segments.div_ceil(2) as usize).clamp(1, (MOST_INSIDE / columns.len().max(1)).max(1));
+        (segments.div_ceil(2) as usize).clamp(1, (MAX_INSIDE / columns.len().max(1)).max(1));
     inside(&columns, layers, most, &mut all.points);
     all
 }
@@ -199,7 +199,7 @@ fn border(ring: &[DVec2], apart: f64, discs: &Discs, all: &mut Points, columns: 
             },
         ];
         all.points.push(from);
-        // First at the usual distance, then closer where discs are small.
+        // At the usual distance first, then closer where discs are small.
         let coarse = between(ends, apart, inward, discs);
         for pair in coarse.windows(2) {
             let mean = pair[0].radius.midpoint(pair[1].radius);

@@ -1,16 +1,20 @@
-//! The field that gives an inflated outline its heights: the solution of Δu = −1 that is 0 on the border, by
-//! finite elements that are linear on each triangle.
+//! Solves the Poisson equation Δu = −1 with u = 0 on the border, by linear finite elements on triangles: the cotangent
+//! Laplacian (Pinkall & Polthier, *Computing Discrete Minimal Surfaces and Their Conjugates*, 1993) and conjugate gradients with
+//! an incomplete Cholesky preconditioner.
+//!
+//! Written by hand, because the matrix is small, sparse and symmetric: general solvers bring linear algebra crates many times
+//! the size of this file, and results would depend on their versions.
 
 use glam::DVec2;
 
-/// The residual at which the solution is good enough, relative to the right side.
+/// The residual at which iteration stops, relative to the right-hand side.
 const PRECISION: f64 = 1e-7;
-/// The most steps of the conjugate gradients; a few dozen are usual.
-const MOST_STEPS: usize = 500;
-/// The most that one triangle's angle may weigh, so that slivers do not drown the rest.
-const MOST_COTANGENT: f64 = 1e6;
+/// The largest number of iterations; a few dozen are usual.
+const MAX_ITERATIONS: usize = 500;
+/// The largest weight of one angle, so that slivers do not dominate the matrix.
+const MAX_COTANGENT: f64 = 1e6;
 
-/// The lower half of a symmetric matrix, row by row.
+/// The lower triangle of a symmetric sparse matrix, in compressed rows.
 struct Lower {
     starts: Vec<usize>,
     columns: Vec<u32>,
@@ -18,7 +22,7 @@ struct Lower {
     diagonal: Vec<f64>,
 }
 
-/// The field at each point, square units of the points. Points on the border have 0.
+/// The solution at each point, in squared units of the points; 0 on the border.
 pub(super) fn solve(points: &[DVec2], triangles: &[[u32; 3]], on_border: &[bool]) -> Vec<f64> {
     let mut unknown = vec![u32::MAX; points.len()];
     let mut count = 0;
@@ -34,7 +38,7 @@ pub(super) fn solve(points: &[DVec2], triangles: &[[u32; 3]], on_border: &[bool]
     unknown.iter().map(value).collect()
 }
 
-/// The stiffness matrix of the unknown points, and the areas around them.
+/// The stiffness matrix of the inner points, and the load: the area around each.
 fn assemble(
     points: &[DVec2],
     triangles: &[[u32; 3]],
@@ -50,7 +54,7 @@ fn assemble(
         for i in 0..3 {
             let (a, b) = (triangle[(i + 1) % 3], triangle[(i + 2) % 3]);
             let (to_a, to_b) = (at[(i + 1) % 3] - at[i], at[(i + 2) % 3] - at[i]);
-            let weight = (to_a.dot(to_b) / (4.0 * area)).clamp(-MOST_COTANGENT, MOST_COTANGENT);
+            let weight = (to_a.dot(to_b) / (4.0 * area)).clamp(-MAX_COTANGENT, MAX_COTANGENT);
             let (a, b) = (unknown[a as usize], unknown[b as usize]);
             for end in [a, b] {
                 if end != u32::MAX {
@@ -120,7 +124,7 @@ impl Lower {
                 factor.values[at] = value;
                 rest -= value * value;
             }
-            // Where rounding left nothing, the plain diagonal still helps.
+            // If rounding leaves no positive pivot, the diagonal alone still preconditions.
             let rest = if rest > 1e-9 * self.diagonal[i] {
                 rest
             } else {
@@ -131,7 +135,7 @@ impl Lower {
         factor
     }
 
-    /// This matrix, taken for symmetric, times a vector.
+    /// The product of the symmetric matrix and a vector.
     fn times(&self, x: &[f64], out: &mut [f64]) {
         for (i, out) in out.iter_mut().enumerate() {
             *out = self.diagonal[i] * x[i];
@@ -147,7 +151,7 @@ impl Lower {
         }
     }
 
-    /// Solves for this matrix times its transpose.
+    /// Solves L·Lᵀ·x = b in place, where L is this matrix.
     fn solve_both(&self, x: &mut [f64]) {
         for i in 0..x.len() {
             let (columns, values) = self.row(i);
@@ -179,7 +183,7 @@ fn conjugate_gradients(matrix: &Lower, factor: &Lower, load: &[f64]) -> Vec<f64>
     let mut direction = eased.clone();
     let mut energy = dot(&residual, &eased);
     let mut product = vec![0.0; n];
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_ITERATIONS {
         if dot(&residual, &residual) <= enough {
             break;
         }

@@ -112,9 +112,9 @@ fn a_skinned_model_stands_and_moves_like_the_other() {
 
 #[test]
 fn a_skin_has_an_end() {
-    let most = chain(crate::scene::MOST_JOINTS);
+    let most = chain(crate::scene::MAX_JOINTS);
     assert!(most.skinned().is_ok());
-    let error = chain(crate::scene::MOST_JOINTS + 1).skinned().unwrap_err();
+    let error = chain(crate::scene::MAX_JOINTS + 1).skinned().unwrap_err();
     assert!(error.to_string().contains("65537 joints"));
     let empty = Scene::default().skinned().unwrap();
     assert_eq!(empty, Scene::default());

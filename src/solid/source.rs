@@ -1,4 +1,4 @@
-//! A solid that is still to be made.
+//! The description of a solid, from which its surface is made on demand.
 
 use std::any::Any;
 use std::hash::Hasher;
@@ -11,32 +11,32 @@ use super::{Options, Profile, build};
 use crate::geometry::{Outline, Polygon};
 use crate::scene::{Surface, SurfaceSource};
 
-/// All that a solid is made from.
+/// Everything that a solid's surface depends on.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid {
     /// Its outline as drawn, y down.
     pub outline: Arc<Outline>,
-    /// From there to the part's own frame, y up, its centre at the origin; turns without scaling.
+    /// From there to the part's own frame, y up, its centre at the origin; without scaling.
     pub to_frame: DAffine2,
     /// How it gets its thickness.
     pub profile: Profile,
-    /// How fine, how smooth, and where it goes.
+    /// Resolution, smoothing and position.
     pub options: Options,
-    /// On which sides of the drawing plane it stands.
+    /// The sides of the drawing plane that it is on.
     pub sides: Sides,
-    /// From the drawing to texture coordinates, if it is textured: the texture is seen through the whole solid
-    /// along the viewer's direction, and walls take the colours of the border.
+    /// From the drawing to texture coordinates, if it is textured. The texture is projected through the whole solid
+    /// along the viewer's direction, so that walls have the colours of the border.
     pub texture: Option<DAffine2>,
 }
 
-/// On which sides of the drawing plane a solid stands.
+/// The sides of the drawing plane that a solid is on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sides {
-    /// Where it was described.
+    /// As described.
     Front,
-    /// Mirrored in the plane.
+    /// Mirrored in the drawing plane.
     Back,
-    /// On both (`-s`).
+    /// Both (`-s`).
     Both,
 }
 
@@ -130,7 +130,7 @@ impl SurfaceSource for Solid {
 }
 
 impl Solid {
-    /// From the solid's final places, seen from the front, back to the drawing.
+    /// From the solid's final positions, as seen from the front, to the drawing.
     fn to_drawing(&self) -> DAffine2 {
         let placement = &self.options.placement;
         let placed = DAffine2::from_scale(DVec2::splat(placement.scale))

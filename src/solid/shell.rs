@@ -5,13 +5,13 @@
 
 use glam::DVec3;
 
-use super::groups::{Crease, share, share_tip};
+use super::crease::{Crease, share, share_tip};
 use super::rings::Rings;
-use super::stack::{Base, Form, Level, Put, rises};
+use super::stack::{Base, Form, Level, PlacementTransform, rises};
 use crate::scene::Surface;
 
-/// The corners that the faces beside every point of a level use: on the wall before the point and
-/// on the one after it, below the level and above.
+/// Per point of a level, the corners that its adjacent walls use: the wall before the point and
+/// the one after it, below the level and above.
 #[derive(Default)]
 struct Corners {
     below: Vec<[u32; 2]>,
@@ -19,33 +19,33 @@ struct Corners {
     cap: Vec<u32>,
 }
 
-struct Skin<'a> {
+struct Shell<'a> {
     rings: &'a Rings,
     stations: Option<&'a [u32]>,
-    /// The stations in which both sides meet in one point, if the first and the last are such.
+    /// The first and the last station, if both sides meet there in one point.
     tips: [Option<u32>; 2],
-    /// Walls are cut about their middles.
+    /// Walls are split into four triangles about their middles.
     warped: bool,
     levels: &'a [Level],
-    /// Unit normals of the walls, band by band; a wall bears the number of the point it starts at.
+    /// Unit normals of the walls, band by band; a wall has the index of the point it starts at.
     walls: Vec<DVec3>,
     crease: Crease,
-    put: &'a Put,
+    transform: &'a PlacementTransform,
     surface: Surface,
 }
 
 /// Joins levels of a base; `caps` close the first and the last.
-pub(super) fn skin(
+pub(super) fn shell(
     base: &Base,
     levels: &[Level],
     caps: &[Vec<[u32; 3]>; 2],
     crease: Crease,
-    put: &Put,
+    transform: &PlacementTransform,
 ) -> Surface {
     let (rings, stations) = (base.rings(), base.stations());
     let n = rings.len();
     let end = levels.len() - 1;
-    let mut skin = Skin {
+    let mut shell = Shell {
         rings,
         stations,
         warped: base.is_warped(),
@@ -53,43 +53,44 @@ pub(super) fn skin(
         levels,
         walls: Vec::with_capacity(n * end),
         crease,
-        put,
+        transform,
         surface: Surface::default(),
     };
     let corners = n * (2 * end + 4);
-    skin.surface.positions.reserve(corners);
-    skin.surface.normals.reserve(corners);
-    skin.surface
+    shell.surface.positions.reserve(corners);
+    shell.surface.normals.reserve(corners);
+    shell
+        .surface
         .triangles
         .reserve(2 * (n * end + caps[0].len()));
     for k in 0..end {
         for i in 0..n {
-            let wall = skin.wall(k, i);
-            skin.walls.push(wall);
+            let wall = shell.wall(k, i);
+            shell.walls.push(wall);
         }
     }
     let mut lower = Corners::default();
     let mut upper = Corners::default();
     for (k, level) in levels.iter().enumerate() {
-        skin.corners(k, &mut upper);
+        shell.corners(k, &mut upper);
         if k == 0 && level.form == Form::Rings {
             let turned = caps[0].iter().map(|[a, b, c]| [*a, *c, *b]);
             let turned = turned.map(|t| t.map(|i| upper.cap[i as usize]));
-            skin.surface.triangles.extend(turned);
+            shell.surface.triangles.extend(turned);
         }
         if k > 0 {
-            skin.band(k - 1, &lower, &upper);
+            shell.band(k - 1, &lower, &upper);
         }
         if k == end && level.form == Form::Rings {
             let caps = caps[1].iter().map(|t| t.map(|i| upper.cap[i as usize]));
-            skin.surface.triangles.extend(caps);
+            shell.surface.triangles.extend(caps);
         }
         std::mem::swap(&mut lower, &mut upper);
     }
-    skin.surface
+    shell.surface
 }
 
-impl Skin<'_> {
+impl Shell<'_> {
     fn point(&self, k: usize, i: usize) -> DVec3 {
         let level = &self.levels[k];
         (self.rings.points[i] * level.scale).extend(level.z)
@@ -99,14 +100,14 @@ impl Skin<'_> {
         let j = self.rings.next[i] as usize;
         let diagonal = self.point(k + 1, j) - self.point(k, i);
         let other = self.point(k + 1, i) - self.point(k, j);
-        // Lengths are made about 1 first, or their product could vanish.
+        // Diagonals are normalised first, or their product could underflow.
         let normal = diagonal
             .normalize_or_zero()
             .cross(other.normalize_or_zero());
         normal.normalize_or(DVec3::Z)
     }
 
-    /// Whether two points of a level are one there.
+    /// Whether two points of a level coincide there.
     fn merged(&self, k: usize, i: usize, j: usize) -> bool {
         match (self.levels[k].form, self.stations) {
             (Form::Rings, _) => false,
@@ -140,10 +141,10 @@ impl Skin<'_> {
                 self.walls[above + i],
                 self.walls[above + before],
             ];
-            let position = self.put.position(self.point(k, i));
+            let position = self.transform.position(self.point(k, i));
             let mut ids = [0; 4];
-            let (surface, put) = (&mut self.surface, self.put);
-            let corner = |normal| add(surface, position, put.normal(normal));
+            let (surface, transform) = (&mut self.surface, self.transform);
+            let corner = |normal| add(surface, position, transform.normal(normal));
             share(&faces, &[1.0; 4], self.crease, corner, &mut ids);
             corners.below[i] = [ids[0], ids[1]];
             corners.above[i] = [ids[3], ids[2]];
@@ -161,10 +162,10 @@ impl Skin<'_> {
         for i in 0..n {
             let before = self.rings.before[i] as usize;
             let faces = [self.walls[walls + before], self.walls[walls + i], cap];
-            let position = self.put.position(self.point(k, i));
+            let position = self.transform.position(self.point(k, i));
             let mut ids = [0; 3];
-            let (surface, put) = (&mut self.surface, self.put);
-            let corner = |normal| add(surface, position, put.normal(normal));
+            let (surface, transform) = (&mut self.surface, self.transform);
+            let corner = |normal| add(surface, position, transform.normal(normal));
             share(&faces, &[1.0; 3], self.crease, corner, &mut ids);
             corners.below[i] = [ids[0], ids[1]];
             corners.above[i] = [ids[0], ids[1]];
@@ -172,7 +173,7 @@ impl Skin<'_> {
         }
     }
 
-    /// Corners of a level where points fall together: the faces round each of its points are
+    /// Corners of a level where points coincide: the faces around each of its points are
     /// found in the order of the ring.
     fn collapsed(&mut self, k: usize, corners: &mut Corners) {
         let (walls, other) = if k == 0 {
@@ -187,7 +188,7 @@ impl Skin<'_> {
         };
         let rings = self.rings;
         for ring in &rings.rings {
-            // Each face with the point it meets the level at, and where its corner is to be noted.
+            // Each face: the station where it meets the level, its index, and the point whose corner it is, if only one.
             let mut faces: Vec<(u32, usize, Option<usize>)> = Vec::with_capacity(2 * ring.len());
             for i in ring.clone() {
                 let j = rings.next[i] as usize;
@@ -218,14 +219,14 @@ impl Skin<'_> {
                     a.cross(b).length().atan2(a.dot(b)).max(1e-9)
                 };
                 let weights: Vec<f64> = around.iter().map(angle).collect();
-                let position = self.put.position(self.point(k, around[0].1));
+                let position = self.transform.position(self.point(k, around[0].1));
                 let position = match around[0].2 {
-                    Some(own) => self.put.position(self.point(k, own)),
+                    Some(own) => self.transform.position(self.point(k, own)),
                     None => position,
                 };
                 let mut ids = vec![0; around.len()];
-                let (surface, put) = (&mut self.surface, self.put);
-                let corner = |normal| add(surface, position, put.normal(normal));
+                let (surface, transform) = (&mut self.surface, self.transform);
+                let corner = |normal| add(surface, position, transform.normal(normal));
                 if self.levels[k].form == Form::Tip {
                     share_tip(&normals, &weights, self.crease, corner, &mut ids);
                 } else {
@@ -244,14 +245,14 @@ impl Skin<'_> {
         }
     }
 
-    /// Whether the wall on an edge is cut from the edge's start to the copy of its end, or the
-    /// other way. Both sides of a narrow part are cut alike, or their warped walls would cross.
+    /// Whether the wall on an edge is split along the diagonal from the edge's start, or along the
+    /// other. Both sides of a narrow part are split alike, or their warped walls would intersect.
     fn rises(&self, k: usize, i: usize, j: usize) -> bool {
         let Some(stations) = self.stations else {
             return rises(self.rings.points[i], self.rings.points[j]);
         };
         let (low, high) = (stations[i].min(stations[j]), stations[i].max(stations[j]));
-        // Where both sides meet in a point they would be cut by the same edge.
+        // If both sides meet in a point, they would be split by the same edge.
         let meets = match (self.levels[k].form, self.levels[k + 1].form) {
             (Form::Ridge, _) => Some(high) == self.tips[1],
             (_, Form::Ridge) => Some(low) == self.tips[0],
@@ -273,7 +274,10 @@ impl Skin<'_> {
                 let middle = self.point(k, i) + self.point(k, j);
                 let middle = (middle + self.point(k + 1, i) + self.point(k + 1, j)) / 4.0;
                 let normal = self.walls[k * self.rings.len() + i];
-                let (position, normal) = (self.put.position(middle), self.put.normal(normal));
+                let (position, normal) = (
+                    self.transform.position(middle),
+                    self.transform.normal(normal),
+                );
                 let m = add(&mut self.surface, position, normal);
                 let around = [[a, b, m], [b, c, m], [c, d, m], [d, a, m]];
                 self.surface.triangles.extend(around);
@@ -286,7 +290,7 @@ impl Skin<'_> {
     }
 }
 
-/// The first and the last station, where but one point stands there.
+/// The first and the last station, each if it has only one point.
 fn tips(stations: &[u32]) -> [Option<u32>; 2] {
     let ends = [stations.iter().min(), stations.iter().max()];
     ends.map(|end| {

@@ -1,11 +1,11 @@
-//! Which faces around a point share a corner there.
+//! Smooth and sharp edges: which faces around a point share a corner with a common normal.
 
 use glam::DVec3;
 
-/// Angles below which edges are smooth.
+/// The crease angle, below which edges are smooth.
 #[derive(Clone, Copy)]
 pub(super) struct Crease {
-    /// Smooth where the cosine between the normals is greater.
+    /// Edges are smooth if the cosine between the normals is greater.
     cosine: f64,
 }
 
@@ -16,7 +16,7 @@ impl Crease {
         } else {
             0.0
         };
-        // Beyond 1 nothing is smooth, not even faces in one plane.
+        // A cosine above 1 makes nothing smooth, not even coplanar faces.
         let cosine = if degrees > 0.0 {
             degrees.to_radians().cos()
         } else {
@@ -25,7 +25,7 @@ impl Crease {
         Crease { cosine }
     }
 
-    /// Whether an edge is smooth over which the normals have this cosine.
+    /// Whether an edge is smooth whose faces' normals have this cosine.
     pub(super) fn is_smooth(self, cosine: f64) -> bool {
         cosine > self.cosine
     }
@@ -40,9 +40,9 @@ impl Crease {
     }
 }
 
-/// Gives the faces around a point their corners. `faces` are unit normals in their order round the
+/// Assigns corners to the faces around a point. `faces` are unit normals in order around the
 /// point, each sharing an edge with the next and the last with the first; `corner` makes a corner
-/// of a unit normal; `out` receives one for every face.
+/// from a unit normal; `out` receives the corner of every face.
 pub(super) fn share(
     faces: &[DVec3],
     weights: &[f64],
@@ -74,8 +74,8 @@ pub(super) fn share(
     }
 }
 
-/// The same about the tip of a cone: where the faces differ too much for one normal, as round a
-/// pointed tip, each gets a corner of its own.
+/// The same for the tip of a cone: if the faces differ too much for one normal, each gets its own
+/// corner.
 pub(super) fn share_tip(
     faces: &[DVec3],
     weights: &[f64],
