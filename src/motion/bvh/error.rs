@@ -64,16 +64,16 @@ impl fmt::Display for Note {
 /// Notes, limited to as many as anyone reads.
 #[derive(Debug, Default)]
 pub(super) struct Notes {
-    kept: Vec<Note>,
+    notes: Vec<Note>,
     left_out: usize,
 }
 
 impl Notes {
     /// Adds a note.
     pub(super) fn add(&mut self, line: usize, message: impl Into<String>) {
-        if self.kept.len() < MAX_NOTES {
+        if self.notes.len() < MAX_NOTES {
             let message = message.into();
-            self.kept.push(Note { line, message });
+            self.notes.push(Note { line, message });
         } else {
             self.left_out += 1;
         }
@@ -81,14 +81,14 @@ impl Notes {
 
     /// The notes; the last one says how many were left out.
     pub(super) fn done(mut self) -> Vec<Note> {
-        if let (1.., Some(last)) = (self.left_out, self.kept.last()) {
+        if let (1.., Some(last)) = (self.left_out, self.notes.last()) {
             let (line, message) = (
                 last.line,
                 format!("{} more notes are left out", self.left_out),
             );
-            self.kept.push(Note { line, message });
+            self.notes.push(Note { line, message });
         }
-        self.kept
+        self.notes
     }
 }
 

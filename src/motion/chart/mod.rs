@@ -15,13 +15,13 @@ const SIZE: [f64; 2] = [960.0, 444.0];
 /// The top and bottom of the exposure sheet.
 const SHEET: [f64; 2] = [328.0, 368.0];
 /// Frames are marked individually if they are at least this wide, pixels.
-const APART: f64 = 4.0;
+const MIN_MARK_WIDTH: f64 = 4.0;
 /// The highest speed on the axis, so that it stays finite.
-const HIGHEST: f64 = 1e300;
+const MAX_SPEED: f64 = 1e300;
 /// The most ticks of an axis.
-const TICKS: usize = 32;
+const MAX_TICKS: usize = 32;
 /// The longest title, characters.
-const TITLE: usize = 80;
+const MAX_TITLE: usize = 80;
 
 const INK: &str = "#1f2328";
 const QUIET: &str = "#59636e";
@@ -57,7 +57,7 @@ pub fn chart(chart: &Chart<'_>) -> String {
     let finite = chart.speeds.iter().filter(|speed| speed.is_finite());
     let top = finite
         .fold(0.0_f64, |top, speed| top.max(*speed))
-        .min(HIGHEST);
+        .min(MAX_SPEED);
     let step = step(top / 5.0);
     let scale = Scale {
         wide: (RIGHT - LEFT) / frames as f64,
@@ -79,7 +79,7 @@ fn escaped(text: &str) -> String {
     let mut out = String::new();
     for (index, letter) in text.chars().enumerate() {
         match letter {
-            _ if index == TITLE => {
+            _ if index == MAX_TITLE => {
                 out.push('…');
                 break;
             }
@@ -112,7 +112,7 @@ fn open(out: &mut String, chart: &Chart<'_>) {
 fn heights(out: &mut String, scale: &Scale, step: f64) {
     let mut lines = String::new();
     let mut labels = String::new();
-    for index in (0..=(scale.top / step).round() as usize).take(TICKS) {
+    for index in (0..=(scale.top / step).round() as usize).take(MAX_TICKS) {
         let y = scale.y(index as f64 * step);
         let _ = write!(lines, "M{LEFT} {y:.1}H{RIGHT}");
         let _ = write!(
@@ -176,7 +176,7 @@ fn curve(out: &mut String, speeds: &[f64], scale: &Scale) {
 }
 
 /// The frames to mark: of those in the same pixel only the fastest.
-fn apart(frames: &[u32], speeds: &[f64], scale: &Scale) -> Vec<usize> {
+fn visible_marks(frames: &[u32], speeds: &[f64], scale: &Scale) -> Vec<usize> {
     let mut all: Vec<(i64, f64, usize)> = frames
         .iter()
         .map(|frame| *frame as usize)
@@ -203,12 +203,12 @@ fn points(frames: &[usize], speeds: &[f64], scale: &Scale) -> String {
 
 fn marks(out: &mut String, chart: &Chart<'_>, scale: &Scale) {
     let speeds = chart.speeds;
-    if scale.wide >= APART {
-        let held = points(&apart(chart.held, speeds, scale), speeds, scale);
+    if scale.wide >= MIN_MARK_WIDTH {
+        let held = points(&visible_marks(chart.held, speeds, scale), speeds, scale);
         dots(out, &held, 6.5, HELD);
         dots(out, &held, 3.5, "#ffffff");
     }
-    let omitted = apart(chart.omitted, speeds, scale);
+    let omitted = visible_marks(chart.omitted, speeds, scale);
     let mut lines = String::new();
     for frame in &omitted {
         let [x, y] = [scale.middle(*frame), scale.y(speeds[*frame])];
@@ -217,7 +217,7 @@ fn marks(out: &mut String, chart: &Chart<'_>, scale: &Scale) {
     let _ = writeln!(out, r#"<path d="{lines}" stroke="{OMITTED}" fill="none"/>"#);
     dots(out, &points(&omitted, speeds, scale), 7.0, OMITTED);
     let mut longer = String::new();
-    for frame in apart(chart.duplicated, speeds, scale) {
+    for frame in visible_marks(chart.duplicated, speeds, scale) {
         // The pose is shown once more in the place of its successor.
         let _ = write!(
             longer,
@@ -254,7 +254,7 @@ fn sheet(out: &mut String, exposure: &Exposure, scale: &Scale) {
             continue;
         }
         let wide = scale.wide * range.len() as f64;
-        let gap = if wide >= APART { 1.0 } else { 0.0 };
+        let gap = if wide >= MIN_MARK_WIDTH { 1.0 } else { 0.0 };
         let high = (bottom - top) * keys as f64 / range.len() as f64;
         let x = scale.x(range.start as f64);
         let _ = write!(
@@ -315,7 +315,7 @@ fn axis(
 ) {
     let mut ticks = String::new();
     let mut labels = String::new();
-    let multiples = (1..=most).take(TICKS).map(|index| index as f64 * step);
+    let multiples = (1..=most).take(MAX_TICKS).map(|index| index as f64 * step);
     // Two ticks need room for their numbers.
     let multiples = multiples.filter(|value| value - first >= step / 2.0);
     for value in std::iter::once(first).chain(multiples) {
@@ -376,7 +376,7 @@ fn legend(out: &mut String, chart: &Chart<'_>, scale: &Scale) {
     }
     if !chart.held.is_empty() {
         // If frames are too narrow for marks, only the exposure sheet shows holds.
-        let mark = match scale.wide >= APART {
+        let mark = match scale.wide >= MIN_MARK_WIDTH {
             true => dot(6.5, HELD) + &dot(3.5, "#ffffff"),
             false => format!(r#"<path d="M2 -6h12v12h-12Z" fill="{SHOWN}"/>"#),
         };

@@ -124,7 +124,10 @@ fn by_name(name: &str) -> PartDraft {
     };
     if let Some(class) = class {
         draft.named = true;
-        draft.set(class, format!("`{name}` is {} by its name", a(class)));
+        draft.set(
+            class,
+            format!("`{name}` is {} by its name", with_article(class)),
+        );
     }
     draft
 }
@@ -173,7 +176,7 @@ pub(super) fn is_trunk(class: Option<Class>) -> bool {
 }
 
 /// Whether a part's class may be told by its shape: it has none yet, and is attached to the trunk or is a root.
-fn open(tree: &PartTree<'_>, drafts: &[PartDraft], part: usize) -> bool {
+fn is_open(tree: &PartTree<'_>, drafts: &[PartDraft], part: usize) -> bool {
     let draft = &drafts[part];
     let above = tree.parents[part].map(|parent| drafts[parent].class);
     let on_trunk = above.is_none_or(|class| is_trunk(class) || class == Some(Class::Neck));
@@ -193,7 +196,7 @@ fn head(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
     );
     let axis = trunk[0].midpoint(trunk[1]);
     let mut heads: Vec<usize> = (0..drafts.len())
-        .filter(|part| open(tree, drafts, *part) && !tree.stands(*part))
+        .filter(|part| is_open(tree, drafts, *part) && !tree.stands(*part))
         .filter(|part| !drafts[*part].says(&[Term::Skirt, Term::Left, Term::Right]))
         .filter(|part| {
             let middle = tree.middle(*part);
@@ -257,7 +260,7 @@ fn by_shape(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
                 class.name()
             );
             drafts[part].set(class, why);
-        } else if !open(tree, drafts, part) || drafts[part].says(&[Term::Skirt]) {
+        } else if !is_open(tree, drafts, part) || drafts[part].says(&[Term::Skirt]) {
             continue;
         } else if tree.stands(part) {
             let legs = tree.children[part].iter().filter(|child| {
@@ -341,7 +344,7 @@ fn hips(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
 }
 
 /// The name of a class with its article.
-fn a(class: Class) -> String {
+fn with_article(class: Class) -> String {
     match class {
         Class::Arm => "an arm".to_owned(),
         Class::Hips => "the hips".to_owned(),

@@ -48,7 +48,7 @@ pub(super) fn limbs(tree: &JointTree) -> Limbs {
     let second = pairs[1..]
         .iter()
         .copied()
-        .find(|pair| apart(tree, &first, pair));
+        .find(|pair| are_separate(tree, &first, pair));
     match second {
         Some(second) => {
             let [a, b] = [first, second].map(|pair| tree.depths[pair.branch]);
@@ -125,7 +125,7 @@ fn mirrored(tree: &JointTree, a: usize, b: usize) -> bool {
 }
 
 /// Whether neither pair is attached to a chain of the other, so that both can be limbs.
-fn apart(tree: &JointTree, a: &Pair, b: &Pair) -> bool {
+fn are_separate(tree: &JointTree, a: &Pair, b: &Pair) -> bool {
     let on = |inner: &Pair, outer: &Pair| {
         outer.starts.iter().any(|start| {
             tree.is_below(inner.branch, *start) || inner.starts.iter().any(|inner| inner == start)

@@ -1,7 +1,7 @@
 //! Omission (naka-nashi): makes fast motion faster (Kitamura 5.2.2, Algorithm 2).
 
 use super::pose_list::PoseList;
-use super::queue::{Queue, falling, rising};
+use super::queue::{Queue, ascending, descending};
 use super::{Length, MAX_COPIED_FRAMES};
 
 /// The omissions, as source frames in the order in which they were chosen.
@@ -23,33 +23,35 @@ pub(super) fn omit(list: &mut PoseList<'_>, asked: usize, length: Length) -> Omi
         return done;
     }
     let poses = 0..list.len();
-    let mut fastest = Queue::new(poses.clone().map(|pose| fast(list, pose)).collect());
+    let mut fastest = Queue::new(poses.clone().map(|pose| omission_key(list, pose)).collect());
     let mut slowest = match length {
-        Length::Kept => Some(Queue::new(poses.map(|pose| slow(list, pose)).collect())),
+        Length::Kept => Some(Queue::new(
+            poses.map(|pose| duplication_key(list, pose)).collect(),
+        )),
         Length::Shortened => None,
     };
     while done.omitted.len() < asked {
         let Some(pose) = fastest.first() else { break };
-        let after = list.after(pose);
+        let after = list.next(pose);
         list.remove(pose);
         fastest.set(pose, Queue::OUT);
         if let Some(after) = after {
-            fastest.set(after, fast(list, after));
+            fastest.set(after, omission_key(list, after));
         }
         if let Some(slowest) = &mut slowest {
             slowest.set(pose, Queue::OUT);
             if let Some(after) = after {
-                slowest.set(after, slow(list, after));
+                slowest.set(after, duplication_key(list, after));
             }
             let place = slowest.first();
-            let Some((place, twice)) = place.and_then(|place| Some((place, list.before(place)?)))
+            let Some((place, twice)) = place.and_then(|place| Some((place, list.previous(place)?)))
             else {
                 list.restore(pose);
                 break;
             };
             list.shown[twice] += 1;
-            fastest.set(twice, fast(list, twice));
-            slowest.set(place, slow(list, place));
+            fastest.set(twice, omission_key(list, twice));
+            slowest.set(place, duplication_key(list, place));
             done.duplicated.push(list.source(twice));
         }
         done.omitted.push(list.source(pose));
@@ -58,16 +60,16 @@ pub(super) fn omit(list: &mut PoseList<'_>, asked: usize, length: Length) -> Omi
     done
 }
 
-fn fast(list: &PoseList<'_>, pose: usize) -> u64 {
-    match list.before(pose) {
-        Some(_) if list.shown[pose] == 1 => falling(list.speed[pose]),
+fn omission_key(list: &PoseList<'_>, pose: usize) -> u64 {
+    match list.previous(pose) {
+        Some(_) if list.shown[pose] == 1 => descending(list.speed[pose]),
         _ => Queue::OUT,
     }
 }
 
-fn slow(list: &PoseList<'_>, pose: usize) -> u64 {
-    match list.before(pose) {
-        Some(before) if list.shown[before] < MAX_COPIED_FRAMES => rising(list.speed[pose]),
+fn duplication_key(list: &PoseList<'_>, pose: usize) -> u64 {
+    match list.previous(pose) {
+        Some(before) if list.shown[before] < MAX_COPIED_FRAMES => ascending(list.speed[pose]),
         _ => Queue::OUT,
     }
 }

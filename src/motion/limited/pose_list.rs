@@ -59,12 +59,12 @@ impl<'a> PoseList<'a> {
         self.source[pose]
     }
 
-    pub(super) fn before(&self, pose: usize) -> Option<usize> {
+    pub(super) fn previous(&self, pose: usize) -> Option<usize> {
         let before = self.before[pose];
         (before != NONE).then_some(before as usize)
     }
 
-    pub(super) fn after(&self, pose: usize) -> Option<usize> {
+    pub(super) fn next(&self, pose: usize) -> Option<usize> {
         let after = self.after[pose];
         (after != NONE).then_some(after as usize)
     }
@@ -96,7 +96,7 @@ impl<'a> PoseList<'a> {
     }
 
     fn measure(&mut self, pose: usize) {
-        self.speed[pose] = self.before(pose).map_or(0.0, |before| {
+        self.speed[pose] = self.previous(pose).map_or(0.0, |before| {
             let [a, b] = [before, pose].map(|pose| self.source[pose] as usize);
             self.frames.ssd(a, b)
         });
@@ -105,7 +105,7 @@ impl<'a> PoseList<'a> {
     /// The remaining poses, in order.
     pub(super) fn remaining(&self) -> impl Iterator<Item = usize> + '_ {
         let first = (self.len() > 0).then_some(0);
-        std::iter::successors(first, |pose| self.after(*pose))
+        std::iter::successors(first, |pose| self.next(*pose))
     }
 
     pub(super) fn exposure(&self) -> Exposure {

@@ -59,11 +59,11 @@ impl Queue {
 }
 
 /// A key that orders small values first. `value` is at least 0 and not NaN, so its bits are ordered like the number.
-pub(super) fn rising(value: f64) -> u64 {
+pub(super) fn ascending(value: f64) -> u64 {
     value.to_bits()
 }
 
 /// A key that orders large values first; never [`Queue::OUT`].
-pub(super) fn falling(value: f64) -> u64 {
+pub(super) fn descending(value: f64) -> u64 {
     (1 << 63) - value.to_bits()
 }

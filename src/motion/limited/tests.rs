@@ -1,7 +1,7 @@
 use fastrand::Rng;
 use glam::DVec3;
 
-use super::queue::{Queue, falling, rising};
+use super::queue::{Queue, ascending, descending};
 use super::segments::{Segments, drawing};
 use super::ssd::Frames;
 use super::{drawings, every, exact};
@@ -65,12 +65,12 @@ fn keys_are_ordered_as_the_numbers_are() {
         f64::INFINITY,
     ];
     for pair in numbers.windows(2) {
-        assert!(rising(pair[0]) < rising(pair[1]));
-        assert!(falling(pair[0]) > falling(pair[1]));
+        assert!(ascending(pair[0]) < ascending(pair[1]));
+        assert!(descending(pair[0]) > descending(pair[1]));
     }
     let keys = numbers
         .iter()
-        .flat_map(|number| [rising(*number), falling(*number)]);
+        .flat_map(|number| [ascending(*number), descending(*number)]);
     assert!(keys.max() < Some(Queue::OUT));
 }
 

@@ -7,7 +7,7 @@ use crate::motion::skeleton::{Axis, Channel, Clip, Joint};
 
 /// If the sine or cosine of the second angle is below this, the first and the third rotate about the same line (gimbal lock)
 /// and only their sum is determined. The first one then keeps its value.
-const LOCKED: f64 = 1e-12;
+const GIMBAL_LOCK: f64 = 1e-12;
 
 /// Three axes that can express every rotation: R = R_i(α) · R_j(β) · R_l(γ), where l is i or the third axis k.
 #[derive(Debug, Clone, Copy)]
@@ -52,7 +52,7 @@ impl AxisOrder {
         } else {
             (-sign * at(j, k), at(k, k))
         };
-        let alpha = if y.hypot(x) < LOCKED {
+        let alpha = if y.hypot(x) < GIMBAL_LOCK {
             before.to_radians()
         } else {
             y.atan2(x)
@@ -88,7 +88,7 @@ impl AxisOrder {
 pub(super) struct RotationTrack {
     joint: Joint,
     /// Indices of the rotation channels among the joint's channels.
-    places: Vec<usize>,
+    indices: Vec<usize>,
     order: Option<AxisOrder>,
     /// The angles of the previous sample.
     angles: Vec<f64>,
@@ -102,14 +102,14 @@ impl RotationTrack {
         let rotations = channels
             .iter()
             .enumerate()
-            .filter_map(|(place, channel)| match channel {
-                Channel::Rotation(axis) => Some((place, *axis)),
+            .filter_map(|(index, channel)| match channel {
+                Channel::Rotation(axis) => Some((index, *axis)),
                 Channel::Position(_) => None,
             });
-        let (places, axes): (Vec<usize>, Vec<Axis>) = rotations.unzip();
-        let angles = places
+        let (indices, axes): (Vec<usize>, Vec<Axis>) = rotations.unzip();
+        let angles = indices
             .iter()
-            .map(|place| first.get(*place).copied().unwrap_or(0.0))
+            .map(|index| first.get(*index).copied().unwrap_or(0.0))
             .collect();
         Self {
             joint: Joint {
@@ -117,7 +117,7 @@ impl RotationTrack {
                 ..Joint::default()
             },
             order: AxisOrder::of(&axes),
-            places,
+            indices,
             angles,
             known: [None; 2],
         }
@@ -146,9 +146,9 @@ impl RotationTrack {
                 self.known = [Some((first, ends[0])), Some((second, ends[1]))];
                 let before = [a, b, c];
                 let found = order.angles(slerp(ends[0], ends[1], t), a);
-                let one = near(found, before);
-                let other = near(order.flipped(found), before);
-                let nearer = if apart(one, before) <= apart(other, before) {
+                let one = equivalents_near(found, before);
+                let other = equivalents_near(order.flipped(found), before);
+                let nearer = if total_difference(one, before) <= total_difference(other, before) {
                     one
                 } else {
                     other
@@ -156,15 +156,15 @@ impl RotationTrack {
                 self.angles.copy_from_slice(&nearer);
             }
             _ => {
-                for (place, angle) in self.places.iter().zip(&mut self.angles) {
-                    if let (Some(from), Some(to)) = (from.get(*place), to.get(*place)) {
+                for (index, angle) in self.indices.iter().zip(&mut self.angles) {
+                    if let (Some(from), Some(to)) = (from.get(*index), to.get(*index)) {
                         *angle = nearest(from + shorter_turn(to - from) * t, *angle);
                     }
                 }
             }
         }
-        for (place, angle) in self.places.iter().zip(&self.angles) {
-            if let Some(number) = out.get_mut(*place) {
+        for (index, angle) in self.indices.iter().zip(&self.angles) {
+            if let Some(number) = out.get_mut(*index) {
                 *number = *angle;
             }
         }
@@ -193,10 +193,10 @@ fn nearest(angle: f64, to: f64) -> f64 {
     angle - 360.0 * ((angle - to) / 360.0).round()
 }
 
-fn near(angles: [f64; 3], to: [f64; 3]) -> [f64; 3] {
-    [0, 1, 2].map(|place| nearest(angles[place], to[place]))
+fn equivalents_near(angles: [f64; 3], to: [f64; 3]) -> [f64; 3] {
+    [0, 1, 2].map(|index| nearest(angles[index], to[index]))
 }
 
-fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
-    (0..3).map(|place| (a[place] - b[place]).abs()).sum()
+fn total_difference(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (0..3).map(|index| (a[index] - b[index]).abs()).sum()
 }

@@ -55,7 +55,7 @@ pub(super) fn root_motion(
         motion.positions[*part] = Some(Vec::with_capacity(clip.frames()));
     }
     let mut kinematics = ForwardKinematics::new(rig);
-    let mut place = start;
+    let mut position = start;
     let mut planted: Option<usize> = None;
     let mut before: Vec<DVec3> = Vec::new();
     for frame in 0..clip.frames() {
@@ -73,9 +73,9 @@ pub(super) fn root_motion(
                 Some(foot) => before[foot] - feet[foot],
                 None => (walk.hips[frame] - walk.hips[frame - 1]) * scale,
             };
-            place += DVec3::new(step.x, 0.0, step.z);
+            position += DVec3::new(step.x, 0.0, step.z);
         }
-        place.y = match floor {
+        position.y = match floor {
             Some(floor) => {
                 let clearance = walk.feet.iter().map(|foot| foot.clearance[frame].max(0.0));
                 let clearance = clearance.fold(f64::INFINITY, f64::min);
@@ -87,7 +87,7 @@ pub(super) fn root_motion(
         before = feet;
         for part in &moving {
             if let Some(places) = &mut motion.positions[*part] {
-                places.push(place + kinematics.places[*part].position);
+                places.push(position + kinematics.transforms[*part].position);
             }
         }
     }
@@ -103,7 +103,7 @@ fn lifted(clearance: f64, leg: f64) -> f64 {
 
 /// Forward kinematics: the parts' positions, with the root part's node at the origin.
 struct ForwardKinematics {
-    places: Vec<Transform>,
+    transforms: Vec<Transform>,
     /// Per part the position of its joint, in its parent's frame and in its own.
     joints: Vec<[DVec3; 2]>,
 }
@@ -113,15 +113,15 @@ impl ForwardKinematics {
         let joints = rig.parts.iter().map(|part| {
             let above = part
                 .parent
-                .map(|parent| into(&rig.parts[parent].node, part.joint));
-            [above.unwrap_or_default(), into(&part.node, part.joint)]
+                .map(|parent| to_local(&rig.parts[parent].node, part.joint));
+            [above.unwrap_or_default(), to_local(&part.node, part.joint)]
         });
-        let nowhere = Transform {
+        let identity = Transform {
             rotation: DQuat::IDENTITY,
             position: DVec3::ZERO,
         };
         Self {
-            places: vec![nowhere; rig.parts.len()],
+            transforms: vec![identity; rig.parts.len()],
             joints: joints.collect(),
         }
     }
@@ -132,18 +132,18 @@ impl ForwardKinematics {
             let [above, own] = self.joints[part];
             let position = match rig.parts[part].parent {
                 Some(parent) => {
-                    let parent = self.places[parent];
+                    let parent = self.transforms[parent];
                     parent.rotation * above + parent.position - rotation * own
                 }
                 None => DVec3::ZERO,
             };
-            self.places[part] = Transform { rotation, position };
+            self.transforms[part] = Transform { rotation, position };
         }
     }
 }
 
 /// A point in the frame of a node at rest.
-fn into(node: &Transform, point: DVec3) -> DVec3 {
+fn to_local(node: &Transform, point: DVec3) -> DVec3 {
     node.rotation.inverse() * (point - node.position)
 }
 
@@ -279,10 +279,11 @@ impl Foot {
 
     fn points(&self, rig: &Rig, kinematics: &ForwardKinematics) -> impl Iterator<Item = DVec3> {
         self.soles.iter().flat_map(|part| {
-            let placed = kinematics.places[*part];
+            let placed = kinematics.transforms[*part];
             let own = &rig.parts[*part];
-            let point =
-                move |point: &DVec3| placed.rotation * into(&own.node, *point) + placed.position;
+            let point = move |point: &DVec3| {
+                placed.rotation * to_local(&own.node, *point) + placed.position
+            };
             own.sole.iter().map(point)
         })
     }

@@ -137,7 +137,7 @@ proptest! {
     }
 }
 
-/// A skeleton of many joints; `parent` gives what a joint hangs on.
+/// A skeleton of many joints; `parent` gives the parent of a joint.
 fn many(count: usize, name: impl Fn(usize) -> String, parent: impl Fn(usize) -> usize) -> Skeleton {
     let joints = (0..count).map(|index| Joint {
         name: name(index),
@@ -200,7 +200,7 @@ fn cycles_and_parents_out_of_range() {
         ],
     };
     assert_eq!(label_figure(&figure).len(), 6);
-    // What hangs on nothing and carries something is a trunk.
+    // A root with children is a trunk.
     assert!(label_figure(&figure)[1].is_some());
 }
 
