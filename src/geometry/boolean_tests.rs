@@ -23,7 +23,7 @@ fn shape(outline: &Outline) -> Vec<usize> {
     rings
 }
 
-/// The module's conventions, but for crossings.
+/// Checks the module's conventions, except for crossings.
 fn check(outline: &Outline) {
     let mut seen: Vec<[u64; 2]> = Vec::new();
     for polygon in &outline.polygons {
@@ -79,7 +79,7 @@ fn simple_rings_keep_their_points() {
 }
 
 #[test]
-fn crossing_rings_follow_the_rule() {
+fn crossing_rings_follow_the_fill_rule() {
     let (outer, inner) = (1.0, (TAU / 20.0).sin() / (3.0 * TAU / 20.0).sin());
     let whole = 5.0 * outer * inner * (TAU / 10.0).sin();
     let core = 2.5 * inner * inner * (TAU / 5.0).sin();
@@ -93,7 +93,7 @@ fn crossing_rings_follow_the_rule() {
 }
 
 #[test]
-fn superfluous_points_go() {
+fn superfluous_points_are_dropped() {
     let rough = ring(&[
         (0., 0.),
         (5., 0.),
@@ -138,7 +138,7 @@ fn holes_and_islands() {
 }
 
 #[test]
-fn touching_rings_are_pulled_apart() {
+fn touching_rings_are_separated() {
     let corners = checked(
         vec![square(0., 0., 1.), square(1., 1., 1.)],
         FillRule::NonZero,
@@ -158,7 +158,7 @@ fn touching_rings_are_pulled_apart() {
 }
 
 #[test]
-fn nothing_comes_of_nothing() {
+fn empty_input_gives_empty_outlines() {
     let line = ring(&[(0., 0.), (5., 5.), (9., 9.)]);
     let thin = ring(&[(0., 0.), (100., 0.), (100., 1e-6), (0., 1e-6)]);
     let nan = vec![DVec2::NAN; 5];
@@ -187,7 +187,7 @@ fn nothing_comes_of_nothing() {
 }
 
 #[test]
-fn sizes_do_not_matter() {
+fn results_scale_with_the_input() {
     for size in [1e-30, 1e-9, 1e-3, 1e4, 1e30] {
         for rings in [
             vec![star(7, 1)],
@@ -243,7 +243,7 @@ fn clips_and_unions() {
 
 proptest! {
     #[test]
-    fn anything_becomes_clean(
+    fn any_rings_become_valid(
         rings in proptest::collection::vec(
             proptest::collection::vec((-9i32..9, -9i32..9), 0..12), 0..5),
         size in -3f64..4.0, turn in -3f64..3.0,
@@ -253,7 +253,7 @@ proptest! {
         let rings: Vec<Ring> = rings.iter().map(|r| r.iter().map(point).collect()).collect();
         for rule in [FillRule::NonZero, FillRule::EvenOdd] {
             let outline = checked(rings.clone(), rule);
-            // Clean outlines stay what they are.
+            // Valid outlines do not change.
             let again = outline.polygons.iter().flat_map(|p| p.rings.clone()).collect();
             let again = checked(again, rule);
             prop_assert!((area(&again) - area(&outline)).abs() <= 1e-3 * area(&outline));
@@ -261,7 +261,7 @@ proptest! {
     }
 }
 
-/// Rings that keep apart are as the overlay would have them, whichever way they run and nest.
+/// Disjoint rings give the same result as through the overlay, whatever their direction and nesting.
 #[test]
 fn nested_rings_need_no_overlay() {
     let ways = |rings: &[Ring], reversed: usize| -> Vec<Ring> {
@@ -282,7 +282,7 @@ fn nested_rings_need_no_overlay() {
         for rule in [FillRule::NonZero, FillRule::EvenOdd] {
             let rings = ways(&rings, reversed);
             let plain = checked(rings.clone(), rule);
-            // A ring that crosses itself sends all of them to the overlay.
+            // A ring that crosses itself sends all of them through the overlay.
             let mut crossed = rings;
             crossed.push(ring(&[(40., 0.), (42., 2.), (42., 0.), (40., 2.)]));
             let overlaid = checked(crossed, rule);

@@ -157,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn squares_and_circles_stand() {
+    fn squares_and_circles_have_an_upright_axis() {
         let circle =
             (0..48).map(|i| 1e4 + 7.0 * DVec2::from_angle(i as f64 / 48.0 * std::f64::consts::TAU));
         for o in [
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_has_no_measure() {
+    fn empty_outlines_have_no_measure() {
         assert_eq!(measure(&Outline::default()), None);
         let o = rectangle(1.0, 2.0, 0.0, DVec2::ZERO);
         assert_eq!(measure_along(&o, DVec2::ZERO), None);
@@ -182,7 +182,7 @@ mod tests {
     }
 
     #[test]
-    fn the_axis_of_a_slanting_triangle_is_its_principal_axis() {
+    fn a_slanted_triangle_has_its_principal_axis() {
         let m = measure(&outline(vec![
             DVec2::ZERO,
             DVec2::new(10.0, -10.0),
@@ -194,7 +194,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn turning_and_moving_carry_the_measure_along(
+        fn the_measure_follows_rotation_and_translation(
             w in 0.1..5.0f64, h in 6.0..20.0f64, turn in -3.1..3.1f64, x in -1e4..1e4f64, y in -1e4..1e4f64,
         ) {
             let at = DVec2::new(x, y);

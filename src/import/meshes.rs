@@ -185,7 +185,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn strips_and_fans_keep_their_side() {
+    fn strips_and_fans_keep_their_winding() {
         let indices = [0, 1, 2, 3, 4];
         assert_eq!(
             triangles(Mode::TriangleStrip, &indices),

@@ -71,15 +71,15 @@ mod tests {
     }
 
     /// The ratio R.
-    fn stretched(yaw: f64, pitch: f64) -> f64 {
+    fn ratio_of(yaw: f64, pitch: f64) -> f64 {
         bend_for(towards(yaw, pitch)).determinant()
     }
 
     #[test]
-    fn the_ratio_is_that_of_the_thesis_with_the_elevation_taken_without_sign() {
+    fn the_ratio_is_that_of_the_thesis_for_the_absolute_elevation() {
         let most = std::f64::consts::SQRT_2;
         let near = |pitch: f64, ratio: f64| {
-            let found = stretched(30.0, pitch);
+            let found = ratio_of(30.0, pitch);
             assert!((found - ratio).abs() < 1e-12, "{pitch}: {found}");
         };
         for sign in [1.0, -1.0] {
@@ -92,9 +92,9 @@ mod tests {
     }
 
     #[test]
-    fn it_is_the_turn_the_scale_and_the_turn_back_of_the_thesis() {
+    fn the_bend_is_the_rotated_scale_of_the_thesis() {
         for pitch in [10.0, 45.0, 80.0] {
-            let ratio = stretched(0.0, pitch);
+            let ratio = ratio_of(0.0, pitch);
             let turn = DMat3::from_rotation_x(std::f64::consts::FRAC_PI_4);
             let scale = DMat3::from_diagonal(DVec3::new(1.0, ratio, 1.0));
             let of_thesis = turn.transpose() * scale * turn;
@@ -107,7 +107,7 @@ mod tests {
     }
 
     #[test]
-    fn the_viewer_is_seen_from_the_nodes_own_frame() {
+    fn the_direction_is_taken_in_the_nodes_frame() {
         // The node's up is the world's -Z, so a viewer in front is straight above it.
         let lying = DMat4::from_rotation_x(-std::f64::consts::FRAC_PI_2);
         assert!(bend_matrix(lying, towards(0.0, 0.0)).abs_diff_eq(DMat4::IDENTITY, 1e-12));

@@ -1,4 +1,4 @@
-//! Pictures of models made by hand: what is where in them.
+//! Pictures of models made by hand.
 
 use std::io::Cursor;
 
@@ -20,9 +20,9 @@ struct Shape {
     uvs: Vec<Vec2>,
     triangles: Vec<[u32; 3]>,
     material: Value,
-    /// Joined with the node.
+    /// Merged into the node.
     node: Value,
-    /// Joined with the attributes, each with its accessor's type and component type.
+    /// Added to the attributes, each with its accessor's type and component type.
     more: Vec<(&'static str, &'static str, u32, Vec<u8>)>,
 }
 
@@ -92,7 +92,7 @@ fn plain(r: f32, g: f32, b: f32, alpha: f32) -> Value {
     })
 }
 
-/// Shown as it is.
+/// An unlit material.
 fn unlit(r: f32, g: f32, b: f32, alpha: f32) -> Value {
     let mut material = plain(r, g, b, alpha);
     material["extensions"] = json!({ "KHR_materials_unlit": {} });
@@ -103,7 +103,7 @@ fn bytes(floats: impl IntoIterator<Item = f32>) -> Vec<u8> {
     floats.into_iter().flat_map(f32::to_le_bytes).collect()
 }
 
-/// A `.gltf` of the shapes; `extra` is joined with its top level.
+/// A `.gltf` with the shapes; `extra` is merged into its top level.
 fn file(shapes: &[Shape], extra: &Value) -> Vec<u8> {
     let (mut data, mut views, mut accessors) = (vec![], vec![], vec![]);
     let mut list = |kind: &str, component: u32, count: usize, list: &[u8]| {
@@ -195,7 +195,7 @@ fn of(shapes: &[Shape], options: &Options) -> Image {
     picture(&file(shapes, &json!({})), options)
 }
 
-/// The smallest box that has all pixels that are mostly there: left, top, right, bottom, the latter two outside.
+/// The bounding box of all mostly opaque pixels: left, top, right, bottom, the latter two exclusive.
 fn extent(image: &Image) -> [u32; 4] {
     let there = image
         .enumerate_pixels()
@@ -261,8 +261,8 @@ fn what_is_in_front_hides_what_is_behind() {
 }
 
 #[test]
-fn clear_surfaces_are_laid_over_each_other_in_order() {
-    // In whatever order the file has them.
+fn transparent_surfaces_are_blended_in_order() {
+    // Whatever their order in the file.
     let shapes = [
         square(Vec3::Z, 1.0, unlit(0.0, 0.0, 1.0, 0.5)),
         square(Vec3::ZERO, 1.0, unlit(1.0, 0.0, 0.0, 1.0)),
@@ -289,7 +289,7 @@ fn clear_surfaces_are_laid_over_each_other_in_order() {
 }
 
 #[test]
-fn parallel_rays_keep_the_scale() {
+fn orthographic_projection_keeps_the_scale() {
     let pair = || {
         [
             square(Vec3::new(-2.0, 0.0, 0.0), 1.0, unlit(1.0, 0.0, 0.0, 1.0)),
@@ -311,7 +311,7 @@ fn parallel_rays_keep_the_scale() {
         wide(&image, 0),
         wide(&image, 2)
     );
-    // Six units wide in what the margin leaves of 300 pixels.
+    // Six units wide, in the 300 pixels without the margin.
     assert!(wide(&image, 0).abs_diff(88) <= 1, "{}", wide(&image, 0));
     let lens = Options {
         projection: Projection::Perspective,
@@ -327,7 +327,7 @@ fn parallel_rays_keep_the_scale() {
 }
 
 #[test]
-fn nothing_is_cut_off_and_the_picture_is_filled() {
+fn the_framing_is_tight_and_cuts_nothing_off() {
     let long = || {
         let mut ball = sphere(unlit(1.0, 1.0, 1.0, 1.0));
         ball.node = json!({ "scale": [1, 3, 0.5], "translation": [500, 20, -3], "rotation": [0, 0, 0.3826834, 0.9238795] });
@@ -394,7 +394,7 @@ fn a_turntable_goes_once_round() {
             "frame {index} came before"
         );
     }
-    // The frame behind the last is the first: a turn that begins one frame later has it last.
+    // The frame after the last is the first: a turn that starts one frame later ends with it.
     let later = turn(
         5,
         View {
@@ -412,7 +412,7 @@ fn a_turntable_goes_once_round() {
 }
 
 #[test]
-fn threads_make_no_difference() {
+fn pictures_do_not_depend_on_the_number_of_threads() {
     let file = file(
         &[
             sphere(plain(0.5, 0.6, 0.7, 1.0)),
@@ -449,7 +449,7 @@ fn shadows_lie_on_the_ground_and_end_before_the_border() {
         let border = x == 0 || y == 0 || x == 199 || y == 199;
         assert!(!border || pixel.0[3] < 4, "{x} {y} {pixel:?}");
     }
-    // From below there is no ground.
+    // There is no ground from below.
     let below = Options {
         view: View {
             yaw: 0.0,

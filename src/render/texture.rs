@@ -160,7 +160,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bytes_survive_the_way_to_light_and_back() {
+    fn srgb_bytes_survive_the_round_trip() {
         for byte in 0..=255 {
             assert_eq!(linear_to_srgb(srgb_to_linear(byte)), byte);
         }
@@ -168,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn edges_wrap() {
+    fn wrap_modes_apply_at_edges() {
         let places = [-1, 0, 3, 4, 7, 8];
         assert_eq!(places.map(|x| Wrap::Clamp.apply(x, 4)), [0, 0, 3, 3, 3, 3]);
         assert_eq!(places.map(|x| Wrap::Repeat.apply(x, 4)), [3, 0, 3, 0, 3, 0]);
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn far_textures_blend() {
+    fn distant_textures_use_mipmaps() {
         let image = RgbaImage::from_fn(64, 64, |x, y| match (x + y) % 2 {
             0 => image::Rgba([255, 255, 255, 255]),
             _ => image::Rgba([0, 0, 0, 255]),

@@ -22,7 +22,7 @@ fn linear(spread: Spread) -> PaintServer {
 const BOX: [DVec2; 2] = [DVec2::ZERO, DVec2::splat(100.0)];
 
 #[test]
-fn a_row_has_the_ends_colours_at_its_ends() {
+fn a_linear_gradient_has_its_end_colours_at_its_ends() {
     let server = linear(Spread::Pad);
     let plan = server.plan(BOX, 1.0).unwrap();
     let baked = plan.bake().unwrap();
@@ -35,7 +35,7 @@ fn a_row_has_the_ends_colours_at_its_ends() {
         pixels.get_pixel(width - 1, height - 1),
         &Rgba([255, 0, 0, 255])
     );
-    // The ends lie in the middle of the outermost pixels, where no neighbour has a share.
+    // The ends lie at the centres of the outermost pixels, where no neighbour contributes.
     let map = plan.map(&server);
     let ends = [0.0, 50.0].map(|x| map.transform_point2(DVec2::new(x, 7.0)).x);
     let middle = 0.5 / f64::from(width);
@@ -43,7 +43,7 @@ fn a_row_has_the_ends_colours_at_its_ends() {
 }
 
 #[test]
-fn what_goes_on_beyond_a_gradient_is_left_to_the_sampler() {
+fn gradients_are_extended_by_the_sampler() {
     for (spread, wrap) in [
         (Spread::Pad, Wrap::ClampToEdge),
         (Spread::Reflect, Wrap::MirroredRepeat),
@@ -55,7 +55,7 @@ fn what_goes_on_beyond_a_gradient_is_left_to_the_sampler() {
 }
 
 #[test]
-fn a_paint_without_area_is_no_texture() {
+fn a_degenerate_paint_is_refused() {
     let mut server = linear(Spread::Pad);
     server.place = DAffine2::from_scale(DVec2::new(50.0, 0.0));
     assert!(server.plan(BOX, 1.0).is_err());
@@ -64,7 +64,7 @@ fn a_paint_without_area_is_no_texture() {
 }
 
 #[test]
-fn many_textures_become_small_ones() {
+fn many_textures_are_made_smaller() {
     let radial = |red: f64| {
         let gradient = Gradient {
             stops: vec![stop(0.0, red, 255.0), stop(1.0, 255.0, 255.0)],
@@ -110,21 +110,21 @@ fn read(pixels: &RgbaImage, holes: Holes) -> Picture {
 }
 
 #[test]
-fn smoothed_borders_are_holes_and_half_tones_are_not() {
+fn antialiased_borders_are_holes_and_half_tones_are_not() {
     assert_eq!(read(&disc(1.0), Holes::Alpha).alpha, Alpha::Holes);
     assert_eq!(read(&disc(2.0), Holes::Alpha).alpha, Alpha::Holes);
     assert_eq!(read(&disc(20.0), Holes::Alpha).alpha, Alpha::Blended);
-    // The outline cuts sharp borders; what glows is left.
+    // The outline replaces sharp borders; a glow is kept.
     assert_eq!(read(&disc(1.0), Holes::Outline).alpha, Alpha::Opaque);
     assert_eq!(read(&disc(20.0), Holes::Outline).alpha, Alpha::Blended);
 }
 
 #[test]
-fn colours_reach_into_what_cannot_be_seen() {
+fn colours_bleed_into_transparent_pixels() {
     let pixels = image::load_from_memory(&read(&disc(1.0), Holes::Alpha).bytes)
         .unwrap()
         .to_rgba8();
-    // Black, but clear, pixels would darken the border when they are filtered.
+    // Black transparent pixels would darken the border when filtered.
     assert!(pixels.pixels().all(|pixel| pixel.0[0] == 200));
     assert_eq!(pixels.get_pixel(0, 0).0[3], 0);
     let cut = image::load_from_memory(&read(&disc(1.0), Holes::Outline).bytes)
@@ -134,7 +134,7 @@ fn colours_reach_into_what_cannot_be_seen() {
 }
 
 #[test]
-fn files_without_holes_are_kept_as_they_are() {
+fn opaque_files_are_kept_unchanged() {
     let pixels = RgbaImage::from_pixel(7, 3, Rgba([1, 2, 3, 255]));
     let mut bytes = std::io::Cursor::new(Vec::new());
     pixels

@@ -5,7 +5,7 @@ use super::*;
 use crate::import::ParsedFile;
 use crate::resolver::MemoryResolver;
 
-/// A list: component type, element, and its bytes.
+/// An accessor: component type, element type, and its bytes.
 type List = (u32, &'static str, Vec<u8>);
 
 fn floats(element: &'static str, numbers: &[f32]) -> List {
@@ -13,7 +13,7 @@ fn floats(element: &'static str, numbers: &[f32]) -> List {
     (5126, element, bytes.collect())
 }
 
-/// A file of two nodes, the second with a matrix: twice as large, a quarter turn about x, one to the right.
+/// A file of two nodes, the second with a matrix: scaled by two, rotated by 90° about x, moved by one to the right.
 fn gltf(lists: &[List], animations: &Value) -> Value {
     let (mut data, mut views, mut accessors) = (vec![], vec![], vec![]);
     for (component, element, bytes) in lists {
@@ -74,7 +74,7 @@ fn error_of(file: &Value) -> String {
     }
 }
 
-/// Where a node stands at a moment of the first clip: scale, turn, place.
+/// Scale, rotation and translation of a node at a time of the first clip.
 #[track_caller]
 fn at(file: &Value, node: usize, time: f64) -> (DVec3, DQuat, DVec3) {
     let (file, clips) = opened(file).unwrap();
@@ -97,7 +97,7 @@ fn turned(file: &Value, node: usize, time: f64, degrees: f64) {
 }
 
 #[test]
-fn what_lies_between_keys_is_as_the_sampler_says() {
+fn values_between_keys_are_interpolated() {
     let times = floats("SCALAR", &[1.0, 2.0, 4.0]);
     let places = floats("VEC3", &[0.0, 0.0, 0.0, 8.0, 0.0, 0.0, 8.0, 6.0, 0.0]);
     let lists = [times.clone(), places];
@@ -106,7 +106,7 @@ fn what_lies_between_keys_is_as_the_sampler_says() {
     stands(&linear, 1.25, [2.0, 0.0, 0.0]);
     stands(&linear, 3.0, [8.0, 3.0, 0.0]);
     stands(&linear, 9.0, [8.0, 6.0, 0.0]);
-    // What the clip does not move stays as it rests.
+    // What the clip does not move keeps its rest pose.
     let (scale, turn, _) = at(&linear, 0, 1.5);
     assert!(scale.abs_diff_eq(DVec3::new(1.0, 1.0, 2.0), 1e-9));
     assert!(turn.abs_diff_eq(DQuat::IDENTITY, 1e-9));
@@ -116,7 +116,7 @@ fn what_lies_between_keys_is_as_the_sampler_says() {
     stands(&step, 2.0 - 1e-7, [8.0, 0.0, 0.0]);
     stands(&step, 3.99, [8.0, 0.0, 0.0]);
     stands(&step, 4.0, [8.0, 6.0, 0.0]);
-    // In, at, out for each key: out of the first at 4 a second, into the second at 0.
+    // In-tangent, value, out-tangent for each key: out of the first at 4 per second, into the second at 0.
     let mut spline = vec![0.0; 27];
     (spline[6], spline[12]) = (4.0, 8.0);
     spline[21] = 8.0;
@@ -131,7 +131,7 @@ fn what_lies_between_keys_is_as_the_sampler_says() {
 }
 
 #[test]
-fn turns_take_the_shorter_way_in_every_type_that_the_format_allows() {
+fn rotations_take_the_shorter_arc_in_every_component_type() {
     let half = std::f32::consts::FRAC_1_SQRT_2;
     let times = floats("SCALAR", &[0.0, 1.0]);
     let as_floats = floats("VEC4", &[0.0, 0.0, 0.0, 1.0, 0.0, -half, 0.0, -half]);
@@ -158,7 +158,7 @@ fn turns_take_the_shorter_way_in_every_type_that_the_format_allows() {
 }
 
 #[test]
-fn a_matrix_is_taken_apart_only_for_a_node_that_moves() {
+fn a_matrix_is_decomposed_only_for_animated_nodes() {
     let half = std::f32::consts::FRAC_1_SQRT_2;
     let lists = [
         floats("SCALAR", &[0.0]),
@@ -168,7 +168,7 @@ fn a_matrix_is_taken_apart_only_for_a_node_that_moves() {
     turned(&file, 1, 0.0, 90.0);
     let (scale, _, place) = at(&file, 1, 0.0);
     assert!(scale.abs_diff_eq(DVec3::splat(2.0), 1e-6) && place.abs_diff_eq(DVec3::X, 1e-6));
-    // Larger than it is at rest, with its turn kept.
+    // Larger than at rest, with its rotation kept.
     let lists = [floats("SCALAR", &[0.0]), floats("VEC3", &[3.0; 3])];
     let file = gltf(&lists, &json!([moving(1, "scale", "STEP")]));
     let (scale, turn, _) = at(&file, 1, 0.0);
@@ -181,7 +181,7 @@ fn a_matrix_is_taken_apart_only_for_a_node_that_moves() {
 }
 
 #[test]
-fn a_clip_is_as_long_as_its_keys_or_as_it_says() {
+fn a_clip_lasts_until_its_last_key_or_its_declared_duration() {
     let lists = [floats("SCALAR", &[0.0, 2.0]), floats("VEC3", &[0.0; 6])];
     let length = |extras: Value| {
         let mut clip = moving(0, "translation", "STEP");
@@ -195,7 +195,7 @@ fn a_clip_is_as_long_as_its_keys_or_as_it_says() {
     assert_eq!(length(json!({ "okoshi": { "seconds": 1 } })), 2.0);
     assert_eq!(length(json!({ "okoshi": { "seconds": "long" } })), 2.0);
     assert_eq!(length(json!("other")), 2.0);
-    // Weights are passed over, even where they are nonsense.
+    // Weights are ignored, even invalid ones.
     let weights = json!([moving(0, "weights", "LINEAR")]);
     let (_, clips) = opened(&gltf(&lists, &weights)).unwrap();
     assert_eq!((clips.len(), clips[0].seconds), (1, 0.0));
@@ -268,7 +268,7 @@ fn broken_animations_are_refused() {
 }
 
 #[test]
-fn many_channels_share_one_list_of_moments() {
+fn channels_share_key_times() {
     let lists = [floats("SCALAR", &[0.0, 2.0]), floats("VEC3", &[0.0; 6])];
     let mut clip = moving(0, "translation", "LINEAR");
     let second = json!({ "sampler": 0, "target": { "node": 1, "path": "scale" } });

@@ -4,8 +4,8 @@ const RED: [u8; 4] = [255, 0, 0, 255];
 const GREEN: [u8; 4] = [0, 255, 0, 255];
 const BLUE: [u8; 4] = [0, 0, 255, 255];
 
-/// The unit cube at the origin that reaches to the right, up and towards a viewer in front, in each face's own colour: its
-/// top red, its front green, its right side blue.
+/// A unit cube at the origin that extends to the right, up and to the front, with a colour for each face: top red, front green,
+/// right side blue.
 fn cube() -> [Shape; 3] {
     let face = |corners: [[f32; 3]; 4], colour: [u8; 4]| {
         let [r, g, b] = [0, 1, 2].map(|channel| f32::from(colour[channel]) / 255.0);
@@ -45,7 +45,7 @@ fn seen_from(yaw: f64, pitch: f64, bend: bool) -> Options {
     }
 }
 
-/// Width and height of what has a colour, pixels; it must fill its box, but for pixels at the corners.
+/// Width and height in pixels of the coloured area, which must fill its bounding box except for the corners.
 #[track_caller]
 fn sides(image: &Image, colour: [u8; 4]) -> [u32; 2] {
     let alike = |pixel: &image::Rgba<u8>| {
@@ -78,7 +78,7 @@ fn tops_and_fronts_are_full_squares_from_45_degrees() {
                 "{yaw}: {width} by {height} pixels"
             );
         }
-        // The picture is as high as its margin lets it be: the bent shape was framed.
+        // The picture is as high as the margin allows: the bent shape was framed.
         let high = top[1] + front[1];
         assert!((205..=212).contains(&high), "{high} pixels");
     }
@@ -91,7 +91,7 @@ fn tops_and_fronts_are_full_squares_from_45_degrees() {
 }
 
 #[test]
-fn nothing_is_bent_at_the_ground_from_above_or_by_another_wish() {
+fn nothing_is_bent_from_the_ground_from_above_or_by_unknown_extensions() {
     let bent = file(&cube(), &used());
     let mut shapes = cube();
     for shape in &mut shapes {
@@ -105,7 +105,7 @@ fn nothing_is_bent_at_the_ground_from_above_or_by_another_wish() {
     let of = |file, bend| picture(file, &seen_from(30.0, 40.0, bend));
     assert_eq!(of(&bent, false), of(&plain, true));
     assert_ne!(of(&bent, true), of(&plain, true));
-    // Ways of following the viewer that are not known are passed over.
+    // Unknown kinds of view dependence are ignored.
     shapes[0].node = json!({ "extensions": { "OKOSHI_view_dependent": { "spin": {} } } });
     assert_eq!(of(&file(&shapes, &used()), true), of(&plain, true));
 }
@@ -142,7 +142,7 @@ fn a_turn_is_framed_for_all_its_views_in_both_projections() {
     }
 }
 
-/// What is seen in each pixel of a picture of `window`, in rows, as numbers of materials.
+/// The material index of each pixel in a picture of `window`, in rows.
 fn seen(
     file: &[u8],
     view: View,
@@ -189,18 +189,18 @@ const DRAWN: View = View {
 fn each_tile_of_the_drawn_look_is_on_its_own_pixel() {
     let file_of_cube = file(&cube(), &used());
     let (none, top, front) = (None, Some(0), Some(1));
-    // A point at height y of the plane z is seen at row z - y: the top fills row -1, the front row 0.
+    // A point at height y of the plane z appears at row z - y: the top fills row -1, the front row 0.
     let rows = seen(&file_of_cube, DRAWN, true, [-1.0, 2.0, 3.0, 4.0], [3, 4]);
     let tile = |what| vec![none, what, none];
     assert_eq!(rows, [tile(none), tile(top), tile(front), tile(none)]);
-    // Many pixels a tile are as many of each, and a window may be small and lie anywhere.
+    // With more pixels per tile each has its share; and a window may be small and anywhere.
     let rows = seen(&file_of_cube, DRAWN, true, [0.0, 1.0, 1.0, 2.0], [50, 100]);
     let filled = |what| vec![vec![what; 50]; 50];
     assert_eq!(rows, [filled(top), filled(front)].concat());
     // Pixels need not be square.
     let rows = seen(&file_of_cube, DRAWN, true, [0.0, 1.0, 1.0, 2.0], [1, 6]);
     assert_eq!(rows.concat(), [top, top, top, front, front, front]);
-    // True to its proportions the cube is lower, whatever else is on the stage.
+    // In true 3D the cube is lower, whatever else is in the scene.
     let rows = seen(&file_of_cube, DRAWN, false, [0.0, 1.0, 1.0, 2.0], [1, 200]);
     let count = |what| rows.iter().filter(|row| row[0] == what).count();
     assert_eq!([count(top), count(front), count(none)], [71, 71, 58]);
@@ -212,7 +212,7 @@ fn the_bend_keeps_the_nodes_origin_and_turns_with_its_frame() {
     for shape in &mut shapes {
         shape.node["translation"] = json!([10, 5, -7]);
     }
-    // The origin is seen at height (5 + 7)/√2, and the cube about it at full size.
+    // The origin appears at height (5 + 7)/√2, and the cube around it at full size.
     let up = 12.0 * 0.5_f64.sqrt();
     let moved = file(&shapes, &used());
     let (top, front) = (Some(0), Some(1));
@@ -232,7 +232,7 @@ fn the_bend_keeps_the_nodes_origin_and_turns_with_its_frame() {
 }
 
 #[test]
-fn what_hangs_on_a_bent_node_is_bent_with_it_and_once() {
+fn children_of_a_bent_node_bend_with_it_once() {
     let mut shapes = cube();
     shapes[0].node["children"] = json!([1, 2]);
     let tree = file(&shapes, &used());
@@ -252,7 +252,7 @@ fn what_hangs_on_a_bent_node_is_bent_with_it_and_once() {
 }
 
 #[test]
-fn what_is_seen_has_its_own_colour_and_lamps_change_nothing() {
+fn visible_surfaces_have_their_base_colour_without_light() {
     let mut shape = square(Vec3::ZERO, 1.0, plain(0.5, 0.25, 1.0, 1.0));
     shape.more.push((
         "COLOR_0",
@@ -294,10 +294,10 @@ fn what_is_seen_has_its_own_colour_and_lamps_change_nothing() {
 }
 
 #[test]
-fn a_wish_that_is_none_is_malformed() {
-    for wish in [json!([]), json!({ "bend": true }), json!("bend")] {
+fn an_invalid_extension_is_malformed() {
+    for extension in [json!([]), json!({ "bend": true }), json!("bend")] {
         let mut shapes = cube();
-        shapes[1].node = json!({ "extensions": { "OKOSHI_view_dependent": wish } });
+        shapes[1].node = json!({ "extensions": { "OKOSHI_view_dependent": extension } });
         let error = read(&file(&shapes, &used()), &MemoryResolver::default()).unwrap_err();
         let message = error.to_string();
         assert!(

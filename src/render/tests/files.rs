@@ -24,12 +24,12 @@ fn textured(mode: &str) -> Vec<u8> {
 }
 
 #[test]
-fn texels_are_where_they_belong() {
+fn texture_coordinates_are_applied() {
     let image = picture(&textured("MASK"), &front(100));
     near(image.get_pixel(30, 30), [255, 0, 0, 255]);
     near(image.get_pixel(70, 30), [0, 255, 0, 255]);
     near(image.get_pixel(30, 70), [0, 0, 255, 255]);
-    // Cut out: there the picture is clear.
+    // The picture is transparent where the texture is cut out.
     near(image.get_pixel(70, 70), [0; 4]);
     let image = picture(&textured("OPAQUE"), &front(100));
     near(image.get_pixel(70, 70), [255, 255, 255, 255]);
@@ -66,7 +66,7 @@ fn corners_colours_and_sides() {
             .0[3],
         255
     );
-    // A mirrored node keeps its outside out.
+    // A mirrored node is not turned inside out.
     let mut mirrored = square(Vec3::ZERO, 1.0, unlit(1.0, 1.0, 1.0, 1.0));
     mirrored.node = json!({ "scale": [-1, 1, 1] });
     assert_eq!(of(&[mirrored], &front(50)).get_pixel(25, 25).0[3], 255);
@@ -86,7 +86,7 @@ fn skins_follow_their_joints_and_not_their_node() {
         5126,
         bytes([0.5, 0.5, 0.0, 0.0].repeat(4)),
     ));
-    // Two joints, 6 to the right and 2: half each is 4.
+    // Two joints, offset by 6 to the right and by 2: with equal weights 4.
     let extra = json!({
         "nodes": [{ "translation": [6, 0, 0] }, { "translation": [2, 0, 0] }],
         "skins": [{ "joints": [2, 3] }],

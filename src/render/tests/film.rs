@@ -1,6 +1,6 @@
 use super::*;
 
-/// A red square of half a metre that goes ten metres to the right in two seconds, and stands for another.
+/// A red square of half a metre that moves ten metres to the right in two seconds, and rests for another.
 fn walker(interpolation: &str) -> Vec<u8> {
     let shape = square(Vec3::ZERO, 0.25, unlit(1.0, 0.0, 0.0, 1.0));
     let places = [Vec3::ZERO, Vec3::X * 5.0, Vec3::X * 10.0];
@@ -49,7 +49,7 @@ fn model(bytes: &[u8]) -> Model {
     read(bytes, &MemoryResolver::default()).unwrap()
 }
 
-/// The columns in which there is red: first and last.
+/// The first and the last column that contain red.
 fn red(image: &Image) -> (u32, u32) {
     let columns = image
         .enumerate_pixels()
@@ -80,7 +80,7 @@ fn drawn(film: &Film<'_>, options: &Options, times: &[f64]) -> Vec<Image> {
 }
 
 #[test]
-fn who_walks_stays_in_the_picture() {
+fn a_moving_model_stays_in_the_picture() {
     let model = model(&walker("LINEAR"));
     let [clip] = model.clips() else {
         panic!("one clip")
@@ -94,7 +94,7 @@ fn who_walks_stays_in_the_picture() {
         let film = Film::new(&model, clip, [0.0, 3.0]).unwrap();
         let images = drawn(&film, &options, &[0.0, 1.0, 2.0, 3.0]);
         let columns: Vec<(u32, u32)> = images.iter().map(red).collect();
-        // From border to border, and all of it is seen all the time.
+        // From border to border, and always completely visible.
         assert!((1..=4).contains(&columns[0].0), "{columns:?}");
         assert!((395..=398).contains(&columns[2].1), "{columns:?}");
         let width = columns[0].1 - columns[0].0;
@@ -105,7 +105,7 @@ fn who_walks_stays_in_the_picture() {
         let middle = columns[1].0 + columns[1].1;
         assert!(middle.abs_diff(399) <= 2, "{columns:?}");
         assert!(images[2] == images[3]);
-        // A part of it is framed by itself.
+        // A part of the clip has its own framing.
         let film = Film::new(&model, clip, [0.0, 1.0]).unwrap();
         let (low, high) = red(&drawn(&film, &options, &[0.0])[0]);
         assert!(high - low > 30, "{low} {high}");
@@ -113,7 +113,7 @@ fn who_walks_stays_in_the_picture() {
 }
 
 #[test]
-fn frames_that_show_the_same_are_one_picture() {
+fn consecutive_frames_with_equal_poses_are_one_picture() {
     let linear = model(&walker("LINEAR"));
     let film = Film::new(&linear, &linear.clips()[0], [0.0, 3.0]).unwrap();
     let held = film.held_frames(24).unwrap();
@@ -130,7 +130,7 @@ fn frames_that_show_the_same_are_one_picture() {
         .map(|frame| frame.frames)
         .collect();
     assert_eq!(frames, [24, 24, 24]);
-    // A length that is no number of frames is kept all the same.
+    // Durations that are not a whole number of frames are kept.
     for (fps, span, frames) in [
         (24, [0.5, 2.51], 49),
         (7, [0.0, 3.0], 21),
@@ -158,14 +158,14 @@ fn frames_that_show_the_same_are_one_picture() {
 }
 
 #[test]
-fn a_strip_shows_moments_side_by_side() {
+fn a_film_strip_shows_times_side_by_side() {
     let model = model(&walker("STEP"));
     let film = Film::new(&model, &model.clips()[0], [0.0, 3.0]).unwrap();
-    let told = std::cell::Cell::new(0);
+    let reported = std::cell::Cell::new(0);
     let strip = film
-        .film_strip(&wide(100), 4, |done| told.set(done))
+        .film_strip(&wide(100), 4, |done| reported.set(done))
         .unwrap();
-    assert_eq!((strip.dimensions(), told.get()), ((400, 40), 4));
+    assert_eq!((strip.dimensions(), reported.get()), ((400, 40), 4));
     let cells = drawn(&film, &wide(100), &[0.0, 1.0, 2.0, 3.0]);
     for (index, cell) in cells.iter().enumerate() {
         let part = image::imageops::crop_imm(&strip, index as u32 * 100, 0, 100, 40);
@@ -181,7 +181,7 @@ fn a_strip_shows_moments_side_by_side() {
 }
 
 #[test]
-fn who_jumps_leaves_the_ground_below() {
+fn a_jumping_model_leaves_the_ground_below() {
     let ball = sphere(plain(0.8, 0.8, 0.8, 1.0));
     let places = [Vec3::ZERO, Vec3::Y * 5.0, Vec3::Y * 10.0];
     let model = model(&moving(ball, "translation", places, "LINEAR"));
@@ -207,7 +207,7 @@ fn who_jumps_leaves_the_ground_below() {
 }
 
 #[test]
-fn what_is_scaled_to_nothing_is_not_seen() {
+fn a_model_scaled_to_zero_is_invisible() {
     let shape = square(Vec3::ZERO, 0.25, unlit(1.0, 0.0, 0.0, 1.0));
     let scales = [Vec3::ZERO, Vec3::ONE, Vec3::ONE];
     let model = model(&moving(shape, "scale", scales, "STEP"));
