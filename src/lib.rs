@@ -20,7 +20,6 @@ pub mod figure;
 pub mod geometry;
 pub mod ide;
 pub mod import;
-mod kept;
 pub mod lang;
 pub mod lsp;
 pub mod memo;

@@ -117,7 +117,6 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("import", &["resolver", "scene"]),
-    ("kept", &[]),
     ("lang", &["diagnostic", "source"]),
     ("lib", &[]),
     (
@@ -161,7 +160,7 @@ const USES: &[(&str, &[&str])] = &[
             "bind",
             "diagnostic",
             "geometry",
-            "kept",
+            "memo",
             "motion",
             "resolver",
             "scene",

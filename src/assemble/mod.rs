@@ -35,7 +35,6 @@ pub fn assemble(
     bindings: &Bindings,
     resolver: &dyn Resolver,
     memo: &Memo,
-    known_clips: &mut rig::Memory,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Assembled {
     let layers = terrain::read(drawing, bindings, diagnostics);
@@ -87,14 +86,7 @@ pub fn assemble(
         frames: &figures.frames,
         members: &figures.members,
     };
-    let clips = rig::add_clips(
-        &context,
-        nodes,
-        resolver,
-        known_clips,
-        &mut scene,
-        diagnostics,
-    );
+    let clips = rig::add_clips(&context, nodes, resolver, memo, &mut scene, diagnostics);
     Assembled {
         scene,
         layers,

@@ -6,7 +6,6 @@ use super::{Compiled, Options, Reading};
 use crate::bind;
 use crate::memo::Memo;
 use crate::resolver::Resolver;
-use crate::rig;
 use crate::source::Change;
 use crate::svg::{Drawing, TextEdit};
 use crate::threads;
@@ -19,7 +18,6 @@ use crate::threads;
 pub struct Compiler {
     last: Option<Version>,
     memo: Memo,
-    clips: rig::Memory,
     was_partial: bool,
 }
 
@@ -42,13 +40,13 @@ impl Compiler {
         resolver: &dyn Resolver,
     ) -> Compiled {
         let last = self.last.take();
-        let (memo, clips) = (&self.memo, &mut self.clips);
+        let memo = &self.memo;
         let done = threads::run(move || {
             let updated = last.and_then(|last| last.updated(source, options, resolver));
             let is_partial = updated.is_some();
             let version = updated.unwrap_or_else(|| Version::read(source, options, resolver));
             let reading = version.reading.clone();
-            (reading.build(resolver, memo, clips), version, is_partial)
+            (reading.build(resolver, memo), version, is_partial)
         });
         let (compiled, version, is_partial) = match done {
             Ok(done) => done,

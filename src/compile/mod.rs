@@ -100,7 +100,7 @@ impl Compiled {
 pub fn compile(source: &str, options: &Options, resolver: &dyn Resolver) -> Compiled {
     threads::run(|| {
         let reading = Reading::read(source, options, resolver);
-        reading.build(resolver, &Memo::none(), &mut rig::Memory::default())
+        reading.build(resolver, &Memo::none())
     })
     .unwrap_or_else(|crash| Compiled::crashed(&crash))
 }
@@ -134,12 +134,7 @@ impl Reading {
     }
 
     /// Reads the strings and builds the model.
-    fn build(
-        self,
-        resolver: &dyn Resolver,
-        memo: &Memo,
-        known_clips: &mut rig::Memory,
-    ) -> Compiled {
+    fn build(self, resolver: &dyn Resolver, memo: &Memo) -> Compiled {
         let Self {
             drawing,
             mut diagnostics,
@@ -151,14 +146,7 @@ impl Reading {
             scene,
             layers,
             clips,
-        } = assemble::assemble(
-            &drawing,
-            &bindings,
-            &recorder,
-            memo,
-            known_clips,
-            &mut diagnostics,
-        );
+        } = assemble::assemble(&drawing, &bindings, &recorder, memo, &mut diagnostics);
         diagnostic::sort(&mut diagnostics);
         let dependencies = dependencies.into_iter().chain(recorder.into_dependencies());
         let mut dependencies: Vec<String> = dependencies.map(|read| read.link).collect();

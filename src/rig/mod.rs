@@ -15,13 +15,13 @@ use std::sync::Arc;
 use crate::bind::{Bindings, ClipRequest};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::Frame;
-use crate::kept::{Kept, Same};
+use crate::memo::{Memo, Same};
 use crate::motion::figure::Figure;
 use crate::motion::labels::Class;
 use crate::motion::limited::{self, Cut, Length};
 use crate::motion::matching::{Matching, match_figure};
 use crate::motion::prepare::PreparedClip;
-use crate::motion::retarget::{Landmarks, RetargetedClip, Rig, retarget};
+use crate::motion::retarget::{Landmarks, RetargetedClip, retarget};
 use crate::resolver::Resolver;
 use crate::scene::{Scene, WorldTransform};
 use crate::source::Span;
@@ -32,7 +32,7 @@ pub use figure_clip::{FigureClip, PartDrive, originals};
 use figures::FigureGroup;
 use motion_files::MotionFiles;
 pub use rigging::RestNode;
-use rigging::RestNodes;
+use rigging::{RestNodes, RetargetKey};
 use tracks::{AnimatedNodes, KeyTimes};
 
 /// The most keys of all clips of a drawing: frames × parts.
@@ -41,18 +41,9 @@ const MAX_KEYS: usize = 1 << 24;
 /// How often a figure is matched with a motion at most.
 const MAX_MATCHES: usize = 1 << 18;
 
-/// A clip retargeted to a rig.
-type CachedRetarget = Kept<(Rig, Same<PreparedClip>), Arc<RetargetedClip>>;
-/// A clip as limited animation, for a number of drawings to omit and of frames to hold.
-type CachedCut = Kept<([usize; 2], Same<PreparedClip>), Arc<Cut>>;
-
-/// Results kept between compiles.
-#[derive(Debug, Default)]
-pub struct Memory {
-    files: motion_files::Memory,
-    retargeted: Vec<CachedRetarget>,
-    cuts: Vec<CachedCut>,
-}
+/// A motion and the numbers of drawings to omit and frames to hold, as the key of a cached [`Cut`].
+#[derive(PartialEq, Eq, Hash)]
+struct CutKey(Same<PreparedClip>, [usize; 2]);
 
 /// The drawing whose figures are animated.
 pub struct Context<'a> {
@@ -81,19 +72,17 @@ pub fn add_clips(
     context: &Context<'_>,
     nodes: impl Iterator<Item = RestNode>,
     resolver: &dyn Resolver,
-    memory: &mut Memory,
+    memo: &Memo,
     scene: &mut Scene,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<FigureClip> {
     let requests = context.bindings.clip_requests();
     if requests.is_empty() {
-        *memory = Memory::default();
         return Vec::new();
     }
     let nodes: Vec<RestNode> = nodes.collect();
     let rest = RestNodes::new(context.frames, &nodes);
     let groups = figures::find(context.bindings);
-    let before = std::mem::take(memory);
     let mut builder = ClipBuilder {
         context,
         rest: &rest,
@@ -101,16 +90,15 @@ pub fn add_clips(
             nodes,
             world: *context.world,
         }),
-        retargeted: before.retargeted.into_iter(),
-        cuts: before.cuts.into_iter(),
-        now: Memory::default(),
+        memo,
         problems: MatchProblems::default(),
         clips: Vec::new(),
     };
-    let mut files = MotionFiles::new(before.files);
+    let mut files = MotionFiles::default();
     let (mut keys, mut matches) = (0_usize, 0_usize);
     for request in &requests {
-        let Some(motion) = files.get(request.file, request.span, resolver, diagnostics) else {
+        let Some(motion) = files.get(request.file, request.span, resolver, memo, diagnostics)
+        else {
             continue;
         };
         let mut is_played = false;
@@ -141,8 +129,6 @@ pub fn add_clips(
     }
     let skeleton = builder.clips.last().map(|clip| clip.skeleton());
     builder.problems.report(context, skeleton, diagnostics);
-    *memory = builder.now;
-    memory.files = files.into_memory();
     builder.clips
 }
 
@@ -151,9 +137,7 @@ struct ClipBuilder<'a> {
     context: &'a Context<'a>,
     rest: &'a RestNodes,
     animated: Arc<AnimatedNodes>,
-    retargeted: std::vec::IntoIter<CachedRetarget>,
-    cuts: std::vec::IntoIter<CachedCut>,
-    now: Memory,
+    memo: &'a Memo,
     problems: MatchProblems,
     clips: Vec<FigureClip>,
 }
@@ -234,7 +218,7 @@ impl ClipBuilder<'_> {
     }
 
     fn retargeted(
-        &mut self,
+        &self,
         matched: &MatchedFigure,
         motion: &Arc<PreparedClip>,
     ) -> Arc<RetargetedClip> {
@@ -244,28 +228,24 @@ impl ClipBuilder<'_> {
             &matched.matching,
             self.rest,
         );
-        let mut cached = self.retargeted.next().unwrap_or_default();
-        let retargeted = cached.get((rig, Same(Arc::clone(motion))), |(rig, motion)| {
-            let landmarks = Landmarks::of(&motion.0.anatomy);
-            Arc::new(retarget(&motion.0.clip, rig, &landmarks))
-        });
-        self.now.retargeted.push(cached);
-        retargeted
+        let key = RetargetKey::new(&rig, motion);
+        self.memo.get(key, |_| {
+            let landmarks = Landmarks::of(&motion.anatomy);
+            Arc::new(retarget(&motion.clip, &rig, &landmarks))
+        })
     }
 
-    fn cut(&mut self, amounts: [usize; 2], motion: &Arc<PreparedClip>) -> Arc<Cut> {
-        let mut cached = self.cuts.next().unwrap_or_default();
-        let key = (amounts, Same(Arc::clone(motion)));
-        let cut = cached.get(key, |([omit, hold], motion)| {
+    fn cut(&self, amounts: [usize; 2], motion: &Arc<PreparedClip>) -> Arc<Cut> {
+        let key = CutKey(Same(Arc::clone(motion)), amounts);
+        self.memo.get(key, |_| {
+            let [omit, hold] = amounts;
             let options = limited::Options {
-                omit: *omit,
-                hold: *hold,
+                omit,
+                hold,
                 length: Length::Kept,
             };
-            Arc::new(motion.0.limit(&options))
-        });
-        self.now.cuts.push(cached);
-        cut
+            Arc::new(motion.limit(&options))
+        })
     }
 
     /// How many drawings of a figure's clips to omit and how many frames to hold, and where `Limited` says so.

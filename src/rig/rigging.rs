@@ -1,13 +1,17 @@
 //! Builds rigs from the figures of a drawing.
 
+use std::sync::Arc;
+
 use glam::{DQuat, DVec2, DVec3};
 
 use super::Context;
 use super::figures::FigureGroup;
 use crate::geometry::{Frame, y_up};
+use crate::memo::{Bits, Same};
 use crate::motion::figure::{Figure, FigurePart};
-use crate::motion::labels::Class;
-use crate::motion::matching::{Follow, Matching};
+use crate::motion::labels::{Class, Facing};
+use crate::motion::matching::{Drive, Follow, Matching};
+use crate::motion::prepare::PreparedClip;
 use crate::motion::retarget::{Rig, RigPart};
 use crate::motion::skeleton::Transform;
 
@@ -173,5 +177,46 @@ impl RestNodes {
         };
         // Every main part has a node, unless copies exceeded their limit.
         self.0[part].unwrap_or((origin, false))
+    }
+}
+
+/// A motion and a rig with its numbers as bits, as the key of a cached [`RetargetedClip`](crate::motion::retarget::RetargetedClip).
+#[derive(PartialEq, Eq, Hash)]
+pub(super) struct RetargetKey {
+    motion: Same<PreparedClip>,
+    facing: Facing,
+    parts: Vec<PartKey>,
+}
+
+#[derive(PartialEq, Eq, Hash)]
+struct PartKey {
+    parent: Option<usize>,
+    is_rooted: bool,
+    is_leg: bool,
+    drive: Option<Drive>,
+    rotation: Bits<[f64; 4]>,
+    /// The positions of node, joint and tip, and the points of the sole.
+    points: Vec<Bits<[f64; 3]>>,
+}
+
+impl RetargetKey {
+    pub(super) fn new(rig: &Rig, motion: &Arc<PreparedClip>) -> Self {
+        let part = |part: &RigPart| PartKey {
+            parent: part.parent,
+            is_rooted: part.is_rooted,
+            is_leg: part.is_leg,
+            drive: part.drive,
+            rotation: Bits(part.node.rotation.to_array()),
+            points: [part.node.position, part.joint, part.tip]
+                .iter()
+                .chain(&part.sole)
+                .map(|point| Bits(point.to_array()))
+                .collect(),
+        };
+        Self {
+            motion: Same(Arc::clone(motion)),
+            facing: rig.facing,
+            parts: rig.parts.iter().map(part).collect(),
+        }
     }
 }

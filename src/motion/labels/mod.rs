@@ -101,7 +101,7 @@ impl Side {
 }
 
 /// The direction that a figure faces.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
 pub enum Facing {
     /// Towards the viewer.
     #[default]
@@ -193,7 +193,7 @@ impl Label {
 }
 
 /// The far end of a chain of bones.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Tip {
     /// A joint.
     Joint(usize),

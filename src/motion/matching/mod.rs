@@ -34,7 +34,7 @@ pub struct MatchedPart {
 }
 
 /// How a joint drives a part.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub struct Drive {
     /// The joint.
     pub joint: usize,
@@ -45,7 +45,7 @@ pub struct Drive {
 }
 
 /// What a part takes over from its joint.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Follow {
     /// Its axis points like the bone or chain, from the joint to the tip: limbs.
     Direction,
