@@ -222,12 +222,12 @@ fn files_that_cannot_be_read_or_written() {
     room.run(&["build", "a.svg", "-o", "a.stl"]).ends(
         2,
         "",
-        "error: the output `a.stl` must end in .glb or .gltf",
+        "error: the output `a.stl` must end in .glb, .gltf or .obj",
     );
     room.run(&["build", "a.svg", "-o", "out"]).ends(
         2,
         "",
-        "error: the output `out` must end in .glb or .gltf",
+        "error: the output `out` must end in .glb, .gltf or .obj",
     );
     room.run(&["build", "a.svg", "-o", "a.svg"])
         .ends(2, "", "okoshi never writes over drawings");

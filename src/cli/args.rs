@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::export::{EXPORTERS, extensions};
 use crate::motion::limited::Camera;
 use crate::motion::resample::{Range, parse_range};
 
@@ -138,13 +139,40 @@ pub(super) enum Template {
     Island,
 }
 
+/// The formats of models, with their descriptions.
+fn formats() -> String {
+    EXPORTERS
+        .iter()
+        .fold("Formats:\n".to_owned(), |text, exporter| {
+            format!(
+                "{text}  .{:<5} {}\n",
+                exporter.extension(),
+                exporter.description()
+            )
+        })
+}
+
+fn output_help() -> String {
+    format!(
+        "Where to write: a {} file, `-` for stdout, or a folder [default: beside the drawing]",
+        extensions(|_| true)
+    )
+}
+
+fn motion_output_help() -> String {
+    format!(
+        "Where to write: a .bvh, {} or .svg file, `-` for BVH on stdout [default: nowhere, the joints are listed]",
+        extensions(|exporter| exporter.is_animated())
+    )
+}
+
 #[derive(Debug, Args)]
+#[command(after_help = formats())]
 pub(super) struct Build {
     /// The drawing, an SVG file; `-` is stdin
     #[arg(required = true, value_name = "DRAWING")]
     pub(super) drawings: Vec<PathBuf>,
-    /// Where to write: a .glb or .gltf file, `-` for stdout, or a folder [default: beside the drawing]
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", help = output_help())]
     pub(super) output: Option<PathBuf>,
     /// Write one skinned mesh with one joint per part, for engines that need that
     #[arg(long)]
@@ -232,8 +260,7 @@ pub(super) struct Motion {
     /// The motion, a BVH file; `-` is stdin
     #[arg(value_name = "IN.bvh")]
     pub(super) motion: PathBuf,
-    /// Where to write: a .bvh, .glb, .gltf or .svg file, `-` for BVH on stdout [default: nowhere, the joints are listed]
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", help = motion_output_help())]
     pub(super) output: Option<PathBuf>,
     /// Drawings to omit where the motion is fastest [default: 4]
     #[arg(long, value_name = "N")]

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::io;
 
 use super::invalid;
-use crate::scene::{AlphaMode, Animation, MAX_JOINTS, MediaType, Scene, Track, Values};
+use crate::scene::{AlphaMode, Animation, MAX_JOINTS, MediaType, Scene, Surface, Track, Values};
 
 /// Refuses nodes, materials and animations that would make an invalid file.
 pub(super) fn check(scene: &Scene) -> io::Result<()> {
@@ -144,4 +144,45 @@ fn check_animation(animation: &Animation, nodes: usize) -> io::Result<()> {
         }
     }
     Ok(())
+}
+
+/// Refuses an invalid surface with triangles, and returns the bounding box of a valid one. `joints` is the number of joints.
+pub(super) fn surface(surface: &Surface, joints: usize) -> io::Result<[[f32; 3]; 2]> {
+    let vertices = surface.positions.len();
+    let lengths = [
+        surface.normals.len(),
+        surface.uvs.len(),
+        surface.joints.len(),
+    ];
+    if !lengths.iter().all(|length| [0, vertices].contains(length)) {
+        return Err(invalid(
+            "a surface whose lists of vertices differ in length",
+        ));
+    }
+    let greatest = surface.triangles.as_flattened().iter().max();
+    if greatest.is_none_or(|vertex| *vertex as usize >= vertices) || vertices > u32::MAX as usize {
+        return Err(invalid("a surface with a vertex out of range"));
+    }
+    if surface
+        .joints
+        .iter()
+        .any(|joint| usize::from(*joint) >= joints)
+    {
+        return Err(invalid("a surface with a joint out of range"));
+    }
+    // A sum is finite only if all its terms are, and adds up without branches.
+    let sum = |rows: &[f32]| rows.iter().map(|number| number * 0.0).sum::<f32>();
+    let sums = sum(surface.positions.as_flattened())
+        + sum(surface.normals.as_flattened())
+        + sum(surface.uvs.as_flattened());
+    if !sums.is_finite() {
+        return Err(invalid("a surface with a vertex that is not a number"));
+    }
+    let first = [surface.positions[0]; 2];
+    Ok(surface.positions.iter().fold(first, |[min, max], p| {
+        [
+            [0, 1, 2].map(|i| min[i].min(p[i])),
+            [0, 1, 2].map(|i| max[i].max(p[i])),
+        ]
+    }))
 }

@@ -6,6 +6,7 @@
 
 mod check;
 mod gltf;
+mod obj;
 mod output;
 mod surfaces;
 
@@ -17,11 +18,12 @@ use crate::scene::Scene;
 use crate::threads;
 
 pub use gltf::{GLB, GLTF, ROOT, SKINNED, VIEW_DEPENDENT};
+pub use obj::OBJ;
 pub use output::{InMemory, Output};
 pub use surfaces::SurfaceCache;
 
 /// All formats, in the order in which messages list them.
-pub const EXPORTERS: &[&dyn Exporter] = &[&GLB, &GLTF];
+pub const EXPORTERS: &[&dyn Exporter] = &[&GLB, &GLTF, &OBJ];
 
 /// A file format for models.
 pub trait Exporter: Sync {

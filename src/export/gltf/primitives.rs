@@ -14,6 +14,7 @@ use rustc_hash::FxHashMap;
 use super::animations;
 use super::buffer::{Accessor, BufferWriter, Kind, Layout, Sink, floats};
 use super::{SurfaceCache, Written, invalid};
+use crate::export::check;
 use crate::export::surfaces::Used;
 use crate::scene::{Image, MediaType, Mesh, Primitive, RigidTransform, Scene, Surface};
 
@@ -260,7 +261,7 @@ impl Batch {
 
     /// Packs a surface with triangles; `joints` is the number of joints of the skin.
     fn push(&mut self, surface: &Surface, joints: usize) -> io::Result<()> {
-        let bounds = checked_bounds(surface, joints)?;
+        let bounds = check::surface(surface, joints)?;
         let vertices = surface.positions.len();
         let positions = self.accessor(Kind::Positions, vertices, Some(bounds));
         floats(positions, &surface.positions);
@@ -324,45 +325,4 @@ impl Batch {
         });
         data
     }
-}
-
-/// The bounding box of a surface, which must be valid.
-fn checked_bounds(surface: &Surface, joints: usize) -> io::Result<[[f32; 3]; 2]> {
-    let vertices = surface.positions.len();
-    let lengths = [
-        surface.normals.len(),
-        surface.uvs.len(),
-        surface.joints.len(),
-    ];
-    if !lengths.iter().all(|length| [0, vertices].contains(length)) {
-        return Err(invalid(
-            "a surface whose lists of vertices differ in length",
-        ));
-    }
-    let greatest = surface.triangles.as_flattened().iter().max();
-    if greatest.is_none_or(|vertex| *vertex as usize >= vertices) || vertices > u32::MAX as usize {
-        return Err(invalid("a surface with a vertex out of range"));
-    }
-    if surface
-        .joints
-        .iter()
-        .any(|joint| usize::from(*joint) >= joints)
-    {
-        return Err(invalid("a surface with a joint out of range"));
-    }
-    // A sum is finite only if all its terms are, and adds up without branches.
-    let sum = |rows: &[f32]| rows.iter().map(|number| number * 0.0).sum::<f32>();
-    let sums = sum(surface.positions.as_flattened())
-        + sum(surface.normals.as_flattened())
-        + sum(surface.uvs.as_flattened());
-    if !sums.is_finite() {
-        return Err(invalid("a surface with a vertex that is not a number"));
-    }
-    let first = [surface.positions[0]; 2];
-    Ok(surface.positions.iter().fold(first, |[min, max], p| {
-        [
-            [0, 1, 2].map(|i| min[i].min(p[i])),
-            [0, 1, 2].map(|i| max[i].max(p[i])),
-        ]
-    }))
 }
