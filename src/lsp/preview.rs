@@ -225,7 +225,7 @@ impl Previews {
             sent.retain(|uri, _| open.contains(uri));
             for uri in open.iter().filter(|uri| self.hub.shows(uri)) {
                 let since = sent.entry(uri.clone()).or_default();
-                let (messages, now) = self.hub.news(*since, Some(uri));
+                let (messages, now) = self.hub.updates(*since, Some(uri));
                 *since = now;
                 let Ok(uri) = uri.parse() else { continue };
                 let messages = messages.iter();

@@ -1,4 +1,4 @@
-//! What there is to show, and the news of it.
+//! The drawings that pages show, and their updates.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
@@ -15,17 +15,17 @@ use crate::report::{Reader, clips, landscapes, parts};
 use crate::resolver::MemoryResolver;
 use crate::watch::BuildTimes;
 
-/// Side of the pictures in the gallery, pixels.
-const PICTURE: u32 = 320;
+/// The side of the thumbnails in the gallery, in pixels.
+const THUMBNAIL_SIZE: u32 = 320;
 
-/// All drawings that pages can show. Pages ask it for what is new since they asked last, so that one that reads
-/// slowly gets the newest only, and nothing is kept for one that does not read.
+/// All drawings that pages can show. Each page asks for the updates since its last request, so that a slow page gets only
+/// the newest ones, and nothing is queued for a page that does not read.
 pub struct Hub {
     state: Mutex<State>,
-    /// Counts the news.
+    /// Counts the updates.
     clock: watch::Sender<u64>,
     on_pick: Box<OnPick>,
-    /// Pictures are drawn one at a time: builds go first.
+    /// Thumbnails are drawn one at a time, so that they do not delay builds.
     pub(super) drawing_pictures: Semaphore,
 }
 
@@ -35,15 +35,15 @@ impl std::fmt::Debug for Hub {
     }
 }
 
-/// Told of the drawing, and of what was picked in it.
+/// Called with the id of a drawing and what was clicked in it.
 type OnPick = dyn Fn(&str, Picked<'_>) + Send + Sync;
 
-/// What can be picked on a page.
+/// Something that was clicked on a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Picked<'a> {
     /// A part, by its name.
     Part(&'a str),
-    /// A place in the drawing's text. Lines and columns count from 1, columns in characters.
+    /// A position in the drawing's text. Lines and columns count from 1, columns in characters.
     Place {
         /// The line.
         line: usize,
@@ -55,14 +55,14 @@ pub enum Picked<'a> {
 #[derive(Default)]
 struct State {
     clock: u64,
-    /// When the list of drawings changed.
+    /// The time of the last change to the list of drawings.
     listed: u64,
     drawings: BTreeMap<String, Entry>,
-    /// Numbers of models, never used again.
+    /// The number of the last model; numbers are never reused.
     models: u64,
 }
 
-/// A drawing, and when each of its news was news.
+/// A drawing, with the time of the last change to each of its parts.
 #[derive(Default)]
 struct Entry {
     name: String,
@@ -71,30 +71,30 @@ struct Entry {
     build: Option<(u64, Arc<str>)>,
     gone: Option<u64>,
     light: (u64, Option<String>),
-    /// The last good model, and the one before it, which a page may be about to fetch.
-    models: Vec<Arc<Kept>>,
+    /// The last two good models: a page may still be about to fetch the older one.
+    models: Vec<Arc<StoredModel>>,
 }
 
 /// A model that can be fetched.
-pub(super) struct Kept {
+pub(super) struct StoredModel {
     pub(super) number: u64,
     pub(super) bytes: Bytes,
-    /// Its clips as they were before they were cut, binary glTF without anything to see.
+    /// Its clips before they were limited, as binary glTF without meshes.
     pub(super) originals: Option<Bytes>,
-    /// What there is to say of its clips.
+    /// The description of its clips.
     clips: Box<RawValue>,
     triangles: usize,
     picture: OnceLock<Option<Bytes>>,
 }
 
-impl Kept {
-    /// A picture of it, a PNG; `None` where it cannot be drawn. Takes as long as drawing takes, the first time.
+impl StoredModel {
+    /// A thumbnail as PNG; `None` if it cannot be drawn. It is drawn on the first call.
     pub(super) fn picture(&self) -> Option<Bytes> {
         let drawn = || {
             let model = render::read(&self.bytes, &MemoryResolver::default()).ok()?;
             let posed = PosedModel::new(&model, &model.rest()).ok()?;
             let options = Options {
-                size: [PICTURE; 2],
+                size: [THUMBNAIL_SIZE; 2],
                 ..Options::default()
             };
             let mut png = Vec::new();
@@ -105,21 +105,21 @@ impl Kept {
     }
 }
 
-/// A build that is to be shown.
+/// A build to show.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown<'a> {
     /// The drawing's text.
     pub text: &'a str,
-    /// What came of it.
+    /// The compiled drawing.
     pub compiled: &'a Compiled,
-    /// The model, binary glTF, and how many triangles it has; `None`: the last good one stays.
+    /// The model as binary glTF and its number of triangles; `None` keeps the last good one.
     pub model: Option<(&'a Bytes, usize)>,
     /// When it was built.
     pub times: BuildTimes,
 }
 
 impl Hub {
-    /// A hub without drawings; `on_pick` is told when something is picked on a page.
+    /// A hub without drawings; `on_pick` is called when something is clicked on a page.
     pub fn new(on_pick: impl Fn(&str, Picked<'_>) + Send + Sync + 'static) -> Arc<Self> {
         Arc::new(Self {
             state: Mutex::default(),
@@ -135,7 +135,7 @@ impl Hub {
             .unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
-    /// Changes something and tells pages.
+    /// Changes the state and notifies pages.
     fn change(&self, change: impl FnOnce(&mut State, u64)) {
         let mut state = self.state();
         state.clock += 1;
@@ -145,13 +145,13 @@ impl Hub {
         self.clock.send_replace(now);
     }
 
-    /// Shows a build of the drawing `id`, which is listed under its name, and the folder it lies in.
+    /// Shows a build of the drawing `id`, which is listed with its folder and name.
     pub fn publish(&self, id: &str, [folder, name]: [&str; 2], shown: &Shown<'_>) {
-        // Put into words outside of the lock.
+        // Everything that takes long happens before the lock is taken.
         let found = findings(&shown.compiled.diagnostics, shown.text);
         let mut parts = parts(shown.compiled, shown.text);
         parts.extend(landscapes(shown.compiled, shown.text));
-        let told = to_raw_value(&clips(shown.compiled, Reader::Page)).unwrap_or_default();
+        let clips = to_raw_value(&clips(shown.compiled, Reader::Page)).unwrap_or_default();
         let originals = shown.model.and_then(|_| originals(shown.compiled));
         self.change(|state, now| {
             let number = state.models + 1;
@@ -164,18 +164,18 @@ impl Hub {
             entry.revision += 1;
             entry.gone = None;
             if let Some((bytes, triangles)) = shown.model {
-                let as_before = |last: &Arc<Kept>| {
+                let is_equal = |last: &Arc<StoredModel>| {
                     let same = last.bytes == *bytes && last.originals == originals;
-                    same && last.clips.get() == told.get()
+                    same && last.clips.get() == clips.get()
                 };
-                let same = entry.models.last().is_some_and(as_before);
+                let same = entry.models.last().is_some_and(is_equal);
                 if !same {
                     state.models = number;
-                    entry.models.push(Arc::new(Kept {
+                    entry.models.push(Arc::new(StoredModel {
                         number,
                         bytes: bytes.clone(),
                         originals,
-                        clips: told,
+                        clips,
                         triangles,
                         picture: OnceLock::new(),
                     }));
@@ -204,7 +204,7 @@ impl Hub {
         });
     }
 
-    /// Says that a drawing's file is gone; what was built of it stays.
+    /// Reports that a drawing's file is gone; its last build stays.
     pub fn gone(&self, id: &str) {
         self.change(|state, now| {
             if let Some(entry) = state.drawings.get_mut(id) {
@@ -213,7 +213,7 @@ impl Hub {
         });
     }
 
-    /// A drawing is no longer shown.
+    /// Removes a drawing.
     pub fn remove(&self, id: &str) {
         self.change(|state, now| {
             if state.drawings.remove(id).is_some() {
@@ -222,7 +222,7 @@ impl Hub {
         });
     }
 
-    /// Lights up a part, or none.
+    /// Highlights a part, or none.
     pub fn light(&self, id: &str, part: Option<&str>) {
         let lit = |state: &State| state.drawings.get(id).map(|entry| entry.light.1.clone());
         if lit(&self.state()).is_none_or(|lit| lit.as_deref() == part) {
@@ -241,7 +241,7 @@ impl Hub {
     }
 
     /// The model of a number.
-    pub(super) fn model(&self, number: u64) -> Option<Arc<Kept>> {
+    pub(super) fn model(&self, number: u64) -> Option<Arc<StoredModel>> {
         let state = self.state();
         let models = state.drawings.values().flat_map(|entry| &entry.models);
         models
@@ -250,7 +250,7 @@ impl Hub {
             .cloned()
     }
 
-    /// The bytes of a model, by the address that messages name.
+    /// The bytes of a model, by the address in a message.
     pub fn bytes(&self, address: &str) -> Option<Bytes> {
         let (kind, file) = address.split_once('/')?;
         let model = self.model(file.strip_suffix(".glb")?.parse().ok()?)?;
@@ -261,24 +261,24 @@ impl Hub {
         }
     }
 
-    /// Tells when there is news.
+    /// Changes whenever there are updates.
     pub fn clock(&self) -> watch::Receiver<u64> {
         self.clock.subscribe()
     }
 
-    /// The news since a moment, of all drawings or of one alone, as messages, and the moment that it is now.
-    pub fn news(&self, since: u64, only: Option<&str>) -> (Vec<Arc<str>>, u64) {
+    /// The updates since a time, of all drawings or only one, as messages, and the current time.
+    pub fn updates(&self, since: u64, only: Option<&str>) -> (Vec<Arc<str>>, u64) {
         let state = self.state();
         let wanted = |id: &&String| only.is_none_or(|only| *id == only);
         let drawings = || state.drawings.iter().filter(|(id, _)| wanted(id));
-        let mut news = vec![];
+        let mut updates = vec![];
         if state.listed > since || since == 0 {
             let listed = drawings().map(|(id, entry)| Listed {
                 id,
                 name: &entry.name,
                 folder: &entry.folder,
             });
-            news.push(json(&ToPage::Drawings {
+            updates.push(json(&ToPage::Drawings {
                 drawings: listed.collect(),
             }));
         }
@@ -286,23 +286,23 @@ impl Hub {
             if let Some((when, build)) = &entry.build
                 && *when > since
             {
-                news.push(build.clone());
+                updates.push(build.clone());
             }
             if entry.gone.is_some_and(|when| when > since) {
-                news.push(json(&ToPage::Gone { drawing }));
+                updates.push(json(&ToPage::Gone { drawing }));
             }
             let (when, part) = &entry.light;
             if *when > since {
-                news.push(json(&ToPage::Light {
+                updates.push(json(&ToPage::Light {
                     drawing,
                     part: part.as_deref(),
                 }));
             }
         }
-        (news, state.clock)
+        (updates, state.clock)
     }
 
-    /// Something was picked on a page.
+    /// Handles a click on a page.
     pub(super) fn picked(&self, drawing: &str, picked: Picked<'_>) {
         if self.shows(drawing) {
             (self.on_pick)(drawing, picked);
@@ -310,13 +310,13 @@ impl Hub {
     }
 }
 
-/// The clips of a drawing before they were cut, as a file; `None` if none was cut.
+/// The clips of a drawing before they were limited, as binary glTF; `None` if none was limited.
 fn originals(compiled: &Compiled) -> Option<Bytes> {
     let model = export::to_memory(&GLB, &compiled.originals()?, None).ok()?;
     Some(model.bytes.into())
 }
 
-/// Messages hold texts and numbers only, so writing them does not fail.
+/// Messages hold only text and numbers, so this cannot fail.
 fn json(message: &ToPage<'_>) -> Arc<str> {
     serde_json::to_string(message).unwrap_or_default().into()
 }

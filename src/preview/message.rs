@@ -1,4 +1,4 @@
-//! What is said to a page, and what it says.
+//! The messages between the program and a page. Their JSON is the protocol: names of variants and fields stay.
 
 use std::time::SystemTime;
 
@@ -10,11 +10,11 @@ use crate::report::Part;
 use crate::source::LineIndex;
 use crate::watch::BuildTimes;
 
-/// To a page.
+/// A message to a page.
 #[derive(Debug, Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
 pub(super) enum ToPage<'a> {
-    /// All drawings that there are.
+    /// The list of all drawings.
     Drawings { drawings: Vec<Listed<'a>> },
     /// A drawing was built.
     Build { drawing: &'a str, build: Build<'a> },
@@ -44,14 +44,14 @@ pub(super) struct Build<'a> {
     pub(super) model: Option<String>,
     /// The address of its picture.
     pub(super) picture: Option<String>,
-    /// Whether the model is older than the drawing.
+    /// Whether the model is from an earlier build, because this one failed.
     pub(super) stale: bool,
     pub(super) triangles: usize,
     pub(super) findings: Vec<Finding<'a>>,
     pub(super) parts: Vec<Part<'a>>,
     /// The clips of the model.
     pub(super) clips: &'a RawValue,
-    /// The address of its clips as they were before they were cut.
+    /// The address of the clips before they were limited.
     pub(super) originals: Option<String>,
     pub(super) steps: Timestamps,
 }
@@ -80,7 +80,8 @@ impl From<BuildTimes> for Timestamps {
     }
 }
 
-/// A finding with the line that it is about. Lines and columns count from 1, `from` and `to` from 0, in characters.
+/// A finding with its line of the drawing. Lines and columns count from 1; `from` and `to`, the marked part of `text`, from 0.
+/// All count characters.
 #[derive(Debug, Serialize)]
 pub(super) struct Finding<'a> {
     severity: &'static str,
@@ -96,19 +97,20 @@ pub(super) struct Finding<'a> {
     to: usize,
 }
 
-/// How much of a line is shown on each side of what is marked, and how much of that, in characters.
-const AROUND: usize = 60;
-const MARKED: usize = 160;
+/// How many characters of a line are shown on each side of the marked part.
+const MAX_CONTEXT: usize = 60;
+/// How many characters of the marked part are shown.
+const MAX_MARKED: usize = 160;
 /// How many findings are shown.
-const MOST_FINDINGS: usize = 500;
+const MAX_FINDINGS: usize = 500;
 
-/// The findings of a drawing, the worst first where there are many.
+/// The findings of a drawing; if there are too many, the most severe ones.
 pub(super) fn findings<'a>(diagnostics: &'a [Diagnostic], text: &str) -> Vec<Finding<'a>> {
     let places = LineIndex::new(text);
     let mut shown: Vec<&Diagnostic> = diagnostics.iter().collect();
-    if shown.len() > MOST_FINDINGS {
+    if shown.len() > MAX_FINDINGS {
         shown.sort_by_key(|diagnostic| diagnostic.severity());
-        shown.truncate(MOST_FINDINGS);
+        shown.truncate(MAX_FINDINGS);
     }
     let finding = |diagnostic: &'a Diagnostic| {
         let start = places.clamp(diagnostic.span.start);
@@ -121,9 +123,9 @@ pub(super) fn findings<'a>(diagnostics: &'a [Diagnostic], text: &str) -> Vec<Fin
             let cut = text.chars().rev().take(count).collect::<Vec<_>>();
             cut.into_iter().rev().collect::<String>()
         };
-        let before = last(&text[low.min(start)..start], AROUND);
-        let marked: String = text[start..end].chars().take(MARKED).collect();
-        let behind: String = text[end..high.max(end)].chars().take(AROUND).collect();
+        let before = last(&text[low.min(start)..start], MAX_CONTEXT);
+        let marked: String = text[start..end].chars().take(MAX_MARKED).collect();
+        let behind: String = text[end..high.max(end)].chars().take(MAX_CONTEXT).collect();
         let before = before.trim_start();
         let from = before.chars().count();
         Finding {
@@ -142,13 +144,13 @@ pub(super) fn findings<'a>(diagnostics: &'a [Diagnostic], text: &str) -> Vec<Fin
     shown.into_iter().map(finding).collect()
 }
 
-/// From a page. What is not known is passed over.
+/// A message from a page. Unknown ones are ignored.
 #[derive(Debug, Deserialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
 pub(super) enum FromPage {
-    /// A part was picked.
+    /// A part was clicked.
     Pick { drawing: String, part: String },
-    /// A finding was picked; lines and columns count from 1, columns in characters.
+    /// A finding was clicked. Lines and columns count from 1, columns in characters.
     Open {
         drawing: String,
         line: usize,
@@ -167,7 +169,7 @@ mod tests {
     use crate::source::Span;
 
     #[test]
-    fn findings_show_the_line_around_what_they_are_about() {
+    fn findings_show_their_line() {
         let text = format!(
             "<svg>\n  {}腕$Shap</text>{}\n",
             "y".repeat(500),
@@ -181,7 +183,7 @@ mod tests {
         let marked: String = shown[0].text.chars().skip(shown[0].from).take(4).collect();
         assert_eq!(marked, "Shap");
         assert_eq!((shown[0].line, shown[0].column), (2, 505));
-        assert!(shown[0].text.chars().count() < 2 * AROUND + MARKED);
+        assert!(shown[0].text.chars().count() < 2 * MAX_CONTEXT + MAX_MARKED);
         assert_eq!(shown[1].text, "");
     }
 }

@@ -1,14 +1,14 @@
-//! A live page of drawings: each build is shown where the last one stood.
+//! A live page of drawings, updated with every build.
 //!
 //! ```text
-//!  watch, or an editor ─► Hub ─► sockets ─► pages          (the newest build of each drawing, as fast as each page reads)
-//!                          └─► models and pictures, by number
+//!  watch, or an editor ─► Hub ─► sockets ─► pages          (only the newest build of each drawing, if a page reads slowly)
+//!                          └─► models and thumbnails, by number
 //! ```
 //!
-//! It is served on loopback only, to this machine's own pages: requests that name another host, or come from another
-//! page, are refused, and nothing is served but the page and what was built. A page that does not read holds up nobody.
+//! It is served on loopback only, and only to its own page: requests that name another host or come from another page are
+//! refused, and nothing is served but the page and what was built. A page that does not read blocks nobody.
 
-mod guard;
+mod access;
 mod hub;
 mod message;
 mod page;

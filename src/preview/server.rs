@@ -1,4 +1,4 @@
-//! The server: a few addresses, on loopback, with bounds on everything.
+//! The HTTP server, on loopback, with limits on everything.
 
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr};
@@ -18,24 +18,24 @@ use hyper_util::service::TowerToHyperService;
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Semaphore;
 
-use super::guard::{Names, guard};
+use super::access::{Hosts, control};
 use super::hub::Hub;
 use super::{page, socket};
 
-/// The port that is tried first, so that an open page finds the next server again.
+/// The port that is tried first, so that an open page finds the server again after a restart.
 const PORT: u16 = 4173;
-/// How many connections there may be: a page needs a few. Those that are too many are closed at once.
-const MOST_CONNECTIONS: usize = 256;
-/// How many pages may listen.
-pub(super) const MOST_PAGES: usize = 64;
-/// How long a request may take to come.
-const PATIENCE: Duration = Duration::from_secs(5);
-/// How long a connection may be used that is no page's socket.
-const LONGEST: Duration = Duration::from_secs(300);
-/// How long to wait where the system has no more room for connections.
-const PAUSE: Duration = Duration::from_millis(50);
+/// The most connections; a page needs a few. Further ones are closed at once.
+const MAX_CONNECTIONS: usize = 256;
+/// The most pages that may be connected.
+pub(super) const MAX_PAGES: usize = 64;
+/// How long the headers of a request may take to arrive.
+const HEADER_TIMEOUT: Duration = Duration::from_secs(5);
+/// How long a connection other than a WebSocket may stay open.
+const CONNECTION_TIMEOUT: Duration = Duration::from_secs(300);
+/// How long to wait after the system refused a connection.
+const ACCEPT_RETRY_INTERVAL: Duration = Duration::from_millis(50);
 
-/// A place to serve at.
+/// A port to serve on.
 #[derive(Debug)]
 pub struct Bound {
     listener: std::net::TcpListener,
@@ -49,10 +49,10 @@ impl Bound {
     }
 }
 
-/// Takes a port on loopback: the one that is asked for, or else the usual one, or any.
+/// Binds a port on loopback: the given one, or else the default one or any free one.
 ///
 /// # Errors
-/// If the port that is asked for cannot be had.
+/// If the given port is not available.
 pub fn bind(port: Option<u16>) -> io::Result<Bound> {
     let take = |port| std::net::TcpListener::bind((Ipv4Addr::LOCALHOST, port));
     let listener = match port {
@@ -69,39 +69,39 @@ pub fn bind(port: Option<u16>) -> io::Result<Bound> {
 /// # Errors
 /// If the system cannot listen.
 pub async fn serve(bound: Bound, hub: Arc<Hub>) -> io::Result<std::convert::Infallible> {
-    let router = router(hub, Names::of(bound.address));
+    let router = router(hub, Hosts::of(bound.address));
     let listener = TcpListener::from_std(bound.listener)?;
-    let room = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let permits = Arc::new(Semaphore::new(MAX_CONNECTIONS));
     loop {
         let stream = match listener.accept().await {
             Ok((stream, _)) => stream,
             Err(_) => {
-                tokio::time::sleep(PAUSE).await;
+                tokio::time::sleep(ACCEPT_RETRY_INTERVAL).await;
                 continue;
             }
         };
-        // What is too much is closed, by dropping it.
-        let Ok(place) = room.clone().try_acquire_owned() else {
+        // A connection beyond the limit is closed by dropping it.
+        let Ok(permit) = permits.clone().try_acquire_owned() else {
             continue;
         };
         let router = router.clone();
         tokio::spawn(async move {
-            let _ = tokio::time::timeout(LONGEST, converse(stream, router)).await;
-            drop(place);
+            let _ = tokio::time::timeout(CONNECTION_TIMEOUT, converse(stream, router)).await;
+            drop(permit);
         });
     }
 }
 
 async fn converse(stream: TcpStream, router: Router) {
-    // Small messages must not wait for more.
+    // Small messages are sent at once.
     let _ = stream.set_nodelay(true);
     let service = TowerToHyperService::new(router);
     let connection = http1::Builder::new()
         .timer(TokioTimer::new())
-        .header_read_timeout(PATIENCE)
+        .header_read_timeout(HEADER_TIMEOUT)
         .serve_connection(TokioIo::new(stream), service)
         .with_upgrades();
-    // A client that goes away is no news.
+    // A client that disconnects is not an error.
     let _ = connection.await;
 }
 
@@ -111,10 +111,10 @@ pub(super) struct Shared {
     pub(super) pages: Arc<Semaphore>,
 }
 
-fn router(hub: Arc<Hub>, names: Names) -> Router {
+fn router(hub: Arc<Hub>, hosts: Hosts) -> Router {
     let shared = Shared {
         hub,
-        pages: Arc::new(Semaphore::new(MOST_PAGES)),
+        pages: Arc::new(Semaphore::new(MAX_PAGES)),
     };
     let mut router = Router::new()
         .route("/live", get(socket::open))
@@ -128,9 +128,9 @@ fn router(hub: Arc<Hub>, names: Names) -> Router {
         );
     }
     router
-        .fallback(|| async { (StatusCode::NOT_FOUND, "there is nothing here\n") })
+        .fallback(|| async { (StatusCode::NOT_FOUND, "not found\n") })
         .with_state(shared)
-        .layer(from_fn_with_state(names, guard))
+        .layer(from_fn_with_state(hosts, control))
 }
 
 async fn build(State(shared): State<Shared>, Path(file): Path<String>) -> Response {
@@ -155,7 +155,7 @@ async fn picture(State(shared): State<Shared>, Path(file): Path<String>) -> Resp
     let Some(model) = model else {
         return StatusCode::NOT_FOUND.into_response();
     };
-    let _turn = shared.hub.drawing_pictures.acquire().await;
+    let _permit = shared.hub.drawing_pictures.acquire().await;
     let drawn = tokio::task::spawn_blocking(move || model.picture()).await;
     match drawn {
         Ok(Some(png)) => ([(header::CONTENT_TYPE, "image/png")], png).into_response(),

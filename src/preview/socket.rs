@@ -1,4 +1,4 @@
-//! A page that listens.
+//! The WebSocket of a page.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -12,37 +12,40 @@ use super::hub::{Hub, Picked};
 use super::message::FromPage;
 use super::server::Shared;
 
-/// The longest message that a page sends, bytes.
-const LONGEST: usize = 16 << 10;
+/// The longest message that a page may send, in bytes.
+const MAX_MESSAGE: usize = 16 << 10;
 /// How long a page may take to read a message.
-const PATIENCE: Duration = Duration::from_secs(20);
-/// How often a page is asked whether it is still there, and after how long it is not.
-const ASK: Duration = Duration::from_secs(15);
-const SILENCE: Duration = Duration::from_secs(50);
+const SEND_TIMEOUT: Duration = Duration::from_secs(20);
+/// How often a page is pinged.
+const PING_INTERVAL: Duration = Duration::from_secs(15);
+/// After how long without an answer a page counts as gone.
+const PONG_TIMEOUT: Duration = Duration::from_secs(50);
 
-/// Makes a request a socket.
+/// Upgrades a request to a WebSocket.
 pub(super) async fn open(State(shared): State<Shared>, upgrade: WebSocketUpgrade) -> Response {
-    let Ok(place) = shared.pages.clone().try_acquire_owned() else {
+    let Ok(permit) = shared.pages.clone().try_acquire_owned() else {
         let message = "too many pages are open; close some of them\n";
         return (StatusCode::SERVICE_UNAVAILABLE, message).into_response();
     };
-    let upgrade = upgrade.max_message_size(LONGEST).max_frame_size(LONGEST);
+    let upgrade = upgrade
+        .max_message_size(MAX_MESSAGE)
+        .max_frame_size(MAX_MESSAGE);
     upgrade.on_upgrade(move |socket| async move {
         converse(socket, &shared.hub).await;
-        drop(place);
+        drop(permit);
     })
 }
 
-/// Tells a page all news until it goes.
+/// Sends all updates to a page until it disconnects.
 async fn converse(mut socket: WebSocket, hub: &Arc<Hub>) {
     let mut clock = hub.clock();
     let mut since = 0;
-    let mut heard = Instant::now();
+    let mut last_message = Instant::now();
     loop {
         clock.borrow_and_update();
-        let (news, now) = hub.news(since, None);
+        let (updates, now) = hub.updates(since, None);
         since = now;
-        for message in news {
+        for message in updates {
             if !send(&mut socket, Message::text(message.as_ref())).await {
                 return;
             }
@@ -55,13 +58,13 @@ async fn converse(mut socket: WebSocket, hub: &Arc<Hub>) {
             }
             message = socket.recv() => match message {
                 Some(Ok(message)) => {
-                    heard = Instant::now();
-                    hear(&message, hub);
+                    last_message = Instant::now();
+                    handle(&message, hub);
                 }
                 _ => return,
             },
-            () = tokio::time::sleep(ASK) => {
-                let silent = heard.elapsed() > SILENCE;
+            () = tokio::time::sleep(PING_INTERVAL) => {
+                let silent = last_message.elapsed() > PONG_TIMEOUT;
                 if silent || !send(&mut socket, Message::Ping(Default::default())).await {
                     return;
                 }
@@ -72,11 +75,11 @@ async fn converse(mut socket: WebSocket, hub: &Arc<Hub>) {
 
 /// Sends a message; `false` if the page is gone or does not read.
 async fn send(socket: &mut WebSocket, message: Message) -> bool {
-    let sent = tokio::time::timeout(PATIENCE, socket.send(message)).await;
+    let sent = tokio::time::timeout(SEND_TIMEOUT, socket.send(message)).await;
     matches!(sent, Ok(Ok(())))
 }
 
-fn hear(message: &Message, hub: &Hub) {
+fn handle(message: &Message, hub: &Hub) {
     let Message::Text(text) = message else { return };
     match serde_json::from_str(text) {
         Ok(FromPage::Pick { drawing, part }) => hub.picked(&drawing, Picked::Part(&part)),

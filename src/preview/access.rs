@@ -1,7 +1,7 @@
-//! Who is let in: this machine's own page, and nobody else.
+//! Access control: only the page itself, on this machine, may send requests.
 //!
-//! Any page in the same browser can send requests to loopback, and a foreign name can be made to point there; the
-//! `Host` that a request names, and the `Origin` that browsers put into it, tell them apart.
+//! Any page in the same browser can send requests to loopback, and a foreign name can resolve to it (DNS rebinding). The
+//! `Host` and `Origin` headers of a request tell them apart.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
@@ -12,28 +12,27 @@ use axum::http::{HeaderMap, Method, StatusCode};
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-/// The names under which the page is served.
+/// The hosts under which the page is served.
 #[derive(Debug, Clone)]
-pub(super) struct Names(Arc<[String]>);
+pub(super) struct Hosts(Arc<[String]>);
 
-impl Names {
+impl Hosts {
     pub(super) fn of(address: SocketAddr) -> Self {
         let port = address.port();
         let names = ["127.0.0.1", "localhost", "[::1]"].map(|name| match port {
-            // Browsers leave the usual port out.
+            // Browsers omit the default port.
             80 => name.to_owned(),
             port => format!("{name}:{port}"),
         });
         Self(names.into())
     }
 
-    fn are(&self, name: &str) -> bool {
+    fn contains(&self, name: &str) -> bool {
         self.0.iter().any(|own| own.eq_ignore_ascii_case(name))
     }
 }
 
-/// What every answer carries: no other page may hold it in a frame, take it for something else, or pass on where it
-/// came from.
+/// The headers of every response: no other page may embed it, guess another content type, or send it as a referrer.
 const HEADERS: [(HeaderName, &str); 6] = [
     (
         header::CONTENT_SECURITY_POLICY,
@@ -50,9 +49,9 @@ const HEADERS: [(HeaderName, &str); 6] = [
     (header::CACHE_CONTROL, "no-store"),
 ];
 
-/// Refuses requests that are not the page's own.
-pub(super) async fn guard(State(names): State<Names>, request: Request, next: Next) -> Response {
-    let refusal = refusal(&names, request.method(), request.headers());
+/// Refuses requests that do not come from the page itself.
+pub(super) async fn control(State(hosts): State<Hosts>, request: Request, next: Next) -> Response {
+    let refusal = refusal(&hosts, request.method(), request.headers());
     let mut response = match refusal {
         Some(refusal) => refusal.into_response(),
         None => next.run(request).await,
@@ -65,9 +64,9 @@ pub(super) async fn guard(State(names): State<Names>, request: Request, next: Ne
     response
 }
 
-/// Why a request is refused.
+/// The response to a request that is refused.
 fn refusal(
-    names: &Names,
+    hosts: &Hosts,
     method: &Method,
     headers: &HeaderMap,
 ) -> Option<(StatusCode, &'static str)> {
@@ -79,7 +78,7 @@ fn refusal(
             (Some(_), Some(_)) => Err(()),
         }
     };
-    let own_host = matches!(text(header::HOST), Ok(Some(host)) if names.are(host));
+    let own_host = matches!(text(header::HOST), Ok(Some(host)) if hosts.contains(host));
     if !own_host {
         return Some((
             StatusCode::FORBIDDEN,
@@ -87,23 +86,20 @@ fn refusal(
         ));
     }
     let own_origin = match text(header::ORIGIN) {
-        // Programs on this machine send none; browsers do wherever it matters.
+        // Only browsers send it.
         Ok(None) => true,
         Ok(Some(origin)) => origin
             .strip_prefix("http://")
-            .is_some_and(|name| names.are(name)),
+            .is_some_and(|name| hosts.contains(name)),
         Err(()) => false,
     };
     let site = text(HeaderName::from_static("sec-fetch-site"));
     let own_site = !matches!(site, Ok(Some("cross-site" | "same-site")) | Err(()));
     if !own_origin || !own_site {
-        return Some((
-            StatusCode::FORBIDDEN,
-            "other pages may not look at this one\n",
-        ));
+        return Some((StatusCode::FORBIDDEN, "other pages may not read this one\n"));
     }
     if !matches!(*method, Method::GET | Method::HEAD) {
-        return Some((StatusCode::METHOD_NOT_ALLOWED, "this page only shows\n"));
+        return Some((StatusCode::METHOD_NOT_ALLOWED, "this page is read-only\n"));
     }
     None
 }
@@ -113,18 +109,18 @@ mod tests {
     use super::*;
 
     fn refused(headers: &[(&'static str, &str)]) -> bool {
-        let names = Names::of(([127, 0, 0, 1], 4173).into());
+        let hosts = Hosts::of(([127, 0, 0, 1], 4173).into());
         let mut map = HeaderMap::new();
         for (name, value) in headers {
             map.append(*name, value.parse().unwrap());
         }
-        refusal(&names, &Method::GET, &map).is_some()
+        refusal(&hosts, &Method::GET, &map).is_some()
     }
 
     #[test]
-    fn only_the_own_page_is_let_in() {
+    fn only_the_page_itself_is_served() {
         let host = ("host", "127.0.0.1:4173");
-        for sound in [
+        for own in [
             &[host][..],
             &[("host", "LocalHost:4173")],
             &[("host", "[::1]:4173")],
@@ -132,7 +128,7 @@ mod tests {
             &[host, ("sec-fetch-site", "same-origin")],
             &[host, ("sec-fetch-site", "none")],
         ] {
-            assert!(!refused(sound), "{sound:?}");
+            assert!(!refused(own), "{own:?}");
         }
         for foreign in [
             &[][..],
