@@ -130,7 +130,7 @@ fn expected_volume(outline: &Outline, kind: &Profile, options: &Options) -> Opti
     }
     let (low, high) = bounds(outline)?;
     let half = low.abs().max(high.abs());
-    let stack = kind.layers(half, options);
+    let stack = layers::with_thickness(kind.layers(half, options), half);
     // A very small thickness is mostly rounding.
     let thickness = stack.last()?.z - stack.first()?.z;
     if thickness < 1e-2 * half.max_element() {

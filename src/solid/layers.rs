@@ -18,13 +18,13 @@ pub(super) fn steps_per_half_turn(options: &Options) -> u32 {
 
 /// A copy of the outline.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Layer {
+pub struct Layer {
     /// Scale across the axis.
-    pub(super) across: f64,
+    pub across: f64,
     /// Scale along the axis.
-    pub(super) along: f64,
+    pub along: f64,
     /// Depth, drawing units.
-    pub(super) z: f64,
+    pub z: f64,
 }
 
 impl Layer {

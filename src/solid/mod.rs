@@ -28,7 +28,8 @@ use glam::{DMat2, DVec3};
 use crate::geometry::{Outline, bounds};
 use crate::scene::Surface;
 
-pub use kinds::{Faces, Profile};
+pub use kinds::{Faces, Kind, Profile};
+pub use layers::Layer;
 pub use source::{Sides, Solid};
 
 /// What a solid depends on besides its outline and its profile.

@@ -1,38 +1,16 @@
 //! `coneh`: narrows along the axis.
 
-use glam::DVec2;
-
-use super::taper::Taper;
-use super::{Faces, Kind};
-use crate::solid::Options;
-use crate::solid::layers::Layer;
+use super::taper::{Direction, Taper};
 
 /// The outline scaled along its axis from one depth to another.
+pub(super) type ConeH = Taper<Along>;
+
+/// Along the axis.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ConeH(Taper);
+pub struct Along;
 
-impl Kind for ConeH {
-    fn new(numbers: &[f64], _: f64) -> Option<Self> {
-        Taper::cone(numbers).map(Self)
-    }
-
-    fn numbers(&self) -> Vec<f64> {
-        self.0.numbers()
-    }
-
-    fn layers(&self, _: DVec2, _: &Options) -> Vec<Layer> {
-        self.0.layers(|top| [1.0, top])
-    }
-
-    fn faces(&self) -> Option<Faces> {
-        Some(self.0.faces())
-    }
-
-    fn raise(&mut self, by: [f64; 2]) {
-        self.0.raise(by);
-    }
-
-    fn depends_on_axis(&self) -> bool {
-        true
+impl Direction for Along {
+    fn scales(top: f64) -> [f64; 2] {
+        [1.0, top]
     }
 }

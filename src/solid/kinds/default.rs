@@ -2,14 +2,14 @@
 
 use glam::DVec2;
 
-use super::taper::Taper;
+use super::taper::{Both, Taper};
 use super::{Faces, Kind};
 use crate::solid::Options;
 use crate::solid::layers::Layer;
 
 /// A plate between two depths.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Default(Taper);
+pub struct Default(Taper<Both>);
 
 impl Kind for Default {
     fn new(numbers: &[f64], plate: f64) -> Option<Self> {
@@ -24,12 +24,12 @@ impl Kind for Default {
         self.0.numbers()
     }
 
-    fn layers(&self, _: DVec2, _: &Options) -> Vec<Layer> {
-        self.0.layers(|top| [top, top])
+    fn layers(&self, half: DVec2, options: &Options) -> Vec<Layer> {
+        self.0.layers(half, options)
     }
 
     fn faces(&self) -> Option<Faces> {
-        Some(self.0.faces())
+        self.0.faces()
     }
 
     fn raise(&mut self, by: [f64; 2]) {

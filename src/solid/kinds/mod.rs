@@ -13,6 +13,8 @@ mod roundh;
 mod roundv;
 mod taper;
 
+use std::ops::Deref;
+
 use glam::DVec2;
 
 use super::Options;
@@ -45,7 +47,7 @@ macro_rules! kinds {
                 }
             }
 
-            fn kind(&self) -> &dyn Kind {
+            fn kind(&self) -> &(dyn Kind + 'static) {
                 match self {
                     $(Self::$kind(kind) => kind,)*
                 }
@@ -74,8 +76,9 @@ kinds! {
     "model" => model::Model,
 }
 
-/// What a kind knows about its solids. The half extents of an outline are across the axis and along it.
-trait Kind {
+/// What a kind knows about its solids; a [`Profile`] dereferences to that of its kind. `half` are the half extents of the
+/// outline across the axis and along it.
+pub trait Kind {
     /// See [`Profile::new`].
     fn new(numbers: &[f64], plate: f64) -> Option<Self>
     where
@@ -90,19 +93,20 @@ trait Kind {
         Vec::new()
     }
 
-    /// The surface of an outline with these half extents.
+    /// The surface of an outline.
     fn surface(&self, outline: &Outline, half: DVec2, options: &Options) -> Surface {
         let layers = with_thickness(self.layers(half, options), half);
         stack::surface(outline, &layers, options)
     }
 
-    /// See [`Profile::depths`].
+    /// How deep the solid reaches to the back and to the front, drawing units. A `lathe` is taken to reach as far as the
+    /// outline does.
     fn depths(&self, half: DVec2, options: &Options) -> Option<[f64; 2]> {
         let layers = with_thickness(self.layers(half, options), half);
         Some([layers.first()?.z, layers.last()?.z])
     }
 
-    /// See [`Profile::faces`].
+    /// The solid's plane faces parallel to the drawing, if it has any.
     fn faces(&self) -> Option<Faces> {
         None
     }
@@ -110,12 +114,12 @@ trait Kind {
     /// See [`Profile::raised`].
     fn raise(&mut self, _by: [f64; 2]) {}
 
-    /// See [`Profile::is_open`].
+    /// Whether it is a surface without thickness, visible from both sides.
     fn is_open(&self) -> bool {
         false
     }
 
-    /// See [`Profile::depends_on_axis`].
+    /// Whether the solid depends on the direction of the outline's axis.
     fn depends_on_axis(&self) -> bool {
         false
     }
@@ -130,49 +134,20 @@ pub struct Faces {
     pub thickness: Option<f64>,
 }
 
+impl Deref for Profile {
+    type Target = dyn Kind;
+
+    fn deref(&self) -> &Self::Target {
+        self.kind()
+    }
+}
+
 impl Profile {
-    /// All numbers of the kind, for hashes.
-    pub(super) fn numbers(&self) -> Vec<f64> {
-        self.kind().numbers()
-    }
-
-    /// The surface of an outline with these half extents.
-    pub(super) fn surface(&self, outline: &Outline, half: DVec2, options: &Options) -> Surface {
-        self.kind().surface(outline, half, options)
-    }
-
-    /// The layers of a stack, for tests.
-    #[cfg(test)]
-    pub(super) fn layers(&self, half: DVec2, options: &Options) -> Vec<Layer> {
-        with_thickness(self.kind().layers(half, options), half)
-    }
-
-    /// How deep the solid reaches to the back and to the front, drawing units, for an outline with these half extents
-    /// across its axis and along it. A `lathe` is taken to reach as far as the outline does.
-    pub fn depths(&self, half: DVec2, options: &Options) -> Option<[f64; 2]> {
-        self.kind().depths(half, options)
-    }
-
-    /// The solid's plane faces parallel to the drawing, if it has any.
-    pub fn faces(&self) -> Option<Faces> {
-        self.kind().faces()
-    }
-
     /// The profile with its back and its front face moved outwards by these distances; one without such faces is
     /// unchanged.
     #[must_use]
     pub fn raised(mut self, by: [f64; 2]) -> Self {
         self.kind_mut().raise(by);
         self
-    }
-
-    /// Whether it is a surface without thickness, seen from both sides.
-    pub fn is_open(&self) -> bool {
-        self.kind().is_open()
-    }
-
-    /// Whether the solid depends on the direction of the outline's axis.
-    pub fn depends_on_axis(&self) -> bool {
-        self.kind().depends_on_axis()
     }
 }

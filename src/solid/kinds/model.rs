@@ -3,13 +3,13 @@
 use glam::DVec2;
 
 use super::Kind;
-use super::taper::Taper;
+use super::taper::{Both, Taper};
 use crate::solid::Options;
 use crate::solid::layers::Layer;
 
 /// A plate like that of `default`. Its faces do not take part in the relief, because a model's surface does not.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Model(Taper);
+pub struct Model(Taper<Both>);
 
 impl Kind for Model {
     fn new(_: &[f64], plate: f64) -> Option<Self> {
@@ -20,7 +20,7 @@ impl Kind for Model {
         self.0.numbers()
     }
 
-    fn layers(&self, _: DVec2, _: &Options) -> Vec<Layer> {
-        self.0.layers(|top| [top, top])
+    fn layers(&self, half: DVec2, options: &Options) -> Vec<Layer> {
+        self.0.layers(half, options)
     }
 }
