@@ -1,4 +1,4 @@
-//! Materials, shared by everything that looks alike.
+//! Materials, shared by all parts and tiles with the same factors and texture.
 
 use rustc_hash::FxHashMap;
 
@@ -13,10 +13,10 @@ use crate::svg::Drawing;
 use crate::terrain::{Layer, Tile, TileMaterial};
 use crate::texture::Alpha;
 
-/// Where holes begin in textures whose alpha is all or nothing.
+/// The alpha below which a texture with only opaque and transparent pixels has a hole.
 const CUTOFF: f32 = 0.5;
 
-/// The materials of a drawing, and which part has which.
+/// The materials of a drawing, and the material of each part and tile.
 pub(super) struct Materials {
     list: Vec<Material>,
     textures: Vec<Texture>,
@@ -26,7 +26,7 @@ pub(super) struct Materials {
     of_looks: Vec<Vec<Option<usize>>>,
 }
 
-/// Materials on their way into the list, one for all that look alike.
+/// Collects materials; equal ones share an index.
 #[derive(Default)]
 struct Shared {
     list: Vec<Material>,
@@ -62,7 +62,7 @@ impl Shared {
     }
 }
 
-/// What two parts have in common that share a material.
+/// Two parts with equal keys share a material.
 #[derive(PartialEq, Eq, Hash)]
 struct Key {
     factors: [u64; 9],

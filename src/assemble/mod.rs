@@ -84,7 +84,7 @@ pub fn assemble(
         bindings,
         world: &world,
         frames: &figures.frames,
-        members: &figures.members,
+        parts_of_node: &figures.parts_of_node,
     };
     let clips = rig::add_clips(&context, nodes, resolver, memo, &mut scene, diagnostics);
     Assembled {

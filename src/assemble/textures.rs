@@ -1,4 +1,4 @@
-//! Which parts are textured, and with what: `Texture`, gradients, patterns, pictures.
+//! The textures of parts and tiles: `Texture`, gradients, patterns, pictures.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ use crate::texture::{
 /// Pixels of a tile along as much of the drawing as the page's diagonal is long.
 const DETAIL: f64 = 2048.0;
 
-/// The textures of a drawing, and which part has which.
+/// The textures of a drawing, and the texture of each part and tile.
 pub(super) struct Textures {
     textures: Vec<Texture>,
     images: Vec<Image>,
@@ -31,19 +31,19 @@ pub(super) struct Textures {
     of_look: FxHashMap<(usize, usize), usize>,
 }
 
-/// How a part is textured.
+/// The texture of a part.
 #[derive(Clone, Copy)]
 pub(super) struct Textured {
     /// Index of the texture.
     pub(super) texture: usize,
     /// From the drawing to texture coordinates.
     pub(super) map: DAffine2,
-    /// It is a file that `Texture` names.
+    /// Whether it is the file of `Texture`.
     pub(super) is_file: bool,
 }
 
-/// A part that is to be textured.
-struct Wish {
+/// A part whose texture is planned.
+struct TexturedPart {
     part: usize,
     server: Arc<PaintServer>,
     plan: usize,
@@ -67,14 +67,14 @@ impl Textures {
                 resolver,
                 memo,
                 read: FxHashMap::default(),
-                told: FxHashSet::default(),
+                reported: FxHashSet::default(),
             },
             plans: Vec::new(),
             names: Vec::new(),
             known: FxHashMap::default(),
-            wishes: Vec::new(),
+            parts: Vec::new(),
             looks: Vec::new(),
-            told: FxHashSet::default(),
+            reported: FxHashSet::default(),
         };
         for part in 0..bindings.parts.len() {
             if !models.has(part) {
@@ -89,7 +89,7 @@ impl Textures {
         collector.finish(baked, diagnostics)
     }
 
-    /// How a part is textured.
+    /// The texture of a part.
     pub(super) fn of(&self, part: usize) -> Option<Textured> {
         self.of_part.get(&part).copied()
     }
@@ -99,7 +99,7 @@ impl Textures {
         self.of_look.get(&(layer, look)).copied()
     }
 
-    /// A texture's name, and where it can be seen through.
+    /// The name of a texture, and whether it is transparent.
     pub(super) fn about(&self, texture: usize) -> (&str, Alpha) {
         let image = self.textures[texture].image;
         (&self.images[image].name, self.alphas[image])
@@ -118,11 +118,11 @@ struct Collector<'a> {
     /// The names of the plans.
     names: Vec<String>,
     known: FxHashMap<PlanKey, usize>,
-    wishes: Vec<Wish>,
+    parts: Vec<TexturedPart>,
     /// Tile layers' looks, each with the plan that is laid over each tile.
     looks: Vec<((usize, usize), usize)>,
-    /// Paints that were found not to be drawn.
-    told: FxHashSet<&'a PaintKey>,
+    /// Paints that cannot be drawn and were reported.
+    reported: FxHashSet<&'a PaintKey>,
 }
 
 impl<'a> Collector<'a> {
@@ -175,7 +175,7 @@ impl<'a> Collector<'a> {
                 _ => drawing.shapes[part.shape].element.own_name().to_owned(),
             })
         });
-        self.wishes.push(Wish {
+        self.parts.push(TexturedPart {
             part: index,
             server,
             plan: number,
@@ -204,7 +204,7 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// The index of a plan, which is a new one if there is none like it.
+    /// The index of a plan; equal plans share one.
     fn number(&mut self, plan: Plan, name: impl FnOnce() -> String) -> usize {
         let next = self.plans.len();
         let number = *self.known.entry(plan.key()).or_insert(next);
@@ -215,7 +215,7 @@ impl<'a> Collector<'a> {
         number
     }
 
-    /// Says, once a paint, that it appears in one colour.
+    /// Reports, once for each paint, that it appears in one colour.
     fn plain(&mut self, part: usize, why: &str) -> Option<Diagnostic> {
         let (drawing, bindings) = (self.drawing, self.bindings);
         let part = &bindings.parts[part];
@@ -224,7 +224,7 @@ impl<'a> Collector<'a> {
             PaintKey::Server(id) => format!("the gradient or pattern `#{id}`"),
             PaintKey::Picture(_) | PaintKey::Solid(_) => "the picture".to_owned(),
         };
-        self.told.insert(key).then(|| {
+        self.reported.insert(key).then(|| {
             let span = drawing.shapes[part.shape].element.span;
             let message = format!("{what} appears in the model as its mean colour: {why}");
             Diagnostic::new(Code::PlainPaint, span, message)
@@ -248,7 +248,7 @@ impl<'a> Collector<'a> {
         for (baked, name) in baked.into_iter().zip(std::mem::take(&mut self.names)) {
             numbers.push(baked.map(|baked| {
                 let number = textures.textures.len();
-                // Nothing but these has been put in: images and textures go by the same numbers so far.
+                // So far every texture has its own image, so both have the same index.
                 textures.textures.push(Texture {
                     image: number,
                     wrap: baked.wrap,
@@ -263,22 +263,22 @@ impl<'a> Collector<'a> {
                 number
             }));
         }
-        for wish in std::mem::take(&mut self.wishes) {
-            match numbers[wish.plan] {
+        for part in std::mem::take(&mut self.parts) {
+            match numbers[part.plan] {
                 Ok(texture) => {
-                    let map = self.plans[wish.plan].map(&wish.server);
-                    let is_file = wish.is_file;
+                    let map = self.plans[part.plan].map(&part.server);
+                    let is_file = part.is_file;
                     let textured = Textured {
                         texture,
                         map,
                         is_file,
                     };
-                    textures.of_part.insert(wish.part, textured);
+                    textures.of_part.insert(part.part, textured);
                 }
-                Err(why) => diagnostics.extend(self.plain(wish.part, why)),
+                Err(why) => diagnostics.extend(self.plain(part.part, why)),
             }
         }
-        // On tiles a picture is seen again and again, so that it is another texture of the same image.
+        // On tiles a picture repeats, which is another texture of the same image.
         let mut repeated: FxHashMap<usize, usize> = FxHashMap::default();
         for (look, plan) in std::mem::take(&mut self.looks) {
             let Ok(image) = numbers[plan] else { continue };
@@ -308,8 +308,8 @@ struct Files<'a> {
     memo: &'a Memo,
     /// The pictures that were read, by link.
     read: FxHashMap<&'a str, ReadPicture>,
-    /// Strings that were told what is wrong.
-    told: FxHashSet<usize>,
+    /// Strings whose file was reported.
+    reported: FxHashSet<usize>,
 }
 
 /// The key of a picture file, by its link.
@@ -336,7 +336,7 @@ impl<'a> Files<'a> {
         if let Ok(Ok(picture)) = found {
             return Some((link, picture.clone()));
         }
-        if self.told.insert(string) {
+        if self.reported.insert(string) {
             diagnostics.extend(match found {
                 Err(error) => Some(broken_link(link, error, span)),
                 Ok(Err((code, message))) => Some(

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::units::Member;
+use super::node_groups::PartSource;
 use crate::geometry::{Measure, Outline, measure};
 use crate::memo::{Memo, Same};
 use crate::svg::{Drawing, StrokeSource};
@@ -21,16 +21,16 @@ enum AreaKey {
     Stroke(Same<StrokeSource>),
 }
 
-/// The areas of members; `None` for those that cover nothing.
-pub(super) fn areas(drawing: &Drawing, members: &[Member], memo: &Memo) -> Vec<Option<Area>> {
-    let key = |member: &Member| {
-        let shape = &drawing.shapes[member.shape];
+/// The areas of sources; `None` for those that cover nothing.
+pub(super) fn areas(drawing: &Drawing, sources: &[PartSource], memo: &Memo) -> Vec<Option<Area>> {
+    let key = |source: &PartSource| {
+        let shape = &drawing.shapes[source.shape];
         match &shape.stroke {
-            Some(stroke) if member.is_stroke => AreaKey::Stroke(Same(Arc::clone(stroke))),
+            Some(stroke) if source.is_stroke => AreaKey::Stroke(Same(Arc::clone(stroke))),
             _ => AreaKey::Fill(Same(Arc::clone(&shape.outline))),
         }
     };
-    memo.get_each(members.iter().map(key).collect(), |key| {
+    memo.get_each(sources.iter().map(key).collect(), |key| {
         let outline = match key {
             AreaKey::Fill(outline) => Arc::clone(&outline.0),
             AreaKey::Stroke(stroke) => Arc::new(stroke.0.outline()),

@@ -12,19 +12,19 @@ use crate::svg::{Drawing, Element, Paint};
 
 use super::layers::{Layer, LayerKind};
 use super::legends::Legend;
+use super::node_groups::PartSource;
 use super::settings::DrawingSettings;
-use super::units::Member;
 
-/// Everything that the strings say of the parts.
+/// The strings and parts of a drawing, and which belong together.
 #[derive(Debug, Default)]
 pub struct Bindings {
     /// Whether the drawing is annotated at all (language.md, Where strings live).
     pub annotated: bool,
     /// The strings, in the order of the file.
     pub strings: Vec<DrawingString>,
-    /// The parts, hindmost first; sub-parts, legends and unused parts included.
+    /// The parts, back-most first; sub-parts, legends and unused parts included.
     pub parts: Vec<Part>,
-    /// The settings of all `%` strings, each with the index of its string; one a keyword, the last one.
+    /// The settings of all `%` strings, each with the index of its string; for each keyword the last one.
     pub defaults: Vec<(usize, Setting)>,
     /// The legends, merged by paint.
     pub legends: Vec<Legend>,
@@ -38,27 +38,27 @@ pub struct Bindings {
     pub(super) tile_layer_of_group: Vec<Option<usize>>,
 }
 
-/// Where a string stands.
+/// What holds a string.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
-    /// It is a text: index into [`Drawing::labels`].
+    /// A text: index into [`Drawing::labels`].
     Label(usize),
-    /// It is the description of a shape.
+    /// The description of a shape.
     Shape(usize),
-    /// It is the description of a group.
+    /// The description of a group.
     Group(usize),
 }
 
-/// By which rule a string found its part.
+/// The rule by which a string was bound to its part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BoundBy {
-    /// It is the part's description.
+    /// The string is the part's description.
     Desc,
-    /// It is grouped with it.
+    /// The string is in a group with the part.
     Group,
-    /// A line leads there.
+    /// A line leads from the string to the part.
     Leader,
-    /// It is the nearest.
+    /// The part is the nearest.
     Nearest,
 }
 
@@ -74,36 +74,36 @@ impl BoundBy {
     }
 }
 
-/// A string's part.
+/// The part that a string is bound to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Binding {
     /// Index of the part.
     pub part: usize,
-    /// Why that one.
+    /// The rule.
     pub by: BoundBy,
 }
 
 /// A string of the drawing.
 #[derive(Debug)]
 pub struct DrawingString {
-    /// Where it stands.
+    /// What holds it.
     pub place: Place,
-    /// Its characters; the drawing's too.
+    /// Its characters, shared with the drawing.
     pub text: Arc<Text>,
-    /// How it reads.
+    /// The parsed string.
     pub annotation: Annotation,
-    /// What its attributes say.
+    /// The values of its attributes.
     pub settings: Vec<Setting>,
-    /// The part it belongs to.
+    /// The part that it is bound to.
     pub binding: Option<Binding>,
-    /// A part that is almost as near.
-    pub rival: Option<usize>,
-    /// The container among whose children it is bound.
+    /// Another part that is almost as near.
+    pub runner_up: Option<usize>,
+    /// The container to whose children the string is restricted.
     pub(super) scope: Option<usize>,
 }
 
 impl DrawingString {
-    /// Whether the string describes a part, rather than nothing, everything or a group.
+    /// Whether the string belongs to a part, rather than to a group or to the whole drawing.
     pub fn wants_part(&self) -> bool {
         match &self.annotation {
             Annotation::Unused | Annotation::Legend(_) => true,
@@ -118,14 +118,14 @@ impl DrawingString {
     }
 }
 
-/// What a part is.
+/// The kind of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum PartKind {
     /// A node of the hierarchy.
     Main,
     /// A solid in its main part's node.
     Sub,
-    /// A swatch that gives its attributes to its paint.
+    /// The sample of a legend, whose attributes hold for its paint.
     Legend,
     /// Left out.
     Unused,
@@ -151,9 +151,9 @@ impl PartKind {
 pub struct Part {
     /// Its name; empty for sub-parts, legends and unused parts without one.
     pub name: String,
-    /// Whether the name was given by itself.
+    /// Whether the program chose the name.
     pub automatic: bool,
-    /// What it is.
+    /// Its kind.
     pub kind: PartKind,
     /// Index of its shape in the drawing.
     pub shape: usize,
@@ -161,31 +161,31 @@ pub struct Part {
     pub is_stroke: bool,
     /// Its area, drawing units.
     pub outline: Arc<Outline>,
-    /// Its axis, centre and ends; the axis is what the strings say where they say it.
+    /// Its axis, centre and ends. `Axis` replaces the measured axis.
     pub measure: Measure,
     /// Index of its string.
     pub string: Option<usize>,
     /// Index of the legend of its paint.
     pub legend: Option<usize>,
-    /// For a main part its parent; `None` hangs on the root.
+    /// For a main part the index of its parent; `None` for a child of the root.
     pub parent: Option<usize>,
-    /// Index of the main part candidate whose node it belongs to: itself, if it is one.
+    /// Index of the main part candidate of its node, which may be itself.
     pub main: usize,
     /// The joint, drawing units.
     pub origin: glam::DVec2,
-    /// Index of the member it was made from.
-    pub(super) member: usize,
+    /// Index of its source.
+    pub(super) source: usize,
     index: usize,
 }
 
 impl Part {
-    pub(super) fn new(member: &Member, outline: Arc<Outline>, measure: Measure) -> Self {
+    pub(super) fn new(source: &PartSource, outline: Arc<Outline>, measure: Measure) -> Self {
         Self {
             name: String::new(),
             automatic: false,
             kind: PartKind::Sub,
-            shape: member.shape,
-            is_stroke: member.is_stroke,
+            shape: source.shape,
+            is_stroke: source.is_stroke,
             outline,
             origin: measure.center,
             measure,
@@ -193,17 +193,17 @@ impl Part {
             legend: None,
             parent: None,
             main: usize::MAX,
-            member: member.index,
+            source: source.index,
             index: usize::MAX,
         }
     }
 
-    /// Whether it is its unit's main part candidate.
+    /// Whether it is the main part candidate of its node.
     pub fn is_candidate(&self) -> bool {
         self.main == self.index
     }
 
-    /// What it is painted with.
+    /// Its paint: that of the fill or of the stroke.
     pub fn paint<'a>(&self, drawing: &'a Drawing) -> &'a Paint {
         let shape = &drawing.shapes[self.shape];
         match &shape.stroke {
@@ -212,7 +212,7 @@ impl Part {
         }
     }
 
-    pub(super) fn join_unit(&mut self, index: usize, main: usize) {
+    pub(super) fn join_node(&mut self, index: usize, main: usize) {
         self.index = index;
         self.main = main;
     }

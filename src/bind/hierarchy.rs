@@ -20,14 +20,14 @@ use crate::source::Span;
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
 
-/// The name of the virtual node that parts without a parent hang on.
+/// The name of the virtual node that is the parent of parts without one.
 pub(super) const ROOT: &str = "Root";
-/// How much longer than wide a part must be for its turning about the middle to be worth a hint.
+/// The least ratio of length to width for the hint that a part turns about its middle.
 const LONG: f64 = 2.0;
-/// How many parts that were named by themselves are spoken of one by one.
-const MOST_NAMED: usize = 200;
+/// Limit of automatic names that are reported one by one.
+const MAX_REPORTED: usize = 200;
 
-/// Names every main part, finds its parent, its axis and its joint.
+/// Names every main part, and finds its parent, axis and joint.
 pub(super) fn build(
     drawing: &Drawing,
     bindings: &mut Bindings,
@@ -68,7 +68,7 @@ fn part_name(bindings: &Bindings, part: usize) -> Option<&Name> {
     }
 }
 
-/// The main parts by name; of several parts of a name the first.
+/// The main parts by name; of several with the same name, the first.
 fn names(
     drawing: &Drawing,
     bindings: &Bindings,
@@ -126,7 +126,7 @@ fn names(
     names
 }
 
-/// Where a string says a name; all of it, where it says none.
+/// The place of the name in a string; the whole string if it has none.
 fn name_span(string: &DrawingString) -> Span {
     match &string.annotation {
         Annotation::Part(ast::Part {
@@ -136,7 +136,7 @@ fn name_span(string: &DrawingString) -> Span {
     }
 }
 
-/// Names the parts without a string, and hangs them on the nearest named main part (rule 5).
+/// Names the parts without a string, and makes them children of the nearest named main part (rule 5).
 fn automatic(
     drawing: &Drawing,
     bindings: &mut Bindings,
@@ -175,8 +175,8 @@ fn automatic(
                 break name;
             }
         };
-        if bindings.annotated && place < MOST_NAMED {
-            diagnostics.push(named_by_itself(drawing, bindings, index, &name, parent));
+        if bindings.annotated && place < MAX_REPORTED {
+            diagnostics.push(automatic_name(drawing, bindings, index, &name, parent));
         }
         names.insert(name.clone(), index);
         let part = &mut bindings.parts[index];
@@ -186,10 +186,10 @@ fn automatic(
     }
     if let (true, [first, .., last]) = (
         bindings.annotated,
-        waiting.get(MOST_NAMED..).unwrap_or_default(),
+        waiting.get(MAX_REPORTED..).unwrap_or_default(),
     ) {
         let [from, to] = [first, last].map(|part| &bindings.parts[*part].name);
-        let count = waiting.len() - MOST_NAMED;
+        let count = waiting.len() - MAX_REPORTED;
         let message =
             format!("{count} more parts have no string: they are named `{from}` to `{to}`");
         let span = drawing.shapes[bindings.parts[*first].shape].element.span;
@@ -223,8 +223,8 @@ impl NearestNamed {
     }
 }
 
-/// Says how a part without a string is called.
-fn named_by_itself(
+/// Reports the name of a part without a string.
+fn automatic_name(
     drawing: &Drawing,
     bindings: &Bindings,
     part: usize,
@@ -243,7 +243,7 @@ fn named_by_itself(
         .help("write a name beside it, or `*` to leave it out")
 }
 
-/// Turns the axis of parts whose strings say so.
+/// Turns the axes of parts with `Axis`.
 fn axes(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
     let found: Vec<(usize, Axis)> = (0..bindings.parts.len())
         .into_par_iter()
@@ -258,11 +258,11 @@ fn axes(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagno
     }
 }
 
-/// What there is to say of a part's axis.
+/// A change to a part's axis, or a doubt about it.
 enum Axis {
-    /// The string turns it.
+    /// `Axis` turns it.
     Turned(Measure),
-    /// It matters, and was guessed.
+    /// The solid depends on the axis, which the outline does not determine.
     Guessed(Diagnostic),
 }
 
@@ -317,7 +317,7 @@ fn origin(bindings: &Bindings, index: usize) -> DVec2 {
             None => part.measure.center,
             Some(parent) => {
                 let candidates = [start, end, part.measure.center];
-                // The first of equals: an end rather than the middle, for a part centred on its parent alone.
+                // `min_by` takes the first of equals: an end rather than the centre, unless the part is centred on its parent.
                 let near = |p: &DVec2| p.distance_squared(parent);
                 candidates
                     .into_iter()
@@ -328,7 +328,7 @@ fn origin(bindings: &Bindings, index: usize) -> DVec2 {
     }
 }
 
-/// The end points, the one nearer to the parent's centre first; without a parent, the upper one first.
+/// The ends of the axis: the one nearer to the parent's centre first; without a parent, the upper one first.
 fn sorted_ends(part: &Part, parent: Option<DVec2>) -> [DVec2; 2] {
     let [a, b] = part.measure.ends;
     let swapped = match parent {
@@ -338,7 +338,7 @@ fn sorted_ends(part: &Part, parent: Option<DVec2>) -> [DVec2; 2] {
     if swapped { [b, a] } else { [a, b] }
 }
 
-/// Says that a long part beside its parent turns about its middle, which is seldom meant.
+/// Reports a long part beside its parent that turns about its middle, which is seldom meant.
 fn turns_about_middle(
     drawing: &Drawing,
     bindings: &Bindings,
@@ -350,7 +350,7 @@ fn turns_about_middle(
     let (parent, string) = (part.parent?, part.string?);
     let chosen = || bindings.attributes(index).origin().is_some();
     let beside = &bindings.parts[parent].measure;
-    // A hat or a foot lies across the end of what it hangs on, and is meant to turn about its middle.
+    // A hat or a foot lies across the end of its parent, and is meant to turn about its middle.
     let alike = !beside.certain
         || beside.axis.dot(part.measure.axis).abs() > std::f64::consts::FRAC_1_SQRT_2;
     if !long || !alike || origin != part.measure.center || chosen() {

@@ -1,4 +1,4 @@
-//! Layers: groups that a string makes something special, such as a map of tiles (terrain.md, Input).
+//! Layers: groups with a string of their own, such as a map of tiles (terrain.md, Input).
 
 use rayon::prelude::*;
 
@@ -42,7 +42,7 @@ pub struct Layer {
     pub string: usize,
     /// Index of its group.
     pub group: usize,
-    /// Index of the main part that it hangs on; `None` hangs on the root.
+    /// Index of its parent, a main part; `None` for a child of the root.
     pub parent: Option<usize>,
 }
 
@@ -90,7 +90,7 @@ pub fn in_tile_layers(drawing: &Drawing) -> Vec<bool> {
     layer.iter().map(Option::is_some).collect()
 }
 
-/// Gives every group without a layer of its own that of the group it is in.
+/// Gives every group without a layer of its own the layer of the group around it.
 fn spread(drawing: &Drawing, layer: &mut [Option<usize>]) {
     for (index, group) in drawing.groups.iter().enumerate() {
         layer[index] = layer[index].or(layer[group.parent]);
@@ -182,7 +182,7 @@ impl Bindings {
         is_picture && self.tile_layer_of_group(shape.group).is_some()
     }
 
-    /// Whether a string takes a picture out of its tile layer: pictures are no parts there, to which it could belong.
+    /// Whether a string excludes a picture from its tile layer. It cannot be bound, because such pictures are no parts.
     pub(super) fn leaves_picture_out(&self, drawing: &Drawing, string: usize) -> bool {
         let string = &self.strings[string];
         let Place::Shape(shape) = string.place else {
@@ -192,7 +192,7 @@ impl Bindings {
     }
 }
 
-/// Makes tiles of what lies in tile layers and has no string.
+/// Makes the parts without a string in tile layers tiles.
 pub(super) fn classify(drawing: &Drawing, bindings: &mut Bindings) {
     if bindings.tile_layers().next().is_none() {
         return;

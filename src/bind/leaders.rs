@@ -12,7 +12,7 @@ use crate::svg::{Drawing, Line};
 
 type Box2 = GeomWithData<Rectangle<[f64; 2]>, usize>;
 
-/// The strings that lines lead from, each with its part.
+/// Pairs of a string and the part to which a line leads from it.
 pub(super) fn find(
     drawing: &Drawing,
     bindings: &Bindings,
@@ -82,7 +82,7 @@ impl<'a> Context<'a> {
         }
     }
 
-    /// What an Inkscape connector joins.
+    /// The string and the part that an Inkscape connector joins.
     fn connected(&self, line: &Line) -> Option<(usize, usize)> {
         let [Some(a), Some(b)] = &line.connects else {
             return None;
@@ -138,7 +138,7 @@ impl<'a> Context<'a> {
             .map(|(_, string)| string)
     }
 
-    /// The topmost part at a point; for strings that name a part, the main part candidate of its unit.
+    /// The topmost part at a point; for a string that names a part, the main part candidate of its node.
     fn part_at(&self, point: DVec2, string: usize) -> Option<usize> {
         let part = self
             .parts

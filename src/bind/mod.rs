@@ -1,7 +1,7 @@
-//! Who is described by what: strings bound to parts, attributes and their sources, the hierarchy.
+//! Binds strings to parts, and resolves attributes and the hierarchy of parts.
 //!
-//! This module knows both the drawing and the language. [`bind`] follows figure.md's order of rules; the
-//! result, a [`Bindings`], holds everything that the model is built from and that editors ask about.
+//! This is the only module that knows both the drawing and the language. [`bind`] applies the rules of figure.md in their
+//! order. The result, a [`Bindings`], has everything that models are built from and that editors ask about.
 
 mod areas;
 mod attributes;
@@ -12,12 +12,12 @@ mod leaders;
 mod legends;
 mod motions;
 mod nearest;
+mod node_groups;
 mod parents;
 mod settings;
 mod strings;
 #[cfg(test)]
 mod tests;
-mod units;
 
 pub use attributes::{
     Attribute, Attributes, MaterialFactors, Resolved, SetBy, SetColor, Source, plate_depth,
@@ -26,7 +26,7 @@ pub use bindings::{Binding, Bindings, BoundBy, DrawingString, Part, PartKind, Pl
 pub use layers::{Layer, LayerKind, in_tile_layers};
 pub use legends::Legend;
 pub use motions::ClipRequest;
-pub use nearest::Mode as DistanceMode;
+pub use nearest::DistanceMode;
 pub use settings::{DrawingSettings, Strokes};
 
 use std::sync::Arc;
@@ -39,31 +39,31 @@ use crate::memo::{Bits, Memo, Same};
 use crate::svg::{Drawing, Element};
 use crate::threads::GRAIN;
 use areas::{Area, areas};
-use units::Units;
+use node_groups::NodeGroups;
 
 /// Binds the strings of a drawing to its parts.
 pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
     let mut bindings = strings::read(drawing, diagnostics);
     layers::find(drawing, &mut bindings, diagnostics);
     layers::misplaced(&bindings, diagnostics);
-    let units = Units::read(drawing, &bindings);
-    let areas = areas(drawing, &units.members, memo);
-    bindings.parts = units
-        .members
+    let node_groups = NodeGroups::read(drawing, &bindings);
+    let areas = areas(drawing, &node_groups.sources, memo);
+    bindings.parts = node_groups
+        .sources
         .par_iter()
         .zip(areas)
         .with_min_len(GRAIN)
-        .filter_map(|(member, area)| {
+        .filter_map(|(source, area)| {
             let Area { outline, measure } = area?;
-            Some(Part::new(member, outline, measure))
+            Some(Part::new(source, outline, measure))
         })
         .collect();
-    let mut binder = Binder::new(drawing, &units, &mut bindings, diagnostics);
+    let mut binder = Binder::new(drawing, &node_groups, &mut bindings, diagnostics);
     binder.descriptions();
     binder.groups();
     binder.leaders();
     binder.nearest(memo);
-    binder.left_over();
+    binder.report_unbound();
     classify(drawing, &mut bindings);
     legends::merge(drawing, &mut bindings, diagnostics);
     hierarchy::build(drawing, &mut bindings, memo, diagnostics);
@@ -72,21 +72,21 @@ pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -
     bindings
 }
 
-/// A string, the part it is nearest to, and another part that is almost as near.
-struct Match {
+/// A string with the part that it is bound to, and another part that is almost as near.
+struct NearestMatch {
     string: usize,
     part: usize,
-    rival: Option<usize>,
+    runner_up: Option<usize>,
 }
 
-/// What binding works on.
+/// The state of binding.
 struct Binder<'a> {
     drawing: &'a Drawing,
-    units: &'a Units,
+    node_groups: &'a NodeGroups,
     bindings: &'a mut Bindings,
     diagnostics: &'a mut Vec<Diagnostic>,
-    /// Per group its backmost part.
-    backmost: Vec<Option<usize>>,
+    /// Per group its back-most part.
+    back_most: Vec<Option<usize>>,
     /// Per shape its first part.
     part_of_shape: Vec<Option<usize>>,
 }
@@ -94,30 +94,30 @@ struct Binder<'a> {
 impl<'a> Binder<'a> {
     fn new(
         drawing: &'a Drawing,
-        units: &'a Units,
+        node_groups: &'a NodeGroups,
         bindings: &'a mut Bindings,
         diagnostics: &'a mut Vec<Diagnostic>,
     ) -> Self {
-        let mut backmost = vec![None; drawing.groups.len()];
+        let mut back_most = vec![None; drawing.groups.len()];
         let mut part_of_shape = vec![None; drawing.shapes.len()];
         for (index, part) in bindings.parts.iter().enumerate() {
-            // Where an inner group has its part, the outer ones have theirs.
-            let chain = units.chain(drawing.shapes[part.shape].group);
+            // If an inner group has a part already, so have the groups around it.
+            let chain = node_groups.chain(drawing.shapes[part.shape].group);
             for group in chain
-                .take_while(|group| backmost[*group].is_none())
+                .take_while(|group| back_most[*group].is_none())
                 .collect::<Vec<_>>()
             {
-                backmost[group] = Some(index);
+                back_most[group] = Some(index);
             }
             part_of_shape[part.shape].get_or_insert(index);
         }
-        units::choose_mains(units, bindings);
+        node_groups::choose_mains(node_groups, bindings);
         Self {
             drawing,
-            units,
+            node_groups,
             bindings,
             diagnostics,
-            backmost,
+            back_most,
             part_of_shape,
         }
     }
@@ -129,8 +129,8 @@ impl<'a> Binder<'a> {
                 _ if !self.bindings.strings[string].wants_part() => continue,
                 Place::Label(_) => continue,
                 Place::Shape(shape) => self.part_of_shape[shape],
-                Place::Group(group) if self.units.is_transparent(group) => None,
-                Place::Group(group) => self.backmost[group],
+                Place::Group(group) if self.node_groups.is_transparent(group) => None,
+                Place::Group(group) => self.back_most[group],
             };
             if let Some(part) = part {
                 self.bind(string, part, BoundBy::Desc);
@@ -138,7 +138,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Rule 2: strings in a group belong to the backmost part of the innermost group that holds a part.
+    /// Rule 2: strings in a group belong to the back-most part of the innermost group that holds a part.
     fn groups(&mut self) {
         for string in 0..self.bindings.strings.len() {
             let Some(group) = self
@@ -147,20 +147,22 @@ impl<'a> Binder<'a> {
             else {
                 continue;
             };
-            let holder = self.units.chain(group).find(|group| {
-                self.units.is_container(*group)
-                    || (self.units.groups_strings(*group) && self.backmost[*group].is_some())
+            let holder = self.node_groups.chain(group).find(|group| {
+                self.node_groups.is_container(*group)
+                    || (self.node_groups.is_node(*group) && self.back_most[*group].is_some())
             });
             match holder {
-                Some(group) if self.units.is_container(group) => {
+                Some(group) if self.node_groups.is_container(group) => {
                     self.bindings.strings[string].scope = Some(group);
                 }
                 Some(group) => {
-                    if let Some(part) = self.backmost[group] {
+                    if let Some(part) = self.back_most[group] {
                         self.bind(string, part, BoundBy::Group);
                     }
                 }
-                None => self.bindings.strings[string].scope = self.units.scope_of_layer(group),
+                None => {
+                    self.bindings.strings[string].scope = self.node_groups.scope_of_layer(group)
+                }
             }
         }
     }
@@ -172,7 +174,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Rule 4: every other string to the nearest main part candidate, containers among themselves first.
+    /// Rule 4: every other string belongs to the nearest main part candidate. Containers bind their own strings first.
     fn nearest(&mut self, memo: &Memo) {
         let mode = self.bindings.settings.bind;
         let mut waiting: Vec<(Option<usize>, usize)> = (0..self.bindings.strings.len())
@@ -181,11 +183,11 @@ impl<'a> Binder<'a> {
             .collect();
         waiting.sort_by_key(|(scope, string)| (scope.is_none(), *scope, *string));
         let free = waiting.partition_point(|(scope, _)| scope.is_some());
-        let contained = units::candidates_by_container(self.units, self.bindings);
+        let contained = node_groups::candidates_by_container(self.node_groups, self.bindings);
         let scopes: Vec<&[(Option<usize>, usize)]> = waiting[..free]
             .chunk_by(|(one, _), (other, _)| one == other)
             .collect();
-        let found: Vec<Vec<Match>> = scopes
+        let found: Vec<Vec<NearestMatch>> = scopes
             .par_iter()
             .map(|strings| {
                 let candidates = strings[0].0.and_then(|container| contained.get(&container));
@@ -195,8 +197,9 @@ impl<'a> Binder<'a> {
             .collect();
         self.bind_matches(found.into_iter().flatten());
         if free < waiting.len() {
-            // What lies in a tile layer is left to the strings that lie there.
-            let is_free = |part: &Part| part.is_candidate() && !self.units.is_in_layer(part.member);
+            // Parts in a tile layer are reserved for the strings in it.
+            let is_free =
+                |part: &Part| part.is_candidate() && !self.node_groups.is_in_layer(part.source);
             let candidates: Vec<usize> = (0..self.bindings.parts.len())
                 .filter(|part| is_free(&self.bindings.parts[*part]))
                 .collect();
@@ -205,14 +208,14 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// Strings of one scope with the parts they are nearest to.
+    /// Assigns the strings of one scope to their nearest parts.
     fn matches(
         &self,
         strings: &[(Option<usize>, usize)],
         candidates: &[usize],
-        mode: nearest::Mode,
+        mode: nearest::DistanceMode,
         memo: &Memo,
-    ) -> Vec<Match> {
+    ) -> Vec<NearestMatch> {
         let corner =
             |(_, string): &(Option<usize>, usize)| match self.bindings.strings[*string].place {
                 Place::Label(label) => self.drawing.labels[label].0.corner,
@@ -227,38 +230,38 @@ impl<'a> Binder<'a> {
             center: Bits(self.bindings.parts[*part].measure.center),
             outline: Same(Arc::clone(&self.bindings.parts[*part].outline)),
         };
-        let question = nearest::Question {
+        let problem = nearest::AssignmentProblem {
             corners: strings.iter().map(corner).map(Bits).collect(),
             targets: candidates.iter().map(target).collect(),
             mode,
         };
-        let found = memo.get(question, |question| Arc::<[_]>::from(question.answer()));
+        let found = memo.get(problem, |problem| Arc::<[_]>::from(problem.solve()));
         let pairs = strings.iter().zip(found.iter());
         pairs
             .filter_map(|((_, string), found)| {
-                Some(Match {
+                Some(NearestMatch {
                     string: *string,
                     part: candidates[found.target?],
-                    rival: found.rival.map(|rival| candidates[rival]),
+                    runner_up: found.runner_up.map(|runner_up| candidates[runner_up]),
                 })
             })
             .collect()
     }
 
-    fn bind_matches(&mut self, matches: impl Iterator<Item = Match>) {
-        for Match {
+    fn bind_matches(&mut self, matches: impl Iterator<Item = NearestMatch>) {
+        for NearestMatch {
             string,
             part,
-            rival,
+            runner_up,
         } in matches
         {
             self.bind(string, part, BoundBy::Nearest);
-            self.bindings.strings[string].rival = rival;
+            self.bindings.strings[string].runner_up = runner_up;
         }
     }
 
-    /// What no rule found a part for.
-    fn left_over(&mut self) {
+    /// Reports the strings without a part.
+    fn report_unbound(&mut self) {
         for (index, string) in self.bindings.strings.iter().enumerate() {
             let unbound = string.wants_part() && string.binding.is_none();
             if unbound && !self.bindings.leaves_picture_out(self.drawing, index) {
@@ -287,7 +290,7 @@ impl<'a> Binder<'a> {
         }
     }
 
-    /// The label of a string that still wants a part.
+    /// The label of a string that still needs a part.
     fn waiting_label(&self, string: usize) -> Option<usize> {
         let string = &self.bindings.strings[string];
         match string.place {
@@ -313,7 +316,7 @@ impl<'a> Binder<'a> {
                 .related(element.span, "the part")
                 .help("delete one of them, or move it out of the group"),
             );
-            // It must not be said again that the string found no part.
+            // Bound all the same, so that it is not reported as unbound too.
             self.bindings.strings[string].binding = Some(Binding { part, by });
             return;
         }
@@ -322,7 +325,7 @@ impl<'a> Binder<'a> {
     }
 }
 
-/// Says of every part what it is, now that the strings are bound.
+/// Sets the kind of every part, now that the strings are bound.
 fn classify(drawing: &Drawing, bindings: &mut Bindings) {
     for index in 0..bindings.parts.len() {
         let annotation = bindings.parts[index]
@@ -344,7 +347,7 @@ fn classify(drawing: &Drawing, bindings: &mut Bindings) {
             });
         }
     }
-    // Sub-parts of what is left out are left out with it.
+    // Sub-parts are left out together with their main part.
     for index in 0..bindings.parts.len() {
         let main = bindings.parts[index].main;
         if main != index
@@ -359,7 +362,7 @@ fn classify(drawing: &Drawing, bindings: &mut Bindings) {
     layers::classify(drawing, bindings);
 }
 
-/// The element whose description a part's string is: the shape, or a group around it.
+/// The element that a part's string describes: the shape, or a group around it.
 fn described_element<'a>(drawing: &'a Drawing, bindings: &Bindings, part: usize) -> &'a Element {
     let part = &bindings.parts[part];
     match part.string.map(|string| bindings.strings[string].place) {
@@ -368,24 +371,24 @@ fn described_element<'a>(drawing: &'a Drawing, bindings: &Bindings, part: usize)
     }
 }
 
-/// What is worth knowing about bindings and places.
+/// Reports doubtful bindings, and parts off the page.
 fn hints(drawing: &Drawing, bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
     if !bindings.annotated {
         return;
     }
     for string in &bindings.strings {
-        if let (Some(binding), Some(rival)) = (string.binding, string.rival)
-            && bindings.parts[rival].kind != PartKind::Tile
+        if let (Some(binding), Some(runner_up)) = (string.binding, string.runner_up)
+            && bindings.parts[runner_up].kind != PartKind::Tile
         {
-            let (bound, rival) = (
+            let (bound, runner_up) = (
                 bindings.describe(drawing, binding.part),
-                bindings.describe(drawing, rival),
+                bindings.describe(drawing, runner_up),
             );
             diagnostics.push(
                 Diagnostic::new(
                     Code::NearlyAsNear,
                     string.text.whole(),
-                    format!("this string belongs to {bound}, but {rival} is almost as near"),
+                    format!("this string belongs to {bound}, but {runner_up} is almost as near"),
                 )
                 .related(drawing.shapes[bindings.parts[binding.part].shape].element.span, "the part it belongs to")
                 .help("move the string's top left corner closer to the centre of its part, or group the two"),

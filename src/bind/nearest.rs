@@ -1,8 +1,8 @@
-//! Strings to the nearest parts, one to one, in order of distance (figure.md, Binding, rule 4).
+//! Assigns strings to parts one to one, closest pairs first (figure.md, Binding, rule 4).
 //!
-//! Taking all pairs by distance is quadratic. A pair in which each is the other's nearest is taken by
-//! that order in any case, so it can be taken at once, and a chain of nearest neighbours ends in such
-//! a pair: a few look-ups in two spatial indices a string.
+//! Sorting all pairs is quadratic. If each of a pair is the nearest of the other, no closer pair can separate them, so the pair
+//! can be assigned at once. Following nearest neighbours from any string ends in such a pair: the nearest-neighbour chain
+//! algorithm of hierarchical clustering (Benzécri 1982, Juan 1982). It takes a few look-ups in two R-trees for each string.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -19,7 +19,7 @@ use crate::threads::GRAIN;
 
 /// How the distance from a string to a part is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Mode {
+pub enum DistanceMode {
     /// From a string's corner to a part's centre, as in the paper.
     Center,
     /// From a string's corner to a part's outline.
@@ -33,59 +33,59 @@ pub(super) struct Target {
     pub(super) outline: Same<Outline>,
 }
 
-/// Strings' corners, and the parts that they can be bound to.
+/// The corners of strings, and the parts that they can be bound to.
 #[derive(Debug, PartialEq, Eq, Hash)]
-pub(super) struct Question {
+pub(super) struct AssignmentProblem {
     pub(super) corners: Long<Bits<DVec2>>,
     pub(super) targets: Long<Target>,
-    pub(super) mode: Mode,
+    pub(super) mode: DistanceMode,
 }
 
-/// What a string is bound to.
+/// The part that a string is bound to.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Found {
+pub(super) struct Assignment {
     /// Index of its target. Ties go to the earlier string, then to the earlier target.
     pub(super) target: Option<usize>,
     /// Another target that is at most a tenth farther away.
-    pub(super) rival: Option<usize>,
+    pub(super) runner_up: Option<usize>,
 }
 
-impl Question {
-    /// For each string what it is bound to.
-    pub(super) fn answer(&self) -> Vec<Found> {
+impl AssignmentProblem {
+    /// The assignment of each string.
+    pub(super) fn solve(&self) -> Vec<Assignment> {
         let corners: Vec<DVec2> = self.corners.0.iter().map(|corner| corner.0).collect();
         let targets = &self.targets.0;
         let pairs = pairs(&corners, targets, self.mode);
-        let rivals = rivals(&corners, targets, &pairs, self.mode);
-        let found = pairs.into_iter().zip(rivals);
+        let runners_up = runners_up(&corners, targets, &pairs, self.mode);
+        let found = pairs.into_iter().zip(runners_up);
         found
-            .map(|(target, rival)| Found { target, rival })
+            .map(|(target, runner_up)| Assignment { target, runner_up })
             .collect()
     }
 }
 
 impl Target {
-    fn distance_squared(&self, corner: DVec2, mode: Mode) -> f64 {
+    fn distance_squared(&self, corner: DVec2, mode: DistanceMode) -> f64 {
         match mode {
-            Mode::Center => self.center.0.distance_squared(corner),
-            Mode::Outline => distance_squared(&self.outline.0, corner),
+            DistanceMode::Center => self.center.0.distance_squared(corner),
+            DistanceMode::Outline => distance_squared(&self.outline.0, corner),
         }
     }
 }
 
-/// Up to so many pairs are all looked at.
-const FEW: usize = 4096;
+/// Up to this many pairs, sorting all of them is faster.
+const MAX_ALL_PAIRS: usize = 4096;
 
 /// For each string's corner the index of its target. Ties go to the earlier string, then to the earlier target.
-fn pairs(corners: &[DVec2], targets: &[Target], mode: Mode) -> Vec<Option<usize>> {
-    if corners.len() * targets.len() <= FEW {
+fn pairs(corners: &[DVec2], targets: &[Target], mode: DistanceMode) -> Vec<Option<usize>> {
+    if corners.len() * targets.len() <= MAX_ALL_PAIRS {
         return all_pairs(corners, targets, mode);
     }
-    chains(corners, targets, mode)
+    neighbor_chains(corners, targets, mode)
 }
 
 /// All pairs in order of distance, then of strings, then of targets.
-fn all_pairs(corners: &[DVec2], targets: &[Target], mode: Mode) -> Vec<Option<usize>> {
+fn all_pairs(corners: &[DVec2], targets: &[Target], mode: DistanceMode) -> Vec<Option<usize>> {
     let mut all = Vec::with_capacity(corners.len() * targets.len());
     for (string, corner) in corners.iter().enumerate() {
         all.extend(
@@ -107,8 +107,12 @@ fn all_pairs(corners: &[DVec2], targets: &[Target], mode: Mode) -> Vec<Option<us
     bound
 }
 
-/// The same by chains of nearest neighbours.
-fn chains(corners: &[DVec2], targets: &[Target], mode: Mode) -> Vec<Option<usize>> {
+/// The same by nearest-neighbour chains.
+fn neighbor_chains(
+    corners: &[DVec2],
+    targets: &[Target],
+    mode: DistanceMode,
+) -> Vec<Option<usize>> {
     let mut strings = Points::new(corners.iter().copied());
     let mut parts = Parts::new(targets, mode);
     let mut bound = vec![None; corners.len()];
@@ -138,13 +142,13 @@ fn chains(corners: &[DVec2], targets: &[Target], mode: Mode) -> Vec<Option<usize
 }
 
 /// For each bound string another target that is at most a tenth farther away.
-fn rivals(
+fn runners_up(
     corners: &[DVec2],
     targets: &[Target],
     pairs: &[Option<usize>],
-    mode: Mode,
+    mode: DistanceMode,
 ) -> Vec<Option<usize>> {
-    let index = (corners.len() * targets.len() > FEW).then(|| Parts::new(targets, mode));
+    let index = (corners.len() * targets.len() > MAX_ALL_PAIRS).then(|| Parts::new(targets, mode));
     let mut string_of = vec![None; targets.len()];
     for (string, target) in pairs.iter().enumerate() {
         if let Some(target) = target {
@@ -155,7 +159,7 @@ fn rivals(
         let bound = (*bound)?;
         let own = targets[bound].distance_squared(*corner, mode);
         let near = |distance: f64| distance <= own * 1.1 * 1.1 && own > 0.0;
-        let (rival, distance) = match &index {
+        let (runner_up, distance) = match &index {
             Some(index) => index
                 .two_nearest(*corner)
                 .into_iter()
@@ -167,12 +171,12 @@ fn rivals(
                 .map(|(part, target)| (part, target.distance_squared(*corner, mode)))
                 .min_by(|a, b| a.1.total_cmp(&b.1))?,
         };
-        // A rival with a string much closer to it is in no doubt.
-        let taken = string_of[rival];
+        // A part whose own string is much closer was hardly meant.
+        let taken = string_of[runner_up];
         let settled = taken.is_some_and(|string| {
-            targets[rival].distance_squared(corners[string], mode) * 4.0 < distance
+            targets[runner_up].distance_squared(corners[string], mode) * 4.0 < distance
         });
-        (near(distance) && !settled).then_some(rival)
+        (near(distance) && !settled).then_some(runner_up)
     };
     let corners = corners.par_iter().with_min_len(GRAIN);
     corners.zip(pairs).map(find).collect()
@@ -181,11 +185,11 @@ fn rivals(
 type Key = [u64; 2];
 
 fn key(p: DVec2) -> Key {
-    // Adding zero makes -0 and 0 one key.
+    // Adding zero turns -0 into 0, so that both have the same key.
     [(p.x + 0.0).to_bits(), (p.y + 0.0).to_bits()]
 }
 
-/// A shrinking set of points, each with the indices that lie there.
+/// A shrinking set of points, each with the indices at its position.
 struct Points {
     tree: RTree<GeomWithData<[f64; 2], ()>>,
     indices: FxHashMap<Key, BinaryHeap<Reverse<usize>>>,
@@ -215,7 +219,7 @@ impl Points {
             .map(|Reverse(index)| *index)
     }
 
-    /// The nearest index, the least one among equals.
+    /// The nearest index; the least of several at the same distance.
     fn nearest(&self, to: DVec2) -> Option<usize> {
         let to = [to.x, to.y];
         self.tree
@@ -237,7 +241,7 @@ impl Points {
     }
 }
 
-/// A part in the index of outlines.
+/// The outline of a part in an R-tree.
 struct Shape<'a> {
     index: usize,
     envelope: AABB<[f64; 2]>,
@@ -258,7 +262,7 @@ impl PointDistance for Shape<'_> {
     }
 }
 
-/// The parts that are left.
+/// The parts that have no string yet.
 enum Parts<'a> {
     Centers {
         targets: &'a [Target],
@@ -271,13 +275,13 @@ enum Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    fn new(targets: &'a [Target], mode: Mode) -> Self {
+    fn new(targets: &'a [Target], mode: DistanceMode) -> Self {
         match mode {
-            Mode::Center => Self::Centers {
+            DistanceMode::Center => Self::Centers {
                 targets,
                 points: Points::new(targets.iter().map(|target| target.center.0)),
             },
-            Mode::Outline => {
+            DistanceMode::Outline => {
                 let shapes = targets.iter().enumerate().map(|(index, target)| Shape {
                     index,
                     envelope: envelope(target),
@@ -360,7 +364,7 @@ impl<'a> Parts<'a> {
     }
 }
 
-/// Selects one part out of the index of outlines.
+/// Selects one part in the R-tree of outlines.
 struct Selected {
     part: usize,
     envelope: AABB<[f64; 2]>,
@@ -382,7 +386,7 @@ fn envelope(target: &Target) -> AABB<[f64; 2]> {
     AABB::from_corners(low.to_array(), high.to_array())
 }
 
-/// How far a part's outline reaches from its centre.
+/// The distance from a part's centre to the farthest point of its outline.
 fn reach(target: &Target) -> f64 {
     let points = target
         .outline
@@ -426,8 +430,8 @@ mod tests {
                 .zip(outlines)
                 .map(|(center, outline)| Target { center: Bits(point(*center)), outline: Same(Arc::new(outline)) })
                 .collect();
-            for mode in [Mode::Center, Mode::Outline] {
-                prop_assert_eq!(chains(&corners, &targets, mode), all_pairs(&corners, &targets, mode));
+            for mode in [DistanceMode::Center, DistanceMode::Outline] {
+                prop_assert_eq!(neighbor_chains(&corners, &targets, mode), all_pairs(&corners, &targets, mode));
             }
         }
     }

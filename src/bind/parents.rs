@@ -1,4 +1,4 @@
-//! What parts and tile layers hang on: the names behind `@` (figure.md, Hierarchy and local frames).
+//! The parents of parts and tile layers: the names after `@` (figure.md, Hierarchy and local frames).
 
 use rustc_hash::FxHashMap;
 
@@ -32,7 +32,7 @@ pub(super) fn parents(
     }
 }
 
-/// Finds what tile layers hang on.
+/// Finds the parents of tile layers.
 pub(super) fn of_layers(
     drawing: &Drawing,
     bindings: &mut Bindings,
@@ -52,7 +52,7 @@ pub(super) fn of_layers(
     }
 }
 
-/// The part that a string names behind `@`, if it names one; `own` is what the string itself names.
+/// The part that a string names after `@`, if it names one; `own` is the name of the string's own part or layer.
 fn parent(
     drawing: &Drawing,
     bindings: &Bindings,
@@ -69,7 +69,7 @@ fn parent(
     if let Some(parent) = names.get(&parent.text) {
         return Ok(Some(*parent));
     }
-    // What `inspect` and the model call `Root` may be named like any part.
+    // `Root` names the virtual root, unless a part has that name.
     if parent.text == ROOT {
         return Ok(None);
     }
@@ -113,13 +113,13 @@ fn parent(
     Err(Box::new(diagnostic))
 }
 
-/// Hangs one part of every cycle of parents on the root.
+/// Breaks every cycle of parents by making one of its parts a child of the root.
 pub(super) fn break_cycles(
     drawing: &Drawing,
     bindings: &mut Bindings,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    // 0: not yet seen; otherwise the walk that saw it.
+    // 0: not yet visited; otherwise the number of the walk that visited it.
     let mut seen = vec![0_usize; bindings.parts.len()];
     for start in 0..bindings.parts.len() {
         let mut part = start;

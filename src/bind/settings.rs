@@ -3,7 +3,7 @@
 use glam::{DMat3, DQuat, DVec2, DVec3};
 
 use super::bindings::Bindings;
-use super::nearest::Mode;
+use super::nearest::DistanceMode;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Ground, Value};
 use crate::svg::Drawing;
@@ -18,7 +18,7 @@ pub struct DrawingSettings {
     /// `Ground`: the point of the drawing at the world's origin; `None` for the middle of the lower edge of all that is built.
     pub ground: Option<DVec2>,
     /// `Bind`: how distances from strings to parts are measured.
-    pub bind: Mode,
+    pub bind: DistanceMode,
     /// `Strokes`: which strokes are parts.
     pub strokes: Strokes,
 }
@@ -41,7 +41,7 @@ impl Default for DrawingSettings {
             scale: 1.0,
             axes: DQuat::IDENTITY,
             ground: None,
-            bind: Mode::Center,
+            bind: DistanceMode::Center,
             strokes: Strokes::Lines,
         }
     }
@@ -74,7 +74,7 @@ impl DrawingSettings {
                     };
                 }
                 (Keyword::Bind, Value::Word(word)) if word.eq_ignore_ascii_case("outline") => {
-                    settings.bind = Mode::Outline;
+                    settings.bind = DistanceMode::Outline;
                 }
                 (Keyword::Strokes, Value::Word(word)) => {
                     settings.strokes = match word.to_lowercase().as_str() {

@@ -1,4 +1,4 @@
-//! The strings of a drawing: found, parsed, their variables computed.
+//! Finds and parses the strings of a drawing, and computes their variables.
 
 use std::sync::Arc;
 
@@ -61,7 +61,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
             annotation,
             settings: vec![],
             binding: None,
-            rival: None,
+            runner_up: None,
             scope: None,
         });
     }
@@ -86,7 +86,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
         .collect();
     diagnostics.extend(findings.into_iter().flatten());
     bindings.variables = variables;
-    add_up_defaults(&mut bindings, diagnostics);
+    merge_defaults(&mut bindings, diagnostics);
     bindings.settings = DrawingSettings::read(drawing, &bindings);
     bindings
 }
@@ -121,14 +121,14 @@ fn caption(text: &Text) -> Diagnostic {
     .fix("Make it a comment", start, "#")
 }
 
-/// Later `%` strings win over earlier ones.
-fn add_up_defaults(bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
+/// Merges the settings of the `%` strings; later strings override earlier ones.
+fn merge_defaults(bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
     for (index, string) in bindings.strings.iter().enumerate() {
         if !matches!(string.annotation, Annotation::Defaults(_)) {
             continue;
         }
         for setting in &string.settings {
-            // Variables are checked for repeats where they are collected; motions add up.
+            // Repeated variables are reported where variables are collected; all motions count.
             if matches!(setting.keyword, Keyword::Let | Keyword::Motion) {
                 continue;
             }

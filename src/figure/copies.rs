@@ -1,4 +1,4 @@
-//! Copies (`-s`, `-d`) that lie where their original, or another copy of it, lies.
+//! Reports copies (`-s`, `-d`) that coincide with their original or with another copy of it.
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -8,8 +8,8 @@ use crate::bind::PartKind;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::threads::GRAIN;
 
-/// How many ancestors are looked at: each that is doubled doubles the parts below it.
-const MOST_ANCESTORS: usize = 64;
+/// Limit of the ancestors that are checked: each `-d` among them doubles the parts below it.
+const MAX_ANCESTORS: usize = 64;
 
 /// Warns of copies that coincide.
 pub(super) fn check(context: &FigureContext<'_>, diagnostics: &mut Vec<Diagnostic>) {
@@ -32,7 +32,7 @@ pub(super) fn check(context: &FigureContext<'_>, diagnostics: &mut Vec<Diagnosti
     diagnostics.extend(found);
 }
 
-/// The least and the greatest depth of a part's solid in its parent's frame, and that it has one.
+/// The least and the greatest depth of a part's solid in its parent's frame; `None` without a solid.
 fn depths(context: &FigureContext<'_>, part: usize) -> Option<[f64; 2]> {
     let built = matches!(
         context.bindings.parts[part].kind,
@@ -46,22 +46,22 @@ fn depths(context: &FigureContext<'_>, part: usize) -> Option<[f64; 2]> {
     Some([low + offset, high + offset])
 }
 
-/// Whether a solid reaches evenly to both sides of a plane.
-fn is_even([low, high]: [f64; 2], plane: f64) -> bool {
+/// Whether a solid reaches equally far to both sides of a plane.
+fn is_symmetric([low, high]: [f64; 2], plane: f64) -> bool {
     (low + high - 2.0 * plane).abs() <= 1e-9 * (high - low).abs().max(1e-12)
 }
 
 /// A copy that the part's own flag makes.
 fn coincident(context: &FigureContext<'_>, part: usize) -> Option<Diagnostic> {
     let shape = context.bindings.attributes(part).shape();
-    if !(shape.mirrored || shape.doubled) || !is_even(depths(context, part)?, 0.0) {
+    if !(shape.mirrored || shape.doubled) || !is_symmetric(depths(context, part)?, 0.0) {
         return None;
     }
     let flag = if shape.doubled { "-d" } else { "-s" };
     let name = context.bindings.describe(context.drawing, part);
     let message =
         format!("the copy that `{flag}` makes of {name} is in exactly the same place as {name}");
-    Some(told(context, part, message))
+    Some(coincidence(context, part, message))
 }
 
 /// A copy that an ancestor's `-d` makes.
@@ -78,28 +78,28 @@ fn inherited(context: &FigureContext<'_>, part: usize, doubled: &[bool]) -> Opti
     } else {
         Some(main)
     };
-    for _ in 0..MOST_ANCESTORS {
+    for _ in 0..MAX_ANCESTORS {
         let ancestor = next?;
         plane -= context.node_offset(ancestor);
         let both = shape.mirrored || shape.doubled;
-        let even = match both {
+        let symmetric = match both {
             true => plane.abs() <= 1e-9 * (depths[1] - depths[0]).abs().max(1e-12),
-            false => is_even(depths, plane),
+            false => is_symmetric(depths, plane),
         };
-        if doubled[ancestor] && even {
+        if doubled[ancestor] && symmetric {
             let name = context.bindings.describe(context.drawing, part);
             let other = context.bindings.describe(context.drawing, ancestor);
             let message = format!(
                 "copies of {name} that `-d` on {other} makes are in exactly the same place as {name}"
             );
-            return Some(told(context, part, message));
+            return Some(coincidence(context, part, message));
         }
         next = parts[ancestor].parent;
     }
     None
 }
 
-fn told(context: &FigureContext<'_>, part: usize, message: String) -> Diagnostic {
+fn coincidence(context: &FigureContext<'_>, part: usize, message: String) -> Diagnostic {
     let bindings = context.bindings;
     let shape = bindings.attributes(part).shape_if_set();
     let element = &context.drawing.shapes[bindings.parts[part].shape].element;

@@ -62,7 +62,7 @@ pub struct Figures<'a> {
     context: FigureContext<'a>,
     relief: Relief,
     frames: Vec<Frame>,
-    members: Vec<Vec<usize>>,
+    parts_of_node: Vec<Vec<usize>>,
     tree: Vec<FigureNode>,
 }
 
@@ -71,7 +71,7 @@ pub struct FigureNodes {
     /// Per part its rest frame.
     pub frames: Vec<Frame>,
     /// Per main part the parts whose solids are in its node.
-    pub members: Vec<Vec<usize>>,
+    pub parts_of_node: Vec<Vec<usize>>,
     /// Per node the part that it shows.
     pub nodes: Vec<PartNode>,
     /// Per part the first node that shows it.
@@ -91,7 +91,7 @@ impl<'a> Figures<'a> {
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
         let context = FigureContext::new(drawing, bindings);
-        let (relief, (frames, members, tree)) = rayon::join(
+        let (relief, (frames, parts_of_node, tree)) = rayon::join(
             || Relief::measure(&context, memo),
             || {
                 let parts = bindings.parts.par_iter().with_min_len(GRAIN);
@@ -99,7 +99,7 @@ impl<'a> Figures<'a> {
                     .map(|part| Frame::new(&part.measure, part.origin))
                     .collect();
                 let tree = tree::nodes(&context, &frames, diagnostics);
-                (frames, members(bindings), tree)
+                (frames, parts_of_node(bindings), tree)
             },
         );
         copies::check(&context, diagnostics);
@@ -107,7 +107,7 @@ impl<'a> Figures<'a> {
             context,
             relief,
             frames,
-            members,
+            parts_of_node,
             tree,
         }
     }
@@ -121,7 +121,7 @@ impl<'a> Figures<'a> {
         scene: &mut Scene,
     ) -> FigureNodes {
         let meshes: Vec<Option<Mesh>> = self
-            .members
+            .parts_of_node
             .par_iter()
             .enumerate()
             .with_min_len(GRAIN)
@@ -130,7 +130,7 @@ impl<'a> Figures<'a> {
         let (nodes, node_of_part) = nodes::add(&self.context, self.tree, meshes, world, scene);
         FigureNodes {
             frames: self.frames,
-            members: self.members,
+            parts_of_node: self.parts_of_node,
             nodes,
             node_of_part,
         }
@@ -198,17 +198,17 @@ impl<'a> Figures<'a> {
 }
 
 /// Per main part the parts whose solids are in its node.
-fn members(bindings: &Bindings) -> Vec<Vec<usize>> {
-    let mut members: Vec<Vec<usize>> = vec![Vec::new(); bindings.parts.len()];
+fn parts_of_node(bindings: &Bindings) -> Vec<Vec<usize>> {
+    let mut parts_of_node: Vec<Vec<usize>> = vec![Vec::new(); bindings.parts.len()];
     for (index, part) in bindings.parts.iter().enumerate() {
         if matches!(part.kind, PartKind::Main | PartKind::Sub) {
-            members[part.main].push(index);
+            parts_of_node[part.main].push(index);
         }
     }
-    members
+    parts_of_node
 }
 
-/// What building needs to know of the whole drawing.
+/// The drawing with its bindings, and what figures derive from them.
 struct FigureContext<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
@@ -263,9 +263,9 @@ impl<'a> FigureContext<'a> {
     }
 }
 
-/// Whether two parts have area in common.
+/// Whether two parts overlap.
 fn overlap(a: &Part, b: &Part) -> bool {
-    // Mostly the middle of one lies in both, which is quick to see.
+    // Usually the centre of one lies in both, which is quick to check.
     let both = |point| contains(&a.outline, point) && contains(&b.outline, point);
     if both(a.measure.center) || both(b.measure.center) {
         return true;

@@ -1,4 +1,4 @@
-//! Parts that are ready models: files that `Shape model` names, fitted to their parts.
+//! Parts that are linked models: the files of `Shape model`, fitted to their parts.
 
 use std::sync::Arc;
 
@@ -14,10 +14,10 @@ use crate::resolver::{LinkError, Resolver};
 use crate::scene::{Scene, Surface};
 use crate::svg::broken_link;
 
-/// Most triangles that all parts made of models have together.
-const MOST_TRIANGLES: usize = 16 << 20;
+/// Limit of the triangles of all parts that are models.
+const MAX_TRIANGLES: usize = 16 << 20;
 
-/// The models of a drawing, and which part is made of which.
+/// The linked models of a drawing, and the model of each part.
 pub(super) struct Models {
     assets: Vec<Loaded>,
     of_part: FxHashMap<usize, usize>,
@@ -33,9 +33,9 @@ struct Loaded {
 #[derive(PartialEq, Eq, Hash)]
 struct ModelFile(String);
 
-/// Why a model is not used.
+/// Why a model cannot be used.
 #[derive(Clone)]
-enum Trouble {
+enum ModelError {
     Link(LinkError),
     Import(ImportError),
 }
@@ -51,8 +51,8 @@ impl Models {
             assets: Vec::new(),
             of_part: FxHashMap::default(),
         };
-        let mut known: FxHashMap<&str, Result<usize, Trouble>> = FxHashMap::default();
-        let mut told = FxHashSet::default();
+        let mut known: FxHashMap<&str, Result<usize, ModelError>> = FxHashMap::default();
+        let mut reported = FxHashSet::default();
         let mut triangles = 0_usize;
         for (index, part) in bindings.parts.iter().enumerate() {
             let Some(shape) = bindings.attributes(index).shape_if_set() else {
@@ -79,22 +79,21 @@ impl Models {
             match found {
                 Ok(asset) => {
                     triangles = triangles.saturating_add(models.assets[*asset].asset.triangles());
-                    if triangles <= MOST_TRIANGLES {
+                    if triangles <= MAX_TRIANGLES {
                         models.of_part.insert(index, *asset);
-                    } else if told.insert(None) {
-                        let message = format!(
-                            "the models have more than {MOST_TRIANGLES} triangles together"
-                        );
+                    } else if reported.insert(None) {
+                        let message =
+                            format!("the models have more than {MAX_TRIANGLES} triangles together");
                         let help = "use simpler models, or fewer of them";
                         diagnostics
                             .push(Diagnostic::new(Code::LimitPassed, span, message).help(help));
                     }
                 }
-                // A legend speaks for many parts, but needs to be told once.
-                Err(trouble) if told.insert(Some(shape.source.string)) => {
-                    diagnostics.push(match trouble {
-                        Trouble::Link(error) => broken_link(link, error, span),
-                        Trouble::Import(error) => {
+                // A legend sets the model of many parts, but is reported once.
+                Err(error) if reported.insert(Some(shape.source.string)) => {
+                    diagnostics.push(match error {
+                        ModelError::Link(error) => broken_link(link, error, span),
+                        ModelError::Import(error) => {
                             let message = format!("the model `{link}` {error}");
                             Diagnostic::new(Code::MissingFile, span, message)
                                 .help("until this is fixed, the part is built as a plate")
@@ -191,10 +190,10 @@ impl Models {
     }
 }
 
-fn load(link: &str, resolver: &dyn Resolver) -> Result<StaticModel, Trouble> {
+fn load(link: &str, resolver: &dyn Resolver) -> Result<StaticModel, ModelError> {
     let folder = link.rfind(['/', '\\']).map_or("", |end| &link[..=end]);
-    let bytes = resolver.read(link).map_err(Trouble::Link)?;
-    read_static_model(&bytes, &Beside { resolver, folder }).map_err(Trouble::Import)
+    let bytes = resolver.read(link).map_err(ModelError::Link)?;
+    read_static_model(&bytes, &Beside { resolver, folder }).map_err(ModelError::Import)
 }
 
 /// Resolves the links of a linked file, which start from its own folder.

@@ -1,5 +1,5 @@
-//! Drawing order kept in depth (figure.md, Relief): where two parts overlap and their front or back faces
-//! would lie in one plane, the later drawn one stands out by a small step.
+//! Relief (figure.md): where two parts overlap and their front or back faces would lie in one plane, the part that is drawn
+//! later stands out by a small step. So the drawing order stays visible.
 
 use std::sync::Arc;
 
@@ -16,12 +16,12 @@ use crate::threads::GRAIN;
 
 /// The step, as a share of the part's thickness.
 const STEP: f64 = 0.01;
-/// How many steps a face may stand out at most.
-const MOST_STEPS: f64 = 20.0;
-/// How many overlapping parts are looked at: in a higher pile the lowest have reached the cap anyway.
-const MOST_NEIGHBOURS: usize = 64;
-/// How many boxes are looked at to find them.
-const MOST_BOXES: usize = 4096;
+/// Limit of the steps by which a face stands out.
+const MAX_STEPS: f64 = 20.0;
+/// Limit of the overlapping parts below a part: in a higher pile the steps have reached their limit anyway.
+const MAX_NEIGHBOURS: usize = 64;
+/// Limit of the bounding boxes that are checked to find them.
+const MAX_BOXES: usize = 4096;
 
 /// How far the faces of each part stand out, drawing units.
 pub(super) struct Relief {
@@ -95,7 +95,7 @@ fn steps(parts: &[Part], faces: &[Option<Faces>]) -> Vec<[f64; 2]> {
                 .reduce(f64::max);
             highest.map_or(0.0, |highest| highest + STEP * own.thickness.0)
         });
-        let most = MOST_STEPS * STEP * own.thickness.0;
+        let most = MAX_STEPS * STEP * own.thickness.0;
         steps[part] = raised.map(|step| step.min(most));
     }
     steps
@@ -165,7 +165,7 @@ fn below(
     let area = AABB::from_corners(low.to_array(), high.to_array());
     let mut found: Vec<usize> = tree
         .locate_in_envelope_intersecting(area)
-        .take(MOST_BOXES)
+        .take(MAX_BOXES)
         .map(|other| other.data)
         .filter(|other| *other < part)
         .filter(|other| {
@@ -173,7 +173,7 @@ fn below(
         })
         .collect();
     found.sort_unstable_by_key(|other| std::cmp::Reverse(*other));
-    found.truncate(MOST_NEIGHBOURS);
+    found.truncate(MAX_NEIGHBOURS);
     found.retain(|other| overlap(&parts[part], &parts[*other]));
     found
 }

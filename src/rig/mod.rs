@@ -56,7 +56,7 @@ pub struct Context<'a> {
     /// Per part its rest frame.
     pub frames: &'a [Frame],
     /// Per main part the parts whose solids are in its node.
-    pub members: &'a [Vec<usize>],
+    pub parts_of_node: &'a [Vec<usize>],
 }
 
 /// A figure matched with a clip.

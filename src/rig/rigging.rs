@@ -37,7 +37,7 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
                 false => [other, one],
             },
         };
-        let own = context.members[index]
+        let own = context.parts_of_node[index]
             .iter()
             .map(|member| bindings.parts[*member].measure.bounds);
         let bounds = own.fold(

@@ -1,7 +1,7 @@
-//! Units: what becomes one node of the hierarchy (figure.md, Groups).
+//! Node groups: which shapes become one node of the hierarchy (figure.md, Groups).
 //!
-//! A *member* is something with area: a fill, or a stroke where strokes are parts. The members of a unit
-//! share a node; the hindmost of them is the main part candidate.
+//! A part has a source: the fill of a shape, or its stroke if strokes are parts. All sources in a node group share a node; the
+//! back-most of them is the main part candidate.
 
 use rustc_hash::FxHashMap;
 
@@ -9,45 +9,45 @@ use super::bindings::{Bindings, Place};
 use super::settings::Strokes;
 use crate::svg::{Drawing, GroupKind};
 
-/// Something with area.
+/// The fill or the stroke of a shape, which becomes a part if it has area.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Member {
+pub(super) struct PartSource {
     pub(super) index: usize,
     pub(super) shape: usize,
     /// Whether its area is the shape's stroke rather than its fill.
     pub(super) is_stroke: bool,
 }
 
-/// How groups act.
+/// What a group means for the hierarchy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Role {
-    /// Layers, the outermost `<svg>`, wrappers: as if they were not there.
+enum GroupRole {
+    /// Layers, the outermost `<svg>`, wrappers: ignored.
     Transparent,
-    /// Holds several strings: its children are units of their own.
+    /// Holds several strings: its children become nodes of their own.
     Container,
-    /// Makes its content one unit.
-    Unit,
+    /// Its content becomes one node.
+    Node,
 }
 
-/// The units of a drawing.
+/// The roles of a drawing's groups, and the sources of its parts.
 #[derive(Debug)]
-pub(super) struct Units {
-    pub(super) members: Vec<Member>,
-    roles: Vec<Role>,
+pub(super) struct NodeGroups {
+    pub(super) sources: Vec<PartSource>,
+    roles: Vec<GroupRole>,
     parents: Vec<usize>,
-    /// Per member: the group that makes its unit.
-    unit: Vec<Option<usize>>,
-    /// Per member: the nearest container around it.
+    /// Per source: the group whose content shares its node.
+    node_group: Vec<Option<usize>>,
+    /// Per source: the nearest container around it.
     container: Vec<Option<usize>>,
     /// Per group: the group of the tile layer that it is in.
     layer: Vec<Option<usize>>,
-    /// Per member: whether it is in a tile layer.
+    /// Per source: whether it is in a tile layer.
     in_layer: Vec<bool>,
-    /// Per group: whether it is a tile layer's and holds something that strings can belong to.
+    /// Per group: whether it is a tile layer with parts that strings can belong to.
     holds_parts: Vec<bool>,
 }
 
-impl Units {
+impl NodeGroups {
     pub(super) fn read(drawing: &Drawing, bindings: &Bindings) -> Self {
         let parents: Vec<usize> = drawing.groups.iter().map(|group| group.parent).collect();
         let mut strings = vec![0_usize; drawing.groups.len()];
@@ -56,46 +56,45 @@ impl Units {
                 strings[drawing.labels[label].1] += 1;
             }
         }
-        let members = members(drawing, bindings);
+        let sources = sources(drawing, bindings);
         let groups = 0..drawing.groups.len();
         let layer =
             groups.map(|group| Some(bindings.layers[bindings.tile_layer_of_group(group)?].group));
         let layer: Vec<Option<usize>> = layer.collect();
         let roles = roles(drawing, &strings, &layer);
-        let mut units = Self {
-            unit: vec![None; members.len()],
-            container: vec![None; members.len()],
-            in_layer: vec![false; members.len()],
+        let mut node_groups = Self {
+            node_group: vec![None; sources.len()],
+            container: vec![None; sources.len()],
+            in_layer: vec![false; sources.len()],
             holds_parts: vec![false; drawing.groups.len()],
-            members,
+            sources,
             roles,
             parents,
             layer,
         };
-        for index in 0..units.members.len() {
-            let group = drawing.shapes[units.members[index].shape].group;
-            if let Some(layer) = units.layer[group] {
-                units.in_layer[index] = true;
-                units.container[index] = Some(layer);
-                units.holds_parts[layer] = true;
+        for index in 0..node_groups.sources.len() {
+            let group = drawing.shapes[node_groups.sources[index].shape].group;
+            if let Some(layer) = node_groups.layer[group] {
+                node_groups.in_layer[index] = true;
+                node_groups.container[index] = Some(layer);
+                node_groups.holds_parts[layer] = true;
             }
-            let chain: Vec<usize> = units.chain(group).collect();
+            let chain: Vec<usize> = node_groups.chain(group).collect();
             for group in chain {
-                match units.roles[group] {
-                    Role::Transparent => {}
-                    Role::Unit => units.unit[index] = Some(group),
-                    Role::Container => {
-                        units.container[index] = Some(group);
+                match node_groups.roles[group] {
+                    GroupRole::Transparent => {}
+                    GroupRole::Node => node_groups.node_group[index] = Some(group),
+                    GroupRole::Container => {
+                        node_groups.container[index] = Some(group);
                         break;
                     }
                 }
             }
         }
-        units
+        node_groups
     }
 
-    /// A group and the groups around it, innermost first. A tile layer is the last: it is as if the drawing ended
-    /// there.
+    /// A group and the groups around it, innermost first, up to the tile layer that it is in.
     pub(super) fn chain(&self, group: usize) -> impl Iterator<Item = usize> + '_ {
         let mut next = self.parents.get(group).map(|_| group);
         std::iter::from_fn(move || {
@@ -106,43 +105,42 @@ impl Units {
         })
     }
 
-    /// The group of the tile layer among whose shapes a string in a group is bound; `None` where strings are
-    /// bound among all shapes that are in none.
+    /// The group of the tile layer to whose shapes strings in a group are restricted; `None` for strings outside of tile layers.
     pub(super) fn scope_of_layer(&self, group: usize) -> Option<usize> {
         self.layer[group].filter(|layer| self.holds_parts[*layer])
     }
 
-    /// Whether a member is in a tile layer.
-    pub(super) fn is_in_layer(&self, member: usize) -> bool {
-        self.in_layer[member]
+    /// Whether a source is in a tile layer.
+    pub(super) fn is_in_layer(&self, source: usize) -> bool {
+        self.in_layer[source]
     }
 
-    /// Whether the group is as if it were not there: a layer, a wrapper.
+    /// Whether the group is ignored: a layer or a wrapper.
     pub(super) fn is_transparent(&self, group: usize) -> bool {
-        self.roles[group] == Role::Transparent
+        self.roles[group] == GroupRole::Transparent
     }
 
     pub(super) fn is_container(&self, group: usize) -> bool {
-        self.roles[group] == Role::Container
+        self.roles[group] == GroupRole::Container
     }
 
-    /// Whether strings in the group belong to its backmost part.
-    pub(super) fn groups_strings(&self, group: usize) -> bool {
-        self.roles[group] == Role::Unit
+    /// Whether strings in the group belong to its back-most part.
+    pub(super) fn is_node(&self, group: usize) -> bool {
+        self.roles[group] == GroupRole::Node
     }
 }
 
-fn members(drawing: &Drawing, bindings: &Bindings) -> Vec<Member> {
+fn sources(drawing: &Drawing, bindings: &Bindings) -> Vec<PartSource> {
     let (lines, borders) = match bindings.settings.strokes {
         Strokes::None => (false, false),
         Strokes::Lines => (true, false),
         Strokes::All => (true, true),
     };
     let described = described_lines(drawing, bindings);
-    let mut members = Vec::with_capacity(drawing.shapes.len());
+    let mut sources = Vec::with_capacity(drawing.shapes.len());
     let mut add = |shape, is_stroke| {
-        members.push(Member {
-            index: members.len(),
+        sources.push(PartSource {
+            index: sources.len(),
             shape,
             is_stroke,
         })
@@ -168,10 +166,11 @@ fn members(drawing: &Drawing, bindings: &Bindings) -> Vec<Member> {
             add(index, true);
         }
     }
-    members
+    sources
 }
 
-/// Which unfilled lines have a string of their own, by description or by a group without filled shapes.
+/// Per shape, whether it is an unfilled line with a string of its own: a description, or a string in its group without filled
+/// shapes.
 fn described_lines(drawing: &Drawing, bindings: &Bindings) -> Vec<bool> {
     let mut described = vec![false; drawing.shapes.len()];
     let mut filled = vec![false; drawing.groups.len()];
@@ -209,7 +208,7 @@ fn described_lines(drawing: &Drawing, bindings: &Bindings) -> Vec<bool> {
     described
 }
 
-fn roles(drawing: &Drawing, strings: &[usize], layer: &[Option<usize>]) -> Vec<Role> {
+fn roles(drawing: &Drawing, strings: &[usize], layer: &[Option<usize>]) -> Vec<GroupRole> {
     let mut children = vec![0_usize; drawing.groups.len()];
     let mut drawn = vec![false; drawing.groups.len()];
     for shape in &drawing.shapes {
@@ -224,41 +223,41 @@ fn roles(drawing: &Drawing, strings: &[usize], layer: &[Option<usize>]) -> Vec<R
     let mut roles = Vec::with_capacity(drawing.groups.len());
     let mut wraps = vec![false; drawing.groups.len()];
     for (index, group) in drawing.groups.iter().enumerate() {
-        // Several strings beside a lone group describe what is in it; a single one names the group.
+        // Several strings beside the only group of a page describe its content; a single one names the group.
         let lone = wraps[group.parent] && children[group.parent] == 1 && strings[group.parent] != 1;
         wraps[index] = group.kind == GroupKind::Root || (group.kind == GroupKind::Group && lone);
         roles.push(match group.kind {
-            GroupKind::Root | GroupKind::Layer => Role::Transparent,
-            GroupKind::Group if layer[index] == Some(index) => Role::Transparent,
-            GroupKind::Group if wraps[index] => Role::Transparent,
-            GroupKind::Group if strings[index] > 1 => Role::Container,
-            GroupKind::Group => Role::Unit,
+            GroupKind::Root | GroupKind::Layer => GroupRole::Transparent,
+            GroupKind::Group if layer[index] == Some(index) => GroupRole::Transparent,
+            GroupKind::Group if wraps[index] => GroupRole::Transparent,
+            GroupKind::Group if strings[index] > 1 => GroupRole::Container,
+            GroupKind::Group => GroupRole::Node,
         });
     }
     roles
 }
 
-/// Makes the hindmost part of each unit its main part candidate.
-pub(super) fn choose_mains(units: &Units, bindings: &mut Bindings) {
+/// Makes the back-most part of each node its main part candidate.
+pub(super) fn choose_mains(node_groups: &NodeGroups, bindings: &mut Bindings) {
     let mut mains: FxHashMap<(Option<usize>, usize), usize> = FxHashMap::default();
     let mut main_of_shape: FxHashMap<usize, usize> = FxHashMap::default();
     for index in 0..bindings.parts.len() {
-        let member = bindings.parts[index].member;
+        let source = bindings.parts[index].source;
         let shape = bindings.parts[index].shape;
-        let main = match units.unit[member] {
+        let main = match node_groups.node_group[source] {
             Some(group) => *mains
-                .entry((units.container[member], group))
+                .entry((node_groups.container[source], group))
                 .or_insert(index),
             // A border belongs to the shape that it borders.
             None => *main_of_shape.entry(shape).or_insert(index),
         };
-        bindings.parts[index].join_unit(index, main);
+        bindings.parts[index].join_node(index, main);
     }
 }
 
 /// The main part candidates in each container.
 pub(super) fn candidates_by_container(
-    units: &Units,
+    node_groups: &NodeGroups,
     bindings: &Bindings,
 ) -> FxHashMap<usize, Vec<usize>> {
     let mut candidates: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
@@ -268,7 +267,7 @@ pub(super) fn candidates_by_container(
         .enumerate()
         .filter(|(_, part)| part.is_candidate())
     {
-        if let Some(container) = units.container[part.member] {
+        if let Some(container) = node_groups.container[part.source] {
             candidates.entry(container).or_default().push(index);
         }
     }
