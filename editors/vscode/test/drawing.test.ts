@@ -26,7 +26,7 @@ test("every annotated example has strings", () => {
   for (const drawing of drawings("examples")) assert.ok(hasStrings(readFileSync(drawing, "utf8")), drawing);
 });
 
-test("strings are told from plain texts", () => {
+test("strings are distinguished from plain texts", () => {
   const text = (content: string) => hasStrings(`<svg><text x="0">${content}</text></svg>`);
   for (const string of ["Arm@Body", "Arm$Shape", "%Scale 2", "$Color red", "*", "@Body", '"left arm"@Body', "右腕＠胴", "％Scale"]) {
     assert.ok(text(string), string);
@@ -38,7 +38,7 @@ test("strings are told from plain texts", () => {
   assert.ok(!hasStrings(readFileSync(`${repository}/editors/vscode/test/plain.svg`, "utf8")));
 });
 
-test("looking for strings takes a time that grows with the text", () => {
+test("the search for strings takes linear time", () => {
   for (const unit of ['<text>"', "<text>a", "<text ", "<text><", "<text>\n", "a".repeat(50), '<text>"a>']) {
     const began = process.hrtime.bigint();
     hasStrings(unit.repeat(40_000));
@@ -46,7 +46,7 @@ test("looking for strings takes a time that grows with the text", () => {
   }
 });
 
-test("outlines are counted with all that is in them, however deep", () => {
+test("outlines are counted with all nested entries", () => {
   assert.equal(countOutline([]), 0);
   assert.equal(countOutline([{ children: [{}, { children: [{}] }] }, {}]), 5);
   let deep: Outline = {};

@@ -62,7 +62,7 @@ async function scopeOf(line: string, text: string, scope?: string): Promise<stri
 const inString = ({ scopes }: Token) => scopes.includes("meta.embedded.okoshi");
 
 for (const scope of ["text.xml", "text.xml.svg"]) {
-  test(`what a string says is coloured, in ${scope}`, async () => {
+  test(`strings are coloured in ${scope}`, async () => {
     const line = '<tspan x="1">Rarm@"U body"$Shape -s roundv -90 (w * max(1, 2)) Color #ff8800 Texture "a.png"</tspan>';
     const expected: Record<string, string | RegExp> = {
       Rarm: "entity.name.type.part.okoshi",
@@ -88,7 +88,7 @@ for (const scope of ["text.xml", "text.xml.svg"]) {
   });
 }
 
-test("strings that name nothing are coloured", async () => {
+test("strings without names are coloured", async () => {
   assert.equal(await scopeOf("<text>$Shape roundv</text>", "$"), "keyword.operator.sign.okoshi");
   assert.equal(await scopeOf("<text>$Shape roundv</text>", "Shape"), "keyword.control.okoshi");
   assert.equal(await scopeOf("<text>%Let w 12</text>", "Let"), "keyword.control.okoshi");
@@ -100,7 +100,7 @@ test("full-width signs are signs", async () => {
   assert.equal(await scopeOf("<text>右腕＠胴＄Shape roundv</text>", "胴"), "entity.other.inherited-class.parent.okoshi");
 });
 
-test("notes and what is left out are grey", async () => {
+test("notes and unused parts are grey", async () => {
   assert.match((await scopeOf("<text># a note</text>", "# a note")) ?? "", /^comment\./);
   assert.match((await scopeOf("<text>* spare</text>", "* spare")) ?? "", /^comment\./);
 });
@@ -112,7 +112,7 @@ test("entities in strings stay entities", async () => {
   assert.ok(entities.every(inString));
 });
 
-test("a string ends where a tag begins, whatever is open in it", async () => {
+test("a string ends at the next tag, whatever is open in it", async () => {
   for (const open of ["(1 +", "Texture \"a", "# note", "* spare"]) {
     const lines = await tokenise(`<text>Arm@Body$Shape ${open}<tspan>2</tspan></text>\n<path d="M 1 2"/>`);
     const tags = lines.flat().filter(({ text }) => ["tspan", "text", "path", "d"].includes(text));
@@ -121,7 +121,7 @@ test("a string ends where a tag begins, whatever is open in it", async () => {
   }
 });
 
-test("texts without strings, tags and comments are as they were", async () => {
+test("texts without strings, tags and comments keep their colours", async () => {
   const text = [
     "<!-- <text>Arm@Body$Shape roundv</text> -->",
     "<!--",
@@ -135,7 +135,7 @@ test("texts without strings, tags and comments are as they were", async () => {
   assert.deepEqual(await tokenise(text), await tokenise(text, "text.xml", false));
 });
 
-test("in all examples and cases, colours change inside of texts only", async () => {
+test("in all examples and cases colours change only inside texts", async () => {
   let strings = 0;
   for (const drawing of [...drawings("examples"), ...drawings("tests/cases")]) {
     // Long lines are path data, on which the engine is slow; tags occur in all others.

@@ -34,7 +34,7 @@ test("the walkthrough's commands, pictures and pages are there", () => {
   }
 });
 
-test("no language is contributed, and nothing but XML and its own panel wakes the extension", () => {
+test("no language is contributed, and only XML and its own panel activate the extension", () => {
   assert.ok(!("languages" in manifest.contributes));
   assert.deepEqual(manifest.activationEvents, ["onLanguage:xml", "onLanguage:svg", "onWebviewPanel:okoshi.preview"]);
 });
@@ -57,7 +57,7 @@ test("snippets have the prefix, and are few", () => {
   }
 });
 
-test("snippets are what okoshi reads", { skip: process.env["OKOSHI"] ? false : "OKOSHI names no binary" }, () => {
+test("snippets compile", { skip: process.env["OKOSHI"] ? false : "OKOSHI names no binary" }, () => {
   const { Part, Description, Legend, Defaults } = snippets;
   const drawing = `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 99 99">
     <rect x="30" y="30" width="20" height="40" fill="#d9534f"/><text x="40" y="50">Body</text>

@@ -88,7 +88,7 @@ async function until(probe: () => boolean): Promise<void> {
 
 const open = { type: "link", state: "open", note: "" };
 
-test("the page is told the server's news as it is, once it listens", async (t) => {
+test("the page gets the server's messages unchanged, once it is ready", async (t) => {
   const { client, told, sends } = fakeServer(t);
   const { session, posted, fresh, connect } = preview();
   await connect(client);
@@ -105,7 +105,7 @@ test("the page is told the server's news as it is, once it listens", async (t) =
   assert.deepEqual(fresh().filter(({ type }) => type === "build" || type === "light"), [build(2), light(null)]);
 });
 
-test("models go to the page as bytes of their own, and where there is none it hears that", async (t) => {
+test("models are copied to the page, and missing ones are reported", async (t) => {
   const { client, end } = fakeServer(t);
   const { session, fresh, connect, logged } = preview();
   await session.receive({ type: "ready" });
@@ -135,7 +135,7 @@ test("models go to the page as bytes of their own, and where there is none it he
   assert.deepEqual(fresh().at(-1), none);
 });
 
-test("a part that is picked is shown in the text", async (t) => {
+test("a picked part is shown in the text", async (t) => {
   const { client } = fakeServer(t);
   const { session, done, connect } = preview();
   await session.receive({ type: "pick", drawing: DRAWING, part: "Arm" });
@@ -145,7 +145,7 @@ test("a part that is picked is shown in the text", async (t) => {
   assert.deepEqual(done, [{ show: arm }]);
 });
 
-test("the server hears where the cursor is when it stands still, when the page asks, and at the start", async (t) => {
+test("the server gets the cursor when it rests, when the page asks, and at the start", async (t) => {
   const { client, told } = fakeServer(t);
   const { session, connect, set } = preview();
   await connect(client);
@@ -165,7 +165,7 @@ test("the server hears where the cursor is when it stands still, when the page a
   assert.deepEqual(told, [there, there]);
 });
 
-test("a server that ends is waited for, and the next one is asked anew", async (t) => {
+test("the preview waits for a stopped server and subscribes to the next one", async (t) => {
   const first = fakeServer(t);
   const { session, fresh, connect, set } = preview();
   await session.receive({ type: "ready" });
@@ -195,7 +195,7 @@ test("a server that ends is waited for, and the next one is asked anew", async (
   session.dispose();
 });
 
-test("a server that knows no previews is called too old", async (t) => {
+test("a server without previews is reported as too old", async (t) => {
   const { client } = fakeServer(t, false);
   const { session, fresh, connect, logged } = preview();
   await session.receive({ type: "ready" });
@@ -206,7 +206,7 @@ test("a server that knows no previews is called too old", async (t) => {
   assert.equal(logged.length, 1);
 });
 
-test("the server is told once that a panel is closed, and nothing is posted to it any more", async (t) => {
+test("closing a panel is sent to the server once, and nothing is posted to the panel afterwards", async (t) => {
   const { client, told, sends } = fakeServer(t);
   const { session, fresh, connect, set } = preview();
   await session.receive({ type: "ready" });
@@ -222,7 +222,7 @@ test("the server is told once that a panel is closed, and nothing is posted to i
   assert.deepEqual(fresh(), []);
 });
 
-test("a drawing whose text is closed is not gone, one whose file is not there is, until it is built again", async (t) => {
+test("a closed text is not gone; a missing file is, until it is built again", async (t) => {
   const { client, sends } = fakeServer(t);
   const { session, fresh, connect } = preview();
   const gone = { type: "gone", drawing: DRAWING };
@@ -240,14 +240,14 @@ test("a drawing whose text is closed is not gone, one whose file is not there is
   assert.ok(!fresh().some(({ type }) => type === "gone"));
 });
 
-test("findings are gone to, files are written by their bare names", async () => {
+test("diagnostics can be opened, and files are saved without their folders", async () => {
   const { session, done } = preview();
   await session.receive({ type: "open", drawing: DRAWING, line: 4, column: 9 });
   await session.receive({ type: "save", name: "../../etc/figure.glb", bytes: Buffer.from("glTF").toString("base64") });
   assert.deepEqual(done, [{ goTo: [4, 9] }, { save: ["figure.glb", "glTF"] }]);
 });
 
-test("what the page may not say is not heard", () => {
+test("invalid messages of the page are ignored", () => {
   for (const wrong of [null, 3, "ready", [], {}, { type: 3 }, { type: "eval" }, { type: "model" }, { type: "model", address: {} }]) {
     assert.equal(readPageMessage(wrong), undefined, JSON.stringify(wrong));
   }
@@ -260,13 +260,13 @@ test("what the page may not say is not heard", () => {
   assert.deepEqual(readNotification({ textDocument, messages: [null, 1, build(1)] }), { uri: DRAWING, messages: [build(1)] });
 });
 
-test("every state of the server has words for the page", () => {
+test("every state of the server has a message for the page", () => {
   for (const kind of ["idle", "starting", "stopped"] as const) assert.notEqual(linkFor({ kind }).note, "");
   assert.match(linkFor({ kind: "missing", path: "/opt/okoshi" }).note, /\/opt\/okoshi/);
   assert.deepEqual(linkFor({ kind: "failed", why: "It ended." }), { state: "lost", note: "It ended." });
 });
 
-test("columns count characters, the editor's units are UTF-16", () => {
+test("columns in characters become UTF-16 offsets", () => {
   assert.equal(utf16Offset("腕@体", 3), 2);
   assert.equal(utf16Offset("a🦾b", 3), 3);
   assert.equal(utf16Offset("ab", 1), 0);
@@ -275,7 +275,7 @@ test("columns count characters, the editor's units are UTF-16", () => {
 
 const addresses = { script: "https://panel/page.js", style: "https://panel/page.css", source: "https://panel", nonce: "n0nce" };
 
-test("the bundled page runs its own script, loads its own style, and may do nothing else", () => {
+test("the bundled page may only run its own script and load its own style", () => {
   const page = html(readFileSync("dist/page/page.html", "utf8"), addresses);
   const policy = /http-equiv="Content-Security-Policy" content="([^"]+)"/.exec(page)?.[1] ?? "";
   const allowed = new Map(policy.split("; ").map((one) => [one.split(" ")[0], one.split(" ").slice(1)]));
@@ -290,7 +290,7 @@ test("the bundled page runs its own script, loads its own style, and may do noth
   assert.doesNotMatch(page, /<style|\son\w+=|\sstyle=/);
 });
 
-test("a page that is not as expected is not shown half", () => {
+test("an unexpected page is refused", () => {
   assert.throws(() => html("<html></html>", addresses), /charset/);
   const twice = '<meta charset="utf-8"><link href="page.css"><script src="page.js"></script><script src="page.js"></script>';
   assert.throws(() => html(twice, addresses), /page\.js/);

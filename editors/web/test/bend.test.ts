@@ -13,7 +13,7 @@ test("the stretch grows to √2 at 45° and is gone at the ground and from above
   for (const [elevation, ratio] of [[0, 1], [22.5, (1 + Math.SQRT2) / 2], [45, Math.SQRT2], [-45, Math.SQRT2], [67.5, (1 + Math.SQRT2) / 2], [90, 1], [-90, 1]] as const) assert.ok(Math.abs(ratioAt(radians(elevation)) - ratio) < 1e-12, `${elevation}°`);
 });
 
-test("the bend is a turn by 45°, a stretch upward and the turn back, as the viewer stands", () => {
+test("the bend is a rotation by 45°, a stretch upward and the rotation back, relative to the viewer", () => {
   const near = (a: Matrix4, b: Matrix4): void => a.elements.forEach((value, at) => assert.ok(Math.abs(value - b.elements[at]!) < 1e-9, `${a.elements.join(" ")} is not ${b.elements.join(" ")}`));
   for (const [elevation, amount] of [[30, 1], [45, 1], [45, 0.5], [70, 1]] as const) {
     const stretch = 1 + amount * (ratioAt(radians(elevation)) - 1);
@@ -76,7 +76,7 @@ browse("in the drawn view tops and fronts are squares; the slider leads to true 
   near((await box(page, TOP)).height, (low.height + top.height) / 2, "half of it");
 });
 
-browse("the bend follows the camera, round the model and up, and keys do what buttons do", prepare, async (page) => {
+browse("the bend follows the camera around and up, and keys have the effects of buttons", prepare, async (page) => {
   await shown(page);
   await page.keyboard.press("4");
   await still(page);
@@ -106,7 +106,7 @@ browse("the bend follows the camera, round the model and up, and keys do what bu
   assert.equal(await page.locator("canvas").getAttribute("data-view").then((view) => view?.endsWith("parallel")), true);
 });
 
-browse("what is bent is picked where it is seen, and framed as it is seen", prepare, async (page, host) => {
+browse("bent terrain is picked and framed as it appears", prepare, async (page, host) => {
   await shown(page);
   await page.keyboard.press("4");
   await still(page);
@@ -135,7 +135,7 @@ browse("what is bent is picked where it is seen, and framed as it is seen", prep
   assert.equal(await slider(page).inputValue(), "0.25");
 });
 
-browse("the slider is there only while the model has terrain, and has room on a phone and in the dark", prepare, async (page, host) => {
+browse("the slider is shown only for models with terrain, also on a phone and in dark mode", prepare, async (page, host) => {
   await shown(page);
   const bar = page.locator(".bendbar");
   assert.deepEqual(await overlaps(page), []);

@@ -36,7 +36,7 @@ const leg = async (page: Page, source: number, offset = 0): Promise<Colour> => {
 /** The frame, from 0, where a drawing begins. */
 const begins = (drawing: number): number => EXPOSURE.slice(0, drawing).reduce((sum, [, frames]) => sum + frames, 0);
 
-browse("a limited clip is counted in drawings and frames over its true length, with its last drawing held", kicking(), async (page) => {
+browse("a limited clip counts drawings and frames over its full duration, with its last drawing held", kicking(), async (page) => {
   await shown(page);
   assert.equal(await page.locator(".clip-choice").locator("option").allInnerTexts().then((all) => all.join("|")), `kick · 2.5 s · ${DRAWINGS} drawings|slowly · 2.5 s`);
   assert.equal(await readout(page), `drawing 1 of ${DRAWINGS} · frame 1 of 60 · 0.00 s`);
@@ -84,7 +84,7 @@ browse("a clip that does not repeat stops at its true end", kicking(), async (pa
   assert.equal(await readout(page), `drawing ${DRAWINGS} of ${DRAWINGS} · frame 60 of 60 · 2.50 s`);
 });
 
-browse("the chart has a point a frame, the omitted and the drawings; its playhead moves, and a click seeks", kicking(), async (page) => {
+browse("the chart shows frames, omitted frames and drawings; its playhead moves, and a click seeks", kicking(), async (page) => {
   await shown(page);
   await front(page);
   const chart = page.locator(".chart");
@@ -138,7 +138,7 @@ browse("the chart has a point a frame, the omitted and the drawings; its playhea
   await chart.waitFor({ state: "hidden" });
 });
 
-browse("full and limited stand side by side, and each moves in its own way", kicking(), async (page, host) => {
+browse("full and limited clips play side by side", kicking(), async (page, host) => {
   await shown(page);
   await front(page);
   const before = await camera(page);
@@ -212,7 +212,7 @@ browse("full and limited stand side by side, and each moves in its own way", kic
   await page.getByRole("button", { name: "side by side" }).waitFor({ state: "hidden" });
 });
 
-browse("full clips that cannot be read are said so, and the model stays", (host) => {
+browse("unreadable full clips are reported, and the model stays", (host) => {
   kicking()(host);
   host.broken.add("/builds/1.originals.glb");
 }, async (page, host) => {
@@ -227,7 +227,7 @@ browse("full clips that cannot be read are said so, and the model stays", (host)
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);
 });
 
-browse("inside VS Code the full clips are asked for as models are", () => {}, async (page) => {
+browse("in VS Code full clips are requested like models", () => {}, async (page) => {
   const { model, originals, build: facts } = kick();
   await page.addInitScript(() => {
     const sent: unknown[] = [];
@@ -247,7 +247,7 @@ browse("inside VS Code the full clips are asked for as models are", () => {}, as
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);
 });
 
-browse("the inspector says which joint drives a part, and why", kicking(), async (page) => {
+browse("the inspector shows which joint drives a part, and why", kicking(), async (page) => {
   await shown(page);
   await page.locator("[data-part=Leg]").click();
   assert.match(await page.locator(".inspector").innerText(), /Driven by\s+RightUpLeg — drawn left, so right; lowest point near the ground/);
@@ -255,7 +255,7 @@ browse("the inspector says which joint drives a part, and why", kicking(), async
   assert.match(await page.locator(".inspector").innerText(), /Driven by\s+no joint: it follows its parent/);
 });
 
-browse("of several figures in a clip, one's drawings are counted; builds without facts count keys", (host) => {
+browse("the drawings of one of several figures are counted; without facts keys are counted", (host) => {
   const other = { ...FACTS, figure: "Twin", limited: true, exposure: [[0, 30], [30, 30]], drawings: 2, omitted: [], held: 58 };
   kicking(kick([FACTS, other]))(host);
 }, async (page, host) => {
@@ -279,7 +279,7 @@ browse("of several figures in a clip, one's drawings are counted; builds without
   await page.locator(".clips").waitFor({ state: "hidden" });
 });
 
-browse("a clip of an hour is drawn without losing its peaks", (host) => {
+browse("the chart of an hour keeps its peaks", (host) => {
   const frames = 86_400;
   const ssd = Array.from({ length: frames / 8 }, (_, at) => (at === 7001 ? 3 : 0.01 * (1 + Math.sin(at / 40))));
   kicking(kick([{ ...FULL, name: "kick", frames, ssd, ssd_step: 8, exposure: [] }]))(host);
@@ -294,7 +294,7 @@ browse("a clip of an hour is drawn without losing its peaks", (host) => {
   assert.match((await page.locator(".chart-picture").getAttribute("aria-label"))!, /The fastest is frame 56,?009, with an SSD of 3\./);
 });
 
-browse("the chart and two figures at any width, in the dark", kicking(), async (page) => {
+browse("the chart and two figures at any width, in dark mode", kicking(), async (page) => {
   await shown(page);
   for (const key of ["c", "o"]) await page.keyboard.press(key);
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);
@@ -314,7 +314,7 @@ browse("the chart and two figures at any width, in the dark", kicking(), async (
   assert.ok(light(ink!) - light(paper!) > 90, `${ink} on ${paper}`);
 }, { colorScheme: "dark" });
 
-browse("the chart and two figures in the light", kicking(), async (page) => {
+browse("the chart and two figures in light mode", kicking(), async (page) => {
   await shown(page);
   for (const key of ["c", "o"]) await page.keyboard.press(key);
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);

@@ -19,7 +19,7 @@ const front = async (page: Page) => {
   await still(page);
 };
 
-browse("fills are seen in the drawing's own colours, from all sides and in both projections", one(FIGURE), async (page) => {
+browse("fills have the drawing's colours, from all sides and in both projections", one(FIGURE), async (page) => {
   await shown(page);
   for (const key of ["1", "5", "0", "Shift+1"]) {
     await page.keyboard.press(key);
@@ -44,7 +44,7 @@ browse("nothing is drawn while nothing changes", one(FIGURE), async (page) => {
   assert.ok((await frames(page)) > before);
 });
 
-browse("a new build takes the old one's place; camera, selection, pose and shading stay", one(FIGURE), async (page, host) => {
+browse("a new build replaces the old one; camera, selection, pose and shading stay", one(FIGURE), async (page, host) => {
   await shown(page, 1);
   await page.keyboard.press("z");
   for (const key of ["1", "ArrowLeft", "ArrowUp", "+"]) await page.keyboard.press(key);
@@ -64,7 +64,7 @@ browse("a new build takes the old one's place; camera, selection, pose and shadi
   assert.ok(body[2] > 150 && body[0] < 90, `the new body is rgb(${body.join(" ")})`);
 });
 
-browse("of builds that come in a burst, the last is shown and not all are fetched", one(FIGURE), async (page, host) => {
+browse("in a burst of builds the last one is shown and not all are fetched", one(FIGURE), async (page, host) => {
   await shown(page, 1);
   host.delay = 250;
   const colours = ["#111111", "#222222", "#333333", "#444444", "#555555", "#0000ff"];
@@ -75,7 +75,7 @@ browse("of builds that come in a burst, the last is shown and not all are fetche
   assert.deepEqual(host.asked.filter((path) => path.endsWith(".glb")), ["/builds/1.glb", "/builds/2.glb", "/builds/7.glb"]);
 });
 
-browse("models that went leave nothing on the graphics card", one(FIGURE), async (page, host) => {
+browse("removed models leave nothing on the graphics card", one(FIGURE), async (page, host) => {
   await page.addInitScript(() => {
     const alive = { Buffer: 0, Texture: 0, VertexArray: 0 };
     Object.assign(globalThis, { alive });
@@ -108,7 +108,7 @@ browse("models that went leave nothing on the graphics card", one(FIGURE), async
   assert.deepEqual(await alive(), before);
 });
 
-browse("embedded pictures are shown under the policy", one(example("looks")), async (page) => {
+browse("embedded pictures are shown under the content security policy", one(example("looks")), async (page) => {
   await shown(page);
   await front(page);
   await picture(page, "looks");
@@ -120,7 +120,7 @@ browse("embedded pictures are shown under the policy", one(example("looks")), as
   assert.ok(colours.size > 12, `${colours.size} colours`);
 });
 
-browse("the pointer lights parts up, a click picks one and tells the host", one(FIGURE), async (page, host) => {
+browse("the pointer highlights parts; a click picks one and notifies the host", one(FIGURE), async (page, host) => {
   await shown(page);
   await front(page);
   const arm = await at(page, 220, 120, 0.08);
@@ -144,7 +144,7 @@ browse("the pointer lights parts up, a click picks one and tells the host", one(
   assert.equal(await page.getAttribute("canvas", "data-selected"), "");
 });
 
-browse("a selected part is outlined, also where another stands before it", one(FIGURE), async (page) => {
+browse("a selected part is outlined, even behind another one", one(FIGURE), async (page) => {
   await shown(page);
   await page.locator("[data-part=Arm]").click();
   await page.mouse.move(5, 5);
@@ -162,7 +162,7 @@ browse("a selected part is outlined, also where another stands before it", one(F
   assertLike(seen.at({ x, y }), RED, "within the outline", 110);
 });
 
-browse("the editor's cursor lights a part up", one(example("clockwork-dragon")), async (page, host) => {
+browse("the editor's cursor highlights a part", one(example("clockwork-dragon")), async (page, host) => {
   await shown(page);
   const last = await page.evaluate(() => {
     const items = [...document.querySelectorAll<HTMLElement>(".tree-item.main")];
@@ -181,7 +181,7 @@ browse("the editor's cursor lights a part up", one(example("clockwork-dragon")),
   await page.waitForFunction(() => document.querySelector(".tree-item.lit") === null);
 });
 
-browse("a limb is turned about its joint, its way is read out, and Escape puts it back", one(FIGURE), async (page) => {
+browse("a limb is turned about its joint with a readout of the angle, and Escape resets it", one(FIGURE), async (page) => {
   await shown(page);
   await front(page);
   await page.keyboard.press("5");
@@ -214,7 +214,7 @@ browse("a limb is turned about its joint, its way is read out, and Escape puts i
   assert.equal(await page.getAttribute("canvas", "data-posed"), "");
 });
 
-browse("what hangs on a limb follows it, and Shift turns about the limb's own axis", one(FIGURE), async (page) => {
+browse("child parts follow a limb, and Shift turns it about its own axis", one(FIGURE), async (page) => {
   await shown(page);
   await front(page);
   await page.locator("[data-part=Body]").click();
@@ -242,7 +242,7 @@ browse("what hangs on a limb follows it, and Shift turns about the limb's own ax
   assert.ok(!isLike(twisted, GREEN, 40), `the upper edge went away: rgb(${twisted.join(" ")})`);
 });
 
-browse("clips play, are scrubbed, and go on in the next model", (host) => {
+browse("clips play, can be scrubbed, and continue in the next model", (host) => {
   const { model, ...rest } = build(FIGURE);
   host.add("figure.svg");
   host.built("figure.svg", { ...rest, model: animate(model!, "Arm", "wave", SPIN) });
@@ -278,7 +278,7 @@ browse("clips play, are scrubbed, and go on in the next model", (host) => {
   await clips.waitFor({ state: "hidden" });
 });
 
-browse("pictures and the model are taken along under the drawing's name", one(FIGURE), async (page) => {
+browse("screenshots and the model are saved under the drawing's name", one(FIGURE), async (page) => {
   await shown(page);
   const take = async (press: () => Promise<void>) => {
     const [download] = await Promise.all([page.waitForEvent("download"), press()]);

@@ -14,7 +14,7 @@ import { Latest } from "../src/viewport/latest";
 import { directionOf } from "../src/viewport/view";
 import { State } from "../src/state";
 
-test("messages that are not known are dropped, and what is missing in a known one is empty", () => {
+test("unknown messages are dropped, and missing fields become empty", () => {
   for (const none of [null, 7, "build", [], {}, { type: "ofTheFuture" }]) assert.equal(read(none), null);
   const build = read({ type: "build", drawing: "a", build: { revision: 3, parts: [{ name: "Arm", kind: "strange", attributes: { Shape: { value: "round", from: "own" } } }] } });
   assert.ok(build?.type === "build");
@@ -42,7 +42,7 @@ test("the hierarchy has every part of the model once", () => {
   assert.equal(parts.carrier("swatch"), undefined);
 });
 
-test("parts that hang on themselves, or on nothing that there is, hang on the root", () => {
+test("parts whose parent is missing or themselves become children of the root", () => {
   const parts = new Parts([part("A", "B"), part("B", "A"), part("C", "Nobody"), part("D", "A")]);
   const seen = new Set<string>();
   const walk = (name: string | null): void => {
@@ -56,13 +56,13 @@ test("parts that hang on themselves, or on nothing that there is, hang on the ro
   assert.deepEqual([...seen].sort(), ["A", "B", "C", "D"]);
 });
 
-test("what is marked in a line is counted in characters", () => {
+test("marks in a line count characters", () => {
   assert.deepEqual(excerpt({ text: "    <text>右腕@胴🤖!</text>", from: 13, to: 15 }), { before: "<text>右腕@", marked: "胴🤖", after: "!</text>" });
   assert.deepEqual(excerpt({ text: "", from: 4, to: 9 }), { before: "", marked: "", after: "" });
   assert.deepEqual(excerpt({ text: "   ab", from: 1, to: 2 }), { before: "", marked: " ", after: " ab" });
 });
 
-test("of a long line, what is around the mark is shown", () => {
+test("a long line is cut to the text around the mark", () => {
   const { before, marked, after } = excerpt({ text: `${"x".repeat(5000)}HERE${"y".repeat(5000)}`, from: 5000, to: 5004 });
   assert.match(before, /^…x{20,60}$/);
   assert.equal(marked, "HERE");
@@ -70,20 +70,20 @@ test("of a long line, what is around the mark is shown", () => {
   assert.ok(Array.from(excerpt({ text: "z".repeat(9000), from: 0, to: 9000 }).marked).length <= 110);
 });
 
-test("errors go before warnings, warnings before hints, each in the order of lines", () => {
+test("errors come before warnings, warnings before hints, each sorted by line", () => {
   const finding = (severity: Finding["severity"], line: number): Finding => ({ severity, line, column: 1, code: "", message: "", label: "", help: [], text: "", from: 0, to: 0 });
   const order = sorted([finding("hint", 1), finding("error", 9), finding("warning", 2), finding("error", 3)]).map(({ severity, line }) => `${severity} ${line}`);
   assert.deepEqual(order, ["error 3", "error 9", "warning 2", "hint 1"]);
 });
 
-test("colours of the drawing are colours of the page", () => {
+test("colours of the drawing become CSS colours", () => {
   assert.equal(cssColor("1 0.5 0"), "rgb(255 127.5 0 / 1)");
   assert.equal(cssColor("0 0 0 0.25"), "rgb(0 0 0 / 0.25)");
   assert.equal(cssColor("#d94d40"), "#d94d40");
   for (const none of ["url(http://x)", "1 2", "a;b", "1 0 zero"]) assert.equal(cssColor(none), null);
 });
 
-test("clips with held keys only are counted in drawings", () => {
+test("clips with only held keys are counted in drawings", () => {
   const track = (times: number[], held: boolean) => {
     const made = new NumberKeyframeTrack(".a", times, times);
     if (held) made.setInterpolation(InterpolateDiscrete);
@@ -96,7 +96,7 @@ test("clips with held keys only are counted in drawings", () => {
   assert.equal(drawingAt({ times: [0, Math.fround(0.1)], held: true }, 0.1), 2);
 });
 
-test("of models that come while one is read, only the newest is read next", async () => {
+test("of the models requested while one is loading, only the latest is loaded next", async () => {
   const finish = new Map<number, (good: boolean) => void>();
   const read: number[] = [];
   const taken: number[] = [];
@@ -123,21 +123,21 @@ test("of models that come while one is read, only the newest is read next", asyn
   assert.deepEqual([read, taken, failed], [[1, 4, 5], [1, 5], [4]]);
 });
 
-test("views stand where `okoshi render --view` stands", () => {
+test("views equal those of `okoshi render --view`", () => {
   const near = (a: Vector3, b: readonly number[]) => assert.ok(a.distanceTo(new Vector3(...b)) < 1e-3, `${a.toArray()} is not ${b}`);
   near(directionOf([0, 0]), [0, 0, 1]);
   near(directionOf([90, 0]), [1, 0, 0]);
   near(directionOf([0, 90]), [0, 1, 0]);
 });
 
-test("bytes come from VS Code as bytes or as base64", () => {
+test("bytes from VS Code may be binary or base64", () => {
   const bytes = Uint8Array.from({ length: 70_000 }, (_, at) => (at * 7) % 256);
   assert.deepEqual(new Uint8Array(toBuffer(toBase64(bytes))!), bytes);
   assert.deepEqual(new Uint8Array(toBuffer(bytes.subarray(3, 9))!), bytes.slice(3, 9));
   assert.equal(toBuffer(undefined), null);
 });
 
-test("a drawing keeps what is known of it when the list comes again", () => {
+test("a drawing keeps its state when the list is sent again", () => {
   const state = new State();
   const listed = [{ id: "a", name: "a.svg", folder: "" }];
   state.receive({ type: "drawings", drawings: listed });
@@ -149,7 +149,7 @@ test("a drawing keeps what is known of it when the list comes again", () => {
   assert.equal(state.find("a")?.gone, true);
 });
 
-test("a build belongs to the connection it came through, also when the host calls that open later", () => {
+test("a build belongs to its connection, even if that is reported open later", () => {
   const state = new State();
   const listed = { type: "drawings", drawings: [{ id: "a", name: "a.svg", folder: "" }] } as const;
   const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [], clips: [], originals: null } } as const;
@@ -172,7 +172,7 @@ const facts = (more: Partial<ClipFacts>): ClipFacts => ({
   ssd: Array.from({ length: 12 }, (_, at) => at), ssdStep: 1, joints: new Map(), unmatched: [], ...more,
 });
 
-test("what is known of clips is read, and what is missing is empty", () => {
+test("facts of clips are read, and missing ones become empty", () => {
   const message = read({
     type: "build",
     drawing: "a",
@@ -186,7 +186,7 @@ test("what is known of clips is read, and what is missing is empty", () => {
   assert.deepEqual([none!.name, none!.exposure, none!.fps], ["", [], 0]);
 });
 
-test("drawings stand for the source's frames up to the next, without the omitted ones", () => {
+test("drawings replace the source frames up to the next drawing, except omitted ones", () => {
   // Frames 5 and 6 are omitted; 0 and 9 are held longer for them, and 2 for the frame after it.
   const exposure = new ExposureSheet(facts({ exposure: [[0, 2], [1, 1], [2, 2], [4, 1], [7, 1], [8, 1], [9, 2], [10, 2]], omitted: [5, 6] }));
   assert.deepEqual(exposure.runs.map(({ start, from, to }) => [start, from, to]), [[0, 0, 1], [2, 1, 2], [3, 2, 4], [5, 4, 5], [6, 7, 8], [7, 8, 9], [8, 9, 10], [10, 10, 12]]);
@@ -199,7 +199,7 @@ test("drawings stand for the source's frames up to the next, without the omitted
   assert.equal(describeExposure(exposure), "12 frames, 8 drawings, 2 in-betweens omitted");
 });
 
-test("where nothing is omitted, a drawing may be any frame of those that it stands for", () => {
+test("without omitted frames a drawing may show any of the frames it replaces", () => {
   const exposure = new ExposureSheet(facts({ exposure: [[2, 4], [7, 5], [10, 3]], held: 9 }));
   assert.deepEqual(exposure.runs.map(({ from, to }) => [from, to]), [[0, 4], [4, 9], [9, 12]]);
   assert.deepEqual([0, 3, 4, 8, 9, 11].map((frame) => exposure.sourceAt((frame + 0.5) / 24)), [0, 3, 4, 8, 9, 11]);
@@ -207,7 +207,7 @@ test("where nothing is omitted, a drawing may be any frame of those that it stan
   assert.equal(describeExposure(exposure), "12 frames, 3 drawings, 9 held");
 });
 
-test("a clip that is shorter for what was omitted, one that is not limited, and one of which nothing is known", () => {
+test("a shortened clip, one that is not limited, and one without facts", () => {
   const short = new ExposureSheet(facts({ frames: 10, exposure: [[0, 1], [1, 1], [2, 2], [4, 1], [7, 1], [8, 1], [9, 1], [10, 2]], omitted: [5, 6] }));
   assert.deepEqual([short.frames, short.sources, short.sourceAt(9 / 24)], [10, 12, 11]);
   const full = new ExposureSheet(facts({ limited: false, exposure: Array.from({ length: 12 }, (_, at) => [at, 1] as const) }));
@@ -219,7 +219,7 @@ test("a clip that is shorter for what was omitted, one that is not limited, and 
   assert.deepEqual([thinned.sources, thinned.ssd(7), thinned.ssd(8), thinned.ssd(21)], [22, 1, 2, 3]);
 });
 
-test("a curve is thinned to its peaks", () => {
+test("a curve is reduced to its peaks", () => {
   const values = Array.from({ length: 1000 }, (_, at) => (at === 777 ? 5 : at % 7 === 0 ? 1 : 0));
   const thin = peaks(values, 90);
   assert.equal(thin.step, 12);
@@ -233,7 +233,7 @@ test("the scale's numbers are short", () => {
   assert.deepEqual([0, 0.0012345, 0.06, 1234.5, 0.0000123].map(figures), ["0", "0.00123", "0.06", "1,230", "1.2e−5"]);
 });
 
-test("what drives a part is said for the clip that is shown, else for the first that has it", () => {
+test("the driving joint is that of the clip shown, otherwise of the first clip with the part", () => {
   const clip = (name: string, joint: string) => ({ name, joints: new Map([["Arm", { joint, why: "by its name" }]]), unmatched: ["Tail"] });
   const clips = [clip("walk", "RightArm"), clip("kick", "RightForeArm")];
   assert.equal(drivenBy("Arm", clips, "kick"), "RightForeArm — by its name");
@@ -242,7 +242,7 @@ test("what drives a part is said for the clip that is shown, else for the first 
   assert.equal(drivenBy("Tree", clips), null);
 });
 
-test("a clip of one file moves the nodes of another by the files' own names", () => {
+test("a clip of one file animates the nodes of another by their names in the files", () => {
   const node = (name: string, own: string) => Object.assign(new Object3D(), { name: own, userData: { name } });
   const there = new Map([["Arm", [node("Arm", "Arm"), node("Arm", "Arm_1")]]]);
   const here = new Map([["Arm", [node("Arm", "Arm_2"), node("Arm", "Arm_3")]]]);

@@ -10,7 +10,7 @@ const HUMAN = example("human");
 const broken = (): Made => build(HUMAN, (text) => text.replaceAll("@Ubody", "@Ubdoy"));
 const phone = { viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 } as const;
 
-browse("errors open the findings over the last good model, and close them when they are gone", one(HUMAN), async (page, host) => {
+browse("errors open the diagnostics over the last good model, and close them when they are fixed", one(HUMAN), async (page, host) => {
   await shown(page, 1);
   const findings = page.locator(".findings");
   assert.equal(await findings.getAttribute("data-open"), "false");
@@ -41,7 +41,7 @@ browse("errors open the findings over the last good model, and close them when t
   assert.equal(await findings.getAttribute("data-open"), "true");
 });
 
-browse("a drawing that never built says so, and appears when it does", (host) => {
+browse("a drawing without a build is reported, and appears with its first one", (host) => {
   host.add("human.svg");
   host.built("human.svg", broken());
 }, async (page, host) => {
@@ -52,7 +52,7 @@ browse("a drawing that never built says so, and appears when it does", (host) =>
   await page.locator(".notes").waitFor({ state: "hidden" });
 });
 
-browse("a drawing whose file went is said to be gone, and comes back", one(HUMAN), async (page, host) => {
+browse("a missing file is reported, and the drawing comes back", one(HUMAN), async (page, host) => {
   await shown(page);
   host.gone("human.svg");
   await page.getByText("The drawing's file is missing at the moment. This is its last model.").waitFor();
@@ -60,7 +60,7 @@ browse("a drawing whose file went is said to be gone, and comes back", one(HUMAN
   await page.locator(".notes").waitFor({ state: "hidden" });
 });
 
-browse("several drawings are cards that follow their builds; one opens, and the browser's back comes back", (host) => {
+browse("several drawings are cards that follow their builds; one opens, and the browser's back button returns", (host) => {
   for (const name of ["human", "car", "dog", "lady", "looks", "robot-ja"]) {
     host.add(name, `${name}.svg`, name === "car" ? "vehicles" : "");
     host.built(name, build(example(name)));
@@ -103,7 +103,7 @@ browse("the address names a drawing", (host) => {
   assert.equal(await page.title(), "a drawing #1.svg · okoshi");
 }, { hash: `#${encodeURIComponent("a drawing #1")}` });
 
-browse("a drawing that comes besides leaves the one that is looked at, and there is a way to both", one(HUMAN), async (page, host) => {
+browse("a new drawing leaves the current one open, and both can be reached", one(HUMAN), async (page, host) => {
   await shown(page, 1);
   await page.getByRole("link", { name: "Drawings" }).waitFor({ state: "hidden" });
   host.add("figure.svg");
@@ -116,7 +116,7 @@ browse("a drawing that comes besides leaves the one that is looked at, and there
   await page.locator("[data-part=Arm]").waitFor();
 });
 
-browse("all is reached and done by keyboard, and where one is is seen", one(HUMAN), async (page, host) => {
+browse("everything works by keyboard, with a visible focus", one(HUMAN), async (page, host) => {
   await shown(page);
   const reached = new Set<string>();
   for (let n = 0; n < 60; n++) {
@@ -164,7 +164,7 @@ browse("all is reached and done by keyboard, and where one is is seen", one(HUMA
   assert.equal(await page.locator(".findings").getAttribute("data-open"), "true");
 });
 
-browse("on a phone nothing lies over anything, and all is touched", one(HUMAN), async (page, host) => {
+browse("on a phone nothing overlaps, and everything works by touch", one(HUMAN), async (page, host) => {
   await shown(page);
   assert.deepEqual(await overlaps(page), []);
   await picture(page, "phone");
@@ -188,7 +188,7 @@ browse("on a phone nothing lies over anything, and all is touched", one(HUMAN), 
   await picture(page, "phone-errors");
 }, phone);
 
-browse("a wide page has nothing over anything either", one(HUMAN), async (page) => {
+browse("nothing overlaps on a wide page either", one(HUMAN), async (page) => {
   await shown(page);
   for (const width of [1600, 1024, 900, 761, 760, 500, 320]) {
     await page.setViewportSize({ width, height: 800 });
@@ -197,7 +197,7 @@ browse("a wide page has nothing over anything either", one(HUMAN), async (page) 
   }
 });
 
-browse("dark mode is followed, at once", one(HUMAN), async (page) => {
+browse("dark mode is followed at once", one(HUMAN), async (page) => {
   await shown(page);
   const bright = async () => {
     const { data } = await picture(page, "dark");
@@ -233,7 +233,7 @@ browse("dark mode is followed, at once", one(HUMAN), async (page) => {
   assert.ok(least >= 4.5, `the least contrast is ${least}`);
 }, { colorScheme: "dark" });
 
-browse("a host that goes away is waited for; what it builds then is shown", one(HUMAN), async (page, host) => {
+browse("the page waits for a lost host and then shows its builds", one(HUMAN), async (page, host) => {
   await shown(page, 1);
   const view = await camera(page);
   await host.stop();
@@ -253,7 +253,7 @@ browse("a host that goes away is waited for; what it builds then is shown", one(
   assert.equal(await camera(page), view);
 });
 
-browse("names and strings of drawings are text, whatever they look like", (host) => {
+browse("names and strings of drawings are shown as text, never as markup", (host) => {
   const evil = `<img src=x onerror="document.title='hacked'">`;
   host.add("evil", evil, evil);
   const { build: facts, ...rest } = build(HUMAN);
@@ -272,7 +272,7 @@ browse("names and strings of drawings are text, whatever they look like", (host)
   assert.match(await page.locator(".inspector").innerText(), /<img src=x onerror=/);
 });
 
-browse("a drawing of no parts, and one of thousands", (host) => {
+browse("a drawing without parts, and one with thousands", (host) => {
   host.add("many.svg");
   const shapes = Array.from({ length: 3000 }, (_, n) => `<rect id="r${n}" x="${(n % 60) * 5}" y="${Math.floor(n / 60) * 5}" width="4" height="4" fill="#3a7"/>`).join("");
   host.built("many.svg", make(process.env["OKOSHI"] ?? "", `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 300">${shapes}</svg>`, FIGURE));
@@ -287,7 +287,7 @@ browse("a drawing of no parts, and one of thousands", (host) => {
   await page.getByText("The drawing has no parts yet.").waitFor();
 });
 
-browse("inside VS Code everything goes by posted messages, and the editor's colours are worn", () => {}, async (page) => {
+browse("in VS Code everything goes by posted messages, with the editor's colours", () => {}, async (page) => {
   const { model, build: facts } = build(FIGURE);
   await page.addInitScript(() => {
     const sent: unknown[] = [];

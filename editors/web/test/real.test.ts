@@ -63,7 +63,7 @@ real("a save changes the picture, and the camera stays", "figure.svg", async (pa
   assertLike((await picture(page, "real")).at(await at(page, 140, 180, 0.2)), BLUE, "the body that was saved", 80);
 });
 
-real("an error lies over the old model, until it is mended", "figure.svg", async (page, folder) => {
+real("an error is shown over the old model until it is fixed", "figure.svg", async (page, folder) => {
   await shown(page, 1);
   await page.keyboard.press("1");
   save(folder, (text) => text.replace("#ff0000", "#0000ff").replace("Arm@Body", "Arm@Bdoy"));
@@ -79,7 +79,7 @@ real("an error lies over the old model, until it is mended", "figure.svg", async
   assertLike((await picture(page)).at(await at(page, 140, 180, 0.2)), BLUE, "the new body", 80);
 });
 
-real("a click names the part, and posing turns the limb about its joint", "figure.svg", async (page) => {
+real("a click reports the part, and posing turns the limb about its joint", "figure.svg", async (page) => {
   await shown(page, 1);
   await page.keyboard.press("1");
   await still(page);
@@ -102,7 +102,7 @@ real("a click names the part, and posing turns the limb about its joint", "figur
   assertLike(seen.at(await at(page, 171, 60, 0.08)), GREEN, "the arm above its joint", 80);
 });
 
-real("a folder is a gallery with pictures; a drawing that comes into it is shown too", ".", async (page, folder) => {
+real("a folder is a gallery with pictures; new drawings appear", ".", async (page, folder) => {
   await page.waitForFunction(() => [...document.querySelectorAll<HTMLImageElement>(".card img")].filter((image) => image.complete && image.naturalWidth > 0).length === 2);
   assert.match(await page.locator(".gallery").innerText(), /figure\.svg\s+3 parts\s+human\.svg\s+more\s+7 parts/);
   copyFileSync(example("dog"), join(folder, "more", "dog.svg"));
@@ -112,7 +112,7 @@ real("a folder is a gallery with pictures; a drawing that comes into it is shown
   assert.equal(await page.locator("[data-part=Ubody]").count(), 1);
 });
 
-real("a clip plays, its drawings are marked, and the motion as it was stands beside it", "moving", async (page, folder) => {
+real("a clip plays, its drawings are marked, and the full motion is shown beside it", "moving", async (page, folder) => {
   await shown(page, 1);
   assert.match(await page.locator(".clips").innerText(), /kick · 2\.8 s · 34 drawings/);
   await page.keyboard.press("c");
