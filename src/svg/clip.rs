@@ -1,4 +1,4 @@
-//! `clip-path`: what of a shape is seen.
+//! `clip-path`: cuts shapes to their visible part.
 
 use glam::{DAffine2, DVec2};
 
@@ -9,12 +9,12 @@ use crate::geometry::{FillRule, Outline, bounds, intersect, resolve_overlaps, un
 #[derive(Debug, Clone)]
 pub(super) struct Clip {
     outline: Outline,
-    /// Least and greatest corner, if the clip is a rectangle along the axes.
+    /// The minimum and maximum corner, if the clip is an axis-aligned rectangle.
     rectangle: Option<(DVec2, DVec2)>,
 }
 
 impl Clip {
-    /// Reads a clip path and the ones that clip it; `transform` leads from the clipped group to the page.
+    /// Reads a clip path and the ones that clip it; `transform` maps the clipped group to the page.
     pub(super) fn read(clip: &usvg::ClipPath, transform: DAffine2, tolerance: f64) -> Vec<Self> {
         let transform = transform * affine(clip.transform());
         let mut areas = Vec::new();
@@ -31,13 +31,13 @@ impl Clip {
         out
     }
 
-    /// What is left of `outline`.
+    /// The part of `outline` inside the clip.
     pub(super) fn cut(&self, outline: Outline) -> Outline {
         let Some((low, high)) = bounds(&outline) else {
             return outline;
         };
         match self.rectangle {
-            // The frame that Figma and nested drawings clip everything to seldom cuts anything.
+            // Figma and nested drawings clip everything to a frame, which seldom cuts anything.
             Some((least, most)) if low.cmpge(least).all() && high.cmple(most).all() => outline,
             _ => intersect(&outline, &self.outline),
         }

@@ -1,4 +1,4 @@
-//! Elements of the XML: where they are, what they are called, which of them are texts.
+//! XML elements: their positions and names, and which of them are texts.
 
 use std::sync::Arc;
 
@@ -11,9 +11,9 @@ use super::style::Styles;
 use super::{Element, text};
 use crate::source::Span;
 
-/// The elements by id; of several with one id the first.
+/// The elements by id; the first of several elements with the same id.
 pub(super) struct Ids<'a> {
-    /// What injected ids begin with; a number follows.
+    /// The prefix of injected ids; a number follows.
     prefix: &'a str,
     injected: Vec<Option<NodeId>>,
     own: FxHashMap<&'a str, NodeId>,
@@ -56,14 +56,14 @@ impl<'a> Ids<'a> {
     }
 }
 
-/// The original place of an element's opening bracket and name: short enough to point at.
+/// The original span of an element's opening bracket and name, short enough to underline.
 pub(super) fn start_tag(node: Node<'_, '_>, prepared: &Prepared) -> Span {
     let start = node.range().start;
     let name = prepared.text[start..].find(|c: char| c.is_whitespace() || matches!(c, '>' | '/'));
     prepared.span(start..name.map_or(node.range().end, |end| start + end))
 }
 
-/// The tag's name, as far as it can become a part or a group.
+/// The tag's name, for elements that can become a part or a group.
 fn known_tag(name: &str) -> &'static str {
     JOINED
         .iter()
@@ -91,7 +91,7 @@ pub(super) fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
     }
 }
 
-/// The texts that are seen, in document order.
+/// The visible texts, in document order.
 pub(super) fn labels<'a, 'input>(
     document: &'a roxmltree::Document<'input>,
     styles: &Styles<'_>,
@@ -113,7 +113,7 @@ pub(super) fn labels<'a, 'input>(
         .collect()
 }
 
-/// Elements whose content is not drawn where it stands.
+/// Elements whose content is not drawn in place.
 const NOT_DRAWN: &[&str] = &[
     "defs", "symbol", "pattern", "clipPath", "mask", "marker", "metadata",
 ];

@@ -1,7 +1,7 @@
-//! How much a drawing grows when its references are followed, seen before usvg follows them.
+//! Estimates how much a drawing grows when its references are expanded, before usvg expands them.
 //!
-//! A pattern whose shapes are filled with patterns, and so on, or clips, masks and markers within each other, can
-//! stand for more shapes than any memory holds. Clones are not counted here: usvg itself refuses to grow by them.
+//! Patterns filled with patterns, or nested clips, masks and markers, can expand to more shapes than fit into memory.
+//! Clones are not counted here: usvg itself limits them.
 
 use roxmltree::{Document, Node, NodeId};
 use rustc_hash::FxHashMap;
@@ -11,23 +11,23 @@ use super::prepare::{MAX_DEPTH, Prepared};
 use super::style::Styles;
 use crate::diagnostic::{Code, Diagnostic};
 
-/// The most elements that a drawing may become.
+/// How many elements a drawing may expand to.
 const MOST: u64 = 1 << 22;
 
-/// Definitions that are drawn again wherever they are referred to.
+/// Definitions that are drawn again at each reference.
 pub(super) const DRAWN_AGAIN: &[&str] = &["pattern", "clipPath", "mask", "marker"];
-/// Elements that are drawn only where they are referred to.
+/// Elements that are drawn only where they are referenced.
 const DEFINITIONS: &[&str] = &[
     "defs", "symbol", "pattern", "clipPath", "mask", "marker", "filter",
 ];
-/// Properties that count for every shape below the element that has them.
+/// Properties that count for every shape below their element.
 const INHERITED: &[&str] = &["fill", "stroke"];
-/// Inherited properties whose target is drawn at a path's corners.
+/// Inherited properties whose target is drawn at a path's vertices.
 const MARKERS: &[&str] = &["marker", "marker-start", "marker-mid", "marker-end"];
 /// Properties that count once.
 const OWN: &[&str] = &["clip-path", "mask"];
 
-/// Refuses a drawing that grows beyond measure.
+/// Rejects a drawing that grows beyond the limit.
 pub(super) fn check(
     document: &Document<'_>,
     prepared: &Prepared,
@@ -60,11 +60,11 @@ pub(super) fn check(
     ))
 }
 
-/// What an element becomes.
+/// The size of an expanded element.
 #[derive(Clone, Copy, Default)]
 struct Size {
     elements: u64,
-    /// Shapes among them that stand there as they are, and the corners that these have.
+    /// The shapes among them that are drawn in place, and the number of their vertices.
     shapes: u64,
     corners: u64,
 }
@@ -73,12 +73,12 @@ struct Growth<'a, 'input> {
     document: &'a Document<'input>,
     styles: &'a Styles<'a>,
     ids: &'a Ids<'a>,
-    /// What definitions become; nothing while that is being found out, for a definition that refers to itself.
+    /// The sizes of expanded definitions; zero while a definition is being expanded, in case it refers to itself.
     known: FxHashMap<NodeId, u64>,
-    /// How many definitions are being looked at, each within the one before.
+    /// The number of nested definitions that are being expanded.
     depth: usize,
     too_deep: bool,
-    /// The innermost element found to grow beyond measure.
+    /// The innermost element that grows beyond the limit.
     blamed: Option<NodeId>,
 }
 
@@ -98,7 +98,7 @@ impl<'a, 'input> Growth<'a, 'input> {
         }
         if size.shapes == 0 {
             let corners = node.attribute("d").or_else(|| node.attribute("points"));
-            // Two numbers a corner, each with something before it.
+            // Two numbers per vertex, each preceded by a separator.
             let parts = |text: &str| text.split([' ', ',', '\n', '-']).count() as u64;
             size.shapes = 1;
             size.corners = 2 + corners.map_or(0, parts) / 2;
@@ -116,7 +116,7 @@ impl<'a, 'input> Growth<'a, 'input> {
         size
     }
 
-    /// What the definition becomes that a property refers to.
+    /// The size of the definition that a property refers to.
     fn target(&mut self, node: Node<'a, 'input>, property: &str) -> u64 {
         let id = self.styles.own(node, property).and_then(|value| {
             let (_, rest) = value.split_once("url(")?;
@@ -132,7 +132,7 @@ impl<'a, 'input> Growth<'a, 'input> {
             return *known;
         }
         if self.depth >= MAX_DEPTH {
-            // usvg follows references on the stack.
+            // usvg expands references recursively.
             self.too_deep = true;
             return MOST + 1;
         }

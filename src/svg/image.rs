@@ -1,4 +1,4 @@
-//! The picture of an `<image>`: its pixels, and the border of what is opaque in it (figure.md, Parts).
+//! The picture of an `<image>`: its pixels, and the outline of its opaque area (docs/figures.md, Parts).
 
 use std::sync::Arc;
 
@@ -11,20 +11,20 @@ use crate::geometry::{FillRule, Outline, Ring, resolve_overlaps};
 use crate::scene::Filter;
 use crate::texture::{self, Decoded, Holes, PaintServer, PictureError, Source};
 
-/// Pixels along the longer side of a picture that is SVG itself.
+/// Pixels along the longer side of an SVG picture.
 const SVG_SIDE: u32 = 1024;
-/// How far the border may lie off the pixels' edges, pixels: enough to smooth the steps of slanted borders.
+/// How far the outline may deviate from the pixels' edges, in pixels: enough to smooth the steps of slanted borders.
 const BORDER_TOLERANCE: f64 = 0.75;
 
-/// The file of an `<image>`, and where it lies.
+/// The file of an `<image>`, and its position.
 #[derive(Debug, Clone)]
 pub struct PictureSource {
     file: Contents,
-    /// How large the picture is in its own units.
+    /// The size of the picture in its own units.
     size: DVec2,
-    /// From its own units to the drawing.
+    /// Maps its own units to the drawing.
     transform: DAffine2,
-    /// What lies between its pixels.
+    /// The interpolation between its pixels.
     filter: Filter,
     clips: Option<Arc<Vec<Clip>>>,
 }
@@ -37,13 +37,13 @@ enum Contents {
     Drawing(Box<usvg::Tree>),
 }
 
-/// What a picture shows as a part.
+/// A picture as a part.
 pub(super) struct Traced {
     /// Its opaque area.
     pub(super) outline: Outline,
     /// Its mean colour, sRGB.
     pub(super) color: [u8; 3],
-    /// What is seen on it, if that can be told.
+    /// The paint of the part, if it can be determined.
     pub(super) server: Option<PaintServer>,
 }
 
@@ -74,21 +74,21 @@ impl PictureSource {
         }
     }
 
-    /// From the unit square, y down, to where the picture lies in the drawing.
+    /// Maps the unit square, y down, to the picture's position in the drawing.
     pub fn place(&self) -> DAffine2 {
         self.transform * DAffine2::from_scale(self.size)
     }
 
-    /// Whether something cuts the picture's rectangle.
+    /// Whether a clip cuts the picture's rectangle.
     pub fn is_clipped(&self) -> bool {
         self.clips.is_some()
     }
 
-    /// The picture's pixels, the first row on top. A picture that is SVG itself has `side` of them along its longer
-    /// side.
+    /// The picture's pixels, top row first. An SVG picture has `side` pixels along its longer side.
     ///
     /// # Errors
-    /// What is wrong with it: it passes a limit, or cannot be read.
+    ///
+    /// If the picture passes a limit or cannot be read.
     pub fn pixels(&self, side: u32) -> Result<image::DynamicImage, (Code, String)> {
         match &self.file {
             Contents::Pixels(bytes) => {
@@ -102,7 +102,7 @@ impl PictureSource {
         }
     }
 
-    /// The whole rectangle, as far as clips leave it.
+    /// The whole rectangle, cut by the clips.
     pub(super) fn rectangle(&self) -> Outline {
         self.outline(vec![rectangle(self.size.x, self.size.y)])
     }
@@ -120,10 +120,11 @@ impl PictureSource {
         )
     }
 
-    /// The picture as a part: its area is where alpha is over one half, the whole rectangle where it has no alpha.
+    /// The picture as a part. Its area is where alpha exceeds one half, or the whole rectangle if it has no alpha.
     ///
     /// # Errors
-    /// What is wrong with it: it passes a limit, or cannot be read.
+    ///
+    /// If the picture passes a limit or cannot be read.
     pub(super) fn trace(&self) -> Result<Traced, (Code, String)> {
         let (decoded, bytes) = match &self.file {
             Contents::Pixels(bytes) => {
@@ -189,9 +190,9 @@ fn rectangle(width: f64, height: f64) -> Ring {
         .to_vec()
 }
 
-/// The rings of pixel edges between solid and other pixels, solid on the right hand, simplified.
+/// The rings of pixel edges between opaque and other pixels, with the opaque side on the right, simplified.
 fn border(width: i64, height: i64, solid: impl Fn(i64, i64) -> bool) -> Vec<Ring> {
-    // An edge is known by its start and direction: 0 right, 1 down, 2 left, 3 up.
+    // An edge is identified by its start and direction: 0 right, 1 down, 2 left, 3 up.
     let step = [(1, 0), (0, 1), (-1, 0), (0, -1)];
     let has = |x: i64, y: i64, direction: usize| match direction {
         0 => solid(x, y) && !solid(x, y - 1),
@@ -217,7 +218,7 @@ fn border(width: i64, height: i64, solid: impl Fn(i64, i64) -> bool) -> Vec<Ring
                 *bits |= 1 << direction;
                 ring.push(DVec2::new(at.0 as f64, at.1 as f64));
                 at = (at.0 + step[direction].0, at.1 + step[direction].1);
-                // Turning right first keeps pixels that touch at a corner apart.
+                // Turning right first separates pixels that touch only at a corner.
                 let turns = [(direction + 1) % 4, direction, (direction + 3) % 4];
                 match turns.into_iter().find(|turn| has(at.0, at.1, *turn)) {
                     Some(turn) => direction = turn,
@@ -231,7 +232,7 @@ fn border(width: i64, height: i64, solid: impl Fn(i64, i64) -> bool) -> Vec<Ring
     rings
 }
 
-/// Douglas and Peucker's simplification of a ring, cut at its first point and the one farthest from it.
+/// Douglas–Peucker simplification of a ring, split at its first point and the point farthest from it.
 fn simplify(ring: &[DVec2]) -> Ring {
     let Some(first) = ring.first() else {
         return Ring::new();

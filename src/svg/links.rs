@@ -1,4 +1,4 @@
-//! Linked pictures, and drawings that usvg refuses.
+//! Linked pictures, and drawings that usvg rejects.
 
 use std::sync::{Arc, Mutex};
 
@@ -17,7 +17,7 @@ pub(super) fn options<'a>(
         image_href_resolver: usvg::ImageHrefResolver {
             resolve_data: usvg::ImageHrefResolver::default_data_resolver(),
             resolve_string: Box::new(move |href, options| match resolver.read(href) {
-                // usvg's own resolver for data tells the format by its first bytes.
+                // usvg's own data resolver recognises the format by the first bytes.
                 Ok(bytes) => data("text/plain", Arc::new(bytes.to_vec()), options),
                 Err(error) => {
                     if let Ok(mut broken) = broken.lock() {
@@ -71,7 +71,7 @@ pub(super) fn report_links(
     }
 }
 
-/// What is wrong with a link.
+/// The diagnostic for a broken link.
 pub(crate) fn broken_link(link: &str, error: &LinkError, span: Span) -> Diagnostic {
     let (code, help) = match error {
         LinkError::Missing => (

@@ -1,4 +1,4 @@
-//! What shapes are painted with (language.md, Paint identity).
+//! The paints of shapes, and when two paints are the same.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use super::{Paint, PaintKey};
 use crate::texture::{Focus, Gradient, PaintServer, Source, Spread, Stop};
 
 impl Context<'_, '_> {
-    /// What a paint of a path is; `transform` leads from the path to the drawing.
+    /// The paint of a path; `transform` maps the path to the drawing.
     pub(super) fn paint(
         &self,
         paint: &usvg::Paint,
@@ -56,7 +56,7 @@ impl Context<'_, '_> {
         }
     }
 
-    /// The id at which the chain of links of an element's paint ends.
+    /// The id at the end of the chain of links of an element's paint.
     fn server(&self, node: Node<'_, '_>, property: &str) -> Option<String> {
         let mut node = node;
         for _ in 0..32 {
@@ -72,7 +72,7 @@ impl Context<'_, '_> {
             .next()?
             .trim_matches(['"', '\'', ' '])
             .strip_prefix('#')?;
-        // A link may lead in a circle; nobody chains more gradients than this.
+        // Links can form a cycle; real chains of gradients are shorter than this.
         for _ in 0..32 {
             let server = self.by_attribute_id(id)?;
             match server
@@ -101,7 +101,7 @@ impl Context<'_, '_> {
     }
 }
 
-/// A paint in its own plane, and where that lies in the drawing.
+/// A paint in its own coordinates, and their position in the drawing.
 fn server(paint: &usvg::Paint, transform: DAffine2) -> Option<PaintServer> {
     let point = |x: f32, y: f32| DVec2::new(x.into(), y.into());
     let (source, own) = match paint {

@@ -1,4 +1,4 @@
-//! usvg's paths and transforms in f64, and what can be seen from a path alone.
+//! usvg's paths and transforms in f64, and properties of a single path.
 
 use glam::{DAffine2, DMat2, DVec2};
 use kurbo::BezPath;
@@ -8,23 +8,23 @@ use usvg::tiny_skia_path as skia;
 use super::{Line, Paint};
 use crate::geometry::{FillRule, Outline, Ring, flatten, resolve_overlaps};
 
-/// How far straight pieces may always lie off a curve, as a share of its path's extent: bounds their number.
+/// The smallest tolerance of flattening, as a fraction of the path's extent. It limits the number of segments.
 const FINEST: f64 = 1e-5;
 
-/// A stroke, from which an outline can be made when it is wanted.
+/// A stroke, whose outline is computed on demand.
 #[derive(Debug, Clone)]
 pub struct StrokeSource {
     pub(super) path: skia::Path,
     pub(super) stroke: skia::Stroke,
     pub(super) transform: DAffine2,
     pub(super) tolerance: f64,
-    /// What it is painted with.
+    /// The stroke's paint.
     pub paint: Paint,
 }
 
 impl StrokeSource {
-    /// The middle line of the stroke as straight pieces that lie off by at most `tolerance`, drawing units, or by a
-    /// hundred thousandth of its extent. Gaps of dashes are not left out.
+    /// The centre line of the stroke as line segments that deviate by at most `tolerance` drawing units, or by a
+    /// hundred-thousandth of its extent. Gaps of dashes are filled.
     pub fn middle_line(&self, tolerance: f64, mut each: impl FnMut(DVec2, DVec2)) {
         let path = bez_path(&self.path, self.transform);
         let bounds = path.control_box();
@@ -47,7 +47,7 @@ impl StrokeSource {
                 each(at, start);
                 at = start;
             }
-            // Curves were made straight.
+            // The curves have been flattened.
             kurbo::PathEl::QuadTo(..) | kurbo::PathEl::CurveTo(..) => {}
         });
     }
@@ -110,7 +110,7 @@ pub(super) fn bez_path(path: &skia::Path, transform: DAffine2) -> BezPath {
     out
 }
 
-/// Flattens a path to a share of its larger extent.
+/// Flattens a path, with a tolerance relative to its larger extent.
 pub(super) fn rings(path: &BezPath, tolerance: f64) -> Vec<Ring> {
     let bounds = path.control_box();
     flatten(path, tolerance * bounds.width().max(bounds.height()))
@@ -121,7 +121,7 @@ pub(super) fn open_line(path: &BezPath, node: Node<'_, '_>) -> Option<Box<Line>>
     for element in path.elements() {
         match element {
             kurbo::PathEl::MoveTo(p) if ends.is_none() => ends = Some([*p, *p]),
-            // A second subpath or a closed one: no leader.
+            // Several subpaths or a closed one: not a leader line.
             kurbo::PathEl::MoveTo(_) | kurbo::PathEl::ClosePath => return None,
             other => {
                 if let (Some(ends), Some(p)) = (&mut ends, other.end_point()) {

@@ -1,4 +1,4 @@
-//! Pictures become parts: the step that is spared where pixels are read one by one.
+//! Turns pictures into parts, except in tile layers, where their pixels are read one by one.
 
 use std::sync::Arc;
 
@@ -8,8 +8,8 @@ use super::image::{PictureSource, Traced};
 use super::{Drawing, Paint, Shape};
 use crate::diagnostic::{Code, Diagnostic};
 
-/// Gives pictures their outlines and paints, apart from those in groups where they are `left` as they are. A picture that cannot be
-/// read is taken out of the drawing, and said.
+/// Gives pictures their outlines and paints, except in groups that are marked in `left`. A picture that cannot be
+/// read is reported and removed from the drawing.
 pub(super) fn trace(drawing: &mut Drawing, left: &[bool], diagnostics: &mut Vec<Diagnostic>) {
     let shapes = drawing.shapes.par_iter_mut();
     let traced: Vec<(bool, Option<Diagnostic>)> = shapes
@@ -24,7 +24,7 @@ pub(super) fn trace(drawing: &mut Drawing, left: &[bool], diagnostics: &mut Vec<
     diagnostics.extend(traced.into_iter().filter_map(|(_, finding)| finding));
 }
 
-/// Makes a part of one picture: whether it can be one, and what there is to say.
+/// Turns one picture into a part. Returns whether that is possible, and the diagnostic if there is one.
 fn one(picture: &PictureSource, shape: &mut Shape) -> (bool, Option<Diagnostic>) {
     let Traced {
         outline,
@@ -53,5 +53,5 @@ fn one(picture: &PictureSource, shape: &mut Shape) -> (bool, Option<Diagnostic>)
     (true, finding)
 }
 
-/// What to do about a picture that cannot be read.
+/// The help for a picture that cannot be read.
 pub(crate) const LARGE: &str = "link a smaller picture, or save it again as PNG";

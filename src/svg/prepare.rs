@@ -1,5 +1,5 @@
-//! The copy of the drawing that is parsed: every shape and group has an id of its own, and the
-//! outermost `<svg>` has no scale.
+//! The copy of the drawing that is parsed: every shape and group has a unique id, and the outermost
+//! `<svg>` is not scaled.
 //!
 //! usvg knows no source positions, so shapes are joined to the XML by id. Elements without one, and
 //! elements that repeat one, are given one here, by byte range. Positions in the copy are mapped back by
@@ -12,13 +12,13 @@ use super::growth::DRAWN_AGAIN;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
-/// How deep elements may be nested; usvg refuses a little more than this.
+/// How deep elements may be nested; usvg's own limit is slightly higher.
 pub(super) const MAX_DEPTH: usize = 1000;
 
-/// What ids that are made up begin with, unless the drawing has such ids itself.
+/// The prefix of generated ids, unless the drawing itself has ids with that prefix.
 pub(super) const ID_PREFIX: &str = "okoshi-";
 
-/// How many characters all entities of a drawing may become.
+/// How many characters all entities of a drawing may expand to.
 pub(super) const MAX_ENTITY_TEXT: usize = 16 << 20;
 
 /// Elements that usvg turns into nodes.
@@ -32,20 +32,20 @@ pub(super) const JOINED: &[&str] = &[
 pub(super) struct Prepared {
     /// The text of the copy.
     pub text: String,
-    /// What every id begins with that is not the drawing's own.
+    /// The prefix of all generated ids.
     pub id_prefix: String,
-    /// The greatest number that follows it.
+    /// The largest number after that prefix.
     pub id_count: usize,
-    /// Whether there are definitions that are drawn again wherever they are referred to.
+    /// Whether there are definitions that are drawn again at each reference.
     pub draws_again: bool,
-    /// What the drawing's own entities become, by name, as text.
+    /// The text of the drawing's own entities, by name.
     pub entities: FxHashMap<String, String>,
     /// Replacements in order: start in the copy, length there, start in the original, length there.
     replacements: Vec<[usize; 4]>,
 }
 
 impl Prepared {
-    /// The original offset of the copy's byte `offset`; places inside something injected go to its start.
+    /// The original offset of the copy's byte `offset`; offsets inside injected text map to its start.
     pub(super) fn original(&self, offset: usize) -> usize {
         let next = self.replacements.partition_point(|[at, ..]| *at <= offset);
         match next.checked_sub(1).map(|last| self.replacements[last]) {
@@ -55,7 +55,7 @@ impl Prepared {
         }
     }
 
-    /// The original place of a place in the copy.
+    /// The original span of a span in the copy.
     pub(super) fn span(&self, range: std::ops::Range<usize>) -> Span {
         Span::new(self.original(range.start), self.original(range.end))
     }
@@ -70,9 +70,10 @@ struct Replacement {
 /// Makes the copy.
 ///
 /// # Errors
-/// Nesting deeper than [`MAX_DEPTH`], and entities that grow beyond [`MAX_ENTITY_TEXT`]. Text that is not
-/// well-formed is no error here: the copy then equals the original from that place on, and the parser says
-/// what is wrong.
+///
+/// If elements are nested deeper than [`MAX_DEPTH`], or entities expand to more than [`MAX_ENTITY_TEXT`]. Text that is
+/// not well-formed is not an error here: from that position on the copy equals the original, and the parser reports the
+/// problem.
 pub(super) fn prepare(text: &str) -> Result<Prepared, Box<Diagnostic>> {
     let mut prefix = ID_PREFIX.to_owned();
     while ['"', '\'']
@@ -89,7 +90,7 @@ pub(super) fn prepare(text: &str) -> Result<Prepared, Box<Diagnostic>> {
     scan.finish()
 }
 
-/// What is known of the start tag that is being read.
+/// The state of the start tag that is being read.
 #[derive(Default)]
 struct Tag {
     joined: bool,
@@ -198,7 +199,7 @@ impl<'a> Scan<'a> {
         Ok(())
     }
 
-    /// Adds up what the entities in `text` become, before anyone expands them.
+    /// Adds up the expanded size of the entities in `text`, before they are expanded.
     fn count_entities(&mut self, text: &str, at: usize) -> Result<(), Box<Diagnostic>> {
         if self.entities.is_empty() || !text.contains('&') {
             return Ok(());
@@ -256,7 +257,7 @@ impl<'a> Scan<'a> {
         format!("{}{}", self.prefix, self.counter)
     }
 
-    /// Makes the page as large as its `viewBox`, so that usvg's pixels are user units.
+    /// Sets the page size to the size of its `viewBox`, so that usvg's pixels are user units.
     fn unscale(&mut self, tag: &Tag) {
         let Some(span) = tag.view_box else { return };
         let Ok(view_box) = self.text[span.start..span.end].parse::<svgtypes::ViewBox>() else {
@@ -317,7 +318,7 @@ pub(super) fn references(text: &str) -> impl Iterator<Item = (&str, std::ops::Ra
     })
 }
 
-/// `text` with its references replaced, as far as they are known.
+/// `text` with its known references replaced.
 fn expand(text: &str, entities: &FxHashMap<String, String>) -> String {
     let mut out = String::new();
     let mut done = 0;
@@ -331,7 +332,7 @@ fn expand(text: &str, entities: &FxHashMap<String, String>) -> String {
             .cloned()
             .or_else(|| character(name).map(String::from))
         {
-            // Nested entities may multiply; what passes the limit is refused where it is used.
+            // Nested entities may multiply; an entity above the limit is rejected where it is used.
             Some(value) if out.len() + value.len() <= 2 * MAX_ENTITY_TEXT => out.push_str(&value),
             _ => out.push_str(&text[range.clone()]),
         }
@@ -341,7 +342,7 @@ fn expand(text: &str, entities: &FxHashMap<String, String>) -> String {
     out
 }
 
-/// The character that a predefined or numeric reference stands for.
+/// The character of a predefined or numeric reference.
 pub(crate) fn character(name: &str) -> Option<char> {
     match name {
         "amp" => Some('&'),

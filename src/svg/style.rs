@@ -1,4 +1,4 @@
-//! The few CSS properties that usvg does not report: those of texts, and the paint as it is written.
+//! The few CSS properties that usvg does not report: those of texts, and paints in their source form.
 
 use roxmltree::Node;
 use simplecss::{AttributeOperator, Declaration, PseudoClass, StyleSheet};
@@ -52,7 +52,7 @@ impl<'a> Styles<'a> {
         Self { sheet }
     }
 
-    /// The value that `element` itself gives to `property`: its `style`, a rule, or its attribute.
+    /// The value of `property` on `element` itself: from its `style`, a rule, or its attribute.
     pub(super) fn own<'b>(&'b self, element: Node<'b, '_>, property: &str) -> Option<&'b str> {
         let mut found: Option<(&'b str, bool)> = None;
         let mut take = |declaration: Declaration<'b>| {
@@ -78,7 +78,7 @@ impl<'a> Styles<'a> {
         }
     }
 
-    /// The value of an inherited property: the nearest ancestor's that gives one, the element included.
+    /// The value of an inherited property: from the element or its nearest ancestor that sets it.
     pub(super) fn inherited<'b>(
         &'b self,
         element: Node<'b, '_>,
@@ -90,7 +90,7 @@ impl<'a> Styles<'a> {
             .find_map(|node| self.own(node, property).filter(|value| *value != "inherit"))
     }
 
-    /// Whether the element and all it stands in is shown.
+    /// Whether the element and all its ancestors are visible.
     pub(super) fn is_shown(&self, element: Node<'_, '_>) -> bool {
         !matches!(
             self.inherited(element, "visibility"),

@@ -1,4 +1,4 @@
-//! The texts of a drawing: their characters with places, and where they stand on the page.
+//! The texts of a drawing: their characters with a source map, and their positions on the page.
 
 use std::sync::Arc;
 
@@ -9,19 +9,19 @@ use super::prepare::{Prepared, character};
 use super::style::Styles;
 use crate::source::{Form, Span, Text};
 
-/// Share of the font size by which a line rises above its base line (figure.md, Binding).
+/// The height of a line above its baseline, as a fraction of the font size.
 const ASCENT: f64 = 0.8;
-/// Distance of base lines over the font size.
+/// The distance between baselines, as a multiple of the font size.
 const LINE_HEIGHT: f64 = 1.25;
 
-/// A text that is seen on the page.
+/// A visible text.
 #[derive(Debug, Clone)]
 pub struct Label {
     /// Its characters.
     pub text: Arc<Text>,
     /// The top left corner of its first line, user units.
     pub corner: DVec2,
-    /// The box of all its lines, user units: the least and the greatest corner.
+    /// The bounding box of all its lines in user units: minimum and maximum corner.
     pub bounds: (DVec2, DVec2),
     /// The font size on the page, user units.
     pub font_size: f64,
@@ -29,24 +29,24 @@ pub struct Label {
     pub id: Option<String>,
     /// The element.
     pub element: Span,
-    /// What its place is computed from.
+    /// The inputs of its position.
     pub(super) frame: Frame,
 }
 
-/// What the place of a text depends on, besides its characters.
+/// The inputs of a text's position, besides its characters.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame {
-    /// The base point of its first line, the element's own coordinates.
+    /// The base point of its first line, in the element's own coordinates.
     base: DVec2,
-    /// What of the text stands there.
+    /// The anchor: which point of the line is at the base point.
     anchor: Anchor,
-    /// The font size, the element's own coordinates.
+    /// The font size, in the element's own coordinates.
     size: f64,
-    /// From the element's own coordinates to the page.
+    /// Maps the element's own coordinates to the page.
     transform: DAffine2,
 }
 
-/// Which point of its first line a text is placed by.
+/// The point of a text's first line that is at its position (`text-anchor`).
 #[derive(Debug, Clone, Copy)]
 enum Anchor {
     Start,
@@ -55,7 +55,7 @@ enum Anchor {
 }
 
 impl Frame {
-    /// Where `text` stands: its top left corner, and its box; `None` where that is no place.
+    /// The top left corner and the bounding box of `text`; `None` if the position is not finite.
     pub(super) fn place(&self, text: &str) -> Option<(DVec2, (DVec2, DVec2))> {
         let Self { base, size, .. } = *self;
         let widths = text.split('\n').map(|line| width(line) * size);
@@ -82,7 +82,7 @@ impl Frame {
     }
 }
 
-/// Reads a `<text>` or `<flowRoot>` element; `None` where it is hidden or has no place.
+/// Reads a `<text>` or `<flowRoot>` element; `None` if it is hidden or has no position.
 pub(super) fn read(node: Node<'_, '_>, styles: &Styles<'_>, prepared: &Prepared) -> Option<Label> {
     if !styles.is_shown(node) {
         return None;
@@ -160,25 +160,25 @@ fn starts_line(node: Node<'_, '_>) -> bool {
     }
 }
 
-/// Appends a text node, character by character, as it is written in the file.
+/// Appends a text node with the source position of each character.
 fn decode(node: Node<'_, '_>, prepared: &Prepared, out: &mut Text) {
     let Some(expected) = node.text() else { return };
     let range = node.range();
     let written = decoded(range.clone(), prepared)
         .filter(|text| text.as_str() == expected)
         .or_else(|| {
-            // Characters beside a CDATA section are one node with it, whose range is that of its beginning.
+            // Adjacent text and CDATA sections form one node, whose range is that of its beginning.
             let whole = decoded(range.start..end_of(node, prepared)?, prepared);
             whole.filter(|text| text.as_str() == expected)
         });
     match written {
         Some(text) => out.append(&text),
-        // Markup out of an entity: its characters have no places of their own.
+        // Markup from an entity: its characters have no source positions of their own.
         None => out.push(expected, prepared.span(range), Form::Unit),
     }
 }
 
-/// Where a text node ends: where the next node or the end tag begins.
+/// The end of a text node: the start of the next node or of the end tag.
 fn end_of(node: Node<'_, '_>, prepared: &Prepared) -> Option<usize> {
     match node.next_sibling() {
         Some(next) => Some(next.range().start),
@@ -186,7 +186,7 @@ fn end_of(node: Node<'_, '_>, prepared: &Prepared) -> Option<usize> {
     }
 }
 
-/// The characters that stand at a place of the copy; `None` if they cannot be read.
+/// The characters at a range of the copy; `None` if they cannot be read.
 fn decoded(range: std::ops::Range<usize>, prepared: &Prepared) -> Option<Text> {
     let source = prepared.text.get(range.clone())?;
     let origin = prepared.original(range.start);
@@ -223,7 +223,7 @@ fn decoded(range: std::ops::Range<usize>, prepared: &Prepared) -> Option<Text> {
     Some(text)
 }
 
-/// Appends characters that are not escaped; line ends become line feeds, as XML wants it.
+/// Appends unescaped characters; line ends become line feeds, as XML requires.
 fn plain(text: &mut Text, source: &str, origin: usize, form: Form) {
     let mut done = 0;
     for (at, _) in source.match_indices('\r') {
@@ -247,7 +247,7 @@ fn plain(text: &mut Text, source: &str, origin: usize, form: Form) {
     );
 }
 
-/// The first element with characters of its own: its font size and anchor are the first line's.
+/// The first element that directly contains characters: its font size and anchor are those of the first line.
 fn first_run<'a, 'input>(node: Node<'a, 'input>) -> Node<'a, 'input> {
     node.descendants()
         .find(|inner| inner.is_text() && inner.text().is_some_and(|text| !text.trim().is_empty()))
@@ -289,7 +289,7 @@ fn position(node: Node<'_, '_>, styles: &Styles<'_>) -> Option<DVec2> {
     ))
 }
 
-/// The first number of an attribute that may be a list of lengths.
+/// The first number of an attribute that can be a list of lengths.
 fn number(node: Node<'_, '_>, name: &str) -> Option<f64> {
     let value = node.attribute(name)?;
     let first = value
@@ -309,7 +309,7 @@ fn number(node: Node<'_, '_>, name: &str) -> Option<f64> {
     })
 }
 
-/// Estimated width of a line in font sizes: half a font size a character, a whole one for wide ones.
+/// The estimated width of a line in font sizes: one half per character, one for wide characters.
 fn width(line: &str) -> f64 {
     use unicode_width::UnicodeWidthChar;
     line.chars()
@@ -317,7 +317,7 @@ fn width(line: &str) -> f64 {
         .sum()
 }
 
-/// From an element's own coordinates to the page's user units.
+/// Maps an element's own coordinates to the page's user units.
 pub(super) fn page_transform(node: Node<'_, '_>) -> DAffine2 {
     let mut chain: Vec<_> = node
         .ancestors()
@@ -341,7 +341,7 @@ pub(super) fn page_transform(node: Node<'_, '_>) -> DAffine2 {
     transform
 }
 
-/// From the inside of a nested `<svg>` to the outside.
+/// Maps the inside of a nested `<svg>` to the outside.
 fn viewport(node: Node<'_, '_>) -> DAffine2 {
     let place = DVec2::new(
         number(node, "x").unwrap_or(0.0),

@@ -1,4 +1,4 @@
-//! The walk over usvg's tree: which leaves are to become shapes, and in which groups they are.
+//! Walks usvg's tree: finds the leaves that become shapes, and their groups.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use super::{Group, GroupKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Outline;
 
-/// A usvg node that is to become a shape.
+/// A usvg node that becomes a shape.
 pub(super) struct Task<'a> {
     pub(super) node: Leaf<'a>,
     pub(super) xml: NodeId,
@@ -23,7 +23,7 @@ pub(super) struct Task<'a> {
 }
 
 impl Task<'_> {
-    /// What the clips leave of an outline.
+    /// The part of an outline inside the clips.
     pub(super) fn clip(&self, outline: Outline) -> Outline {
         let clips = self.clips.iter().flat_map(|clips| clips.iter());
         clips.fold(outline, |outline, clip| clip.cut(outline))
@@ -35,12 +35,12 @@ pub(super) enum Leaf<'a> {
     Image(&'a usvg::Image),
 }
 
-/// The walk over usvg's tree.
+/// The state of the walk over usvg's tree.
 pub(super) struct Walk<'a, 'input, 'd> {
     pub(super) prepared: &'a Prepared,
     pub(super) root: Node<'a, 'input>,
     pub(super) by_id: Ids<'a>,
-    /// Per XML node the group it is, or that it is in; `usize::MAX` where not yet known.
+    /// For each XML node, the group that it is or is in; `usize::MAX` if unknown.
     pub(super) group_of: Vec<usize>,
     pub(super) groups: Vec<Group>,
     pub(super) tasks: Vec<Task<'a>>,
@@ -50,7 +50,7 @@ pub(super) struct Walk<'a, 'input, 'd> {
 }
 
 impl<'a> Walk<'a, '_, '_> {
-    /// The group that an element is, or the innermost one it is in.
+    /// The group that an element is, or the innermost group that contains it.
     pub(super) fn group(&mut self, node: Node<'_, '_>) -> usize {
         let slot = node.id().get_usize();
         if self.group_of[slot] != usize::MAX {
