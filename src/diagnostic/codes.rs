@@ -89,13 +89,13 @@ codes! {
     ///
     /// Copy the file into the drawing's folder or a folder below it.
     LinkOutside = "E007", "link outside the drawing's folder";
-    /// okoshi crashed while it compiled the drawing: something happened that its programmers did not expect. The
-    /// mistake is in okoshi, not in the drawing. Nothing is built until it is gone.
+    /// okoshi crashed while it compiled the drawing. The bug is in okoshi, not in the drawing, but no model can be built
+    /// until it is fixed.
     ///
-    /// Please report it to the maintainers, with the drawing, the files that it links to, the whole message (it says
-    /// where in the program the crash happened) and the version, which `okoshi --version` prints.
+    /// Please report it to the maintainers, with the drawing, the files that it links to, the whole message (it names
+    /// the place in the program) and the version, which `okoshi --version` prints.
     ///
-    /// Until it is fixed, undo the last change, or open the drawing in Inkscape and save it as Plain SVG.
+    /// Meanwhile, undo the last change, or open the drawing in Inkscape and save it as Plain SVG.
     Crash = "E008", "okoshi crashed";
 
     // The strings
