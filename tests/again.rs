@@ -8,7 +8,8 @@ use std::path::Path;
 use std::sync::{Arc, LazyLock};
 
 use okoshi::compile::{Compiled, Compiler, Options, compile};
-use okoshi::export::{GLB, SurfaceCache, to_memory};
+use okoshi::export::{GLB, to_memory};
+use okoshi::memo::Memo;
 use okoshi::resolver::{LinkError, Resolver};
 use okoshi::source::Text;
 use proptest::prelude::*;
@@ -298,7 +299,7 @@ fn all(compiled: &Compiled) -> String {
 }
 
 /// The model, written with cached surfaces of the one before.
-fn written(compiled: &Compiled, surfaces: &mut SurfaceCache) -> Vec<u8> {
+fn written(compiled: &Compiled, surfaces: &mut Memo) -> Vec<u8> {
     let model = to_memory(&GLB, &compiled.scene, Some(surfaces));
     model.expect("a scene keeps its own rules").bytes
 }
@@ -313,7 +314,7 @@ fn agree(drawing: &str, acts: &[Step]) -> Result<usize, TestCaseError> {
     let mut undo = Vec::new();
     let mut last = compiler.compile(&text, &options, &files);
     let mut partial = 0;
-    let mut surfaces = SurfaceCache::default();
+    let mut surfaces = Memo::default();
     for (step, act) in acts.iter().enumerate() {
         match act {
             Step::Undo(count) => {
@@ -522,12 +523,12 @@ fn only_solids_that_changed_are_made_again() {
          <text x=\"30\" y=\"30\" font-size=\"3\">Wheel$Shape round</text></svg>"
     );
     let mut compiler = Compiler::default();
-    let mut surfaces = SurfaceCache::default();
+    let mut surfaces = Memo::default();
     let mut made = |text: &str| {
         let compiled = compiler.compile(text, &Options::default(), &files);
         let again = written(&compiled, &mut surfaces);
         assert!(again == common::glb(&compile(text, &Options::default(), &files)));
-        surfaces.made()
+        surfaces.last_misses()
     };
     assert_eq!(made(&text), 300);
     assert_eq!(made(&text), 0);

@@ -83,7 +83,7 @@ const USES: &[(&str, &[&str])] = &[
     ("crash", &[]),
     ("diagnostic", &["source"]),
     ("disk", &["export", "resolver"]),
-    ("export", &["crash", "scene", "threads"]),
+    ("export", &["crash", "memo", "scene", "threads"]),
     (
         "figure",
         &[
@@ -129,6 +129,7 @@ const USES: &[(&str, &[&str])] = &[
             "export",
             "ide",
             "lang",
+            "memo",
             "preview",
             "resolver",
             "source",
@@ -197,7 +198,7 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("texture", &["scene"]),
     ("threads", &["crash"]),
-    ("watch", &["compile", "disk", "export", "resolver"]),
+    ("watch", &["compile", "disk", "export", "memo", "resolver"]),
 ];
 
 /// What only some rooms may use: a path or a macro, those rooms, and why.

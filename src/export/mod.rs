@@ -14,13 +14,13 @@ use std::io;
 use std::path::Path;
 
 use crate::crash;
+use crate::memo::Memo;
 use crate::scene::Scene;
 use crate::threads;
 
 pub use gltf::{GLB, GLTF, ROOT, SKINNED, VIEW_DEPENDENT};
 pub use obj::OBJ;
 pub use output::{InMemory, Output};
-pub use surfaces::SurfaceCache;
 
 /// All formats, in the order in which messages list them.
 pub const EXPORTERS: &[&dyn Exporter] = &[&GLB, &GLTF, &OBJ];
@@ -40,12 +40,7 @@ pub trait Exporter: Sync {
     ///
     /// # Errors
     /// The errors of `out`; [`io::ErrorKind::InvalidInput`] for an invalid surface, or a scene that the format cannot hold.
-    fn write(
-        &self,
-        scene: &Scene,
-        out: &mut dyn Output,
-        surfaces: Option<&mut SurfaceCache>,
-    ) -> io::Result<Written>;
+    fn write(&self, scene: &Scene, out: &mut dyn Output, memo: &Memo) -> io::Result<Written>;
 }
 
 /// How much was written.
@@ -86,23 +81,31 @@ pub fn extensions(wanted: impl Fn(&dyn Exporter) -> bool) -> String {
     }
 }
 
-/// Writes `scene` at the end of `out`. Surfaces that are in `surfaces` are not made again; afterwards it holds those of
-/// `scene` and no others.
+/// Writes `scene` at the end of `out`. Surfaces that `memo` holds are not made again; afterwards it holds those of `scene`
+/// and no others.
 ///
 /// Primitives without triangles are left out, and meshes without primitives.
 ///
 /// # Errors
 /// The errors of `out`; [`io::ErrorKind::InvalidInput`] for a scene that breaks its own rules (a vertex that is not a
-/// number, an index out of range) or that the format cannot hold. `surfaces` is unchanged then.
+/// number, an index out of range) or that the format cannot hold.
 pub fn write(
     exporter: &dyn Exporter,
     scene: &Scene,
     out: &mut dyn Output,
-    surfaces: Option<&mut SurfaceCache>,
+    memo: Option<&mut Memo>,
 ) -> io::Result<Written> {
     check::check(scene)?;
-    let written = threads::run(|| exporter.write(scene, out, surfaces));
-    written.unwrap_or_else(|crash| Err(io::Error::other(format!("{crash}; {}", crash::HELP))))
+    let mut run = |memo: &Memo| {
+        let written = threads::run(|| exporter.write(scene, out, memo));
+        written.unwrap_or_else(|crash| Err(io::Error::other(format!("{crash}; {}", crash::HELP))))
+    };
+    let Some(memo) = memo else {
+        return run(&Memo::none());
+    };
+    let written = run(memo)?;
+    memo.next_generation();
+    Ok(written)
 }
 
 /// Writes `scene` to memory as [`write()`] does.
@@ -112,10 +115,10 @@ pub fn write(
 pub fn to_memory(
     exporter: &dyn Exporter,
     scene: &Scene,
-    surfaces: Option<&mut SurfaceCache>,
+    memo: Option<&mut Memo>,
 ) -> io::Result<Model> {
     let mut out = InMemory::default();
-    let written = write(exporter, scene, &mut out, surfaces)?;
+    let written = write(exporter, scene, &mut out, memo)?;
     Ok(Model {
         bytes: out.bytes,
         written,

@@ -10,7 +10,9 @@ use std::io;
 use glam::{DQuat, DVec3, Quat, Vec3};
 use rayon::prelude::*;
 
-use super::{Exporter, Output, SKINNED, SurfaceCache, Written, check, invalid};
+use super::surfaces::with_surface;
+use super::{Exporter, Output, SKINNED, Written, check, invalid};
+use crate::memo::Memo;
 use crate::scene::{Primitive, Scene, Surface};
 
 /// Primitives that are in memory at a time.
@@ -45,12 +47,7 @@ impl Exporter for Obj {
         false
     }
 
-    fn write(
-        &self,
-        scene: &Scene,
-        out: &mut dyn Output,
-        _: Option<&mut SurfaceCache>,
-    ) -> io::Result<Written> {
+    fn write(&self, scene: &Scene, out: &mut dyn Output, memo: &Memo) -> io::Result<Written> {
         let mut written = Written::default();
         // The indices of the next vertex, texture coordinates and normal; they count from 1.
         let mut next = [1; 3];
@@ -58,7 +55,7 @@ impl Exporter for Obj {
         for window in parts(scene).chunks(WINDOW) {
             let surfaces: Vec<Surface> = window
                 .par_iter()
-                .map(|part| part.surface(scene))
+                .map(|part| part.surface(scene, memo))
                 .collect::<io::Result<_>>()?;
             let starts = surfaces.iter().map(|surface| {
                 let start = next;
@@ -118,8 +115,8 @@ fn parts(scene: &Scene) -> Vec<Part<'_>> {
 
 impl Part<'_> {
     /// The surface in the world.
-    fn surface(&self, scene: &Scene) -> io::Result<Surface> {
-        let mut surface = self.primitive.surface().into_owned();
+    fn surface(&self, scene: &Scene, memo: &Memo) -> io::Result<Surface> {
+        let mut surface = with_surface(self.primitive, memo, Surface::clone);
         if surface.triangles.is_empty() {
             return Ok(Surface::default());
         }

@@ -1,82 +1,43 @@
-//! Surfaces of solids that are kept for the next time the model is written.
+//! Surfaces of primitives while they are written, from the memo if it has them.
 
 use std::borrow::Cow;
+use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-use rustc_hash::FxHashMap;
+use crate::memo::Memo;
+use crate::scene::{Piece, Primitive, Surface, SurfaceSource};
 
-use crate::scene::{Surface, SurfaceSource};
+/// A deferred surface as the key of a result.
+struct Source(Arc<dyn SurfaceSource>);
 
-/// Results that writing a scene keeps for the next one: the deferred surfaces of the last scene, as large as the
-/// model itself. A surface is found by everything it is made from, so that the output does not depend on the cache.
-#[derive(Debug, Default)]
-pub struct SurfaceCache {
-    known: FxHashMap<u64, Vec<Made>>,
-    made: usize,
-}
-
-/// A surface and what it was made from.
-#[derive(Debug, Clone)]
-pub(super) struct Made {
-    source: Arc<dyn SurfaceSource>,
-    surface: Arc<Surface>,
-}
-
-impl SurfaceCache {
-    /// How many surfaces were made the last time, and not found.
-    pub fn made(&self) -> usize {
-        self.made
-    }
-
-    fn find(&self, key: u64, source: &dyn SurfaceSource) -> Option<&Made> {
-        let all = self.known.get(&key)?;
-        all.iter().find(|made| *made.source == *source)
-    }
-
-    /// Remembers `used`, and nothing else.
-    pub(super) fn keep(&mut self, used: Used) {
-        self.known.clear();
-        for (key, made) in used.surfaces {
-            let same = self.known.entry(key).or_default();
-            if !same.iter().any(|known| *known.source == *made.source) {
-                same.push(made);
-            }
-        }
-        self.made = used.made;
+impl PartialEq for Source {
+    fn eq(&self, other: &Self) -> bool {
+        *self.0 == *other.0
     }
 }
 
-/// The surfaces that were used, and how many of them were made.
-#[derive(Debug, Default)]
-pub(super) struct Used {
-    surfaces: Vec<(u64, Made)>,
-    made: usize,
+impl Eq for Source {}
+
+impl Hash for Source {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        state.write_u64(self.0.key());
+    }
 }
 
-impl Used {
-    /// The surface of a source, found or made.
-    pub(super) fn surface<'a>(
-        &mut self,
-        source: &Arc<dyn SurfaceSource>,
-        cache: &'a SurfaceCache,
-    ) -> Cow<'a, Surface> {
-        let key = source.key();
-        if let Some(made) = cache.find(key, &**source) {
-            self.surfaces.push((key, made.clone()));
-            return Cow::Borrowed(&made.surface);
-        }
-        let surface = source.surface();
-        self.made += 1;
-        let made = Made {
-            source: Arc::clone(source),
-            surface: Arc::new(surface.clone()),
-        };
-        self.surfaces.push((key, made));
-        Cow::Owned(surface)
-    }
-
-    pub(super) fn append(&mut self, other: &mut Self) {
-        self.surfaces.append(&mut other.surfaces);
-        self.made += std::mem::take(&mut other.made);
+/// Calls `work` with the surface of a primitive.
+pub(super) fn with_surface<R>(
+    primitive: &Primitive,
+    memo: &Memo,
+    work: impl FnOnce(&Surface) -> R,
+) -> R {
+    let made = |source: &Arc<dyn SurfaceSource>| {
+        memo.get(Source(Arc::clone(source)), |key| Arc::new(key.0.surface()))
+    };
+    match primitive.pieces.as_slice() {
+        // The usual case, in which a surface from the memo is not copied.
+        [Piece::Deferred(source)] => work(&made(source)),
+        _ => work(
+            &primitive.surface_by(&mut |source| Cow::Owned(Arc::unwrap_or_clone(made(source)))),
+        ),
     }
 }

@@ -18,7 +18,8 @@ use super::backend::Backend;
 use super::documents::{Analysed, Documents};
 use crate::compile::Compiled;
 use crate::crash;
-use crate::export::{self, GLB, SurfaceCache};
+use crate::export::{self, GLB};
+use crate::memo::Memo;
 use crate::preview::{Hub, Picked, Shown, bind, serve};
 use crate::source::Span;
 use crate::watch::BuildTimes;
@@ -158,7 +159,7 @@ impl Previews {
 
     /// Builds the queued states, always the newest, until the process ends.
     fn build(&self) {
-        let mut memories: BTreeMap<String, SurfaceCache> = BTreeMap::new();
+        let mut memories: BTreeMap<String, Memo> = BTreeMap::new();
         loop {
             let mut queue = self.queue();
             let next = loop {
@@ -178,18 +179,12 @@ impl Previews {
             if let Err(crash) = crash::catch(|| self.publish(&uri, &analysed, compiled, memory)) {
                 memories.remove(&uri);
                 let crashed = Compiled::crashed(&crash);
-                self.publish(&uri, &analysed, &crashed, &mut SurfaceCache::default());
+                self.publish(&uri, &analysed, &crashed, &mut Memo::default());
             }
         }
     }
 
-    fn publish(
-        &self,
-        uri: &str,
-        analysed: &Analysed,
-        compiled: &Compiled,
-        memory: &mut SurfaceCache,
-    ) {
+    fn publish(&self, uri: &str, analysed: &Analysed, compiled: &Compiled, memory: &mut Memo) {
         let begun = SystemTime::now();
         let made = || {
             let model = export::to_memory(&GLB, &compiled.scene, Some(memory)).ok()?;

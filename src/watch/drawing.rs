@@ -9,7 +9,8 @@ use rustc_hash::FxBuildHasher;
 use super::{Build, BuildTimes, NoModel, Options};
 use crate::compile::{self, Compiled, Compiler};
 use crate::disk::{FolderResolver, ReadError, decode, read_drawing};
-use crate::export::{self, GLB, SurfaceCache};
+use crate::export::{self, GLB};
+use crate::memo::Memo;
 use crate::resolver::{Dependency, Recorder};
 
 /// A drawing with the caches that make its next build incremental.
@@ -19,7 +20,8 @@ pub struct Drawing {
     options: compile::Options,
     resolver: FolderResolver,
     compiler: Compiler,
-    surfaces: SurfaceCache,
+    /// The surfaces of the last model.
+    surfaces: Memo,
     last: Option<Inputs>,
 }
 
@@ -54,7 +56,7 @@ impl Drawing {
             },
             resolver: FolderResolver::new(options.root.clone().unwrap_or(folder)),
             compiler: Compiler::default(),
-            surfaces: SurfaceCache::default(),
+            surfaces: Memo::default(),
             last: None,
         }
     }

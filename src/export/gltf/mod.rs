@@ -18,7 +18,8 @@ use std::io;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
 
-use super::{Exporter, Output, SurfaceCache, Written, invalid};
+use super::{Exporter, Output, Written, invalid};
+use crate::memo::Memo;
 use crate::scene::Scene;
 use primitives::Packed;
 
@@ -58,13 +59,8 @@ impl Exporter for Glb {
         true
     }
 
-    fn write(
-        &self,
-        scene: &Scene,
-        out: &mut dyn Output,
-        surfaces: Option<&mut SurfaceCache>,
-    ) -> io::Result<Written> {
-        let packed = Packed::new(scene, surfaces, &mut |bytes| out.set_aside(bytes))?;
+    fn write(&self, scene: &Scene, out: &mut dyn Output, memo: &Memo) -> io::Result<Written> {
+        let packed = Packed::new(scene, memo, &mut |bytes| out.set_aside(bytes))?;
         let mut json = document::describe(scene, &packed)?;
         let length = packed.layout.length;
         if length > 0 {
@@ -115,15 +111,10 @@ impl Exporter for Gltf {
         true
     }
 
-    fn write(
-        &self,
-        scene: &Scene,
-        out: &mut dyn Output,
-        surfaces: Option<&mut SurfaceCache>,
-    ) -> io::Result<Written> {
+    fn write(&self, scene: &Scene, out: &mut dyn Output, memo: &Memo) -> io::Result<Written> {
         // Base64 holds three bytes in four characters, so pieces of any other length wait for the rest.
         let mut rest = Vec::new();
-        let packed = Packed::new(scene, surfaces, &mut |bytes| {
+        let packed = Packed::new(scene, memo, &mut |bytes| {
             rest.extend_from_slice(bytes);
             let whole = rest.len() / 3 * 3;
             out.set_aside(BASE64.encode(&rest[..whole]).as_bytes())?;

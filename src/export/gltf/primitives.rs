@@ -13,9 +13,10 @@ use rustc_hash::FxHashMap;
 
 use super::animations;
 use super::buffer::{Accessor, BufferWriter, Kind, Layout, Sink, floats};
-use super::{SurfaceCache, Written, invalid};
+use super::{Written, invalid};
 use crate::export::check;
-use crate::export::surfaces::Used;
+use crate::export::surfaces::with_surface;
+use crate::memo::Memo;
 use crate::scene::{Image, MediaType, Mesh, Primitive, RigidTransform, Scene, Surface};
 
 /// Primitives in a window.
@@ -56,7 +57,6 @@ struct Batch {
     accessors: Vec<Accessor>,
     /// The accessors of each primitive.
     primitives: Vec<Range<usize>>,
-    used: Used,
 }
 
 impl Packed {
@@ -64,14 +64,9 @@ impl Packed {
     ///
     /// # Errors
     /// Those of `out`; [`io::ErrorKind::InvalidInput`] for a surface that breaks its own rules.
-    pub(super) fn new<'a>(
-        scene: &Scene,
-        cache: Option<&mut SurfaceCache>,
-        out: &'a mut Sink<'a>,
-    ) -> io::Result<Self> {
+    pub(super) fn new<'a>(scene: &Scene, memo: &Memo, out: &'a mut Sink<'a>) -> io::Result<Self> {
         let mut out = BufferWriter::new(out);
-        let mut used = Used::default();
-        let primitives = write_primitives(scene, cache.as_deref(), &mut used, &mut out)?;
+        let primitives = write_primitives(scene, memo, &mut out)?;
         let bind_matrices = write_bind_matrices(scene, &primitives, &mut out)?;
         let tracks = animations::write_keys(scene, &mut out)?;
         let mut packed = Self {
@@ -82,9 +77,6 @@ impl Packed {
         };
         packed.write_images(&scene.images, &mut out)?;
         packed.layout = out.layout;
-        if let Some(cache) = cache {
-            cache.keep(used);
-        }
         Ok(packed)
     }
 
@@ -131,8 +123,7 @@ impl Packed {
 /// Writes every primitive, and returns the accessors of each.
 fn write_primitives(
     scene: &Scene,
-    cache: Option<&SurfaceCache>,
-    used: &mut Used,
+    memo: &Memo,
     out: &mut BufferWriter<'_>,
 ) -> io::Result<Vec<Range<usize>>> {
     let primitives: Vec<&Primitive> = scene
@@ -144,15 +135,13 @@ fn write_primitives(
     let make = |window: &[&Primitive], batches: &mut Vec<Batch>| -> io::Result<()> {
         batches.resize_with(window.len().div_ceil(BATCH), Batch::default);
         let batches = batches.par_iter_mut().zip(window.par_chunks(BATCH));
-        batches.try_for_each(|(batch, window)| batch.fill(window, scene, cache))
+        batches.try_for_each(|(batch, window)| batch.fill(window, scene, memo))
     };
     let mut windows = primitives.chunks(WINDOW);
     // Two sets of buffers take turns, so that no memory is allocated after the second window.
     let (mut full, mut next) = (Vec::new(), Vec::new());
     make(windows.next().unwrap_or(&[]), &mut full)?;
     while !full.is_empty() {
-        full.iter_mut()
-            .for_each(|batch: &mut Batch| used.append(&mut batch.used));
         let window = windows.next().unwrap_or(&[]);
         let (written, made) = rayon::join(
             || write_window(&mut full, &mut ranges, out),
@@ -229,31 +218,25 @@ fn write_bind_matrices(
 }
 
 impl Batch {
-    fn fill(
-        &mut self,
-        primitives: &[&Primitive],
-        scene: &Scene,
-        cache: Option<&SurfaceCache>,
-    ) -> io::Result<()> {
+    fn fill(&mut self, primitives: &[&Primitive], scene: &Scene, memo: &Memo) -> io::Result<()> {
         self.data.iter_mut().for_each(Vec::clear);
         self.accessors.clear();
         self.primitives.clear();
         for primitive in primitives {
-            let surface = match cache {
-                Some(cache) => primitive.surface_by(&mut |source| self.used.surface(source, cache)),
-                None => primitive.surface(),
-            };
             let Some(material) = scene.materials.get(primitive.material) else {
                 return Err(invalid("a primitive with a material out of range"));
             };
-            let unmapped = surface.uvs.is_empty() && !surface.positions.is_empty();
-            if unmapped && material.textures().next().is_some() {
-                return Err(invalid("a textured surface without texture coordinates"));
-            }
             let first = self.accessors.len();
-            if !surface.triangles.is_empty() {
-                self.push(&surface, scene.nodes.len())?;
-            }
+            with_surface(primitive, memo, |surface| {
+                let unmapped = surface.uvs.is_empty() && !surface.positions.is_empty();
+                if unmapped && material.textures().next().is_some() {
+                    return Err(invalid("a textured surface without texture coordinates"));
+                }
+                match surface.triangles.is_empty() {
+                    true => Ok(()),
+                    false => self.push(surface, scene.nodes.len()),
+                }
+            })?;
             self.primitives.push(first..self.accessors.len());
         }
         Ok(())

@@ -124,7 +124,7 @@ fn keys_are_read_back_as_they_are() {
         for exporter in BOTH {
             let file = bytes(scene, exporter);
             assert_keys(scene, &file);
-            let cached = export::to_memory(exporter, scene, Some(&mut SurfaceCache::default()));
+            let cached = export::to_memory(exporter, scene, Some(&mut Memo::default()));
             assert_eq!(file, cached.unwrap().bytes);
         }
     }
