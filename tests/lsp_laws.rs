@@ -598,7 +598,7 @@ fn formatting_is_idempotent_and_keeps_the_model() {
     });
     outcome.unwrap_or_else(|error| panic!("{error}"));
     sound.assert_share(60);
-    changed.assert_share(40);
+    changed.assert_share(25);
 }
 
 /// Renaming there and back restores the bytes and keeps all errors. (A name that is written with
