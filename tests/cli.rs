@@ -396,7 +396,7 @@ fn quiet_and_verbose() {
     let count = |run: Run| run.err.matches("hint[H402]").count();
     let usual = room.run(&["build", "many.svg"]);
     assert!(
-        usual.err.contains("which `okoshi check -v` shows"),
+        usual.err.contains("`okoshi check -v` shows all"),
         "{}",
         usual.err
     );

@@ -149,7 +149,7 @@ fn describe_layer(layer: &Layer) -> String {
 }
 
 /// Most groups and houses of a landscape that are listed one by one.
-const MOST_LISTED: usize = 40;
+const MAX_LISTED: usize = 40;
 
 /// The groups of a landscape with their heights, its ponds and houses.
 fn contents(layer: &Layer) -> Vec<[String; 2]> {
@@ -175,10 +175,10 @@ fn contents(layer: &Layer) -> Vec<[String; 2]> {
     let mut listed: Vec<[String; 2]> = all.collect();
     if let Some(more) = listed
         .len()
-        .checked_sub(MOST_LISTED)
+        .checked_sub(MAX_LISTED)
         .filter(|more| *more > 0)
     {
-        listed.truncate(MOST_LISTED);
+        listed.truncate(MAX_LISTED);
         listed.push([
             format!("… and {more} more"),
             "all of them with --json".to_owned(),

@@ -1,7 +1,6 @@
 //! Diagnostics for programs: `--format json`.
 //!
-//! The schema is stable: names stay, and what is added is added. `version` counts the changes that
-//! break it.
+//! The schema is stable: members may be added, but none is renamed or removed. `version` counts breaking changes.
 
 use serde::Serialize;
 
@@ -43,8 +42,8 @@ struct Finding<'a> {
     place: Place,
     label: Option<&'a str>,
     help: Option<&'a str>,
-    related: Vec<Other<'a>>,
-    fixes: Vec<WayOut<'a>>,
+    related: Vec<RelatedEntry<'a>>,
+    fixes: Vec<FixEntry<'a>>,
 }
 
 #[derive(Serialize)]
@@ -58,14 +57,14 @@ struct Place {
 }
 
 #[derive(Serialize)]
-struct Other<'a> {
+struct RelatedEntry<'a> {
     message: &'a str,
     #[serde(flatten)]
     place: Place,
 }
 
 #[derive(Serialize)]
-struct WayOut<'a> {
+struct FixEntry<'a> {
     title: &'a str,
     edits: Vec<Change<'a>>,
 }
@@ -87,7 +86,7 @@ fn drawing<'a>(findings: &Findings<'a>) -> Drawing<'a> {
 }
 
 fn finding<'a>(diagnostic: &'a Diagnostic, places: &LineIndex<&str>) -> Finding<'a> {
-    let related = |related: &'a Related| Other {
+    let related = |related: &'a Related| RelatedEntry {
         message: &related.message,
         place: place(related.span, places),
     };
@@ -95,7 +94,7 @@ fn finding<'a>(diagnostic: &'a Diagnostic, places: &LineIndex<&str>) -> Finding<
         text: &edit.text,
         place: place(edit.span, places),
     };
-    let fix = |fix: &'a Fix| WayOut {
+    let fix = |fix: &'a Fix| FixEntry {
         title: &fix.title,
         edits: fix.edits.iter().map(change).collect(),
     };

@@ -1,4 +1,4 @@
-//! Reading drawings for the commands.
+//! Reads and compiles drawings for the commands.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -10,14 +10,14 @@ use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::disk::{FolderResolver, decode, read_drawing};
 
-/// How many hints a command that was not asked for them shows.
-const MOST_HINTS: usize = 10;
-/// How many findings are shown at all, unless everything is asked for.
-const MOST_FINDINGS: usize = 200;
+/// The most hints that commands other than `check` show.
+const MAX_HINTS: usize = 10;
+/// The most findings of each severity without `--verbose`.
+const MAX_FINDINGS: usize = 200;
 
 /// A drawing that was read and compiled.
 pub(super) struct Loaded {
-    /// As the user named it.
+    /// The path as the user wrote it.
     pub(super) path: String,
     pub(super) text: String,
     pub(super) compiled: Compiled,
@@ -81,14 +81,14 @@ pub(super) fn root(path: &Path, reading: &Reading) -> PathBuf {
         .unwrap_or_else(|| path.parent().map_or_else(PathBuf::new, Path::to_path_buf))
 }
 
-/// Which findings are shown.
+/// Which findings to show.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Detail {
-    /// The command was asked for findings: hints too.
+    /// The command reports findings: with hints.
     Asked,
-    /// The command was asked for something else: a few hints.
+    /// The command does something else: with a few hints.
     Aside,
-    /// The command says it again and again: no hints.
+    /// The command reports repeatedly: without hints.
     Repeated,
 }
 
@@ -102,14 +102,14 @@ pub(super) fn describe(
     let most_hints = match detail {
         _ if common.quiet => 0,
         _ if common.verbose => usize::MAX,
-        Detail::Asked => MOST_FINDINGS,
-        Detail::Aside => MOST_HINTS,
+        Detail::Asked => MAX_FINDINGS,
+        Detail::Aside => MAX_HINTS,
         Detail::Repeated => 0,
     };
     let most = if common.verbose {
         usize::MAX
     } else {
-        MOST_FINDINGS
+        MAX_FINDINGS
     };
     let mut shown: Vec<Diagnostic> = Vec::new();
     let mut hidden = [0_usize; 3];
@@ -141,7 +141,7 @@ pub(super) fn describe(
     }
     if !common.quiet && hidden.iter().sum::<usize>() > 0 {
         out.push_str(&format!(
-            "… and {}, which `okoshi check -v` shows\n",
+            "… and {}; `okoshi check -v` shows all\n",
             count(hidden)
         ));
     }

@@ -17,7 +17,7 @@ impl Template {
     }
 }
 
-/// Writes a starter drawing, and says how to go on.
+/// Writes a starter drawing, and suggests the next commands.
 pub(super) fn run(arguments: &New, common: Common) -> Outcome {
     let drawing = arguments.template.drawing();
     if arguments.name.as_os_str() == "-" {
@@ -28,7 +28,7 @@ pub(super) fn run(arguments: &New, common: Common) -> Outcome {
         Err(message) => return fail(&message),
     };
     if let Err(error) = write_new(&path, drawing.as_bytes()) {
-        return fail(&way_out(&error));
+        return fail(&explained(&error));
     }
     if !common.quiet {
         eprint!("{}", next_steps(&path));
@@ -36,7 +36,7 @@ pub(super) fn run(arguments: &New, common: Common) -> Outcome {
     Outcome::Done
 }
 
-/// Where the drawing goes: the name with `.svg` behind it, unless it has that already.
+/// The file of the drawing: the name, with `.svg` appended unless it has that extension.
 fn named(name: &Path) -> Result<PathBuf, String> {
     let bare = name.as_os_str().as_encoded_bytes();
     let closed = bare
@@ -64,8 +64,8 @@ fn named(name: &Path) -> Result<PathBuf, String> {
     Ok(name.with_file_name(file))
 }
 
-/// What is wrong, and what can be done with this command.
-fn way_out(error: &WriteError) -> String {
+/// An error with what to do about it in this command.
+fn explained(error: &WriteError) -> String {
     match error {
         WriteError::Exists(path) => format!(
             "`{0}` exists, and drawings are never written over; choose another name, or go on with it: okoshi build {1}",
@@ -92,7 +92,7 @@ fn next_steps(path: &Path) -> String {
     )
 }
 
-/// A path as one word of a command line.
+/// A path quoted for a shell.
 fn quoted(path: &Path) -> String {
     let text = path.display().to_string();
     // A name that begins with `-` would be taken for an option.

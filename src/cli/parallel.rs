@@ -1,12 +1,12 @@
-//! Several drawings at once.
+//! Work on several drawings in parallel.
 
 use std::num::NonZero;
 use std::sync::Mutex;
 use std::thread::{available_parallelism, scope};
 
-/// What `work` makes of every item, several at once, in the order of the items.
+/// Calls `work` on every item in parallel, and returns the results in the order of the items.
 ///
-/// By threads outside rayon's pools: a worker there that waits for one drawing would begin others on top of it.
+/// The threads are not of a rayon pool: a worker there that waits for one drawing would start others on the same stack.
 pub(super) fn each<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = available_parallelism()
         .map_or(1, NonZero::get)
@@ -38,7 +38,7 @@ mod tests {
     use super::each;
 
     #[test]
-    fn the_order_stays() {
+    fn results_keep_the_order() {
         let items: Vec<u64> = (0..100).collect();
         let made = each(&items, |item| {
             std::thread::sleep(std::time::Duration::from_micros(100 - item));

@@ -1,4 +1,4 @@
-//! A sign of life for work that takes over a second.
+//! A progress indicator for work that takes more than a second.
 
 use std::io::IsTerminal;
 use std::sync::mpsc;
@@ -6,16 +6,16 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// How long work may take before it says so.
-const PATIENCE: Duration = Duration::from_secs(1);
+/// How long work may take before the indicator appears.
+const DELAY: Duration = Duration::from_secs(1);
 
 /// Runs `work`; after a second a spinner with `message` appears, if stderr is a terminal.
 pub(super) fn spinning<T>(message: &str, work: impl FnOnce() -> T) -> T {
     counting(message, 0, |_| work())
 }
 
-/// Runs `work`, which says how many of `total` pieces it has done; after a second that appears behind `message`, if
-/// stderr is a terminal. A `total` of 0 is not shown.
+/// Runs `work`, which reports how many of `total` pieces are done; after a second the count appears after `message`, if
+/// stderr is a terminal. A `total` of 0 shows only the spinner.
 pub(super) fn counting<T>(message: &str, total: u32, work: impl FnOnce(&dyn Fn(u32)) -> T) -> T {
     if !std::io::stderr().is_terminal() {
         return work(&|_| ());
@@ -33,7 +33,7 @@ pub(super) fn counting<T>(message: &str, total: u32, work: impl FnOnce(&dyn Fn(u
         let (done, wait) = mpsc::channel::<()>();
         let shown = bar.clone();
         scope.spawn(move || {
-            if wait.recv_timeout(PATIENCE) == Err(mpsc::RecvTimeoutError::Timeout) {
+            if wait.recv_timeout(DELAY) == Err(mpsc::RecvTimeoutError::Timeout) {
                 shown.set_draw_target(ProgressDrawTarget::stderr());
                 shown.enable_steady_tick(Duration::from_millis(100));
                 let _ = wait.recv();

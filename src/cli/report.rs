@@ -20,19 +20,19 @@ pub enum Style {
 }
 
 /// A line longer than this is cut to what lies around the span. In bytes.
-const LONGEST_LINE: usize = 600;
+const MAX_LINE_LENGTH: usize = 600;
 
 /// How much of a cut line is shown on either side of the span. In bytes.
-const AROUND: usize = 40;
+const CONTEXT: usize = 40;
 
 /// The longest span of a cut line that is shown whole. In bytes.
-const LONGEST_SPAN: usize = 120;
+const MAX_SPAN_LENGTH: usize = 120;
 
 /// How much text two places may have between them and still be shown together. In bytes.
-const TOGETHER: usize = 32 * 1024;
+const MAX_EXCERPT: usize = 32 * 1024;
 
 /// A span over more lines than this is shown by its first line.
-const MOST_LINES: usize = 8;
+const MAX_LINES: usize = 8;
 
 /// The findings as text, one paragraph each.
 pub fn human(findings: Findings, style: Style) -> String {
@@ -136,7 +136,10 @@ impl Page<'_> {
     fn fix<'d>(&self, fix: &'d Fix) -> Group<'d> {
         let group = Group::with_title(Level::HELP.secondary_title(tame(&fix.title)));
         let spans: Vec<_> = fix.edits.iter().map(|edit| edit.span).collect();
-        let short = fix.edits.iter().all(|edit| edit.text.len() <= LONGEST_LINE);
+        let short = fix
+            .edits
+            .iter()
+            .all(|edit| edit.text.len() <= MAX_LINE_LENGTH);
         match self.excerpt(&spans).filter(|_| short) {
             None => group,
             Some(excerpt) => {
@@ -153,13 +156,14 @@ impl Page<'_> {
         let (first, last) = (self.first_line(whole), self.last_line(whole));
         let (start, end) = (self.places.extent(first).0, self.places.extent(last).1);
         let lines_of = |span: &Span| self.last_line(*span) - self.first_line(*span);
-        let whole_lines = end - start <= TOGETHER
-            && spans.iter().all(|span| lines_of(span) <= MOST_LINES)
+        let whole_lines = end - start <= MAX_EXCERPT
+            && spans.iter().all(|span| lines_of(span) <= MAX_LINES)
             && !self.text[start..end]
                 .split('\n')
-                .any(|line| line.len() > LONGEST_LINE);
+                .any(|line| line.len() > MAX_LINE_LENGTH);
         if !whole_lines {
-            let one_line = first == last && whole.end.saturating_sub(whole.start) <= LONGEST_SPAN;
+            let one_line =
+                first == last && whole.end.saturating_sub(whole.start) <= MAX_SPAN_LENGTH;
             return one_line.then(|| self.cut(first, whole, spans));
         }
         Some(Excerpt {
@@ -177,7 +181,7 @@ impl Page<'_> {
         self.excerpt(&[span]).unwrap_or_else(|| {
             let line = self.first_line(span);
             let end = self.places.extent(line).1;
-            let end = span.end.min(end).min(span.start + LONGEST_SPAN);
+            let end = span.end.min(end).min(span.start + MAX_SPAN_LENGTH);
             let seen = Span::new(span.start, end.max(span.start));
             self.cut(line, seen, &[seen])
         })
@@ -190,11 +194,11 @@ impl Page<'_> {
         let (line_start, line_end) = self.places.extent(line);
         let start = self
             .places
-            .clamp(whole.start.saturating_sub(AROUND))
+            .clamp(whole.start.saturating_sub(CONTEXT))
             .max(line_start);
         let end = self
             .places
-            .clamp(whole.end + AROUND)
+            .clamp(whole.end + CONTEXT)
             .min(line_end)
             .max(start);
         let before = if start > line_start { MARK } else { "" };

@@ -13,13 +13,13 @@ pub(super) const DRAWING: &str = "<svg>
 </svg>
 ";
 
-/// Where `word` stands first.
+/// The span of the first `word`.
 pub(super) fn at(text: &str, word: &str) -> Span {
     let start = text.find(word).unwrap();
     Span::new(start, start + word.len())
 }
 
-/// A finding with all that one can have but other places.
+/// A finding with everything except related spans.
 pub(super) fn misspelt(text: &str) -> Diagnostic {
     let span = at(text, "Shap");
     Diagnostic::new(Code::UnknownKeyword, span, "unknown keyword `Shap`")

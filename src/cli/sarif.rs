@@ -93,7 +93,7 @@ struct Finding {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     related_locations: Vec<Location>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    fixes: Vec<WayOut>,
+    fixes: Vec<FixEntry>,
 }
 
 #[derive(Serialize)]
@@ -127,7 +127,7 @@ struct Region {
 
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct WayOut {
+struct FixEntry {
     description: Words,
     artifact_changes: [Changes; 1],
 }
@@ -174,7 +174,7 @@ fn result(diagnostic: &Diagnostic, uri: &str, places: &LineIndex<&str>) -> Findi
     };
     let related = diagnostic.related.iter();
     let related = related.map(|related| location(related.span, Some(&related.message)));
-    let fixes = diagnostic.fixes.iter().map(|fix| WayOut {
+    let fixes = diagnostic.fixes.iter().map(|fix| FixEntry {
         description: words(&fix.title),
         artifact_changes: [Changes {
             artifact_location: artifact(),
