@@ -230,7 +230,7 @@ fn files_that_cannot_be_read_or_written() {
         "error: the output `out` must end in .glb, .gltf or .obj",
     );
     room.run(&["build", "a.svg", "-o", "a.svg"])
-        .ends(2, "", "okoshi never writes over drawings");
+        .ends(2, "", "okoshi never overwrites drawings");
     assert_eq!(room.read("a.svg"), GOOD.as_bytes());
     fs::create_dir(room.path("a.glb")).expect("made");
     room.run(&["build", "a.svg"]).ends(2, "", "error: ");

@@ -125,7 +125,7 @@ fn names_that_are_no_path_are_refused() {
         &["error: the folder `file` is not there"],
     );
     for name in ["..", "folder/"] {
-        ends(&room, &["new", name], 2, &["is no name for a file"]);
+        ends(&room, &["new", name], 2, &["is not a file name"]);
     }
     ends(
         &room,

@@ -198,11 +198,11 @@ fn wrong_use_is_explained() {
         ),
         (
             "render a.svg --size 0x10",
-            "each side may have 1 to 8192 pixels",
+            "each side must have 1 to 8192 pixels",
         ),
         (
             "render a.svg --size 9000x10",
-            "each side may have 1 to 8192 pixels",
+            "each side must have 1 to 8192 pixels",
         ),
         (
             "render a.svg --view 30",
@@ -214,7 +214,7 @@ fn wrong_use_is_explained() {
         ),
         (
             "render a.svg --view 0,91",
-            "the camera is lifted by at most 90 degrees",
+            "the camera can be at most 90 degrees",
         ),
         (
             "render a.svg --background reddish",
@@ -510,7 +510,7 @@ fn wrong_use_of_clips_is_explained() {
         ),
         (
             "one.glb -o a.gif --strip 3",
-            "but --time and --strip make one",
+            "but --time and --strip make a still picture",
         ),
         (
             "one.glb -o a.gif --clip held --fps 60",

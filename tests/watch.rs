@@ -139,7 +139,7 @@ fn linked_files_are_watched_before_they_exist() {
     let linking = drawing(50).replace("-5 5<", "-5 5 Texture \"skin.png\"<");
     fs::write(folder.path().join("a.svg"), linking).expect("written");
     live.line("error[E006]");
-    live.line("a.glb stays");
+    live.line("a.glb is unchanged");
     let picture = |colour: [u8; 3]| {
         let image = image::RgbImage::from_pixel(4, 4, image::Rgb(colour));
         image
@@ -161,7 +161,7 @@ fn new_files_in_a_watched_folder_are_watched() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::create_dir(folder.path().join("in")).expect("a folder");
     let live = Live::start(folder.path(), &["watch", "in", "-o", "out"]);
-    live.line("no drawings there yet");
+    live.line("no drawings yet");
     fs::write(folder.path().join("in/one.svg"), drawing(50)).expect("written");
     live.line("one.glb in");
     fs::create_dir_all(folder.path().join("in/deep/er")).expect("a folder");

@@ -54,7 +54,7 @@ fn named(name: &Path) -> Result<PathBuf, String> {
     }
     if ending.eq_ignore_ascii_case("svgz") {
         return Err(format!(
-            "`{}` would be packed, and new drawings are not; write `{}`",
+            "`{}` would be compressed, and new drawings are not; write `{}`",
             name.display(),
             name.with_extension("svg").display()
         ));
@@ -68,7 +68,7 @@ fn named(name: &Path) -> Result<PathBuf, String> {
 fn explained(error: &WriteError) -> String {
     match error {
         WriteError::Exists(path) => format!(
-            "`{0}` exists, and drawings are never written over; choose another name, or go on with it: okoshi build {1}",
+            "`{0}` exists, and drawings are never overwritten; choose another name, or build it: okoshi build {1}",
             path.display(),
             quoted(path)
         ),
