@@ -240,7 +240,7 @@ fn several_layers_may_lie_in_each_other() {
     assert_eq!(
         names,
         [
-            ("Landscape", rows(&["ggg", "b.."])),
+            ("Land", rows(&["ggg", "b.."])),
             ("Lake", rows(&["ww", "ww"]))
         ]
     );
