@@ -1,4 +1,4 @@
-//! The drawing as bytes, and places in it.
+//! Positions in the drawing's text.
 //!
 //! Invariant: every [`Span`] in the program is a byte range of the drawing's text as it is on disk
 //! (of the unpacked text for `.svgz`), whatever was decoded or rewritten on the way.
@@ -16,7 +16,7 @@ pub use line_index::{LineEnds, LineIndex, starts_character};
 pub struct Span {
     /// Offset of the first byte.
     pub start: usize,
-    /// Offset behind the last byte; equal to `start` for a place between two characters.
+    /// Offset after the last byte; equal to `start` for a position between two characters.
     pub end: usize,
 }
 
@@ -34,7 +34,7 @@ impl Span {
         }
     }
 
-    /// The smallest span that holds both.
+    /// The smallest span that contains both.
     pub fn join(self, other: Self) -> Self {
         Self {
             start: self.start.min(other.start),
@@ -57,13 +57,13 @@ impl From<Range<usize>> for Span {
 /// One stretch of a decoded text and the bytes that it was decoded from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Run {
-    /// Where the stretch begins in the decoded text.
+    /// Its start in the decoded text.
     at: usize,
-    /// Where it begins in the drawing.
+    /// Its start in the drawing.
     raw: usize,
-    /// How long it is in the drawing.
+    /// Its length in the drawing.
     raw_len: usize,
-    /// How it was written there.
+    /// How it is written there.
     form: Form,
 }
 
@@ -74,14 +74,14 @@ pub enum Form {
     Plain,
     /// Byte for byte inside a CDATA section, where nothing is escaped.
     Cdata,
-    /// As one unit: an entity, a line end, a line break that stands between elements.
+    /// As one unit: an entity, a line end, or a line break between elements.
     Unit,
 }
 
-/// A decoded text that knows, for each of its characters, the bytes of the drawing it came from.
+/// A decoded text with a source map: for each of its characters the bytes of the drawing.
 ///
-/// Texts of a drawing reach it through XML entities, CDATA sections and several elements; the
-/// annotation language sees only the decoded characters and asks here for the places.
+/// A text may contain XML entities and CDATA sections and extend over several elements; the annotation language sees
+/// only the decoded characters, and gets their spans here.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Text {
     text: String,
@@ -90,14 +90,14 @@ pub struct Text {
 }
 
 impl Text {
-    /// A text that stands in the drawing byte for byte, from `offset` on. Handy in tests.
+    /// A text that is written byte for byte in the drawing, at `offset`. For tests.
     pub fn plain(text: &str, offset: usize) -> Self {
         let mut out = Self::default();
         out.push(text, Span::new(offset, offset + text.len()), Form::Plain);
         out
     }
 
-    /// Appends a stretch of decoded characters that stand at `raw`.
+    /// Appends decoded characters that are written at `raw`.
     ///
     /// For [`Form::Plain`] and [`Form::Cdata`] both lengths must be equal.
     pub fn push(&mut self, decoded: &str, raw: Span, form: Form) {
@@ -143,9 +143,9 @@ impl Text {
         &self.text
     }
 
-    /// The place in the drawing of the decoded characters `range` (byte offsets in [`Text::as_str`]).
+    /// The span in the drawing of the decoded characters `range` (byte offsets in [`Text::as_str`]).
     ///
-    /// An empty range gives the place between two characters.
+    /// An empty range gives the position between two characters.
     pub fn span(&self, range: Range<usize>) -> Span {
         let start = self.raw_start(range.start);
         if range.is_empty() {
@@ -154,13 +154,13 @@ impl Text {
         Span::new(start, self.raw_end(range.end).max(start))
     }
 
-    /// The place of the whole text.
+    /// The span of the whole text.
     pub fn whole(&self) -> Span {
         self.span(0..self.text.len())
     }
 
-    /// Whether all bytes of `span` are this text's, none of them tags or comments between its parts, and none of them
-    /// an entity that stands for several characters: only then they can be replaced as one.
+    /// Whether all bytes of `span` belong to this text, without tags or comments between its runs and without entities
+    /// for several characters: only then can they be replaced as one.
     pub fn is_whole(&self, span: Span) -> bool {
         let from = self
             .runs
@@ -182,8 +182,8 @@ impl Text {
         at >= span.end
     }
 
-    /// Whether the decoded characters `range` can be replaced without those around them: an entity may stand for
-    /// several.
+    /// Whether the decoded characters `range` can be replaced without their neighbours: an entity may expand to several
+    /// characters.
     pub fn can_replace(&self, range: Range<usize>) -> bool {
         let splits = |offset: usize| {
             let run = self.run_at(offset);
@@ -194,8 +194,8 @@ impl Text {
         !splits(range.start) && !splits(range.end)
     }
 
-    /// The stretches of the drawing that the decoded characters `range` were read from: one, unless tags or comments
-    /// stand between them.
+    /// The spans of the drawing that the decoded characters `range` were read from: one, unless tags or comments are
+    /// between them.
     pub fn pieces(&self, range: Range<usize>) -> Vec<Span> {
         let mut pieces: Vec<Span> = vec![];
         let mut at = range.start;
@@ -213,8 +213,7 @@ impl Text {
         pieces
     }
 
-    /// The decoded offset of the character at the drawing's byte `raw`, if one of the text's characters is there
-    /// (the end of the text included).
+    /// The decoded offset of the character at the drawing's byte `raw`, if it belongs to this text (or is its end).
     pub fn offset_of(&self, raw: usize) -> Option<usize> {
         for (index, run) in self.runs.iter().enumerate() {
             if (run.raw..run.raw + run.raw_len.max(1)).contains(&raw) {

@@ -1,9 +1,8 @@
-//! The drawing as usvg and roxmltree understand it together: shapes with their meaning, texts with
-//! their places.
+//! The drawing as read by usvg and roxmltree together: shapes with their meaning, texts with their source maps.
 //!
 //! Invariants: coordinates are user units of the outermost `<svg>` after its `viewBox`, y down, f64;
-//! shapes stand in paint order; every element, group and text knows its bytes in the file. This module
-//! knows nothing of the annotation language.
+//! shapes are in paint order; every element, group and text has its span in the file. This module does not know the
+//! annotation language.
 
 mod clip;
 mod elements;
@@ -41,11 +40,11 @@ use crate::texture::PaintServer;
 /// A drawing.
 #[derive(Debug, Clone, Default)]
 pub struct Drawing {
-    /// Least corner and size of the page.
+    /// Minimum corner and size of the page.
     pub page: (DVec2, DVec2),
-    /// The groups; the first is the outermost `<svg>`, and a group stands behind the one it is in.
+    /// The groups; the first is the outermost `<svg>`, and a group comes after the group that contains it.
     pub groups: Vec<Group>,
-    /// The shapes in paint order, hindmost first.
+    /// The shapes in paint order, back-most first.
     pub shapes: Vec<Shape>,
     /// The texts in document order, each with the index of its group.
     pub labels: Vec<(Label, usize)>,
@@ -53,12 +52,12 @@ pub struct Drawing {
     pub pixel_groups: Option<Vec<bool>>,
 }
 
-/// What groups can be.
+/// The kinds of groups.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum GroupKind {
     /// The outermost `<svg>`.
     Root,
-    /// A layer of Inkscape's.
+    /// An Inkscape layer.
     Layer,
     /// `g`, `a`, `switch`, an inner `svg`, a clone.
     Group,
@@ -67,9 +66,9 @@ pub enum GroupKind {
 /// A group of the drawing.
 #[derive(Debug, Clone)]
 pub struct Group {
-    /// Index of the group it is in; the first group is in itself.
+    /// Index of the group that contains it; the first group contains itself.
     pub parent: usize,
-    /// What it is.
+    /// Its kind.
     pub kind: GroupKind,
     /// Its element.
     pub element: Element,
@@ -90,14 +89,14 @@ pub struct Element {
     pub desc: Option<Arc<Text>>,
 }
 
-/// What a shape is painted with.
+/// The paint of a shape.
 #[derive(Debug, Clone)]
 pub struct Paint {
-    /// What makes it the same as another paint (language.md, Paint identity).
+    /// Its identity (language.md, Paint identity).
     pub key: PaintKey,
     /// Its colour, or the mean of its colours, sRGB, each 0 to 255.
     pub color: [u8; 3],
-    /// What it looks like, if it is more than a colour.
+    /// Its gradient, pattern or picture, if it is more than a colour.
     pub server: Option<Arc<PaintServer>>,
 }
 
@@ -106,7 +105,7 @@ pub struct Paint {
 pub enum PaintKey {
     /// A colour.
     Solid([u8; 3]),
-    /// The id of the gradient or pattern at which the chain of links ends.
+    /// The id of the last gradient or pattern in the chain of references.
     Server(String),
     /// The picture of an `<image>`.
     Picture(usize),
@@ -115,19 +114,19 @@ pub enum PaintKey {
 /// A shape of the drawing.
 #[derive(Debug, Clone)]
 pub struct Shape {
-    /// Index of the innermost group it is in.
+    /// Index of the innermost group that contains it.
     pub group: usize,
-    /// Its element; for what a clone shows, the clone.
+    /// Its element; for the content of a clone, the clone.
     pub element: Element,
     /// Its filled area; empty for lines. Parts and solids share it.
     pub outline: Arc<Outline>,
-    /// Its fill, or its stroke where it has no fill.
+    /// Its fill, or its stroke if it has no fill.
     pub paint: Paint,
     /// Opacity of fill, element and groups together, 0 to 1.
     pub opacity: f64,
     /// Its stroke, if it has a visible one.
     pub stroke: Option<Arc<StrokeSource>>,
-    /// What a line leads from and to, if the shape is an unfilled open line.
+    /// The ends of the line, if the shape is an unfilled open line.
     pub line: Option<Box<Line>>,
     /// The file of an `<image>` whose pixels are read one by one: its outline is its whole rectangle, its paint has
     /// no colour of its own. Other pictures have none.
@@ -147,8 +146,8 @@ pub struct Line {
 /// outlines and textures would take longer to make than everything else about them.
 pub type PixelGroups<'a> = &'a (dyn Fn(&Drawing) -> Vec<bool> + Sync);
 
-/// Reads a drawing. `tolerance` is how far a flattened curve may lie off, as a share of its shape's
-/// larger extent; `pixel_groups` is called only if there are pictures.
+/// Reads a drawing. `tolerance` is how far a flattened curve may deviate, as a share of its shape's larger extent;
+/// `pixel_groups` is called only if there are pictures.
 ///
 /// Never fails: what cannot be read becomes a diagnostic, and the rest is in the drawing. Recurses as deep as the
 /// drawing is nested: the thread needs a stack of some 100 MiB, as [`crate::compile::compile`] gives it.
@@ -213,7 +212,7 @@ fn read_document(
     Ok(drawing)
 }
 
-/// What the XML parser says, at the byte of the original it says it of.
+/// The error of the XML parser, at the byte of the original that it is about.
 fn not_xml(error: &roxmltree::Error, prepared: &prepare::Prepared, source: &str) -> Diagnostic {
     let ended = matches!(
         error,
@@ -228,7 +227,7 @@ fn not_xml(error: &roxmltree::Error, prepared: &prepare::Prepared, source: &str)
     let column = prepared.text[start..]
         .char_indices()
         .nth(position.col.saturating_sub(1) as usize);
-    // The parser does not say where a file ends too early: at its end.
+    // For a file that ends too early the parser gives no position: it is the end.
     let at = match column {
         Some((offset, _)) if !ended => prepared.original(start + offset).min(source.len()),
         _ => source.trim_end().len(),

@@ -17,7 +17,7 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{FillRule, Outline, resolve_overlaps};
 use crate::resolver::Resolver;
 
-/// Joins what usvg and the XML know.
+/// Joins usvg's tree and the XML.
 pub(super) fn read(
     document: &roxmltree::Document<'_>,
     prepared: &Prepared,
@@ -35,7 +35,7 @@ pub(super) fn read(
         }
         false => None,
     };
-    // usvg works on one core; the texts, which it does not read, need only the XML.
+    // usvg uses one core; the texts, which it does not read, need only the XML.
     let (tree, (labels, by_id)) = rayon::join(
         || usvg::Tree::from_xmltree(document, &options(resolver, &broken_links)),
         || {
@@ -103,7 +103,7 @@ pub(super) fn read(
         })
         .collect();
     drop(tasks);
-    // Taking a large tree apart takes a tenth of the time of making it: nobody need wait for that.
+    // Dropping a large tree takes a tenth of the time of building it: nobody needs to wait for that.
     crate::threads::run_aside(move || drop(tree));
     let mut found = found.into_inner().unwrap_or_default();
     found.sort_by_key(|(index, _)| *index);
@@ -129,7 +129,7 @@ fn page_corner(document: &roxmltree::Document<'_>) -> DVec2 {
     })
 }
 
-/// What making a shape needs.
+/// The context in which shapes are made.
 pub(super) struct Context<'a, 'input> {
     pub(super) document: &'a roxmltree::Document<'input>,
     pub(super) styles: &'a Styles<'a>,
@@ -156,7 +156,7 @@ impl Context<'_, '_> {
         }
     }
 
-    /// Says that a clip leaves nothing of a fill.
+    /// Reports that a clip removes a fill completely.
     fn clipped_away(
         &self,
         shape: &Shape,
@@ -179,7 +179,7 @@ impl Context<'_, '_> {
         })
     }
 
-    /// The element that a shape stands for.
+    /// The element of a shape.
     fn element(&self, node: Node<'_, '_>) -> Element {
         let mut element = element(node, self.prepared);
         if element.tag == "use" {
