@@ -433,7 +433,7 @@ fn wild_sizes_do_no_harm() {
             r#"<path d="M0 0C1e9 0 1e9 1e9 0 1e9" fill="green" stroke="red"/>"#,
             r#"<path d="M0 0C1e9 0 1e9 1e9 0 1e9" fill="none" stroke="red"/><rect width="9" height="9" fill="green"/>"#,
         ] {
-            read_svg(&format!("<g>{shape}<text>A$TileSource {size}</text></g>"));
+            read_svg(&format!("<g>{shape}<text>A$Tiles {size}</text></g>"));
         }
     }
 }
