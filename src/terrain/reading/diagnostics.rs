@@ -228,7 +228,7 @@ pub(super) fn plain(drawing: &Drawing, paints: &Paints<'_>, list: &[usize]) -> V
     list.iter().filter_map(finding).collect()
 }
 
-/// TileSource that are off the grid.
+/// Warns about tiles that are off the grid.
 pub(super) fn off_grid(
     drawing: &Drawing,
     bindings: &Bindings,
