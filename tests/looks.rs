@@ -449,7 +449,7 @@ fn patterns_beyond_the_limits_are_reported() {
     };
     let leaf = r##"<pattern id="a" patternUnits="userSpaceOnUse" width="9" height="9"><rect width="4" height="4" fill="red"/></pattern>"##;
     for (defs, why) in [
-        (format!("{leaf}{}{}{}{}", nest("b", "a"), nest("c", "b"), nest("d", "c"), nest("paint", "d")), "too much"),
+        (format!("{leaf}{}{}{}{}", nest("b", "a"), nest("c", "b"), nest("d", "c"), nest("paint", "d")), "too complex"),
         (
             r##"<pattern id="a" patternUnits="userSpaceOnUse" width="1000000" height="1000000"><rect width="4" height="4" fill="red"/></pattern><pattern id="paint" patternUnits="userSpaceOnUse" width="9" height="9"><rect width="9" height="9" fill="url(#a)"/></pattern>"##.to_owned(),
             "too large",

@@ -2,8 +2,8 @@
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;
-use okoshi::motion::bvh::{Decimals, LARGEST, Reading, read_bytes, write};
-use okoshi::motion::lead::lead;
+use okoshi::motion::bvh::{Decimals, MAX_MAGNITUDE, Reading, read_bytes, write};
+use okoshi::motion::lead_in::find_lead_in;
 use okoshi::motion::resample::resample;
 use okoshi::motion::skeleton::Clip;
 
@@ -36,13 +36,15 @@ fuzz_target!(|text: &[u8]| {
 });
 
 fn sound(clip: &Clip) {
-    assert!(clip.values().iter().all(|value| value.abs() <= LARGEST));
+    assert!(clip.values().iter().all(|value| value.abs() <= MAX_MAGNITUDE));
     let mut written = Vec::new();
     write(clip, Decimals::All, &mut written).expect("all numbers are finite");
     let again = read_bytes(&written).expect("what was written is BVH").clip;
     assert_eq!(&again, clip);
     let arms = [[0, 1], [1, 2]];
-    assert!(lead(clip, &arms).frames <= clip.frames());
+    let joints = clip.skeleton.joints.len();
+    let lead_in = find_lead_in(&clip.positions(), joints, clip.frame_time, &arms);
+    assert!(lead_in.frames <= clip.frames());
     if clip.values().len() < WORKED_ON && clip.frames() as f64 * clip.frame_time < 60.0 {
         for fps in [5.0, 24.0, 100.0] {
             let clip = resample(clip.clone(), fps).expect("so few frames can be resampled");
