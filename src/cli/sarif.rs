@@ -348,7 +348,7 @@ mod tests {
               }
             ],
             "ruleId": "E101",
-            "ruleIndex": 7
+            "ruleIndex": 8
           }
         ]
     "#);

@@ -2,6 +2,7 @@
 
 mod incremental;
 
+use std::io;
 use std::sync::Arc;
 
 use crate::assemble::{self, Assembled};
@@ -68,7 +69,16 @@ impl Compiled {
 
     /// The result for a drawing that could not be compiled because of a panic.
     pub fn crashed(crash: &Crash) -> Self {
-        let diagnostic = Diagnostic::new(Code::Crash, Span::at(0), crash.to_string());
+        Self::failed(crash.to_string())
+    }
+
+    /// The result for a drawing that was compiled to a scene that cannot be written.
+    pub fn unwritten(error: &io::Error) -> Self {
+        Self::failed(format!("the model cannot be written: {error}"))
+    }
+
+    fn failed(message: String) -> Self {
+        let diagnostic = Diagnostic::new(Code::Crash, Span::at(0), message);
         Self {
             diagnostics: vec![diagnostic.help(crash::HELP)],
             ..Self::default()

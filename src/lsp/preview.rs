@@ -186,11 +186,15 @@ impl Previews {
 
     fn publish(&self, uri: &str, analysed: &Analysed, compiled: &Compiled, memory: &mut Memo) {
         let begun = SystemTime::now();
-        let made = || {
-            let model = export::to_memory(&GLB, &compiled.scene, Some(memory)).ok()?;
-            Some((model.bytes.into(), model.written.triangles))
+        let model = match compiled.has_errors() {
+            true => None,
+            false => match export::to_memory(&GLB, &compiled.scene, Some(memory)) {
+                Ok(model) => Some((model.bytes.into(), model.written.triangles)),
+                Err(error) => {
+                    return self.publish(uri, analysed, &Compiled::unwritten(&error), memory);
+                }
+            },
         };
-        let model = (!compiled.has_errors()).then(made).flatten();
         let path = analysed.document.path.as_deref();
         let name = path.and_then(|path| path.file_name());
         let name = name.map_or("untitled".into(), |name| name.to_string_lossy());
