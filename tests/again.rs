@@ -332,28 +332,28 @@ fn agree(drawing: &str, acts: &[Step]) -> Result<usize, TestCaseError> {
                 undo.push(std::mem::replace(&mut text, next));
             }
         }
-        let again = compiler.compile(&text, &options, &files);
-        let anew = compile(&text, &options, &files);
+        let incremental = compiler.compile(&text, &options, &files);
+        let fresh = compile(&text, &options, &files);
         partial += usize::from(compiler.last_was_partial());
         prop_assert_eq!(
-            described(&again),
-            described(&anew),
+            described(&incremental),
+            described(&fresh),
             "{:?} made {}",
             act,
             text
         );
-        prop_assert!(all(&again) == all(&anew), "{:?} made {}", act, text);
-        prop_assert!(again.scene == anew.scene, "{:?} made {}", act, text);
+        prop_assert!(all(&incremental) == all(&fresh), "{:?} made {}", act, text);
+        prop_assert!(incremental.scene == fresh.scene, "{:?} made {}", act, text);
         if step % 3 == 0 {
-            let written = written(&again, &mut surfaces);
-            prop_assert!(written == common::glb(&anew), "{:?} made {}", act, text);
+            let written = written(&incremental, &mut surfaces);
+            prop_assert!(written == common::glb(&fresh), "{:?} made {}", act, text);
         }
         // A result that is still held must not change; every other time it is dropped.
-        last = if undo.len() % 2 == 0 { again } else { anew };
+        last = if undo.len() % 2 == 0 { incremental } else { fresh };
     }
-    let anew = compile(&text, &options, &files);
-    let again = compiler.compile(&text, &options, &files);
-    prop_assert!(common::glb(&again) == common::glb(&anew), "{}", text);
+    let fresh = compile(&text, &options, &files);
+    let incremental = compiler.compile(&text, &options, &files);
+    prop_assert!(common::glb(&incremental) == common::glb(&fresh), "{}", text);
     Ok(partial)
 }
 
@@ -407,12 +407,12 @@ fn is_partial(drawing: &str, from: &str, to: &str) -> bool {
     assert!(drawing.contains(from), "{from}");
     let text = drawing.replacen(from, to, 1);
     let before = all(&first);
-    let again = compiler.compile(&text, &options, &files);
+    let incremental = compiler.compile(&text, &options, &files);
     assert_eq!(all(&first), before, "what was given away has changed");
-    let anew = compile(&text, &options, &files);
-    assert_eq!(described(&again), described(&anew), "{from} -> {to}");
+    let fresh = compile(&text, &options, &files);
+    assert_eq!(described(&incremental), described(&fresh), "{from} -> {to}");
     assert!(
-        all(&again) == all(&anew) && again.scene == anew.scene,
+        all(&incremental) == all(&fresh) && incremental.scene == fresh.scene,
         "{from} -> {to}"
     );
     compiler.last_was_partial()
@@ -526,8 +526,8 @@ fn only_solids_that_changed_are_made_again() {
     let mut surfaces = Memo::default();
     let mut made = |text: &str| {
         let compiled = compiler.compile(text, &Options::default(), &files);
-        let again = written(&compiled, &mut surfaces);
-        assert!(again == common::glb(&compile(text, &Options::default(), &files)));
+        let incremental = written(&compiled, &mut surfaces);
+        assert!(incremental == common::glb(&compile(text, &Options::default(), &files)));
         surfaces.last_misses()
     };
     assert_eq!(made(&text), 300);

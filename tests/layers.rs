@@ -1,4 +1,4 @@
-//! The rooms of `src` (its top-level modules) use only the rooms that docs/architecture.md lets them use.
+//! The top-level modules of `src` use only the modules that docs/architecture.md lets them use.
 //!
 //! The graph is read from the syntax: `use` trees and paths, macros and nested modules included, `#[cfg(test)]` left out.
 
@@ -10,7 +10,7 @@ use proc_macro2::{TokenStream, TokenTree};
 use syn::visit::{self, Visit};
 use syn::{Attribute, ImplItem, Item, UseTree};
 
-/// Each room, with exactly the rooms that it uses.
+/// Each module, with exactly the modules that it uses.
 const USES: &[(&str, &[&str])] = &[
     (
         "assemble",
@@ -199,7 +199,7 @@ const USES: &[(&str, &[&str])] = &[
     ("watch", &["compile", "disk", "export", "memo", "resolver"]),
 ];
 
-/// What only some rooms may use: a path or a macro, those rooms, and why.
+/// What only some modules may use: a path or a macro, those modules, and why.
 const ONLY_IN: &[(&str, &[&str], &str)] = &[
     ("std::fs", &["disk"], "only `disk` touches files"),
     ("tokio::fs", &["disk"], "only `disk` touches files"),
@@ -240,17 +240,17 @@ type Names = Vec<String>;
 
 /// A source file without its tests.
 struct SourceFile {
-    room: String,
+    module: String,
     path: PathBuf,
     /// The paths that it names, and its macros as `name!`.
     paths: BTreeSet<Names>,
 }
 
 impl SourceFile {
-    /// The rooms that it names.
-    fn rooms(&self) -> impl Iterator<Item = &str> {
+    /// The modules that it names.
+    fn modules(&self) -> impl Iterator<Item = &str> {
         self.paths.iter().filter_map(|path| match path.as_slice() {
-            [root, room, ..] if root == "crate" => Some(room.as_str()),
+            [root, module, ..] if root == "crate" => Some(module.as_str()),
             _ => None,
         })
     }
@@ -289,7 +289,7 @@ fn read_module(path: PathBuf, module: Names, sources: &mut Vec<SourceFile>) {
         stem => parent.join(stem),
     };
     sources.push(SourceFile {
-        room: module.first().cloned().unwrap_or(stem.into_owned()),
+        module: module.first().cloned().unwrap_or(stem.into_owned()),
         path,
         paths: reader.resolved(),
     });
@@ -504,17 +504,17 @@ impl<'ast> Visit<'ast> for Reader {
 
 type Graph = BTreeMap<String, BTreeSet<String>>;
 
-/// Each room with the other rooms that it uses, and for every such pair a file that shows it.
+/// Each module with the other modules that it uses, and for every such pair a file that shows it.
 fn graph(sources: &[SourceFile]) -> (Graph, BTreeMap<(String, String), String>) {
-    let rooms: BTreeSet<&str> = sources.iter().map(|source| source.room.as_str()).collect();
+    let modules: BTreeSet<&str> = sources.iter().map(|source| source.module.as_str()).collect();
     let mut graph = Graph::new();
     let mut shown = BTreeMap::new();
     for source in sources {
-        let uses = graph.entry(source.room.clone()).or_default();
-        for room in source.rooms() {
-            if rooms.contains(room) && room != source.room {
-                uses.insert(room.to_owned());
-                let edge = (source.room.clone(), room.to_owned());
+        let uses = graph.entry(source.module.clone()).or_default();
+        for module in source.modules() {
+            if modules.contains(module) && module != source.module {
+                uses.insert(module.to_owned());
+                let edge = (source.module.clone(), module.to_owned());
                 shown.insert(edge, source.path.display().to_string());
             }
         }
@@ -523,39 +523,39 @@ fn graph(sources: &[SourceFile]) -> (Graph, BTreeMap<(String, String), String>) 
 }
 
 #[test]
-fn rooms_use_exactly_what_the_list_says() {
+fn modules_use_exactly_what_the_list_says() {
     let (graph, shown) = graph(&sources());
     let listed: Graph = USES
         .iter()
-        .map(|(room, uses)| {
+        .map(|(module, uses)| {
             (
-                (*room).to_owned(),
-                uses.iter().map(|room| (*room).to_owned()).collect(),
+                (*module).to_owned(),
+                uses.iter().map(|module| (*module).to_owned()).collect(),
             )
         })
         .collect();
     let mut differences = Vec::new();
-    for (room, uses) in &graph {
-        let Some(allowed) = listed.get(room) else {
+    for (module, uses) in &graph {
+        let Some(allowed) = listed.get(module) else {
             differences.push(format!(
-                "`{room}` is new: it needs a row here and in docs/architecture.md"
+                "`{module}` is new: it needs a row here and in docs/architecture.md"
             ));
             continue;
         };
         for other in uses.difference(allowed) {
-            let path = &shown[&(room.clone(), other.clone())];
+            let path = &shown[&(module.clone(), other.clone())];
             differences.push(format!(
-                "{path} uses `{other}`, which `{room}` must not use"
+                "{path} uses `{other}`, which `{module}` must not use"
             ));
         }
         for other in allowed.difference(uses) {
             differences.push(format!(
-                "`{room}` no longer uses `{other}`: remove it from the list"
+                "`{module}` no longer uses `{other}`: remove it from the list"
             ));
         }
     }
-    for room in listed.keys().filter(|room| !graph.contains_key(*room)) {
-        differences.push(format!("`{room}` is gone: remove its row"));
+    for module in listed.keys().filter(|module| !graph.contains_key(*module)) {
+        differences.push(format!("`{module}` is gone: remove its row"));
     }
     assert!(
         differences.is_empty(),
@@ -564,13 +564,13 @@ fn rooms_use_exactly_what_the_list_says() {
     );
 }
 
-/// The rooms of a dependency cycle; none if there is no cycle.
+/// The modules of a dependency cycle; none if there is no cycle.
 fn cycle(mut graph: Graph) -> Vec<String> {
-    // Remove the rooms that use none of the rest until every room uses another.
+    // Remove the modules that use none of the rest until every module uses another.
     loop {
         let rest: BTreeSet<String> = graph.keys().cloned().collect();
         graph.retain(|_, uses| {
-            uses.retain(|room| rest.contains(room));
+            uses.retain(|module| rest.contains(module));
             !uses.is_empty()
         });
         if graph.len() == rest.len() {
@@ -579,8 +579,8 @@ fn cycle(mut graph: Graph) -> Vec<String> {
     }
     let mut walk: Vec<String> = graph.keys().take(1).cloned().collect();
     while let Some(last) = walk.last() {
-        let next = graph[last].first().expect("every room uses another");
-        if let Some(start) = walk.iter().position(|room| room == next) {
+        let next = graph[last].first().expect("every module uses another");
+        if let Some(start) = walk.iter().position(|module| module == next) {
             return walk.split_off(start);
         }
         walk.push(next.clone());
@@ -589,7 +589,7 @@ fn cycle(mut graph: Graph) -> Vec<String> {
 }
 
 #[test]
-fn no_rooms_use_each_other_in_a_cycle() {
+fn no_modules_use_each_other_in_a_cycle() {
     let (graph, _) = graph(&sources());
     assert_eq!(cycle(graph), [] as [String; 0]);
 }
@@ -616,13 +616,13 @@ fn cycles_are_found() {
 #[test]
 fn only_the_rim_touches_the_world() {
     for source in sources() {
-        for (only, rooms, why) in ONLY_IN {
+        for (only, modules, why) in ONLY_IN {
             let only: Vec<&str> = only.split("::").collect();
             let begins = |path: &Names| {
                 path.len() >= only.len() && path.iter().zip(&only).all(|(a, b)| a == b)
             };
             let touches = source.paths.iter().any(begins);
-            let allowed = rooms.contains(&source.room.as_str());
+            let allowed = modules.contains(&source.module.as_str());
             let path = source.path.display();
             assert!(
                 allowed || !touches,
@@ -634,14 +634,14 @@ fn only_the_rim_touches_the_world() {
 }
 
 #[test]
-fn the_map_names_every_room() {
+fn the_map_names_every_module() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/architecture.md");
     let map = fs::read_to_string(path).expect("docs/architecture.md");
-    for (room, _) in USES {
-        let on_map = map.contains(&format!("| `{room}` |"));
+    for (module, _) in USES {
+        let on_map = map.contains(&format!("| `{module}` |"));
         assert!(
-            on_map || matches!(*room, "lib" | "main"),
-            "docs/architecture.md lacks `{room}`"
+            on_map || matches!(*module, "lib" | "main"),
+            "docs/architecture.md lacks `{module}`"
         );
     }
 }
@@ -665,12 +665,12 @@ fn paths_are_read_from_all_places() {
     };
     reader.visit_file(&file);
     let source = SourceFile {
-        room: "here".to_owned(),
+        module: "here".to_owned(),
         path: PathBuf::new(),
         paths: reader.resolved(),
     };
-    let rooms: BTreeSet<&str> = source.rooms().collect();
-    assert_eq!(rooms, ["a", "b", "e", "g", "i", "l"].into());
+    let modules: BTreeSet<&str> = source.modules().collect();
+    assert_eq!(modules, ["a", "b", "e", "g", "i", "l"].into());
     let text: Vec<String> = source.paths.iter().map(|path| path.join("::")).collect();
     for path in ["crate::b::c", "std::time::Instant", "println!"] {
         assert!(text.contains(&path.to_owned()), "{text:?} lacks {path}");

@@ -1,6 +1,6 @@
 //! The scene of a drawing: what the systems (figures, landscapes, motion on figures) make, put together.
 //!
-//! Invariant: this is the only room that knows more than one system. Each gets plain data of the others: rest frames of parts, the
+//! Invariant: this is the only module that knows more than one system. Each gets plain data of the others: rest frames of parts, the
 //! node of each part, materials, the world transform.
 
 mod materials;

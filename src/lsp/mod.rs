@@ -8,7 +8,7 @@
 //!                        Links ────┘           (linked files that change)
 //! ```
 //!
-//! Only this room names the protocol's types; what is said about drawings comes from [`crate::ide`]. The framework is
+//! Only this module names the protocol's types; what is said about drawings comes from [`crate::ide`]. The framework is
 //! tower-lsp, in its maintained continuation `tower-lsp-server` under the old name: the original has had no release
 //! since 2023 and depends on an unmaintained crate of types. What it leaves open, the order of changes and panics of handlers, is
 //! handled by the service in `ordered`.

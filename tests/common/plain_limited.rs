@@ -1,5 +1,5 @@
-//! Limited animation as it is defined, written plainly: all speeds are computed anew in each step. What the fast code is
-//! measured by.
+//! Limited animation as it is defined, in its simplest form: all speeds are computed from scratch in each step. The fast code is
+//! compared with it.
 
 use glam::DVec3;
 
