@@ -349,7 +349,11 @@ fn agree(drawing: &str, acts: &[Step]) -> Result<usize, TestCaseError> {
             prop_assert!(written == common::glb(&fresh), "{:?} made {}", act, text);
         }
         // A result that is still held must not change; every other time it is dropped.
-        last = if undo.len() % 2 == 0 { incremental } else { fresh };
+        last = if undo.len() % 2 == 0 {
+            incremental
+        } else {
+            fresh
+        };
     }
     let fresh = compile(&text, &options, &files);
     let incremental = compiler.compile(&text, &options, &files);

@@ -506,7 +506,10 @@ type Graph = BTreeMap<String, BTreeSet<String>>;
 
 /// Each module with the other modules that it uses, and for every such pair a file that shows it.
 fn graph(sources: &[SourceFile]) -> (Graph, BTreeMap<(String, String), String>) {
-    let modules: BTreeSet<&str> = sources.iter().map(|source| source.module.as_str()).collect();
+    let modules: BTreeSet<&str> = sources
+        .iter()
+        .map(|source| source.module.as_str())
+        .collect();
     let mut graph = Graph::new();
     let mut shown = BTreeMap::new();
     for source in sources {
