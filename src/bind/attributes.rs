@@ -336,7 +336,7 @@ impl<'a> Attributes<'a> {
         let [r, g, b] = color.rgb;
         let opacity = color.alpha.unwrap_or(opacity);
         let emissive = self.get(Keyword::Emissive, |value| match value {
-            Value::Rgb(rgb) => Some(*rgb),
+            Value::Triple(rgb) => Some(*rgb),
             _ => None,
         });
         MaterialFactors {

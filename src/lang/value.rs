@@ -31,15 +31,15 @@ pub enum Value {
     Shape(Shape),
     /// `Origin`
     Origin(Origin),
-    /// `Emissive`, straight sRGB, each 0 to 1.
-    Rgb([f64; 3]),
-    /// One number: `Offset Axis Segments Smooth Metallic Roughness Alpha Depth Tiles Bevel Roof Scale Size Walk Pose`
+    /// One number, such as `Offset`.
     Number(f64),
-    /// Two numbers: `View Stand Limited`
+    /// Two numbers, such as `Limited`.
     Pair([f64; 2]),
-    /// One word or file: `Texture Tile Bind Strokes Perform Mark`
+    /// Three numbers, such as `Emissive`.
+    Triple([f64; 3]),
+    /// One word, file or text, such as `Texture`.
     Word(String),
-    /// Several names: `Bone Follow`
+    /// One or more names, such as `Bone`.
     Names(Vec<String>),
     /// `Axes`: the signed world axes that the drawing's right, its up and the viewer's direction become.
     Axes([SignedAxis; 3]),
@@ -54,7 +54,7 @@ pub enum Value {
     },
     /// `Let`: name and value.
     Let(String, f64),
-    /// No arguments: `Backing Hidden`
+    /// No arguments, such as `Hidden`.
     Flag,
 }
 

@@ -1,8 +1,11 @@
+use std::mem::discriminant;
+
 use glam::{DVec2, DVec3, Vec3};
 
 use super::check::{closed, volume};
 use super::*;
 use crate::geometry::{FillRule, Ring, bounds, resolve_overlaps};
+use crate::lang::keyword::kinds::KINDS;
 
 pub(super) fn options(segments: u32) -> Options {
     Options {
@@ -282,7 +285,7 @@ fn every_kind_on_awkward_outlines() {
     }
 }
 
-/// All kinds, plates with these numbers.
+/// All closed kinds, plates with these numbers. Those that are not listed here have the numbers of the language's table.
 pub(super) fn kinds_with(plate: &[f64]) -> Vec<Profile> {
     let mut kinds = vec![
         profile("default", plate),
@@ -318,6 +321,15 @@ pub(super) fn kinds_with(plate: &[f64]) -> Vec<Profile> {
             profile("conev", &cone),
             profile("coneh", &cone),
         ]);
+    }
+    // A linked model is only a plate here.
+    for kind in KINDS.iter().filter(|kind| kind.name != "model") {
+        let profile = Profile::new(kind.name, kind.numbers, 1.0);
+        let new = profile.filter(|new| {
+            let is_new = |known: &Profile| discriminant(known) != discriminant(new);
+            !new.is_open() && kinds.iter().all(is_new)
+        });
+        kinds.extend(new);
     }
     kinds
 }

@@ -270,6 +270,7 @@ impl Checker<'_> {
     }
 }
 
+/// The value of an attribute. Only keywords whose value is more than their arguments have a row here.
 fn value_of(keyword: Keyword, values: &[ArgumentValue]) -> Option<Value> {
     let number = |index: usize| match values.get(index) {
         Some(ArgumentValue::Number(value)) => Some(*value),
@@ -303,39 +304,10 @@ fn value_of(keyword: Keyword, values: &[ArgumentValue]) -> Option<Value> {
             ArgumentValue::Word(_) => Ground::Page,
             _ => Ground::Point(pair()?),
         }),
-        Keyword::Emissive => Value::Rgb([number(0)?, number(1)?, number(2)?]),
-        Keyword::Offset
-        | Keyword::Axis
-        | Keyword::Segments
-        | Keyword::Smooth
-        | Keyword::Metallic
-        | Keyword::Roughness
-        | Keyword::Alpha
-        | Keyword::Depth
-        | Keyword::Tiles
-        | Keyword::Bevel
-        | Keyword::Roof
-        | Keyword::Scale
-        | Keyword::Size
-        | Keyword::Walk
-        | Keyword::Pose => Value::Number(number(0)?),
-        Keyword::View | Keyword::Stand | Keyword::Limited => Value::Pair(pair()?),
-        Keyword::Texture | Keyword::Tile | Keyword::Bind | Keyword::Strokes | Keyword::Perform => {
-            Value::Word(word(0)?)
-        }
         Keyword::Mark => match values.first()? {
             ArgumentValue::Colour(_, written) => Value::Word(written.clone()),
             _ => return None,
         },
-        Keyword::Bone | Keyword::Follow => Value::Names(
-            values
-                .iter()
-                .filter_map(|value| match value {
-                    ArgumentValue::Name(name) => Some(name.clone()),
-                    _ => None,
-                })
-                .collect(),
-        ),
         Keyword::Axes => Value::Axes([
             signed_axis(&word(0)?)?,
             signed_axis(&word(1)?)?,
@@ -346,7 +318,31 @@ fn value_of(keyword: Keyword, values: &[ArgumentValue]) -> Option<Value> {
             file: word(0)?,
             clip: word(1),
         },
-        Keyword::Backing | Keyword::Hidden => Value::Flag,
+        _ => return plain_value(values),
+    })
+}
+
+/// The value of a keyword that gives its arguments no meaning of their own.
+fn plain_value(values: &[ArgumentValue]) -> Option<Value> {
+    Some(match values {
+        [] => Value::Flag,
+        [ArgumentValue::Number(value)] => Value::Number(*value),
+        [ArgumentValue::Number(a), ArgumentValue::Number(b)] => Value::Pair([*a, *b]),
+        [
+            ArgumentValue::Number(a),
+            ArgumentValue::Number(b),
+            ArgumentValue::Number(c),
+        ] => Value::Triple([*a, *b, *c]),
+        [ArgumentValue::Word(word) | ArgumentValue::Text(word)] => Value::Word(word.clone()),
+        _ => Value::Names(
+            values
+                .iter()
+                .map(|value| match value {
+                    ArgumentValue::Name(name) => Some(name.clone()),
+                    _ => None,
+                })
+                .collect::<Option<_>>()?,
+        ),
     })
 }
 
