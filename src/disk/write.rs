@@ -4,17 +4,10 @@
 //! links, and can be a device or a pipe, which crates for atomic writes do not cover.
 
 use std::fs::{self, File, Permissions};
-use std::io::{self, BufWriter, Seek, Write};
+use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::{SpooledData, SpooledTempFile};
-
-use crate::export::{InMemory, Output};
-
-/// The size of the write buffer in bytes; larger pieces, as in models, bypass it.
-const BUFFER: usize = 16 << 10;
-/// How much of the data that is set aside stays in memory, in bytes.
-const MAX_ASIDE_IN_MEMORY: usize = 1 << 20;
+use crate::export::{Output, SeekableOutput};
 
 /// Why an output cannot be written. Each message names the file and says how to fix it.
 #[derive(Debug, thiserror::Error)]
@@ -86,16 +79,10 @@ pub fn write_atomic<T>(
 
     let mut temporary =
         temporary_beside(&target).map_err(|error| folder_failure(&target, path, error))?;
-    // The data that is set aside is in the same folder, so that some file systems can append it without copying.
-    let aside = SpooledTempFile::new_in(MAX_ASIDE_IN_MEMORY, folder_of(&target));
-    let mut out = FileOutput {
-        out: BufWriter::with_capacity(BUFFER, temporary.as_file_mut()),
-        aside,
-    };
+    let mut out = SeekableOutput::new(temporary.as_file_mut());
     let answer = fill(&mut out)
-        .and_then(|answer| out.flush().map(|()| answer))
+        .and_then(|answer| out.finish().map(|_| answer))
         .map_err(failed)?;
-    drop(out);
     if let Some(permissions) = existing {
         temporary
             .as_file()
@@ -150,49 +137,11 @@ fn fill_stream<T>(
     mut out: impl Write,
     fill: impl FnOnce(&mut dyn Output) -> io::Result<T>,
 ) -> io::Result<T> {
-    let mut content = InMemory::default();
+    let mut content = SeekableOutput::new(Cursor::new(Vec::new()));
     let answer = fill(&mut content)?;
-    out.write_all(&content.bytes)?;
+    out.write_all(content.finish()?.get_ref())?;
     out.flush()?;
     Ok(answer)
-}
-
-/// A file, and the data that was set aside for it.
-struct FileOutput<'a> {
-    out: BufWriter<&'a mut File>,
-    aside: SpooledTempFile,
-}
-
-impl Write for FileOutput<'_> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.out.write(bytes)
-    }
-
-    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.out.write_all(bytes)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.out.flush()
-    }
-}
-
-impl Output for FileOutput<'_> {
-    fn set_aside(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.aside.write_all(bytes)
-    }
-
-    fn append_set_aside(&mut self) -> io::Result<()> {
-        let empty = SpooledTempFile::new(MAX_ASIDE_IN_MEMORY);
-        match std::mem::replace(&mut self.aside, empty).into_inner() {
-            SpooledData::InMemory(data) => self.out.write_all(data.get_ref()),
-            SpooledData::OnDisk(mut file) => {
-                file.rewind()?;
-                // The system can copy between files without reading them into the process.
-                io::copy(&mut file, &mut self.out).map(|_| ())
-            }
-        }
-    }
 }
 
 fn temporary_beside(target: &Path) -> io::Result<tempfile::NamedTempFile> {
@@ -285,27 +234,59 @@ mod tests {
         assert_eq!(names(folder.path()), ["a.glb"]);
     }
 
-    #[test]
-    fn data_that_is_set_aside_is_written_when_its_place_is_reached() {
+    /// Writes `data` behind a head of at least `length` bytes for which `estimate` bytes are reserved, to a file and to a
+    /// stream, and returns the length that the head has.
+    fn written_head(estimate: u64, length: u64, data: &[u8]) -> u64 {
+        let fill = |out: &mut dyn Output| {
+            out.reserve_head(estimate);
+            let mut pieces = data.chunks(100_000);
+            pieces.try_for_each(|piece| out.write_all(piece))?;
+            let head = out.start_head(length)?;
+            out.write_all(&vec![b'h'; head as usize])?;
+            Ok(head)
+        };
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.glb");
-        let data = vec![7; MAX_ASIDE_IN_MEMORY / 2 + 1];
-        // The second part does not fit into memory.
-        for parts in 0..3 {
-            let fill = |out: &mut dyn Output| {
-                (0..parts).try_for_each(|_| out.set_aside(&data))?;
-                out.write_all(b"head")?;
-                out.append_set_aside()?;
-                out.write_all(b"tail")
-            };
-            write_atomic(&path, fill).unwrap();
-            let mut memory = InMemory::default();
-            fill(&mut memory).unwrap();
-            let expected = [b"head", &data.repeat(parts)[..], b"tail"].concat();
-            assert!(fs::read(&path).unwrap() == expected);
-            assert!(memory.bytes == expected);
-        }
+        let head = write_atomic(&path, fill).unwrap();
+        let expected = [&vec![b'h'; head as usize], data].concat();
+        assert!(fs::read(&path).unwrap() == expected);
         assert_eq!(names(folder.path()), ["a.glb"]);
+
+        let mut stream = Vec::new();
+        assert_eq!(fill_stream(&mut stream, fill).unwrap(), head);
+        assert!(stream == expected, "a stream gets the bytes of a file");
+        head
+    }
+
+    /// More data than stays in memory, in blocks that differ.
+    fn much_data() -> Vec<u8> {
+        (0..700_000_u32).flat_map(u32::to_le_bytes).collect()
+    }
+
+    #[test]
+    fn a_head_that_fits_takes_the_reserved_space() {
+        let data = much_data();
+        for (estimate, length) in [(1000, 1000), (1000, 1), (1000, 0), (0, 0)] {
+            assert_eq!(written_head(estimate, length, &data), estimate);
+        }
+    }
+
+    #[test]
+    fn data_gives_way_to_a_head_that_does_not_fit() {
+        let data = much_data();
+        for (estimate, length) in [(0, 1), (1000, 1001), (5, 70_000), (10, 5_000_000)] {
+            assert_eq!(written_head(estimate, length, &data), length);
+        }
+    }
+
+    #[test]
+    fn the_head_of_little_data_has_its_own_length() {
+        let data = &much_data()[..1 << 20];
+        for data in [&data[..0], &data[..10], data] {
+            for (estimate, length) in [(1000, 10), (10, 1000), (0, 0)] {
+                assert_eq!(written_head(estimate, length, data), length);
+            }
+        }
     }
 
     #[test]

@@ -20,7 +20,7 @@ use crate::threads;
 
 pub use gltf::{GLB, GLTF, ROOT, SKINNED, VIEW_DEPENDENT};
 pub use obj::OBJ;
-pub use output::{InMemory, Output};
+pub use output::{Output, SeekableOutput};
 
 /// All formats, in the order in which messages list them.
 pub const EXPORTERS: &[&dyn Exporter] = &[&GLB, &GLTF, &OBJ];
@@ -81,7 +81,7 @@ pub fn extensions(wanted: impl Fn(&dyn Exporter) -> bool) -> String {
     }
 }
 
-/// Writes `scene` at the end of `out`. Surfaces that `memo` holds are not made again; afterwards it holds those of `scene`
+/// Writes `scene` to `out`, which is empty. Surfaces that `memo` holds are not made again; afterwards it holds those of `scene`
 /// and no others.
 ///
 /// Primitives without triangles are left out, and meshes without primitives.
@@ -117,10 +117,10 @@ pub fn to_memory(
     scene: &Scene,
     memo: Option<&mut Memo>,
 ) -> io::Result<Model> {
-    let mut out = InMemory::default();
+    let mut out = SeekableOutput::new(io::Cursor::new(Vec::new()));
     let written = write(exporter, scene, &mut out, memo)?;
     Ok(Model {
-        bytes: out.bytes,
+        bytes: out.finish()?.into_inner(),
         written,
     })
 }

@@ -1,55 +1,101 @@
 //! Where exporters write.
 
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
+use std::mem;
 
-/// A file that is written from front to back. Data that is known before what precedes it is set aside until then: a GLB
-/// begins with the description of its data, whose offsets and bounds are known only when all of it has been made.
+/// The size of the write buffer in bytes; larger pieces, as in models, bypass it.
+const BUFFER: usize = 16 << 10;
+/// How much data waits in memory for its head, in bytes. A head with less data is never padded.
+const MAX_IN_MEMORY: usize = 1 << 20;
+
+/// A file that is written from front to back, or data first if its head is known only after the data: a GLB begins with
+/// the JSON that describes its data.
 pub trait Output: Write + Send {
-    /// Appends to the data that is set aside.
+    /// Leaves space for a head at the start of the file, which is still empty; the data is written next. The estimate of
+    /// the head's length in bytes can be wrong, but data behind a head that is longer has to be moved.
+    fn reserve_head(&mut self, estimate: u64);
+
+    /// Ends the data; the head is written last. Returns how long it must be: `length`, or more if more was reserved.
     ///
     /// # Errors
-    /// Those of a temporary file.
-    fn set_aside(&mut self, bytes: &[u8]) -> io::Result<()>;
+    /// Those of the file.
+    fn start_head(&mut self, length: u64) -> io::Result<u64>;
+}
 
-    /// Writes all data that was set aside.
+/// An output to a file. In memory the file is a [`Cursor`](io::Cursor).
+#[derive(Debug)]
+pub struct SeekableOutput<F: Write> {
+    out: BufWriter<F>,
+    /// The length of the reserved space.
+    reserved: u64,
+    /// The data, while there is little of it.
+    data: Vec<u8>,
+    /// Whether `data` takes what is written.
+    in_memory: bool,
+}
+
+impl<F: Write> SeekableOutput<F> {
+    /// Writes to an empty file.
+    pub fn new(file: F) -> Self {
+        Self {
+            out: BufWriter::with_capacity(BUFFER, file),
+            reserved: 0,
+            data: Vec::new(),
+            in_memory: false,
+        }
+    }
+
+    /// Writes what is still in memory, and returns the file.
     ///
     /// # Errors
-    /// Those of writing, and of a temporary file.
-    fn append_set_aside(&mut self) -> io::Result<()>;
+    /// Those of the file.
+    pub fn finish(mut self) -> io::Result<F> {
+        self.out.write_all(&self.data)?;
+        Ok(self.out.into_inner()?)
+    }
 }
 
-/// An output in memory.
-#[derive(Debug, Clone, Default)]
-pub struct InMemory {
-    /// What has been written.
-    pub bytes: Vec<u8>,
-    aside: Vec<u8>,
-}
-
-impl Write for InMemory {
+impl<F: Write + Seek> Write for SeekableOutput<F> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.bytes.write(bytes)
+        if self.in_memory {
+            if self.data.len() + bytes.len() <= MAX_IN_MEMORY {
+                return self.data.write(bytes);
+            }
+            self.in_memory = false;
+            self.out.seek(SeekFrom::Start(self.reserved))?;
+            self.out.write_all(&mem::take(&mut self.data))?;
+        }
+        self.out.write(bytes)
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        Ok(())
+        self.out.flush()
     }
 }
 
-impl Output for InMemory {
-    fn set_aside(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.aside.write_all(bytes)
+impl<F: Read + Write + Seek + Send> Output for SeekableOutput<F> {
+    fn reserve_head(&mut self, estimate: u64) {
+        self.reserved = estimate;
+        self.in_memory = true;
     }
 
-    fn append_set_aside(&mut self) -> io::Result<()> {
-        let mut aside = std::mem::take(&mut self.aside);
-        // The longer part stays in place, so that a large model is in memory once.
-        if aside.len() > self.bytes.len() {
-            aside.splice(0..0, self.bytes.drain(..));
-            self.bytes = aside;
-        } else {
-            self.bytes.append(&mut aside);
+    fn start_head(&mut self, length: u64) -> io::Result<u64> {
+        if mem::take(&mut self.in_memory) {
+            return Ok(length);
         }
-        Ok(())
+        if length > self.reserved {
+            // The last block is moved first, so that none is overwritten before it is read.
+            let mut end = self.out.seek(SeekFrom::End(0))?;
+            while end > self.reserved {
+                let mut block = vec![0; MAX_IN_MEMORY.min((end - self.reserved) as usize)];
+                end = self.out.seek(SeekFrom::Start(end - block.len() as u64))?;
+                self.out.get_mut().read_exact(&mut block)?;
+                self.out
+                    .seek(SeekFrom::Start(end + length - self.reserved))?;
+                self.out.write_all(&block)?;
+            }
+        }
+        self.out.rewind()?;
+        Ok(length.max(self.reserved))
     }
 }

@@ -123,6 +123,19 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
     Ok(json)
 }
 
+/// About how many bytes the JSON takes, more often too many than too few.
+pub(super) fn estimate_length(scene: &Scene) -> u64 {
+    let node = |node: &scene::Node| {
+        let texts = node.provenance.iter().flat_map(|p| [&p.element, &p.string]);
+        let texts = texts.flatten().map(|text| 30 + text.len());
+        160 + 2 * node.name.len() + texts.sum::<usize>() // The name is the mesh's too.
+    };
+    let nodes: usize = scene.nodes.iter().map(node).sum();
+    let primitives = scene.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let tracks = scene.animations.iter().flat_map(|a| &a.tracks);
+    (4096 + nodes + 520 * primitives.count() + 400 * tracks.count()) as u64
+}
+
 /// The extensions that the scene uses.
 fn extensions(scene: &Scene) -> Vec<String> {
     let mut nodes = scene.nodes.iter();

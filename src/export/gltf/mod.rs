@@ -13,10 +13,10 @@ mod primitives;
 #[cfg(test)]
 mod tests;
 
-use std::io;
+use std::io::{self, Read as _, Write as _};
 
-use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD as BASE64;
+use base64::write::EncoderWriter;
 
 use super::{Exporter, Output, Written, invalid};
 use crate::memo::Memo;
@@ -60,42 +60,39 @@ impl Exporter for Glb {
     }
 
     fn write(&self, scene: &Scene, out: &mut dyn Output, memo: &Memo) -> io::Result<Written> {
-        let packed = Packed::new(scene, memo, &mut |bytes| out.set_aside(bytes))?;
+        const FILE_HEADER: u64 = 12;
+        const CHUNK_HEADER: u64 = 8;
+        out.reserve_head(document::estimate_length(scene).next_multiple_of(4));
+        let packed = Packed::new(scene, memo, &mut |bytes| out.write_all(bytes))?;
         let mut json = document::describe(scene, &packed)?;
-        let length = packed.layout.length;
-        if length > 0 {
-            json.push(format!(r#","buffers":[{{"byteLength":{length}}}]"#));
+        let data = packed.layout.length;
+        let mut headers = FILE_HEADER + CHUNK_HEADER;
+        if data > 0 {
+            json.push(format!(r#","buffers":[{{"byteLength":{data}}}]"#));
+            headers += CHUNK_HEADER;
         }
         json.push("}");
         // Chunks begin at multiples of four.
-        json.push(&"   "[..(json.len().next_multiple_of(4) - json.len()) as usize]);
-        write_headers(out, json.len(), length)?;
+        let head = out.start_head((headers + json.len()).next_multiple_of(4))?;
+        let total = head + data;
+        let total = u32::try_from(total).map_err(|_| {
+            invalid(format!(
+                "the model takes {total} bytes, but a .glb file ends at 4 GiB; write .gltf instead"
+            ))
+        })?;
+        out.write_all(b"glTF")?;
+        out.write_all(&2_u32.to_le_bytes())?;
+        out.write_all(&total.to_le_bytes())?;
+        out.write_all(&((head - headers) as u32).to_le_bytes())?;
+        out.write_all(b"JSON")?;
         json.write_to(out)?;
-        if length > 0 {
-            out.write_all(&(length as u32).to_le_bytes())?;
+        io::copy(&mut io::repeat(b' ').take(head - headers - json.len()), out)?;
+        if data > 0 {
+            out.write_all(&(data as u32).to_le_bytes())?;
             out.write_all(b"BIN\0")?;
-            out.append_set_aside()?;
         }
         Ok(packed.written())
     }
-}
-
-/// The header of the file and that of its JSON chunk.
-fn write_headers(out: &mut dyn Output, json: u64, data: u64) -> io::Result<()> {
-    const FILE_HEADER: u64 = 12;
-    const CHUNK_HEADER: u64 = 8;
-    let data = if data == 0 { 0 } else { CHUNK_HEADER + data };
-    let total = FILE_HEADER + CHUNK_HEADER + json + data;
-    let total = u32::try_from(total).map_err(|_| {
-        invalid(format!(
-            "the model takes {total} bytes, but a .glb file ends at 4 GiB; write .gltf instead"
-        ))
-    })?;
-    out.write_all(b"glTF")?;
-    out.write_all(&2_u32.to_le_bytes())?;
-    out.write_all(&total.to_le_bytes())?;
-    out.write_all(&(json as u32).to_le_bytes())?;
-    out.write_all(b"JSON")
 }
 
 impl Exporter for Gltf {
@@ -112,29 +109,26 @@ impl Exporter for Gltf {
     }
 
     fn write(&self, scene: &Scene, out: &mut dyn Output, memo: &Memo) -> io::Result<Written> {
-        // Base64 holds three bytes in four characters, so pieces of any other length wait for the rest.
-        let mut rest = Vec::new();
-        let packed = Packed::new(scene, memo, &mut |bytes| {
-            rest.extend_from_slice(bytes);
-            let whole = rest.len() / 3 * 3;
-            out.set_aside(BASE64.encode(&rest[..whole]).as_bytes())?;
-            rest.drain(..whole);
-            Ok(())
-        })?;
-        out.set_aside(BASE64.encode(&rest).as_bytes())?;
-        let mut json = document::describe(scene, &packed)?;
+        out.reserve_head(document::estimate_length(scene));
+        let mut base64 = EncoderWriter::new(&mut *out, &BASE64);
+        let packed = Packed::new(scene, memo, &mut |bytes| base64.write_all(bytes))?;
+        base64.finish()?;
+        drop(base64);
+        let json = document::describe(scene, &packed)?;
         let length = packed.layout.length;
-        if length == 0 {
-            json.push("}");
-            json.write_to(out)?;
-        } else {
-            json.push(format!(
-                r#","buffers":[{{"byteLength":{length},"uri":"data:application/octet-stream;base64,"#
-            ));
-            json.write_to(out)?;
-            out.append_set_aside()?;
-            out.write_all(br#""}]}"#)?;
-        }
+        let buffers = format!(
+            r#","buffers":[{{"byteLength":{length},"uri":"data:application/octet-stream;base64,"#
+        );
+        let (buffers, end) = match length {
+            0 => ("", "}"),
+            _ => (&*buffers, r#""}]}"#),
+        };
+        out.write_all(end.as_bytes())?;
+        let length = json.len() + buffers.len() as u64;
+        let head = out.start_head(length)?;
+        json.write_to(out)?;
+        io::copy(&mut io::repeat(b' ').take(head - length), out)?;
+        out.write_all(buffers.as_bytes())?;
         Ok(packed.written())
     }
 }

@@ -5,7 +5,7 @@ use proptest::prelude::*;
 use serde_json::json;
 
 use super::*;
-use crate::export::{self, InMemory};
+use crate::export::{self, SeekableOutput};
 use crate::scene::{
     AlphaMode, Filter, Image, Material, MediaType, Mesh, Node, Piece, Primitive, Provenance,
     Surface, Texture, TextureUse, ViewDependent, Wrap,
@@ -340,10 +340,10 @@ fn a_broken_scene_is_refused_before_a_byte_is_written() {
         } = textured::scene(strip(3), 16);
         (scene.textures, scene.images) = (textures, images);
         break_it(&mut scene);
-        let mut out = InMemory::default();
+        let mut out = SeekableOutput::new(io::Cursor::new(Vec::new()));
         let error = export::write(&GLB, &scene, &mut out, None).unwrap_err();
         assert_eq!(error.kind(), io::ErrorKind::InvalidInput);
-        assert!(out.bytes.is_empty(), "{error}");
+        assert!(out.finish().unwrap().get_ref().is_empty(), "{error}");
     }
 }
 
@@ -364,6 +364,8 @@ fn a_large_model_is_written_in_windows() {
     }
     let bytes = bytes(&scene, &GLB);
     assert!(bytes.len() > 100 << 20);
+    let (blanks, length) = json_padding(&bytes);
+    assert!((4..length / 2).contains(&blanks), "{blanks} of {length}");
     let (document, buffers) = read(&bytes);
     assert_eq!(document.meshes().count(), count);
     for mesh in document.meshes().step_by(997) {
@@ -378,13 +380,14 @@ fn a_large_model_is_written_in_windows() {
 #[test]
 fn long_numbers_and_names_are_written_without_gaps() {
     const PARTS: usize = 3000;
+    const CORNERS: u32 = 12;
     let longest = -1.234_567_8e-5_f32;
     assert_eq!(serde_json::to_string(&longest).unwrap().len(), 15);
-    let mut surface = strip(4);
+    let mut surface = strip(CORNERS);
     surface.positions.iter_mut().for_each(|p| *p = [longest; 3]);
-    surface.uvs = vec![[0.5; 2]; 4];
+    surface.uvs = vec![[0.5; 2]; CORNERS as usize];
     let node = |part: usize| Node {
-        name: "\u{1}\"\\".repeat(20),
+        name: "\u{1}\"\\".repeat(60),
         children: if part + 1 < PARTS {
             vec![part + 1]
         } else {
@@ -418,13 +421,35 @@ fn long_numbers_and_names_are_written_without_gaps() {
     let bytes = bytes(&scene, &GLB);
     assert!(bytes.len() > 4 << 20);
     assert_eq!(json(&bytes)["nodes"].as_array().unwrap().len(), PARTS + 1);
-    let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
-    let blanks = bytes[20..20 + length]
-        .iter()
-        .rev()
-        .take_while(|byte| **byte == b' ')
-        .count();
+    // The estimate does not count the escaped characters, so the data had to be moved.
+    let (blanks, length) = json_padding(&bytes);
     assert!(blanks < 4, "{blanks} of {length} bytes are blank");
+    let (document, buffers) = read(&bytes);
+    assert!(buffers[0].len() > 1 << 20);
+    for mesh in document.meshes().step_by(97) {
+        let primitive = mesh.primitives().next().unwrap();
+        let reader = primitive.reader(|_| Some(&buffers[0]));
+        let positions = reader.read_positions().unwrap();
+        assert!(positions.eq([[longest; 3]; CORNERS as usize]));
+    }
+}
+
+#[test]
+fn text_with_more_data_than_stays_in_memory_has_blanks_before_it() {
+    let scene = single(strip(60_000));
+    let text = String::from_utf8(bytes(&scene, &GLTF)).unwrap();
+    let (before, after) = text.split_once("  ").unwrap();
+    assert!(before.ends_with(']') && after.trim_start().starts_with(r#","buffers":[{"#));
+    let (_, buffers) = read(text.as_bytes());
+    assert!(buffers[0].len() > 1 << 20);
+    assert_eq!(buffers, read(&bytes(&scene, &GLB)).1);
+}
+
+/// How many blanks are at the end of a GLB's JSON, and how long it is with them.
+fn json_padding(bytes: &[u8]) -> (usize, usize) {
+    let length = u32::from_le_bytes(bytes[12..16].try_into().unwrap()) as usize;
+    let json = &bytes[20..20 + length];
+    (length - json.trim_ascii_end().len(), length)
 }
 
 fn any_surface() -> impl Strategy<Value = Surface> {
