@@ -1,7 +1,6 @@
 //! Where exporters write.
 
 use std::io::{self, BufWriter, Read, Seek, SeekFrom, Write};
-use std::mem;
 
 /// The size of the write buffer in bytes; larger pieces, as in models, bypass it.
 const BUFFER: usize = 16 << 10;
@@ -26,7 +25,6 @@ pub trait Output: Write + Send {
 #[derive(Debug)]
 pub struct SeekableOutput<F: Write> {
     out: BufWriter<F>,
-    /// The length of the reserved space.
     reserved: u64,
     /// The data, while there is little of it.
     data: Vec<u8>,
@@ -63,7 +61,7 @@ impl<F: Write + Seek> Write for SeekableOutput<F> {
             }
             self.in_memory = false;
             self.out.seek(SeekFrom::Start(self.reserved))?;
-            self.out.write_all(&mem::take(&mut self.data))?;
+            self.out.write_all(&std::mem::take(&mut self.data))?;
         }
         self.out.write(bytes)
     }
@@ -80,7 +78,7 @@ impl<F: Read + Write + Seek + Send> Output for SeekableOutput<F> {
     }
 
     fn start_head(&mut self, length: u64) -> io::Result<u64> {
-        if mem::take(&mut self.in_memory) {
+        if std::mem::take(&mut self.in_memory) {
             return Ok(length);
         }
         if length > self.reserved {
