@@ -31,7 +31,6 @@ pub(super) struct Textures {
     of_look: FxHashMap<(usize, usize), usize>,
 }
 
-/// The texture of a part.
 #[derive(Clone, Copy)]
 pub(super) struct Textured {
     /// Index of the texture.
@@ -89,7 +88,6 @@ impl Textures {
         collector.finish(baked, diagnostics)
     }
 
-    /// The texture of a part.
     pub(super) fn of(&self, part: usize) -> Option<Textured> {
         self.of_part.get(&part).copied()
     }

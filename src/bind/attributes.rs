@@ -216,6 +216,16 @@ impl Bindings {
     }
 }
 
+/// The value of an attribute where it has the form of the pattern.
+macro_rules! typed {
+    ($attributes:ident, $keyword:expr, $pattern:pat => $value:expr) => {
+        $attributes.get($keyword, |value| match value {
+            $pattern => Some($value),
+            _ => None,
+        })
+    };
+}
+
 impl<'a> Attributes<'a> {
     /// Where an attribute is set.
     pub fn source(&self, keyword: Keyword) -> Option<Source<'a>> {
@@ -253,17 +263,11 @@ impl<'a> Attributes<'a> {
     }
 
     fn number(&self, keyword: Keyword) -> Option<Attribute<'a, f64>> {
-        self.get(keyword, |value| match value {
-            Value::Number(number) => Some(*number),
-            _ => None,
-        })
+        typed!(self, keyword, Value::Number(number) => *number)
     }
 
     fn word(&self, keyword: Keyword) -> Option<Attribute<'a, &'a str>> {
-        self.get(keyword, |value| match value {
-            Value::Word(word) => Some(word.as_str()),
-            _ => None,
-        })
+        typed!(self, keyword, Value::Word(word) => word.as_str())
     }
 
     fn value_or(&self, keyword: Keyword, default: f64) -> f64 {
@@ -272,10 +276,7 @@ impl<'a> Attributes<'a> {
 
     /// `Shape`, if it is set.
     pub fn shape_if_set(&self) -> Option<Attribute<'a, &'a Shape>> {
-        self.get(Keyword::Shape, |value| match value {
-            Value::Shape(shape) => Some(shape),
-            _ => None,
-        })
+        typed!(self, Keyword::Shape, Value::Shape(shape) => shape)
     }
 
     /// `Shape`.
@@ -291,10 +292,7 @@ impl<'a> Attributes<'a> {
 
     /// `Origin`, if it or `Shape -c` is set.
     pub fn origin(&self) -> Option<Origin> {
-        let origin = self.get(Keyword::Origin, |value| match value {
-            Value::Origin(origin) => Some(*origin),
-            _ => None,
-        });
+        let origin = typed!(self, Keyword::Origin, Value::Origin(origin) => *origin);
         let centered = || self.shape().centered.then_some(Origin::Center);
         origin.map(|origin| origin.value).or_else(centered)
     }
@@ -316,12 +314,9 @@ impl<'a> Attributes<'a> {
 
     /// `Color`.
     pub fn color(&self) -> Option<SetColor> {
-        let color = self.get(Keyword::Color, |value| match value {
-            Value::Color { rgb, alpha } => Some(SetColor {
-                rgb: *rgb,
-                alpha: *alpha,
-            }),
-            _ => None,
+        let color = typed!(self, Keyword::Color, Value::Color { rgb, alpha } => SetColor {
+            rgb: *rgb,
+            alpha: *alpha,
         });
         color.map(|color| color.value)
     }
@@ -335,10 +330,7 @@ impl<'a> Attributes<'a> {
         });
         let [r, g, b] = color.rgb;
         let opacity = color.alpha.unwrap_or(opacity);
-        let emissive = self.get(Keyword::Emissive, |value| match value {
-            Value::Triple(rgb) => Some(*rgb),
-            _ => None,
-        });
+        let emissive = typed!(self, Keyword::Emissive, Value::Triple(rgb) => *rgb);
         MaterialFactors {
             color: [r, g, b, self.value_or(Keyword::Alpha, opacity)],
             metallic: self.value_or(Keyword::Metallic, 0.0),
@@ -354,18 +346,12 @@ impl<'a> Attributes<'a> {
 
     /// `Bone`: the names of the joints that drive the part.
     pub fn bones(&self) -> Option<Attribute<'a, &'a [String]>> {
-        self.get(Keyword::Bone, |value| match value {
-            Value::Names(names) => Some(names.as_slice()),
-            _ => None,
-        })
+        typed!(self, Keyword::Bone, Value::Names(names) => names.as_slice())
     }
 
     /// `Limited`: how many drawings of a clip are omitted, and how many frames are held.
     pub fn limited(&self) -> Option<Attribute<'a, [usize; 2]>> {
-        self.get(Keyword::Limited, |value| match value {
-            Value::Pair(amounts) => Some(amounts.map(|amount| amount as usize)),
-            _ => None,
-        })
+        typed!(self, Keyword::Limited, Value::Pair(amounts) => amounts.map(|amount| amount as usize))
     }
 
     /// `Tile`: the word for what tiles of the paint are, from the legend.

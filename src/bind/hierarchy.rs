@@ -48,11 +48,8 @@ pub(super) fn build(
         .filter(is_main)
         .map(|part| {
             let origin = origin(bindings, part);
-            (
-                part,
-                origin,
-                turns_about_middle(drawing, bindings, part, origin),
-            )
+            let finding = turns_about_middle(drawing, bindings, part, origin);
+            (part, origin, finding)
         })
         .collect();
     for (part, origin, finding) in joints {
@@ -86,15 +83,12 @@ fn names(
             continue;
         }
         if let Some(first) = names.get(&part.name) {
+            let message = format!("two parts are named `{}`", part.name);
             diagnostics.push(
-                Diagnostic::new(
-                    Code::DuplicateName,
-                    span(index),
-                    format!("two parts are named `{}`", part.name),
-                )
-                .label("the second one")
-                .related(span(*first), "the first one")
-                .help("rename one of them"),
+                Diagnostic::new(Code::DuplicateName, span(index), message)
+                    .label("the second one")
+                    .related(span(*first), "the first one")
+                    .help("rename one of them"),
             );
         } else {
             names.insert(part.name.clone(), index);
@@ -113,14 +107,11 @@ fn names(
         } else {
             "another tile layer"
         };
+        let message = format!("this tile layer and {what} are both named `{}`", layer.name);
         diagnostics.push(
-            Diagnostic::new(
-                Code::DuplicateName,
-                own,
-                format!("this tile layer and {what} are both named `{}`", layer.name),
-            )
-            .related(first, "the first one")
-            .help("rename one of them"),
+            Diagnostic::new(Code::DuplicateName, own, message)
+                .related(first, "the first one")
+                .help("rename one of them"),
         );
     }
     names
@@ -162,12 +153,8 @@ fn automatic(
         .collect();
     let parents = memo.get(question, NearestNamed::answer);
     let mut counter = 0;
-    for (place, (index, parent)) in waiting
-        .iter()
-        .copied()
-        .zip(parents.iter().copied())
-        .enumerate()
-    {
+    let pairs = waiting.iter().copied().zip(parents.iter().copied());
+    for (place, (index, parent)) in pairs.enumerate() {
         let name = loop {
             counter += 1;
             let name = format!("U-{counter}");
@@ -290,13 +277,11 @@ fn axis(drawing: &Drawing, bindings: &Bindings, index: usize) -> Option<Axis> {
             .map_or(drawing.shapes[part.shape].element.span, |string| {
                 bindings.strings[string].text.whole()
             });
+        let message =
+            format!("{name} is as wide as it is long, so its axis is assumed to be upright");
         Axis::Guessed(
-            Diagnostic::new(
-                Code::AxisGuess,
-                place,
-                format!("{name} is as wide as it is long, so its axis is assumed to be upright"),
-            )
-            .help("write `Axis 90` for an upright axis, `Axis 0` for a horizontal one"),
+            Diagnostic::new(Code::AxisGuess, place, message)
+                .help("write `Axis 90` for an upright axis, `Axis 0` for a horizontal one"),
         )
     })
 }
@@ -304,9 +289,8 @@ fn axis(drawing: &Drawing, bindings: &Bindings, index: usize) -> Option<Axis> {
 /// The joint of a main part (paper, section 3.5).
 fn origin(bindings: &Bindings, index: usize) -> DVec2 {
     let part = &bindings.parts[index];
-    let parent = part
-        .parent
-        .map(|parent| bindings.parts[parent].measure.center);
+    let center = |parent: usize| bindings.parts[parent].measure.center;
+    let parent = part.parent.map(center);
     let [start, end] = sorted_ends(part, parent);
     match bindings.attributes(index).origin() {
         Some(Origin::Center) => part.measure.center,
@@ -375,14 +359,11 @@ fn turns_about_middle(
         (false, false, _) => "right",
     };
     let lead = if has_attributes { " " } else { "$" };
-    let mut diagnostic = Diagnostic::new(
-        Code::TurnsAboutMiddle,
-        text.whole(),
-        format!(
-            "both ends of `{}` are about equally far from `{}`, so it turns about its middle",
-            part.name, bindings.parts[parent].name
-        ),
-    )
+    let message = format!(
+        "both ends of `{}` are about equally far from `{}`, so it turns about its middle",
+        part.name, bindings.parts[parent].name
+    );
+    let mut diagnostic = Diagnostic::new(Code::TurnsAboutMiddle, text.whole(), message)
     .related(drawing.shapes[part.shape].element.span, "the part")
     .help(format!(
         "for an arm or a leg write `Origin start` (the end nearer to the centre of `{}`, here the {side} one) or `Origin end`",

@@ -116,15 +116,12 @@ pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut
         if let Some(first) = layer[group].filter(|_| kind == LayerKind::Tiles) {
             let other: &Layer = &layers[first];
             let element = &drawing.groups[group].element;
+            let message = format!(
+                "this string and another one make the same group a tile layer, {}",
+                element.describe()
+            );
             diagnostics.push(
-                Diagnostic::new(
-                    Code::TwoStrings,
-                    string.text.whole(),
-                    format!(
-                        "this string and another one make the same group a tile layer, {}",
-                        element.describe()
-                    ),
-                )
+                Diagnostic::new(Code::TwoStrings, string.text.whole(), message)
                 .related(
                     bindings.strings[other.string].text.whole(),
                     "the other string, which counts",
@@ -237,12 +234,9 @@ pub(super) fn misplaced(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) 
                 let name = attribute.keyword.name();
                 let message =
                     format!("`{name}` has no effect in {what}: it applies to tile layers");
+                let message = message;
                 diagnostics.push(
-                    Diagnostic::new(
-                        Code::NoTileLayer,
-                        string.text.span(attribute.range.clone()),
-                        message,
-                    )
+                    Diagnostic::new(Code::NoTileLayer, string.text.span(attribute.range.clone()), message)
                     .help("write it into the string that makes a layer or group a map, as in `Island$Tiles 16 Bevel 0.2`"),
                 );
             }

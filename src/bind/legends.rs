@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::bindings::{Bindings, PartKind};
+use super::bindings::{Bindings, Part, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Setting;
@@ -26,34 +26,27 @@ pub struct Legend {
 /// Merges the legends by paint and gives them to the parts of that paint.
 pub(super) fn merge(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
     let mut by_paint: FxHashMap<&PaintKey, usize> = FxHashMap::default();
-    for part in bindings
-        .parts
-        .iter()
-        .filter(|part| part.kind == PartKind::Legend && part.is_candidate())
-    {
+    let is_sample = |part: &&Part| part.kind == PartKind::Legend && part.is_candidate();
+    for part in bindings.parts.iter().filter(is_sample) {
         let Some(string) = part.string else { continue };
         let paint = &part.paint(drawing).key;
-        let settings = bindings.strings[string]
-            .settings
-            .iter()
-            .map(|setting| (string, setting.clone()));
+        let settings = bindings.strings[string].settings.iter();
+        let settings = settings.map(|setting| (string, setting.clone()));
         if let Some(legend) = by_paint.get(paint) {
             let first = bindings.legends[*legend].string;
+            let message = "this legend's paint has a legend already; where both set an attribute, this one counts";
+            let [place, other] =
+                [string, first].map(|string| bindings.strings[string].text.whole());
             diagnostics.push(
-                Diagnostic::new(
-                    Code::TwoLegends,
-                    bindings.strings[string].text.whole(),
-                    "this legend's paint has a legend already; where both set an attribute, this one counts",
-                )
-                .related(bindings.strings[first].text.whole(), "the other legend")
-                .help("give the sample another colour, or combine both strings"),
+                Diagnostic::new(Code::TwoLegends, place, message)
+                    .related(other, "the other legend")
+                    .help("give the sample another colour, or combine both strings"),
             );
             let legend: &mut Legend = &mut bindings.legends[*legend];
             for (string, setting) in settings {
-                legend
-                    .settings
-                    .retain(|(_, old)| old.keyword != setting.keyword);
-                legend.settings.push((string, setting));
+                let settings = &mut legend.settings;
+                settings.retain(|(_, old)| old.keyword != setting.keyword);
+                settings.push((string, setting));
             }
             continue;
         }
@@ -103,14 +96,10 @@ impl Legend {
             true => "tile",
             false => "part",
         };
-        Diagnostic::new(
-            Code::UnusedLegend,
-            bindings.strings[self.string].text.whole(),
-            format!(
-                "no {what} has the paint of this legend, {}",
-                swatch.describe()
-            ),
-        )
+        let swatch_name = swatch.describe();
+        let message = format!("no {what} has the paint of this legend, {swatch_name}");
+        let place = bindings.strings[self.string].text.whole();
+        Diagnostic::new(Code::UnusedLegend, place, message)
         .related(swatch.span, "the legend")
         .help(format!(
             "pick the sample's colour from the {what}s with the colour picker, or delete the legend"

@@ -39,7 +39,7 @@ use crate::memo::{Bits, Memo, Same};
 use crate::svg::{Drawing, Element};
 use crate::threads::GRAIN;
 use areas::{Area, areas};
-use node_groups::NodeGroups;
+use node_groups::{GroupRole, NodeGroups};
 
 /// Binds the strings of a drawing to its parts.
 pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
@@ -129,8 +129,10 @@ impl<'a> Binder<'a> {
                 _ if !self.bindings.strings[string].wants_part() => continue,
                 Place::Label(_) => continue,
                 Place::Shape(shape) => self.part_of_shape[shape],
-                Place::Group(group) if self.node_groups.is_transparent(group) => None,
-                Place::Group(group) => self.back_most[group],
+                Place::Group(group) => match self.node_groups.roles[group] {
+                    GroupRole::Transparent => None,
+                    _ => self.back_most[group],
+                },
             };
             if let Some(part) = part {
                 self.bind(string, part, BoundBy::Desc);
@@ -147,12 +149,13 @@ impl<'a> Binder<'a> {
             else {
                 continue;
             };
+            let roles = &self.node_groups.roles;
             let holder = self.node_groups.chain(group).find(|group| {
-                self.node_groups.is_container(*group)
-                    || (self.node_groups.is_node(*group) && self.back_most[*group].is_some())
+                roles[*group] == GroupRole::Container
+                    || (roles[*group] == GroupRole::Node && self.back_most[*group].is_some())
             });
             match holder {
-                Some(group) if self.node_groups.is_container(group) => {
+                Some(group) if roles[group] == GroupRole::Container => {
                     self.bindings.strings[string].scope = Some(group);
                 }
                 Some(group) => {
@@ -199,7 +202,7 @@ impl<'a> Binder<'a> {
         if free < waiting.len() {
             // Parts in a tile layer are reserved for the strings in it.
             let is_free =
-                |part: &Part| part.is_candidate() && !self.node_groups.is_in_layer(part.source);
+                |part: &Part| part.is_candidate() && !self.node_groups.in_layer[part.source];
             let candidates: Vec<usize> = (0..self.bindings.parts.len())
                 .filter(|part| is_free(&self.bindings.parts[*part]))
                 .collect();
@@ -278,12 +281,11 @@ impl<'a> Binder<'a> {
                 } else {
                     "of the drawing"
                 };
+                let message = format!(
+                    "there is no part left for {what}: every shape {place} has a string already"
+                );
                 self.diagnostics.push(
-                    Diagnostic::new(
-                        Code::NoPartLeft,
-                        string.text.whole(),
-                        format!("there is no part left for {what}: every shape {place} has a string already"),
-                    )
+                    Diagnostic::new(Code::NoPartLeft, string.text.whole(), message)
                     .help("delete the string, draw its shape, or put `#` before it to make it a comment"),
                 );
             }
@@ -303,14 +305,15 @@ impl<'a> Binder<'a> {
         if let Some(other) = self.bindings.parts[part].string {
             let other_span = self.bindings.strings[other].text.whole();
             let element = &self.drawing.shapes[self.bindings.parts[part].shape].element;
+            let message = format!(
+                "this string and another one describe the same part, {}",
+                element.describe()
+            );
             self.diagnostics.push(
                 Diagnostic::new(
                     Code::TwoStrings,
                     self.bindings.strings[string].text.whole(),
-                    format!(
-                        "this string and another one describe the same part, {}",
-                        element.describe()
-                    ),
+                    message,
                 )
                 .related(other_span, "the other string")
                 .related(element.span, "the part")
@@ -384,12 +387,10 @@ fn hints(drawing: &Drawing, bindings: &Bindings, diagnostics: &mut Vec<Diagnosti
                 bindings.describe(drawing, binding.part),
                 bindings.describe(drawing, runner_up),
             );
+            let message =
+                format!("this string belongs to {bound}, but {runner_up} is almost as near");
             diagnostics.push(
-                Diagnostic::new(
-                    Code::NearlyAsNear,
-                    string.text.whole(),
-                    format!("this string belongs to {bound}, but {runner_up} is almost as near"),
-                )
+                Diagnostic::new(Code::NearlyAsNear, string.text.whole(), message)
                 .related(drawing.shapes[bindings.parts[binding.part].shape].element.span, "the part it belongs to")
                 .help("move the string's top left corner closer to the centre of its part, or group the two"),
             );
@@ -400,11 +401,12 @@ fn hints(drawing: &Drawing, bindings: &Bindings, diagnostics: &mut Vec<Diagnosti
         let (low, high) = part.measure.bounds;
         let off = high.cmplt(page_low).any() || low.cmpgt(page_low + page_size).any();
         if off && part.kind == PartKind::Main {
+            let message = format!("`{}` is off the page", part.name);
             diagnostics.push(
                 Diagnostic::new(
                     Code::OffPage,
                     drawing.shapes[part.shape].element.span,
-                    format!("`{}` is off the page", part.name),
+                    message,
                 )
                 .help("it is built anyway; to leave it out, write `*` beside it"),
             );

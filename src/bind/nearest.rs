@@ -306,7 +306,6 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// The string nearest to a part.
     fn nearest_string(&self, part: usize, strings: &Points, corners: &[DVec2]) -> Option<usize> {
         match self {
             Self::Centers { targets, .. } => strings.nearest(targets[part].center.0),

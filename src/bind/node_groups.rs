@@ -20,7 +20,7 @@ pub(super) struct PartSource {
 
 /// What a group means for the hierarchy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum GroupRole {
+pub(super) enum GroupRole {
     /// Layers, the outermost `<svg>`, wrappers: ignored.
     Transparent,
     /// Holds several strings: its children become nodes of their own.
@@ -33,7 +33,8 @@ enum GroupRole {
 #[derive(Debug)]
 pub(super) struct NodeGroups {
     pub(super) sources: Vec<PartSource>,
-    roles: Vec<GroupRole>,
+    /// Per group.
+    pub(super) roles: Vec<GroupRole>,
     parents: Vec<usize>,
     /// Per source: the group whose content shares its node.
     node_group: Vec<Option<usize>>,
@@ -42,7 +43,7 @@ pub(super) struct NodeGroups {
     /// Per group: the group of the tile layer that it is in.
     layer: Vec<Option<usize>>,
     /// Per source: whether it is in a tile layer.
-    in_layer: Vec<bool>,
+    pub(super) in_layer: Vec<bool>,
     /// Per group: whether it is a tile layer with parts that strings can belong to.
     holds_parts: Vec<bool>,
 }
@@ -108,25 +109,6 @@ impl NodeGroups {
     /// The group of the tile layer to whose shapes strings in a group are restricted; `None` for strings outside of tile layers.
     pub(super) fn scope_of_layer(&self, group: usize) -> Option<usize> {
         self.layer[group].filter(|layer| self.holds_parts[*layer])
-    }
-
-    /// Whether a source is in a tile layer.
-    pub(super) fn is_in_layer(&self, source: usize) -> bool {
-        self.in_layer[source]
-    }
-
-    /// Whether the group is ignored: a layer or a wrapper.
-    pub(super) fn is_transparent(&self, group: usize) -> bool {
-        self.roles[group] == GroupRole::Transparent
-    }
-
-    pub(super) fn is_container(&self, group: usize) -> bool {
-        self.roles[group] == GroupRole::Container
-    }
-
-    /// Whether strings in the group belong to its back-most part.
-    pub(super) fn is_node(&self, group: usize) -> bool {
-        self.roles[group] == GroupRole::Node
     }
 }
 

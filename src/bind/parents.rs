@@ -75,11 +75,8 @@ fn parent(
     }
     let text = &string.text;
     let span = text.span(parent.range.clone());
-    let mut diagnostic = Diagnostic::new(
-        Code::UnknownParent,
-        span,
-        format!("there is no part named `{}`", parent.text),
-    );
+    let message = format!("there is no part named `{}`", parent.text);
+    let mut diagnostic = Diagnostic::new(Code::UnknownParent, span, message);
     let is_named = |part: &&Part| part.name == parent.text && part.kind != PartKind::Main;
     let mut layers = bindings.tile_layers();
     if let Some(other) = bindings.parts.iter().find(is_named) {
@@ -158,19 +155,16 @@ pub(super) fn break_cycles(
             .chain([&part])
             .map(|part| format!("`{}`", bindings.parts[*part].name))
             .collect();
-        let mut diagnostic = Diagnostic::new(
-            Code::ParentCycle,
-            span(part),
-            if cycle.len() == 1 {
-                format!("{} is its own parent", chain[0])
-            } else {
-                format!(
-                    "parts are attached to each other in a circle: {}",
-                    chain.join(" on ")
-                )
-            },
-        )
-        .help("attach one of them to a part outside the circle, or to none");
+        let message = if cycle.len() == 1 {
+            format!("{} is its own parent", chain[0])
+        } else {
+            format!(
+                "parts are attached to each other in a circle: {}",
+                chain.join(" on ")
+            )
+        };
+        let mut diagnostic = Diagnostic::new(Code::ParentCycle, span(part), message)
+            .help("attach one of them to a part outside the circle, or to none");
         for other in &cycle[1..] {
             diagnostic = diagnostic.related(
                 span(*other),

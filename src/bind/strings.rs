@@ -14,7 +14,6 @@ use crate::source::Text;
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
 
-/// Reads the strings.
 pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
     let mut texts = descriptions(drawing);
     let annotated = !texts.is_empty()
@@ -112,13 +111,10 @@ fn descriptions(drawing: &Drawing) -> Vec<(Place, Arc<Text>)> {
 
 fn caption(text: &Text) -> Diagnostic {
     let start = text.span(0..0);
-    Diagnostic::new(
-        Code::Caption,
-        text.whole(),
-        "this text is not a string; it is taken for a caption",
-    )
-    .help("put `#` before it to make it a comment; a part's name with spaces needs quotes")
-    .fix("Make it a comment", start, "#")
+    let message = "this text is not a string; it is taken for a caption";
+    Diagnostic::new(Code::Caption, text.whole(), message)
+        .help("put `#` before it to make it a comment; a part's name with spaces needs quotes")
+        .fix("Make it a comment", start, "#")
 }
 
 /// Merges the settings of the `%` strings; later strings override earlier ones.
@@ -143,17 +139,14 @@ fn merge_defaults(bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
             let (other, old) = &bindings.defaults[slot];
             if *other != index {
                 let text = &bindings.strings[*other].text;
+                let message = format!(
+                    "`{}` is set again by a later `%` string, which counts",
+                    setting.keyword.name()
+                );
                 diagnostics.push(
-                    Diagnostic::new(
-                        Code::Overridden,
-                        text.span(old.range.clone()),
-                        format!(
-                            "`{}` is set again by a later `%` string, which counts",
-                            setting.keyword.name()
-                        ),
-                    )
-                    .related(string.text.span(setting.range.clone()), "the later setting")
-                    .help("delete one of them"),
+                    Diagnostic::new(Code::Overridden, text.span(old.range.clone()), message)
+                        .related(string.text.span(setting.range.clone()), "the later setting")
+                        .help("delete one of them"),
                 );
             }
             bindings.defaults[slot] = (index, setting.clone());

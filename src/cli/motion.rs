@@ -166,7 +166,6 @@ fn exposure_method(arguments: &Motion) -> ExposureMethod {
     }
 }
 
-/// Writes a file.
 fn write(
     edited: &EditedClip,
     output: &Path,

@@ -116,7 +116,6 @@ fn clip<'a>(model: &'a Model, arguments: &Render) -> Result<Option<(&'a Clip, f6
     Ok(Some((clip, time)))
 }
 
-/// The output file.
 fn output(arguments: &Render) -> Result<PathBuf, String> {
     let drawing = &arguments.drawing;
     let stdin = drawing.as_os_str() == "-";

@@ -139,7 +139,6 @@ pub(super) fn describe_shown(drawing: &Path, build: &Build, common: Common) -> S
     text
 }
 
-/// The findings of a drawing.
 fn findings(name: &str, build: &Build, common: Common) -> String {
     let findings = Findings {
         path: name,

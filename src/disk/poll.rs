@@ -40,7 +40,6 @@ impl Poll {
         Self { folders }
     }
 
-    /// Sets the folders to poll.
     pub(super) fn set(&self, folders: &BTreeSet<PathBuf>) {
         let mut known = self
             .folders

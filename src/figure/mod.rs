@@ -263,7 +263,6 @@ impl<'a> FigureContext<'a> {
     }
 }
 
-/// Whether two parts overlap.
 fn overlap(a: &Part, b: &Part) -> bool {
     // Usually the centre of one lies in both, which is quick to check.
     let both = |point| contains(&a.outline, point) && contains(&b.outline, point);

@@ -111,7 +111,6 @@ impl Models {
         self.of_part.contains_key(&part)
     }
 
-    /// Adds the models' materials to a scene.
     pub(super) fn add_materials(&mut self, scene: &mut Scene) {
         for Loaded {
             asset,

@@ -61,8 +61,9 @@ impl Relief {
     }
 
     /// A part's profile with its faces standing out.
-    pub(super) fn raised(&self, part: usize, profile: Profile) -> Profile {
-        profile.raised(self.steps[part])
+    pub(super) fn raised(&self, part: usize, mut profile: Profile) -> Profile {
+        profile.raise(self.steps[part]);
+        profile
     }
 }
 

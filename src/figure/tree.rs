@@ -85,12 +85,9 @@ pub(super) fn nodes(
     while let Some(pending) = stack.pop() {
         if nodes.len() >= parts.len() + MAX_COPIES {
             let element = &context.drawing.shapes[parts[pending.part].shape].element;
+            let message = format!("the copies of `-d` add more than {MAX_COPIES} nodes");
             diagnostics.push(
-                    Diagnostic::new(
-                        Code::LimitPassed,
-                        element.span,
-                        format!("the copies of `-d` add more than {MAX_COPIES} nodes"),
-                    )
+                    Diagnostic::new(Code::LimitPassed, element.span, message)
                     .help("each `-d` doubles everything attached to the part, so nested ones multiply: remove some of them"),
                 );
             break;

@@ -49,3 +49,15 @@ pub struct Outline {
     /// Polygons that do not overlap.
     pub polygons: Vec<Polygon>,
 }
+
+impl Outline {
+    /// The outline with each ring replaced by what `ring` makes of it.
+    pub fn map_rings(&self, ring: impl Fn(&Ring) -> Ring) -> Self {
+        let polygon = |polygon: &Polygon| Polygon {
+            rings: polygon.rings.iter().map(&ring).collect(),
+        };
+        Self {
+            polygons: self.polygons.iter().map(polygon).collect(),
+        }
+    }
+}

@@ -99,7 +99,6 @@ impl Analysis {
         parts.position(|part| part.shape == shape)
     }
 
-    /// The part that a string describes.
     pub(super) fn part_of_string(&self, string: usize) -> Option<usize> {
         let binding = self.bindings().strings[string].binding?;
         let part = &self.bindings().parts[binding.part];
@@ -107,7 +106,6 @@ impl Analysis {
     }
 }
 
-/// The attributes of a string.
 pub(super) fn attributes(annotation: &Annotation) -> &[Attribute] {
     match annotation {
         Annotation::Defaults(attributes) | Annotation::Legend(attributes) => attributes,

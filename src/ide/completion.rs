@@ -290,14 +290,10 @@ impl Cursor<'_> {
             .into_iter()
             .map(|keyword| {
                 let row = keyword.row();
-                let later = match row.status {
-                    Status::Built => "",
-                    Status::Planned => " (no effect yet)",
-                };
                 Proposal {
                     label: keyword.name().to_owned(),
                     kind: ProposalKind::Keyword,
-                    detail: format!("{}{later}", row.summary),
+                    detail: format!("{}{}", row.summary, row.status.remark()),
                     page: Some(keyword.name()),
                     text: keyword.name().to_owned(),
                     snippet: filled(keyword.name(), &example_arguments(keyword))
@@ -396,13 +392,9 @@ impl Cursor<'_> {
     }
 
     fn kind(&self, kind: &'static Kind) -> Proposal {
-        let later = match kind.status {
-            Status::Built => "",
-            Status::Planned => " (no effect yet)",
-        };
         Proposal {
             page: Some(kind.name),
-            detail: format!("{}{later}", kind.summary),
+            detail: kind.summary.to_owned(),
             snippet: filled(kind.name, &kind_arguments(kind)).map(|snippet| self.escape(&snippet)),
             ..simple(kind.name, ProposalKind::Word, "")
         }

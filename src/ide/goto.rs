@@ -99,7 +99,6 @@ impl Analysis {
         (!to.is_empty()).then_some((from, to))
     }
 
-    /// The shape that a string describes.
     fn shape_of(&self, string: usize) -> Option<Vec<Target>> {
         let part = &self.bindings().parts[self.part_of_string(string)?];
         let element = &self.drawing().shapes[part.shape].element;
@@ -116,7 +115,6 @@ impl Analysis {
         )])
     }
 
-    /// The span of a setting.
     pub(super) fn setting_span(&self, string: usize, range: &Range<usize>) -> Span {
         self.bindings().strings[string].text.span(range.clone())
     }

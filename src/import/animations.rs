@@ -255,7 +255,6 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// The key times of a channel.
     fn key_times(&mut self, channel: &Channel<'a>) -> Result<Arc<[f32]>, ImportError> {
         let input = channel.sampler().input();
         if let Some(times) = self.key_times.get(&input.index()) {
@@ -283,7 +282,6 @@ impl<'a> Reader<'a> {
         curve(channel, &output, times, rows)
     }
 
-    /// The keys of a rotation.
     fn rotation_curve(
         &self,
         channel: &Channel<'a>,

@@ -25,7 +25,6 @@ pub(super) const MAT4: Dimensions = Dimensions::Mat4;
 /// No length or offset in a file may be larger, so that sums of a few of them do not overflow.
 const MAX_EXTENT: usize = 1 << 40;
 
-/// The buffers of a file.
 pub(crate) struct Buffers(Vec<Vec<u8>>);
 
 impl Buffers {
@@ -52,7 +51,6 @@ impl Buffers {
         self.0.get(buffer.index()).map(Vec::as_slice)
     }
 
-    /// The bytes of a buffer view.
     fn view(&self, view: &buffer::View<'_>) -> Result<&[u8], ImportError> {
         let end = view.offset().checked_add(view.length());
         let bytes = end.and_then(|end| self.of(&view.buffer())?.get(view.offset()..end));

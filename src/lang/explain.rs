@@ -76,9 +76,6 @@ pub fn kind(kind: &Kind) -> String {
         sentence(kind.summary),
         kind.usage()
     );
-    if kind.status == Status::Planned {
-        let _ = writeln!(out, "{PLANNED}\n");
-    }
     let _ = writeln!(out, "{}\n", kind.long);
     out.push_str(&parameters(std::slice::from_ref(&kind.form)));
     if !kind.default.is_empty() {
@@ -112,19 +109,12 @@ pub fn overview() -> String {
     out.push_str("\n# Keywords\n\n");
     for keyword in Keyword::ALL {
         let row = keyword.row();
-        let later = match row.status {
-            Status::Built => "",
-            Status::Planned => " (no effect yet)",
-        };
+        let later = row.status.remark();
         let _ = writeln!(out, "- `{}`: {}{later}", keyword.name(), row.summary);
     }
     out.push_str("\n# Kinds of `Shape`\n\n");
     for kind in &KINDS {
-        let later = match kind.status {
-            Status::Built => "",
-            Status::Planned => " (no effect yet)",
-        };
-        let _ = writeln!(out, "- `{}`: {}{later}", kind.usage(), kind.summary);
+        let _ = writeln!(out, "- `{}`: {}", kind.usage(), kind.summary);
     }
     out.push_str(
         "\n# Calculations\n\nIn parentheses, with `+ - * /` and variables; functions:\n\n",

@@ -15,7 +15,7 @@ pub mod kinds;
 pub mod signature;
 pub mod vocabulary;
 
-use signature::Form;
+use signature::{Form, NO_ARGUMENTS};
 
 macro_rules! keywords {
     ($($name:ident = $row:path;)+) => {
@@ -100,6 +100,30 @@ pub struct Row {
     pub status: Status,
 }
 
+impl Row {
+    /// What most rows share. It has no texts, which every row has its own of.
+    const ROW: Self = Self {
+        forms: NO_ARGUMENTS,
+        flags: &[],
+        allowed: Allowed::Part,
+        default: "none",
+        summary: "",
+        long: "",
+        example: "",
+        status: Status::Built,
+    };
+    /// A keyword that has no effect yet.
+    const PLANNED: Self = Self {
+        status: Status::Planned,
+        ..Self::ROW
+    };
+    /// A setting of the whole drawing.
+    const DRAWING: Self = Self {
+        allowed: Allowed::Drawing,
+        ..Self::ROW
+    };
+}
+
 /// A flag of a keyword.
 #[derive(Debug)]
 pub struct Flag {
@@ -116,6 +140,16 @@ pub enum Status {
     Built,
     /// It is read and checked, but has no effect yet.
     Planned,
+}
+
+impl Status {
+    /// A remark behind a summary.
+    pub fn remark(self) -> &'static str {
+        match self {
+            Self::Built => "",
+            Self::Planned => " (no effect yet)",
+        }
+    }
 }
 
 /// In which strings an attribute is allowed.
@@ -241,6 +275,7 @@ mod tests {
             let same = |other: &&Keyword| std::ptr::eq(keyword.row(), other.row());
             assert_eq!(Keyword::ALL.iter().filter(same).count(), 1);
             assert!(keyword.row().example.contains(keyword.name()));
+            assert!(!keyword.row().summary.is_empty() && !keyword.row().long.is_empty());
         }
     }
 

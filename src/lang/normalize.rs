@@ -24,7 +24,6 @@ struct Change {
 }
 
 impl<'a> Normalized<'a> {
-    /// Normalizes `text`.
     pub(super) fn new(text: &'a str) -> Self {
         if text.is_ascii() {
             return Self {

@@ -67,11 +67,10 @@ pub fn reference() -> String {
     for each in &KINDS {
         let _ = writeln!(
             out,
-            "| [`{}`](#shape-{}) | {}{} |",
+            "| [`{}`](#shape-{}) | {} |",
             each.usage(),
             each.name,
-            each.summary,
-            later(each.status)
+            each.summary
         );
     }
     for each in &KINDS {
@@ -113,13 +112,16 @@ pub fn keyword_table() -> String {
             .iter()
             .map(|usage| format!("`{}`", usage.replace('|', "\\|")))
             .collect();
+        let later = match row.status {
+            Status::Built => "",
+            Status::Planned => " *(no effect yet)*",
+        };
         let _ = writeln!(
             out,
-            "| {} | {} | {}{} | {} |",
+            "| {} | {} | {}{later} | {} |",
             usages.join("<br>"),
             row.allowed.name(),
             row.summary,
-            later(row.status),
             row.default
         );
     }
@@ -132,13 +134,6 @@ pub fn update_readme(readme: &str) -> Option<String> {
     let (_, tail) = rest.split_once(TABLE_END)?;
     let table = keyword_table();
     Some(format!("{head}{TABLE_START}\n{table}{TABLE_END}{tail}"))
-}
-
-fn later(status: Status) -> &'static str {
-    match status {
-        Status::Built => "",
-        Status::Planned => " *(no effect yet)*",
-    }
 }
 
 /// A page of the manual with its heading two levels deeper, as a section of a larger page.

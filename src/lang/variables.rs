@@ -279,11 +279,8 @@ pub(super) fn evaluation_diagnostic(
         )),
         EvaluationError::UndefinedVariable(name) => {
             let span = text.span(name.range.clone());
-            let diagnostic = Diagnostic::new(
-                Code::UnknownVariable,
-                span,
-                format!("there is no variable called `{}`", name.text),
-            );
+            let message = format!("there is no variable called `{}`", name.text);
+            let diagnostic = Diagnostic::new(Code::UnknownVariable, span, message);
             Some(match nearest(&name.text) {
                 Some(near) => diagnostic.label(format!("did you mean `{near}`?")).fix(
                     format!("Write `{near}`"),
@@ -316,13 +313,10 @@ fn report_cycle(
         chain.push("…");
     }
     chain.push(first);
-    let mut diagnostic = Diagnostic::new(
-        Code::VariableCycle,
-        definition.span,
-        format!("the value of `{first}` depends on itself"),
-    )
-    .label(chain.join(" → "))
-    .help("give one of these variables a plain number");
+    let message = format!("the value of `{first}` depends on itself");
+    let mut diagnostic = Diagnostic::new(Code::VariableCycle, definition.span, message)
+        .label(chain.join(" → "))
+        .help("give one of these variables a plain number");
     for other in others.iter().take(MAX_SHOWN) {
         if let Some(definition) = definitions.get(other) {
             diagnostic = diagnostic.related(definition.span, format!("through `{other}`"));

@@ -24,7 +24,6 @@ use crate::ide::Analysis;
 /// The command behind the code lens.
 pub(super) const PREVIEW: &str = "okoshi.preview";
 
-/// The server.
 #[derive(Debug)]
 pub(super) struct Backend {
     pub(super) client: Client,

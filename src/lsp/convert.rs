@@ -132,7 +132,6 @@ pub(super) fn diagnostics(analysed: &Analysed, pages: Option<&Pages>) -> Vec<Dia
         .collect()
 }
 
-/// One diagnostic.
 pub(super) fn diagnostic(
     analysed: &Analysed,
     diagnostic: &crate::diagnostic::Diagnostic,
@@ -240,7 +239,6 @@ pub(super) fn page(item: &CompletionItem) -> Option<Documentation> {
     )))
 }
 
-/// The signatures.
 pub(super) fn signatures(help: ide::SignatureHelp) -> SignatureHelp {
     let signatures = help.signatures.into_iter().map(|signature| {
         let parameters = signature
@@ -370,7 +368,6 @@ pub(super) fn tokens(words: &[ide::SemanticToken], map: &PositionMap<'_>) -> Vec
     words.collect()
 }
 
-/// An inlay hint.
 pub(super) fn inlay(inlay: ide::Inlay, map: &PositionMap<'_>, uri: &Uri) -> Option<InlayHint> {
     let parts = inlay.pieces.into_iter().map(|piece| InlayHintLabelPart {
         value: piece.text,
@@ -393,7 +390,6 @@ pub(super) fn inlay(inlay: ide::Inlay, map: &PositionMap<'_>, uri: &Uri) -> Opti
     })
 }
 
-/// A swatch.
 pub(super) fn swatch(swatch: ide::Swatch, map: &PositionMap<'_>) -> Option<ColorInformation> {
     let [red, green, blue, alpha] = swatch.rgba.map(|channel| channel as f32);
     Some(ColorInformation {

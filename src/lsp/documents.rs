@@ -34,7 +34,6 @@ pub(super) struct Document {
 }
 
 impl Document {
-    /// The text.
     pub(super) fn text(&self) -> &Arc<str> {
         self.positions.text()
     }
@@ -56,9 +55,7 @@ impl Document {
 /// A state of a text with its analysis.
 #[derive(Debug)]
 pub(super) struct Analysed {
-    /// The text.
     pub(super) document: Arc<Document>,
-    /// Its analysis.
     pub(super) analysis: Analysis,
     /// The last analysis of well-formed XML, if this is none.
     pub(super) last_sound: Option<Arc<Analysed>>,
@@ -89,7 +86,6 @@ struct State {
 /// One text when a request came.
 #[derive(Debug, Clone)]
 pub(super) struct Snapshot {
-    /// The text.
     pub(super) document: Arc<Document>,
     /// Receives its analysis.
     pub(super) analyses: AnalysisReceiver,

@@ -54,7 +54,6 @@ impl Positions {
         }
     }
 
-    /// The text.
     pub(super) fn text(&self) -> &Arc<str> {
         self.index.text()
     }
@@ -69,7 +68,6 @@ impl Positions {
         Position::new(number(line - 1), character)
     }
 
-    /// The range of a span.
     pub(super) fn range(&self, span: Span) -> Range {
         Range::new(self.position(span.start), self.position(span.end))
     }

@@ -35,7 +35,6 @@ pub(super) struct Listed<'a> {
     pub(super) folder: &'a str,
 }
 
-/// A build.
 #[derive(Debug, Serialize)]
 pub(super) struct Build<'a> {
     pub(super) revision: u64,
@@ -49,7 +48,6 @@ pub(super) struct Build<'a> {
     pub(super) triangles: usize,
     pub(super) findings: Vec<Finding<'a>>,
     pub(super) parts: Vec<Part<'a>>,
-    /// The clips of the model.
     pub(super) clips: &'a RawValue,
     /// The address of the clips before they were limited.
     pub(super) originals: Option<String>,

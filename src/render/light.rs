@@ -47,7 +47,6 @@ const LAMPS: [Lamp; 3] = [
         wrap: 0.1,
     },
 ];
-/// The strength of the sky.
 const SKY: f32 = 0.5;
 
 /// The share of each light that reaches a point, 0 to 1.
@@ -153,12 +152,10 @@ impl Lights {
         LAMPS[lamp].strength * self.facing(lamp, normal) * incident.lamps[lamp]
     }
 
-    /// The strength of a lamp.
     pub(super) fn strength(&self, lamp: usize) -> f32 {
         LAMPS[lamp].strength
     }
 
-    /// The strength of the sky.
     pub(super) fn sky_strength(&self) -> f32 {
         SKY
     }

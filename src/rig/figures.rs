@@ -22,7 +22,6 @@ pub(super) struct FigureGroup {
     pub(super) parts: Vec<usize>,
     /// Per part its parent, an index into `parts`: by its string, or because they touch.
     pub(super) parents: Vec<Option<usize>>,
-    /// The root of the figure.
     pub(super) root: usize,
     /// The parts without a parent by their strings, each with the parts that it touches; indices into `parts`.
     touching: Vec<(usize, Vec<usize>)>,

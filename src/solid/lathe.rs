@@ -168,12 +168,7 @@ fn half(outline: &Outline, signs: DVec2, extent: f64) -> Outline {
         }
         ring
     };
-    let polygon = |polygon: &Polygon| Polygon {
-        rings: polygon.rings.iter().map(ring).collect(),
-    };
-    let outline = Outline {
-        polygons: outline.polygons.iter().map(polygon).collect(),
-    };
+    let outline = outline.map_rings(ring);
     let reach = 2.0 * extent;
     let corners = [(0.0, -reach), (0.0, reach), (reach, reach), (reach, -reach)];
     let side = Polygon {

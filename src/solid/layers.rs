@@ -77,6 +77,11 @@ pub(super) fn rounding(
         .collect()
 }
 
+/// The scales across and along the axis where the outline is scaled in these directions only.
+pub(super) fn scales<const ACROSS: bool, const ALONG: bool>(scale: f64) -> [f64; 2] {
+    [ACROSS, ALONG].map(|is_scaled| if is_scaled { scale } else { 1.0 })
+}
+
 /// Angles from `a0` to `a1`, within a half turn, in equal steps on either side of 0, where the outline is whole.
 fn steps([a0, a1]: [f64; 2], segments: u32) -> impl Iterator<Item = f64> {
     let [a0, a1] = [a0, a1].map(|a| finite(a).clamp(-90.0, 90.0));

@@ -29,29 +29,23 @@ pub(super) fn prism(
         .map(|p| transform.in_plane(*p))
         .collect();
     let mut surface = Surface::default();
-    surface.positions.reserve(6 * n);
-    surface.normals.reserve(6 * n);
-    surface
-        .triangles
-        .reserve(2 * n + caps[0].len() + caps[1].len());
+    let Surface {
+        positions,
+        normals,
+        triangles,
+        ..
+    } = &mut surface;
+    positions.reserve(6 * n);
+    normals.reserve(6 * n);
+    triangles.reserve(2 * n + caps[0].len() + caps[1].len());
 
     for (depth, normal) in [(depths[0], -1.0), (depths[1], 1.0)] {
-        surface
-            .positions
-            .extend(plane.iter().map(|[x, y]| [*x, *y, depth]));
-        surface
-            .normals
-            .resize(surface.positions.len(), [0.0, 0.0, normal]);
+        positions.extend(plane.iter().map(|[x, y]| [*x, *y, depth]));
+        normals.resize(positions.len(), [0.0, 0.0, normal]);
     }
-    surface
-        .triangles
-        .extend(caps[0].iter().map(|[a, b, c]| [*a, *c, *b]));
     let top = n as u32;
-    surface.triangles.extend(
-        caps[1]
-            .iter()
-            .map(|triangle| triangle.map(|corner| corner + top)),
-    );
+    triangles.extend(caps[0].iter().map(|[a, b, c]| [*a, *c, *b]));
+    triangles.extend(caps[1].iter().map(|t| t.map(|corner| corner + top)));
 
     let walls: Vec<DVec2> = (0..n)
         .map(|i| {
@@ -63,10 +57,10 @@ pub(super) fn prism(
     // index.
     let mut corners: Vec<[u32; 2]> = Vec::with_capacity(n);
     let mut edge = |normal: DVec2, [x, y]: [f32; 2]| {
-        let corner = surface.positions.len() as u32;
-        surface.positions.extend(depths.map(|depth| [x, y, depth]));
+        let corner = positions.len() as u32;
+        positions.extend(depths.map(|depth| [x, y, depth]));
         let normal = transform.normal(normal.extend(0.0));
-        surface.normals.extend([normal; 2]);
+        normals.extend([normal; 2]);
         corner
     };
     for i in 0..n {
@@ -79,7 +73,7 @@ pub(super) fn prism(
     }
     for i in 0..n {
         let (a, b) = (corners[i][1], corners[rings.next[i] as usize][0]);
-        surface.triangles.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
+        triangles.extend([[a, b, b + 1], [a, b + 1, a + 1]]);
     }
     Some(surface)
 }

@@ -8,7 +8,7 @@ use glam::{DAffine2, DVec2};
 use rustc_hash::FxHasher;
 
 use super::{Options, Profile, build};
-use crate::geometry::{Outline, Polygon};
+use crate::geometry::Outline;
 use crate::scene::{Surface, SurfaceSource};
 
 /// Everything that a solid's surface depends on.
@@ -42,17 +42,10 @@ pub enum Sides {
 
 impl SurfaceSource for Solid {
     fn surface(&self) -> Surface {
-        let ring = |ring: &Vec<_>| {
-            ring.iter()
-                .map(|point| self.to_frame.transform_point2(*point))
-                .collect()
-        };
-        let polygon = |polygon: &Polygon| Polygon {
-            rings: polygon.rings.iter().map(ring).collect(),
-        };
-        let local = Outline {
-            polygons: self.outline.polygons.iter().map(polygon).collect(),
-        };
+        let local = |point: &DVec2| self.to_frame.transform_point2(*point);
+        let local = self
+            .outline
+            .map_rings(|ring| ring.iter().map(local).collect());
         let mut surface = build(&local, &self.profile, &self.options);
         if let Some(texture) = self.texture {
             let map = texture * self.to_drawing();
@@ -76,17 +69,11 @@ impl SurfaceSource for Solid {
     fn key(&self) -> u64 {
         let mut hasher = FxHasher::default();
         let mut number = |number: f64| hasher.write_u64(number.to_bits());
-        for ring in self
-            .outline
-            .polygons
-            .iter()
-            .flat_map(|polygon| &polygon.rings)
-        {
+        let polygons = self.outline.polygons.iter();
+        for ring in polygons.flat_map(|polygon| &polygon.rings) {
             number(ring.len() as f64);
-            ring.iter().for_each(|point| {
-                number(point.x);
-                number(point.y);
-            });
+            let coordinates = ring.iter().flat_map(DVec2::to_array);
+            coordinates.for_each(&mut number);
         }
         let Options {
             segments,
@@ -96,19 +83,13 @@ impl SurfaceSource for Solid {
         number(f64::from(segments));
         number(crease);
         number(placement.rotation);
-        placement
-            .translation
-            .to_array()
-            .into_iter()
-            .for_each(&mut number);
+        let translation = placement.translation.to_array().into_iter();
+        translation.for_each(&mut number);
         number(placement.scale);
-        self.to_frame
-            .to_cols_array()
-            .into_iter()
-            .for_each(&mut number);
-        let texture = self.texture.iter().flat_map(DAffine2::to_cols_array);
-        texture.for_each(&mut number);
-        self.profile.numbers().into_iter().for_each(&mut number);
+        let transforms = [self.to_frame].into_iter().chain(self.texture);
+        let transforms = transforms.flat_map(|transform| transform.to_cols_array());
+        let numbers = transforms.chain(self.profile.numbers());
+        numbers.for_each(&mut number);
         hasher.finish()
     }
 

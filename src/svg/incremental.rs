@@ -137,7 +137,6 @@ fn joins_markup(new: &str, start: usize, new_end: usize) -> bool {
     ends_cdata || line_end
 }
 
-/// All texts of a drawing.
 fn texts(drawing: &Drawing) -> impl Iterator<Item = &Text> {
     let groups = drawing.groups.iter().map(|group| &group.element);
     let elements = groups.chain(drawing.shapes.iter().map(|shape| &shape.element));

@@ -243,10 +243,6 @@ fn not_xml(error: &roxmltree::Error, prepared: &prepare::Prepared, source: &str)
     } else {
         "open the drawing in Inkscape and save it again, or fix the text at this place"
     };
-    Diagnostic::new(
-        Code::NotXml,
-        Span::new(at, at + next),
-        format!("not well-formed XML: {message}"),
-    )
-    .help(help)
+    let message = format!("not well-formed XML: {message}");
+    Diagnostic::new(Code::NotXml, Span::new(at, at + next), message).help(help)
 }

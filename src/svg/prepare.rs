@@ -138,13 +138,10 @@ impl<'a> Scan<'a> {
             Token::ElementStart { local, span, .. } => {
                 self.depth += 1;
                 if self.depth > MAX_DEPTH {
+                    let message = format!("elements are nested more than {MAX_DEPTH} deep");
                     return Err(Box::new(
-                        Diagnostic::new(
-                            Code::LimitPassed,
-                            span.range().into(),
-                            format!("elements are nested more than {MAX_DEPTH} deep"),
-                        )
-                        .help("ungroup the drawing a few times"),
+                        Diagnostic::new(Code::LimitPassed, span.range().into(), message)
+                            .help("ungroup the drawing a few times"),
                     ));
                 }
                 self.tag = Tag {
@@ -207,16 +204,13 @@ impl<'a> Scan<'a> {
         for (name, _) in references(text) {
             self.entity_text += self.entities.get(name).map_or(0, String::len);
             if self.entity_text > MAX_ENTITY_TEXT {
+                let message = format!(
+                    "the drawing's entities expand to more than {} MiB of text",
+                    MAX_ENTITY_TEXT >> 20
+                );
                 return Err(Box::new(
-                    Diagnostic::new(
-                        Code::LimitPassed,
-                        Span::new(at, at + text.len()),
-                        format!(
-                            "the drawing's entities expand to more than {} MiB of text",
-                            MAX_ENTITY_TEXT >> 20
-                        ),
-                    )
-                    .help("save the drawing without entities, as Plain SVG"),
+                    Diagnostic::new(Code::LimitPassed, Span::new(at, at + text.len()), message)
+                        .help("save the drawing without entities, as Plain SVG"),
                 ));
             }
         }

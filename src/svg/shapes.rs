@@ -170,16 +170,12 @@ impl Context<'_, '_> {
         let whole = bez_path(path.data(), self.page * affine(path.abs_transform()));
         let whole = resolve_overlaps(rings(&whole, self.tolerance), FillRule::NonZero);
         (!whole.polygons.is_empty()).then(|| {
-            Diagnostic::new(
-                Code::Vanishes,
-                shape.element.span,
-                format!("its clip leaves nothing of {}", shape.element.describe()),
-            )
-            .help("release the clip, or delete the shape")
+            let message = format!("its clip leaves nothing of {}", shape.element.describe());
+            Diagnostic::new(Code::Vanishes, shape.element.span, message)
+                .help("release the clip, or delete the shape")
         })
     }
 
-    /// The element of a shape.
     fn element(&self, node: Node<'_, '_>) -> Element {
         let mut element = element(node, self.prepared);
         if element.tag == "use" {

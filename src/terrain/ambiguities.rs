@@ -41,14 +41,13 @@ pub enum AmbiguityKind {
     Pits,
 }
 
-/// Finds the ambiguities of a map.
-pub(super) fn ambiguities(context: &MapContext<'_>, constraints: &Constraints) -> Vec<Ambiguity> {
+pub(super) fn ambiguities(context: &MapContext, constraints: &Constraints) -> Vec<Ambiguity> {
     let MapContext {
         grid,
         groups,
         levels,
         ..
-    } = *context;
+    } = context;
     let mut ambiguities = vec![];
     unconstrained(grid, groups, levels, &mut ambiguities);
     hanging(grid, groups, levels, &mut ambiguities);
@@ -104,7 +103,7 @@ fn hanging(grid: &Grid, groups: &Groups, levels: &Levels, ambiguities: &mut Vec<
 }
 
 /// Houses that hide tiles that are drawn; one ambiguity a house.
-fn hiding(context: &MapContext<'_>, ambiguities: &mut Vec<Ambiguity>) {
+fn hiding(context: &MapContext, ambiguities: &mut Vec<Ambiguity>) {
     let stripes = context.houses_of.par_iter().enumerate();
     let found = stripes.map(|(stripe, houses)| {
         let mut found = vec![];
@@ -140,7 +139,7 @@ fn hiding(context: &MapContext<'_>, ambiguities: &mut Vec<Ambiguity>) {
 
 /// How many drawn cells of a column a house hides, and the first one's row.
 fn hidden_by(
-    context: &MapContext<'_>,
+    context: &MapContext,
     house: &House,
     solids: &Solids,
     number: usize,

@@ -16,9 +16,7 @@ pub(super) const STRIPE: usize = 64;
 /// One surface is higher than another by a number of tiles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct HeightConstraint {
-    /// The upper surface.
     pub(super) upper: u32,
-    /// The lower surface.
     pub(super) lower: u32,
     /// By how much the upper one is higher.
     pub(super) rise: i32,
@@ -28,7 +26,6 @@ pub(super) struct HeightConstraint {
     pub(super) first: [usize; 2],
 }
 
-/// All constraints of a map.
 #[derive(Debug, Default)]
 pub(super) struct Constraints {
     /// Those between a surface and what is visible right below it or below its front; one a pair. Strongest first.

@@ -33,7 +33,6 @@ impl GroupKind {
 /// The top of a group of ground, or a body of water.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Surface {
-    /// Whether it is water.
     pub(super) water: bool,
     /// The number of its cells; [`GROUND`] counts as larger than any other.
     pub(super) area: usize,
@@ -46,7 +45,6 @@ pub(super) struct Surface {
 /// The ground, at height 0.
 pub(super) const GROUND: u32 = 0;
 
-/// All groups of a map.
 #[derive(Debug)]
 pub(super) struct Groups {
     /// Per cell, column by column, its group. Groups of different kinds of tiles may belong to the same surface.

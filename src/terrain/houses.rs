@@ -14,9 +14,7 @@ use super::levels::Levels;
 /// A house, in tiles.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct House {
-    /// The columns of its walls.
     pub(super) walls: Range<i32>,
-    /// The columns of its roof.
     pub(super) roof: Range<i32>,
     /// Height of its floor.
     pub(super) base: i32,
@@ -33,7 +31,6 @@ pub(super) struct House {
 }
 
 impl House {
-    /// Height of its eaves.
     pub(super) fn eaves(&self) -> i32 {
         self.base + self.height
     }
@@ -80,7 +77,6 @@ fn widen(range: &mut Range<i32>, other: &Range<i32>) {
     }
 }
 
-/// Measures all houses.
 pub(super) fn measure(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<House> {
     if groups.houses == 0 {
         return vec![];

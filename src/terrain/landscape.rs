@@ -4,7 +4,7 @@ use super::ambiguities::{self, Ambiguity};
 use super::constraints::Constraints;
 use super::grid::Grid;
 use super::groups::{GroupKind, Groups};
-use super::houses::{self, House};
+use super::houses;
 use super::levels::Levels;
 use super::map::{Map, Tile};
 use super::solids::{self, MapContext, Solids, Visible};
@@ -17,13 +17,7 @@ pub const DEFAULT_ROOF: f64 = std::f64::consts::FRAC_1_SQRT_2;
 /// A landscape, in tiles.
 #[derive(Debug)]
 pub struct Landscape {
-    grid: Grid,
-    groups: Groups,
-    levels: Levels,
-    houses: Vec<House>,
-    houses_of: Vec<Vec<u32>>,
-    flush: Vec<Option<i32>>,
-    earth: Option<u8>,
+    context: MapContext,
     constraints: Constraints,
 }
 
@@ -69,24 +63,29 @@ impl Landscape {
         let constraints = Constraints::read(&grid, &groups);
         let levels = Levels::new(&groups, &constraints);
         let houses = houses::measure(&grid, &groups, &levels);
-        let flush = solids::flush(&grid, &groups, &levels);
-        let earth = commonest(map, Tile::Brown);
-        Self {
+        let context = MapContext {
+            flush: solids::flush(&grid, &groups, &levels),
+            earth: commonest(map, Tile::Brown),
+            houses_of: houses::by_stripe(&houses, map.columns),
             grid,
             groups,
             levels,
-            houses_of: houses::by_stripe(&houses, map.columns),
             houses,
-            flush,
-            earth,
+        };
+        Self {
+            context,
             constraints,
         }
     }
 
     /// The height of the top that is drawn in a cell: ground or water; `None` where there is none.
     pub fn top(&self, column: usize, row: usize) -> Option<i32> {
-        match self.groups.kind(column * self.grid.rows + row) {
-            GroupKind::Surface(surface) => Some(self.levels.level[surface as usize]),
+        match self
+            .context
+            .groups
+            .kind(column * self.context.grid.rows + row)
+        {
+            GroupKind::Surface(surface) => Some(self.context.levels.level[surface as usize]),
             _ => None,
         }
     }
@@ -95,7 +94,7 @@ impl Landscape {
     /// a front. `None` where nothing is drawn.
     pub fn visible_heights(&self, column: usize) -> Vec<Option<i32>> {
         let mut solids = Solids::default();
-        solids.read_views(&self.context(), column);
+        solids.read_views(&self.context, column);
         let heights = solids.views.iter().flat_map(|view| {
             let rows = view.start..view.end;
             rows.map(|row| match view.visible {
@@ -109,14 +108,14 @@ impl Landscape {
 
     /// The number of columns of the map.
     pub fn columns(&self) -> usize {
-        self.grid.columns
+        self.context.grid.columns
     }
 
     /// The solid blocks of a column in no order, each as `[back, front]` and `[bottom, top]`. They may overlap, some have no
     /// height, and roofs are not among them.
     pub fn blocks(&self, column: usize) -> Vec<[[i32; 2]; 2]> {
         let mut solids = Solids::default();
-        solids.build(&self.context(), column);
+        solids.build(&self.context, column);
         solids
             .blocks
             .iter()
@@ -126,12 +125,16 @@ impl Landscape {
 
     /// The places of the map that can be read in more than one way.
     pub fn ambiguities(&self) -> Vec<Ambiguity> {
-        ambiguities::ambiguities(&self.context(), &self.constraints)
+        ambiguities::ambiguities(&self.context, &self.constraints)
     }
 
     /// The group that a cell's top belongs to: its index among [`groups`](Self::groups).
     pub fn group_at(&self, column: usize, row: usize) -> Option<usize> {
-        match self.groups.kind(column * self.grid.rows + row) {
+        match self
+            .context
+            .groups
+            .kind(column * self.context.grid.rows + row)
+        {
             GroupKind::Surface(surface) => Some(surface as usize - 1),
             _ => None,
         }
@@ -140,24 +143,33 @@ impl Landscape {
     /// The groups of ground and the bodies of water, in the order of their first cells, column by column.
     pub fn groups(&self) -> impl Iterator<Item = Group> + '_ {
         // The first surface is the ground, which is not drawn.
-        let surfaces = self.groups.surfaces.iter().zip(&self.levels.level).skip(1);
+        let surfaces = self
+            .context
+            .groups
+            .surfaces
+            .iter()
+            .zip(&self.context.levels.level)
+            .skip(1);
         surfaces.map(|(surface, level)| Group {
             water: surface.water,
             height: *level,
             cells: surface.area,
-            first: self.grid.place(surface.first),
+            first: self.context.grid.place(surface.first),
         })
     }
 
     /// The house that a cell's roof or wall belongs to: its index among [`houses`](Self::houses).
     pub fn house_at(&self, column: usize, row: usize) -> Option<usize> {
-        let kind = self.groups.kind(column * self.grid.rows + row);
+        let kind = self
+            .context
+            .groups
+            .kind(column * self.context.grid.rows + row);
         kind.house().map(|house| house as usize)
     }
 
     /// The houses.
     pub fn houses(&self) -> impl Iterator<Item = HouseInfo> + '_ {
-        self.houses.iter().map(|house| HouseInfo {
+        self.context.houses.iter().map(|house| HouseInfo {
             base: house.base,
             width: house.walls.len() as i32,
             depth: house.depth,
@@ -168,19 +180,7 @@ impl Landscape {
     /// The triangles: per material the pieces of its surface, in tiles, about the map's middle at height 0. `roof` is the ratio
     /// of a roof's height to its depth, `bevel` the radius of bevels in tiles, at most a half.
     pub fn surface(&self, roof: f64, bevel: f64) -> Vec<(u8, Vec<Surface>)> {
-        surface::surface(&self.context(), roof, bevel)
-    }
-
-    fn context(&self) -> MapContext<'_> {
-        MapContext {
-            grid: &self.grid,
-            groups: &self.groups,
-            levels: &self.levels,
-            houses: &self.houses,
-            houses_of: &self.houses_of,
-            flush: &self.flush,
-            earth: self.earth,
-        }
+        surface::surface(&self.context, roof, bevel)
     }
 }
 

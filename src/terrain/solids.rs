@@ -78,15 +78,15 @@ impl View {
 
 /// The map and everything computed from it, which columns are built from.
 #[derive(Debug)]
-pub(super) struct MapContext<'a> {
-    pub(super) grid: &'a Grid,
-    pub(super) groups: &'a Groups,
-    pub(super) levels: &'a Levels,
-    pub(super) houses: &'a [House],
+pub(super) struct MapContext {
+    pub(super) grid: Grid,
+    pub(super) groups: Groups,
+    pub(super) levels: Levels,
+    pub(super) houses: Vec<House>,
     /// Per stripe of columns the houses that extend into it.
-    pub(super) houses_of: &'a [Vec<u32>],
+    pub(super) houses_of: Vec<Vec<u32>>,
     /// Per group of fronts its lowest row, if it ends flush with what is behind it (rule 6).
-    pub(super) flush: &'a [Option<i32>],
+    pub(super) flush: Vec<Option<i32>>,
     /// The material of earth where none is drawn.
     pub(super) earth: Option<u8>,
 }
@@ -160,13 +160,12 @@ impl Occlusion {
 
 impl Solids {
     /// Reads a column and finds what is visible in it, without building blocks.
-    pub(super) fn read_views(&mut self, context: &MapContext<'_>, number: usize) {
-        self.column.read(context.grid, context.groups, number);
+    pub(super) fn read_views(&mut self, context: &MapContext, number: usize) {
+        self.column.read(&context.grid, &context.groups, number);
         self.find_views(context);
     }
 
-    /// Builds a column.
-    pub(super) fn build(&mut self, context: &MapContext<'_>, number: usize) {
+    pub(super) fn build(&mut self, context: &MapContext, number: usize) {
         self.read_views(context, number);
         self.extend_backs(context);
         self.blocks.clear();
@@ -185,7 +184,7 @@ impl Solids {
     }
 
     /// Finds what is visible in each segment.
-    fn find_views(&mut self, context: &MapContext<'_>) {
+    fn find_views(&mut self, context: &MapContext) {
         self.views.clear();
         let level = |surface: u32| context.levels.level[surface as usize];
         let house = |house: u32| &context.houses[house as usize];
@@ -217,7 +216,7 @@ impl Solids {
     }
 
     /// The height of what a front without a top stands on.
-    fn level_below(&self, context: &MapContext<'_>, front: usize) -> i32 {
+    fn level_below(&self, context: &MapContext, front: usize) -> i32 {
         let level = |surface: u32| context.levels.level[surface as usize];
         match self.column.segments.get(front + 1).map(|next| next.kind) {
             Some(GroupKind::Surface(surface)) => level(surface),
@@ -230,7 +229,7 @@ impl Solids {
     }
 
     /// The material of the sides of the block that a front belongs to.
-    fn side(&self, context: &MapContext<'_>, number: usize, front: usize, top: u8) -> u8 {
+    fn side(&self, context: &MapContext, number: usize, front: usize, top: u8) -> u8 {
         match self.column.segments.get(front) {
             Some(segment) if segment.kind == GroupKind::Front => {
                 context.grid.cells[number * context.grid.rows + segment.start as usize]
@@ -240,7 +239,7 @@ impl Solids {
     }
 
     /// Extends the tops of a column to the back of what stands on them.
-    fn extend_backs(&mut self, context: &MapContext<'_>) {
+    fn extend_backs(&mut self, context: &MapContext) {
         self.backs.clear();
         for index in 0..self.views.len() {
             let back = match self.column.segments[index].kind {
@@ -257,7 +256,7 @@ impl Solids {
     }
 
     /// The back of the block that stands on a segment of this height, if there is one.
-    fn back_of_block(&self, context: &MapContext<'_>, index: usize, level: i32) -> Option<i32> {
+    fn back_of_block(&self, context: &MapContext, index: usize, level: i32) -> Option<i32> {
         let above = index.checked_sub(1)?;
         let front = self.column.segments[above];
         if let GroupKind::Wall(house) = front.kind {
@@ -284,7 +283,7 @@ impl Solids {
     /// Adds the block of a top and its hidden continuation.
     fn surface(
         &mut self,
-        context: &MapContext<'_>,
+        context: &MapContext,
         number: usize,
         index: usize,
         surface: u32,
@@ -326,7 +325,7 @@ impl Solids {
     }
 
     /// The bottom of a top's block: its foot, or lower where that stays hidden.
-    fn bottom(&self, context: &MapContext<'_>, index: usize, surface: u32, end: i32) -> i32 {
+    fn bottom(&self, context: &MapContext, index: usize, surface: u32, end: i32) -> i32 {
         let segment = self.column.segments[index];
         let level = context.levels.level[surface as usize];
         let (fronts, _, _) = self.column.below(index);
@@ -338,7 +337,7 @@ impl Solids {
     /// Fills below a front that hangs, so that it ends flush with what is behind it (rule 6).
     fn flush_below(
         &mut self,
-        context: &MapContext<'_>,
+        context: &MapContext,
         number: usize,
         index: usize,
         [level, bottom]: [i32; 2],
@@ -372,14 +371,7 @@ impl Solids {
 
     /// Continues the support of a cliff below and in front of it where its foot is hidden. Must be called when `hidden` has all
     /// views below the cliff and none of the cliff; `next` is the segment after the cliff.
-    fn support(
-        &mut self,
-        context: &MapContext<'_>,
-        index: usize,
-        surface: u32,
-        next: usize,
-        end: i32,
-    ) {
+    fn support(&mut self, context: &MapContext, index: usize, surface: u32, next: usize, end: i32) {
         let Some(support) = context.levels.support[surface as usize] else {
             return;
         };
@@ -415,7 +407,7 @@ impl Solids {
     }
 
     /// Adds the block of a front. A front belongs to what is above it; without anything above it is one tile deep (rule 9).
-    fn front(&mut self, context: &MapContext<'_>, number: usize, index: usize, end: i32) {
+    fn front(&mut self, context: &MapContext, number: usize, index: usize, end: i32) {
         let above = index
             .checked_sub(1)
             .map(|above| self.column.segments[above].kind);
@@ -440,7 +432,7 @@ impl Solids {
     }
 
     /// Adds the blocks of houses, also where something nearer hides the wall.
-    fn walls(&mut self, context: &MapContext<'_>, number: usize) {
+    fn walls(&mut self, context: &MapContext, number: usize) {
         let column = number as i32;
         for house in &context.houses_of[number / STRIPE] {
             let house = &context.houses[*house as usize];
@@ -459,7 +451,7 @@ impl Solids {
     /// Adds the block below a house where fronts are visible below its wall.
     fn foundation(
         &mut self,
-        context: &MapContext<'_>,
+        context: &MapContext,
         number: usize,
         index: usize,
         house: u32,
@@ -488,7 +480,7 @@ impl Solids {
     /// Splits rows into runs of one material: the drawn one where what is visible passes the test `is`, `None` elsewhere.
     pub(super) fn drawn_materials(
         &self,
-        context: &MapContext<'_>,
+        context: &MapContext,
         number: usize,
         rows: Range<i32>,
         is: impl Fn(Visible) -> bool,

@@ -168,7 +168,6 @@ impl CostEstimate {
         Ok(())
     }
 
-    /// Adds intermediate pixels.
     fn add_pixels(&mut self, pixels: f64) -> Result<(), &'static str> {
         self.pixels += pixels;
         // Written so that NaN is refused too.

@@ -44,7 +44,6 @@ pub(super) struct Callee<'a> {
     pub(super) kind: Option<&'static Kind>,
     /// The range of the name.
     pub(super) range: &'a std::ops::Range<usize>,
-    /// The number of parameters.
     pub(super) parameters: usize,
     /// The attribute's keyword.
     pub(super) keyword: Keyword,
@@ -195,11 +194,12 @@ impl Checker<'_> {
             1 => format!("`{}`", callee.name),
             _ => format!("`{}` of `{}`", parameter.name, callee.name),
         };
+        let message = format!("{owner} cannot be {value}");
         self.diagnostics.push(
             Diagnostic::new(
                 Code::OutOfRange,
                 self.text.span(argument.range.clone()),
-                format!("{owner} cannot be {value}"),
+                message,
             )
             .label(format!("expected {}", bounds.describe())),
         );
@@ -298,11 +298,12 @@ impl Checker<'_> {
             self.unknown_keywords(excess);
             return true;
         }
+        let message = format!("`{}` has too many arguments", callee.name);
         self.diagnostics.push(
             Diagnostic::new(
                 Code::ArgumentCount,
                 self.text.span(first.range.start..last.range.end),
-                format!("`{}` has too many arguments", callee.name),
+                message,
             )
             .label(match excess.len() {
                 1 => "one too many".to_owned(),
@@ -341,10 +342,11 @@ impl Checker<'_> {
         let end = arguments
             .last()
             .map_or(callee.range.end, |last| last.range.end);
+        let message = format!("`{}` has too few arguments", callee.name);
         let diagnostic = Diagnostic::new(
             Code::ArgumentCount,
             self.text.span(callee.range.start..end),
-            format!("`{}` has too few arguments", callee.name),
+            message,
         )
         .help(format!("write `{}`", callee.usage()));
         self.diagnostics.push(match missing {
@@ -366,12 +368,9 @@ impl Checker<'_> {
             .unwrap_or_default();
         let shown: String = written.chars().take(40).collect();
         let span = self.text.span(argument.range.clone());
-        let mut diagnostic = Diagnostic::new(
-            Code::ArgumentType,
-            span,
-            format!("`{shown}` is not what `{}` needs here", callee.name),
-        )
-        .label(format!("expected {}", parameter.takes.describe()));
+        let message = format!("`{shown}` is not what `{}` needs here", callee.name);
+        let mut diagnostic = Diagnostic::new(Code::ArgumentType, span, message)
+            .label(format!("expected {}", parameter.takes.describe()));
         let textual = matches!(parameter.takes, Takes::File | Takes::Text);
         if textual && !matches!(argument.kind, ArgumentKind::Quoted(_)) {
             diagnostic = diagnostic
@@ -390,11 +389,12 @@ impl Checker<'_> {
 
     fn bad_hex(&mut self, argument: &Argument, digits: &str) {
         let shown: String = digits.chars().take(20).collect();
+        let message = format!("`#{shown}` is not a colour");
         self.diagnostics.push(
             Diagnostic::new(
                 Code::ArgumentType,
                 self.text.span(argument.range.clone()),
-                format!("`#{shown}` is not a colour"),
+                message,
             )
             .label("expected 3, 4, 6 or 8 digits from 0 to f")
             .help("write a colour as `#rrggbb`, for example `#ff8800`"),

@@ -7,7 +7,7 @@ use crate::lang::ast::{Argument, ArgumentKind, Attribute};
 use crate::lang::evaluate::Lookup;
 use crate::lang::keyword::kinds::{Kind, Rule};
 use crate::lang::keyword::signature::{Form, Takes};
-use crate::lang::keyword::{Keyword, Status, kinds};
+use crate::lang::keyword::{Keyword, kinds};
 use crate::lang::parameter::form_by_first_argument;
 use crate::lang::value::{Ground, KindArguments, Origin, Shape, SignedAxis, Value};
 
@@ -99,18 +99,13 @@ impl Checker<'_> {
             .collect();
         let range = first.range.start..last.range.end;
         let span = self.text.span(range.clone());
-        self.diagnostics.push(
-            Diagnostic::new(
-                Code::OutOfRange,
-                span,
-                "red, green and blue go from 0 to 1, not from 0 to 255",
-            )
-            .fix(
+        let message = "red, green and blue go from 0 to 1, not from 0 to 255";
+        self.diagnostics
+            .push(Diagnostic::new(Code::OutOfRange, span, message).fix(
                 format!("Write `#{digits}`"),
                 span,
                 self.text.escape_at(range.start, &format!("#{digits}")),
-            ),
-        );
+            ));
         true
     }
 
@@ -119,11 +114,12 @@ impl Checker<'_> {
         if right != up && up != front && front != right {
             return self.check_handedness(axes, attribute);
         }
+        let message = "`Axes` uses one axis twice";
         self.diagnostics.push(
             Diagnostic::new(
                 Code::OutOfRange,
                 self.text.span(attribute.range.clone()),
-                "`Axes` uses one axis twice",
+                message,
             )
             .help("use each of x, y and z once: `%Axes +x +y +z`"),
         );
@@ -137,10 +133,11 @@ impl Checker<'_> {
         if cyclic == (negative % 2 == 0) {
             return Some(());
         }
+        let message = "these `Axes` would mirror the model";
         let mut diagnostic = Diagnostic::new(
             Code::OutOfRange,
             self.text.span(attribute.range.clone()),
-            "these `Axes` would mirror the model",
+            message,
         )
         .help("reverse one of the three directions, for example from `+z` to `-z`");
         if let Some(front) = attribute.arguments.last() {
@@ -171,9 +168,6 @@ impl Checker<'_> {
             self.unknown_word(callee, first, word, names);
             return None;
         };
-        if kind.status == Status::Planned {
-            self.not_built(kind.name, first.range.clone());
-        }
         let callee = Callee {
             name: kind.name,
             kind: Some(kind),
@@ -218,12 +212,9 @@ impl Checker<'_> {
             return Some(());
         }
         let range = first.range.start..second.range.end;
-        let mut diagnostic = Diagnostic::new(
-            Code::OutOfRange,
-            self.text.span(range),
-            format!("nothing is left of a rounding from {a0} to {a1} degrees"),
-        )
-        .label("the first angle must be the smaller one");
+        let message = format!("nothing is left of a rounding from {a0} to {a1} degrees");
+        let mut diagnostic = Diagnostic::new(Code::OutOfRange, self.text.span(range), message)
+            .label("the first angle must be the smaller one");
         if a0 > a1 {
             let written = |argument: &Argument| &self.text.as_str()[argument.range.clone()];
             let edit = |from: &Argument, to: &Argument| Edit {
@@ -259,13 +250,10 @@ impl Checker<'_> {
             (Some(first), Some(last)) => first.range.start..last.range.end,
             _ => attribute.range.clone(),
         };
+        let message = format!("this `{}` has no thickness", kind.name);
         self.diagnostics.push(
-            Diagnostic::new(
-                Code::ZeroThickness,
-                self.text.span(range),
-                format!("this `{}` has no thickness", kind.name),
-            )
-            .help("write `Shape flat` for a thin sheet, or `Shape none` for no solid at all"),
+            Diagnostic::new(Code::ZeroThickness, self.text.span(range), message)
+                .help("write `Shape flat` for a thin sheet, or `Shape none` for no solid at all"),
         );
     }
 }

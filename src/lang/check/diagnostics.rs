@@ -17,24 +17,22 @@ impl Checker<'_> {
         };
         let span = self.text.span(attribute.keyword_range.clone());
         let places = attribute.keyword.row().allowed.places();
+        let message = format!("`{name}` is not allowed {here}");
         self.diagnostics.push(
-            Diagnostic::new(
-                Code::NotAllowedHere,
-                span,
-                format!("`{name}` is not allowed {here}"),
-            )
-            .help(format!("`{name}` is allowed {places}")),
+            Diagnostic::new(Code::NotAllowedHere, span, message)
+                .help(format!("`{name}` is allowed {places}")),
         );
     }
 
     pub(super) fn given_twice(&mut self, later: &Attribute, earlier: &Attribute) {
         let name = later.keyword.name();
         let related = self.text.span(earlier.range.clone());
+        let message = format!("`{name}` is given twice");
         self.diagnostics.push(
             Diagnostic::new(
                 Code::GivenTwice,
                 self.text.span(later.keyword_range.clone()),
-                format!("`{name}` is given twice"),
+                message,
             )
             .label("this one counts")
             .related(related, "this one is ignored")
@@ -43,13 +41,10 @@ impl Checker<'_> {
     }
 
     pub(super) fn not_built(&mut self, name: &str, range: Range<usize>) {
+        let message = format!("`{name}` has no effect in this version");
         self.diagnostics.push(
-            Diagnostic::new(
-                Code::NotBuiltYet,
-                self.text.span(range),
-                format!("`{name}` has no effect in this version"),
-            )
-            .label("read and checked, but not supported yet"),
+            Diagnostic::new(Code::NotBuiltYet, self.text.span(range), message)
+                .label("read and checked, but not supported yet"),
         );
     }
 
@@ -61,11 +56,9 @@ impl Checker<'_> {
     ) {
         let name = attribute.keyword.name();
         let flags = attribute.keyword.row().flags;
-        let mut diagnostic = Diagnostic::new(
-            Code::UnknownFlag,
-            self.text.span(range.clone()),
-            format!("`{name}` has no flag `-{letter}`"),
-        );
+        let message = format!("`{name}` has no flag `-{letter}`");
+        let mut diagnostic =
+            Diagnostic::new(Code::UnknownFlag, self.text.span(range.clone()), message);
         let word: String = attribute.flags.iter().map(|(letter, _)| *letter).collect();
         if flags.is_empty() {
             // Directly after a keyword, `-w` is read as flags.
@@ -101,11 +94,8 @@ impl Checker<'_> {
         let usage = attribute.keyword.usages().join("`, or `");
         let range = attribute.keyword_range.clone();
         let span = self.text.span(range.clone());
-        let diagnostic = Diagnostic::new(
-            Code::ArgumentCount,
-            span,
-            format!("`{name}` needs arguments"),
-        );
+        let message = format!("`{name}` needs arguments");
+        let diagnostic = Diagnostic::new(Code::ArgumentCount, span, message);
         let written = self.text.as_str().get(range.clone()).unwrap_or(name);
         let diagnostic = match before.filter(|before| takes_a_name(before)) {
             Some(before) if before.keyword == Keyword::Let => diagnostic.help(format!(

@@ -1,6 +1,5 @@
 //! The kinds of `Shape`.
 
-use super::Status;
 use super::signature::{Bounds, Form, Parameter, Restriction, Takes, number};
 
 /// What the table says about a kind of `Shape`.
@@ -22,8 +21,6 @@ pub struct Kind {
     pub long: &'static str,
     /// A whole string that uses it.
     pub example: &'static str,
-    /// Whether this version supports it.
-    pub status: Status,
 }
 
 /// A rule about the numbers of a kind.
@@ -106,7 +103,6 @@ pub static KINDS: [Kind; 12] = [
                wood. `z0` and `z1` say how far it extends to the back (negative) and to the front \
                (positive), in drawing units.",
         example: "Ubody$Shape default -10 10",
-        status: Status::Built,
     },
     Kind {
         name: "roundv",
@@ -119,7 +115,6 @@ pub static KINDS: [Kind; 12] = [
                a drawn carrot becomes a carrot. The angles say how much of the rounding is kept: \
                `-90 90` is all of it, `0 90` the front half, `-90 0` the back half.",
         example: "Rarm@Ubody$Shape roundv -90 90",
-        status: Status::Built,
     },
     Kind {
         name: "roundh",
@@ -131,7 +126,6 @@ pub static KINDS: [Kind; 12] = [
         long: "Like `roundv`, but rounded the other way: the cylinder lies across the part's long \
                axis. The angles say how much of the rounding is kept.",
         example: "Drum$Shape roundh",
-        status: Status::Built,
     },
     Kind {
         name: "round",
@@ -144,7 +138,6 @@ pub static KINDS: [Kind; 12] = [
                angles say how much of the rounding is kept (`0 90` is a dome), `r` how far it comes \
                out of the drawing plane, in drawing units.",
         example: "Head@Ubody$Shape round -90 90 25",
-        status: Status::Built,
     },
     Kind {
         name: "cone",
@@ -157,7 +150,6 @@ pub static KINDS: [Kind; 12] = [
                depth `z1`. A `top` of 0 gives a point, 0.5 half the size, 1 a plate. A circle \
                becomes a cone, a square a pyramid.",
         example: "Nose@Head$Shape cone 0 12 0.2",
-        status: Status::Built,
     },
     Kind {
         name: "conev",
@@ -169,7 +161,6 @@ pub static KINDS: [Kind; 12] = [
         long: "Like `cone`, but only the width across the part's axis shrinks. A bar becomes a roof \
                whose ridge runs along the bar.",
         example: "Roof$Shape conev 0 30",
-        status: Status::Built,
     },
     Kind {
         name: "coneh",
@@ -181,7 +172,6 @@ pub static KINDS: [Kind; 12] = [
         long: "Like `cone`, but only the length along the part's axis shrinks. A bar becomes a roof \
                whose ridge runs across the bar.",
         example: "Roof$Shape coneh 0 30",
-        status: Status::Built,
     },
     Kind {
         name: "inflate",
@@ -198,7 +188,6 @@ pub static KINDS: [Kind; 12] = [
                wide. Good for hands, leaves, clouds and animals: outlines for which the round \
                kinds are too regular.",
         example: "Cloud$Shape inflate 12",
-        status: Status::Built,
     },
     Kind {
         name: "lathe",
@@ -214,7 +203,6 @@ pub static KINDS: [Kind; 12] = [
                far the outline is turned, half of it to each side of the viewer: 360 makes a \
                complete turn, 180 the front half, closed by a flat back.",
         example: "Vase$Shape lathe 360",
-        status: Status::Built,
     },
     Kind {
         name: "model",
@@ -228,7 +216,6 @@ pub static KINDS: [Kind; 12] = [
                Its up direction follows the part's axis (`Axis 90` keeps it upright), and its front \
                faces the viewer. The file must be in the drawing's folder or below it.",
         example: "Sword@Rarm$Shape model \"sword.glb\"",
-        status: Status::Built,
     },
     Kind {
         name: "flat",
@@ -239,7 +226,6 @@ pub static KINDS: [Kind; 12] = [
         summary: "the outline alone, like paper",
         long: "The part stays a thin sheet that is visible from both sides. `z` is its depth.",
         example: "Eye@Head$Shape flat 26",
-        status: Status::Built,
     },
     Kind {
         name: "none",
@@ -250,7 +236,6 @@ pub static KINDS: [Kind; 12] = [
         summary: "no solid: a joint only",
         long: "The part has no solid, but it is a joint that other parts can be attached to.",
         example: "Hips$Shape none",
-        status: Status::Built,
     },
 ];
 

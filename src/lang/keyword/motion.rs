@@ -1,7 +1,9 @@
 //! Rows of the table: motion, and figures on a stage.
 
-use super::signature::{Bounds, COLOUR_NAME, FILE, Form, HEX, NAMES, Parameter, Takes, number};
-use super::{Allowed, Row, Status};
+use super::signature::{
+    Bounds, COLOUR_NAME, FILE, Form, HEX, NAMES, POINT, Parameter, Takes, number,
+};
+use super::{Allowed, Row};
 
 static CLIP: [Parameter; 2] = [
     Parameter {
@@ -19,10 +21,6 @@ static FRAMES: [Parameter; 2] = [
     number("omit", Bounds::COUNT, "drawings to leave out"),
     number("hold", Bounds::COUNT, "frames to hold"),
 ];
-static POINT: [Parameter; 2] = [
-    number("x", Bounds::ANY, "to the right, in drawing units"),
-    number("y", Bounds::ANY, "down the page, in drawing units"),
-];
 static FACTOR: [Parameter; 1] = [number("factor", Bounds::POSITIVE, "1 is the size as drawn")];
 static SPEED: [Parameter; 1] = [number(
     "speed",
@@ -37,59 +35,48 @@ static SECONDS: [Parameter; 1] = [number(
 
 pub(super) static BONE: Row = Row {
     forms: &[Form::new(&NAMES, &[])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "matched by name and position",
     summary: "the joints of the motion that drive the part",
     long: "A motion file has joints of its own; okoshi matches them with the parts by name and \
            position. Where a match is wrong, name the joint here. A name with spaces or \
            punctuation needs quotes.",
     example: "Rarm@Ubody$Bone RightArm RightForeArm",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static MARK: Row = Row {
     forms: &[Form::new(&COLOUR_NAME, &[1]), Form::new(&HEX, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
-    default: "none",
     summary: "the coloured mark that moves the part in a filmed performance",
     long: "In a filmed performance, small coloured marks are moved by hand. A part with `Mark` \
            follows the mark of that colour.",
     example: "Rhand@Rarm$Mark red",
-    status: Status::Planned,
+    ..Row::PLANNED
 };
 
 pub(super) static FOLLOW: Row = Row {
     forms: &[Form::new(&NAMES, &[])],
-    flags: &[],
-    allowed: Allowed::Part,
-    default: "none",
     summary: "joints that are edited together with this one",
     long: "Whatever a performance does to the part with `Mark`, it also does to the parts named \
            here: it moves the upper arm along with the hand, for example. A name that is a keyword, \
            or that contains spaces or punctuation, needs quotes.",
     example: "Rhand@Rarm$Mark red Follow Rarm Ubody",
-    status: Status::Planned,
+    ..Row::PLANNED
 };
 
 pub(super) static MOTION: Row = Row {
     forms: &[Form::new(&CLIP, &[1, 2])],
-    flags: &[],
     allowed: Allowed::PartAndDrawing,
-    default: "none",
     summary: "a motion for the figure",
     long: "The figure plays a motion-capture file (BVH); the file's joints are matched with the \
            parts. In the string of a figure's root part, `Motion` applies to that figure; in a `%` \
            string, to all figures. Several `Motion` give several clips; the second argument names \
            the clip.",
     example: "Lbody$Motion \"kick.bvh\" kick",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static LIMITED: Row = Row {
     forms: &[Form::new(&FRAMES, &[2])],
-    flags: &[],
     allowed: Allowed::PartAndDrawing,
     default: "full animation",
     summary: "limited animation, as in hand-drawn films",
@@ -97,64 +84,52 @@ pub(super) static LIMITED: Row = Row {
            `hold` the number of frames to hold where it is slowest. The motion snaps and rests \
            like a hand-drawn one.",
     example: "%Limited 4 30",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static STAND: Row = Row {
     forms: &[Form::new(&POINT, &[2])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "where it is drawn",
     summary: "the figure's position on the stage",
     long: "The figure's position on the stage in drawing units, instead of the position where it \
            is drawn.",
     example: "Tree$Stand 40 -120",
-    status: Status::Planned,
+    ..Row::PLANNED
 };
 
 pub(super) static SIZE: Row = Row {
     forms: &[Form::new(&FACTOR, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "1",
     summary: "makes the figure larger or smaller on the stage",
     long: "2 makes it twice as large, 0.5 half as large.",
     example: "Tree$Stand 40 -120 Size 1.5",
-    status: Status::Planned,
+    ..Row::PLANNED
 };
 
 pub(super) static WALK: Row = Row {
     forms: &[Form::new(&SPEED, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
-    default: "none",
     summary: "makes the string's line a path that the named figure walks",
     long: "Draw a line, and write the figure's name and its speed beside it. The speed is in \
            drawing units per second.",
     example: "Boy$Walk 40",
-    status: Status::Planned,
+    ..Row::PLANNED
 };
 
 pub(super) static POSE: Row = Row {
     forms: &[Form::new(&SECONDS, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
-    default: "none",
     summary: "makes the string's layer a key pose",
     long: "Copy the figure to a layer of its own and move its parts there: that is the figure's \
            pose at the given second.",
     example: "Boy$Pose 1.5",
-    status: Status::Planned,
+    ..Row::PLANNED
 };
 
 pub(super) static PERFORM: Row = Row {
     forms: &[Form::new(&FILE, &[1])],
-    flags: &[],
     allowed: Allowed::PartAndDrawing,
-    default: "none",
     summary: "a performed track that times and exaggerates the motion",
     long: "A track of coloured marks, made by `okoshi track` from a film in which somebody moves \
            them by hand. The motion takes its timing and its emphasis from the track.",
     example: "Lbody$Motion \"kick.bvh\" Perform \"hands.json\"",
-    status: Status::Planned,
+    ..Row::PLANNED
 };

@@ -1,9 +1,9 @@
 //! Rows of the table: the shape, position and material of a part.
 
 use super::signature::{
-    Bounds, COLOUR_NAME, FILE, Form, HEX, Parameter, Restriction, Takes, number,
+    Bounds, COLOUR_NAME, DISTANCE, FILE, Form, HEX, POINT, Parameter, Restriction, Takes, number,
 };
-use super::{Allowed, Flag, Row, Status, vocabulary};
+use super::{Flag, Row, vocabulary};
 
 static RGBA: [Parameter; 4] = [
     number("r", Bounds::FRACTION, "red"),
@@ -25,15 +25,6 @@ static ORIGIN_WORD: [Parameter; 1] = [Parameter {
     summary: "the point",
     takes: Takes::Choice(&vocabulary::ORIGIN),
 }];
-static POINT: [Parameter; 2] = [
-    number("x", Bounds::ANY, "to the right, in drawing units"),
-    number("y", Bounds::ANY, "down the page, in drawing units"),
-];
-static DISTANCE: [Parameter; 1] = [number(
-    "d",
-    Bounds::ANY,
-    "towards the viewer, in drawing units",
-)];
 static DEGREES: [Parameter; 1] = [number(
     "degrees",
     Bounds::ANY,
@@ -62,8 +53,6 @@ pub(super) static COLOR: Row = Row {
         Form::new(&HEX, &[1]),
         Form::new(&COLOUR_NAME, &[1]),
     ],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "the shape's own fill",
     summary: "the part's colour",
     long: "Without `Color` a part keeps the colour it is filled with. `Color` sets another one: \
@@ -71,7 +60,7 @@ pub(super) static COLOR: Row = Row {
            `#rrggbb`, or by its CSS name.\n\n`Color` replaces a fill. It does not change the \
            picture of an image.",
     example: "Rarm@Ubody$Color 1 0.8 0.6",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static SHAPE: Row = Row {
@@ -90,7 +79,6 @@ pub(super) static SHAPE: Row = Row {
             summary: "a second, mirrored copy that moves independently, with copies of all attached parts",
         },
     ],
-    allowed: Allowed::Part,
     default: "default",
     summary: "how the flat outline becomes a solid",
     long: "Every part is drawn flat; `Shape` says how it gets its thickness: a plate (`default`), \
@@ -101,25 +89,21 @@ pub(super) static SHAPE: Row = Row {
            own (`Tyre` and `Tyre.back`), `-c` lets the part turn about its centre. Flags can be \
            combined: `Shape -cd round`.",
     example: "Tyre@Car$Shape -cd default 20 30",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static OFFSET: Row = Row {
     forms: &[Form::new(&DISTANCE, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "0",
     summary: "moves the part towards the viewer, or away",
     long: "Moves the part by `d` drawing units towards the viewer, or away if `d` is negative. \
            With `Shape -s` and `Shape -d` one copy moves to `d` and the other to `-d`.",
     example: "Rarm@Ubody$Offset 12",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static ORIGIN: Row = Row {
     forms: &[Form::new(&ORIGIN_WORD, &[1]), Form::new(&POINT, &[2])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "the part's centre or one of its two ends, whichever is nearest to the parent's centre",
     summary: "the point about which the part turns",
     long: "A part turns about its origin: an arm about the shoulder, a wheel about its hub. okoshi \
@@ -127,99 +111,82 @@ pub(super) static ORIGIN: Row = Row {
            (the end nearer to the parent), `end` (the other end), or give the point itself in \
            drawing units.",
     example: "Rarm@Ubody$Origin start",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static AXIS: Row = Row {
     forms: &[Form::new(&DEGREES, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "the outline's long direction",
     summary: "the direction of the part's axis",
     long: "`roundv`, `roundh`, `conev`, `coneh` and `lathe` depend on the part's axis, which is \
            the outline's long direction. `Axis` sets it: 0 points right, 90 up, 180 left.",
     example: "Head@Ubody$Axis 90",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static SEGMENTS: Row = Row {
     forms: &[Form::new(&STEPS, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "16",
     summary: "how finely a rounding is divided",
     long: "The number of steps in half a turn of a rounding. 16 looks round; 4 gives the \
            eight-sided look of old games; more than 32 is seldom worth the extra triangles.",
     example: "%Segments 8",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static SMOOTH: Row = Row {
     forms: &[Form::new(&CREASE, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "30",
     summary: "the largest angle at which an edge is shaded smooth",
     long: "Where two faces meet at less than this angle they are shaded as one smooth surface; \
            otherwise the edge between them shows. With 0 every edge shows, with 180 none.",
     example: "%Smooth 0",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static METALLIC: Row = Row {
     forms: &[Form::new(&FACTOR, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "0",
     summary: "how metallic the part looks",
     long: "0 is paint, wood, cloth or skin; 1 is bare metal.",
     example: "Sword@Rarm$Metallic 1 Roughness 0.3",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static ROUGHNESS: Row = Row {
     forms: &[Form::new(&FACTOR, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "0.9",
     summary: "how matt the part looks",
     long: "0 is a mirror, 1 is chalk.",
     example: "Visor@Head$Roughness 0.1",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static EMISSIVE: Row = Row {
     forms: &[Form::new(&RGB, &[3])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "0 0 0",
     summary: "the light that the part gives off",
     long: "Red, green and blue from 0 to 1. The part shows this colour even in the dark: a lamp, \
            an eye, lava. It does not light other parts.",
     example: "Lamp$Emissive 1 0.9 0.5",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static ALPHA: Row = Row {
     forms: &[Form::new(&FACTOR, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "the fill's opacity",
     summary: "the part's opacity",
     long: "1 is opaque, 0 is invisible; glass is about 0.3.",
     example: "Window@Car$Alpha 0.3",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static TEXTURE: Row = Row {
     forms: &[Form::new(&FILE, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
-    default: "none",
     summary: "an image on the part",
     long: "The image (PNG, JPEG, GIF or WebP) covers the part's bounding box as seen from the \
            front; on terrain it covers each tile. It replaces the part's fill; `Color` tints it. \
            The file must be in the drawing's folder or below it.",
     example: "Sail@Ship$Texture \"canvas.png\"",
-    status: Status::Built,
+    ..Row::ROW
 };

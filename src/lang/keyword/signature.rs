@@ -234,7 +234,18 @@ pub(super) static NAMES: [Parameter; 1] = [Parameter {
     takes: Takes::Names,
 }];
 
-/// A parameter that takes a number.
+/// A point of the drawing.
+pub(super) static POINT: [Parameter; 2] = [
+    number("x", Bounds::ANY, "to the right, in drawing units"),
+    number("y", Bounds::ANY, "down the page, in drawing units"),
+];
+/// A depth.
+pub(super) static DISTANCE: [Parameter; 1] = [number(
+    "d",
+    Bounds::ANY,
+    "towards the viewer, in drawing units",
+)];
+
 pub(super) const fn number(name: &'static str, bounds: Bounds, summary: &'static str) -> Parameter {
     Parameter {
         name,

@@ -1,7 +1,7 @@
 //! Rows of the table: terrain.
 
 use super::signature::{Bounds, Form, Parameter, Restriction, Takes, number};
-use super::{Allowed, Row, Status, vocabulary};
+use super::{Allowed, Row, vocabulary};
 
 static SIZE: [Parameter; 1] = [number(
     "size",
@@ -26,47 +26,39 @@ static FACTOR: [Parameter; 1] = [number(
 
 pub(super) static TILES: Row = Row {
     forms: &[Form::new(&SIZE, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
-    default: "none",
     summary: "makes the string's group a map of tiles",
     long: "The group or layer that contains the string is read as a map, drawn as in role-playing \
            games, and becomes a landscape of blocks. `size` is the side of a tile in drawing units.",
     example: "Island$Tiles 16",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static TILE: Row = Row {
     forms: &[Form::new(&TILE_WORD, &[1])],
-    flags: &[],
     allowed: Allowed::Legend,
     default: "chosen by the paint's colour",
     summary: "what tiles of this paint are",
     long: "Draw a small shape in the paint of your tiles and write beside it what they are: ground \
            (`green`), cliff (`brown`), water (`blue`), roof (`red`), wall (`beige`) or `none`.",
     example: "$Tile green Color #88bb44",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static BEVEL: Row = Row {
     forms: &[Form::new(&RADIUS, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "0",
     summary: "bevels the corners of the ground",
     long: "Cuts the corners of a landscape's ground by `r` tiles, so that it looks less like boxes.",
     example: "Island$Tiles 16 Bevel 0.2",
-    status: Status::Built,
+    ..Row::ROW
 };
 
 pub(super) static ROOF: Row = Row {
     forms: &[Form::new(&FACTOR, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "0.7071",
     summary: "how steep the roofs of a landscape are",
     long: "The height of the ridge divided by the depth of the roof. With 0.5 the model looks \
            exactly like the drawing when seen from 45° above.",
     example: "Village$Tiles 16 Roof 0.5",
-    status: Status::Built,
+    ..Row::ROW
 };

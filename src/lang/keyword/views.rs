@@ -1,13 +1,8 @@
 //! Rows of the table: characters that are drawn from two sides (billboards).
 
-use super::signature::{Bounds, Form, NO_ARGUMENTS, Parameter, Restriction, number};
-use super::{Allowed, Row, Status};
+use super::Row;
+use super::signature::{Bounds, DISTANCE, Form, Parameter, Restriction, number};
 
-static DISTANCE: [Parameter; 1] = [number(
-    "d",
-    Bounds::ANY,
-    "towards the viewer, in drawing units",
-)];
 static ANGLES: [Parameter; 2] = [
     number(
         "theta",
@@ -23,50 +18,39 @@ static ANGLES: [Parameter; 2] = [
 
 pub(super) static DEPTH: Row = Row {
     forms: &[Form::new(&DISTANCE, &[1])],
-    flags: &[],
-    allowed: Allowed::Part,
     default: "estimated from the views",
     summary: "the depth of a billboard's region",
     long: "In a character that is drawn in two views, the depth of a region follows from how far \
            it moves between them. `Depth` sets it instead, in drawing units towards the viewer of \
            the front view.",
     example: "Nose$Depth 14",
-    status: Status::Planned,
+    ..Row::PLANNED
 };
 
 pub(super) static VIEW: Row = Row {
     forms: &[Form::new(&ANGLES, &[2])],
-    flags: &[],
-    allowed: Allowed::Part,
-    default: "none",
     summary: "makes the string's group one view of a character",
     long: "Draw a character twice, in two layers and from two sides, and give both layers the same \
            name. `theta` is how far the viewer has walked around towards the character's left, \
            `phi` how far up, both in degrees. The front is `0 0`.",
     example: "Boy$View 45 0",
-    status: Status::Planned,
+    ..Row::PLANNED
 };
 
 pub(super) static BACKING: Row = Row {
-    forms: NO_ARGUMENTS,
-    flags: &[],
-    allowed: Allowed::Part,
     default: "off",
     summary: "closes the gaps between a character's regions",
     long: "Between two views, small gaps can open where a region slides away from its neighbour. \
            `Backing` puts a slightly larger copy behind each region.",
     example: "Boy$View 0 0 Backing",
-    status: Status::Planned,
+    ..Row::PLANNED
 };
 
 pub(super) static HIDDEN: Row = Row {
-    forms: NO_ARGUMENTS,
-    flags: &[],
-    allowed: Allowed::Part,
     default: "off",
     summary: "a region that cannot be seen in this view",
     long: "Draw a region that cannot be seen in this view, and mark it with `Hidden`, to say what \
            shape it has while it is hidden.",
     example: "Ear$Hidden",
-    status: Status::Planned,
+    ..Row::PLANNED
 };

@@ -54,12 +54,9 @@ impl Parser<'_> {
 
     fn stray_parenthesis(&mut self, start: usize) -> ArgumentKind {
         let span = self.span(start..start + 1);
-        let diagnostic = Diagnostic::new(
-            Code::UnclosedParenthesis,
-            span,
-            "this `)` has no matching `(`",
-        )
-        .fix("Delete it", span, "");
+        let message = "this `)` has no matching `(`";
+        let diagnostic =
+            Diagnostic::new(Code::UnclosedParenthesis, span, message).fix("Delete it", span, "");
         self.report(diagnostic);
         ArgumentKind::Unreadable
     }
@@ -121,22 +118,16 @@ impl Parser<'_> {
                 let at = (whole.len() - rest).min(range.end - 1);
                 let length = lexical::run(&whole[at..]).max(1);
                 let end = (at + length).min(range.end.max(at + 1));
-                Diagnostic::new(
-                    Code::BadExpression,
-                    self.span(at..end),
-                    format!("`{written}` is not a valid calculation"),
-                )
-                .label(what)
+                let message = format!("`{written}` is not a valid calculation");
+                Diagnostic::new(Code::BadExpression, self.span(at..end), message).label(what)
             }
             ExpressionError::UnknownFunction(name, rest) => {
                 let at = whole.len() - rest;
                 let range = at..at + name.len();
-                let mut diagnostic = Diagnostic::new(
-                    Code::UnknownWord,
-                    self.span(range.clone()),
-                    format!("`{}` is not a function", shorten(&name)),
-                )
-                .help(format!("the functions are {}", function_names()));
+                let message = format!("`{}` is not a function", shorten(&name));
+                let mut diagnostic =
+                    Diagnostic::new(Code::UnknownWord, self.span(range.clone()), message)
+                        .help(format!("the functions are {}", function_names()));
                 let names = FUNCTIONS.iter().map(|row| row.name);
                 if let Some(near) = nearest_word(&name, names) {
                     diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
@@ -188,11 +179,9 @@ impl Parser<'_> {
             return match run.parse::<f64>() {
                 Ok(value) if value.is_finite() => ArgumentKind::Number(value),
                 _ => {
-                    let diagnostic = Diagnostic::new(
-                        Code::OutOfRange,
-                        self.span(start..self.at),
-                        format!("the number `{}` is too large", shorten(run)),
-                    );
+                    let message = format!("the number `{}` is too large", shorten(run));
+                    let diagnostic =
+                        Diagnostic::new(Code::OutOfRange, self.span(start..self.at), message);
                     self.report(diagnostic);
                     ArgumentKind::Unreadable
                 }
@@ -250,12 +239,12 @@ impl Parser<'_> {
         let written = &whole[start..self.at];
         let span = self.span(start..self.at);
         let fixed = format!("({written})");
-        let diagnostic = Diagnostic::new(
-            Code::BadExpression,
+        let message = format!("the calculation `{}` needs parentheses", shorten(written));
+        let diagnostic = Diagnostic::new(Code::BadExpression, span, message).fix(
+            "Put it in parentheses",
             span,
-            format!("the calculation `{}` needs parentheses", shorten(written)),
-        )
-        .fix("Put it in parentheses", span, self.escape(start, &fixed));
+            self.escape(start, &fixed),
+        );
         self.report(diagnostic);
         ArgumentKind::Unreadable
     }

@@ -129,11 +129,8 @@ impl Parser<'_> {
         if !self.sign_reported {
             self.sign_reported = true;
             let span = self.span(at..self.at);
-            let diagnostic = Diagnostic::new(
-                Code::UnexpectedSign,
-                span,
-                format!("`{sign}` is not allowed here"),
-            );
+            let message = format!("`{sign}` is not allowed here");
+            let diagnostic = Diagnostic::new(Code::UnexpectedSign, span, message);
             let doubled = self.normalized.as_str()[..at].ends_with(sign);
             let diagnostic = match doubled {
                 true => diagnostic.label("the sign was typed twice").fix(

@@ -121,12 +121,9 @@ impl Parser<'_> {
             return Some(name);
         }
         let range = self.at..self.at + written.len();
-        let mut diagnostic = Diagnostic::new(
-            Code::UnquotedName,
-            self.span(range.clone()),
-            format!("the name `{}` needs quotes", shorten(written)),
-        )
-        .label("a name with spaces or parentheses needs quotes");
+        let message = format!("the name `{}` needs quotes", shorten(written));
+        let mut diagnostic = Diagnostic::new(Code::UnquotedName, self.span(range.clone()), message)
+            .label("a name with spaces or parentheses needs quotes");
         if !written.contains('"') {
             let quoted = format!(
                 "\"{}\"",
@@ -161,12 +158,9 @@ impl Parser<'_> {
             return taken;
         }
         let span = self.span(self.at..self.at + excess.len());
-        let diagnostic = Diagnostic::new(
-            Code::UnquotedName,
-            span,
-            format!("`{}` follows the closing quote of a name", shorten(excess)),
-        )
-        .label("put the whole name inside the quotes");
+        let message = format!("`{}` follows the closing quote of a name", shorten(excess));
+        let diagnostic = Diagnostic::new(Code::UnquotedName, span, message)
+            .label("put the whole name inside the quotes");
         self.report(diagnostic);
         self.at += excess.len();
         taken
@@ -174,16 +168,13 @@ impl Parser<'_> {
 
     /// Reports the unclosed quote at `start`, with a fix that closes it at `end`.
     pub(super) fn unclosed_quote(&mut self, start: usize, end: usize) {
-        let diagnostic = Diagnostic::new(
-            Code::UnclosedQuote,
-            self.span(start..start + 1),
-            "this quote is never closed",
-        )
-        .fix(
-            "Close the quote",
-            self.span(end..end),
-            self.escape(end, "\""),
-        );
+        let message = "this quote is never closed";
+        let diagnostic = Diagnostic::new(Code::UnclosedQuote, self.span(start..start + 1), message)
+            .fix(
+                "Close the quote",
+                self.span(end..end),
+                self.escape(end, "\""),
+            );
         self.report(diagnostic);
     }
 
@@ -228,13 +219,10 @@ impl Parser<'_> {
     fn missing_sign(&mut self, length: usize) {
         let at = self.at;
         let word = &self.rest()[..length];
-        let diagnostic = Diagnostic::new(
-            Code::MissingSign,
-            self.span(at..at + length),
-            format!("`$` is missing before `{word}`"),
-        )
-        .label("attributes come after `$`")
-        .fix("Insert `$`", self.span(at..at), self.escape(at, "$"));
+        let message = format!("`$` is missing before `{word}`");
+        let diagnostic = Diagnostic::new(Code::MissingSign, self.span(at..at + length), message)
+            .label("attributes come after `$`")
+            .fix("Insert `$`", self.span(at..at), self.escape(at, "$"));
         self.report(diagnostic);
         // A `$` further on belongs to the same mistake.
         self.sign_reported = true;

@@ -24,11 +24,8 @@ pub(in crate::lang) fn unknown_keyword(
 ) -> Diagnostic {
     let span = text.span(range.clone());
     let shown = shorten(found);
-    let diagnostic = Diagnostic::new(
-        Code::UnknownKeyword,
-        span,
-        format!("`{shown}` is not a keyword"),
-    );
+    let message = format!("`{shown}` is not a keyword");
+    let diagnostic = Diagnostic::new(Code::UnknownKeyword, span, message);
     let write = |diagnostic: Diagnostic, better: &str| {
         diagnostic.fix(
             format!("Write `{better}`"),

@@ -331,7 +331,6 @@ fn split_chunks(text: &[u8]) -> Vec<&[u8]> {
     chunks
 }
 
-/// Parses the numbers of a chunk.
 fn parse_chunk(text: &[u8]) -> Chunk {
     let mut chunk = Chunk {
         numbers: Vec::with_capacity(text.len() / 8),

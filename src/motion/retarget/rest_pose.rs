@@ -25,7 +25,6 @@ pub enum RestSource {
     Frame(usize),
 }
 
-/// A rest pose.
 pub(super) struct RestPose {
     pub(super) source: RestSource,
     pub(super) pose: Vec<Transform>,

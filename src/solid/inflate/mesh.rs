@@ -277,7 +277,6 @@ impl Faces {
     }
 }
 
-/// Whether a point is inside of walls.
 fn encloses(walls: &[[DVec2; 2]], point: DVec2) -> bool {
     walls
         .iter()

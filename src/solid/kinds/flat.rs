@@ -14,10 +14,8 @@ pub struct Flat {
 
 impl Kind for Flat {
     fn new(numbers: &[f64], _: f64) -> Option<Self> {
-        match *numbers {
-            [z] => Some(Self { z }),
-            _ => None,
-        }
+        let &[z] = numbers else { return None };
+        Some(Self { z })
     }
 
     fn numbers(&self) -> Vec<f64> {
@@ -29,10 +27,8 @@ impl Kind for Flat {
     }
 
     fn faces(&self) -> Option<Faces> {
-        Some(Faces {
-            depths: [None, Some(self.z)],
-            thickness: None,
-        })
+        let (depths, thickness) = ([None, Some(self.z)], None);
+        Some(Faces { depths, thickness })
     }
 
     fn raise(&mut self, [_, front]: [f64; 2]) {

@@ -17,13 +17,8 @@ pub struct Inflate {
 
 impl Kind for Inflate {
     fn new(numbers: &[f64], _: f64) -> Option<Self> {
-        match *numbers {
-            [] => Some(Self { height: None }),
-            [height] => Some(Self {
-                height: Some(height),
-            }),
-            _ => None,
-        }
+        let height = numbers.first().copied();
+        (numbers.len() <= 1).then_some(Self { height })
     }
 
     fn numbers(&self) -> Vec<f64> {

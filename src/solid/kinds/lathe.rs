@@ -16,10 +16,8 @@ pub struct Lathe {
 
 impl Kind for Lathe {
     fn new(numbers: &[f64], _: f64) -> Option<Self> {
-        match *numbers {
-            [degrees] => Some(Self { degrees }),
-            _ => None,
-        }
+        let &[degrees] = numbers else { return None };
+        Some(Self { degrees })
     }
 
     fn numbers(&self) -> Vec<f64> {

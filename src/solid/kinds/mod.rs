@@ -1,19 +1,14 @@
-//! The kinds of solids. Each is a file with a type that holds the kind's numbers, and a line in the list below.
+//! The kinds of solids. Each is a type that holds the kind's numbers, in a file of its own or that of its family, and a line in
+//! the list below.
 
-mod cone;
-mod coneh;
-mod conev;
-mod default;
 mod flat;
 mod inflate;
 mod lathe;
 mod model;
 mod round;
-mod roundh;
-mod roundv;
 mod taper;
 
-use std::ops::Deref;
+use std::ops::{Deref, DerefMut};
 
 use glam::DVec2;
 
@@ -46,14 +41,20 @@ macro_rules! kinds {
                     _ => None,
                 }
             }
+        }
 
-            fn kind(&self) -> &(dyn Kind + 'static) {
+        impl Deref for Profile {
+            type Target = dyn Kind;
+
+            fn deref(&self) -> &Self::Target {
                 match self {
                     $(Self::$kind(kind) => kind,)*
                 }
             }
+        }
 
-            fn kind_mut(&mut self) -> &mut dyn Kind {
+        impl DerefMut for Profile {
+            fn deref_mut(&mut self) -> &mut Self::Target {
                 match self {
                     $(Self::$kind(kind) => kind,)*
                 }
@@ -63,13 +64,13 @@ macro_rules! kinds {
 }
 
 kinds! {
-    "default" => default::Default,
-    "roundv" => roundv::RoundV,
-    "roundh" => roundh::RoundH,
+    "default" => taper::Default,
+    "roundv" => round::RoundV,
+    "roundh" => round::RoundH,
     "round" => round::Round,
-    "cone" => cone::Cone,
-    "conev" => conev::ConeV,
-    "coneh" => coneh::ConeH,
+    "cone" => taper::Cone,
+    "conev" => taper::ConeV,
+    "coneh" => taper::ConeH,
     "inflate" => inflate::Inflate,
     "lathe" => lathe::Lathe,
     "flat" => flat::Flat,
@@ -111,7 +112,7 @@ pub trait Kind {
         None
     }
 
-    /// See [`Profile::raised`].
+    /// Moves the solid's back and its front face outwards by these distances. A solid without such faces is unchanged.
     fn raise(&mut self, _by: [f64; 2]) {}
 
     /// Whether it is a surface without thickness, visible from both sides.
@@ -132,22 +133,4 @@ pub struct Faces {
     pub depths: [Option<f64>; 2],
     /// The solid's thickness; `None` for a flat surface.
     pub thickness: Option<f64>,
-}
-
-impl Deref for Profile {
-    type Target = dyn Kind;
-
-    fn deref(&self) -> &Self::Target {
-        self.kind()
-    }
-}
-
-impl Profile {
-    /// The profile with its back and its front face moved outwards by these distances; one without such faces is
-    /// unchanged.
-    #[must_use]
-    pub fn raised(mut self, by: [f64; 2]) -> Self {
-        self.kind_mut().raise(by);
-        self
-    }
 }

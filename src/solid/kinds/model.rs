@@ -2,18 +2,17 @@
 
 use glam::DVec2;
 
-use super::Kind;
-use super::taper::{Both, Taper};
+use super::{Kind, taper};
 use crate::solid::Options;
 use crate::solid::layers::Layer;
 
 /// A plate like that of `default`. Its faces do not take part in the relief, because a model's surface does not.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Model(Taper<Both>);
+pub struct Model(taper::Default);
 
 impl Kind for Model {
     fn new(_: &[f64], plate: f64) -> Option<Self> {
-        Some(Self(Taper::plate([-plate, plate])))
+        Kind::new(&[], plate).map(Self)
     }
 
     fn numbers(&self) -> Vec<f64> {

@@ -1,60 +1,38 @@
-//! Straight walls between two depths: plates and cones.
-
-use std::fmt::Debug;
-use std::marker::PhantomData;
+//! Straight walls between two depths: plates (`default`) and cones (`cone`, `conev`, `coneh`).
 
 use glam::DVec2;
 
 use super::{Faces, Kind};
 use crate::solid::Options;
-use crate::solid::layers::{Layer, finite, snap};
+use crate::solid::layers::{Layer, finite, scales, snap};
 
-/// The outline in full size at one depth, scaled at another one.
+/// `default`: a plate with straight walls.
+pub(super) type Default = Taper<false, false>;
+/// `cone`: the outline scaled evenly from one depth to another.
+pub(super) type Cone = Taper<true, true>;
+/// `conev`: scaled across the axis.
+pub(super) type ConeV = Taper<true, false>;
+/// `coneh`: scaled along the axis.
+pub(super) type ConeH = Taper<false, true>;
+
+/// The outline in full size at one depth, scaled at another one, across the axis, along it or both; a plate if neither.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Taper<S> {
+pub struct Taper<const ACROSS: bool, const ALONG: bool> {
     /// The depth of the full size, and that of the scaled one.
     depths: [f64; 2],
-    /// The size at the second depth over that at the first.
+    /// The size at the second depth over that at the first; 1 for a plate.
     top: f64,
-    direction: PhantomData<S>,
 }
 
-/// The direction in which a taper scales the outline.
-pub trait Direction: Debug {
-    /// The scales across and along the axis for the size at the top.
-    fn scales(top: f64) -> [f64; 2];
-}
-
-/// Both ways.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Both;
-
-impl Direction for Both {
-    fn scales(top: f64) -> [f64; 2] {
-        [top, top]
-    }
-}
-
-impl<S> Taper<S> {
-    /// A plate between two depths.
-    pub(super) fn plate(depths: [f64; 2]) -> Self {
-        Self {
-            depths,
-            top: 1.0,
-            direction: PhantomData,
-        }
-    }
-}
-
-impl<S: Direction> Kind for Taper<S> {
-    fn new(numbers: &[f64], _: f64) -> Option<Self> {
-        match *numbers {
-            [z0, z1, top] => Some(Self {
-                top,
-                ..Self::plate([z0, z1])
-            }),
-            _ => None,
-        }
+impl<const ACROSS: bool, const ALONG: bool> Kind for Taper<ACROSS, ALONG> {
+    fn new(numbers: &[f64], plate: f64) -> Option<Self> {
+        let (depths, top) = match (ACROSS || ALONG, numbers) {
+            (false, []) => ([-plate, plate], 1.0),
+            (false, &[z0, z1]) => ([z0, z1], 1.0),
+            (true, &[z0, z1, top]) => ([z0, z1], top),
+            _ => return None,
+        };
+        Some(Self { depths, top })
     }
 
     fn numbers(&self) -> Vec<f64> {
@@ -63,7 +41,7 @@ impl<S: Direction> Kind for Taper<S> {
 
     fn layers(&self, _: DVec2, _: &Options) -> Vec<Layer> {
         let [z0, z] = self.depths.map(finite);
-        let [across, along] = S::scales(snap(finite(self.top)));
+        let [across, along] = scales::<ACROSS, ALONG>(snap(finite(self.top)));
         vec![Layer::whole(z0), Layer { across, along, z }]
     }
 
@@ -88,7 +66,6 @@ impl<S: Direction> Kind for Taper<S> {
     }
 
     fn depends_on_axis(&self) -> bool {
-        let [across, along] = S::scales(0.0);
-        across != along
+        ACROSS != ALONG
     }
 }

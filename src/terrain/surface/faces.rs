@@ -8,7 +8,7 @@ use super::slices::{Slice, Slices, Span};
 
 /// Finds the faces of columns and between neighbouring columns.
 struct Faces<'a> {
-    context: &'a MapContext<'a>,
+    context: &'a MapContext,
     solids: Solids,
     /// The column before, and this one.
     columns: [Slices; 2],
@@ -21,7 +21,7 @@ struct Faces<'a> {
 }
 
 /// The faces of a range of columns with their left sides, and with the right side of the map's last column.
-pub(super) fn faces(context: &MapContext<'_>, columns: Range<usize>) -> Vec<Rect> {
+pub(super) fn faces(context: &MapContext, columns: Range<usize>) -> Vec<Rect> {
     let mut faces = Faces {
         context,
         solids: Solids::default(),
@@ -67,12 +67,7 @@ impl Faces<'_> {
         for (index, slice) in slices.list.iter().enumerate() {
             let spans = slices.spans(slice);
             for span in spans {
-                let under = FaceRun {
-                    plane: span.y[0],
-                    material: span.bottom,
-                    along: slice.z,
-                };
-                down.push(under);
+                down.push(FaceRun::new(span.y[0], slice.z, span.bottom));
                 if let Some(material) = span.top {
                     top_runs(context, solids, number, slice, span.y[1], material, up);
                 }
@@ -93,20 +88,12 @@ impl Faces<'_> {
             difference(spans, last, |y| {
                 let plane = slice.z[0];
                 slices.sides(slice, y, |along, material| {
-                    back.push(FaceRun {
-                        plane,
-                        material,
-                        along,
-                    });
+                    back.push(FaceRun::new(plane, along, material));
                 });
             });
         }
-        let inner = slices.inner.iter().map(|(plane, along, material)| FaceRun {
-            plane: *plane,
-            material: *material,
-            along: *along,
-        });
-        down.extend(inner);
+        let inner = slices.inner.iter();
+        down.extend(inner.map(|(plane, along, material)| FaceRun::new(*plane, *along, *material)));
         let across = [number as i32, number as i32 + 1];
         for (mesher, runs) in self.meshers.iter_mut().zip(&mut self.runs) {
             mesher.line(across, runs, &mut self.rects);
@@ -138,22 +125,14 @@ impl Faces<'_> {
             if let Some(slice) = &slice_a {
                 difference(spans_a, spans_b, |y| {
                     one.sides(slice, y, |along, material| {
-                        right.push(FaceRun {
-                            plane,
-                            material,
-                            along,
-                        });
+                        right.push(FaceRun::new(plane, along, material));
                     });
                 });
             }
             if let Some(slice) = &slice_b {
                 difference(spans_b, spans_a, |y| {
                     other.sides(slice, y, |along, material| {
-                        left.push(FaceRun {
-                            plane,
-                            material,
-                            along,
-                        });
+                        left.push(FaceRun::new(plane, along, material));
                     });
                 });
             }
@@ -177,9 +156,8 @@ impl Faces<'_> {
     }
 }
 
-/// The runs of a top.
 fn top_runs(
-    context: &MapContext<'_>,
+    context: &MapContext,
     solids: &Solids,
     number: usize,
     slice: &Slice,
@@ -190,17 +168,13 @@ fn top_runs(
     let rows = slice.z[0] - plane..slice.z[1] - plane;
     let is = |visible| visible == Visible::Top(plane);
     solids.drawn_materials(context, number, rows, is, |rows, material| {
-        runs.push(FaceRun {
-            plane,
-            material: material.unwrap_or(hidden),
-            along: [rows.start + plane, rows.end + plane],
-        });
+        let along = [rows.start + plane, rows.end + plane];
+        runs.push(FaceRun::new(plane, along, material.unwrap_or(hidden)));
     });
 }
 
-/// The runs of a front.
 fn front_runs(
-    context: &MapContext<'_>,
+    context: &MapContext,
     solids: &Solids,
     number: usize,
     plane: i32,
@@ -215,11 +189,8 @@ fn front_runs(
         plane - y[1]..plane - y[0],
         is,
         |rows, material| {
-            runs.push(FaceRun {
-                plane,
-                material: material.unwrap_or(hidden),
-                along: [plane - rows.end, plane - rows.start],
-            });
+            let along = [plane - rows.end, plane - rows.start];
+            runs.push(FaceRun::new(plane, along, material.unwrap_or(hidden)));
         },
     );
 }

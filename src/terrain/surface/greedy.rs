@@ -46,6 +46,16 @@ pub(super) struct FaceRun {
     pub(super) along: [i32; 2],
 }
 
+impl FaceRun {
+    pub(super) fn new(plane: i32, along: [i32; 2], material: u8) -> Self {
+        Self {
+            plane,
+            material,
+            along,
+        }
+    }
+}
+
 /// A rectangle of one material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Rect {

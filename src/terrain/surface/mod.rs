@@ -25,12 +25,8 @@ use mesh::Mesh;
 
 /// The triangles of all solids: per material the pieces of its surface, in tiles, about the map's middle at height 0.
 /// `factor` is the ratio of a roof's height to its depth, `radius` the radius of bevels.
-pub(super) fn surface(
-    context: &MapContext<'_>,
-    factor: f64,
-    radius: f64,
-) -> Vec<(u8, Vec<Surface>)> {
-    let grid = context.grid;
+pub(super) fn surface(context: &MapContext, factor: f64, radius: f64) -> Vec<(u8, Vec<Surface>)> {
+    let grid = &context.grid;
     let stripes = grid.columns.div_ceil(STRIPE);
     if stripes == 0 || grid.rows == 0 {
         return vec![];
@@ -97,7 +93,7 @@ pub(super) fn surface(
 
 /// Adds the bevelled squares of a stripe.
 fn bevelled(
-    context: &MapContext<'_>,
+    context: &MapContext,
     radius: f64,
     squares: &[Vec<Rect>],
     stripe: usize,
