@@ -146,17 +146,13 @@ pub fn own_name<'a>(compiled: &'a Compiled, part: &'a bind::Part) -> &'a str {
 }
 
 fn attributes(compiled: &Compiled, part: usize) -> BTreeMap<&'static str, AttributeReport> {
-    let resolved = compiled
-        .bindings
-        .resolved(&compiled.drawing, part)
-        .into_iter();
-    resolved
-        .map(|attribute| {
-            let report = AttributeReport {
-                value: attribute.value,
-                from: attribute.from.name(),
-            };
-            (attribute.keyword.name(), report)
-        })
-        .collect()
+    let resolved = compiled.bindings.resolved(&compiled.drawing, part);
+    let reports = resolved.into_iter().map(|attribute| {
+        let report = AttributeReport {
+            value: attribute.value,
+            from: attribute.from.name(),
+        };
+        (attribute.keyword.name(), report)
+    });
+    reports.collect()
 }

@@ -1,7 +1,5 @@
 //! One skinned mesh instead of a mesh for each node (figure.md, glTF), for engines that need that.
 
-use std::fmt;
-
 use glam::{DQuat, DVec3, Vec3};
 
 use super::{Mesh, Node, Piece, Primitive, Scene, Surface};
@@ -94,23 +92,15 @@ impl SkinnedPiece {
 }
 
 /// A scene has more nodes than a skin can have joints.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the model has {joints} joints, but a skin holds at most {}; build it without --skin",
+    MAX_JOINTS
+)]
 pub struct TooManyJoints {
     /// The number of nodes.
     pub joints: usize,
 }
-
-impl fmt::Display for TooManyJoints {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let joints = self.joints;
-        write!(
-            f,
-            "the model has {joints} joints, but a skin holds at most {MAX_JOINTS}; build it without --skin"
-        )
-    }
-}
-
-impl std::error::Error for TooManyJoints {}
 
 impl Scene {
     /// The same model with one skinned mesh, with a primitive for each material. The nodes become its joints.

@@ -125,7 +125,6 @@ fn in_column(
     found: &mut Vec<(u32, House)>,
 ) {
     let here = number as i32..number as i32 + 1;
-    let nowhere = 0..0;
     for (index, segment) in column.segments.iter().enumerate() {
         let Some(house) = segment.kind.house() else {
             continue;
@@ -139,20 +138,16 @@ fn in_column(
             levels.level[surface as usize] + fronts
         });
         let material = grid.cells[number * grid.rows + segment.start as usize];
+        let ([walls, roof], [height, depth]) = match is_roof {
+            true => ([0..0, here.clone()], [0, segment.rows()]),
+            false => ([here.clone(), 0..0], [segment.rows(), 0]),
+        };
         let part = House {
-            walls: if is_roof {
-                nowhere.clone()
-            } else {
-                here.clone()
-            },
-            roof: if is_roof {
-                here.clone()
-            } else {
-                nowhere.clone()
-            },
+            walls,
+            roof,
             base,
-            height: if is_roof { 0 } else { segment.rows() },
-            depth: if is_roof { segment.rows() } else { 0 },
+            height,
+            depth,
             front: segment.end + base,
             materials: [material; 2],
             stands: !is_roof && !matches!(column.below(index).1, Below::House(_)),

@@ -112,11 +112,8 @@ impl<'a> Bevel<'a> {
                 (point, along),
                 (moved(point, across, 1), along),
             ] {
-                bevel
-                    .sides
-                    .entry((start, axis))
-                    .or_default()
-                    .push((facing, point));
+                let faces = bevel.sides.entry((start, axis)).or_default();
+                faces.push((facing, point));
             }
         }
         bevel.fix();
