@@ -234,7 +234,6 @@ pub(super) fn misplaced(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) 
                 let name = attribute.keyword.name();
                 let message =
                     format!("`{name}` has no effect in {what}: it applies to tile layers");
-                let message = message;
                 diagnostics.push(
                     Diagnostic::new(Code::NoTileLayer, string.text.span(attribute.range.clone()), message)
                     .help("write it into the string that makes a layer or group a map, as in `Island$Tiles 16 Bevel 0.2`"),
