@@ -4,7 +4,7 @@
 //! computed never depends on what the memo holds: tests/again.rs holds it to that. Results that were not used
 //! between two calls of [`Memo::next_generation`] are dropped, so that a memo is about as large as the last drawing.
 //!
-//! The ideas are those of the crates `comemo` (files are tracked as they are read, [`Memo::get_reading`]) and `salsa`
+//! The ideas are those of the crates `comemo` (files are tracked as they are read, `Memo::get_reading`) and `salsa`
 //! (generations), without their macros: the functions cached here are few and coarse.
 
 use std::any::{Any, TypeId};
