@@ -22,7 +22,7 @@ browse("errors open the diagnostics over the last good model, and close them whe
   const first = page.locator(".finding").first();
   assert.match(await first.innerText(), /E204\s+there is no part named Ubdoy/);
   assert.equal(await first.locator("mark").innerText(), "Ubdoy");
-  assert.match(await first.innerText(), /did you mean Ubody\?[\s\S]*help: the name behind @ must be that of a part/);
+  assert.match(await first.innerText(), /did you mean Ubody\?[\s\S]*help: the name after @ must be the name of a part/);
   assert.match(await page.locator(".findings-head").innerText(), /3 errors\s*2 hints/);
   await picture(page, "errors");
   await first.locator("button").click();
