@@ -460,7 +460,7 @@ class Scripts(Folder):
             )
             out, err = process.communicate()
             self.assertEqual(out, b"", script)
-            self.assertIn("there is no such program", err.decode(), script)
+            self.assertIn("which is not a program", err.decode(), script)
             self.assertNotIn("Traceback", err.decode(), script)
 
 
