@@ -29,6 +29,9 @@ impl FolderResolver {
 
     /// The path of the linked file, whether it exists or not, for a watcher. It is relative if the root is, so that
     /// moving a drawing does not change the result.
+    ///
+    /// # Errors
+    /// If the link is absolute, remote or leads out of the folder.
     pub fn place(&self, link: &str) -> Result<PathBuf, LinkError> {
         match first_spelling(link, |path| self.locate(path)) {
             Err(LinkError::Missing) => inside(link).map(|path| self.named(Path::new(&path))),

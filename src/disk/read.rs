@@ -55,6 +55,9 @@ pub enum ReadError {
 /// The bytes of the drawing at `path`, decompressed if they are gzip; `-` is stdin.
 ///
 /// Compression is recognised by the first bytes, not by the file name.
+///
+/// # Errors
+/// If the file cannot be read, is too large, or cannot be decompressed.
 pub fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
     let bytes = if super::is_standard_stream(path) {
         read_limited(io::stdin().lock(), DRAWING_LIMIT, 0)
@@ -68,6 +71,9 @@ pub fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
 }
 
 /// A reader of the bytes of the file at `path`; `-` is stdin.
+///
+/// # Errors
+/// If the file cannot be opened.
 pub fn open_stream(path: &Path) -> Result<Box<dyn Read>, ReadError> {
     if super::is_standard_stream(path) {
         return Ok(Box::new(io::stdin().lock()));

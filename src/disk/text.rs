@@ -49,6 +49,9 @@ impl Decode {
 ///
 /// A UTF-8 byte order mark stays in the text as its first character, so that offsets are those of the
 /// file. Text in a declared one-byte encoding such as ISO-8859-1 is accepted if it is plain ASCII.
+///
+/// # Errors
+/// If the bytes are not UTF-8, or contain a zero byte.
 pub fn decode(bytes: Vec<u8>) -> Result<String, Decode> {
     if let Some(error) = wide(&bytes) {
         return Err(error);

@@ -98,6 +98,9 @@ pub fn write_atomic<T>(
 }
 
 /// Creates a folder and its parents.
+///
+/// # Errors
+/// If the system cannot create one of them.
 pub fn make_folder(path: &Path) -> Result<(), WriteError> {
     fs::create_dir_all(path).map_err(|source| WriteError::Failed {
         path: path.to_owned(),
@@ -106,6 +109,9 @@ pub fn make_folder(path: &Path) -> Result<(), WriteError> {
 }
 
 /// Writes a new file, completely or not at all. An existing file, or a dangling link, is left unchanged.
+///
+/// # Errors
+/// If something with this name exists, or the file cannot be written.
 pub fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
     if ends_with_separator(path) {
         return Err(WriteError::Folder(path.to_owned()));
