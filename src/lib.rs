@@ -8,6 +8,7 @@
     allow(clippy::unwrap_used, reason = "a test that fails to unwrap has failed")
 )]
 
+mod anatomy;
 pub mod assemble;
 pub mod bind;
 pub mod cli;

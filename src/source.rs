@@ -138,6 +138,22 @@ impl Text {
         }
     }
 
+    /// The text up to the decoded offset `end`.
+    #[must_use]
+    pub fn truncated(&self, end: usize) -> Self {
+        let end_raw = self.span(0..end).end;
+        let runs = self.runs.iter().copied().take_while(|run| run.at < end);
+        let mut short = Self {
+            text: self.text[..end].to_owned(),
+            runs: runs.collect(),
+            end: end_raw,
+        };
+        if let Some(last) = short.runs.last_mut() {
+            last.raw_len = last.raw_len.min(end_raw.saturating_sub(last.raw));
+        }
+        short
+    }
+
     /// The decoded characters.
     pub fn as_str(&self) -> &str {
         &self.text
@@ -260,6 +276,20 @@ impl Text {
             Some(run) => run.raw + (offset - run.at).min(run.raw_len),
         }
     }
+}
+
+/// Where a start tag ends, after its `>`; `from` is a place in the tag, outside of quotes.
+pub(crate) fn end_of_tag(source: &str, from: usize) -> Option<usize> {
+    let mut quote = None;
+    for (at, c) in source.get(from..)?.char_indices() {
+        match (quote, c) {
+            (None, '"' | '\'') => quote = Some(c),
+            (Some(open), c) if c == open => quote = None,
+            (None, '>') => return Some(from + at + 1),
+            _ => {}
+        }
+    }
+    None
 }
 
 /// `text` with the characters that XML reserves written as entities.

@@ -94,8 +94,9 @@ fn main() -> ExitCode {
         Trial::test(name.into_owned(), move || check(&case))
     };
     let mut trials: Vec<Trial> = cases.into_iter().map(trial).collect();
-    let others: [(&str, fn()); 2] = [
+    let others: [(&str, fn()); 3] = [
         ("every_diagnostic_has_a_case", every_diagnostic_has_a_case),
+        ("every_mistake_is_listed", every_mistake_is_listed),
         (
             "four_segments_make_an_octagonal_prism",
             four_segments_make_an_octagonal_prism,
@@ -160,6 +161,45 @@ fn every_diagnostic_has_a_case() {
         assert!(
             !(seen.contains(id) && elsewhere),
             "a case shows {id}: take it off the list of exceptions"
+        );
+    }
+}
+
+/// The page of common mistakes lists at least 60, each with a case of that code, and all cases named after mistakes.
+fn every_mistake_is_listed() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/mistakes.md");
+    let page = fs::read_to_string(page).expect("the page");
+    let rows: Vec<&str> = page
+        .lines()
+        .filter(|line| line.contains("tests/c"))
+        .collect();
+    let rows: Vec<&str> = rows
+        .into_iter()
+        .filter(|line| line.starts_with("| "))
+        .collect();
+    assert!(rows.len() >= 60, "only {} mistakes are listed", rows.len());
+    let mut listed = BTreeSet::new();
+    for row in rows {
+        let Some((_, case)) = row.split_once("../tests/cases/") else {
+            continue;
+        };
+        let case = case.split('/').next().unwrap_or_default();
+        let expected = fs::read_to_string(folder().join(case).join("expected.txt"));
+        let expected = expected.unwrap_or_else(|error| panic!("{case}: {error}"));
+        let code = row.split_once("| [").map_or("", |(_, code)| &code[..4]);
+        assert!(
+            code.is_empty()
+                || !code.ends_with(|c: char| c.is_ascii_digit())
+                || expected.contains(&format!("[{code}]: ")),
+            "{case} does not show {code}"
+        );
+        assert!(listed.insert(case.to_owned()), "{case} is listed twice");
+    }
+    for case in cases() {
+        let name = case.file_name().unwrap_or_default().to_string_lossy();
+        assert!(
+            !name.starts_with("mistake-") || listed.contains(&*name),
+            "docs/mistakes.md does not list {name}"
         );
     }
 }

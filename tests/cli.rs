@@ -36,7 +36,7 @@ fn names(glb: &[u8]) -> Vec<String> {
 fn a_drawing_becomes_a_model_beside_it() {
     let room = Room::with("a.svg", GOOD);
     room.run(&["build", "a.svg"])
-        .ends(0, "", "wrote a.glb: 2 nodes, ");
+        .ends(0, "", "wrote a.glb: 2 parts, ");
     assert_eq!(room.files(), ["a.glb", "a.svg"]);
     assert_eq!(names(&room.read("a.glb")), ["Root", "Body", "Arm"]);
     assert_eq!(room.read("a.svg"), GOOD.as_bytes());
@@ -118,7 +118,7 @@ fn nothing_is_written_on_errors() {
     room.run(&["build", "bad.svg", "--keep-going"]).ends(
         1,
         "",
-        "wrote bad.glb: 1 node, 12 triangles\n",
+        "wrote bad.glb: 1 part, 12 triangles\n",
     );
     assert_eq!(names(&room.read("bad.glb")), ["Root", "Body"]);
 }
@@ -196,6 +196,72 @@ fn encodings() {
 }
 
 #[test]
+fn files_of_other_kinds_in_place_of_drawings() {
+    for (bytes, what, way) in [
+        (
+            &b"\x89PNG\r\n\x1A\n...."[..],
+            "a PNG picture",
+            "Path → Trace Bitmap",
+        ),
+        (
+            b"\xFF\xD8\xFF\xE0....",
+            "a JPEG picture",
+            "Path → Trace Bitmap",
+        ),
+        (b"%PDF-1.7 ....", "a PDF", "open it in Inkscape"),
+        (
+            b"PK\x03\x04....",
+            "a zip archive or an office document",
+            "export it as SVG",
+        ),
+        (b"BLENDER-v300", "a Blender file", "Shape model"),
+        (b"glTF\x02\0\0\0", "a glTF model", "Shape model"),
+        (b"HIERARCHY\nROOT Hips", "a motion (BVH)", "%Motion"),
+    ] {
+        let room = Room::with("a.svg", bytes);
+        for command in ["build", "check", "inspect"] {
+            let expected = format!("error: `a.svg` is {what}, not a drawing: ");
+            room.run(&[command, "a.svg"]).ends(2, "", &expected);
+            room.run(&[command, "a.svg"]).ends(2, "", way);
+        }
+        assert_eq!(room.files(), ["a.svg"]);
+    }
+}
+
+#[test]
+fn a_drawing_in_the_place_of_a_command() {
+    let room = Room::with("a b.svg", GOOD);
+    room.run(&["a b.svg"])
+        .ends(2, "", "did you mean `okoshi build \"a b.svg\"`?");
+    room.run(&["gone.svg"])
+        .ends(2, "", "did you mean `okoshi build gone.svg`?");
+    fs::create_dir(room.path("drawings")).expect("made");
+    room.run(&["drawings"])
+        .ends(2, "", "did you mean `okoshi watch drawings`?");
+    room.run(&["biuld"]).ends(2, "", "unrecognized subcommand");
+}
+
+#[test]
+fn safe_fixes_are_applied() {
+    let wrong = GOOD.replace("$Shape", "$Shpae").replace("<text", "<text  ");
+    let room = Room::with("a.svg", wrong.replace('\n', "\r\n"));
+    room.run(&["check", "--fix", "a.svg"])
+        .ends(0, "a.svg: 1 finding fixed, nothing left\n", "");
+    let right = wrong.replace("$Shpae", "$Shape").replace('\n', "\r\n");
+    assert_eq!(room.read("a.svg"), right.as_bytes());
+    // What is right is not written again.
+    room.run(&["check", "--fix", "a.svg"])
+        .ends(0, "a.svg: 0 findings fixed, nothing left\n", "");
+    // Fixes that need a choice are left to people.
+    let doubtful = GOOD.replace("@Body", "@Bdoy");
+    room.write("b.svg", &doubtful);
+    room.run(&["check", "--fix", "b.svg"])
+        .ends(1, "b.svg: 0 findings fixed, 1 error", "");
+    assert_eq!(room.read("b.svg"), doubtful.as_bytes());
+    assert_eq!(room.files(), ["a.svg", "b.svg"]);
+}
+
+#[test]
 fn packed_drawings() {
     let mut packed = GzEncoder::new(Vec::new(), Compression::default());
     packed.write_all(GOOD.as_bytes()).expect("packed");
@@ -217,6 +283,12 @@ fn files_that_cannot_be_read_or_written() {
         "",
         "error: `folder.svg` is a folder; name a drawing in it",
     );
+    room.run(&["build", "b.svg"])
+        .ends(2, "", "error: `b.svg` is not there; check the path");
+    for near in ["A", "a", "a.SVG", "a.png"] {
+        let expected = format!("error: `{near}` is not there; did you mean `a.svg`?");
+        room.run(&["build", near]).ends(2, "", &expected);
+    }
     room.run(&["build", "a.svg", "-o", "gone/a.glb"])
         .ends(2, "", "error: ");
     let formats = okoshi::export::extensions(|_| true);
@@ -387,19 +459,25 @@ fn quiet_and_verbose() {
     room.run(&["build", "-q", "-v", "a.svg"])
         .ends(2, "", "cannot be used with");
     // Many hints: a build shows some, and all with `-v`.
-    let many: String = (0..30)
-        .map(|i| format!("<rect x=\"{i}\" y=\"90\" width=\"9\" height=\"9\"/>"))
+    let many: String = (0..31)
+        .map(|i| {
+            let x = 40 * i;
+            format!(
+                "<rect x=\"{x}\" y=\"90\" width=\"9\" height=\"20\"/><text x=\"{x}\" y=\"105\" font-size=\"5\">P{i}＄</text>"
+            )
+        })
         .collect();
     room.write("many.svg", HINT.replace("</svg>", &format!("{many}</svg>")));
-    let count = |run: Run| run.err.matches("hint[H402]").count();
+    let count = |run: Run, what: &str| run.err.matches(what).count();
     let usual = room.run(&["build", "many.svg"]);
     assert!(
         usual.err.contains("`okoshi check -v` shows all"),
         "{}",
         usual.err
     );
-    assert_eq!(count(usual), 10);
-    assert_eq!(count(room.run(&["build", "-v", "many.svg"])), 31);
+    assert_eq!(count(usual, "hint["), 10);
+    let all = room.run(&["build", "-v", "many.svg"]);
+    assert_eq!(count(all, "hint[H405]"), 31);
 }
 
 #[test]
@@ -485,7 +563,7 @@ fn inspect_as_json() {
     assert_eq!(parts[0]["parent"], Value::Null);
     assert_eq!(parts[2]["kind"], "legend");
     let expected = serde_json::json!({
-        "name": "Arm", "parent": "Body", "kind": "main", "element": "arm",
+        "name": "Arm", "named_by": "string", "parent": "Body", "kind": "main", "element": "arm",
         "string": { "line": 5, "column": 38, "text": "Arm@Body$Shape roundv", "bound_by": "nearest" },
         "center": [120.0, 35.0], "ends": [[150.0, 35.0], [90.0, 35.0]], "origin": [90.0, 35.0], "axis": [1.0, 0.0],
         "attributes": {
@@ -630,7 +708,7 @@ fn links_are_followed_in_the_folder_of_the_drawing() {
     room.write("in/full.png", &png);
     room.write("full.png", &png);
     room.run(&["build", "in/a.svg"])
-        .ends(0, "", "wrote in/a.glb: 3 nodes");
+        .ends(0, "", "wrote in/a.glb: 3 parts");
     room.write("in/b.svg", drawing("../full.png"));
     room.run(&["build", "in/b.svg"]).ends(
         1,

@@ -12,6 +12,7 @@ use syn::{Attribute, ImplItem, Item, UseTree};
 
 /// Each module, with exactly the modules that it uses.
 const USES: &[(&str, &[&str])] = &[
+    ("anatomy", &[]),
     (
         "assemble",
         &[
@@ -32,6 +33,7 @@ const USES: &[(&str, &[&str])] = &[
     (
         "bind",
         &[
+            "anatomy",
             "diagnostic",
             "geometry",
             "lang",
@@ -81,7 +83,7 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("crash", &[]),
     ("diagnostic", &["source"]),
-    ("disk", &["export", "resolver"]),
+    ("disk", &["diagnostic", "export", "resolver"]),
     ("export", &["crash", "memo", "scene", "threads"]),
     (
         "figure",
@@ -136,7 +138,7 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("main", &["cli"]),
     ("memo", &["resolver", "threads"]),
-    ("motion", &["scene"]),
+    ("motion", &["anatomy", "scene"]),
     (
         "preview",
         &[

@@ -220,7 +220,7 @@ fn every_request_is_answered() {
                 .collect()
         })
         .collect();
-    assert_eq!(hints, ["U-1@Ubody", "Smooth 20", "Offset 4 Smooth 20"]);
+    assert_eq!(hints, ["left@Ubody", "Smooth 20", "Offset 4 Smooth 20"]);
     let full = editor.ask("textDocument/semanticTokens/full", document());
     let ranged = editor.ask("textDocument/semanticTokens/range", whole);
     assert_eq!(full, ranged);

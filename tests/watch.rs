@@ -216,7 +216,8 @@ fn a_kill_at_any_moment_leaves_a_sound_model() {
             format!(
                 "<circle cx=\"{}\" cy=\"{}\" r=\"9\" fill=\"#00f\"/>\n",
                 20 * (index % 20) + shift % 7,
-                20 * (index / 20)
+                // Below the other shapes, so that each is a node of its own.
+                400 + 20 * (index / 20)
             )
         };
         let circles: String = (0..200).map(circle).collect();

@@ -160,7 +160,7 @@ fn blob(random: &mut Random, center: Point, radius: f64) -> BezPath {
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    fn unit(&mut self) -> f64 {
+    pub(crate) fn unit(&mut self) -> f64 {
         self.0 = self
             .0
             .wrapping_mul(6_364_136_223_846_793_005)

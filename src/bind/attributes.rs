@@ -13,6 +13,16 @@ use crate::svg::{Drawing, PaintKey};
 /// How far a plate whose depths are not given reaches to either side, as a share of the page's diagonal.
 const PLATE_DEPTH: f64 = 0.025;
 
+/// The attributes that ink takes from the part on which it lies.
+const OF_FORM: [Keyword; 6] = [
+    Keyword::Shape,
+    Keyword::Offset,
+    Keyword::Segments,
+    Keyword::Smooth,
+    Keyword::Axis,
+    Keyword::Origin,
+];
+
 /// Who sets an attribute; the first of them wins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum SetBy {
@@ -163,10 +173,24 @@ impl Bindings {
             .source(keyword)
     }
 
-    /// How a part's outline gets its thickness; `None` for `Shape none`.
+    /// The part whose attributes give a part its form: for ink the part on which it lies, unless the legend of its paint has a
+    /// `Shape`.
+    pub fn form(&self, part: usize) -> usize {
+        let shape = || self.setting(part, Keyword::Shape);
+        let is_own = || shape().is_some_and(|source| source.from < SetBy::Default);
+        match self.parts[part].host {
+            Some(host) if !is_own() => host,
+            _ => part,
+        }
+    }
+
+    /// How a part's outline gets its thickness; `None` for `Shape none`, and for ink on a model, which takes the place of all
+    /// that is drawn there.
     pub fn profile(&self, drawing: &Drawing, part: usize) -> Option<Profile> {
-        let shape = self.attributes(part).shape();
-        Profile::new(shape.kind, shape.numbers(), plate_depth(drawing))
+        let form = self.form(part);
+        let shape = self.attributes(form).shape();
+        let profile = Profile::new(shape.kind, shape.numbers(), plate_depth(drawing));
+        profile.filter(|profile| form == part || !matches!(profile, Profile::Model(_)))
     }
 
     /// The factors of a part's material.
@@ -195,8 +219,11 @@ impl Bindings {
             _ => None,
         };
         let keywords = Keyword::ALL.iter().copied();
-        let of_parts =
-            keywords.filter(|keyword| keyword.row().allowed.permits(AttributeString::Part));
+        let has_form = self.form(part) == part;
+        let of_parts = keywords.filter(|keyword| {
+            keyword.row().allowed.permits(AttributeString::Part)
+                && (has_form || !OF_FORM.contains(keyword))
+        });
         of_parts
             .filter_map(|keyword| match self.setting(part, keyword) {
                 Some(source) => Some(Resolved {

@@ -34,6 +34,8 @@ pub struct Bindings {
     pub settings: DrawingSettings,
     /// The layers, in the order of their strings.
     pub layers: Vec<Layer>,
+    /// Whether parts hang on those that they touch, because no string names a part but labels or ids do.
+    pub hierarchy_by_contact: bool,
     /// Per group the innermost tile layer that it is, or is in; empty if there are no layers.
     pub(super) tile_layer_of_group: Vec<Option<usize>>,
 }
@@ -70,6 +72,37 @@ impl BoundBy {
             Self::Group => "group",
             Self::Leader => "leader",
             Self::Nearest => "nearest",
+        }
+    }
+}
+
+/// Where the name of a part is from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NamedBy {
+    /// A string.
+    String,
+    /// The label of its shape, or of a group that it is the main part of.
+    Label {
+        /// Index of the group.
+        group: Option<usize>,
+    },
+    /// The `id` of its shape, or of a group that it is the main part of.
+    Id {
+        /// Index of the group.
+        group: Option<usize>,
+    },
+    /// The program, in document order.
+    Automatic,
+}
+
+impl NamedBy {
+    /// The word for `inspect`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::String => "string",
+            Self::Label { .. } => "label",
+            Self::Id { .. } => "id",
+            Self::Automatic => "automatic",
         }
     }
 }
@@ -151,14 +184,16 @@ impl PartKind {
 pub struct Part {
     /// Its name; empty for sub-parts, legends and unused parts without one.
     pub name: String,
-    /// Whether the program chose the name.
-    pub automatic: bool,
+    /// Where its name is from; for parts without a name, `String`.
+    pub named_by: NamedBy,
     /// Its kind.
     pub kind: PartKind,
     /// Index of its shape in the drawing.
     pub shape: usize,
     /// Whether its area is the shape's stroke rather than its fill.
     pub is_stroke: bool,
+    /// For ink, a stroke that lies on another part, the index of that part, which comes before it.
+    pub host: Option<usize>,
     /// Its area, drawing units.
     pub outline: Arc<Outline>,
     /// Its axis, centre and ends. `Axis` replaces the measured axis.
@@ -173,6 +208,8 @@ pub struct Part {
     pub main: usize,
     /// The joint, drawing units.
     pub origin: glam::DVec2,
+    /// The group whose content shares its node.
+    pub(super) node_group: Option<usize>,
     /// Index of its source.
     pub(super) source: usize,
     index: usize,
@@ -182,10 +219,11 @@ impl Part {
     pub(super) fn new(source: &PartSource, outline: Arc<Outline>, measure: Measure) -> Self {
         Self {
             name: String::new(),
-            automatic: false,
+            named_by: NamedBy::String,
             kind: PartKind::Sub,
             shape: source.shape,
             is_stroke: source.is_stroke,
+            host: None,
             outline,
             origin: measure.center,
             measure,
@@ -193,6 +231,7 @@ impl Part {
             legend: None,
             parent: None,
             main: usize::MAX,
+            node_group: None,
             source: source.index,
             index: usize::MAX,
         }
@@ -201,6 +240,11 @@ impl Part {
     /// Whether it is the main part candidate of its node.
     pub fn is_candidate(&self) -> bool {
         self.main == self.index
+    }
+
+    /// Whether the program chose its name.
+    pub fn is_automatic(&self) -> bool {
+        self.named_by == NamedBy::Automatic
     }
 
     /// Its paint: that of the fill or of the stroke.
@@ -219,29 +263,17 @@ impl Part {
 }
 
 impl Bindings {
-    /// A part for people: its name, or its element.
-    pub fn describe(&self, drawing: &Drawing, part: usize) -> String {
+    /// The element that names a part, if no string does: its shape's, or its group's.
+    pub fn naming_element<'a>(&self, drawing: &'a Drawing, part: usize) -> Option<&'a Element> {
         let part = &self.parts[part];
-        if part.name.is_empty() {
-            drawing.shapes[part.shape].element.describe()
-        } else {
-            format!("`{}`", part.name)
+        match part.named_by {
+            NamedBy::String | NamedBy::Automatic => None,
+            NamedBy::Label { group: Some(group) } | NamedBy::Id { group: Some(group) } => {
+                Some(&drawing.groups[group].element)
+            }
+            NamedBy::Label { group: None } | NamedBy::Id { group: None } => {
+                Some(&drawing.shapes[part.shape].element)
+            }
         }
-    }
-}
-
-impl Element {
-    /// The element for people: its label or id.
-    pub fn describe(&self) -> String {
-        match (&self.label, &self.id) {
-            (Some(label), _) => format!("`{label}`"),
-            (None, Some(id)) => format!("`#{id}`"),
-            (None, None) => format!("a `<{}>`", self.tag),
-        }
-    }
-
-    /// The name that the element gives to a part: its label, else its id.
-    pub fn own_name(&self) -> &str {
-        self.label.as_deref().or(self.id.as_deref()).unwrap_or("")
     }
 }

@@ -8,13 +8,11 @@ use rstar::primitives::GeomWithData;
 use rstar::{PointDistance, RTree};
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::bindings::{Bindings, DrawingString, Part, PartKind};
-
-use super::parents;
-use crate::diagnostic::{Code, Diagnostic};
+use super::bindings::{Bindings, DrawingString, NamedBy, PartKind};
+use super::{contact, joints, many, names, parents};
+use crate::diagnostic::{Code, Diagnostic, listed};
 use crate::geometry::{Measure, measure_along};
 use crate::lang::ast::{self, Annotation, Name};
-use crate::lang::value::Origin;
 use crate::memo::{Bits, Long, Memo};
 use crate::source::Span;
 use crate::svg::Drawing;
@@ -22,10 +20,6 @@ use crate::threads::GRAIN;
 
 /// The name of the virtual node that is the parent of parts without one.
 pub(super) const ROOT: &str = "Root";
-/// The least ratio of length to width for the hint that a part turns about its middle.
-const LONG: f64 = 2.0;
-/// Limit of automatic names that are reported one by one.
-const MAX_REPORTED: usize = 200;
 
 /// Names every main part, and finds its parent, axis and joint.
 pub(super) fn build(
@@ -34,8 +28,13 @@ pub(super) fn build(
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    let mut names = names(drawing, bindings, diagnostics);
+    let mut names = names_of_strings(drawing, bindings, diagnostics);
+    names::give(drawing, bindings, &mut names);
     automatic(drawing, bindings, &mut names, memo, diagnostics);
+    if bindings.hierarchy_by_contact {
+        contact::build(bindings);
+    }
+    parents::other_signs(bindings, &names, diagnostics);
     parents::parents(drawing, bindings, &names, diagnostics);
     parents::of_layers(drawing, bindings, &names, diagnostics);
     parents::break_cycles(drawing, bindings, diagnostics);
@@ -47,8 +46,8 @@ pub(super) fn build(
         .with_min_len(GRAIN)
         .filter(is_main)
         .map(|part| {
-            let origin = origin(bindings, part);
-            let finding = turns_about_middle(drawing, bindings, part, origin);
+            let origin = joints::origin(bindings, part);
+            let finding = joints::turns_about_middle(drawing, bindings, part, origin);
             (part, origin, finding)
         })
         .collect();
@@ -65,8 +64,8 @@ fn part_name(bindings: &Bindings, part: usize) -> Option<&Name> {
     }
 }
 
-/// The main parts by name; of several with the same name, the first.
-fn names(
+/// The main parts that strings name by name; of several with the same name, the first.
+fn names_of_strings(
     drawing: &Drawing,
     bindings: &Bindings,
     diagnostics: &mut Vec<Diagnostic>,
@@ -127,7 +126,8 @@ fn name_span(string: &DrawingString) -> Span {
     }
 }
 
-/// Names the parts without a string, and makes them children of the nearest named main part (rule 5).
+/// Names the parts without a name, and makes them and the other parts without a string children of the nearest named main part
+/// (rule 5).
 fn automatic(
     drawing: &Drawing,
     bindings: &mut Bindings,
@@ -139,22 +139,38 @@ fn automatic(
     let (named, waiting): (Vec<usize>, Vec<usize>) = (0..bindings.parts.len())
         .filter(main)
         .partition(|part| !bindings.parts[*part].name.is_empty());
-    let center = |part: usize| bindings.parts[part].measure.center.to_array();
-    let question = NearestNamed {
-        named: named
-            .into_iter()
-            .map(|part| (Bits(center(part)), part))
-            .collect(),
-        centers: waiting.iter().map(|part| Bits(center(*part))).collect(),
+    // What has a string carries what labels and ids name, and both carry what nothing names. Without strings two names are needed:
+    // one says nothing about what hangs on what.
+    let (by_string, mut by_element): (Vec<usize>, Vec<usize>) = named
+        .iter()
+        .partition(|part| bindings.parts[**part].string.is_some());
+    let carriers = match by_string.is_empty() && by_element.len() < 2 {
+        true => vec![],
+        false => named,
     };
+    if by_string.is_empty() {
+        by_element.clear();
+    }
+    let parents = nearest(bindings, by_string, &by_element, memo);
+    let carrying = parents::carrying(bindings, names);
+    for (part, parent) in by_element.iter().copied().zip(parents.iter().copied()) {
+        // A part that others are attached to must not hang on one of those.
+        let parent = parent.filter(|parent| {
+            !carrying.contains(&part) || !parents::hangs_on(bindings, names, *parent, part)
+        });
+        bindings.parts[part].parent = parent;
+    }
+    if bindings.annotated {
+        many::names_without_strings(drawing, bindings, &by_element, diagnostics);
+    }
     let of_layers: FxHashSet<String> = bindings
         .tile_layers()
         .map(|(_, layer)| layer.name.clone())
         .collect();
-    let parents = memo.get(question, NearestNamed::answer);
+    let parents = nearest(bindings, carriers, &waiting, memo);
     let mut counter = 0;
     let pairs = waiting.iter().copied().zip(parents.iter().copied());
-    for (place, (index, parent)) in pairs.enumerate() {
+    for (index, parent) in pairs {
         let name = loop {
             counter += 1;
             let name = format!("U-{counter}");
@@ -162,27 +178,30 @@ fn automatic(
                 break name;
             }
         };
-        if bindings.annotated && place < MAX_REPORTED {
-            diagnostics.push(automatic_name(drawing, bindings, index, &name, parent));
-        }
         names.insert(name.clone(), index);
         let part = &mut bindings.parts[index];
         part.name = name;
-        part.automatic = true;
+        part.named_by = NamedBy::Automatic;
         part.parent = parent;
     }
-    if let (true, [first, .., last]) = (
-        bindings.annotated,
-        waiting.get(MAX_REPORTED..).unwrap_or_default(),
-    ) {
-        let [from, to] = [first, last].map(|part| &bindings.parts[*part].name);
-        let count = waiting.len() - MAX_REPORTED;
-        let message =
-            format!("{count} more parts have no string: they are named `{from}` to `{to}`");
-        let span = drawing.shapes[bindings.parts[*first].shape].element.span;
-        let help = "`okoshi inspect` lists them all, each with its parent";
-        diagnostics.push(Diagnostic::new(Code::AutomaticName, span, message).help(help));
+    if bindings.annotated {
+        many::names_without_strings(drawing, bindings, &waiting, diagnostics);
     }
+}
+
+/// The nearest of some parts to each of others.
+fn nearest(
+    bindings: &Bindings,
+    named: Vec<usize>,
+    waiting: &[usize],
+    memo: &Memo,
+) -> Arc<[Option<usize>]> {
+    let center = |part: usize| Bits(bindings.parts[part].measure.center.to_array());
+    let question = NearestNamed {
+        named: named.into_iter().map(|part| (center(part), part)).collect(),
+        centers: waiting.iter().map(|part| center(*part)).collect(),
+    };
+    memo.get(question, NearestNamed::answer)
 }
 
 /// Which named part is nearest to each part without a string?
@@ -210,26 +229,6 @@ impl NearestNamed {
     }
 }
 
-/// Reports the name of a part without a string.
-fn automatic_name(
-    drawing: &Drawing,
-    bindings: &Bindings,
-    part: usize,
-    name: &str,
-    parent: Option<usize>,
-) -> Diagnostic {
-    let on = parent.map_or(String::new(), |parent| {
-        format!(" and is attached to `{}`", bindings.parts[parent].name)
-    });
-    let element = &drawing.shapes[bindings.parts[part].shape].element;
-    let message = format!(
-        "{} has no string: it is named `{name}`{on}",
-        element.describe()
-    );
-    Diagnostic::new(Code::AutomaticName, element.span, message)
-        .help("write a name beside it, or `*` to leave it out")
-}
-
 /// Turns the axes of parts with `Axis`.
 fn axes(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
     let found: Vec<(usize, Axis)> = (0..bindings.parts.len())
@@ -237,12 +236,25 @@ fn axes(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagno
         .with_min_len(GRAIN)
         .filter_map(|part| Some((part, axis(drawing, bindings, part)?)))
         .collect();
+    let mut guessed = Vec::new();
     for (part, axis) in found {
         match axis {
             Axis::Turned(measure) => bindings.parts[part].measure = measure,
-            Axis::Guessed(finding) => diagnostics.push(finding),
+            Axis::Guessed(finding) => guessed.push((part, finding)),
         }
     }
+    let (parts, findings): (Vec<usize>, Vec<Diagnostic>) = guessed.into_iter().unzip();
+    let names = || listed(parts.iter().map(|part| bindings.describe(drawing, *part)));
+    many::few_or_one(
+        findings,
+        |count| {
+            let names = names();
+            format!(
+                "{count} parts are as wide as they are long, so their axes are assumed to be upright: {names}"
+            )
+        },
+        diagnostics,
+    );
 }
 
 /// A change to a part's axis, or a doubt about it.
@@ -255,7 +267,7 @@ enum Axis {
 
 fn axis(drawing: &Drawing, bindings: &Bindings, index: usize) -> Option<Axis> {
     let part = &bindings.parts[index];
-    if !matches!(part.kind, PartKind::Main | PartKind::Sub) {
+    if !matches!(part.kind, PartKind::Main | PartKind::Sub) || bindings.form(index) != index {
         return None;
     }
     if let Some(degrees) = bindings.attributes(index).axis() {
@@ -284,97 +296,4 @@ fn axis(drawing: &Drawing, bindings: &Bindings, index: usize) -> Option<Axis> {
                 .help("write `Axis 90` for an upright axis, `Axis 0` for a horizontal one"),
         )
     })
-}
-
-/// The joint of a main part (paper, section 3.5).
-fn origin(bindings: &Bindings, index: usize) -> DVec2 {
-    let part = &bindings.parts[index];
-    let center = |parent: usize| bindings.parts[parent].measure.center;
-    let parent = part.parent.map(center);
-    let [start, end] = sorted_ends(part, parent);
-    match bindings.attributes(index).origin() {
-        Some(Origin::Center) => part.measure.center,
-        Some(Origin::Start) => start,
-        Some(Origin::End) => end,
-        Some(Origin::Point([x, y])) => DVec2::new(x, y),
-        None => match parent {
-            None => part.measure.center,
-            Some(parent) => {
-                let candidates = [start, end, part.measure.center];
-                // `min_by` takes the first of equals: an end rather than the centre, unless the part is centred on its parent.
-                let near = |p: &DVec2| p.distance_squared(parent);
-                candidates
-                    .into_iter()
-                    .min_by(|a, b| near(a).total_cmp(&near(b)))
-                    .unwrap_or(part.measure.center)
-            }
-        },
-    }
-}
-
-/// The ends of the axis: the one nearer to the parent's centre first; without a parent, the upper one first.
-fn sorted_ends(part: &Part, parent: Option<DVec2>) -> [DVec2; 2] {
-    let [a, b] = part.measure.ends;
-    let swapped = match parent {
-        Some(parent) => b.distance_squared(parent) < a.distance_squared(parent),
-        None => b.y < a.y,
-    };
-    if swapped { [b, a] } else { [a, b] }
-}
-
-/// Reports a long part beside its parent that turns about its middle, which is seldom meant.
-fn turns_about_middle(
-    drawing: &Drawing,
-    bindings: &Bindings,
-    index: usize,
-    origin: DVec2,
-) -> Option<Diagnostic> {
-    let part = &bindings.parts[index];
-    let long = part.measure.half_along > LONG * part.measure.half_across;
-    let (parent, string) = (part.parent?, part.string?);
-    let chosen = || bindings.attributes(index).origin().is_some();
-    let beside = &bindings.parts[parent].measure;
-    // A hat or a foot lies across the end of its parent, and is meant to turn about its middle.
-    let alike = !beside.certain
-        || beside.axis.dot(part.measure.axis).abs() > std::f64::consts::FRAC_1_SQRT_2;
-    if !long || !alike || origin != part.measure.center || chosen() {
-        return None;
-    }
-    let string = &bindings.strings[string];
-    let text = &string.text;
-    let has_attributes = match &string.annotation {
-        Annotation::Part(annotation) => {
-            !annotation.attributes.is_empty() || text.as_str().trim_end().ends_with(['$', '＄'])
-        }
-        _ => return None,
-    };
-    let end = text.as_str().trim_end().len();
-    let place = text.span(end..end);
-    let [start, far] = sorted_ends(part, Some(bindings.parts[parent].measure.center));
-    let way = far - start;
-    let side = match (way.y.abs() >= way.x.abs(), way.x >= 0.0, way.y >= 0.0) {
-        (true, _, true) => "upper",
-        (true, _, false) => "lower",
-        (false, true, _) => "left",
-        (false, false, _) => "right",
-    };
-    let lead = if has_attributes { " " } else { "$" };
-    let message = format!(
-        "both ends of `{}` are about equally far from `{}`, so it turns about its middle",
-        part.name, bindings.parts[parent].name
-    );
-    let mut diagnostic = Diagnostic::new(Code::TurnsAboutMiddle, text.whole(), message)
-    .related(drawing.shapes[part.shape].element.span, "the part")
-    .help(format!(
-        "for an arm or a leg write `Origin start` (the end nearer to the centre of `{}`, here the {side} one) or `Origin end`",
-        bindings.parts[parent].name
-    ));
-    for word in ["start", "end"] {
-        diagnostic = diagnostic.fix(
-            format!("Turn about its {word}"),
-            place,
-            format!("{lead}Origin {word}"),
-        );
-    }
-    Some(diagnostic)
 }

@@ -118,7 +118,7 @@ pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut
             let element = &drawing.groups[group].element;
             let message = format!(
                 "this string and another one make the same group a tile layer, {}",
-                element.describe()
+                drawing.describe_group(group)
             );
             diagnostics.push(
                 Diagnostic::new(Code::TwoStrings, string.text.whole(), message)

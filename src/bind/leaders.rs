@@ -1,161 +1,207 @@
-//! Lines that lead from a string to its part (figure.md, Binding, rule 3).
+//! Lines that lead from a string to what it names (figure.md, Binding, rule 3).
+
+use std::cell::LazyCell;
 
 use glam::DVec2;
-use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::bindings::{Bindings, Place};
-use crate::geometry::contains;
-use crate::lang::ast::Annotation;
-use crate::svg::{Drawing, Line};
+use super::fills::Fills;
+use super::node_groups::NodeGroups;
+use super::stacking::ground_count;
+use crate::geometry::{BoxTree, area_around, indexed_box};
+use crate::svg::{Drawing, Shape};
 
-type Box2 = GeomWithData<Rectangle<[f64; 2]>, usize>;
+/// The widest leader, font sizes.
+const MAX_WIDTH: f64 = 0.25;
+/// The shortest leader, and the least length of it that lies on no shape, font sizes.
+const MIN_LENGTH: f64 = 1.0;
+/// How far from a string's box a leader begins at most, and how far from a shape it ends, font sizes.
+const REACH: f64 = 1.0;
+/// By what share a string's box is made wider: its width is an estimate, and most fonts are wider for some words.
+const WIDER: f64 = 0.15;
+/// How finely a leader is sampled to find how much of it lies on no shape, font sizes.
+const SAMPLE: f64 = 0.1;
+/// Limit of the samples.
+const MAX_SAMPLES: f64 = 1000.0;
 
-/// Pairs of a string and the part to which a line leads from it.
-pub(super) fn find(
-    drawing: &Drawing,
-    bindings: &Bindings,
-    part_of_shape: &[Option<usize>],
-) -> Vec<(usize, usize)> {
-    let lines: Vec<&Line> = drawing
-        .shapes
-        .iter()
-        .filter_map(|shape| shape.line.as_deref())
-        .collect();
-    if lines.is_empty() || bindings.strings.is_empty() {
-        return vec![];
-    }
-    let context = Context::new(drawing, bindings, part_of_shape);
-    let mut bound: FxHashMap<usize, usize> = FxHashMap::default();
-    let mut found = Vec::new();
-    for line in lines {
-        let pair = context.connected(line).or_else(|| {
-            let [a, b] = line.ends;
-            context.pair(a, b).or_else(|| context.pair(b, a))
-        });
-        if let Some((string, part)) = pair
-            && bound.insert(string, part).is_none()
-        {
-            found.push((string, part));
-        }
-    }
-    found
+/// The leaders of a drawing.
+#[derive(Debug, Default)]
+pub(super) struct Leaders {
+    /// Strings, each with the point that its leader leads to.
+    pub(super) points: FxHashMap<usize, DVec2>,
+    /// Strings and shapes that an Inkscape connector joins.
+    pub(super) connected: Vec<(usize, usize)>,
+    /// Indices of the shapes that are leaders, ascending.
+    pub(super) shapes: Vec<usize>,
 }
 
-struct Context<'a> {
+impl Leaders {
+    /// Finds the lines that lead from a string to something else.
+    pub(super) fn find(drawing: &Drawing, bindings: &Bindings, node_groups: &NodeGroups) -> Self {
+        let has_line = |shape: &Shape| shape.line.is_some();
+        let mut leaders = Self::default();
+        if bindings.strings.is_empty() || !drawing.shapes.iter().any(has_line) {
+            return leaders;
+        }
+        let strings = Strings::new(drawing, bindings);
+        // The ground lies under everything.
+        let fills = LazyCell::new(|| {
+            let outlines = drawing.shapes.iter().map(|shape| &*shape.outline);
+            Fills::from(drawing, ground_count(outlines, drawing.page))
+        });
+        let mut bound = FxHashSet::default();
+        for (index, shape) in drawing.shapes.iter().enumerate() {
+            let Some(line) = &shape.line else { continue };
+            if let Some((string, shape)) = strings.connected(&line.connects) {
+                if bound.insert(string) {
+                    leaders.connected.push((string, shape));
+                }
+                leaders.shapes.push(index);
+                continue;
+            }
+            let [a, b] = line.ends;
+            let (string, from, to) = match (strings.at(a), strings.at(b)) {
+                (Some(string), None) => (string, a, b),
+                (None, Some(string)) => (string, b, a),
+                // A line between two strings, or one that begins at none, leads from nothing.
+                _ => continue,
+            };
+            let em = strings.em(string);
+            let is_leader = leads(shape, em, &fills)
+                // A guide that only begins beside a string leads nowhere.
+                && fills.is_near(to, REACH * em)
+                && !in_one_unit(drawing, &fills, node_groups, [from, to]);
+            if is_leader {
+                leaders.shapes.push(index);
+                if bound.insert(string) {
+                    leaders.points.insert(string, to);
+                }
+            }
+        }
+        leaders
+    }
+}
+
+/// Whether a line is thin and long enough for a leader, and lies on no shape for long enough.
+fn leads(shape: &Shape, em: f64, fills: &Fills<'_>) -> bool {
+    let Some(stroke) = &shape.stroke else {
+        return false;
+    };
+    if stroke.width() > MAX_WIDTH * em {
+        return false;
+    }
+    let mut edges = Vec::new();
+    stroke.middle_line(SAMPLE * em, |a, b| edges.push((a, b, a.distance(b))));
+    let length: f64 = edges.iter().map(|edge| edge.2).sum();
+    if length < MIN_LENGTH * em {
+        return false;
+    }
+    let step = (SAMPLE * em).max(length / MAX_SAMPLES);
+    let mut free = 0.0;
+    for (a, b, length) in edges {
+        let count = (length / step).ceil().max(1.0);
+        for sample in 0..count as usize {
+            let at = a.lerp(b, (sample as f64 + 0.5) / count);
+            if fills.topmost(at).is_none() {
+                free += length / count;
+            }
+        }
+        if free >= MIN_LENGTH * em {
+            return true;
+        }
+    }
+    false
+}
+
+/// The strings that leaders can begin at.
+struct Strings<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
-    part_of_shape: &'a [Option<usize>],
-    strings: RTree<Box2>,
-    parts: RTree<Box2>,
+    boxes: BoxTree,
     reach: f64,
 }
 
-impl<'a> Context<'a> {
-    fn new(
-        drawing: &'a Drawing,
-        bindings: &'a Bindings,
-        part_of_shape: &'a [Option<usize>],
-    ) -> Self {
+impl<'a> Strings<'a> {
+    fn new(drawing: &'a Drawing, bindings: &'a Bindings) -> Self {
         let mut reach = 0.0_f64;
         let mut boxes = Vec::new();
         for (index, string) in bindings.strings.iter().enumerate() {
             if let Place::Label(label) = string.place
                 && string.wants_part()
-                && string.binding.is_none()
             {
                 let label = &drawing.labels[label].0;
-                reach = reach.max(label.font_size);
-                boxes.push(rectangle(label.bounds, index));
+                reach = reach.max(REACH * label.font_size);
+                let (low, high) = label.position.bounds;
+                let wider = DVec2::new(WIDER * (high.x - low.x), 0.0);
+                boxes.push(indexed_box((low, high + wider), index));
             }
         }
-        let parts = bindings.parts.iter().enumerate();
-        let parts = parts.map(|(index, part)| rectangle(part.measure.bounds, index));
         Self {
             drawing,
             bindings,
-            part_of_shape,
-            strings: RTree::bulk_load(boxes),
-            parts: RTree::bulk_load(parts.collect()),
+            boxes: BoxTree::bulk_load(boxes),
             reach,
         }
     }
 
-    /// The string and the part that an Inkscape connector joins.
-    fn connected(&self, line: &Line) -> Option<(usize, usize)> {
-        let [Some(a), Some(b)] = &line.connects else {
-            return None;
-        };
-        let string = |id: &str| {
-            self.bindings
-                .strings
-                .iter()
-                .position(|string| match string.place {
-                    Place::Label(label) => {
-                        string.wants_part()
-                            && string.binding.is_none()
-                            && self.drawing.labels[label].0.id.as_deref() == Some(id)
-                    }
-                    _ => false,
-                })
-        };
-        let part = |id: &str| {
-            let shape = self.drawing.shapes.iter().position(|shape| {
-                shape.element.id.as_deref() == Some(id)
-                    || self.drawing.groups[shape.group].element.id.as_deref() == Some(id)
-            })?;
-            self.part_of_shape[shape]
-        };
-        let pair = |from: &str, to: &str| Some((string(from)?, part(to)?));
-        pair(a, b).or_else(|| pair(b, a))
+    fn em(&self, string: usize) -> f64 {
+        match self.bindings.strings[string].place {
+            Place::Label(label) => self.drawing.labels[label].0.font_size,
+            Place::Shape(_) | Place::Group(_) => 0.0,
+        }
     }
 
-    /// The string at one point and the part at another.
-    fn pair(&self, from: DVec2, to: DVec2) -> Option<(usize, usize)> {
-        let string = self.string_at(from)?;
-        let part = self.part_at(to, string)?;
-        Some((string, part))
-    }
-
-    fn string_at(&self, point: DVec2) -> Option<usize> {
-        let near = AABB::from_corners(
-            (point - self.reach).to_array(),
-            (point + self.reach).to_array(),
-        );
-        self.strings
-            .locate_in_envelope_intersecting(near)
-            .filter_map(|found| {
-                let Place::Label(label) = self.bindings.strings[found.data].place else {
-                    return None;
-                };
-                let label = &self.drawing.labels[label].0;
-                let (low, high) = label.bounds;
-                let distance = (point - point.clamp(low, high)).length();
-                (distance <= label.font_size).then_some((distance, found.data))
-            })
-            .min_by(|a, b| a.partial_cmp(b).unwrap_or(std::cmp::Ordering::Equal))
+    /// The string at the end of a line: the nearest, if it is near.
+    fn at(&self, point: DVec2) -> Option<usize> {
+        let near = area_around((point, point), self.reach);
+        let found = self.boxes.locate_in_envelope_intersecting(near);
+        let near = found.filter_map(|found| {
+            let area = found.geom();
+            let (low, high) = (DVec2::from(area.lower()), DVec2::from(area.upper()));
+            let distance = point.distance(point.clamp(low, high));
+            (distance <= REACH * self.em(found.data)).then_some((distance, found.data))
+        });
+        near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
             .map(|(_, string)| string)
     }
 
-    /// The topmost part at a point; for a string that names a part, the main part candidate of its node.
-    fn part_at(&self, point: DVec2, string: usize) -> Option<usize> {
-        let part = self
-            .parts
-            .locate_all_at_point([point.x, point.y])
-            .map(|found| found.data)
-            .filter(|part| contains(&self.bindings.parts[*part].outline, point))
-            .max()?;
-        match self.bindings.strings[string].annotation {
-            Annotation::Legend(_) => Some(part),
-            _ => Some(self.bindings.parts[part].main),
-        }
+    /// The string and the shape that an Inkscape connector joins.
+    fn connected(&self, connects: &[Option<String>; 2]) -> Option<(usize, usize)> {
+        let [Some(a), Some(b)] = connects else {
+            return None;
+        };
+        let string = |id: &str| {
+            let mut strings = self.bindings.strings.iter();
+            strings.position(|string| match string.place {
+                Place::Label(label) => {
+                    string.wants_part() && self.drawing.labels[label].0.id.as_deref() == Some(id)
+                }
+                _ => false,
+            })
+        };
+        let shape = |id: &str| {
+            let mut shapes = self.drawing.shapes.iter();
+            shapes.position(|shape| {
+                shape.element.id.as_deref() == Some(id)
+                    || self.drawing.groups[shape.group].element.id.as_deref() == Some(id)
+            })
+        };
+        let pair = |from: &str, to: &str| Some((string(from)?, shape(to)?));
+        pair(a, b).or_else(|| pair(b, a))
     }
 }
 
-fn rectangle((low, high): (DVec2, DVec2), data: usize) -> Box2 {
-    GeomWithData::new(
-        Rectangle::from_corners(low.to_array(), high.to_array()),
-        data,
-    )
+/// Whether two points lie on the same shape, or on the same group of shapes.
+fn in_one_unit(
+    drawing: &Drawing,
+    fills: &Fills<'_>,
+    node_groups: &NodeGroups,
+    points: [DVec2; 2],
+) -> bool {
+    let [Some(a), Some(b)] = points.map(|point| fills.topmost(point)) else {
+        return false;
+    };
+    let group = |shape: usize| node_groups.outermost(drawing.shapes[shape].group);
+    a == b || group(a).is_some_and(|group_of_a| Some(group_of_a) == group(b))
 }

@@ -96,13 +96,16 @@ impl Legend {
             true => "tile",
             false => "part",
         };
-        let swatch_name = swatch.describe();
+        let swatch_name = drawing.describe(self.swatch);
         let message = format!("no {what} has the paint of this legend, {swatch_name}");
         let place = bindings.strings[self.string].text.whole();
         Diagnostic::new(Code::UnusedLegend, place, message)
         .related(swatch.span, "the legend")
-        .help(format!(
-            "pick the sample's colour from the {what}s with the colour picker, or delete the legend"
-        ))
+        .help(match self.is_for_tiles() {
+            true => "pick the sample's colour from the tiles with the colour picker, or delete the legend",
+            false => {
+                "pick the sample's colour from the parts with the colour picker; if the attributes are for the shape itself, write its name before `$`"
+            }
+        })
     }
 }

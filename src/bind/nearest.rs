@@ -6,6 +6,7 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::sync::Arc;
 
 use glam::DVec2;
 use rayon::prelude::*;
@@ -13,6 +14,7 @@ use rstar::primitives::GeomWithData;
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use rustc_hash::FxHashMap;
 
+use super::bindings::Part;
 use crate::geometry::{Outline, bounds, distance_squared};
 use crate::memo::{Bits, Long, Same};
 use crate::threads::GRAIN;
@@ -65,6 +67,14 @@ impl AssignmentProblem {
 }
 
 impl Target {
+    /// The target that a part is.
+    pub(super) fn of(part: &Part) -> Self {
+        Self {
+            center: Bits(part.measure.center),
+            outline: Same(Arc::clone(&part.outline)),
+        }
+    }
+
     fn distance_squared(&self, corner: DVec2, mode: DistanceMode) -> f64 {
         match mode {
             DistanceMode::Center => self.center.0.distance_squared(corner),

@@ -1,12 +1,17 @@
 //! Node groups: which shapes become one node of the hierarchy (figure.md, Groups).
 //!
-//! A part has a source: the fill of a shape, or its stroke if strokes are parts. All sources in a node group share a node; the
-//! back-most of them is the main part candidate.
+//! A part has a source: the fill of a shape, or its stroke if that is built. All sources in a node group share a node, but ink
+//! goes with what it lies on; the back-most of the others is the main part candidate.
 
 use rustc_hash::FxHashMap;
 
 use super::bindings::{Bindings, Place};
+use super::ink;
+use super::leaders::Leaders;
 use super::settings::Strokes;
+use super::unseen::ConvertedStrings;
+use super::wrappers;
+use crate::memo::Memo;
 use crate::svg::{Drawing, GroupKind};
 
 /// The fill or the stroke of a shape, which becomes a part if it has area.
@@ -16,6 +21,8 @@ pub(super) struct PartSource {
     pub(super) shape: usize,
     /// Whether its area is the shape's stroke rather than its fill.
     pub(super) is_stroke: bool,
+    /// For ink, the shape on which it lies.
+    pub(super) host: Option<usize>,
 }
 
 /// What a group means for the hierarchy.
@@ -39,16 +46,19 @@ pub(super) struct NodeGroups {
     /// Per source: the group whose content shares its node.
     node_group: Vec<Option<usize>>,
     /// Per source: the nearest container around it.
-    container: Vec<Option<usize>>,
+    pub(super) container: Vec<Option<usize>>,
     /// Per group: the group of the tile layer that it is in.
     layer: Vec<Option<usize>>,
     /// Per source: whether it is in a tile layer.
     pub(super) in_layer: Vec<bool>,
+    /// Per shape: whether it is a background, unless a string names it.
+    pub(super) backgrounds: Vec<bool>,
     /// Per group: whether it is a tile layer with parts that strings can belong to.
     holds_parts: Vec<bool>,
 }
 
 impl NodeGroups {
+    /// The groups of a drawing. What shares their nodes is found by [`find_sources`](Self::find_sources).
     pub(super) fn read(drawing: &Drawing, bindings: &Bindings) -> Self {
         let parents: Vec<usize> = drawing.groups.iter().map(|group| group.parent).collect();
         let mut strings = vec![0_usize; drawing.groups.len()];
@@ -57,42 +67,48 @@ impl NodeGroups {
                 strings[drawing.labels[label].1] += 1;
             }
         }
-        let sources = sources(drawing, bindings);
         let groups = 0..drawing.groups.len();
         let layer =
             groups.map(|group| Some(bindings.layers[bindings.tile_layer_of_group(group)?].group));
         let layer: Vec<Option<usize>> = layer.collect();
-        let roles = roles(drawing, &strings, &layer);
-        let mut node_groups = Self {
-            node_group: vec![None; sources.len()],
-            container: vec![None; sources.len()],
-            in_layer: vec![false; sources.len()],
+        let in_map = |group: usize| layer[group].is_some();
+        let wrappers = wrappers::find(drawing, bindings, &strings, in_map);
+        Self {
+            node_group: vec![],
+            container: vec![],
+            in_layer: vec![],
+            backgrounds: wrappers.backgrounds,
             holds_parts: vec![false; drawing.groups.len()],
-            sources,
-            roles,
+            sources: vec![],
+            roles: roles(drawing, &strings, &layer, &wrappers.groups_nothing),
             parents,
             layer,
-        };
-        for index in 0..node_groups.sources.len() {
-            let group = drawing.shapes[node_groups.sources[index].shape].group;
-            if let Some(layer) = node_groups.layer[group] {
-                node_groups.in_layer[index] = true;
-                node_groups.container[index] = Some(layer);
-                node_groups.holds_parts[layer] = true;
-            }
-            let chain: Vec<usize> = node_groups.chain(group).collect();
-            for group in chain {
-                match node_groups.roles[group] {
-                    GroupRole::Transparent => {}
-                    GroupRole::Node => node_groups.node_group[index] = Some(group),
-                    GroupRole::Container => {
-                        node_groups.container[index] = Some(group);
-                        break;
-                    }
-                }
-            }
         }
-        node_groups
+    }
+
+    /// Finds the sources of parts, and the groups that each belongs to.
+    pub(super) fn find_sources(
+        &mut self,
+        drawing: &Drawing,
+        bindings: &Bindings,
+        leaders: &Leaders,
+        memo: &Memo,
+    ) {
+        self.sources = sources(drawing, bindings, &self.backgrounds, leaders, memo);
+        for index in 0..self.sources.len() {
+            let shape = self.sources[index].shape;
+            let group = drawing.shapes[shape].group;
+            let layer = self.layer[group];
+            if let Some(layer) = layer {
+                self.holds_parts[layer] = true;
+            }
+            let is_container = |group: &usize| self.roles[*group] == GroupRole::Container;
+            let container = self.chain(group).find(is_container);
+            let node_group = self.outermost(group).filter(|_| !self.backgrounds[shape]);
+            self.in_layer.push(layer.is_some());
+            self.container.push(container.or(layer));
+            self.node_group.push(node_group);
+        }
     }
 
     /// A group and the groups around it, innermost first, up to the tile layer that it is in.
@@ -106,46 +122,110 @@ impl NodeGroups {
         })
     }
 
+    /// The group whose content shares a node with what is in `group`; `None` if its shapes are nodes of their own.
+    pub(super) fn outermost(&self, group: usize) -> Option<usize> {
+        let mut outermost = None;
+        for group in self.chain(group) {
+            match self.roles[group] {
+                GroupRole::Transparent => {}
+                GroupRole::Node => outermost = Some(group),
+                GroupRole::Container => break,
+            }
+        }
+        outermost
+    }
+
+    /// Opens the group of a node: its children become nodes of their own. If one of them is a group that holds all
+    /// `members`, parts of the node by their sources and the groups of their shapes, it is opened too. Returns whether there
+    /// was a group to open.
+    pub(super) fn open(&mut self, members: &[(usize, usize)]) -> bool {
+        let Some((&(first, group), rest)) = members.split_first() else {
+            return false;
+        };
+        let Some(outermost) = self.node_group[first] else {
+            return false;
+        };
+        // The groups between the node's group and the first part, from outside in, as far as they hold all parts.
+        let inside = |group: usize| {
+            let mut chain: Vec<usize> = self.chain(group).collect();
+            let end = chain.iter().position(|group| *group == outermost);
+            chain.truncate(end.map_or(0, |end| end + 1));
+            chain.reverse();
+            chain
+        };
+        let mut common = inside(group);
+        for (_, group) in rest {
+            let chain = inside(*group);
+            let same = common.iter().zip(&chain).take_while(|(a, b)| a == b);
+            let same = same.count();
+            common.truncate(same);
+        }
+        for group in common {
+            if self.roles[group] == GroupRole::Node {
+                self.roles[group] = GroupRole::Transparent;
+            }
+        }
+        for (source, group) in members {
+            self.node_group[*source] = self.outermost(*group);
+        }
+        true
+    }
+
     /// The group of the tile layer to whose shapes strings in a group are restricted; `None` for strings outside of tile layers.
     pub(super) fn scope_of_layer(&self, group: usize) -> Option<usize> {
         self.layer[group].filter(|layer| self.holds_parts[*layer])
     }
 }
 
-fn sources(drawing: &Drawing, bindings: &Bindings) -> Vec<PartSource> {
-    let (lines, borders) = match bindings.settings.strokes {
-        Strokes::None => (false, false),
-        Strokes::Lines => (true, false),
-        Strokes::All => (true, true),
+fn sources(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    backgrounds: &[bool],
+    leaders: &Leaders,
+    memo: &Memo,
+) -> Vec<PartSource> {
+    let (ink, lines, borders) = match bindings.settings.strokes {
+        Strokes::None => (false, false, false),
+        Strokes::Ink => (true, false, false),
+        Strokes::Lines => (true, true, false),
+        Strokes::All => (true, true, true),
     };
     let described = described_lines(drawing, bindings);
+    // Strokes in a tile layer are edges.
+    let is_map = |shape: usize| {
+        let group = drawing.shapes[shape].group;
+        bindings.tile_layer_of_group(group).is_some()
+    };
+    let is_leader = |shape: usize| leaders.shapes.binary_search(&shape).is_ok();
+    let is_free = |shape: usize| !described[shape] && !is_leader(shape) && !is_map(shape);
+    let is_ink = |shape: usize| ink && is_free(shape);
+    let is_host = |shape: usize| !is_map(shape) && !backgrounds[shape];
+    let hosts = ink::hosts(drawing, is_ink, is_host, memo);
+    let converted = ConvertedStrings::of(drawing);
     let mut sources = Vec::with_capacity(drawing.shapes.len());
-    let mut add = |shape, is_stroke| {
+    let mut add = |shape, is_stroke, host| {
         sources.push(PartSource {
             index: sources.len(),
             shape,
             is_stroke,
+            host,
         })
     };
     for (index, shape) in drawing.shapes.iter().enumerate() {
-        if bindings.is_picture_of_tiles(drawing, index) {
+        let converted = converted.contains(shape.element.span.start);
+        if converted || bindings.is_picture_of_tiles(drawing, index) {
             continue;
         }
-        let filled = !shape.outline.polygons.is_empty();
-        if filled {
-            add(index, false);
-        }
-        // Strokes in a tile layer are edges.
-        let is_map = bindings.tile_layer_of_group(shape.group).is_some();
-        let (lines, borders) = (lines && !is_map, borders && !is_map);
-        if shape.stroke.is_some()
-            && if filled {
-                borders
-            } else {
-                lines || described[index]
+        let has_stroke = shape.stroke.is_some();
+        if !shape.outline.polygons.is_empty() {
+            add(index, false, None);
+            if has_stroke && borders && !is_map(index) {
+                add(index, true, Some(index));
             }
+        } else if has_stroke
+            && (described[index] || hosts[index].is_some() || (lines && is_free(index)))
         {
-            add(index, true);
+            add(index, true, hosts[index]);
         }
     }
     sources
@@ -156,21 +236,14 @@ fn sources(drawing: &Drawing, bindings: &Bindings) -> Vec<PartSource> {
 fn described_lines(drawing: &Drawing, bindings: &Bindings) -> Vec<bool> {
     let mut described = vec![false; drawing.shapes.len()];
     let mut filled = vec![false; drawing.groups.len()];
-    let mut first_line = vec![None; drawing.groups.len()];
-    for (index, shape) in drawing.shapes.iter().enumerate() {
+    for shape in &drawing.shapes {
         let mut group = shape.group;
-        loop {
-            if !shape.outline.polygons.is_empty() {
-                filled[group] = true;
-            } else if shape.stroke.is_some() {
-                first_line[group].get_or_insert(index);
-            }
-            if group == 0 {
-                break;
-            }
+        while !shape.outline.polygons.is_empty() && !filled[group] {
+            filled[group] = true;
             group = drawing.groups[group].parent;
         }
     }
+    let mut has_string = vec![false; drawing.groups.len()];
     for string in bindings.strings.iter().filter(|string| string.wants_part()) {
         let group = match string.place {
             Place::Shape(shape) => {
@@ -180,78 +253,50 @@ fn described_lines(drawing: &Drawing, bindings: &Bindings) -> Vec<bool> {
             Place::Group(group) => group,
             Place::Label(label) => drawing.labels[label].1,
         };
-        if drawing.groups[group].kind == GroupKind::Group
-            && !filled[group]
-            && let Some(line) = first_line[group]
-        {
-            described[line] = true;
-        }
+        has_string[group] |= drawing.groups[group].kind == GroupKind::Group && !filled[group];
+    }
+    // A group comes after the one that contains it.
+    for (index, group) in drawing.groups.iter().enumerate() {
+        has_string[index] |= has_string[group.parent];
+    }
+    for (described, shape) in described.iter_mut().zip(&drawing.shapes) {
+        let is_line = shape.outline.polygons.is_empty() && shape.stroke.is_some();
+        *described |= is_line && has_string[shape.group];
     }
     described
 }
 
-fn roles(drawing: &Drawing, strings: &[usize], layer: &[Option<usize>]) -> Vec<GroupRole> {
-    let mut children = vec![0_usize; drawing.groups.len()];
-    let mut drawn = vec![false; drawing.groups.len()];
-    for shape in &drawing.shapes {
-        children[shape.group] += 1;
-        let mut group = shape.group;
-        while group != 0 && !drawn[group] {
-            drawn[group] = true;
-            group = drawing.groups[group].parent;
-            children[group] += 1;
-        }
-    }
-    let mut roles = Vec::with_capacity(drawing.groups.len());
-    let mut wraps = vec![false; drawing.groups.len()];
-    for (index, group) in drawing.groups.iter().enumerate() {
-        // Several strings beside the only group of a page describe its content; a single one names the group.
-        let lone = wraps[group.parent] && children[group.parent] == 1 && strings[group.parent] != 1;
-        wraps[index] = group.kind == GroupKind::Root || (group.kind == GroupKind::Group && lone);
-        roles.push(match group.kind {
+fn roles(
+    drawing: &Drawing,
+    strings: &[usize],
+    layer: &[Option<usize>],
+    groups_nothing: &[bool],
+) -> Vec<GroupRole> {
+    let groups = drawing.groups.iter().enumerate();
+    groups
+        .map(|(index, group)| match group.kind {
             GroupKind::Root | GroupKind::Layer => GroupRole::Transparent,
             GroupKind::Group if layer[index] == Some(index) => GroupRole::Transparent,
-            GroupKind::Group if wraps[index] => GroupRole::Transparent,
+            GroupKind::Group if groups_nothing[index] => GroupRole::Transparent,
             GroupKind::Group if strings[index] > 1 => GroupRole::Container,
             GroupKind::Group => GroupRole::Node,
-        });
-    }
-    roles
+        })
+        .collect()
 }
 
 /// Makes the back-most part of each node its main part candidate.
 pub(super) fn choose_mains(node_groups: &NodeGroups, bindings: &mut Bindings) {
     let mut mains: FxHashMap<(Option<usize>, usize), usize> = FxHashMap::default();
-    let mut main_of_shape: FxHashMap<usize, usize> = FxHashMap::default();
     for index in 0..bindings.parts.len() {
         let source = bindings.parts[index].source;
-        let shape = bindings.parts[index].shape;
-        let main = match node_groups.node_group[source] {
-            Some(group) => *mains
+        let main = match (bindings.parts[index].host, node_groups.node_group[source]) {
+            (Some(host), _) => bindings.parts[host].main,
+            (None, Some(group)) => *mains
                 .entry((node_groups.container[source], group))
                 .or_insert(index),
-            // A border belongs to the shape that it borders.
-            None => *main_of_shape.entry(shape).or_insert(index),
+            (None, None) => index,
         };
+        bindings.parts[index].node_group = node_groups.node_group[source];
         bindings.parts[index].join_node(index, main);
     }
-}
-
-/// The main part candidates in each container.
-pub(super) fn candidates_by_container(
-    node_groups: &NodeGroups,
-    bindings: &Bindings,
-) -> FxHashMap<usize, Vec<usize>> {
-    let mut candidates: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
-    for (index, part) in bindings
-        .parts
-        .iter()
-        .enumerate()
-        .filter(|(_, part)| part.is_candidate())
-    {
-        if let Some(container) = node_groups.container[part.source] {
-            candidates.entry(container).or_default().push(index);
-        }
-    }
-    candidates
 }

@@ -1,6 +1,6 @@
 //! The parents of parts and tile layers: the names after `@` (figure.md, Hierarchy and local frames).
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::bindings::{Bindings, DrawingString, Part, PartKind};
 use super::hierarchy::ROOT;
@@ -30,6 +30,48 @@ pub(super) fn parents(
             Err(finding) => diagnostics.push(*finding),
         }
     }
+}
+
+/// The part that a part's string names after `@`.
+fn named_parent(
+    bindings: &Bindings,
+    part: usize,
+    names: &FxHashMap<String, usize>,
+) -> Option<usize> {
+    let string = bindings.parts[part].string?;
+    match &bindings.strings[string].annotation {
+        Annotation::Part(part) => names.get(&part.parent.as_ref()?.text).copied(),
+        _ => None,
+    }
+}
+
+/// The parts to which strings attach others.
+pub(super) fn carrying(bindings: &Bindings, names: &FxHashMap<String, usize>) -> FxHashSet<usize> {
+    let parts = 0..bindings.parts.len();
+    parts
+        .filter_map(|part| named_parent(bindings, part, names))
+        .collect()
+}
+
+/// Whether a part hangs on another one, directly or not, by strings or by parents that are set already.
+pub(super) fn hangs_on(
+    bindings: &Bindings,
+    names: &FxHashMap<String, usize>,
+    part: usize,
+    other: usize,
+) -> bool {
+    let mut at = part;
+    // More steps than parts lead in a circle, which is reported later.
+    for _ in 0..bindings.parts.len() {
+        if at == other {
+            return true;
+        }
+        match named_parent(bindings, at, names).or(bindings.parts[at].parent) {
+            Some(parent) => at = parent,
+            None => return false,
+        }
+    }
+    false
 }
 
 /// Finds the parents of tile layers.
@@ -108,6 +150,48 @@ fn parent(
             .help("the name after `@` must be the name of a part, spelled exactly the same");
     }
     Err(Box::new(diagnostic))
+}
+
+/// Signs that people write in place of `@`.
+const OTHER_SIGNS: [char; 7] = [':', '>', '<', '/', '=', '→', '+'];
+
+/// Reports names such as `Arm:Body`, where `Body` is a part.
+pub(super) fn other_signs(
+    bindings: &Bindings,
+    names: &FxHashMap<String, usize>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for part in &bindings.parts {
+        let Some(string) = part.string.map(|string| &bindings.strings[string]) else {
+            continue;
+        };
+        let Annotation::Part(annotation) = &string.annotation else {
+            continue;
+        };
+        let (Some(name), None) = (&annotation.name, &annotation.parent) else {
+            continue;
+        };
+        let written = &string.text.as_str()[name.range.clone()];
+        let Some(at) = written.find(OTHER_SIGNS) else {
+            continue;
+        };
+        let parent = written[at..].trim_start_matches(OTHER_SIGNS);
+        if at == 0 || !names.contains_key(parent) {
+            continue;
+        }
+        let sign = name.range.start + at..name.range.end - parent.len();
+        let span = string.text.span(sign);
+        let message = format!("`{written}` is read as one name, although `{parent}` is a part");
+        diagnostics.push(
+            Diagnostic::new(
+                Code::SignInName,
+                string.text.span(name.range.clone()),
+                message,
+            )
+            .help("what a part is attached to comes after `@`; a name can have other signs")
+            .fix("Write `@`", span, "@"),
+        );
+    }
 }
 
 /// Breaks every cycle of parents by making one of its parts a child of the root.

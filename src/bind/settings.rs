@@ -17,31 +17,42 @@ pub struct DrawingSettings {
     pub axes: DQuat,
     /// `Ground`: the point of the drawing at the world's origin; `None` for the middle of the lower edge of all that is built.
     pub ground: Option<DVec2>,
-    /// `Bind`: how distances from strings to parts are measured.
-    pub bind: DistanceMode,
-    /// `Strokes`: which strokes are parts.
+    /// `Bind`: how strings find their parts.
+    pub bind: BindRule,
+    /// `Strokes`: which strokes are built.
     pub strokes: Strokes,
 }
 
-/// Which strokes are parts.
+/// How a string finds its part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BindRule {
+    /// It belongs to the part that it lies on, else to one near it.
+    Meant,
+    /// It belongs to the nearest part, as in the paper.
+    Nearest(DistanceMode),
+}
+
+/// Which strokes are built. Those with a string of their own are parts in any case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Strokes {
-    /// None but those with a string of their own.
+    /// None.
     None,
-    /// Those of shapes that are not filled.
+    /// Those of unfilled shapes that lie on a part, as ink on it. What a drawing with strings gets if it does not say.
+    Ink,
+    /// Those of unfilled shapes: as ink where they lie on a part, else as parts.
     Lines,
-    /// All, borders of filled shapes too.
+    /// All: outlines of filled shapes too, as ink on these.
     All,
 }
 
 impl Default for DrawingSettings {
-    /// The settings of a drawing without strings, in which all lines are parts.
+    /// The settings of a drawing without strings, in which lines off all shapes are parts.
     fn default() -> Self {
         Self {
             scale: 1.0,
             axes: DQuat::IDENTITY,
             ground: None,
-            bind: DistanceMode::Center,
+            bind: BindRule::Meant,
             strokes: Strokes::Lines,
         }
     }
@@ -51,7 +62,7 @@ impl DrawingSettings {
     /// The settings of a drawing with strings.
     pub(super) fn read(drawing: &Drawing, bindings: &Bindings) -> Self {
         let mut settings = Self {
-            strokes: Strokes::None,
+            strokes: Strokes::Ink,
             ..Self::default()
         };
         for (_, setting) in &bindings.defaults {
@@ -73,8 +84,12 @@ impl DrawingSettings {
                         Ground::Point([x, y]) => Some(DVec2::new(*x, *y)),
                     };
                 }
-                (Keyword::Bind, Value::Word(word)) if word.eq_ignore_ascii_case("outline") => {
-                    settings.bind = DistanceMode::Outline;
+                (Keyword::Bind, Value::Word(word)) => {
+                    settings.bind = match word.to_lowercase().as_str() {
+                        "center" => BindRule::Nearest(DistanceMode::Center),
+                        "outline" => BindRule::Nearest(DistanceMode::Outline),
+                        _ => BindRule::Meant,
+                    };
                 }
                 (Keyword::Strokes, Value::Word(word)) => {
                     settings.strokes = match word.to_lowercase().as_str() {

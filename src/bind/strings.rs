@@ -1,17 +1,20 @@
 //! Finds and parses the strings of a drawing, and computes their variables.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
 
+use super::bare_names;
 use super::bindings::{Bindings, DrawingString, Place};
+use super::many;
 use super::settings::DrawingSettings;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix, listed};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::lang::{self, variables::Variables};
-use crate::source::Text;
-use crate::svg::Drawing;
+use crate::source::{Span, Text};
+use crate::svg::{Drawing, GroupKind, Label};
 use crate::threads::GRAIN;
 
 pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
@@ -20,7 +23,8 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
         || drawing
             .labels
             .iter()
-            .any(|(label, _)| lang::looks_like_string(label.text.as_str()));
+            .any(|(label, _)| lang::looks_like_string(label.text.as_str()))
+        || bare_names::name_parts(drawing);
     if !annotated {
         return Bindings::default();
     }
@@ -41,7 +45,14 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
             } else {
                 lang::Container::Desc
             };
-            let (annotation, findings) = lang::parse(&text, kind);
+            let pieces = lang::strings_in(text.as_str());
+            let (annotation, mut findings) = match pieces.as_slice() {
+                [first, _, ..] => lang::parse(&text.truncated(first.end), kind),
+                _ => lang::parse(&text, kind),
+            };
+            if pieces.len() > 1 {
+                findings.push(several(drawing, place, &text, &pieces));
+            }
             (place, text, annotation, findings)
         })
         .collect();
@@ -49,10 +60,11 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
         annotated,
         ..Bindings::default()
     };
+    let mut captions = Vec::new();
     for (place, text, annotation, findings) in parsed {
         diagnostics.extend(findings);
         if annotation == Annotation::Caption {
-            diagnostics.push(caption(&text));
+            captions.push(Arc::clone(&text));
         }
         bindings.strings.push(DrawingString {
             place,
@@ -64,6 +76,21 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
             scope: None,
         });
     }
+    let words = || {
+        listed(
+            captions
+                .iter()
+                .map(|text| format!("`{}`", shortened(text.as_str()))),
+        )
+    };
+    many::few_or_one(
+        captions.iter().map(|text| caption(text)).collect(),
+        |count| {
+            let words = words();
+            format!("{count} texts are not strings; they are taken for captions: {words}")
+        },
+        diagnostics,
+    );
     let variables = Variables::collect(
         bindings
             .strings
@@ -90,12 +117,18 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
     bindings
 }
 
-/// Descriptions of shapes and groups that are strings.
+/// Descriptions of shapes and groups that are strings, or the name of their part alone.
 fn descriptions(drawing: &Drawing) -> Vec<(Place, Arc<Text>)> {
     let mut texts = Vec::new();
+    // The description of the whole file is seldom about its only part.
+    let is_name = |text: &str, place| {
+        let is_root =
+            matches!(place, Place::Group(group) if drawing.groups[group].kind == GroupKind::Root);
+        !is_root && bare_names::is_bare_name(text)
+    };
     let mut take = |desc: &Option<Arc<Text>>, place| {
         if let Some(text) = desc
-            && lang::looks_like_string(text.as_str())
+            && (lang::looks_like_string(text.as_str()) || is_name(text.as_str(), place))
         {
             texts.push((place, Arc::clone(text)));
         }
@@ -109,12 +142,109 @@ fn descriptions(drawing: &Drawing) -> Vec<(Place, Arc<Text>)> {
     texts
 }
 
+/// Reports a text that holds several strings, of which only the first is read, with a fix that splits it.
+fn several(drawing: &Drawing, place: Place, text: &Text, pieces: &[Range<usize>]) -> Diagnostic {
+    let strings = pieces
+        .iter()
+        .map(|piece| format!("`{}`", shortened(&text.as_str()[piece.clone()])));
+    let message = format!(
+        "this text holds {} strings, {}: only the first is read",
+        pieces.len(),
+        listed(strings)
+    );
+    let finding = Diagnostic::new(Code::UnexpectedSign, text.span(pieces[1].clone()), message)
+        .label("another string begins here");
+    let (help, fix) = match place {
+        Place::Label(label) => (
+            "cut the other strings out, and paste each into a text of its own (in Inkscape, click beside the text first)",
+            split(&drawing.labels[label].0, pieces),
+        ),
+        Place::Shape(_) | Place::Group(_) => (
+            "a description holds one string: write the others into the descriptions of their own shapes",
+            None,
+        ),
+    };
+    let mut finding = finding.help(help);
+    finding.fixes.extend(fix);
+    finding
+}
+
+/// With more strings in one text, no fix that splits it is offered.
+const MAX_SPLIT: usize = 100;
+
+/// The fix that makes each string of a text a text of its own; `None` if there are very many, or if the text is flowed or written
+/// with entities that stand for several characters.
+fn split(label: &Label, pieces: &[Range<usize>]) -> Option<Fix> {
+    if pieces.len() > MAX_SPLIT {
+        return None;
+    }
+    let text = &label.text;
+    let mut edits = Vec::new();
+    let mut markup = String::new();
+    let ends = pieces.iter().map(|piece| piece.end);
+    for (before, piece) in ends.zip(&pieces[1..]) {
+        let cut = before..piece.end;
+        if !text.can_replace(cut.clone()) {
+            return None;
+        }
+        let spans = text.pieces(cut).into_iter();
+        edits.extend(spans.filter(|span| span.end > span.start).map(|span| Edit {
+            span,
+            text: String::new(),
+        }));
+        let string = &text.as_str()[piece.clone()];
+        markup.push('\n');
+        markup.push_str(&label.as_own_element(piece.start, string)?);
+    }
+    edits.push(Edit {
+        span: Span::at(label.element.end),
+        text: markup,
+    });
+    Some(Fix {
+        title: "Give each string a text of its own".to_owned(),
+        edits,
+        safe: true,
+    })
+}
+
+/// The first words of a text.
+fn shortened(text: &str) -> String {
+    const MOST: usize = 24;
+
+    let words: Vec<&str> = text.split_whitespace().collect();
+    let all = words.join(" ");
+    match all.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}…", &all[..end]),
+        None => all,
+    }
+}
+
+/// The white space between a name and a keyword that directly follows it, as in `Arm Shape round`.
+fn without_sign(text: &str) -> Option<Range<usize>> {
+    let name = text.find(|c: char| !lang::is_name_char(c))?;
+    let rest = text[name..].trim_start();
+    let word = rest.split_whitespace().next()?;
+    let keyword = Keyword::from_name(word)?;
+    (keyword.name() == word
+        && rest.len() > word.len()
+        && Keyword::from_name(&text[..name]).is_none())
+    .then(|| name..text.len() - rest.len())
+}
+
 fn caption(text: &Text) -> Diagnostic {
     let start = text.span(0..0);
     let message = "this text is not a string; it is taken for a caption";
-    Diagnostic::new(Code::Caption, text.whole(), message)
+    let finding = Diagnostic::new(Code::Caption, text.whole(), message)
         .help("put `#` before it to make it a comment; a part's name with spaces needs quotes")
-        .fix("Make it a comment", start, "#")
+        .fix("Make it a comment", start, "#");
+    match without_sign(text.as_str()) {
+        Some(blank) => finding.label("is `$` missing before the attributes?").fix(
+            "Insert `$`",
+            text.span(blank),
+            "$",
+        ),
+        None => finding,
+    }
 }
 
 /// Merges the settings of the `%` strings; later strings override earlier ones.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::compile::{Compiled, Options, compile};
+use crate::diagnostic::Code;
 use crate::resolver::MemoryResolver;
 use glam::{DQuat, DVec2, DVec3};
 
@@ -197,8 +198,8 @@ fn settings_of_the_drawing_have_defaults() {
     assert_eq!(default.scale, 1.0);
     assert_eq!(default.axes, DQuat::IDENTITY);
     assert_eq!(default.ground, None);
-    assert_eq!(default.bind, DistanceMode::Center);
-    assert_eq!(default.strokes, Strokes::None);
+    assert_eq!(default.bind, BindRule::Meant);
+    assert_eq!(default.strokes, Strokes::Ink);
     assert_eq!(
         drawing(&square(20, 20, "")).bindings.settings.strokes,
         Strokes::Lines
@@ -208,7 +209,7 @@ fn settings_of_the_drawing_have_defaults() {
     assert_eq!(set.scale, 2.0);
     assert!((set.axes * DVec3::Y).distance(-DVec3::Z) < 1e-12);
     assert_eq!(set.ground, Some(DVec2::new(30.0, 40.0)));
-    assert_eq!(set.bind, DistanceMode::Outline);
+    assert_eq!(set.bind, BindRule::Nearest(DistanceMode::Outline));
     assert_eq!(set.strokes, Strokes::All);
     let page = settings(&text(100, 100, "%Ground page Strokes lines"));
     assert_eq!(

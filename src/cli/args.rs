@@ -18,6 +18,7 @@ Examples:
   okoshi build human.svg                 writes human.glb beside the drawing
   okoshi build human.svg -o out/man.glb  writes it somewhere else
   okoshi check *.svg                     reports problems, writes nothing
+  okoshi check --fix human.svg           corrects misspelled keywords and the like in the drawing
   okoshi render human.svg                draws a picture of the model, human.png
   okoshi watch human.svg                 builds it again on every save
   okoshi preview human.svg --open        shows it in the browser, live
@@ -73,7 +74,7 @@ pub(super) enum Command {
     Build(Build),
     /// Draw a picture of a model
     Render(Render),
-    /// Report problems in drawings; write nothing
+    /// Report problems in drawings, and fix them with --fix
     Check(Check),
     /// Show the hierarchy of parts, and which string belongs to which part and why
     Inspect(Inspect),
@@ -355,6 +356,9 @@ pub(super) struct Check {
     /// The output format
     #[arg(long, default_value = "human")]
     pub(super) format: Format,
+    /// Apply the fixes that cannot change what you meant, and write the drawings; `-` writes the drawing to stdout
+    #[arg(long)]
+    pub(super) fix: bool,
     #[command(flatten)]
     pub(super) reading: Reading,
 }

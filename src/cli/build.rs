@@ -12,6 +12,7 @@ use super::progress::spinning;
 use super::{Outcome, counted, fail, style};
 use crate::disk::{FolderResolver, is_drawing, is_standard_stream, write_atomic};
 use crate::export::{self, Exporter, GLB, Written};
+use crate::report::part_count;
 
 /// Builds every drawing, several in parallel, and reports in the order given.
 pub(super) fn run(arguments: &Build, common: Common) -> Outcome {
@@ -180,12 +181,12 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
 
 fn summary(loaded: &Loaded, written: Written) -> String {
     let scene = &loaded.compiled.scene;
-    let nodes = counted(scene.nodes.len(), "node");
+    let parts = counted(part_count(&loaded.compiled), "part");
     let clips = match scene.animations.len() {
         0 => String::new(),
         count => format!(", {}", counted(count, "clip")),
     };
-    format!("{nodes}, {} triangles{clips}", written.triangles)
+    format!("{parts}, {}{clips}", counted(written.triangles, "triangle"))
 }
 
 /// What was built and how long it took, one value per line.
@@ -194,7 +195,7 @@ fn stats(loaded: &Loaded, output: &Path, written: Written, times: [Duration; 2])
     let milliseconds = |duration: Duration| format!("{:.1} ms", duration.as_secs_f64() * 1e3);
     let rows = [
         ("output", output.display().to_string()),
-        ("parts", loaded.compiled.bindings.parts.len().to_string()),
+        ("parts", part_count(&loaded.compiled).to_string()),
         (
             "strings",
             loaded.compiled.bindings.strings.len().to_string(),

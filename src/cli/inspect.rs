@@ -10,7 +10,7 @@ use super::args::{Common, Inspect};
 use super::loading::{Detail, Loaded, describe, load};
 use super::progress::spinning;
 use super::{Outcome, pretty, print_out, style};
-use crate::bind::{PartKind, SetBy};
+use crate::bind::{self, NamedBy, PartKind, SetBy};
 use crate::lang::keyword::Keyword;
 use crate::report::{self, Clip, Part, Reader, Terrain, own_name, parts, terrain};
 use crate::terrain::Layer;
@@ -195,20 +195,24 @@ fn describe_part(loaded: &Loaded, index: usize) -> String {
         SetBy::Own => source.setting.text.clone(),
         from => format!("{} ({})", source.setting.text, from.name()),
     });
-    let subs = bindings
-        .parts
-        .iter()
-        .filter(|other| other.main == index && other.kind == PartKind::Sub)
-        .count();
-    let subs = match subs {
+    let others = bindings.parts.iter();
+    let others = others.filter(|other| other.main == index && other.kind == PartKind::Sub);
+    let (ink, subs): (Vec<&bind::Part>, Vec<&bind::Part>) =
+        others.partition(|other| other.host.is_some());
+    let subs = match subs.len() {
         0 => String::new(),
         1 => ", 1 sub-part".to_owned(),
         count => format!(", {count} sub-parts"),
     };
+    let ink = match ink.len() {
+        0 => String::new(),
+        1 => ", 1 stroke".to_owned(),
+        count => format!(", {count} strokes"),
+    };
     let element = loaded.compiled.drawing.shapes[part.shape]
         .element
         .describe();
-    format!("{solid}{subs}; {element}, {}", string(loaded, index))
+    format!("{solid}{subs}{ink}; {element}, {}", string(loaded, index))
 }
 
 /// By what rule a part has its string.
@@ -218,7 +222,12 @@ fn string(loaded: &Loaded, part: usize) -> String {
         .string
         .and_then(|string| bindings.strings[string].binding);
     match binding {
-        None => "no string".to_owned(),
+        None if bindings.parts[part].kind != PartKind::Main => "no string".to_owned(),
+        None => match bindings.parts[part].named_by {
+            NamedBy::Label { .. } => "named by its label".to_owned(),
+            NamedBy::Id { .. } => "named by its id".to_owned(),
+            NamedBy::String | NamedBy::Automatic => "no string".to_owned(),
+        },
         Some(binding) => format!("bound by {}", binding.by.name()),
     }
 }

@@ -40,6 +40,9 @@ struct Finding<'a> {
     message: &'a str,
     #[serde(flatten)]
     place: Place,
+    /// Where on the page the text or the shape is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    on_page: Option<&'static str>,
     label: Option<&'a str>,
     help: Option<&'a str>,
     related: Vec<RelatedEntry<'a>>,
@@ -103,6 +106,7 @@ fn finding<'a>(diagnostic: &'a Diagnostic, places: &LineIndex<&str>) -> Finding<
         severity: diagnostic.severity().name(),
         message: &diagnostic.message,
         place: place(diagnostic.span, places),
+        on_page: diagnostic.place,
         label: diagnostic.label.as_deref(),
         help: diagnostic.help.as_deref(),
         related: diagnostic.related.iter().map(related).collect(),

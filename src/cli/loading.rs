@@ -61,16 +61,21 @@ pub(super) fn load(path: &Path, reading: &Reading) -> Result<Loaded, Outcome> {
             });
         }
     };
-    let resolver = FolderResolver::new(root(path, reading));
-    let options = Options {
-        tolerance: reading.tolerance,
-    };
-    let compiled = compile(&text, &options, &resolver);
+    let compiled = compiled(&text, path, reading);
     Ok(Loaded {
         path: name,
         text,
         compiled,
     })
+}
+
+/// Compiles the text of the drawing at `path`.
+pub(super) fn compiled(text: &str, path: &Path, reading: &Reading) -> Compiled {
+    let resolver = FolderResolver::new(root(path, reading));
+    let options = Options {
+        tolerance: reading.tolerance,
+    };
+    compile(text, &options, &resolver)
 }
 
 /// The folder that links are resolved in.

@@ -12,6 +12,7 @@ mod args;
 mod build;
 mod check;
 mod explain;
+mod fix;
 mod inspect;
 pub mod json;
 mod loading;
@@ -29,12 +30,14 @@ mod watch;
 
 use std::ffi::OsString;
 use std::io::{IsTerminal, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser};
 
-use crate::crash;
 use crate::diagnostic::Diagnostic;
+use crate::{crash, disk};
 use args::{Cli, Color, Command, Common};
 use report::Style;
 
@@ -77,6 +80,10 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
     let cli = match Cli::try_parse_from(arguments) {
         Ok(cli) => cli,
         Err(error) => {
+            if let Some(drawing) = drawing_as_command(&error) {
+                eprint!("{drawing}");
+                return ExitCode::from(2);
+            }
             let _ = error.print();
             return ExitCode::from(if error.use_stderr() { 2 } else { 0 });
         }
@@ -103,6 +110,30 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Outcome::Errors => 1,
         Outcome::Failed => 2,
     })
+}
+
+/// The way out for a drawing in the place of a command; `None` for other mistakes.
+fn drawing_as_command(error: &clap::Error) -> Option<String> {
+    let given = match error.get(ContextKind::InvalidSubcommand)? {
+        ContextValue::String(given) => given,
+        _ => return None,
+    };
+    let path = Path::new(given);
+    if !disk::is_drawing(path) && !path.exists() {
+        return None;
+    }
+    let quoted = match given.contains(char::is_whitespace) {
+        true => format!("\"{given}\""),
+        false => given.clone(),
+    };
+    let what = if path.is_dir() { "a folder" } else { "a file" };
+    let build = if path.is_dir() { "watch" } else { "build" };
+    Some(format!(
+        "error: `{given}` is {what}, not a command; did you mean `okoshi {build} {quoted}`?\n\n\
+         okoshi {build} {quoted}  makes a model\n\
+         okoshi preview {quoted} --open  shows it in the browser\n\
+         okoshi --help  lists all commands\n"
+    ))
 }
 
 /// Serves an editor. The protocol makes it a failure if the editor disconnects without the `exit` notification.

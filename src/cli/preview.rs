@@ -8,13 +8,13 @@ use super::watch::{describe_event, describe_shown, follow, options};
 use super::{Outcome, fail};
 use crate::disk::ReadError;
 use crate::preview::{Hub, Shown, bind, serve};
-use crate::watch::{Build, Event};
+use crate::watch::{Build, Event, Options};
 
 /// Shows drawings on a live page until it is interrupted.
 pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
     let path = &arguments.path;
     if !path.exists() {
-        return fail(&ReadError::Missing(path.clone()).to_string());
+        return fail(&ReadError::missing(path).to_string());
     }
     let bound = match bind(arguments.port) {
         Ok(bound) => bound,
@@ -43,7 +43,10 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
     {
         eprintln!("the browser cannot be opened ({error}); open {url} by hand");
     }
-    let options = options(&arguments.reading, &arguments.noticing);
+    let options = Options {
+        shows_incomplete: true,
+        ..options(&arguments.reading, &arguments.noticing)
+    };
     follow(std::slice::from_ref(path), &options, |event| {
         show(&hub, path, &event);
         match event {
@@ -67,7 +70,7 @@ fn publish(hub: &Arc<Hub>, target: &Path, drawing: &Path, build: &Build) {
     let folder = folder.map_or_else(String::new, |folder| folder.display().to_string());
     let name = drawing.file_name().map(|name| name.to_string_lossy());
     let names = [&folder, name.as_deref().unwrap_or("")];
-    let model = build.model.as_ref().ok();
+    let model = build.model.as_ref().ok().or(build.incomplete.as_ref());
     let bytes = model.map(|model| model.bytes.clone().into());
     let model = bytes
         .as_ref()

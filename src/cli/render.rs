@@ -8,7 +8,7 @@ use super::args::{Bend, Common, Projection, Render, Shading};
 use super::loading::{Detail, describe, load, root};
 use super::progress::{counting, spinning};
 use super::{Outcome, fail, style};
-use crate::disk::{FolderResolver, read_drawing, write_atomic};
+use crate::disk::{FolderResolver, read_file, write_atomic};
 use crate::export::{self, GLB};
 use crate::render::{
     self, AnimationWriter, Clip, Model, Options, Palette, PosedModel, TURNTABLE_SECONDS, write_png,
@@ -188,7 +188,7 @@ fn model(arguments: &Render, common: Common) -> Result<(Vec<u8>, Outcome), Outco
         .extension()
         .map(|ending| ending.to_string_lossy().to_lowercase());
     if matches!(ending.as_deref(), Some("glb" | "gltf")) {
-        let bytes = read_drawing(drawing).map_err(|error| fail(&error.to_string()))?;
+        let bytes = read_file(drawing).map_err(|error| fail(&error.to_string()))?;
         return Ok((bytes, Outcome::Done));
     }
     let loaded = spinning("building", || load(drawing, &arguments.reading))?;

@@ -51,7 +51,8 @@ pub fn human(findings: Findings, style: Style) -> String {
     let mut out = String::new();
     for diagnostic in findings.diagnostics {
         let (groups, shown) = page.report(diagnostic);
-        out.push_str(&page.with_places(renderer.render(&groups), &shown));
+        let rendered = renderer.render(&groups);
+        out.push_str(&page.with_places(rendered, &shown, diagnostic.place));
         out.push_str("\n\n");
     }
     out
@@ -116,7 +117,7 @@ impl Page<'_> {
     ///
     /// The renderer takes a column from the text that it shows, and of a cut line that is not where
     /// the drawing has it. So it is given a token for a path, and token and place are replaced.
-    fn with_places(&self, rendered: String, shown: &[Span]) -> String {
+    fn with_places(&self, rendered: String, shown: &[Span], place: Option<&str>) -> String {
         let mut out = String::with_capacity(rendered.len());
         let mut rest = &*rendered;
         for (number, span) in shown.iter().enumerate() {
@@ -126,6 +127,10 @@ impl Page<'_> {
             let (line, column) = self.places.line_column(span.start);
             out.push_str(before);
             out.push_str(&format!("{}:{line}:{column}", tame(self.path)));
+            // The first place is that of the finding.
+            if let (0, Some(place)) = (number, place) {
+                out.push_str(&format!(", {place}"));
+            }
             rest = after.trim_start_matches(|c: char| c == ':' || c.is_ascii_digit());
         }
         out.push_str(rest);

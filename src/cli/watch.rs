@@ -9,12 +9,13 @@ use super::loading::{Detail, count, describe, tally};
 use super::{Findings, Outcome, counted, fail, style};
 use crate::disk::{ChangeDetection, ReadError, make_folder, write_atomic};
 use crate::export::Model;
+use crate::report::part_count;
 use crate::watch::{Build, Event, NoModel, Options, watch};
 
 /// Builds drawings on every save until it is interrupted.
 pub(super) fn run(arguments: &Watch, common: Common) -> Outcome {
     if let Some(missing) = arguments.paths.iter().find(|path| !path.exists()) {
-        return fail(&ReadError::Missing(missing.clone()).to_string());
+        return fail(&ReadError::missing(missing).to_string());
     }
     let mut outputs = Outputs {
         folder: arguments.output.as_deref(),
@@ -45,6 +46,7 @@ pub(super) fn follow(
 /// How drawings are read and watched.
 pub(super) fn options(reading: &Reading, noticing: &Noticing) -> Options {
     Options {
+        shows_incomplete: false,
         root: reading.root.clone(),
         tolerance: reading.tolerance,
         detection: noticing.poll.map_or(ChangeDetection::Native, |pause| {
@@ -130,6 +132,9 @@ pub(super) fn describe_shown(drawing: &Path, build: &Build, common: Common) -> S
     let mut text = findings(&name, build, common);
     let found = counts(build);
     let message = match &build.model {
+        Err(NoModel::Errors) if build.incomplete.is_some() => {
+            format!("{found}what can be built is shown")
+        }
         Err(NoModel::Errors) => format!("{found}the last good model is shown"),
         Err(NoModel::Unwritten(why)) => format!("{found}{why}; the last good model is shown"),
         Ok(_) if common.quiet => return text,
@@ -161,7 +166,7 @@ fn counts(build: &Build) -> String {
 fn summary(build: &Build, model: &Model, found: &str, done: &str) -> String {
     format!(
         "{}, {}, {found}{done} in {:.1} ms",
-        counted(build.compiled.bindings.parts.len(), "part"),
+        counted(part_count(&build.compiled), "part"),
         counted(model.written.triangles, "triangle"),
         build.times.duration().as_secs_f64() * 1e3,
     )

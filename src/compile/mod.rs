@@ -157,6 +157,7 @@ impl Reading {
             layers,
             clips,
         } = assemble::assemble(&drawing, &bindings, &recorder, memo, &mut diagnostics);
+        bind::locate(&drawing, &mut diagnostics);
         diagnostic::sort(&mut diagnostics);
         let dependencies = dependencies.into_iter().chain(recorder.into_dependencies());
         let mut dependencies: Vec<String> = dependencies.map(|read| read.link).collect();

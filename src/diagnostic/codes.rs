@@ -243,8 +243,8 @@ codes! {
     /// No part is left for this string: every part has a string already, or the drawing has fewer parts than
     /// strings.
     ///
-    /// Delete the string, draw its part, or group the string with its part. A part is a filled shape; lines
-    /// without a fill are parts only if `Strokes` says so.
+    /// Delete the string, draw its part, or group the string with its part. A part is a filled shape; a
+    /// line without a fill is one only if it is grouped with the string, or if `Strokes` says so.
     NoPartLeft = "E201", "string with no part left";
     /// Two strings belong to the same part: both are grouped with it, or one is in its description. Or two
     /// strings with `Tiles` are in the same group.
@@ -448,13 +448,41 @@ codes! {
     ///
     /// Ask for less: omit 4 to 6 drawings, and hold a third of the frames.
     TooLimited = "W318", "limited animation out of reach";
+    /// All strings of the drawing are hidden, so none is read: what is hidden does not count. The drawing is built as if it
+    /// had no strings.
+    ///
+    /// ```text
+    /// a layer `Text`, hidden, that holds all strings
+    /// ```
+    ///
+    /// Show the layer again; in Inkscape, click the eye beside its name in *Layer → Layers and Objects*.
+    HiddenStrings = "W319", "all strings are hidden";
+    /// A text that said a string was converted to paths: it looks the same, but its letters are shapes now. Drawing programs
+    /// keep what the text said in the attribute `aria-label`, which is how okoshi knows.
+    ///
+    /// ```text
+    /// a path with aria-label="Arm@Body"
+    /// ```
+    ///
+    /// Undo the conversion, or delete the letters and type the text again.
+    ConvertedText = "W320", "text converted to paths";
+    /// A name ends in a sign and the name of another part, so the sign is probably meant to be `@`.
+    ///
+    /// ```text
+    /// Rarm:Ubody
+    /// ```
+    ///
+    /// Write `@` between a part and what it is attached to: `Rarm@Ubody`.
+    SignInName = "W321", "another sign in the place of @";
 
     // Hints
-    /// Another part is almost as near to the string as the part it belongs to.
+    /// The string may mean one of two shapes: it lies on both, or between them.
     ///
-    /// Group the string with its part, or move it nearer.
-    NearlyAsNear = "H401", "second part almost as near";
-    /// A part without a string got an automatic name, such as `U-1`, and the nearest named part as its parent.
+    /// Move it onto the shape that it means, draw a line from it to the shape, or group the two. The fixes make the
+    /// string the description of one shape or the other (Inkscape: *Object Properties → Description*), which settles it.
+    Uncertain = "H401", "uncertain which shape a string means";
+    /// A part without a string got the name of its label or id, or an automatic name, such as `U-1`, and the nearest named part as
+    /// its parent.
     ///
     /// Write a name beside the part if you want to give it a parent or attributes.
     AutomaticName = "H402", "automatic name";
@@ -466,8 +494,8 @@ codes! {
     ///
     /// Set the axis with `Axis`, or use `Shape round`, which needs no axis.
     AxisGuess = "H403", "axis is a guess";
-    /// A long part turns about its middle, which is seldom right for an arm or a leg. It does so because both its
-    /// ends are about equally far from the parent.
+    /// A long part turns about its middle, which is seldom right for a lever or a door. It does so because both its
+    /// ends are about equally far from the parent. Limbs that are named as such, `Arm`, `Lleg`, `尾`, never do.
     ///
     /// Write `Origin start` (the end nearer to the parent) or `Origin end` (the other end).
     TurnsAboutMiddle = "H404", "turns about its middle";
@@ -492,6 +520,19 @@ codes! {
     ///
     /// Name the joint that drives it with `Bone`, or leave it as it is.
     NoJoint = "H408", "limb without a joint";
+    /// A rectangle as large as the page lies behind everything else. Such a rectangle is the paper rather than a part of the
+    /// figure, so it is left out of the model.
+    ///
+    /// You need not change anything. To build it too, write a name on it.
+    Background = "H409", "background left out";
+    /// `Offset` moves the part so far that the rest of the model is a dot beside it.
+    ///
+    /// ```text
+    /// Rarm@Ubody$Offset 100000
+    /// ```
+    ///
+    /// Write lengths in drawing units, in which the page is as wide as the message says.
+    FarAway = "H410", "part far away";
 }
 
 impl Code {

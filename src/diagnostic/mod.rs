@@ -3,8 +3,11 @@
 //! A diagnostic is made by the code that detects the problem. The codes, severities and manual pages are
 //! in one table, [`codes`].
 
+mod apply;
 pub mod codes;
 
+pub(crate) use apply::applied;
+pub use apply::apply_safe_fixes;
 pub use codes::Code;
 
 use std::borrow::Cow;
@@ -58,6 +61,8 @@ pub struct Fix {
     pub title: String,
     /// The edits; they do not overlap.
     pub edits: Vec<Edit>,
+    /// Whether it cannot change what a person meant, so that it can be applied without asking.
+    pub safe: bool,
 }
 
 /// A problem in a drawing, or something worth knowing about it.
@@ -69,6 +74,9 @@ pub struct Diagnostic {
     pub message: String,
     /// The exact characters that the diagnostic is about.
     pub span: Span,
+    /// Where on the page the text or the shape is: `at the top left of the page`. Set when a drawing has been compiled, unless
+    /// the message says so.
+    pub place: Option<&'static str>,
     /// A few words below the marked characters.
     pub label: Option<Cow<'static, str>>,
     /// Related places.
@@ -86,6 +94,7 @@ impl Diagnostic {
             code,
             message: message.into(),
             span,
+            place: None,
             label: None,
             related: vec![],
             help: None,
@@ -126,7 +135,15 @@ impl Diagnostic {
                 span,
                 text: text.into(),
             }],
+            safe: false,
         });
+        self
+    }
+
+    /// Marks the fixes as safe: they cannot change what a person meant.
+    #[must_use]
+    pub fn safe(mut self) -> Self {
+        self.fixes.iter_mut().for_each(|fix| fix.safe = true);
         self
     }
 
@@ -144,6 +161,23 @@ pub fn sort(diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.dedup();
 }
 
+/// The first few of many things for people: `a, b, c and 9 more`.
+pub fn listed(all: impl ExactSizeIterator<Item = String>) -> String {
+    const SHOWN: usize = 3;
+
+    let count = all.len();
+    let shown = if count > SHOWN + 1 { SHOWN } else { count };
+    let mut names: Vec<String> = all.take(shown).collect();
+    let last = match count - shown {
+        0 => names.pop(),
+        more => Some(format!("{more} more")),
+    };
+    match (names.as_slice(), last) {
+        ([], last) => last.unwrap_or_default(),
+        (names, last) => format!("{} and {}", names.join(", "), last.unwrap_or_default()),
+    }
+}
+
 /// The candidate with the smallest edit distance to `word`, if `word` could be a misspelling of it.
 ///
 /// Case is ignored; up to a third of the letters may differ.
@@ -151,23 +185,36 @@ pub fn nearest_word<'a>(
     word: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
+    let near = near_words(word, candidates);
+    near.min_by_key(|(distance, _)| *distance)
+        .map(|(_, candidate)| candidate)
+}
+
+/// Whether `word` could be a misspelling of exactly one of the candidates.
+pub fn has_one_near_word<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> bool {
+    near_words(word, candidates).count() == 1
+}
+
+/// The candidates that `word` could be a misspelling of, each with its edit distance.
+fn near_words<'a>(
+    word: &str,
+    candidates: impl IntoIterator<Item = &'a str>,
+) -> impl Iterator<Item = (usize, &'a str)> {
     let word = word.to_lowercase();
     let letters = word.chars().count();
     let allowed = (letters / 3).max(1);
     candidates
         .into_iter()
         // The comparison takes time and memory proportional to the product of both lengths.
-        .filter(|candidate| candidate.chars().count().abs_diff(letters) <= allowed.min(64))
-        .map(|candidate| {
+        .filter(move |candidate| candidate.chars().count().abs_diff(letters) <= allowed.min(64))
+        .map(move |candidate| {
             (
                 strsim::damerau_levenshtein(&word, &candidate.to_lowercase()),
                 candidate,
             )
         })
         // Two different one-letter words have nothing in common.
-        .filter(|(distance, candidate)| {
+        .filter(move |(distance, candidate)| {
             *distance <= allowed && *distance < letters.max(candidate.chars().count())
         })
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, candidate)| candidate)
 }

@@ -5,14 +5,18 @@ mod folder;
 mod poll;
 mod read;
 mod search;
+mod sniff;
 mod text;
 mod watch;
 mod write;
 
 pub use cache::write_cached;
 pub use folder::{FolderResolver, LINK_LIMIT};
-pub use read::{DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, open_stream, read_drawing};
+pub use read::{
+    DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, is_packed, open_stream, read_drawing, read_file,
+};
 pub use search::{Below, Stamp, below, is_drawing, stamp};
+pub use sniff::NotADrawing;
 pub use text::{Decode, decode};
 pub use watch::{ChangeDetection, Changed, FolderWatch, WatchError, event_path, event_paths};
 pub use write::{WriteError, make_folder, write_atomic, write_new};

@@ -6,6 +6,9 @@ use std::path::{Path, PathBuf};
 
 use flate2::read::MultiGzDecoder;
 
+use super::sniff::NotADrawing;
+use super::{search, sniff};
+
 /// The largest drawing that is read, in bytes.
 pub const DRAWING_LIMIT: u64 = 1 << 30;
 
@@ -17,11 +20,29 @@ pub const UNPACKED_LIMIT: u64 = 256 << 20;
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// No such file.
-    #[error("`{}` is not there; check the path", .0.display())]
-    Missing(PathBuf),
+    #[error("`{}` is not there; {}", .path.display(), way_to(.near.as_deref()))]
+    Missing {
+        /// The file.
+        path: PathBuf,
+        /// A drawing in the same folder with a similar name.
+        near: Option<PathBuf>,
+    },
     /// A folder instead of a drawing.
-    #[error("`{}` is a folder; name a drawing in it", .0.display())]
-    Folder(PathBuf),
+    #[error("`{}` is a folder; name a drawing in it{}", .path.display(), such_as(.drawing.as_deref()))]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// A drawing in it.
+        drawing: Option<PathBuf>,
+    },
+    /// A file of another kind, a picture for example.
+    #[error("`{}` is {}, not a drawing: {}", .path.display(), .kind.what, .kind.way_out)]
+    NotADrawing {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        kind: NotADrawing,
+    },
     /// No permission to read the file.
     #[error("`{}` cannot be read: permission denied; change its permissions", .0.display())]
     Denied(PathBuf),
@@ -52,13 +73,59 @@ pub enum ReadError {
     },
 }
 
+fn way_to(near: Option<&Path>) -> String {
+    match near {
+        Some(near) => format!("did you mean `{}`?", near.display()),
+        None => "check the path".to_owned(),
+    }
+}
+
+fn such_as(drawing: Option<&Path>) -> String {
+    drawing.map_or_else(String::new, |drawing| {
+        format!(", `{}` for example", drawing.display())
+    })
+}
+
+impl ReadError {
+    /// That there is no file at `path`.
+    pub fn missing(path: &Path) -> Self {
+        Self::Missing {
+            path: path.to_owned(),
+            near: search::similar(path),
+        }
+    }
+
+    fn folder(path: &Path) -> Self {
+        let drawing = search::drawings(path).into_iter().next();
+        Self::Folder {
+            path: path.to_owned(),
+            drawing,
+        }
+    }
+}
+
 /// The bytes of the drawing at `path`, decompressed if they are gzip; `-` is stdin.
 ///
 /// Compression is recognised by the first bytes, not by the file name.
 ///
 /// # Errors
-/// If the file cannot be read, is too large, or cannot be decompressed.
+/// If the file cannot be read, is too large, cannot be decompressed, or is a file of another kind.
 pub fn read_drawing(path: &Path) -> Result<Vec<u8>, ReadError> {
+    let bytes = read_file(path)?;
+    match sniff::not_a_drawing(&bytes) {
+        Some(kind) => Err(ReadError::NotADrawing {
+            path: path.to_owned(),
+            kind,
+        }),
+        None => Ok(bytes),
+    }
+}
+
+/// The bytes of the file at `path`, of any kind, decompressed if they are gzip; `-` is stdin.
+///
+/// # Errors
+/// If the file cannot be read, is too large, or cannot be decompressed.
+pub fn read_file(path: &Path) -> Result<Vec<u8>, ReadError> {
     let bytes = if super::is_standard_stream(path) {
         read_limited(io::stdin().lock(), DRAWING_LIMIT, 0)
     } else {
@@ -80,7 +147,7 @@ pub fn open_stream(path: &Path) -> Result<Box<dyn Read>, ReadError> {
     }
     let file = File::open(path).map_err(|source| failure(path, source))?;
     match file.metadata().is_ok_and(|metadata| metadata.is_dir()) {
-        true => Err(ReadError::Folder(path.to_owned())),
+        true => Err(ReadError::folder(path)),
         false => Ok(Box::new(file)),
     }
 }
@@ -89,7 +156,7 @@ fn open(path: &Path) -> Result<io::Result<Option<Vec<u8>>>, ReadError> {
     let file = File::open(path).map_err(|source| failure(path, source))?;
     let metadata = file.metadata();
     match metadata.as_ref().is_ok_and(Metadata::is_dir) {
-        true => Err(ReadError::Folder(path.to_owned())),
+        true => Err(ReadError::folder(path)),
         false => {
             // Reserves the full size, because a growing buffer would need twice the memory.
             let size = metadata.map_or(0, |metadata| metadata.len().min(DRAWING_LIMIT));
@@ -98,9 +165,17 @@ fn open(path: &Path) -> Result<io::Result<Option<Vec<u8>>>, ReadError> {
     }
 }
 
-fn unpack(path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>, ReadError> {
-    const GZIP: [u8; 2] = [0x1F, 0x8B];
+/// The first bytes of a compressed file.
+const GZIP: [u8; 2] = [0x1F, 0x8B];
 
+/// Whether the file at `path` is compressed.
+pub fn is_packed(path: &Path) -> bool {
+    let mut first = [0; 2];
+    let read = File::open(path).and_then(|mut file| file.read_exact(&mut first));
+    read.is_ok() && first == GZIP
+}
+
+fn unpack(path: &Path, bytes: Vec<u8>) -> Result<Vec<u8>, ReadError> {
     if !bytes.starts_with(&GZIP) {
         return Ok(bytes);
     }
@@ -125,10 +200,13 @@ pub(super) fn read_limited(
 }
 
 fn failure(path: &Path, source: io::Error) -> ReadError {
+    match source.kind() {
+        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => return ReadError::missing(path),
+        io::ErrorKind::IsADirectory => return ReadError::folder(path),
+        _ => {}
+    }
     let path = path.to_owned();
     match source.kind() {
-        io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => ReadError::Missing(path),
-        io::ErrorKind::IsADirectory => ReadError::Folder(path),
         io::ErrorKind::PermissionDenied => ReadError::Denied(path),
         _ => ReadError::Failed { path, source },
     }
@@ -180,6 +258,19 @@ mod tests {
             message(folder.path()),
             "`` is a folder; name a drawing in it"
         );
+        std::fs::write(folder.path().join("cat.svg"), "").unwrap();
+        assert_eq!(
+            message(folder.path()),
+            "`` is a folder; name a drawing in it, `/cat.svg` for example"
+        );
+        for near in ["cat", "Cat.svg", "cta.svg", "cat.SVG", "cat.png"] {
+            assert_eq!(
+                message(&folder.path().join(near)),
+                format!("`/{near}` is not there; did you mean `/cat.svg`?")
+            );
+        }
+        std::fs::write(folder.path().join("a.png"), b"\x89PNG\r\n").unwrap();
+        assert!(message(&folder.path().join("a.png")).starts_with("`/a.png` is a PNG picture"));
         let mut cut = gzip(&[b"<svg/>"]);
         cut.truncate(12);
         std::fs::write(&path, cut).unwrap();

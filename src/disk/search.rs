@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use crate::diagnostic::nearest_word;
+
 /// The limits of a listing: enough for any project with drawings, and fast in a folder that is something else.
 const MAX_FILES: usize = 20_000;
 const MAX_DEPTH: usize = 8;
@@ -60,6 +62,43 @@ pub fn is_drawing(path: &Path) -> bool {
     let hidden = name.is_none_or(|name| name.starts_with('.'));
     let ending = path.extension().map(|ending| ending.to_ascii_lowercase());
     !hidden && ending.is_some_and(|ending| ending == "svg" || ending == "svgz")
+}
+
+/// The drawings in a folder, sorted by name.
+pub(super) fn drawings(folder: &Path) -> Vec<PathBuf> {
+    files(folder, is_drawing)
+}
+
+fn files(folder: &Path, wanted: impl Fn(&Path) -> bool) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let files = entries.take(MAX_FILES).map(|entry| entry.path());
+    let mut files: Vec<PathBuf> = files.filter(|file| wanted(file)).collect();
+    files.sort();
+    files
+}
+
+/// The file in the folder of `path` that has the most similar name, if one has a similar name: a file of the same kind, or
+/// else a drawing.
+pub(super) fn similar(path: &Path) -> Option<PathBuf> {
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let ending = |path: &Path| path.extension().map(|ending| ending.to_ascii_lowercase());
+    let stem = |path: &Path| Some(path.file_stem()?.to_string_lossy().into_owned());
+    let asked = stem(path)?;
+    let nearest = |files: Vec<PathBuf>| {
+        let stems: Vec<String> = files.iter().filter_map(|path| stem(path)).collect();
+        let nearest = nearest_word(&asked, stems.iter().map(String::as_str))?;
+        let mut files = files.iter();
+        let found = files.find(|path| stem(path).as_deref() == Some(nearest))?;
+        Some(path.with_file_name(found.file_name()?))
+    };
+    let same_kind = files(folder, |file| {
+        ending(file).is_some() && ending(file) == ending(path)
+    });
+    let is_motion = ending(path).is_some_and(|ending| ending == "bvh");
+    nearest(same_kind).or_else(|| nearest(drawings(folder)).filter(|_| !is_motion))
 }
 
 /// The length and modification time of a file; if they are equal, the file counts as unchanged.

@@ -24,6 +24,8 @@ pub(super) fn check(context: &FigureContext<'_>, diagnostics: &mut Vec<Diagnosti
     let found: Vec<Diagnostic> = parts
         .into_par_iter()
         .with_min_len(GRAIN)
+        // Copies of ink coincide where those of its part do.
+        .filter(|part| context.bindings.form(*part) == *part)
         .filter_map(|part| {
             let own = coincident(context, part);
             own.or_else(|| copied.then(|| inherited(context, part, &doubled))?)

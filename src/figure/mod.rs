@@ -4,6 +4,7 @@
 //! +Z towards the viewer; turning the node turns the limb about its joint.
 
 mod copies;
+mod ink;
 mod models;
 mod nodes;
 mod relief;
@@ -15,6 +16,7 @@ use std::sync::Arc;
 
 use glam::DAffine2;
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use crate::bind::{Bindings, Part, PartKind, SetBy};
 use crate::diagnostic::Diagnostic;
@@ -26,6 +28,7 @@ use crate::solid::{self, Placement, Profile, Sides, Solid};
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
 
+use ink::Ink;
 use models::Models;
 use relief::Relief;
 use tree::FigureNode;
@@ -61,6 +64,7 @@ impl LinkedModels {
 pub struct Figures<'a> {
     context: FigureContext<'a>,
     relief: Relief,
+    ink: Ink,
     frames: Vec<Frame>,
     parts_of_node: Vec<Vec<usize>>,
     tree: Vec<FigureNode>,
@@ -104,6 +108,7 @@ impl<'a> Figures<'a> {
         );
         copies::check(&context, diagnostics);
         Self {
+            ink: Ink::new(&context),
             context,
             relief,
             frames,
@@ -156,6 +161,7 @@ impl<'a> Figures<'a> {
                 }),
             }
         };
+        let mut below_ink = FxHashMap::default();
         for &part in parts {
             if models.has(part) {
                 let frames = [&self.frames[part], &self.frames[main]];
@@ -165,6 +171,12 @@ impl<'a> Figures<'a> {
                     models.surfaces(part, outline, frames, depth, both, world.scale)
                 {
                     add(material, surface.into());
+                }
+            } else if self.context.is_draped(part) {
+                if let Some((material, texture)) = materials[part]
+                    && let Some(piece) = self.draped(part, texture, world, &mut below_ink)
+                {
+                    add(material, piece);
                 }
             } else if let Some((material, texture)) = materials[part]
                 && let Some(mut solid) = self.solid(main, part, world)
@@ -212,11 +224,17 @@ fn parts_of_node(bindings: &Bindings) -> Vec<Vec<usize>> {
 struct FigureContext<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
+    /// See [`ink::figure_extents`].
+    figure_extents: Vec<f64>,
 }
 
 impl<'a> FigureContext<'a> {
     fn new(drawing: &'a Drawing, bindings: &'a Bindings) -> Self {
-        Self { drawing, bindings }
+        Self {
+            drawing,
+            bindings,
+            figure_extents: ink::figure_extents(bindings),
+        }
     }
 
     /// How far a part's solid, or its node, is moved along the viewer axis, drawing units.
@@ -244,7 +262,7 @@ impl<'a> FigureContext<'a> {
     }
 
     fn options(&self, part: usize) -> solid::Options {
-        let attributes = self.bindings.attributes(part);
+        let attributes = self.bindings.attributes(self.bindings.form(part));
         solid::Options {
             segments: attributes.segments(),
             crease: attributes.crease(),
@@ -254,6 +272,8 @@ impl<'a> FigureContext<'a> {
 
     /// How far a part's solid stands from the plane of its node, drawing units, and whether it stands on both sides.
     fn stand(&self, main: usize, part: usize) -> (f64, bool) {
+        // Ink stands where the part does on which it lies.
+        let part = self.bindings.form(part);
         let shape = self.bindings.attributes(part).shape();
         // The node of a main part is moved already, but with `-s` its two solids are.
         let moved = part != main || shape.mirrored;

@@ -4,12 +4,10 @@
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use rstar::primitives::{GeomWithData, Rectangle};
-use rstar::{AABB, RTree};
 
 use super::{FigureContext, overlap};
 use crate::bind::{Part, PartKind, plate_depth};
-use crate::geometry::Outline;
+use crate::geometry::{BoxTree, Outline, area_around, indexed_box};
 use crate::memo::{Bits, Long, Memo, Same};
 use crate::solid::Profile;
 use crate::threads::GRAIN;
@@ -35,11 +33,20 @@ struct ReliefKey {
     outlines: Long<Same<Outline>>,
 }
 
-/// The plane faces of a part: back and front, where it has them.
+/// The faces of a part: back and front, where it has them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 struct Faces {
-    planes: [Option<Bits<f64>>; 2],
+    planes: [Option<Plane>; 2],
     thickness: Bits<f64>,
+}
+
+/// Where a face lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+enum Plane {
+    /// At a depth, drawing units.
+    Depth(Bits<f64>),
+    /// On the rounded surface of a part: only other ink is there.
+    Ink(usize),
 }
 
 impl Relief {
@@ -60,6 +67,11 @@ impl Relief {
         Self { steps }
     }
 
+    /// How far ink on a rounded part stands out because of the ink below it, drawing units.
+    pub(super) fn step(&self, part: usize) -> f64 {
+        self.steps[part][1]
+    }
+
     /// A part's profile with its faces standing out.
     pub(super) fn raised(&self, part: usize, mut profile: Profile) -> Profile {
         profile.raise(self.steps[part]);
@@ -72,13 +84,9 @@ fn steps(parts: &[Part], faces: &[Option<Faces>]) -> Vec<[f64; 2]> {
     let boxes = faces.par_iter().enumerate().with_min_len(GRAIN);
     let boxes = boxes.filter_map(|(index, faces)| {
         faces.as_ref()?;
-        let (low, high) = parts[index].measure.bounds;
-        Some(GeomWithData::new(
-            Rectangle::from_corners(low.to_array(), high.to_array()),
-            index,
-        ))
+        Some(indexed_box(parts[index].measure.bounds, index))
     });
-    let tree = RTree::bulk_load(boxes.collect());
+    let tree = BoxTree::bulk_load(boxes.collect());
     let below: Vec<Vec<usize>> = (0..parts.len())
         .into_par_iter()
         .map(|part| below(parts, part, faces, &tree))
@@ -104,9 +112,10 @@ fn steps(parts: &[Part], faces: &[Option<Faces>]) -> Vec<[f64; 2]> {
 
 fn same_plane(a: Faces, b: Faces, side: usize) -> bool {
     match (a.planes[side], b.planes[side]) {
-        (Some(Bits(one)), Some(Bits(other))) => {
+        (Some(Plane::Depth(Bits(one))), Some(Plane::Depth(Bits(other)))) => {
             (one - other).abs() <= 1e-3 * STEP * a.thickness.0.max(b.thickness.0)
         }
+        (Some(Plane::Ink(one)), Some(Plane::Ink(other))) => one == other,
         _ => false,
     }
 }
@@ -141,29 +150,32 @@ fn faces(context: &FigureContext<'_>, part: usize, depths: &[f64]) -> Option<Fac
     ) {
         return None;
     }
-    let main = context.bindings.parts[part].main;
-    let moved = part != main || context.bindings.attributes(part).shape().mirrored;
-    let depth = depths[part] + if moved { context.offset(part) } else { 0.0 };
+    if context.is_draped(part) {
+        // As for plates, the steps are shares of a thickness: here of one that makes each step half of the first one.
+        let thickness = 0.5 * context.ink_step(part) / STEP;
+        return Some(Faces {
+            planes: [None, Some(Plane::Ink(context.bindings.parts[part].host?))],
+            thickness: Bits(thickness),
+        });
+    }
+    let (stand, _) = context.stand(context.bindings.parts[part].main, part);
+    let depth = depths[part] + stand;
     let faces = context.profile(part)?.faces()?;
     let thickness = faces.thickness;
     Some(Faces {
-        planes: faces.depths.map(|z| z.map(|z| Bits(depth + z))),
+        planes: faces
+            .depths
+            .map(|z| z.map(|z| Plane::Depth(Bits(depth + z)))),
         thickness: Bits(thickness.unwrap_or_else(|| 2.0 * plate_depth(context.drawing))),
     })
 }
 
 /// The earlier parts that a part overlaps and shares a plane with.
-fn below(
-    parts: &[Part],
-    part: usize,
-    faces: &[Option<Faces>],
-    tree: &RTree<GeomWithData<Rectangle<[f64; 2]>, usize>>,
-) -> Vec<usize> {
+fn below(parts: &[Part], part: usize, faces: &[Option<Faces>], tree: &BoxTree) -> Vec<usize> {
     let Some(own) = faces[part] else {
         return vec![];
     };
-    let (low, high) = parts[part].measure.bounds;
-    let area = AABB::from_corners(low.to_array(), high.to_array());
+    let area = area_around(parts[part].measure.bounds, 0.0);
     let mut found: Vec<usize> = tree
         .locate_in_envelope_intersecting(area)
         .take(MAX_BOXES)

@@ -6,20 +6,26 @@
 //! run clockwise. A ring does not repeat its first point at its end, has at least three points and encloses some area.
 
 mod boolean;
+mod boxes;
+mod contact;
 mod disjoint;
 mod flatten;
 mod frame;
 mod measure;
 mod query;
+mod scanline;
 mod touching;
 
 pub use boolean::{intersect, resolve_overlaps, union};
 pub(crate) use boolean::{is_convex, remove_collinear};
+pub(crate) use boxes::{BoxTree, area_around, indexed_box};
+pub(crate) use contact::{Body, connected, touching};
 pub use flatten::flatten;
 pub use frame::{Frame, y_up};
 pub use measure::{Measure, measure, measure_along};
 pub(crate) use query::crosses;
 pub use query::{area, bounds, contains, distance_squared};
+pub(crate) use scanline::{EdgeRanges, Intervals, Scanlines};
 
 use glam::DVec2;
 

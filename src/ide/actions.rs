@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::Analysis;
 use super::at::{At, attributes};
 use super::rename::replace;
-use crate::bind::{DistanceMode, Part, PartKind};
+use crate::bind::{BindRule, DistanceMode, Part, PartKind};
 use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, Attribute};
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
@@ -101,9 +101,9 @@ impl Analysis {
         string
     }
 
-    /// A text whose corner is at the part's centre, so that it is the nearest string.
+    /// A text whose corner is at the part's centre, so that it lies on the part and is the nearest string.
     fn beside(&self, part: &Part, string: &str) -> Option<Edit> {
-        if self.bindings().settings.bind == DistanceMode::Outline {
+        if self.bindings().settings.bind == BindRule::Nearest(DistanceMode::Outline) {
             return None;
         }
         let size = self.font_size();
@@ -121,26 +121,7 @@ impl Analysis {
     /// A `<desc>` in the part's element.
     fn described(&self, part: &Part, string: &str) -> Option<Vec<Edit>> {
         let element = &self.drawing().shapes[part.shape].element;
-        if element.desc.is_some() {
-            return None;
-        }
-        let end = end_of_tag(&self.source, element.span.end)?;
-        let name = self.source.get(element.span.start + 1..element.span.end)?;
-        let prefix = name
-            .rsplit_once(':')
-            .map_or(String::new(), |(prefix, _)| format!("{prefix}:"));
-        let desc = format!("<{prefix}desc>{}</{prefix}desc>", escape_xml(string));
-        let edit = match self.source[..end].ends_with("/>") {
-            true => Edit {
-                span: Span::new(end - 2, end),
-                text: format!(">{desc}</{name}>"),
-            },
-            false => Edit {
-                span: Span::at(end),
-                text: desc,
-            },
-        };
-        Some(vec![edit])
+        Some(vec![element.with_description(string)?])
     }
 
     /// Moves the attributes of a part's string to the legend of its paint.
@@ -285,20 +266,6 @@ fn shares_a_keyword(one: &[Attribute], two: &[Attribute]) -> bool {
         .any(|one| two.iter().any(|two| one.keyword == two.keyword))
 }
 
-/// Where the start tag ends whose name ends at `from`: after its `>`.
-fn end_of_tag(source: &str, from: usize) -> Option<usize> {
-    let mut quote = None;
-    for (at, c) in source.get(from..)?.char_indices() {
-        match (quote, c) {
-            (None, '"' | '\'') => quote = Some(c),
-            (Some(open), c) if c == open => quote = None,
-            (None, '>') => return Some(from + at + 1),
-            _ => {}
-        }
-    }
-    None
-}
-
 /// A length, rounded to the precision that a drawing needs.
 fn round(value: f64) -> f64 {
     (value * 1000.0).round() / 1000.0
@@ -307,9 +274,9 @@ fn round(value: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::fixtures::{analysis, figure};
-    use super::super::format::applied;
     use super::*;
     use crate::bind::BoundBy;
+    use crate::diagnostic::applied;
     use crate::lang::keyword::Keyword;
 
     fn after(source: &str, title: &str) -> Analysis {

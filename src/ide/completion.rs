@@ -244,8 +244,8 @@ impl Cursor<'_> {
                 && !carried.get(*index).copied().unwrap_or(false)
         });
         let mut parts: Vec<_> = parts.collect();
-        // Parts with names from strings come first.
-        parts.sort_by_key(|(_, part)| part.automatic);
+        // Parts with names that people gave come first.
+        parts.sort_by_key(|(_, part)| part.is_automatic());
         parts
             .into_iter()
             .map(|(_, part)| {

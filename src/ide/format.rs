@@ -4,7 +4,7 @@ use super::Analysis;
 use super::at::{Item, Token, attributes, tokens};
 use super::rename::replace;
 use crate::bind::DrawingString;
-use crate::diagnostic::Edit;
+use crate::diagnostic::{Edit, applied};
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::kinds;
 use crate::lang::keyword::signature::Takes;
@@ -176,19 +176,6 @@ fn gap(
     }
 }
 
-/// Applies edits that are in order and do not overlap.
-pub(super) fn applied(source: &str, edits: &[Edit]) -> String {
-    let mut out = String::with_capacity(source.len());
-    let mut at = 0;
-    for edit in edits {
-        out.push_str(&source[at..edit.span.start]);
-        out.push_str(&edit.text);
-        at = edit.span.end;
-    }
-    out.push_str(&source[at..]);
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::fixtures::{analysis, figure};
@@ -247,7 +234,7 @@ mod tests {
 
     #[test]
     fn a_text_that_would_move_to_another_part_keeps_its_width() {
-        let source = figure(["Body", "Rarm@Body", "", "", ""]).replace(
+        let source = figure(["Body", "Rarm@Body", "%Bind center", "", ""]).replace(
             "<text x=\"50\" y=\"49\"",
             "<text text-anchor=\"end\" x=\"100\" y=\"49\"",
         );

@@ -230,7 +230,7 @@ mod tests {
             ("Arm@Body$Smoo¦th 2", "Smooth 10</text>"),
             ("Arm@Body$Texture \"¦a b.png\"", "a b.png"),
             ("Arm@Body$Shape model \"a.¦glb\"", "a.glb"),
-            ("Arm@¦U-1", "<rect id=\"left\" "),
+            ("Arm@¦left", "<rect id=\"left\" "),
         ] {
             assert_eq!(leads(&strings(string)), [expected], "{string}");
         }

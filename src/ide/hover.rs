@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::at::{At, Item, attributes};
 use super::{Analysis, Symbol};
-use crate::bind::{BoundBy, PartKind, SetBy};
+use crate::bind::{BoundBy, NamedBy, PartKind, SetBy};
 use crate::lang::ast::{Annotation, ArgumentKind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::{Keyword, kinds};
@@ -206,6 +206,10 @@ impl Analysis {
         let part = &bindings.parts[index];
         let mut out = match part.kind {
             PartKind::Main => format!("**{}**", escaped(&part.name)),
+            PartKind::Sub if part.host.is_some() => {
+                let host = part.host.unwrap_or(part.main);
+                format!("Ink on {}", bindings.describe(self.drawing(), host))
+            }
             PartKind::Sub => {
                 let main = bindings.describe(self.drawing(), part.main);
                 format!("A solid in the node of {main}")
@@ -226,8 +230,14 @@ impl Analysis {
             .and_then(|string| bindings.strings[string].binding)
             .map(|binding| binding.by);
         let why = match bound {
-            None if part.automatic => "it has no string: its name and parent are automatic",
-            None => "it has no string",
+            None if part.host.is_some() => "a stroke that lies on it",
+            None if part.kind != PartKind::Main => "it has no string",
+            None => match part.named_by {
+                NamedBy::Automatic => "it has no string: its name and parent are automatic",
+                NamedBy::Label { .. } => "it has no string: its name is its label",
+                NamedBy::Id { .. } => "it has no string: its name is its id",
+                NamedBy::String => "it has no string",
+            },
             Some(BoundBy::Desc) => "by its description",
             Some(BoundBy::Group) => "by the string that is grouped with it",
             Some(BoundBy::Leader) => "by the string that a line leads to",

@@ -2,7 +2,7 @@
 
 use super::Analysis;
 use super::uses::own_name;
-use crate::bind::{PartKind, Place, SetBy};
+use crate::bind::{NamedBy, PartKind, Place, SetBy};
 use crate::lang::looks_like_string;
 use crate::source::Span;
 
@@ -51,8 +51,8 @@ impl Analysis {
                     out.extend(self.name_of_element(index, string));
                     out.extend(self.inherited_by(index, string));
                 }
-                None if part.automatic => out.extend(self.automatic(index)),
-                _ => {}
+                None => out.extend(self.without_string(index)),
+                Some(_) => {}
             }
         }
         out.retain(|inlay| (window.start..=window.end).contains(&inlay.at));
@@ -60,21 +60,35 @@ impl Analysis {
         out
     }
 
-    /// After a shape's tag: its automatic name and parent.
-    fn automatic(&self, index: usize) -> Option<Inlay> {
+    /// After a shape's tag: its name, which no string gives, and its parent.
+    fn without_string(&self, index: usize) -> Option<Inlay> {
         let bindings = self.bindings();
         let part = &bindings.parts[index];
         let at = self.drawing().shapes[part.shape].element.span.end;
+        let about = match part.named_by {
+            NamedBy::Label { .. } => {
+                "This shape has no string: its name is its label, or its group's"
+            }
+            NamedBy::Id { .. } => "This shape has no string: its name is its id, or its group's",
+            NamedBy::String | NamedBy::Automatic => {
+                "This shape has no string: its name is automatic"
+            }
+        };
+        let naming = bindings.naming_element(self.drawing(), index);
         let mut pieces = vec![InlayPiece {
             text: part.name.clone(),
-            from: None,
-            about: "This shape has no string: its name is automatic".to_owned(),
+            from: naming.map(|element| element.span),
+            about: about.to_owned(),
         }];
+        let contact = bindings.hierarchy_by_contact;
         if let Some(parent) = part.parent {
             pieces.push(InlayPiece {
                 text: format!("@{}", bindings.parts[parent].name),
                 from: Some(self.place_of_part(parent)),
-                about: "It is attached to the nearest named part".to_owned(),
+                about: match contact {
+                    true => "It is attached to a part that it touches".to_owned(),
+                    false => "It is attached to the nearest named part".to_owned(),
+                },
             });
         }
         Some(Inlay { at, pieces })
@@ -177,7 +191,7 @@ mod tests {
             })
             .collect();
         let expected = [
-            ("<rect", "U-1@Body"),
+            ("<rect", "left@Body"),
             (">Body", "Segments 8 Smooth 10"),
             ("th 20", "Offset 4 Segments 8"),
         ];

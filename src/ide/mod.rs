@@ -105,13 +105,16 @@ impl Analysis {
         self.bindings().parts.iter().position(named)
     }
 
-    /// The span that names a part: in its string, or its shape's tag.
+    /// The span that names a part: in its string, or the tag of its shape or group.
     fn place_of_part(&self, part: usize) -> Span {
         let bindings = self.bindings();
+        let naming = bindings.naming_element(self.drawing(), part);
         let part = &bindings.parts[part];
         match part.string {
             Some(string) => self.place_of_string(string),
-            None => self.drawing().shapes[part.shape].element.span,
+            None => naming.map_or(self.drawing().shapes[part.shape].element.span, |element| {
+                element.span
+            }),
         }
     }
 

@@ -2,12 +2,12 @@
 
 use super::uses::own_name;
 use super::{Analysis, Item, Symbol, Use};
-use crate::bind::DrawingString;
+use crate::bind::{DrawingString, written_by_a_person};
 use crate::diagnostic::Edit;
 use crate::lang::keyword::{Keyword, colours, vocabulary};
 use crate::lang::quoting::{NamePlace, can_be_bare, quoted_if_needed, read_name};
 use crate::lang::{is_word_char, looks_like_string};
-use crate::source::{Span, Text};
+use crate::source::{Span, Text, end_of_tag, escape_xml};
 
 /// Why a rename is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -31,8 +31,13 @@ pub enum RenameError {
     #[error("`{0}` is a word of the language, and would be read as such")]
     WordOfTheLanguage(String),
     /// The part has no string.
-    #[error("`{0}` has no string that names it: give it one first")]
+    #[error("`{0}` has neither a string nor a label that names it: give it one first")]
     NoString(String),
+    /// The new name would not be taken for a name in a label.
+    #[error(
+        "`{0}` in a label would be taken for the work of a program, not for a name: choose another one"
+    )]
+    NoLabel(String),
     /// An entity expands to more than the name.
     #[error(
         "`{0}` comes from an XML entity that contains more than the name: replace the entity by its text first"
@@ -83,6 +88,7 @@ impl Analysis {
         }
         if let Symbol::Part(old) = &symbol {
             edits.extend(self.named_by_element(old, &name));
+            edits.extend(self.labelled(old, &name)?);
         }
         edits.sort_by_key(|edit| edit.span);
         Ok(edits)
@@ -96,6 +102,10 @@ impl Analysis {
         if let Symbol::Part(name) = &symbol
             && let Some(part) = self.part_named(name)
             && self.bindings().parts[part].string.is_none()
+            && self
+                .bindings()
+                .naming_element(self.drawing(), part)
+                .is_none()
         {
             return Err(RenameError::NoString(name.clone()));
         }
@@ -118,6 +128,35 @@ impl Analysis {
         Ok(())
     }
 
+    /// A part without a string inherits the name of its element: the label is changed, or written where the id is the name, since
+    /// other elements may refer to the id.
+    fn labelled(&self, old: &str, name: &str) -> Result<Option<Edit>, RenameError> {
+        let Some(index) = self.part_named(old) else {
+            return Ok(None);
+        };
+        let Some(element) = self.bindings().naming_element(self.drawing(), index) else {
+            return Ok(None);
+        };
+        if self.bindings().parts[index].string.is_some() {
+            return Ok(None);
+        }
+        if written_by_a_person(name).as_deref() != Some(name) {
+            return Err(RenameError::NoLabel(name.to_owned()));
+        }
+        let text = escape_attribute(name);
+        if let Some(span) = label_of(&self.source, element.span) {
+            return Ok(Some(Edit { span, text }));
+        }
+        let attribute = match self.source.contains(INKSCAPE) {
+            true => "inkscape:label",
+            false => "data-name",
+        };
+        Ok(Some(Edit {
+            span: Span::at(element.span.end),
+            text: format!(" {attribute}=\"{text}\""),
+        }))
+    }
+
     /// A description without a name inherits that of its element: the new name is inserted at its start.
     fn named_by_element(&self, old: &str, name: &str) -> Option<Edit> {
         let part = &self.bindings().parts[self.part_named(old)?];
@@ -131,6 +170,49 @@ impl Analysis {
                 .escape_at(start, &quoted_if_needed(name, NamePlace::Head)),
         })
     }
+}
+
+/// Declares the prefix under which Inkscape keeps labels.
+const INKSCAPE: &str = "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"";
+
+/// The span of the value of an element's label, between its quotes; `tag` is the start of its tag.
+fn label_of(source: &str, tag: Span) -> Option<Span> {
+    let end = end_of_tag(source, tag.end)?;
+    let text = source.get(tag.end..end)?;
+    let is_label = |name: &str| {
+        name == "data-name"
+            || name == "serif:id"
+            || name
+                .rsplit_once(':')
+                .is_some_and(|(_, local)| local == "label")
+    };
+    let mut found: Vec<(&str, Span)> = vec![];
+    let mut at = 0;
+    while let Some(equals) = text[at..].find('=').map(|equals| at + equals) {
+        let name = text[at..equals].trim();
+        let quote = equals + 1 + text[equals + 1..].find(['"', '\''])?;
+        let value = quote + 1;
+        let close = value + text[value..].find(&text[quote..value])?;
+        if is_label(name) {
+            found.push((name, Span::new(tag.end + value, tag.end + close)));
+        }
+        at = close + 1;
+    }
+    // The same order as where labels are read.
+    let rank = |name: &str| match name {
+        "serif:id" => 1,
+        "data-name" => 2,
+        _ => 0,
+    };
+    found.sort_by_key(|(name, _)| rank(name));
+    found.first().map(|(_, span)| *span)
+}
+
+/// Text as the value of an attribute in either kind of quotes.
+fn escape_attribute(text: &str) -> String {
+    escape_xml(text)
+        .replace('"', "&quot;")
+        .replace('\'', "&apos;")
 }
 
 /// The new name in the notation of the old one: quotes that the old name did not need are kept.
@@ -171,8 +253,8 @@ pub(super) fn replace(text: &Text, range: std::ops::Range<usize>, new: &str) -> 
 #[cfg(test)]
 mod tests {
     use super::super::fixtures::{analysis, figure};
-    use super::super::format::applied;
     use super::*;
+    use crate::diagnostic::applied;
 
     fn renamed(source: &str, name: &str) -> Result<String, RenameError> {
         let (analysis, at) = analysis(source);
@@ -306,7 +388,7 @@ mod tests {
             renamed(&figure(["Body$¦Offset 1", "", "", "", ""]), "x"),
             Err(RenameError::NoName)
         );
-        let automatic = figure(["Body", "Rarm@U-¦1", "", "", ""]);
+        let automatic = figure(["Body", "Rarm@U-¦1", "", "", ""]).replace("\"left\"", "\"path2\"");
         assert_eq!(
             renamed(&automatic, "x"),
             Err(RenameError::NoString("U-1".to_owned()))
@@ -319,5 +401,39 @@ mod tests {
                       </rect><rect id=\"b\" x=\"20\" width=\"9\" height=\"9\"><desc>@¦a$Offset 2</desc></rect></svg>";
         let after = before.replace("<desc>$", "<desc>z$").replace("@¦a$", "@z$");
         assert_eq!(renamed(before, "z").unwrap(), after);
+    }
+
+    #[test]
+    fn labels_are_renamed_and_ids_are_given_labels() {
+        let drawing = |arm: &str, string: &str, space: &str| {
+            format!(
+                "<svg xmlns=\"http://www.w3.org/2000/svg\"{space}><g {arm}><rect width=\"9\" height=\"9\"/>\
+                 <rect width=\"3\" height=\"9\"/></g><rect x=\"20\" width=\"9\" height=\"9\"><desc>Hand@{string}</desc></rect></svg>"
+            )
+        };
+        let inkscape = format!(" {INKSCAPE}");
+        for (before, after, space) in [
+            (
+                "style=\"a='b'\" inkscape:label=\"arm\"",
+                "style=\"a='b'\" inkscape:label=\"arm &amp; hand\"",
+                inkscape.as_str(),
+            ),
+            (
+                "id=\"l\" data-name='arm'",
+                "id=\"l\" data-name='arm &amp; hand'",
+                "",
+            ),
+        ] {
+            let source = drawing(before, "¦arm", space);
+            let expected = drawing(after, "\"arm &amp; hand\"", space);
+            assert_eq!(renamed(&source, "arm & hand").unwrap(), expected);
+        }
+        let by_id = drawing("id=\"arm\"", "¦arm", "");
+        let expected = drawing("id=\"arm\"", "wing", "").replace("<g ", "<g data-name=\"wing\" ");
+        assert_eq!(renamed(&by_id, "wing").unwrap(), expected);
+        assert_eq!(
+            renamed(&by_id, "path 1"),
+            Err(RenameError::NoLabel("path 1".to_owned()))
+        );
     }
 }

@@ -107,7 +107,7 @@ mod tests {
         let expected = [
             "Body default",
             "  Rarm roundv",
-            "    U-1 default",
+            "    swatch default",
             "    Larm default",
         ];
         assert_eq!(out, expected);

@@ -9,13 +9,16 @@ mod attributes;
 mod expression;
 mod lexical;
 mod names;
+mod several;
 pub(in crate::lang) mod suggestions;
 
 pub use lexical::is_word_char;
+pub use several::strings_in;
 
 use std::ops::Range;
 
 use super::ast::{Annotation, Part};
+use super::keyword::Keyword;
 use super::normalize::Normalized;
 use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
 use crate::source::{Span, Text};
@@ -49,7 +52,8 @@ pub fn parse(text: &Text, container: Container) -> (Annotation, Vec<Diagnostic>)
 }
 
 /// Whether `text` looks like a string, so that its drawing counts as annotated: it starts with one
-/// of `% $ * @`, or has the form `Name@…` or `Name$…`.
+/// of `% $ * @`, or has the form `Name@…` or `Name$…`. White space before `$` counts if a keyword follows, white space
+/// around `@` if a name follows: `costs $5` and `see you @ 5 pm` are captions.
 pub fn looks_like_string(text: &str) -> bool {
     let normalized = Normalized::new(text);
     let text = normalized.as_str().trim_start();
@@ -59,11 +63,47 @@ pub fn looks_like_string(text: &str) -> bool {
     if text.starts_with(['#', '^']) {
         return false;
     }
+    // Several words before `$` are a name without its quotes.
+    let attributes = text.split_once('$').map(|(_, attributes)| attributes);
+    if attributes
+        .is_some_and(|text| text.starts_with(char::is_alphabetic) && starts_with_keyword(text))
+    {
+        return true;
+    }
     let after_name = match lexical::quoted(text) {
         Ok((rest, _)) => rest,
         Err(_) => text.trim_start_matches(is_name_char),
     };
-    after_name.len() < text.len() && after_name.starts_with(['@', '$'])
+    if after_name.len() == text.len() {
+        return false;
+    }
+    if after_name.starts_with(['@', '$']) {
+        return true;
+    }
+    let mut rest = after_name.trim_start().chars();
+    match rest.next() {
+        Some('@') => names_a_parent(rest.as_str()),
+        Some('$') => starts_with_keyword(rest.as_str()),
+        _ => false,
+    }
+}
+
+/// Whether the text after `@` is a name, and the string ends or its attributes begin after it.
+fn names_a_parent(text: &str) -> bool {
+    let text = text.trim_start();
+    let rest = match lexical::quoted(text) {
+        Ok((rest, _)) => rest,
+        Err(_) if !text.starts_with(char::is_alphabetic) => return false,
+        Err(_) => text.trim_start_matches(is_name_char),
+    };
+    let rest = rest.trim_start();
+    rest.is_empty() || rest.starts_with('$')
+}
+
+/// Whether a text starts with a keyword.
+fn starts_with_keyword(text: &str) -> bool {
+    let word = lexical::word(text.trim_start());
+    word.is_ok_and(|(_, word)| Keyword::from_name(word).is_some())
 }
 
 /// Whether a name without quotes may contain `c`.
@@ -182,6 +222,7 @@ fn full_width(text: &Text, normalized: &Normalized<'_>) -> Option<Diagnostic> {
     hint.fixes.push(Fix {
         title: "Write full-width characters as ASCII".to_owned(),
         edits,
+        safe: true,
     });
     Some(hint)
 }

@@ -186,10 +186,15 @@ impl Previews {
 
     fn publish(&self, uri: &str, analysed: &Analysed, compiled: &Compiled, memory: &mut Memo) {
         let begun = SystemTime::now();
-        let model = match compiled.has_errors() {
+        // At first the page shows what can be built of a drawing with errors. Later on, most errors are half typed words, and
+        // the last good model stays.
+        let empty = compiled.scene.nodes.is_empty();
+        let keep = compiled.has_errors() && (empty || self.hub.was_good(uri));
+        let model = match keep {
             true => None,
             false => match export::to_memory(&GLB, &compiled.scene, Some(memory)) {
                 Ok(model) => Some((model.bytes.into(), model.written.triangles)),
+                Err(_) if compiled.has_errors() => None,
                 Err(error) => {
                     return self.publish(uri, analysed, &Compiled::unwritten(&error), memory);
                 }

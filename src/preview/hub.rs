@@ -71,8 +71,10 @@ struct Entry {
     build: Option<(u64, Arc<str>)>,
     gone: Option<u64>,
     light: (u64, Option<String>),
-    /// The last two good models: a page may still be about to fetch the older one.
+    /// The last two models: a page may still be about to fetch the older one.
     models: Vec<Arc<StoredModel>>,
+    /// Whether a model of it without errors was shown.
+    was_good: bool,
 }
 
 /// A model that can be fetched.
@@ -112,7 +114,7 @@ pub struct Shown<'a> {
     pub text: &'a str,
     /// The compiled drawing.
     pub compiled: &'a Compiled,
-    /// The model as binary glTF and its number of triangles; `None` keeps the last good one.
+    /// The model as binary glTF and its number of triangles; `None` keeps the last one. With errors it is what can be built.
     pub model: Option<(&'a Bytes, usize)>,
     /// When it was built.
     pub times: BuildTimes,
@@ -163,6 +165,7 @@ impl Hub {
             entry.folder = folder.to_owned();
             entry.revision += 1;
             entry.gone = None;
+            entry.was_good |= shown.model.is_some() && !shown.compiled.has_errors();
             if let Some((bytes, triangles)) = shown.model {
                 let is_equal = |last: &Arc<StoredModel>| {
                     let same = last.bytes == *bytes && last.originals == originals;
@@ -190,6 +193,7 @@ impl Hub {
                 model: model.map(|model| format!("builds/{}.glb", model.number)),
                 picture: model.map(|model| format!("pictures/{}.png", model.number)),
                 stale: shown.model.is_none() && model.is_some(),
+                incomplete: shown.model.is_some() && shown.compiled.has_errors(),
                 triangles: model.map_or(0, |model| model.triangles),
                 findings: found,
                 parts,
@@ -233,6 +237,13 @@ impl Hub {
                 entry.light = (now, part.map(str::to_owned));
             }
         });
+    }
+
+    /// Whether a model of a drawing without errors was shown.
+    pub fn was_good(&self, id: &str) -> bool {
+        let state = self.state();
+        let entry = state.drawings.get(id);
+        entry.is_some_and(|entry| entry.was_good)
     }
 
     /// Whether a drawing is shown.

@@ -45,6 +45,8 @@ pub(super) struct Build<'a> {
     pub(super) picture: Option<String>,
     /// Whether the model is from an earlier build, because this one failed.
     pub(super) stale: bool,
+    /// Whether the model is only what can be built of a drawing with errors.
+    pub(super) incomplete: bool,
     pub(super) triangles: usize,
     pub(super) findings: Vec<Finding<'a>>,
     pub(super) parts: Vec<Part<'a>>,
@@ -87,6 +89,9 @@ pub(super) struct Finding<'a> {
     message: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     label: Option<&'a str>,
+    /// Where it is on the page.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    place: Option<&'static str>,
     help: Vec<&'a str>,
     line: usize,
     column: usize,
@@ -131,6 +136,7 @@ pub(super) fn findings<'a>(diagnostics: &'a [Diagnostic], text: &str) -> Vec<Fin
             code: diagnostic.code.id(),
             message: &diagnostic.message,
             label: diagnostic.label.as_deref(),
+            place: diagnostic.place,
             help: diagnostic.help.as_deref().into_iter().collect(),
             line,
             column,

@@ -7,5 +7,5 @@ mod terrain;
 
 pub use clips::{Clip, Held, Joint, PageDetails, Reader, clips, cut_frames};
 pub use joints::{Driver, drivers, ranges, undriven};
-pub use parts::{AttributeReport, Part, StringReport, landscapes, own_name, parts};
+pub use parts::{AttributeReport, Part, StringReport, landscapes, own_name, part_count, parts};
 pub use terrain::{Group, House, Terrain, terrain};

@@ -15,10 +15,16 @@ use crate::terrain::Layer;
 pub struct Part<'a> {
     /// Its name.
     pub name: &'a str,
+    /// Where its name is from: `string`, `label`, `id`, `automatic`; `None` for parts that are not in the hierarchy.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub named_by: Option<&'static str>,
     /// The name of its parent; `None` for the root.
     pub parent: Option<&'a str>,
     /// `main`, `sub`, `legend` or `unused`; `terrain` in [`landscapes`].
     pub kind: &'static str,
+    /// For ink, the name of the part on which it lies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub ink_on: Option<&'a str>,
     /// The `id` of its element.
     pub element: Option<&'a str>,
     /// Its string.
@@ -51,6 +57,9 @@ pub struct StringReport<'a> {
     pub text: &'a str,
     /// The rule by which it is bound to its part.
     pub bound_by: &'static str,
+    /// For an uncertain binding, the other shape that it may mean.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub may_mean: Option<String>,
 }
 
 /// An attribute.
@@ -71,6 +80,7 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     let parts = parts.filter(|(_, part)| part.kind != PartKind::Tile);
     let report = |(index, part): (usize, &'a bind::Part)| Part {
         name: own_name(compiled, part),
+        named_by: (part.kind == PartKind::Main).then(|| part.named_by.name()),
         parent: match part.kind {
             PartKind::Main => part
                 .parent
@@ -78,10 +88,13 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
             _ => (part.main != index).then(|| own_name(compiled, &bindings.parts[part.main])),
         },
         kind: part.kind.name(),
+        ink_on: part
+            .host
+            .map(|host| own_name(compiled, &bindings.parts[host])),
         element: compiled.drawing.shapes[part.shape].element.id.as_deref(),
         string: part.string.map(|string| {
             let string = &bindings.strings[string];
-            string_report(string, &places)
+            string_report(compiled, string, &places)
         }),
         center: part.measure.center.to_array(),
         ends: part.measure.ends.map(|end| end.to_array()),
@@ -92,6 +105,14 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
         joint_why: drivers[index].map(|driver| driver.why),
     };
     parts.map(report).collect()
+}
+
+/// The number of parts in the model of a drawing, as every command and page counts them: main parts and landscapes. Sub-parts,
+/// which are solids of a main part, and copies do not count.
+pub fn part_count(compiled: &Compiled) -> usize {
+    let parts = compiled.bindings.parts.iter();
+    let main = parts.filter(|part| part.kind == PartKind::Main).count();
+    main + compiled.layers.len()
 }
 
 /// The landscapes of a drawing as parts of the kind `terrain`, for lists of everything in the model.
@@ -110,10 +131,12 @@ pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
         });
         Part {
             name: &layer.name,
+            named_by: None,
             parent: layer.parent.map(|part| bindings.parts[part].name.as_str()),
             kind: "terrain",
+            ink_on: None,
             element: compiled.drawing.groups[layer.group].element.id.as_deref(),
-            string: Some(string_report(string, &places)),
+            string: Some(string_report(compiled, string, &places)),
             center: center.to_array(),
             ends: [[low.x, middle], [high.x, middle]],
             origin: center.to_array(),
@@ -126,13 +149,21 @@ pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     compiled.layers.iter().map(report).collect()
 }
 
-fn string_report<'a>(string: &'a DrawingString, places: &LineIndex<&str>) -> StringReport<'a> {
+fn string_report<'a>(
+    compiled: &Compiled,
+    string: &'a DrawingString,
+    places: &LineIndex<&str>,
+) -> StringReport<'a> {
     let (line, column) = places.line_column(string.text.whole().start);
     StringReport {
         line,
         column,
         text: string.text.as_str(),
         bound_by: string.binding.map_or("none", |binding| binding.by.name()),
+        may_mean: string.runner_up.map(|part| {
+            let shape = compiled.bindings.parts[part].shape;
+            compiled.drawing.describe(shape)
+        }),
     }
 }
 

@@ -1,19 +1,12 @@
 //! Finds the figures of a drawing: groups of parts that are connected, by strings or because they touch.
 
 use glam::DVec2;
-use rstar::{AABB, RTree, primitives::GeomWithData, primitives::Rectangle};
 
 use crate::bind::{Bindings, Part, PartKind};
-use crate::geometry::{area, distance_squared};
+use crate::geometry::{self, Body, area, connected};
 
 /// Roots of one figure may be this far apart, as a share of the larger one's height with all its descendants.
 const GAP: f64 = 0.02;
-
-/// How many distances between points and edges are computed to find parts that touch. After that, bounding boxes decide.
-const MAX_DISTANCES: usize = 1 << 28;
-
-/// With how many others a part is found to touch at most; a heap of shapes is not a figure.
-const MAX_TOUCHED: usize = 256;
 
 /// The parts of one figure.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,26 +62,10 @@ impl FigureGroup {
 pub(super) fn find(bindings: &Bindings) -> Vec<FigureGroup> {
     let trees = trees(bindings);
     let near = touching(bindings, &trees);
-    let mut taken = vec![false; trees.len()];
-    let mut groups = Vec::new();
-    for first in 0..trees.len() {
-        if std::mem::replace(&mut taken[first], true) {
-            continue;
-        }
-        let mut members = vec![first];
-        let mut next = 0;
-        while let Some(&at) = members.get(next) {
-            next += 1;
-            for &other in &near[at] {
-                if !std::mem::replace(&mut taken[other], true) {
-                    members.push(other);
-                }
-            }
-        }
-        members.sort_unstable();
-        groups.push(group(bindings, &trees, &near, &members));
-    }
+    let groups = connected(&near).into_iter();
     groups
+        .map(|members| group(bindings, &trees, &near, &members))
+        .collect()
 }
 
 /// A part without a parent, first, and its descendants.
@@ -132,62 +109,16 @@ fn trees(bindings: &Bindings) -> Vec<Tree> {
 
 /// Per tree the other trees whose roots touch its own root.
 fn touching(bindings: &Bindings, trees: &[Tree]) -> Vec<Vec<usize>> {
-    let first = |tree: &Tree| &bindings.parts[tree.parts[0]];
-    let boxes = trees.iter().enumerate().map(|(index, tree)| {
-        let (low, high) = first(tree).measure.bounds;
-        GeomWithData::new(
-            Rectangle::from_corners(low.to_array(), high.to_array()),
-            index,
-        )
-    });
-    let boxes = RTree::bulk_load(boxes.collect());
-    let slack = |tree: &Tree| GAP * (tree.high.y - tree.low.y);
-    let mut left = MAX_DISTANCES;
-    let mut near = |index: usize| -> Vec<usize> {
-        let (own, slack) = (first(&trees[index]), slack(&trees[index]));
-        let (low, high) = own.measure.bounds;
-        let reach = AABB::from_corners((low - slack).to_array(), (high + slack).to_array());
-        let found = boxes.locate_in_envelope_intersecting(reach);
-        let others = found.map(|found| found.data);
-        let others = others.filter(|other| {
-            *other != index && are_near(own, first(&trees[*other]), slack, &mut left)
-        });
-        let mut others: Vec<usize> = others.take(MAX_TOUCHED).collect();
-        others.sort_unstable();
-        others
-    };
-    let mut all: Vec<Vec<usize>> = (0..trees.len()).map(&mut near).collect();
-    // The larger tree's height counts for both.
-    for index in 0..trees.len() {
-        for other in all[index].clone() {
-            if let Err(place) = all[other].binary_search(&index) {
-                all[other].insert(place, index);
-            }
+    let body = |tree: &Tree| {
+        let root = &bindings.parts[tree.parts[0]];
+        Body {
+            outlines: vec![&*root.outline],
+            bounds: root.measure.bounds,
+            slack: GAP * (tree.high.y - tree.low.y),
         }
-    }
-    all
-}
-
-/// Whether the distance between two outlines is at most `gap`; `true` if too few computations of distances are left to tell.
-fn are_near(a: &Part, b: &Part, gap: f64, left: &mut usize) -> bool {
-    let count = |part: &Part| -> usize { rings(part).map(<[DVec2]>::len).sum() };
-    let work = count(a).saturating_mul(count(b)).saturating_mul(2);
-    let Some(rest) = left.checked_sub(work) else {
-        return true;
     };
-    *left = rest;
-    let reaches = |from: &Part, to: &Part| {
-        let mut points = rings(from).flatten();
-        points.any(|point| distance_squared(&to.outline, *point) <= gap * gap)
-    };
-    reaches(a, b) || reaches(b, a)
-}
-
-fn rings(part: &Part) -> impl Iterator<Item = &[DVec2]> {
-    let polygons = part.outline.polygons.iter();
-    polygons
-        .flat_map(|polygon| &polygon.rings)
-        .map(Vec::as_slice)
+    let bodies: Vec<Body<'_>> = trees.iter().map(body).collect();
+    geometry::touching(&bodies)
 }
 
 fn group(

@@ -10,7 +10,9 @@ pub mod check;
 
 mod cap;
 mod crease;
+mod drape;
 mod ears;
+mod heights;
 mod inflate;
 mod kinds;
 mod lathe;
@@ -28,6 +30,8 @@ use glam::{DMat2, DVec3};
 use crate::geometry::{Outline, bounds};
 use crate::scene::Surface;
 
+pub use drape::Drape;
+pub use heights::RecentHeights;
 pub use kinds::{Faces, Kind, Profile};
 pub use layers::Layer;
 pub use source::{Sides, Solid};
@@ -78,6 +82,8 @@ pub fn build(outline: &Outline, profile: &Profile, options: &Options) -> Surface
     }
 }
 
+#[cfg(test)]
+mod drape_tests;
 #[cfg(test)]
 mod laws;
 #[cfg(test)]

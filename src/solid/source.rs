@@ -40,6 +40,30 @@ pub enum Sides {
     Both,
 }
 
+impl Sides {
+    /// Those of the solid mirrored in the drawing plane.
+    pub(super) fn mirrored(self) -> Self {
+        match self {
+            Self::Front => Self::Back,
+            Self::Back => Self::Front,
+            Self::Both => Self::Both,
+        }
+    }
+}
+
+/// A surface on these sides of the drawing plane.
+pub(super) fn on_sides(mut surface: Surface, sides: Sides) -> Surface {
+    match sides {
+        Sides::Front => surface,
+        Sides::Back => surface.mirrored(),
+        Sides::Both => {
+            let back = surface.mirrored();
+            surface.append(&back);
+            surface
+        }
+    }
+}
+
 impl SurfaceSource for Solid {
     fn surface(&self) -> Surface {
         let local = |point: &DVec2| self.to_frame.transform_point2(*point);
@@ -55,15 +79,7 @@ impl SurfaceSource for Solid {
             };
             surface.uvs = surface.positions.iter().map(uv).collect();
         }
-        match self.sides {
-            Sides::Front => surface,
-            Sides::Back => surface.mirrored(),
-            Sides::Both => {
-                let back = surface.mirrored();
-                surface.append(&back);
-                surface
-            }
-        }
+        on_sides(surface, self.sides)
     }
 
     fn key(&self) -> u64 {
@@ -94,13 +110,8 @@ impl SurfaceSource for Solid {
     }
 
     fn mirrored(&self) -> Arc<dyn SurfaceSource> {
-        let sides = match self.sides {
-            Sides::Front => Sides::Back,
-            Sides::Back => Sides::Front,
-            Sides::Both => Sides::Both,
-        };
         Arc::new(Self {
-            sides,
+            sides: self.sides.mirrored(),
             ..self.clone()
         })
     }

@@ -31,6 +31,11 @@ impl Clip {
         out
     }
 
+    /// The minimum and maximum corner, if the clip is an axis-aligned rectangle.
+    pub(super) fn rectangle(&self) -> Option<(DVec2, DVec2)> {
+        self.rectangle
+    }
+
     /// The part of `outline` inside the clip.
     pub(super) fn cut(&self, outline: Outline) -> Outline {
         let Some((low, high)) = bounds(&outline) else {

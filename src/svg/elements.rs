@@ -8,8 +8,12 @@ use rustc_hash::FxHashMap;
 
 use super::prepare::{JOINED, Prepared};
 use super::style::Styles;
-use super::{Element, text};
-use crate::source::Span;
+use super::{DescSlot, Element, text};
+use crate::diagnostic::Edit;
+use crate::source::{Span, end_of_tag, escape_xml};
+
+/// The namespace of Affinity's attributes.
+const SERIF: &str = "http://www.serif.com/";
 
 /// The elements by id; the first of several elements with the same id.
 pub(super) struct Ids<'a> {
@@ -83,11 +87,59 @@ pub(super) fn element(node: Node<'_, '_>, prepared: &Prepared) -> Element {
         span: start_tag(node, prepared),
         tag: known_tag(node.tag_name().name()),
         id: own_id.map(str::to_owned),
-        label: node
-            .attributes()
-            .find(|attribute| attribute.name() == "label" && attribute.namespace().is_some())
-            .map(|attribute| attribute.value().to_owned()),
+        label: label(node).map(str::to_owned),
+        desc_slot: match desc {
+            None => desc_slot(node, prepared),
+            Some(_) => None,
+        },
         desc: desc.map(|desc| Arc::new(text::content(desc, prepared))),
+    }
+}
+
+/// The name that people see in the program that drew an element. Inkscape keeps it in `inkscape:label`; Affinity in `serif:id`
+/// and Illustrator in `data-name`, where it cannot be the `id`.
+fn label<'a>(node: Node<'a, '_>) -> Option<&'a str> {
+    let attribute = |is_it: &dyn Fn(&str, Option<&str>) -> bool| {
+        let mut attributes = node.attributes();
+        let found = attributes.find(|attribute| is_it(attribute.name(), attribute.namespace()))?;
+        Some(found.value())
+    };
+    attribute(&|name, space| name == "label" && space.is_some())
+        .or_else(|| attribute(&|name, space| name == "id" && space == Some(SERIF)))
+        .or_else(|| attribute(&|name, space| name == "data-name" && space.is_none()))
+}
+
+/// Where a description of an element can be inserted.
+fn desc_slot(node: Node<'_, '_>, prepared: &Prepared) -> Option<DescSlot> {
+    let start = node.range().start;
+    let tag = &prepared.text[start + 1..];
+    let name = tag.split(|c: char| c.is_whitespace() || matches!(c, '>' | '/'));
+    let name = name.into_iter().next()?;
+    // Declarations of namespaces are no attributes, and may come last.
+    let last = node.attributes().map(|attribute| attribute.range().end);
+    let from = last.max().unwrap_or(start + 1 + name.len());
+    let end = end_of_tag(&prepared.text, from)?;
+    let span = match prepared.text[..end].ends_with("/>") {
+        true => prepared.span(end - 2..end),
+        false => prepared.span(end..end),
+    };
+    let prefix = name.strip_suffix(known_tag(node.tag_name().name()))?;
+    Some(DescSlot {
+        span,
+        prefix: prefix.into(),
+    })
+}
+
+impl Element {
+    /// The edit that gives the element a description; `None` if it has one.
+    pub fn with_description(&self, text: &str) -> Option<Edit> {
+        let DescSlot { span, prefix } = self.desc_slot.as_ref()?;
+        let desc = format!("<{prefix}desc>{}</{prefix}desc>", escape_xml(text));
+        let text = match span.start == span.end {
+            true => desc,
+            false => format!(">{desc}</{prefix}{}>", self.tag),
+        };
+        Some(Edit { span: *span, text })
     }
 }
 
@@ -114,6 +166,6 @@ pub(super) fn labels<'a, 'input>(
 }
 
 /// Elements whose content is not drawn in place.
-const NOT_DRAWN: &[&str] = &[
+pub(super) const NOT_DRAWN: &[&str] = &[
     "defs", "symbol", "pattern", "clipPath", "mask", "marker", "metadata",
 ];

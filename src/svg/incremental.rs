@@ -78,12 +78,23 @@ impl<'a> TextEdit<'a> {
         for shape in &mut drawing.shapes {
             self.apply_to_element(&mut shape.element);
         }
+        for hidden in &mut drawing.unseen.hidden {
+            self.apply_to_element(&mut hidden.element);
+            hidden
+                .texts
+                .iter_mut()
+                .for_each(|text| self.apply_to_text(text));
+        }
+        for converted in &mut drawing.unseen.converted {
+            self.apply_to_element(&mut converted.element);
+            converted.whole = self.change.moved(converted.whole);
+        }
         for (label, _) in &mut drawing.labels {
             label.element = self.change.moved(label.element);
             let edited = label.text.plain_around(self.change).is_some();
             self.apply_to_text(&mut label.text);
-            if edited && let Some((corner, bounds)) = label.frame.place(label.text.as_str()) {
-                (label.corner, label.bounds) = (corner, bounds);
+            if edited && let Some(position) = label.frame.place(label.text.as_str()) {
+                label.position = position;
             }
         }
     }
@@ -102,6 +113,9 @@ impl<'a> TextEdit<'a> {
 
     fn apply_to_element(self, element: &mut Element) {
         element.span = self.change.moved(element.span);
+        if let Some(slot) = &mut element.desc_slot {
+            slot.span = self.change.moved(slot.span);
+        }
         if let Some(desc) = &mut element.desc {
             self.apply_to_text(desc);
         }

@@ -10,13 +10,17 @@ mod growth;
 mod image;
 mod incremental;
 mod links;
+mod oklab;
 mod paint;
 mod paths;
 mod pictures;
 mod prepare;
+mod separate;
 mod shapes;
 mod style;
 mod text;
+mod unseen;
+mod unsolid;
 mod walk;
 
 use std::sync::Arc;
@@ -26,10 +30,12 @@ use glam::DVec2;
 pub use image::PictureSource;
 pub use incremental::TextEdit;
 pub(crate) use links::broken_link;
+pub use oklab::oklab;
 pub use paths::StrokeSource;
 pub(crate) use pictures::LARGE;
 pub(crate) use prepare::character;
-pub use text::Label;
+pub use text::{Label, TextPosition};
+pub use unseen::{ConvertedText, Hidden, Unseen};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Outline;
@@ -48,6 +54,8 @@ pub struct Drawing {
     pub shapes: Vec<Shape>,
     /// The texts in document order, each with the index of its group.
     pub labels: Vec<(Label, usize)>,
+    /// What the drawing holds but does not show.
+    pub unseen: Unseen,
     /// Per group whether its pictures are read pixel by pixel (see [`PixelGroups`]); `None` if there are no pictures.
     pub pixel_groups: Option<Vec<bool>>,
 }
@@ -70,6 +78,8 @@ pub struct Group {
     pub parent: usize,
     /// Its kind.
     pub kind: GroupKind,
+    /// The rectangle that it is clipped to, user units, if its clip is one: minimum and maximum corner.
+    pub frame: Option<(DVec2, DVec2)>,
     /// Its element.
     pub element: Element,
 }
@@ -83,10 +93,21 @@ pub struct Element {
     pub tag: &'static str,
     /// Its `id`.
     pub id: Option<String>,
-    /// Its `inkscape:label`.
+    /// The name that people see in the program that drew it: its `inkscape:label`, `serif:id` or `data-name`.
     pub label: Option<String>,
     /// Its `<desc>`.
     pub desc: Option<Arc<Text>>,
+    /// Where a `<desc>` can be inserted, if it has none.
+    pub desc_slot: Option<DescSlot>,
+}
+
+/// Where a description can be inserted into an element.
+#[derive(Debug, Clone)]
+pub struct DescSlot {
+    /// The place behind the start tag, or the `/>` that ends it.
+    pub span: Span,
+    /// The prefix of the element's tag with its colon; usually empty.
+    pub prefix: Box<str>,
 }
 
 /// The paint of a shape.

@@ -23,6 +23,12 @@ pub struct StrokeSource {
 }
 
 impl StrokeSource {
+    /// The width of the stroke, drawing units; the mean of all directions if it is not scaled evenly.
+    pub fn width(&self) -> f64 {
+        let scale = self.transform.matrix2.determinant().abs().sqrt();
+        f64::from(self.stroke.width) * scale
+    }
+
     /// The centre line of the stroke as line segments that deviate by at most `tolerance` drawing units, or by a
     /// hundred-thousandth of its extent. Gaps of dashes are filled.
     pub fn middle_line(&self, tolerance: f64, mut each: impl FnMut(DVec2, DVec2)) {

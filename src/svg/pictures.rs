@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::DVec2;
 use rayon::prelude::*;
 
 use super::image::{PictureSource, Traced};
@@ -11,11 +12,12 @@ use crate::diagnostic::{Code, Diagnostic};
 /// Gives pictures their outlines and paints, except in groups that are marked in `left`. A picture that cannot be
 /// read is reported and removed from the drawing.
 pub(super) fn trace(drawing: &mut Drawing, left: &[bool], diagnostics: &mut Vec<Diagnostic>) {
+    let page = drawing.page;
     let shapes = drawing.shapes.par_iter_mut();
     let traced: Vec<(bool, Option<Diagnostic>)> = shapes
         .map(|shape| match &shape.picture {
             Some(_) if left[shape.group] => (true, None),
-            Some(picture) => one(&Arc::clone(picture), shape),
+            Some(picture) => one(&Arc::clone(picture), shape, page),
             None => (true, None),
         })
         .collect();
@@ -25,7 +27,11 @@ pub(super) fn trace(drawing: &mut Drawing, left: &[bool], diagnostics: &mut Vec<
 }
 
 /// Turns one picture into a part. Returns whether that is possible, and the diagnostic if there is one.
-fn one(picture: &PictureSource, shape: &mut Shape) -> (bool, Option<Diagnostic>) {
+fn one(
+    picture: &PictureSource,
+    shape: &mut Shape,
+    page: (DVec2, DVec2),
+) -> (bool, Option<Diagnostic>) {
     let Traced {
         outline,
         color,
@@ -38,8 +44,8 @@ fn one(picture: &PictureSource, shape: &mut Shape) -> (bool, Option<Diagnostic>)
         }
     };
     let finding = outline.polygons.is_empty().then(|| {
-        let name = shape.element.describe();
-        let message = format!("nothing opaque is left of the picture {name}");
+        let name = shape.describe(page);
+        let message = format!("nothing opaque is left of {name}");
         Diagnostic::new(Code::Vanishes, shape.element.span, message)
             .help("delete it, or enlarge its clip")
     });

@@ -4,15 +4,17 @@ use std::sync::{Arc, Mutex};
 
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
-use roxmltree::Node;
+use roxmltree::{Node, NodeId};
+use rustc_hash::FxHashMap;
 
 use super::elements::{Ids, element, labels};
 use super::links::{options, report_links, unusable};
 use super::paths::{StrokeSource, affine, bez_path, open_line, rings};
 use super::prepare::Prepared;
 use super::style::Styles;
+use super::unsolid::Who;
 use super::walk::{Leaf, Task, Walk};
-use super::{Drawing, Element, Paint, PaintKey, PictureSource, Shape, growth};
+use super::{Drawing, Element, Paint, PaintKey, PictureSource, Shape, growth, unseen};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{FillRule, Outline, resolve_overlaps};
 use crate::resolver::Resolver;
@@ -36,12 +38,13 @@ pub(super) fn read(
         false => None,
     };
     // usvg uses one core; the texts, which it does not read, need only the XML.
-    let (tree, (labels, by_id)) = rayon::join(
+    let (tree, (labels, by_id, unseen)) = rayon::join(
         || usvg::Tree::from_xmltree(document, &options(resolver, &broken_links)),
         || {
             (
                 labels(document, &styles, prepared),
                 early_ids.unwrap_or_else(|| Ids::read(document, prepared)),
+                unseen::read(document, &styles, prepared),
             )
         },
     );
@@ -59,10 +62,11 @@ pub(super) fn read(
         by_id,
         group_of: vec![usize::MAX; document.descendants().count() + 1],
         groups: Vec::new(),
+        frames: FxHashMap::default(),
         tasks: Vec::new(),
         tolerance,
         page: DAffine2::from_translation(offset),
-        diagnostics,
+        unsolid: Vec::new(),
     };
     walk.group(document.root_element());
     let root = document.root_element().id();
@@ -76,6 +80,8 @@ pub(super) fn read(
         tasks,
         page,
         by_id,
+        group_of,
+        unsolid,
         ..
     } = walk;
     let size = DVec2::new(
@@ -88,6 +94,7 @@ pub(super) fn read(
         prepared,
         by_id,
         page,
+        page_box: (offset, size),
         tolerance,
     };
     let found = Mutex::new(Vec::new());
@@ -102,6 +109,14 @@ pub(super) fn read(
             shape
         })
         .collect();
+    let mut shape_of_node: FxHashMap<NodeId, usize> = FxHashMap::default();
+    if !unsolid.is_empty() {
+        let drawn = tasks.iter().zip(&made).filter(|(_, shape)| shape.is_some());
+        let drawn = drawn
+            .enumerate()
+            .map(|(index, (task, _))| (task.xml, index));
+        shape_of_node.extend(drawn);
+    }
     drop(tasks);
     // Dropping a large tree takes a tenth of the time of building it: nobody needs to wait for that.
     crate::threads::run_aside(move || drop(tree));
@@ -110,13 +125,23 @@ pub(super) fn read(
     diagnostics.extend(found.into_iter().map(|(_, finding)| finding));
     let mut shapes = Vec::with_capacity(made.len());
     made.into_iter().for_each(|shape| shapes.extend(shape));
-    Ok(Drawing {
+    let drawing = Drawing {
         page: (offset, size),
         groups,
         shapes,
         labels,
+        unseen,
         pixel_groups: None,
-    })
+    };
+    let who = |node: NodeId| match shape_of_node.get(&node) {
+        Some(shape) => Who::Shape(*shape),
+        None => Who::Group(group_of[node.get_usize()].min(drawing.groups.len() - 1)),
+    };
+    for (feature, nodes) in unsolid {
+        let users: Vec<Who> = nodes.into_iter().map(who).collect();
+        diagnostics.push(feature.report(&drawing, &users));
+    }
+    Ok(drawing)
 }
 
 fn page_corner(document: &roxmltree::Document<'_>) -> DVec2 {
@@ -136,6 +161,8 @@ pub(super) struct Context<'a, 'input> {
     pub(super) prepared: &'a Prepared,
     pub(super) by_id: Ids<'a>,
     pub(super) page: DAffine2,
+    /// The minimum corner and the size of the page.
+    pub(super) page_box: (DVec2, DVec2),
     pub(super) tolerance: f64,
 }
 
@@ -170,7 +197,8 @@ impl Context<'_, '_> {
         let whole = bez_path(path.data(), self.page * affine(path.abs_transform()));
         let whole = resolve_overlaps(rings(&whole, self.tolerance), FillRule::NonZero);
         (!whole.polygons.is_empty()).then(|| {
-            let message = format!("its clip leaves nothing of {}", shape.element.describe());
+            let name = shape.describe_as(&whole, self.page_box);
+            let message = format!("its clip leaves nothing of {name}");
             Diagnostic::new(Code::Vanishes, shape.element.span, message)
                 .help("release the clip, or delete the shape")
         })

@@ -6,67 +6,84 @@ use glam::{DAffine2, DMat2, DVec2};
 use roxmltree::Node;
 
 use super::prepare::{Prepared, character};
+use super::separate::start_tag_of;
 use super::style::Styles;
 use crate::source::{Form, Span, Text};
 
 /// The height of a line above its baseline, as a fraction of the font size.
 const ASCENT: f64 = 0.8;
 /// The distance between baselines, as a multiple of the font size.
-const LINE_HEIGHT: f64 = 1.25;
+pub(super) const LINE_HEIGHT: f64 = 1.25;
+/// The height above the baseline of the points by which a text is bound, as a fraction of the font size.
+const POINT_HEIGHT: f64 = 0.35;
+/// How far from the ends of the line the first and the last of them are, as a fraction of the font size.
+const POINT_INSET: f64 = 0.3;
 
 /// A visible text.
 #[derive(Debug, Clone)]
 pub struct Label {
     /// Its characters.
     pub text: Arc<Text>,
-    /// The top left corner of its first line, user units.
-    pub corner: DVec2,
-    /// The bounding box of all its lines in user units: minimum and maximum corner.
-    pub bounds: (DVec2, DVec2),
+    /// Where it is on the page.
+    pub position: TextPosition,
     /// The font size on the page, user units.
     pub font_size: f64,
     /// The element's `id`.
     pub id: Option<String>,
     /// The element.
     pub element: Span,
+    /// Its start tag, without its brackets; empty for flowed text.
+    pub(super) start_tag: Arc<str>,
     /// The inputs of its position.
     pub(super) frame: Frame,
+}
+
+/// Where a text is on the page, user units. No font is loaded: widths are estimates.
+#[derive(Debug, Clone, Copy)]
+pub struct TextPosition {
+    /// The top left corner of its first line.
+    pub corner: DVec2,
+    /// The bounding box of all its lines: minimum and maximum corner.
+    pub bounds: (DVec2, DVec2),
+    /// The beginning, the middle and the end of its first line, at half the height of lower-case letters: what a person points
+    /// at with it.
+    pub points: [DVec2; 3],
 }
 
 /// The inputs of a text's position, besides its characters.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame {
     /// The base point of its first line, in the element's own coordinates.
-    base: DVec2,
+    pub(super) base: DVec2,
     /// The anchor: which point of the line is at the base point.
-    anchor: Anchor,
+    pub(super) anchor: Anchor,
     /// The font size, in the element's own coordinates.
-    size: f64,
+    pub(super) size: f64,
     /// Maps the element's own coordinates to the page.
     transform: DAffine2,
 }
 
 /// The point of a text's first line that is at its position (`text-anchor`).
 #[derive(Debug, Clone, Copy)]
-enum Anchor {
+pub(super) enum Anchor {
     Start,
     Middle,
     End,
 }
 
 impl Frame {
-    /// The top left corner and the bounding box of `text`; `None` if the position is not finite.
-    pub(super) fn place(&self, text: &str) -> Option<(DVec2, (DVec2, DVec2))> {
+    /// The position of `text`; `None` if it is not finite.
+    pub(super) fn place(&self, text: &str) -> Option<TextPosition> {
         let Self { base, size, .. } = *self;
-        let widths = text.split('\n').map(|line| width(line) * size);
-        let width = widths.fold(0.0, f64::max);
-        let left = match self.anchor {
+        let left = |width: f64| match self.anchor {
             Anchor::Start => base.x,
             Anchor::Middle => base.x - width / 2.0,
             Anchor::End => base.x - width,
         };
+        let widths = text.split('\n').map(|line| box_width(line) * size);
+        let width = widths.fold(0.0, f64::max);
         let lines = text.split('\n').count() as f64;
-        let top_left = DVec2::new(left, base.y - ASCENT * size);
+        let top_left = DVec2::new(left(width), base.y - ASCENT * size);
         let bottom_right = top_left + DVec2::new(width, (1.0 + LINE_HEIGHT * (lines - 1.0)) * size);
         let corners = [
             top_left,
@@ -78,7 +95,18 @@ impl Frame {
         let corner = corners[0];
         let low = corners.iter().copied().fold(corner, DVec2::min);
         let high = corners.iter().copied().fold(corner, DVec2::max);
-        corner.is_finite().then_some((corner, (low, high)))
+        let first = text.lines().map(str::trim).find(|line| !line.is_empty());
+        let width = text_width(first.unwrap_or_default()) * size;
+        let inset = (POINT_INSET * size).min(width / 2.0);
+        let points = [inset, width / 2.0, width - inset].map(|along| {
+            let point = DVec2::new(left(width) + along, base.y - POINT_HEIGHT * size);
+            self.transform.transform_point2(point)
+        });
+        corner.is_finite().then_some(TextPosition {
+            corner,
+            bounds: (low, high),
+            points,
+        })
     }
 }
 
@@ -99,14 +127,14 @@ pub(super) fn read(node: Node<'_, '_>, styles: &Styles<'_>, prepared: &Prepared)
         size,
         transform: page_transform(node),
     };
-    let (corner, bounds) = frame.place(text.as_str())?;
+    let position = frame.place(text.as_str())?;
     Some(Label {
         text: Arc::new(text),
-        corner,
-        bounds,
+        position,
         font_size: size * frame.transform.matrix2.determinant().abs().sqrt(),
         id: node.attribute("id").map(str::to_owned),
         element: prepared.span(node.range()),
+        start_tag: start_tag_of(node, prepared),
         frame,
     })
 }
@@ -309,12 +337,36 @@ fn number(node: Node<'_, '_>, name: &str) -> Option<f64> {
     })
 }
 
-/// The estimated width of a line in font sizes: one half per character, one for wide characters.
-fn width(line: &str) -> f64 {
+/// The width of a line's box in font sizes: one half per character, one for wide characters.
+fn box_width(line: &str) -> f64 {
     use unicode_width::UnicodeWidthChar;
     line.chars()
         .map(|c| c.width().unwrap_or(0) as f64 * 0.5)
         .sum()
+}
+
+/// How much wider than Helvetica the usual sans-serif fonts are on average.
+const WIDER: f64 = 1.04;
+
+/// The widths of the characters from space to `~` in Helvetica (Adobe's font metrics), thousandths of the font size.
+const HELVETICA: [u16; 95] = [
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278,
+    278, // space to /
+    556, 556, 556, 556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, // 0 to ?
+    1015, 667, 667, 722, 722, 667, 611, 778, 722, 278, 500, 667, 556, 833, 722, 778, // @ to O
+    667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469, 556, // P to _
+    333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556, // ` to o
+    556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584, // p to ~
+];
+
+/// The estimated width of a line in font sizes, closer than that of its box.
+pub(super) fn text_width(line: &str) -> f64 {
+    use unicode_width::UnicodeWidthChar;
+    let width = |c: char| match (c as usize).checked_sub(' ' as usize) {
+        Some(index) if index < HELVETICA.len() => WIDER * f64::from(HELVETICA[index]) / 1000.0,
+        _ => c.width().unwrap_or(0) as f64 * 0.5,
+    };
+    line.chars().map(width).sum()
 }
 
 /// Maps an element's own coordinates to the page's user units.

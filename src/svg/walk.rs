@@ -2,15 +2,16 @@
 
 use std::sync::Arc;
 
-use glam::DAffine2;
+use glam::{DAffine2, DVec2};
 use roxmltree::{Node, NodeId};
+use rustc_hash::FxHashMap;
 
 use super::clip::Clip;
-use super::elements::{Ids, element, start_tag};
+use super::elements::{Ids, element};
 use super::paths::affine;
 use super::prepare::Prepared;
+use super::unsolid::Feature;
 use super::{Group, GroupKind};
-use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Outline;
 
 /// A usvg node that becomes a shape.
@@ -36,20 +37,23 @@ pub(super) enum Leaf<'a> {
 }
 
 /// The state of the walk over usvg's tree.
-pub(super) struct Walk<'a, 'input, 'd> {
+pub(super) struct Walk<'a, 'input> {
     pub(super) prepared: &'a Prepared,
     pub(super) root: Node<'a, 'input>,
     pub(super) by_id: Ids<'a>,
     /// For each XML node, the group that it is or is in; `usize::MAX` if unknown.
     pub(super) group_of: Vec<usize>,
     pub(super) groups: Vec<Group>,
+    /// The rectangles that elements are clipped to.
+    pub(super) frames: FxHashMap<NodeId, (DVec2, DVec2)>,
     pub(super) tasks: Vec<Task<'a>>,
     pub(super) tolerance: f64,
     pub(super) page: DAffine2,
-    pub(super) diagnostics: &'d mut Vec<Diagnostic>,
+    /// The elements that use features without a meaning for solids, by feature.
+    pub(super) unsolid: Vec<(Feature, Vec<NodeId>)>,
 }
 
-impl<'a> Walk<'a, '_, '_> {
+impl<'a> Walk<'a, '_> {
     /// The group that an element is, or the innermost group that contains it.
     pub(super) fn group(&mut self, node: Node<'_, '_>) -> usize {
         let slot = node.id().get_usize();
@@ -57,24 +61,14 @@ impl<'a> Walk<'a, '_, '_> {
             return self.group_of[slot];
         }
         let parent = node.parent_element().map(|parent| self.group(parent));
-        let layer = node.attributes().any(|attribute| {
-            attribute.name() == "groupmode"
-                && attribute.namespace().is_some()
-                && attribute.value() == "layer"
-        });
-        let group = match (parent, node.tag_name().name()) {
-            (None, _) => Some(GroupKind::Root),
-            (_, "g") if layer => Some(GroupKind::Layer),
-            (_, "g" | "a" | "switch" | "svg" | "use") => Some(GroupKind::Group),
-            _ => None,
-        };
-        let index = match group {
+        let index = match group_kind(node) {
             None => parent.unwrap_or(0),
             Some(kind) => {
                 let element = element(node, self.prepared);
                 self.groups.push(Group {
                     parent: parent.unwrap_or(0),
                     kind,
+                    frame: self.frames.get(&node.id()).copied(),
                     element,
                 });
                 self.groups.len() - 1
@@ -112,44 +106,42 @@ impl<'a> Walk<'a, '_, '_> {
         opacity: f64,
         clips: Option<&Arc<Vec<Clip>>>,
     ) {
-        let xml = self.by_id.get(group.id()).unwrap_or(xml);
-        if group.mask().is_some() {
-            self.no_solid_meaning(
-                xml,
-                "mask",
-                "the part is built without the mask; cut the shape itself instead",
-            );
+        let own = self.by_id.get(group.id());
+        let user = || {
+            own.or_else(|| self.by_id.get(only_leaf(group)?))
+                .unwrap_or(xml)
+        };
+        let features = [
+            (Feature::Mask, group.mask().is_some()),
+            (Feature::Filter, !group.filters().is_empty()),
+        ];
+        let used = features.into_iter().filter(|(_, used)| *used);
+        let used: Vec<_> = used.map(|(feature, _)| (feature, user())).collect();
+        for (feature, user) in used {
+            let known = self.unsolid.iter_mut().find(|(other, _)| *other == feature);
+            match known {
+                Some((_, users)) => users.push(user),
+                None => self.unsolid.push((feature, vec![user])),
+            }
         }
-        if !group.filters().is_empty() {
-            self.no_solid_meaning(
-                xml,
-                "filter",
-                "the part is built without the filter's effect",
-            );
-        }
+        let xml = own.unwrap_or(xml);
         let opacity = opacity * f64::from(group.opacity().get());
         match group.clip_path() {
             None => self.children(group, xml, opacity, clips),
             Some(clip) => {
                 let mut all = clips.map(|clips| Vec::clone(clips)).unwrap_or_default();
-                all.extend(Clip::read(
+                let own = Clip::read(
                     clip,
                     self.page * affine(group.abs_transform()),
                     self.tolerance,
-                ));
+                );
+                if let Some(frame) = own.first().and_then(Clip::rectangle) {
+                    self.frames.insert(xml, frame);
+                }
+                all.extend(own);
                 self.children(group, xml, opacity, Some(&Arc::new(all)));
             }
         }
-    }
-
-    fn no_solid_meaning(&mut self, xml: NodeId, what: &str, help: &'static str) {
-        let Some(node) = self.root.document().get_node(xml) else {
-            return;
-        };
-        let span = start_tag(node, self.prepared);
-        let message = format!("a {what} has no meaning for solids");
-        self.diagnostics
-            .push(Diagnostic::new(Code::NoSolidMeaning, span, message).help(help));
     }
 
     fn leaf(
@@ -177,5 +169,32 @@ impl<'a> Walk<'a, '_, '_> {
             opacity,
             clips: clips.cloned(),
         });
+    }
+}
+
+/// The kind of group that an element is, if it is one.
+pub(super) fn group_kind(node: Node<'_, '_>) -> Option<GroupKind> {
+    let layer = node.attributes().any(|attribute| {
+        attribute.name() == "groupmode"
+            && attribute.namespace().is_some()
+            && attribute.value() == "layer"
+    });
+    match node.tag_name().name() {
+        _ if node.parent_element().is_none() => Some(GroupKind::Root),
+        "g" if layer => Some(GroupKind::Layer),
+        "g" | "a" | "switch" | "svg" | "use" => Some(GroupKind::Group),
+        _ => None,
+    }
+}
+
+/// The id of the path or the image that is all a group holds. usvg wraps a shape that has a mask or a filter in a group
+/// without an id.
+fn only_leaf(group: &usvg::Group) -> Option<&str> {
+    match group.children() {
+        [usvg::Node::Group(inner)] if inner.id().is_empty() => only_leaf(inner),
+        [usvg::Node::Group(inner)] => Some(inner.id()),
+        [usvg::Node::Path(path)] => Some(path.id()),
+        [usvg::Node::Image(image)] => Some(image.id()),
+        _ => None,
     }
 }

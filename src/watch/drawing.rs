@@ -23,6 +23,7 @@ pub struct Drawing {
     /// The surfaces of the last model.
     surfaces: Memo,
     last: Option<Inputs>,
+    shows_incomplete: bool,
 }
 
 /// The files that a build was made from.
@@ -58,6 +59,7 @@ impl Drawing {
             compiler: Compiler::default(),
             surfaces: Memo::default(),
             last: None,
+            shows_incomplete: options.shows_incomplete,
         }
     }
 
@@ -100,6 +102,10 @@ impl Drawing {
             true => Err(NoModel::Errors),
             false => self.model(&compiled),
         };
+        let incomplete = match compiled.has_errors() && self.shows_incomplete {
+            true => self.incomplete(&compiled),
+            false => None,
+        };
         self.last = Some(Inputs { drawing, linked });
         let times = BuildTimes {
             noticed,
@@ -110,6 +116,7 @@ impl Drawing {
             text,
             compiled,
             model,
+            incomplete,
             times,
         })))
     }
@@ -119,6 +126,12 @@ impl Drawing {
         let Some(last) = &self.last else { return false };
         let mut linked = last.linked.iter();
         last.drawing == drawing && linked.all(|file| file.is_unchanged(&self.resolver))
+    }
+
+    /// What can be built of a drawing with errors, if anything can.
+    fn incomplete(&mut self, compiled: &Compiled) -> Option<export::Model> {
+        let something = !compiled.scene.nodes.is_empty();
+        something.then(|| self.model(compiled).ok()).flatten()
     }
 
     fn model(&mut self, compiled: &Compiled) -> Result<export::Model, NoModel> {

@@ -26,6 +26,8 @@ pub struct Options {
     pub tolerance: f64,
     /// How changes are noticed.
     pub detection: ChangeDetection,
+    /// Whether to build what can be built of drawings with errors, to show it.
+    pub shows_incomplete: bool,
 }
 
 impl Default for Options {
@@ -34,6 +36,7 @@ impl Default for Options {
             root: None,
             tolerance: TOLERANCE,
             detection: ChangeDetection::default(),
+            shows_incomplete: false,
         }
     }
 }
@@ -47,6 +50,8 @@ pub struct Build {
     pub compiled: Compiled,
     /// The model as binary glTF, or why there is none.
     pub model: Result<Model, NoModel>,
+    /// What can be built of a drawing with errors, if that is wanted.
+    pub incomplete: Option<Model>,
     /// When it was built.
     pub times: BuildTimes,
 }

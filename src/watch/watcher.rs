@@ -225,7 +225,7 @@ impl Watched {
                 report(Event::Built(self.drawing.path(), &build));
                 return;
             }
-            Err(ReadError::Missing(_)) if now < due.missing_until => {
+            Err(ReadError::Missing { .. }) if now < due.missing_until => {
                 self.due = retry;
                 return;
             }
@@ -233,7 +233,7 @@ impl Watched {
                 self.due = retry;
                 return;
             }
-            Err(ReadError::Missing(_)) => Failure::Gone,
+            Err(ReadError::Missing { .. }) => Failure::Gone,
             Err(error) => Failure::Unreadable(error.to_string()),
         };
         if self.failure.as_ref() != Some(&failure) {

@@ -152,7 +152,7 @@ for id in check explain preview stop; do has "$SCRATCH/actions" "org.okoshi.$id.
 
 echo "-- entries of the menu"
 cp "$here/human.svg" "$here/fault.svg" "$SCRATCH/"
-entry "$here/human.svg" check "no problems: 15 parts, 12 strings"
+entry "$here/human.svg" check "no problems: 7 parts, 12 strings"
 entry "$here/looks.svg" check "no problems: 9 parts, 10 strings"
 entry "$here/fault.svg" check 'error[E204]: there is no part named `Ubdoy`'
 entry "$here/human.svg" explain '- `Shape`: how the flat outline becomes a solid'

@@ -71,4 +71,4 @@ export class Parts {
 export const isAside = (part: Part): boolean => part.kind === "legend" || part.kind === "unused";
 
 /** Whether okoshi generated the part's name, because no string gives one. */
-export const isAutomatic = (part: Part): boolean => part.string === null && !isAside(part);
+export const isAutomatic = (part: Part): boolean => part.namedBy === "automatic";

@@ -15,6 +15,8 @@ export interface Finding {
   readonly code: string;
   readonly message: string;
   readonly label: string;
+  /** Where it is on the page; empty if that is not known, or if the message says it. */
+  readonly place: string;
   readonly help: readonly string[];
   readonly line: number;
   readonly column: number;
@@ -26,13 +28,24 @@ export interface Finding {
 export type Kind = "main" | "sub" | "legend" | "unused" | "terrain";
 export type Source = "own" | "legend" | "default" | "builtin";
 
+export interface StringOfPart {
+  readonly line: number;
+  readonly column: number;
+  readonly text: string;
+  readonly boundBy: string;
+  /** The other shape that it may mean, if that is uncertain. */
+  readonly mayMean: string | null;
+}
+
 export interface Part {
   readonly name: string;
   /** Null for children of the root, and for parts that are not in the model. */
   readonly parent: string | null;
   readonly kind: Kind;
   readonly element: string;
-  readonly string: { readonly line: number; readonly column: number; readonly text: string; readonly boundBy: string } | null;
+  /** Where its name is from: "string", "label", "id" or "automatic"; null for parts that are not in the hierarchy. */
+  readonly namedBy: string | null;
+  readonly string: StringOfPart | null;
   readonly attributes: readonly { readonly name: string; readonly value: string; readonly from: Source }[];
   readonly joint: string | null;
 }
@@ -74,6 +87,8 @@ export interface Build {
   readonly model: string | null;
   readonly picture: string | null;
   readonly stale: boolean;
+  /** Whether the model is only what can be built of a drawing with errors. */
+  readonly incomplete: boolean;
   readonly triangles: number;
   readonly findings: readonly Finding[];
   readonly parts: readonly Part[];
@@ -138,6 +153,7 @@ function readBuild(raw: Raw): Build {
     model: textOrNull(raw["model"]),
     picture: textOrNull(raw["picture"]),
     stale: raw["stale"] === true,
+    incomplete: raw["incomplete"] === true,
     triangles: number(raw["triangles"]),
     findings: list(raw["findings"]).map(readFinding),
     parts: list(raw["parts"]).map(readPart),
@@ -179,6 +195,7 @@ function readFinding(value: unknown): Finding {
     code: text(raw["code"]),
     message: text(raw["message"]),
     label: text(raw["label"]),
+    place: text(raw["place"]),
     help: list(raw["help"]).map(text),
     line: number(raw["line"]),
     column: number(raw["column"]),
@@ -196,7 +213,14 @@ function readPart(value: unknown): Part {
     parent: textOrNull(raw["parent"]),
     kind: oneOf<Kind>(raw["kind"], ["main", "sub", "legend", "unused", "terrain"], "main"),
     element: text(raw["element"]),
-    string: string && { line: number(string["line"]), column: number(string["column"]), text: text(string["text"]), boundBy: text(string["bound_by"]) },
+    namedBy: textOrNull(raw["named_by"]),
+    string: string && {
+      line: number(string["line"]),
+      column: number(string["column"]),
+      text: text(string["text"]),
+      boundBy: text(string["bound_by"]),
+      mayMean: textOrNull(string["may_mean"]),
+    },
     attributes: Object.entries(object(raw["attributes"])).map(([name, attribute]) => {
       const { value, from } = object(attribute);
       return { name, value: text(value), from: oneOf<Source>(from, ["own", "legend", "default", "builtin"], "builtin") };

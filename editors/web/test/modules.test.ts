@@ -21,12 +21,12 @@ test("unknown messages are dropped, and missing fields become empty", () => {
   assert.equal(build.build.model, null);
   assert.deepEqual(build.build.findings, []);
   assert.deepEqual(build.build.parts, [
-    { name: "Arm", parent: null, kind: "main", element: "", string: null, attributes: [{ name: "Shape", value: "round", from: "own" }], joint: null },
+    { name: "Arm", parent: null, kind: "main", element: "", namedBy: null, string: null, attributes: [{ name: "Shape", value: "round", from: "own" }], joint: null },
   ]);
   assert.deepEqual(read({ type: "light", drawing: "a" }), { type: "light", drawing: "a", part: null });
 });
 
-const part = (name: string, parent: string | null, kind: Part["kind"] = "main"): Part => ({ name, parent, kind, element: `e-${name}`, string: null, attributes: [], joint: null });
+const part = (name: string, parent: string | null, kind: Part["kind"] = "main"): Part => ({ name, parent, kind, element: `e-${name}`, namedBy: null, string: null, attributes: [], joint: null });
 
 test("the hierarchy has every part of the model once", () => {
   const parts = new Parts([part("eye", "Head", "sub"), part("Head", "Body"), part("Body", null), part("Arm", "Body"), part("swatch", null, "legend"), part("old", null, "unused")]);
@@ -71,7 +71,7 @@ test("a long line is cut to the text around the mark", () => {
 });
 
 test("errors come before warnings, warnings before hints, each sorted by line", () => {
-  const finding = (severity: Finding["severity"], line: number): Finding => ({ severity, line, column: 1, code: "", message: "", label: "", help: [], text: "", from: 0, to: 0 });
+  const finding = (severity: Finding["severity"], line: number): Finding => ({ severity, line, column: 1, code: "", message: "", label: "", place: "", help: [], text: "", from: 0, to: 0 });
   const order = sorted([finding("hint", 1), finding("error", 9), finding("warning", 2), finding("error", 3)]).map(({ severity, line }) => `${severity} ${line}`);
   assert.deepEqual(order, ["error 3", "error 9", "warning 2", "hint 1"]);
 });
@@ -141,8 +141,8 @@ test("a drawing keeps its state when the list is sent again", () => {
   const state = new State();
   const listed = [{ id: "a", name: "a.svg", folder: "" }];
   state.receive({ type: "drawings", drawings: listed });
-  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [part("A", null)], clips: [], originals: null } });
-  state.receive({ type: "build", drawing: "nobody", build: { revision: 1, milliseconds: 1, model: null, picture: null, stale: false, triangles: 1, findings: [], parts: [], clips: [], originals: null } });
+  state.receive({ type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, findings: [], parts: [part("A", null)], clips: [], originals: null } });
+  state.receive({ type: "build", drawing: "nobody", build: { revision: 1, milliseconds: 1, model: null, picture: null, stale: false, incomplete: false, triangles: 1, findings: [], parts: [], clips: [], originals: null } });
   state.receive({ type: "drawings", drawings: [...listed, { id: "b", name: "b.svg", folder: "" }] });
   assert.deepEqual(state.list.map(({ id, build }) => [id, build?.revision]), [["a", 1], ["b", undefined]]);
   state.receive({ type: "gone", drawing: "a" });
@@ -152,7 +152,7 @@ test("a drawing keeps its state when the list is sent again", () => {
 test("a build belongs to its connection, even if that is reported open later", () => {
   const state = new State();
   const listed = { type: "drawings", drawings: [{ id: "a", name: "a.svg", folder: "" }] } as const;
-  const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, triangles: 1, findings: [], parts: [], clips: [], originals: null } } as const;
+  const build = { type: "build", drawing: "a", build: { revision: 1, milliseconds: 1, model: "builds/1.glb", picture: null, stale: false, incomplete: false, triangles: 1, findings: [], parts: [], clips: [], originals: null } } as const;
   const isOfNow = () => state.find("a")?.connection === state.connection;
   state.setLink("open");
   state.receive(listed);

@@ -63,7 +63,7 @@ real("a save changes the picture, and the camera stays", "figure.svg", async (pa
   assertLike((await picture(page, "real")).at(await at(page, 140, 180, 0.2)), BLUE, "the body that was saved", 80);
 });
 
-real("an error is shown over the old model until it is fixed", "figure.svg", async (page, folder) => {
+real("an error is shown over what can be built until it is fixed", "figure.svg", async (page, folder) => {
   await shown(page, 1);
   await page.keyboard.press("1");
   save(folder, (text) => text.replace("#ff0000", "#0000ff").replace("Arm@Body", "Arm@Bdoy"));
@@ -72,7 +72,7 @@ real("an error is shown over the old model until it is fixed", "figure.svg", asy
   assert.match(finding, /E204\s+there is no part named Bdoy/);
   assert.equal(await page.locator(".finding mark").first().innerText(), "Bdoy");
   await still(page);
-  assertLike((await picture(page)).at(await at(page, 140, 110, 0.2)), RED, "the old body", 80);
+  assertLike((await picture(page)).at(await at(page, 140, 110, 0.2)), BLUE, "what can be built", 80);
   save(folder, (text) => text.replace("#ff0000", "#0000ff"));
   await page.waitForSelector(".findings[data-open=false]");
   await shown(page);

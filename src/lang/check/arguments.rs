@@ -1,7 +1,7 @@
 //! Matches arguments against the parameters of the table.
 
 use super::Checker;
-use crate::diagnostic::{Code, Diagnostic, nearest_word};
+use crate::diagnostic::{Code, Diagnostic, has_one_near_word, nearest_word};
 use crate::lang::ast::{Argument, ArgumentKind, Name};
 use crate::lang::evaluate::{EvaluationError, Lookup, evaluate};
 use crate::lang::keyword::colours::{self, COLOURS};
@@ -249,12 +249,18 @@ impl Checker<'_> {
         };
         let diagnostic = Diagnostic::new(Code::UnknownWord, span, format!("`{word}` is {what}"));
         let all: Vec<_> = names.clone().map(|name| format!("`{name}`")).collect();
-        let diagnostic = match nearest_word(word, names) {
-            Some(near) => diagnostic.label(format!("did you mean `{near}`?")).fix(
-                format!("Write `{near}`"),
-                span,
-                self.text.escape_at(argument.range.start, near),
-            ),
+        let diagnostic = match nearest_word(word, names.clone()) {
+            Some(near) => {
+                let diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
+                    format!("Write `{near}`"),
+                    span,
+                    self.text.escape_at(argument.range.start, near),
+                );
+                match has_one_near_word(word, names) {
+                    true => diagnostic.safe(),
+                    false => diagnostic,
+                }
+            }
             None if all.len() > 20 => {
                 diagnostic.help("write a CSS colour name, `#rrggbb`, or three numbers from 0 to 1")
             }
@@ -380,7 +386,8 @@ impl Checker<'_> {
                     span,
                     self.text
                         .escape_at(argument.range.start, &format!("\"{written}\"")),
-                );
+                )
+                .safe();
         } else {
             diagnostic = diagnostic.help(format!("write `{}`", callee.usage()));
         }

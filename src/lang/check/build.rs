@@ -100,12 +100,15 @@ impl Checker<'_> {
         let range = first.range.start..last.range.end;
         let span = self.text.span(range.clone());
         let message = "red, green and blue go from 0 to 1, not from 0 to 255";
-        self.diagnostics
-            .push(Diagnostic::new(Code::OutOfRange, span, message).fix(
-                format!("Write `#{digits}`"),
-                span,
-                self.text.escape_at(range.start, &format!("#{digits}")),
-            ));
+        self.diagnostics.push(
+            Diagnostic::new(Code::OutOfRange, span, message)
+                .fix(
+                    format!("Write `#{digits}`"),
+                    span,
+                    self.text.escape_at(range.start, &format!("#{digits}")),
+                )
+                .safe(),
+        );
         true
     }
 
@@ -224,6 +227,7 @@ impl Checker<'_> {
             diagnostic.fixes.push(Fix {
                 title: "Swap the angles".to_owned(),
                 edits: vec![edit(second, first), edit(first, second)],
+                safe: false,
             });
         }
         self.diagnostics.push(diagnostic);

@@ -39,8 +39,8 @@ static DEFINITION: [Parameter; 2] = [
     number("value", Bounds::ANY, "its value"),
 ];
 static BIND_WORD: [Parameter; 1] = [Parameter {
-    name: "distance",
-    summary: "what the distance is measured to",
+    name: "rule",
+    summary: "how strings find their parts",
     takes: Takes::Choice(&vocabulary::BIND),
 }];
 static STROKES_WORD: [Parameter; 1] = [Parameter {
@@ -94,21 +94,26 @@ pub(super) static LET: Row = Row {
 
 pub(super) static BIND: Row = Row {
     forms: &[Form::new(&BIND_WORD, &[1])],
-    default: "center",
+    default: "meant",
     summary: "how a string finds its part",
-    long: "A string that is not grouped with its part belongs to the nearest part. `center` \
-           measures the distance to the parts' centres, `outline` to their outlines, which is \
-           better for parts that are long or lie inside each other.",
-    example: "%Bind outline",
+    long: "`meant`: a string that is not grouped with its part belongs to the part that it lies on, \
+           else to one near it, and all strings share out the parts so that together they are \
+           nearest to them. `center` is the paper's rule: the nearest pairs of a string's top left \
+           corner and a part's centre. `outline` measures the distance to outlines instead.",
+    example: "%Bind center",
     ..Row::DRAWING
 };
 
 pub(super) static STROKES: Row = Row {
     forms: &[Form::new(&STROKES_WORD, &[1])],
-    default: "none in annotated drawings, lines in others",
-    summary: "which strokes become parts",
-    long: "Normally lines are guides, and only filled shapes are parts. `lines` also makes parts \
-           of lines without a fill, `all` of the borders of filled shapes as well.",
-    example: "%Strokes lines",
+    default: "lines on parts",
+    summary: "which strokes are built",
+    long: "A line without a fill that is drawn on a part is ink: it lies on the part's surface and \
+           moves with it, like a mouth on a face. Lines beside all parts are guides; in drawings \
+           without strings they are parts, and `lines` makes them parts here too. `all` does the \
+           same and adds the outlines of filled shapes, as ink on these. `none` leaves all strokes \
+           out. A line that is grouped with a string, or has one as its description, is a part in \
+           any case, and a line that leads from a string to a part never is.",
+    example: "%Strokes all",
     ..Row::DRAWING
 };

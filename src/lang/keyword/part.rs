@@ -104,10 +104,11 @@ pub(super) static OFFSET: Row = Row {
 
 pub(super) static ORIGIN: Row = Row {
     forms: &[Form::new(&ORIGIN_WORD, &[1]), Form::new(&POINT, &[2])],
-    default: "the part's centre or one of its two ends, whichever is nearest to the parent's centre",
+    default: "the part's centre or one of its two ends, whichever is nearest to the parent's centre; of a limb the end at its parent",
     summary: "the point about which the part turns",
     long: "A part turns about its origin: an arm about the shoulder, a wheel about its hub. okoshi \
-           guesses the origin from the parent. Where the guess is wrong, write `center`, `start` \
+           guesses the origin from the parent; a limb by its name, such as `Rarm` or `Tail`, turns about \
+           the end at its parent. Where the guess is wrong, write `center`, `start` \
            (the end nearer to the parent), `end` (the other end), or give the point itself in \
            drawing units.",
     example: "Rarm@Ubody$Origin start",

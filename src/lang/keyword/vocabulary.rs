@@ -30,7 +30,11 @@ pub static GROUND: [Word; 2] = [
 ];
 
 /// The words of `Bind`.
-pub static BIND: [Word; 2] = [
+pub static BIND: [Word; 3] = [
+    word(
+        "meant",
+        "a string belongs to the part that it lies on, else to one near it",
+    ),
     word(
         "center",
         "a string belongs to the part with the nearest centre",
@@ -44,10 +48,13 @@ pub static BIND: [Word; 2] = [
 /// The words of `Strokes`.
 pub static STROKES: [Word; 3] = [
     word("none", "strokes are guides, not parts"),
-    word("lines", "lines without a fill are parts"),
+    word(
+        "lines",
+        "lines without a fill are ink on the parts that they lie on; beside all parts they are parts",
+    ),
     word(
         "all",
-        "lines without a fill and the borders of filled shapes are parts",
+        "the same, and the outlines of filled shapes are ink on them",
     ),
 ];
 

@@ -240,11 +240,9 @@ impl Parser<'_> {
         let span = self.span(start..self.at);
         let fixed = format!("({written})");
         let message = format!("the calculation `{}` needs parentheses", shorten(written));
-        let diagnostic = Diagnostic::new(Code::BadExpression, span, message).fix(
-            "Put it in parentheses",
-            span,
-            self.escape(start, &fixed),
-        );
+        let diagnostic = Diagnostic::new(Code::BadExpression, span, message)
+            .fix("Put it in parentheses", span, self.escape(start, &fixed))
+            .safe();
         self.report(diagnostic);
         ArgumentKind::Unreadable
     }

@@ -129,11 +129,13 @@ impl Parser<'_> {
                 "\"{}\"",
                 written.split_whitespace().collect::<Vec<_>>().join(" ")
             );
-            diagnostic = diagnostic.fix(
-                "Put the name in quotes",
-                self.span(range.clone()),
-                self.escape(range.start, &quoted),
-            );
+            diagnostic = diagnostic
+                .fix(
+                    "Put the name in quotes",
+                    self.span(range.clone()),
+                    self.escape(range.start, &quoted),
+                )
+                .safe();
         }
         self.report(diagnostic);
         Some(self.take_name(written, written.len()))
@@ -201,7 +203,7 @@ impl Parser<'_> {
             // Words are found from left to right, so each search begins after the previous word.
             let at = from + written[from..].find(word)?;
             from = at + word.len();
-            if at > 0 && Keyword::from_name(word).is_some() {
+            if at > 0 && Keyword::from_name(word.trim_end_matches([':', '='])).is_some() {
                 let name = written[..at].trim_end();
                 if !name.chars().all(is_name_char) {
                     return None;
@@ -222,7 +224,8 @@ impl Parser<'_> {
         let message = format!("`$` is missing before `{word}`");
         let diagnostic = Diagnostic::new(Code::MissingSign, self.span(at..at + length), message)
             .label("attributes come after `$`")
-            .fix("Insert `$`", self.span(at..at), self.escape(at, "$"));
+            .fix("Insert `$`", self.span(at..at), self.escape(at, "$"))
+            .safe();
         self.report(diagnostic);
         // A `$` further on belongs to the same mistake.
         self.sign_reported = true;

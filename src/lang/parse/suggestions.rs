@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::lexical;
 use super::names::shorten;
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, has_one_near_word};
 use crate::lang::ast::{Argument, ArgumentKind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::{Keyword, colours, kinds, vocabulary};
@@ -39,12 +39,17 @@ pub(in crate::lang) fn unknown_keyword(
     if let Some(keyword) = Keyword::from_name(head) {
         let better = format!("{} {tail}", keyword.name());
         let diagnostic = diagnostic.label("put only a space after a keyword");
-        return write(diagnostic, better.trim_end());
+        return write(diagnostic, better.trim_end()).safe();
     }
     let owner = owner_of(found);
     if let (None, Some((keyword, _))) = (owner, Keyword::nearest(found)) {
         let name = keyword.name();
-        return write(diagnostic.label(format!("did you mean `{name}`?")), name);
+        let diagnostic = write(diagnostic.label(format!("did you mean `{name}`?")), name);
+        let names = Keyword::ALL.iter().map(|keyword| keyword.name());
+        return match has_one_near_word(found, names) {
+            true => diagnostic.safe(),
+            false => diagnostic,
+        };
     }
     match owner {
         Some(owner) => {
@@ -125,7 +130,7 @@ pub(super) fn malformed(
         let diagnostic = location
             .diagnostic(format!("the file name `{shown}` needs quotes"))
             .help("a file name with spaces or punctuation needs quotes");
-        return location.write(diagnostic, &format!("\"{run}\""));
+        return location.write(diagnostic, &format!("\"{run}\"")).safe();
     }
     if run.starts_with(['“', '”', '„', '«', '»', '‘', '’']) {
         let diagnostic = location
@@ -134,7 +139,7 @@ pub(super) fn malformed(
         let inner = run.trim_matches(['“', '”', '„', '«', '»', '‘', '’']);
         let closed = run.ends_with(['“', '”', '«', '»', '‘', '’']) && !inner.is_empty();
         return match closed {
-            true => location.write(diagnostic, &format!("\"{inner}\"")),
+            true => location.write(diagnostic, &format!("\"{inner}\"")).safe(),
             false => diagnostic,
         };
     }
@@ -142,7 +147,7 @@ pub(super) fn malformed(
     if ascii != run && lexical::is(&ascii, lexical::number) {
         let diagnostic =
             location.diagnostic(format!("`{shown}` does not start with a plain minus sign"));
-        return location.write(diagnostic, &ascii);
+        return location.write(diagnostic, &ascii).safe();
     }
     if let Some(word) = run.strip_prefix('-')
         && lexical::is(word, lexical::word)

@@ -73,6 +73,13 @@ fn strings_are_distinguished_from_other_texts() {
         "Arm$",
         "\"Left arm\"@Body",
         "Ａ＠Ｂ",
+        "\n  %Scale 2",
+        "Arm $Shape round",
+        "Left arm$Shape round",
+        "Arm　＄Ｓｈａｐｅ　ｒｏｕｎｄ",
+        "\"Left arm\" $ Color red",
+        "Arm @ Body",
+        "Arm @Body $Shape round",
     ] {
         assert!(looks_like_string(text), "{text}");
     }
@@ -85,6 +92,9 @@ fn strings_are_distinguished_from_other_texts() {
         "to me@home",
         "\"quoted\"",
         "5 $",
+        "costs $5",
+        "see you @ 5 pm",
+        "write @ anne and bob",
         "(a)@b",
     ] {
         assert!(!looks_like_string(text), "{text}");

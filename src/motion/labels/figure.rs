@@ -4,8 +4,8 @@ use glam::DVec2;
 
 use super::part_tree::PartTree;
 use super::placement::{self, Front};
-use super::vocabulary::{self, Term};
 use super::{Class, Facing, Label, Piece, Side, pieces};
+use crate::anatomy::{self, Term};
 use crate::motion::figure::Figure;
 
 /// An unnamed arm is at least this share of the figure's height long.
@@ -84,7 +84,7 @@ pub(crate) fn label_facing(figure: &Figure) -> (Vec<Option<Label>>, Facing) {
 
 fn by_name(name: &str) -> PartDraft {
     use Term as T;
-    let terms = vocabulary::terms(name);
+    let terms = anatomy::terms(name);
     let mut draft = PartDraft {
         terms,
         ..PartDraft::default()

@@ -1,10 +1,9 @@
 //! Finds the limbs of a skeleton by the names of its joints.
 
 use super::joint_tree::JointTree;
-use super::name_words;
 use super::skeleton::plain_names;
-use super::vocabulary::{self, Term};
 use super::{Class, Piece, Side};
+use crate::anatomy::{self, Term, name_words};
 use crate::motion::skeleton::Skeleton;
 
 /// How many limbs of one name are tried; meaningful names do not repeat so often.
@@ -61,7 +60,7 @@ fn name(name: &str) -> Option<JointName> {
     if name.starts_with("__") {
         return Some(JointName::Helper);
     }
-    let terms = vocabulary::terms(name);
+    let terms = anatomy::terms(name);
     let has = |term: Term| terms.contains(&term);
     let any = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
     let finger = has(T::Middle) && !any(&[T::Body, T::Chest, T::Belly, T::Back, T::Neck]);

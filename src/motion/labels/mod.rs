@@ -1,12 +1,11 @@
 //! Labels for the joints of a skeleton and the parts of a figure: head, arm or leg, which side, which piece of it.
 //!
 //! Both are labelled by name first, and by shape where names say nothing: [`label_skeleton`] and [`label_figure`]. A label
-//! keeps the reason for it. All tables of words are in `words`.
+//! keeps the reason for it. All tables of words are in `anatomy`.
 
 mod figure;
 mod joint_names;
 mod joint_tree;
-mod name_words;
 mod part_tree;
 mod pieces;
 mod placement;
@@ -14,7 +13,6 @@ mod sides;
 mod skeleton;
 mod topology;
 mod trunk;
-mod vocabulary;
 
 #[cfg(test)]
 pub(crate) mod tests;

@@ -2,8 +2,8 @@
 
 use super::figure::PartDraft;
 use super::part_tree::PartTree;
-use super::vocabulary::Term;
 use super::{Class, Piece};
+use crate::anatomy::Term;
 
 /// A limb of a figure.
 #[derive(Debug)]

@@ -5,8 +5,8 @@ use glam::DVec2;
 use super::figure::{PartDraft, is_trunk};
 use super::part_tree::PartTree;
 use super::pieces::Limb;
-use super::vocabulary::Term;
 use super::{Class, Facing, Side};
+use crate::anatomy::Term;
 
 /// The direction that a figure faces, and the middle of its trunk.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,8 +5,8 @@ use super::joint_tree::JointTree;
 use super::sides::Sides;
 use super::topology;
 use super::trunk;
-use super::vocabulary::Term;
-use super::{Class, Label, Piece, Side, Tip, name_words, vocabulary};
+use super::{Class, Label, Piece, Side, Tip};
+use crate::anatomy::{self, Term, name_words};
 use crate::motion::skeleton::{Clip, Skeleton, Transform};
 
 /// How many frames of a clip are used where its shape has to tell left from right.
@@ -91,7 +91,7 @@ pub(crate) fn plain_names(skeleton: &Skeleton) -> Vec<&str> {
         .iter()
         .map(|joint| joint.name.as_str())
         .collect();
-    name_words::without_prefixes(&names, |prefix| !vocabulary::terms(prefix).is_empty())
+    name_words::without_prefixes(&names, |prefix| !anatomy::terms(prefix).is_empty())
 }
 
 fn anatomy(skeleton: &Skeleton, poses: impl FnOnce() -> Vec<Vec<Transform>>) -> Anatomy {
@@ -272,7 +272,7 @@ fn middle_finger(skeleton: &Skeleton, tree: &JointTree, hand: usize) -> Option<u
         .iter()
         .copied()
         .filter(|joint| tree.bones[*joint] > 0.0 && !name(*joint).starts_with("__"))
-        .find(|joint| vocabulary::terms(name(*joint)).contains(&Term::Middle))
+        .find(|joint| anatomy::terms(name(*joint)).contains(&Term::Middle))
 }
 
 fn write_labels(

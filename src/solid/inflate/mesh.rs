@@ -17,11 +17,11 @@ const MAX_ROUNDS: usize = 3;
 const NOTHING: f64 = 1e-40;
 
 /// Triangles in the plane, at their final positions.
-pub(super) struct Mesh {
-    pub(super) points: Vec<[f32; 2]>,
+pub(in crate::solid) struct Mesh {
+    pub(in crate::solid) points: Vec<[f32; 2]>,
     /// Counter-clockwise, all with area; each has a point off the border.
-    pub(super) triangles: Vec<[u32; 3]>,
-    pub(super) on_border: Vec<bool>,
+    pub(in crate::solid) triangles: Vec<[u32; 3]>,
+    pub(in crate::solid) on_border: Vec<bool>,
 }
 
 type Delaunay = ConstrainedDelaunayTriangulation<Vertex>;
@@ -39,7 +39,7 @@ impl HasPosition for Vertex {
 }
 
 /// Joins points by a Delaunay triangulation that keeps the border's edges.
-pub(super) fn mesh(points: &Points, transform: &PlacementTransform) -> Mesh {
+pub(in crate::solid) fn mesh(points: &Points, transform: &PlacementTransform) -> Mesh {
     let mut known: FxHashMap<[u32; 2], usize> = FxHashMap::default();
     let mut vertices: Vec<Vertex> = Vec::with_capacity(points.points.len());
     let ids: Vec<usize> = points

@@ -11,6 +11,9 @@ mod poisson;
 
 use glam::DVec2;
 
+pub(super) use mesh::{Mesh, mesh};
+pub(super) use points::Points;
+
 use super::Options;
 use super::crease::Crease;
 use super::layers::{MIN_THICKNESS, steps_per_half_turn};
@@ -36,7 +39,7 @@ pub(super) fn inflate(
     let most = height(given, half);
     let transform = PlacementTransform::new(options);
     let points = points::points(outline, steps_per_half_turn(options));
-    let mesh = mesh::mesh(&points, &transform);
+    let mesh = mesh(&points, &transform);
     let Some(first) = mesh.points.first() else {
         return Surface::default();
     };

@@ -38,10 +38,10 @@ const ALONG: f64 = 0.8;
 const LEAST_ALONG: f64 = 0.25;
 
 /// Points in the part's frame: those of the border, then those inside.
-pub(super) struct Points {
-    pub(super) points: Vec<DVec2>,
+pub(in crate::solid) struct Points {
+    pub(in crate::solid) points: Vec<DVec2>,
     /// Edges of the border, as drawn or parts of these; the filled side is on the left.
-    pub(super) edges: Vec<[usize; 2]>,
+    pub(in crate::solid) edges: Vec<[usize; 2]>,
 }
 
 /// A line of points from the border inward.

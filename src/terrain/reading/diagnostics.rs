@@ -51,7 +51,8 @@ pub(super) fn empty(
     layer: usize,
     holds: bool,
 ) -> Diagnostic {
-    let element = &drawing.groups[bindings.layers[layer].group].element;
+    let group = bindings.layers[layer].group;
+    let element = &drawing.groups[group].element;
     let name = &bindings.layers[layer].name;
     let (message, help) = match holds {
         true => (
@@ -63,7 +64,7 @@ pub(super) fn empty(
         false => (
             format!(
                 "the tile layer `{name}` has no tiles: nothing is painted in {}",
-                element.describe()
+                drawing.describe_group(group)
             ),
             "put the string into the group or layer that contains the tiles",
         ),

@@ -55,8 +55,14 @@ export class Findings {
     this.errors = errors;
 
     this.element.hidden = !build;
-    this.stale.hidden = !build?.stale;
-    this.stale.textContent = build?.stale ? (build.model === null ? "No model yet: the drawing has errors." : "The drawing has errors: this is the last good model.") : "";
+    this.stale.hidden = !build?.stale && !build?.incomplete;
+    this.stale.textContent = build?.incomplete
+      ? "Incomplete: the drawing has errors, and this is what can be built."
+      : build?.stale
+        ? build.model === null
+          ? "No model yet: the drawing has errors."
+          : "The drawing has errors: this is the last good model."
+        : "";
     fill(
       this.toggle,
       ...(["error", "warning", "hint"] as const).map((severity) => badge(severity, findings)),
@@ -83,7 +89,7 @@ export class Findings {
   }
 
   private item(finding: Finding): HTMLElement {
-    const { severity, code, message, label, help, line, column } = finding;
+    const { severity, code, message, label, place, help, line, column } = finding;
     const { before, marked, after } = excerpt(finding);
     return h(
       "li",
@@ -92,7 +98,7 @@ export class Findings {
         "button",
         { class: "finding-main", attributes: { type: "button" }, on: { click: () => this.go(finding) } },
         icon(ICONS[severity]),
-        h("span", { class: "finding-message" }, h("span", { class: "code", title: severity }, code), " ", ...inCode(message)),
+        h("span", { class: "finding-message" }, h("span", { class: "code", title: severity }, code), " ", ...inCode(message), place !== "" && h("span", { class: "muted" }, `, ${place}`)),
         h("span", { class: "place", title: `line ${line}, column ${column}` }, `${line}:${column}`),
         (before + marked + after).trim() !== "" && h("code", { class: "excerpt" }, before, h("mark", {}, marked || " "), after),
         label !== "" && h("span", { class: "finding-label" }, ...inCode(label)),

@@ -1,7 +1,7 @@
 // The properties of the selected part.
 
 import { count, fill, h } from "../dom";
-import { isAside, isAutomatic } from "../parts";
+import { isAside } from "../parts";
 import type { ClipFacts, Part, Source } from "../protocol";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
@@ -15,6 +15,19 @@ const BOUND: Readonly<Record<string, string>> = {
 };
 const FROM: Readonly<Record<Source, string>> = { own: "its string", legend: "a legend", default: "defaults", builtin: "built in" };
 const KIND: Readonly<Record<Part["kind"], string>> = { main: "part", sub: "shape of a part", legend: "legend", unused: "left out", terrain: "landscape" };
+
+/** What is said of a part that has no string. */
+function withoutString({ kind, namedBy }: Part): string {
+  if (kind !== "main") return "No string of its own.";
+  switch (namedBy) {
+    case "label":
+      return "No string: its name is its label.";
+    case "id":
+      return "No string: its name is its id.";
+    default:
+      return "No string: its name and parent are automatic.";
+  }
+}
 
 export class Inspector {
   readonly element = h("section", { class: "inspector", attributes: { "aria-label": "Selected part", "aria-live": "polite" } });
@@ -51,7 +64,7 @@ export class Inspector {
 
   private string(part: Part): HTMLElement {
     if (!part.string) {
-      return h("p", { class: "muted pad" }, isAutomatic(part) && part.kind === "main" ? "No string: its name and parent are automatic." : "No string of its own.");
+      return h("p", { class: "muted pad" }, withoutString(part));
     }
     return h("p", { class: "string" }, h("code", {}, part.string.text));
   }
@@ -59,6 +72,7 @@ export class Inspector {
   private facts(part: Part): HTMLElement {
     const rows: [string, Node | string][] = [];
     if (part.string) rows.push(["Bound", BOUND[part.string.boundBy] ?? part.string.boundBy], ["Line", `${part.string.line}, column ${part.string.column}`]);
+    if (part.string?.mayMean) rows.push(["Uncertain", `it may also mean ${part.string.mayMean}`]);
     if (!isAside(part)) rows.push(["Parent", part.parent === null ? "the root" : this.link(part.parent)]);
     const children = this.state.parts.children(part.name).filter(({ kind }) => kind !== "sub");
     const shapes = this.state.parts.children(part.name).length - children.length;

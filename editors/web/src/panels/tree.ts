@@ -17,6 +17,12 @@ interface Row {
   readonly among: number;
 }
 
+/** What a row says when it is pointed at. */
+function describe({ element, string }: Part): string {
+  if (!string) return `#${element} has no string`;
+  return string.mayMean ? `${string.text}\nIt may also mean ${string.mayMean}.` : string.text;
+}
+
 export class Tree {
   readonly element = h("section", { class: "tree-panel", attributes: { "aria-label": "Parts" } });
   private readonly list = h("div", { class: "tree", attributes: { role: "tree", "aria-label": "Parts of the drawing" } });
@@ -73,7 +79,7 @@ export class Tree {
     if (!rows.some(({ part }) => part.name === this.active)) this.active = rows[0]?.part.name ?? null;
 
     // Most builds change no row, and rebuilding the rows takes longer than loading the model.
-    const words = rows.map(({ part, level, open, place, among }) => [part.name, part.kind, part.element, part.string?.text, part.joint, level, open, place, among]);
+    const words = rows.map(({ part, level, open, place, among }) => [part.name, part.kind, part.element, part.string?.text, part.string?.mayMean, part.namedBy, part.joint, level, open, place, among]);
     const drawn = JSON.stringify([words, this.active, this.state.drawing?.build === null]);
     if (drawn === this.drawn) return this.marks();
     this.drawn = drawn;
@@ -92,12 +98,12 @@ export class Tree {
   private item({ part, level, open, place, among }: Row): HTMLElement {
     const { name, kind } = part;
     const note =
-      kind === "legend" ? "legend" : kind === "unused" ? "left out" : kind === "sub" ? "shape" : kind === "terrain" ? "landscape" : isAutomatic(part) ? "automatic" : part.joint;
+      kind === "legend" ? "legend" : kind === "unused" ? "left out" : kind === "sub" ? "shape" : kind === "terrain" ? "landscape" : isAutomatic(part) ? "automatic" : part.string?.mayMean ? "uncertain" : part.joint;
     const item = h(
       "div",
       {
-        class: `tree-item ${kind}${isAutomatic(part) ? " automatic" : ""}`,
-        title: part.string?.text ?? `#${part.element} has no string`,
+        class: `tree-item ${kind}${isAutomatic(part) ? " automatic" : ""}${part.string?.mayMean ? " uncertain" : ""}`,
+        title: describe(part),
         attributes: {
           role: "treeitem",
           "aria-level": level,

@@ -50,14 +50,18 @@ pub(crate) enum Term {
     LegOrFoot,
     /// Worn, held, or part of a face: it follows its parent.
     Detail,
+    /// Of the details: what belongs to a head.
+    OfHead,
+    /// An ear.
+    Ear,
     /// Only in skeletons: twist, share, finger and end joints, controls.
     Helper,
 }
 
 use Term::{
-    Arm, Back, Belly, Body, Chest, Collar, Detail, Face, Foot, Fore, Hand, Head, Helper, Hind, Hip,
-    Hips, Left, Leg, LegOrFoot, Lower, LowerArm, Middle, Neck, Right, Shin, Shoulder, Skirt, Tail,
-    Thigh, Toe, Upper, UpperArm, Waist,
+    Arm, Back, Belly, Body, Chest, Collar, Detail, Ear, Face, Foot, Fore, Hand, Head, Helper, Hind,
+    Hip, Hips, Left, Leg, LegOrFoot, Lower, LowerArm, Middle, Neck, OfHead, Right, Shin, Shoulder,
+    Skirt, Tail, Thigh, Toe, Upper, UpperArm, Waist,
 };
 
 /// Words, and what they mean.
@@ -101,11 +105,15 @@ const ENGLISH: Table = &[
     (&[Tail], "tail"),
     (&[Skirt], "skirt"),
     (&[Face], "face"),
+    (&[Detail, OfHead, Ear], "ear"),
+    (
+        &[Detail, OfHead],
+        "earring hat cap helmet crown hair bangs fringe ponytail braid bun eye eyes brow eyebrow eyelid lid eyelash pupil nose mouth lip \
+         lips teeth tooth tongue jaw chin cheek forehead beard moustache mustache glasses antenna antennae feeler horn beak mask",
+    ),
     (
         &[Detail],
-        "earring hat cap helmet crown hair bangs fringe ponytail braid bun ear eye eyes brow eyebrow eyelid lid eyelash pupil nose mouth \
-         lip lips teeth tooth tongue jaw chin cheek forehead beard moustache mustache glasses antenna antennae feeler horn \
-         beak mask breast bust boob bag sword shield stick staff gun bow ribbon scarf tie belt button pocket buckle strap band \
+        "breast bust boob bag sword shield stick staff gun bow ribbon scarf tie belt button pocket buckle strap band \
          sleeve cuff armor armour cape cloak shadow logo badge watch ring",
     ),
     (
@@ -150,10 +158,14 @@ const JAPANESE: Table = &[
     (&[Foot], "足首 あしくび 足先"),
     (&[Toe], "つま先 つまさき 爪先"),
     (&[Skirt], "すかーと"),
+    (&[Detail, OfHead, Ear], "耳 みみ"),
+    (
+        &[Detail, OfHead],
+        "帽子 ぼうし 髪 かみ 前髪 後髪 後ろ髪 目 眼 め 鼻 はな 口 くち 顎 あご 舌 角 つの 触角 触覚 眉 眼鏡 めがね 髭 ひげ",
+    ),
     (
         &[Detail],
-        "帽子 ぼうし 髪 かみ 前髪 後髪 後ろ髪 目 眼 め 耳 みみ 鼻 はな 口 くち 顎 あご 舌 角 つの 触角 触覚 眉 首輪 手袋 袖 \
-         剣 盾 鞄 かばん 眼鏡 めがね 髭 ひげ 影 ねくたい まふらー りぼん べると",
+        "首輪 手袋 袖 剣 盾 鞄 かばん 影 ねくたい まふらー りぼん べると",
     ),
     (
         &[Helper],

@@ -1,0 +1,45 @@
+//! What words mean in the names of parts and joints: head, arm, left, upper.
+//!
+//! One set of tables for all who read names: [`terms`] gives the meanings of a name's words.
+
+pub(crate) mod name_words;
+mod role;
+mod vocabulary;
+
+pub(crate) use role::{Role, sides};
+pub(crate) use vocabulary::{Term, terms};
+
+/// Whether a name is that of a limb that is attached at one end: an arm or a leg or a piece of one, a wing, a tail, a neck, an ear.
+/// Hands, feet and what is worn are none.
+pub(crate) fn is_hinged(terms: &[Term]) -> bool {
+    let says = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
+    if says(&[Term::Ear]) {
+        return true;
+    }
+    let limb = [
+        Term::Arm,
+        Term::UpperArm,
+        Term::LowerArm,
+        Term::Leg,
+        Term::Thigh,
+        Term::Shin,
+        Term::Tail,
+        Term::Neck,
+    ];
+    let at_its_end = [
+        Term::Hand,
+        Term::Foot,
+        Term::Toe,
+        Term::Detail,
+        Term::Helper,
+    ];
+    says(&limb) && !says(&at_its_end)
+}
+
+/// Whether a name says that its part hangs downwards from its joint as long as nothing holds it up: arms, legs and ears.
+pub(crate) fn hangs(terms: &[Term]) -> bool {
+    is_hinged(terms)
+        && !terms
+            .iter()
+            .any(|term| matches!(term, Term::Tail | Term::Neck))
+}

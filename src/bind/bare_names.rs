@@ -1,0 +1,54 @@
+//! Texts that are names and nothing more: `Head`, without any sign of the language (figure.md, Names).
+
+use glam::DVec2;
+use rayon::prelude::*;
+use rustc_hash::FxHashSet;
+
+use super::fills::Fills;
+use crate::lang::is_name_char;
+use crate::svg::{Drawing, Label};
+
+/// The fewest names that make a drawing annotated: a single word is a title or a signature.
+const FEWEST: usize = 2;
+/// How far a name's points may be from its shape, in font sizes: one from its letters.
+const REACH: f64 = 1.3;
+
+/// Whether a text is a single word that can name a part: it has letters, and no sign of the language.
+pub(super) fn is_bare_name(text: &str) -> bool {
+    let text = text.trim();
+    !text.starts_with(['#', '^', '%', '*'])
+        && text.chars().all(is_name_char)
+        && text.chars().any(char::is_alphabetic)
+}
+
+/// Whether the texts of a drawing without any sign of the language are names of parts: distinct words, two or more, each on a filled
+/// shape, beside one, or joined to one by a line.
+pub(super) fn name_parts(drawing: &Drawing) -> bool {
+    let labels = drawing.labels.iter().map(|(label, _)| label);
+    let labels: Vec<&Label> = labels
+        .filter(|label| !label.text.as_str().trim().is_empty())
+        .collect();
+    let mut seen = FxHashSet::default();
+    let mut words = labels.iter().map(|label| label.text.as_str().trim());
+    let distinct = words.all(|word| is_bare_name(word) && seen.insert(word));
+    if !distinct || labels.len() < FEWEST {
+        return false;
+    }
+    let fills = Fills::from(drawing, 0);
+    let lines = drawing
+        .shapes
+        .iter()
+        .filter_map(|shape| shape.line.as_ref());
+    let ends: Vec<[DVec2; 2]> = lines.map(|line| line.ends).collect();
+    labels.par_iter().all(|label| {
+        let reach = REACH * label.font_size;
+        let (low, high) = label.position.bounds;
+        let begins_at = |end: DVec2| end.distance(end.clamp(low, high)) <= reach;
+        let leads_to_shape = |[from, to]: &[DVec2; 2]| {
+            begins_at(*from) && fills.is_near(*to, reach)
+                || begins_at(*to) && fills.is_near(*from, reach)
+        };
+        let mut points = label.position.points.into_iter();
+        points.any(|point| fills.is_near(point, reach)) || ends.iter().any(leads_to_shape)
+    })
+}

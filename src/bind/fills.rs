@@ -1,0 +1,44 @@
+//! The filled shapes of a drawing by their place, before they become parts.
+
+use glam::DVec2;
+
+use crate::geometry::{BoxTree, area_around, bounds, contains, distance_squared, indexed_box};
+use crate::svg::Drawing;
+
+/// Filled shapes by their place.
+pub(super) struct Fills<'a> {
+    drawing: &'a Drawing,
+    boxes: BoxTree,
+}
+
+impl<'a> Fills<'a> {
+    /// The filled shapes from index `first` on.
+    pub(super) fn from(drawing: &'a Drawing, first: usize) -> Self {
+        let shapes = drawing.shapes.iter().enumerate().skip(first);
+        let boxes =
+            shapes.filter_map(|(index, shape)| Some(indexed_box(bounds(&shape.outline)?, index)));
+        Self {
+            drawing,
+            boxes: BoxTree::bulk_load(boxes.collect()),
+        }
+    }
+
+    /// The topmost shape at a point.
+    pub(super) fn topmost(&self, point: DVec2) -> Option<usize> {
+        let found = self.boxes.locate_all_at_point([point.x, point.y]);
+        let shapes = found.map(|found| found.data);
+        shapes
+            .filter(|shape| contains(&self.drawing.shapes[*shape].outline, point))
+            .max()
+    }
+
+    /// Whether a point is on a shape, or at most `reach` away from one.
+    pub(super) fn is_near(&self, point: DVec2, reach: f64) -> bool {
+        let around = area_around((point, point), reach);
+        let mut found = self.boxes.locate_in_envelope_intersecting(around);
+        found.any(|found| {
+            let outline = &self.drawing.shapes[found.data].outline;
+            distance_squared(outline, point) <= reach * reach
+        })
+    }
+}

@@ -1,0 +1,108 @@
+//! Strings that are there but not read: in hidden layers, or converted to paths.
+
+use std::sync::Arc;
+
+use super::bindings::Bindings;
+use super::many;
+use crate::diagnostic::{Code, Diagnostic, listed};
+use crate::lang::looks_like_string;
+use crate::source::{Span, Text};
+use crate::svg::{ConvertedText, Drawing, GroupKind, Hidden};
+
+impl Hidden {
+    /// What is hidden, for people.
+    pub(super) fn describe(&self) -> String {
+        let what = match self.kind {
+            Some(GroupKind::Layer) => "the hidden layer",
+            Some(_) => "the hidden group",
+            None => "the hidden shape",
+        };
+        match (&self.element.label, &self.element.id) {
+            (Some(label), _) => format!("{what} `{label}`"),
+            (None, Some(id)) => format!("{what} `#{id}`"),
+            (None, None) => what.replacen("the", "a", 1),
+        }
+    }
+}
+
+/// Reports strings that are hidden, if the drawing has no others.
+pub(super) fn hidden(drawing: &Drawing, bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
+    if bindings.annotated {
+        return;
+    }
+    let is_string = |text: &&Arc<Text>| looks_like_string(text.as_str());
+    let strings = |hidden: &Hidden| hidden.texts.iter().filter(is_string).count();
+    let all = drawing.unseen.hidden.iter();
+    let all: Vec<(&Hidden, usize)> = all
+        .map(|hidden| (hidden, strings(hidden)))
+        .filter(|(_, strings)| *strings > 0)
+        .collect();
+    let Some((first, _)) = all.first() else {
+        return;
+    };
+    let places = listed(all.iter().map(|(hidden, _)| hidden.describe()));
+    let message = match all.iter().map(|(_, strings)| strings).sum() {
+        1_usize => format!("the drawing's only string is in {places}, so it is not read"),
+        count => format!("all {count} strings are in {places}, so none is read"),
+    };
+    let mut finding = Diagnostic::new(Code::HiddenStrings, first.element.span, message)
+        .help("show the layer (in Inkscape, the eye in Layer → Layers and Objects): strings in hidden layers do not count");
+    if let Some(text) = first.texts.iter().find(is_string) {
+        finding = finding.related(text.whole(), "a string in it");
+    }
+    diagnostics.push(finding);
+}
+
+/// Where the strings are that were converted to paths: their letters are no parts.
+pub(super) struct ConvertedStrings(Vec<Span>);
+
+impl ConvertedStrings {
+    pub(super) fn of(drawing: &Drawing) -> Self {
+        let converted = drawing.unseen.converted.iter();
+        let converted = converted.filter(|converted| looks_like_string(&converted.text));
+        let mut spans: Vec<Span> = Vec::new();
+        for ConvertedText { whole, .. } in converted {
+            // One in another is the outer one's.
+            if spans.last().is_none_or(|outer| outer.end <= whole.start) {
+                spans.push(*whole);
+            }
+        }
+        Self(spans)
+    }
+
+    /// Whether the drawing's byte `at` is in one of them. They are in document order and apart from each other.
+    pub(super) fn contains(&self, at: usize) -> bool {
+        let next = self.0.partition_point(|span| span.start <= at);
+        self.0[..next].last().is_some_and(|span| at < span.end)
+    }
+}
+
+/// Reports texts that were strings until they were converted to paths.
+pub(super) fn converted(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) {
+    let converted = drawing.unseen.converted.iter();
+    let converted: Vec<&ConvertedText> = converted
+        .filter(|converted| looks_like_string(&converted.text))
+        .collect();
+    let findings = converted.iter().map(|converted| {
+        let message = format!(
+            "the text `{}` was converted to paths, so it is no string any more",
+            converted.text.trim()
+        );
+        Diagnostic::new(Code::ConvertedText, converted.element.span, message)
+            .help("undo the conversion (Ctrl+Z), or delete the paths and type the text again")
+    });
+    let texts = || {
+        let texts = converted.iter();
+        listed(texts.map(|converted| format!("`{}`", converted.text.trim())))
+    };
+    many::few_or_one(
+        findings.collect(),
+        |count| {
+            format!(
+                "{count} texts were converted to paths, so they are no strings any more: {}",
+                texts()
+            )
+        },
+        diagnostics,
+    );
+}

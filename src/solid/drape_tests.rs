@@ -1,0 +1,178 @@
+use std::sync::Arc;
+
+use glam::{DAffine2, DVec2, Vec3};
+use proptest::prelude::*;
+
+use super::drape::Drape;
+use super::heights::Heights;
+use super::laws::{config, lawful, rings};
+use super::tests::{circle, kinds_with, options, outline, profile, rectangle};
+use super::{Profile, RecentHeights, Sides, Solid};
+use crate::geometry::{Outline, Ring, area};
+use crate::scene::{Surface, SurfaceSource};
+
+fn solid(outline: Outline, profile: Profile) -> Solid {
+    Solid {
+        outline: Arc::new(outline),
+        to_frame: DAffine2::IDENTITY,
+        profile,
+        options: options(16),
+        sides: Sides::Front,
+        texture: None,
+    }
+}
+
+fn ink(outline: Outline, below: Vec<Solid>, reach: f64) -> Drape {
+    Drape {
+        outline: Arc::new(outline),
+        to_model: DAffine2::IDENTITY,
+        below: below.into_iter().map(Arc::new).collect(),
+        reach: [reach; 2],
+        crease: 30.0,
+        sides: Sides::Front,
+        texture: None,
+        recent: Arc::new(RecentHeights::default()),
+    }
+}
+
+fn moved(mut outline: Outline, by: DVec2) -> Outline {
+    let rings = outline
+        .polygons
+        .iter_mut()
+        .flat_map(|polygon| &mut polygon.rings);
+    rings.flatten().for_each(|point| *point += by);
+    outline
+}
+
+/// The middles of the triangles that face the viewer, and a number of points between them and the corners.
+fn front_points(surface: &Surface) -> Vec<DVec2> {
+    let at = |i: u32| Vec3::from(surface.positions[i as usize]).as_dvec3();
+    let mut points = Vec::new();
+    for triangle in &surface.triangles {
+        let corners = triangle.map(at);
+        let [a, b, c] = corners;
+        if (b - a).cross(c - a).z > 0.0 {
+            let middle = (a + b + c) / 3.0;
+            points.extend(corners.map(|corner| middle.lerp(corner, 0.6).truncate()));
+            points.push(middle.truncate());
+        }
+    }
+    points
+}
+
+/// How much of a skin's front is under the solid that it lies on, as a share of the points looked at.
+fn swallowed(skin: &Surface, host: &Surface) -> f64 {
+    let (front, ground) = (Heights::of(skin), Heights::of(host));
+    let points = front_points(skin);
+    let under = points.iter().filter(|point| {
+        let heights = front.at(**point).zip(ground.at(**point));
+        heights.is_some_and(|(front, ground)| front <= ground)
+    });
+    under.count() as f64 / points.len() as f64
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn skins_are_lawful(
+        host in rings(), drawn in rings(), size in -3.0..4.0f64,
+        scale in 0.02..1.5f64, at in (-1.0..1.0f64, -1.0..1.0f64), kind in any::<prop::sample::Index>(),
+    ) {
+        let size = 10f64.powf(size);
+        let scaled = |rings: Vec<Ring>, by: f64| -> Outline {
+            outline(rings.iter().map(|ring| ring.iter().map(|p| *p * by).collect()).collect())
+        };
+        let host = scaled(host, size);
+        let drawn = moved(scaled(drawn, size * scale), size * DVec2::from(at));
+        prop_assume!(area(&host) > 0.0 && area(&drawn) > 0.0);
+        let kind = kind.get(&kinds_with(&[-0.1 * size, 0.2 * size])).clone();
+        let name = format!("{kind:?}");
+        let surface = ink(drawn, vec![solid(host, kind)], 0.004 * size).surface();
+        if let Err(error) = lawful(&surface) {
+            return Err(TestCaseError::fail(format!("{name}: {error}")));
+        }
+    }
+}
+
+#[test]
+fn skins_lie_on_rounded_solids() {
+    for (name, numbers) in [
+        ("round", &[-90., 90.][..]),
+        ("roundv", &[-90., 90.]),
+        ("roundh", &[-90., 90.]),
+        ("inflate", &[]),
+        ("lathe", &[360.]),
+        ("cone", &[0., 20., 0.]),
+    ] {
+        let below = || solid(circle(20.0, 64), profile(name, numbers));
+        let bar = moved(rectangle(24.0, 1.0), DVec2::new(3.0, 2.0));
+        for (what, drawn) in [("bar", bar), ("outline", ring(20.0, 1.0))] {
+            let skin = ink(drawn.clone(), vec![below()], 0.08);
+            let surface = skin.surface();
+            lawful(&surface).unwrap_or_else(|error| panic!("{name}, {what}: {error}"));
+            let share = swallowed(&surface, &below().surface());
+            assert!(share < 0.002, "{name}, {what}: {share} is swallowed");
+            assert!(
+                surface.triangles.len() < 10_000,
+                "{name}, {what}: {}",
+                surface.triangles.len()
+            );
+        }
+    }
+}
+
+/// The stroke of a circle.
+fn ring(radius: f64, width: f64) -> Outline {
+    let angle = |i: usize| i as f64 / 64.0 * std::f64::consts::TAU;
+    let circle = |r: f64| (0..64).map(|i| r * DVec2::from_angle(angle(i))).collect();
+    outline(vec![
+        circle(radius + width / 2.0),
+        circle(radius - width / 2.0),
+    ])
+}
+
+#[test]
+fn beside_the_solid_a_skin_lies_at_its_border() {
+    let below = solid(circle(20.0, 64), profile("inflate", &[]));
+    let skin = ink(
+        moved(rectangle(2.0, 2.0), DVec2::new(30.0, 0.0)),
+        vec![below],
+        0.08,
+    );
+    let depths = skin.surface().positions.into_iter().map(|[_, _, z]| z);
+    let (low, high) = depths.fold((f32::MAX, f32::MIN), |(low, high), z| {
+        (low.min(z), high.max(z))
+    });
+    assert!(
+        (low + 0.08).abs() < 1e-3 && (high - 0.08).abs() < 1e-3,
+        "{low} {high}"
+    );
+}
+
+#[test]
+fn skins_lie_on_the_highest_of_several_solids() {
+    let head = solid(circle(20.0, 64), profile("inflate", &[]));
+    let cheek = solid(
+        moved(circle(4.0, 32), DVec2::new(6.0, 0.0)),
+        profile("default", &[0.0, 22.0]),
+    );
+    let skin = ink(rectangle(16.0, 1.0), vec![head, cheek], 0.08);
+    let heights = Heights::of(&skin.surface());
+    let on_cheek = heights.at(DVec2::new(6.0, 0.0)).unwrap();
+    let on_head = heights.at(DVec2::new(-6.0, 0.0)).unwrap();
+    assert!((on_cheek - 22.08).abs() < 0.05, "{on_cheek}");
+    assert!((18.8..19.4).contains(&on_head), "{on_head}");
+}
+
+#[test]
+fn equal_skins_have_equal_keys() {
+    let make = |reach: f64| {
+        let below = solid(circle(20.0, 64), profile("inflate", &[]));
+        ink(rectangle(16.0, 1.0), vec![below], reach)
+    };
+    let (one, other) = (make(0.1), make(0.1));
+    assert!(one.key() == other.key() && one.is_equal(&other));
+    assert!(!one.is_equal(&make(0.2)) && one.key() != make(0.2).key());
+    assert!(!one.is_equal(&*one.mirrored()));
+}

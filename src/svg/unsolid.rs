@@ -1,0 +1,61 @@
+//! Features of SVG that have no meaning for solids.
+
+use super::Drawing;
+use crate::diagnostic::{Code, Diagnostic, listed};
+use crate::source::Span;
+
+/// A feature without a meaning for solids.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Feature {
+    Mask,
+    Filter,
+}
+
+/// What uses a feature: the index of a shape or a group.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Who {
+    Shape(usize),
+    Group(usize),
+}
+
+impl Feature {
+    /// One warning about all that use the feature.
+    pub(super) fn report(self, drawing: &Drawing, users: &[Who]) -> Diagnostic {
+        let (what, help) = match self {
+            Self::Mask => (
+                "mask",
+                "it is built without the mask; cut the shape itself instead, or use a clip (in Inkscape, Object → Clip)",
+            ),
+            Self::Filter => (
+                "filter",
+                "it is built without the filter's effect, such as a blur or a shadow",
+            ),
+        };
+        let names = listed(users.iter().map(|user| user.describe(drawing)));
+        let message = match users {
+            [_] => format!("{names} has a {what}, which has no meaning for solids"),
+            _ => format!(
+                "{} shapes and groups have {what}s, which have no meaning for solids: {names}",
+                users.len()
+            ),
+        };
+        let span = users.first().map_or(Span::at(0), |user| user.span(drawing));
+        Diagnostic::new(Code::NoSolidMeaning, span, message).help(help)
+    }
+}
+
+impl Who {
+    fn describe(self, drawing: &Drawing) -> String {
+        match self {
+            Self::Shape(shape) => drawing.describe(shape),
+            Self::Group(group) => drawing.describe_group(group),
+        }
+    }
+
+    fn span(self, drawing: &Drawing) -> Span {
+        match self {
+            Self::Shape(shape) => drawing.shapes[shape].element.span,
+            Self::Group(group) => drawing.groups[group].element.span,
+        }
+    }
+}
