@@ -12,6 +12,11 @@ use crate::lang::quoting::{NamePlace, quoted_if_needed};
 use crate::source::{Span, Text, escape_xml};
 use crate::svg::PaintKey;
 
+/// About how wide a character is, in font sizes.
+const CHARACTER: f64 = 0.6;
+/// How small a text becomes to fit into a shape, as a share of the usual font size.
+const SMALLEST: f64 = 0.25;
+
 /// A code action.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Action {
@@ -101,16 +106,24 @@ impl Analysis {
         string
     }
 
-    /// A text whose corner is at the part's centre, so that it lies on the part and is the nearest string.
+    /// A text whose corner is at the part's centre, so that it lies on the part and is the nearest string; one that would reach
+    /// beyond the part is centred, and so small that it hardly does.
     fn beside(&self, part: &Part, string: &str) -> Option<Edit> {
         if self.bindings().settings.bind == BindRule::Nearest(DistanceMode::Outline) {
             return None;
         }
-        let size = self.font_size();
+        let mut size = self.font_size();
         let center = part.measure.center;
+        let (low, high) = part.measure.bounds;
+        let ems = CHARACTER * string.chars().count() as f64;
+        let mut anchor = "";
+        if self.bindings().settings.bind == BindRule::Meant && center.x + ems * size > high.x {
+            anchor = " text-anchor=\"middle\"";
+            size = size.min((high.x - low.x) / ems).max(SMALLEST * size);
+        }
         let prefix = self.prefix();
         self.at_the_end(&format!(
-            "<{prefix}text x=\"{}\" y=\"{}\" font-size=\"{}\">{}</{prefix}text>",
+            "<{prefix}text x=\"{}\" y=\"{}\" font-size=\"{}\"{anchor}>{}</{prefix}text>",
             round(center.x),
             round(center.y + 0.8 * size),
             round(size),

@@ -99,7 +99,7 @@ return {
     'a shape is given a string, beside it and as its description',
     function()
       for index, expected in ipairs({
-        '<text x="133.482" y="333.372" font-size="8">path106@Lbody</text>',
+        '<text x="133.482" y="329.741" font-size="3.462" text-anchor="middle">path106@Lbody</text>',
         '<desc>path106@Lbody</desc></path>',
       }) do
         h.open(h.example('human.svg'))

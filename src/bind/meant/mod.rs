@@ -83,10 +83,17 @@ pub(super) fn find(
 
 /// Gives texts without a unit the nearest free ones, nearest pairs first.
 fn share_out_rest(texts: &[TextPlace], units: &Units, parts: &[Part], assignment: &mut Assignment) {
-    let mut rest: FxHashMap<Scope, Vec<usize>> = FxHashMap::default();
+    // In the order of their first texts.
+    let mut rest: Vec<(Scope, Vec<usize>)> = Vec::new();
+    let mut places: FxHashMap<Scope, usize> = FxHashMap::default();
     for (text, unit) in assignment.unit_of.iter().enumerate() {
         if unit.is_none() {
-            rest.entry(texts[text].scope).or_default().push(text);
+            let scope = texts[text].scope;
+            let place = *places.entry(scope).or_insert(rest.len());
+            if place == rest.len() {
+                rest.push((scope, Vec::new()));
+            }
+            rest[place].1.push(text);
         }
     }
     for (scope, rest) in rest {
