@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::anatomy::{self, Role};
 use crate::bind::{Bindings, Part, PartKind};
 use crate::geometry::{self, Body, area, connected};
 
@@ -142,12 +143,18 @@ fn group(
         (place[&first(tree)], others.collect())
     });
     let size = |part: &usize| area(&bindings.parts[*part].outline);
+    // A head may be larger than the trunk of a stick figure.
+    let may_carry = |part: &usize| {
+        let role = Role::of(&anatomy::terms(&bindings.parts[*part].name));
+        role.is_none_or(|role| role.trunk().is_some())
+    };
     // The first of the largest ones, so that equal parts do not swap roles.
-    let largest = members
-        .iter()
-        .map(first)
-        .rev()
-        .max_by(|a, b| size(a).total_cmp(&size(b)));
+    let largest = members.iter().map(first).rev();
+    let largest = largest.max_by(|a, b| {
+        let rank = |part: &usize| (may_carry(part), size(part));
+        let ((carries_a, a), (carries_b, b)) = (rank(a), rank(b));
+        carries_a.cmp(&carries_b).then(a.total_cmp(&b))
+    });
     let group = FigureGroup {
         parents: parents.collect(),
         touching: touching.collect(),
