@@ -158,6 +158,7 @@ const USES: &[(&str, &[&str])] = &[
     (
         "rig",
         &[
+            "anatomy",
             "bind",
             "diagnostic",
             "geometry",
