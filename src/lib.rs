@@ -22,6 +22,7 @@ pub mod geometry;
 pub mod ide;
 pub mod import;
 pub mod lang;
+pub mod look;
 pub mod lsp;
 pub mod memo;
 pub mod motion;

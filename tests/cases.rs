@@ -37,6 +37,7 @@ fn outcome(case: &Path) -> Result<String, String> {
     let compiled = common::compiled(&text, &FolderResolver::new(case));
     let findings = human(
         Findings {
+            look: None,
             path: "drawing.svg",
             text: &text,
             diagnostics: &compiled.diagnostics,

@@ -29,6 +29,7 @@ impl Resolver for Faulty {
 fn assert_crashed(compiled: &Compiled) {
     let report = human(
         Findings {
+            look: None,
             path: "drawing.svg",
             text: DRAWING,
             diagnostics: &compiled.diagnostics,

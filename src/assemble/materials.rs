@@ -16,6 +16,15 @@ use crate::texture::Alpha;
 /// The alpha below which a texture with only opaque and transparent pixels has a hole.
 const CUTOFF: f32 = 0.5;
 
+/// Which parts and tiles have a material in common.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sharing {
+    /// All with the same factors and texture.
+    Alike,
+    /// Only tiles of one layer.
+    Apart,
+}
+
 /// The materials of a drawing, and the material of each part and tile.
 pub(super) struct Materials {
     list: Vec<Material>,
@@ -26,9 +35,11 @@ pub(super) struct Materials {
     of_looks: Vec<Vec<Option<usize>>>,
 }
 
-/// Collects materials; equal ones share an index.
+/// Collects materials; equal ones of one owner share an index.
 #[derive(Default)]
 struct Shared {
+    /// Who owns the material that is added next; `None` is everybody.
+    owner: Option<usize>,
     list: Vec<Material>,
     known: FxHashMap<Key, usize>,
 }
@@ -43,7 +54,8 @@ impl Shared {
         textures: &Textures,
     ) -> usize {
         let list = &mut self.list;
-        let known = self.known.entry(key(factors, double_sided, texture));
+        let key = key(factors, double_sided, texture, self.owner);
+        let known = self.known.entry(key);
         *known.or_insert_with(|| {
             let mut material = material(factors, double_sided);
             if let Some(texture) = texture {
@@ -68,14 +80,20 @@ struct Key {
     factors: [u64; 9],
     double_sided: bool,
     texture: Option<usize>,
+    owner: Option<usize>,
 }
 
 impl Materials {
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "it is called once, with all that is known"
+    )]
     pub(super) fn collect(
         drawing: &Drawing,
         bindings: &Bindings,
         models: &LinkedModels,
         layers: &[Layer],
+        sharing: Sharing,
         resolver: &dyn Resolver,
         memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
@@ -90,6 +108,7 @@ impl Materials {
             diagnostics,
         );
         let mut shared = Shared::default();
+        let owned_by = |owner: usize| (sharing == Sharing::Apart).then_some(owner);
         let mut of_part = Vec::with_capacity(bindings.parts.len());
         for (index, part) in bindings.parts.iter().enumerate() {
             let attributes = bindings.attributes(index);
@@ -109,6 +128,7 @@ impl Materials {
                     factors.color[..3].fill(1.0);
                 }
             }
+            shared.owner = owned_by(index);
             let double_sided = profile.is_open();
             let texture = textured.map(|textured| textured.texture);
             let slot = shared.slot(&factors, double_sided, texture, &textures);
@@ -120,6 +140,7 @@ impl Materials {
             if texture.is_some() && !found.is_tinted {
                 factors.color[..3].fill(1.0);
             }
+            shared.owner = owned_by(bindings.parts.len() + layer);
             let drawn = found.tile != Tile::None;
             drawn.then(|| shared.slot(&factors, false, texture, &textures))
         };
@@ -156,13 +177,23 @@ impl Materials {
 pub(super) struct LookMaterials(Vec<Vec<Option<usize>>>);
 
 impl LookMaterials {
+    /// The materials of each layer's looks.
+    pub(super) fn layers(&self) -> impl Iterator<Item = &[Option<usize>]> {
+        self.0.iter().map(Vec::as_slice)
+    }
+
     /// The material of a layer's look, if anything looks so.
     pub(super) fn of(&self, layer: usize, look: u8) -> Option<usize> {
         self.0[layer].get(usize::from(look)).copied().flatten()
     }
 }
 
-fn key(factors: &MaterialFactors, double_sided: bool, texture: Option<usize>) -> Key {
+fn key(
+    factors: &MaterialFactors,
+    double_sided: bool,
+    texture: Option<usize>,
+    owner: Option<usize>,
+) -> Key {
     let [r, g, b, alpha] = factors.color;
     let [er, eg, eb] = factors.emissive;
     let all = [
@@ -180,6 +211,7 @@ fn key(factors: &MaterialFactors, double_sided: bool, texture: Option<usize>) ->
         factors: all.map(f64::to_bits),
         double_sided,
         texture,
+        owner,
     }
 }
 

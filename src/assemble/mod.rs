@@ -9,14 +9,16 @@ mod world;
 
 use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
-use crate::figure::{Figures, LinkedModels};
+use crate::figure::{FigureNodes, Figures, LinkedModels};
 use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::rig::{self, FigureClip, RestNode};
-use crate::scene::Scene;
+use crate::scene::{Scene, WorldTransform};
 use crate::svg::Drawing;
 use crate::terrain::{self, Layer};
-use materials::Materials;
+use materials::{Materials, Sharing};
+
+pub use world::world_transform;
 
 /// A drawing's scene, and what is in it.
 #[derive(Debug, Default)]
@@ -29,6 +31,25 @@ pub struct Assembled {
     pub clips: Vec<FigureClip>,
 }
 
+/// What a surface of a scene is made from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Owner {
+    /// The part with this index.
+    Part(usize),
+    /// The tile layer with this index.
+    Layer(usize),
+}
+
+/// A scene in which no two parts, and no two tile layers, have a material in common: the material of a surface says what it is
+/// made from. It has no clips.
+#[derive(Debug, Default)]
+pub struct Apart {
+    /// The model.
+    pub scene: Scene,
+    /// Per material of the scene what it belongs to; `None` for the materials of linked models.
+    pub owners: Vec<Option<Owner>>,
+}
+
 /// Builds the scene of a drawing.
 pub fn assemble(
     drawing: &Drawing,
@@ -37,42 +58,20 @@ pub fn assemble(
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Assembled {
-    let layers = terrain::read(drawing, bindings, diagnostics);
-    let world = world::world_transform(bindings, &layers);
-    let mut models = LinkedModels::read(bindings, resolver, memo, diagnostics);
-    let mut found = Vec::new();
-    let (figures, materials) = rayon::join(
-        || Figures::lay_out(drawing, bindings, memo, &mut found),
-        || {
-            Materials::collect(
-                drawing,
-                bindings,
-                &models,
-                &layers,
-                resolver,
-                memo,
-                diagnostics,
-            )
-        },
+    let Built {
+        mut scene,
+        layers,
+        world,
+        figures,
+        ..
+    } = build(
+        drawing,
+        bindings,
+        Sharing::Alike,
+        resolver,
+        memo,
+        diagnostics,
     );
-    diagnostics.extend(found);
-    let (mut scene, of_part, of_looks) = materials.into_scene();
-    models.add_materials(&mut scene);
-    let figures = figures.build(&models, &of_part, &world, &mut scene);
-    for (index, layer) in layers.iter().enumerate() {
-        let parent = layer
-            .parent
-            .and_then(|part| Some((figures.node_of_part[part]?, &figures.frames[part])));
-        let material_of = |look| of_looks.of(index, look);
-        scene.add(terrain::node(
-            layer,
-            drawing,
-            bindings,
-            &world,
-            parent,
-            material_of,
-        ));
-    }
     let nodes = figures.nodes.iter().map(|node| RestNode {
         part: node.part,
         is_rooted: node.parent.is_none(),
@@ -91,5 +90,91 @@ pub fn assemble(
         scene,
         layers,
         clips,
+    }
+}
+
+/// Builds the scene of a drawing so that its materials say what each surface is made from.
+pub fn assemble_apart(drawing: &Drawing, bindings: &Bindings, resolver: &dyn Resolver) -> Apart {
+    let (memo, sharing) = (Memo::none(), Sharing::Apart);
+    let built = build(drawing, bindings, sharing, resolver, &memo, &mut Vec::new());
+    Apart {
+        scene: built.scene,
+        owners: built.owners,
+    }
+}
+
+/// A scene without clips, and what clips need to know.
+struct Built {
+    scene: Scene,
+    layers: Vec<Layer>,
+    world: WorldTransform,
+    figures: FigureNodes,
+    /// Per material of the scene the last one that has it.
+    owners: Vec<Option<Owner>>,
+}
+
+/// Builds the figures and landscapes of a drawing.
+fn build(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    sharing: Sharing,
+    resolver: &dyn Resolver,
+    memo: &Memo,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Built {
+    let layers = terrain::read(drawing, bindings, diagnostics);
+    let world = world::world_transform(bindings, &layers);
+    let mut models = LinkedModels::read(bindings, resolver, memo, diagnostics);
+    let mut found = Vec::new();
+    let (figures, materials) = rayon::join(
+        || Figures::lay_out(drawing, bindings, memo, &mut found),
+        || {
+            Materials::collect(
+                drawing,
+                bindings,
+                &models,
+                &layers,
+                sharing,
+                resolver,
+                memo,
+                diagnostics,
+            )
+        },
+    );
+    diagnostics.extend(found);
+    let (mut scene, of_part, of_looks) = materials.into_scene();
+    models.add_materials(&mut scene);
+    let mut owners = vec![None; scene.materials.len()];
+    for (part, material) in of_part.iter().enumerate() {
+        if let Some((material, _)) = material {
+            owners[*material] = Some(Owner::Part(part));
+        }
+    }
+    for (layer, materials) in of_looks.layers().enumerate() {
+        for material in materials.iter().flatten() {
+            owners[*material] = Some(Owner::Layer(layer));
+        }
+    }
+    let figures = figures.build(&models, &of_part, &world, &mut scene);
+    for (index, layer) in layers.iter().enumerate() {
+        let parent = layer
+            .parent
+            .and_then(|part| Some((figures.node_of_part[part]?, &figures.frames[part])));
+        let material_of = |look| of_looks.of(index, look);
+        scene.add(terrain::node(
+            layer,
+            drawing,
+            bindings,
+            &world,
+            parent,
+            material_of,
+        ));
+    }
+    Built {
+        scene,
+        layers,
+        world,
+        figures,
+        owners,
     }
 }

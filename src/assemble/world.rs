@@ -11,8 +11,8 @@ use crate::threads::GRAIN;
 /// Metres in a centimetre: one drawing unit is `Scale` centimetres.
 const CENTIMETRE: f64 = 0.01;
 
-/// How a drawing lies in the world.
-pub(super) fn world_transform(bindings: &Bindings, layers: &[Layer]) -> WorldTransform {
+/// How a drawing with these tile layers lies in the world.
+pub fn world_transform(bindings: &Bindings, layers: &[Layer]) -> WorldTransform {
     WorldTransform {
         origin: bindings
             .settings

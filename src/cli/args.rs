@@ -348,7 +348,14 @@ pub(super) struct Noticing {
     pub(super) poll: Option<u64>,
 }
 
+const CHECK_EXAMPLES: &str = "\
+Examples:
+  okoshi check *.svg               reports problems, writes nothing
+  okoshi check --fix human.svg     corrects misspelled keywords and the like in the drawing
+  okoshi check --look human.svg    also says where the model, seen from the front, differs from the drawing";
+
 #[derive(Debug, Args)]
+#[command(after_help = CHECK_EXAMPLES)]
 pub(super) struct Check {
     /// The drawings, SVG files; `-` is stdin
     #[arg(required = true, value_name = "DRAWING")]
@@ -359,6 +366,9 @@ pub(super) struct Check {
     /// Apply the fixes that cannot change what you meant, and write the drawings; `-` writes the drawing to stdout
     #[arg(long)]
     pub(super) fix: bool,
+    /// Build the models too, and say where they look different from the drawings from the front
+    #[arg(long)]
+    pub(super) look: bool,
     #[command(flatten)]
     pub(super) reading: Reading,
 }

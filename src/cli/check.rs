@@ -1,12 +1,20 @@
 //! `okoshi check`
 
+use std::path::Path;
+
 use super::args::{Check, Common, Format};
 use super::fix::fix;
-use super::loading::{Detail, Loaded, count, describe, load, tally};
+use super::loading::{Detail, Loaded, count, describe, load, root, tally};
 use super::parallel::each;
 use super::progress::spinning;
-use super::{Outcome, counted, json, print_out, sarif, style};
-use crate::disk::is_standard_stream;
+use super::{Outcome, counted, fail, json, print_out, sarif, style};
+use crate::bind;
+use crate::diagnostic;
+use crate::disk::{FolderResolver, is_standard_stream};
+use crate::look;
+
+/// The larger side of the pictures that `--look` compares, pixels.
+const LOOK_SIDE: u32 = 800;
 
 /// A drawing that was checked, and the number of findings that were fixed in it.
 type Checked = (Loaded, usize);
@@ -20,6 +28,9 @@ pub(super) fn run(arguments: &Check, common: Common) -> Outcome {
                 true => fix(drawing, &mut loaded, arguments)?,
                 false => 0,
             };
+            if arguments.look && !loaded.compiled.has_errors() {
+                look_at(drawing, &mut loaded, arguments)?;
+            }
             Ok((loaded, fixed))
         })
     });
@@ -52,6 +63,19 @@ pub(super) fn run(arguments: &Check, common: Common) -> Outcome {
     worst
 }
 
+/// Compares the model with the drawing, and adds what looks different to the findings.
+fn look_at(path: &Path, loaded: &mut Loaded, arguments: &Check) -> Result<(), Outcome> {
+    let resolver = FolderResolver::new(root(path, &arguments.reading));
+    let found = look::compare(&loaded.compiled, &loaded.text, &resolver, LOOK_SIDE);
+    let found = found.map_err(|error| fail(&format!("`{}` {error}", loaded.path)))?;
+    let mut hints = look::hints(&loaded.compiled, &found);
+    bind::locate(&loaded.compiled.drawing, &mut hints);
+    loaded.compiled.diagnostics.append(&mut hints);
+    diagnostic::sort(&mut loaded.compiled.diagnostics);
+    loaded.look = Some(found);
+    Ok(())
+}
+
 fn human(read: &[Checked], arguments: &Check, common: Common) -> String {
     let style = style(common, &std::io::stdout());
     let mut out = String::new();
@@ -70,6 +94,14 @@ fn human(read: &[Checked], arguments: &Check, common: Common) -> String {
                 false => String::new(),
             };
             out.push_str(&format!("{}: {fixed}{findings}\n", loaded.path));
+            if let Some(look) = &loaded.look {
+                // Rounded down, so that 100 % means all of them.
+                let percent = (look.right * 1000.0).floor() / 10.0;
+                out.push_str(&format!(
+                    "{}: {percent:.1} % of the drawing's pixels show the right colour from the front\n",
+                    loaded.path
+                ));
+            }
         }
     }
     out

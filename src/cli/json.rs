@@ -31,6 +31,18 @@ struct Report<'a> {
 struct Drawing<'a> {
     drawing: &'a str,
     diagnostics: Vec<Finding<'a>>,
+    /// With `--look`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    look: Option<Looks>,
+}
+
+/// How the model looks from the front, compared with the drawing.
+#[derive(Serialize)]
+struct Looks {
+    /// The share of the pixels that show the right colour, 0 to 1.
+    right: f64,
+    /// The number of pixels that were compared.
+    pixels: usize,
 }
 
 #[derive(Serialize)]
@@ -85,6 +97,10 @@ fn drawing<'a>(findings: &Findings<'a>) -> Drawing<'a> {
     Drawing {
         drawing: findings.path,
         diagnostics: diagnostics.map(|one| finding(one, &places)).collect(),
+        look: findings.look.map(|look| Looks {
+            right: (look.right * 1e4).floor() / 1e4,
+            pixels: look.pixels,
+        }),
     }
 }
 
@@ -139,11 +155,13 @@ mod tests {
             path: "a.svg",
             text: DRAWING,
             diagnostics: &[finding],
+            look: None,
         };
         let none = Findings {
             path: "b.svg",
             text: "",
             diagnostics: &[],
+            look: None,
         };
         insta::assert_snapshot!(json(&[one, none]), @r#"
         {

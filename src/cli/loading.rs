@@ -9,6 +9,7 @@ use super::{Findings, Outcome, fail};
 use crate::compile::{Compiled, Options, compile};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::disk::{FolderResolver, decode, read_drawing};
+use crate::look::Look;
 
 /// The most hints that commands other than `check` show.
 const MAX_HINTS: usize = 10;
@@ -21,6 +22,8 @@ pub(super) struct Loaded {
     pub(super) path: String,
     pub(super) text: String,
     pub(super) compiled: Compiled,
+    /// How the model looks from the front, if that was asked for.
+    pub(super) look: Option<Look>,
 }
 
 impl Loaded {
@@ -29,6 +32,7 @@ impl Loaded {
             path: &self.path,
             text: &self.text,
             diagnostics: &self.compiled.diagnostics,
+            look: self.look.as_ref(),
         }
     }
 
@@ -58,6 +62,7 @@ pub(super) fn load(path: &Path, reading: &Reading) -> Result<Loaded, Outcome> {
                 path: name,
                 text: lossy,
                 compiled,
+                look: None,
             });
         }
     };
@@ -66,6 +71,7 @@ pub(super) fn load(path: &Path, reading: &Reading) -> Result<Loaded, Outcome> {
         path: name,
         text,
         compiled,
+        look: None,
     })
 }
 

@@ -37,6 +37,7 @@ use clap::error::{ContextKind, ContextValue};
 use clap::{CommandFactory, Parser};
 
 use crate::diagnostic::Diagnostic;
+use crate::look::Look;
 use crate::{crash, disk};
 use args::{Cli, Color, Command, Common};
 use report::Style;
@@ -50,6 +51,8 @@ pub struct Findings<'a> {
     pub text: &'a str,
     /// The diagnostics.
     pub diagnostics: &'a [Diagnostic],
+    /// How the model looks from the front, if that was asked for.
+    pub look: Option<&'a Look>,
 }
 
 /// `1 part`, `2 parts`

@@ -10,8 +10,10 @@ use super::progress::{counting, spinning};
 use super::{Outcome, fail, style};
 use crate::disk::{FolderResolver, read_file, write_atomic};
 use crate::export::{self, GLB};
+use crate::look::{DrawnView, LookError};
 use crate::render::{
-    self, AnimationWriter, Clip, Model, Options, Palette, PosedModel, TURNTABLE_SECONDS, write_png,
+    self, AnimationWriter, Clip, Model, Options, Palette, PosedModel, RenderError, Sheet,
+    TURNTABLE_SECONDS, write_png,
 };
 
 mod clips;
@@ -53,7 +55,11 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
         Ok(asked) => asked,
         Err(message) => return fail(&message),
     };
-    let (bytes, loaded) = match model(arguments, common) {
+    let Source {
+        bytes,
+        page,
+        outcome,
+    } = match model(arguments, common) {
         Ok(found) => found,
         Err(outcome) => return outcome,
     };
@@ -92,7 +98,10 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
                     return Outcome::Errors;
                 }
             };
-            draw(&posed, arguments, &output, (form, subject))
+            match page {
+                Some(page) => draw_page(&posed, arguments, &output, page),
+                None => draw(&posed, arguments, &output, (form, subject)),
+            }
         }
     };
     match written {
@@ -100,7 +109,7 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
             if !common.quiet {
                 eprintln!("wrote {written}");
             }
-            loaded
+            outcome
         }
         Err(Failure(message)) => fail(&message),
     }
@@ -181,17 +190,37 @@ fn form(output: &Path, subject: Subject, arguments: &Render) -> Result<Form, Str
     Ok(form)
 }
 
-/// The model's bytes, and the outcome of compiling the drawing, whose findings are printed.
-fn model(arguments: &Render, common: Common) -> Result<(Vec<u8>, Outcome), Outcome> {
+/// What is drawn.
+struct Source {
+    /// The model, a glTF file.
+    bytes: Vec<u8>,
+    /// With `--as-drawn`, the page and its size in pixels.
+    page: Option<(Sheet, [u32; 2])>,
+    /// The outcome of compiling the drawing.
+    outcome: Outcome,
+}
+
+/// The model, and the outcome of compiling the drawing, whose findings are printed.
+fn model(arguments: &Render, common: Common) -> Result<Source, Outcome> {
     let drawing = &arguments.drawing;
     let ending = drawing
         .extension()
         .map(|ending| ending.to_string_lossy().to_lowercase());
     if matches!(ending.as_deref(), Some("glb" | "gltf")) {
+        if arguments.as_drawn {
+            return Err(fail(&format!(
+                "`{}` is a model, which has no page: --as-drawn needs the drawing",
+                drawing.display()
+            )));
+        }
         let bytes = read_file(drawing).map_err(|error| fail(&error.to_string()))?;
-        return Ok((bytes, Outcome::Done));
+        return Ok(Source {
+            bytes,
+            page: None,
+            outcome: Outcome::Done,
+        });
     }
-    let loaded = spinning("building", || load(drawing, &arguments.reading))?;
+    let mut loaded = spinning("building", || load(drawing, &arguments.reading))?;
     eprint!(
         "{}",
         describe(
@@ -208,10 +237,35 @@ fn model(arguments: &Render, common: Common) -> Result<(Vec<u8>, Outcome), Outco
         }
         return Err(Outcome::Errors);
     }
-    match export::to_memory(&GLB, &loaded.compiled.scene, None) {
-        Ok(model) => Ok((model.bytes, loaded.outcome())),
+    let outcome = loaded.outcome();
+    let mut scene = std::mem::take(&mut loaded.compiled.scene);
+    let page = match arguments.as_drawn {
+        true => {
+            let scale = arguments.scale.unwrap_or(1.0);
+            let view = DrawnView::new(&loaded.compiled, scene, scale)
+                .map_err(|error| fail(&page_failure(&loaded.path, &error)))?;
+            scene = view.scene;
+            Some((view.sheet, view.size))
+        }
+        false => None,
+    };
+    match export::to_memory(&GLB, &scene, None) {
+        Ok(model) => Ok(Source {
+            bytes: model.bytes,
+            page,
+            outcome,
+        }),
         Err(error) => Err(fail(&format!("`{}` cannot be drawn: {error}", loaded.path))),
     }
+}
+
+/// Why the page cannot be drawn.
+fn page_failure(path: &str, error: &LookError) -> String {
+    let way = match error {
+        LookError::Render(RenderError::Size(..)) => "; choose a smaller --scale",
+        _ => "",
+    };
+    format!("`{path}` {error}{way}")
 }
 
 /// The size of pictures and the number of triangles in them.
@@ -278,6 +332,25 @@ fn draw(
     }
 }
 
+/// Draws and writes the page as it is drawn, and returns a description of the picture.
+fn draw_page(
+    posed: &PosedModel<'_>,
+    arguments: &Render,
+    output: &Path,
+    (sheet, size): (Sheet, [u32; 2]),
+) -> Result<String, Failure> {
+    let options = Options {
+        size,
+        shading: render::Shading::Unlit,
+        background: arguments.background,
+        ..Options::default()
+    };
+    let image = spinning("drawing", || posed.picture_of(&options, &sheet))?;
+    write_atomic(output, |out| write_png(&image, out)).map_err(Failure::written)?;
+    let picture = describe_picture(size, posed.triangles());
+    Ok(format!("{}: {picture}", output.display()))
+}
+
 /// Why pictures could not be drawn or written, as a message.
 struct Failure(String);
 
@@ -309,6 +382,7 @@ fn options(arguments: &Render) -> Options {
         shading: match arguments.shading {
             Shading::Flat => render::Shading::Flat,
             Shading::Smooth => render::Shading::Smooth,
+            Shading::Unlit => render::Shading::Unlit,
         },
         bend: arguments.bend == Bend::On,
         background: arguments.background,

@@ -4,6 +4,7 @@ use crate::diagnostic::Code;
 
 fn report(text: &str, diagnostics: &[Diagnostic]) -> String {
     let findings = Findings {
+        look: None,
         path: "human.svg",
         text,
         diagnostics,
@@ -137,6 +138,7 @@ fn odd_places_do_no_harm() {
 #[test]
 fn colours_are_for_those_who_ask() {
     let findings = Findings {
+        look: None,
         path: "human.svg",
         text: DRAWING,
         diagnostics: &[misspelt(DRAWING)],

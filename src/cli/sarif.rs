@@ -266,6 +266,7 @@ mod tests {
     fn log() -> Value {
         let finding = misspelt(DRAWING).related(at(DRAWING, "頭"), "the parent");
         let findings = Findings {
+            look: None,
             path: "my figures/腕.svg",
             text: DRAWING,
             diagnostics: &[finding],

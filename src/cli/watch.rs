@@ -146,6 +146,7 @@ pub(super) fn describe_shown(drawing: &Path, build: &Build, common: Common) -> S
 
 fn findings(name: &str, build: &Build, common: Common) -> String {
     let findings = Findings {
+        look: None,
         path: name,
         text: &build.text,
         diagnostics: &build.compiled.diagnostics,

@@ -533,6 +533,16 @@ codes! {
     ///
     /// Write lengths in drawing units, in which the page is as wide as the message says.
     FarAway = "H410", "part far away";
+    /// Seen from the front, the model does not show the part as it is drawn: something is in front of it, it is inside a
+    /// rounder part, nothing is built of it, or its colour differs. Only `okoshi check --look` reports this.
+    ///
+    /// ```text
+    /// Eye@Head$Offset -30
+    /// ```
+    ///
+    /// Bring the part to the front with `Offset`, choose a flatter `Shape` for what hides it, or take away depths that
+    /// strings give. `okoshi render --as-drawn` draws the same view.
+    LooksDifferent = "H411", "looks different from the front";
 }
 
 impl Code {

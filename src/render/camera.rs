@@ -4,6 +4,8 @@ use std::borrow::Cow;
 
 use glam::{DVec3, Vec2, Vec3};
 
+use super::surface::Surface;
+
 /// How far the camera can be raised or lowered, in degrees.
 pub const MAX_PITCH: f64 = 90.0;
 /// Half the picture's longer side at distance 1: that of an 85 mm lens on 36 mm film, a usual portrait lens.
@@ -44,6 +46,47 @@ impl View {
             DVec3::new(-pitch_sin * yaw_sin, pitch_cos, -pitch_sin * yaw_cos),
             DVec3::new(pitch_cos * yaw_sin, pitch_sin, pitch_cos * yaw_cos),
         ]
+    }
+}
+
+/// A rectangle in the world that a picture in parallel projection shows, seen along its normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sheet {
+    /// Its top left corner, metres.
+    pub corner: DVec3,
+    /// Along its upper edge to the right: a unit vector.
+    pub right: DVec3,
+    /// Along its left edge upwards: a unit vector at a right angle to `right`.
+    pub up: DVec3,
+    /// The side of a pixel, metres.
+    pub pixel: f64,
+}
+
+impl Sheet {
+    /// Towards the viewer.
+    pub(super) fn towards(&self) -> DVec3 {
+        self.right.cross(self.up)
+    }
+
+    /// A camera that shows this rectangle of the world as a picture of `size` pixels. It stands in front of all of `surface`.
+    pub(super) fn camera(&self, size: [u32; 2], surface: &Surface) -> Camera {
+        let [width, height] = size.map(|side| f64::from(side) * self.pixel);
+        let middle = self.corner + (self.right * width - self.up * height) / 2.0;
+        let middle = surface.normalization.apply(middle);
+        let towards = self.towards();
+        let eye = middle + towards * (surface.reach() - middle.dot(towards));
+        Camera {
+            axes: Axes {
+                right: self.right.as_vec3(),
+                up: self.up.as_vec3(),
+                forward: -towards.as_vec3(),
+            },
+            projection: Projection::Orthographic,
+            yaw: 0.0,
+            eye: eye.as_vec3(),
+            half: (width.max(height) / 2.0 * surface.normalization.scale) as f32,
+            size: Vec2::new(size[0] as f32, size[1] as f32),
+        }
     }
 }
 

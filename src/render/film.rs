@@ -242,7 +242,7 @@ impl<'a> Film<'a> {
             // The ground stays where it is when the model jumps.
             surface.low.y = surface.low.y.min(self.ground);
             let target = RayTarget::new(self.model, surface, Rays::Many);
-            draw(&target, options, framing, options.view)
+            draw(&target, options, &framing.camera(options.view))
         })
     }
 }

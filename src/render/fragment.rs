@@ -119,7 +119,12 @@ impl PixelSampler<'_> {
                 return;
             }
         }
-        if let Some(ground) = self.ground(origin, direction) {
+        // The ground shows shadows only.
+        let ground = match self.shading {
+            Shading::Unlit => None,
+            Shading::Smooth | Shading::Flat => self.ground(origin, direction),
+        };
+        if let Some(ground) = ground {
             merge(ground, clear, first, out);
         }
     }
@@ -143,7 +148,7 @@ impl PixelSampler<'_> {
         let place = origin + direction * hit.distance;
         let smooth = match self.shading {
             Shading::Smooth => tracer.normal(hit),
-            Shading::Flat => None,
+            Shading::Flat | Shading::Unlit => None,
         };
         let place = match smooth {
             Some(_) => tracer.lifted(hit, place, side),

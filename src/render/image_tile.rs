@@ -2,10 +2,11 @@
 
 use glam::{Vec2, Vec3, Vec4};
 
+use super::Shading;
 use super::fragment::{Fragment, FragmentKind, PixelSampler};
 use super::light::{IncidentLight, Lights, share};
 use super::shade::shade;
-use super::texture::{linear_to_srgb, srgb_to_linear};
+use super::texture::{linear_to_srgb, srgb_to_linear, srgb_values};
 
 /// The side of a tile in pixels.
 pub(super) const TILE_SIDE: u32 = 64;
@@ -22,8 +23,18 @@ pub(super) fn draw_tile(
     [left, top]: [u32; 2],
     [width, height]: [u32; 2],
 ) -> Vec<[u8; 4]> {
-    let tile = Tile::new(sampler, lights, [left, top], [width, height]);
     let pixels = (top..top + height).flat_map(|y| (left..left + width).map(move |x| (x, y)));
+    if sampler.shading == Shading::Unlit {
+        let mut fragments = Vec::new();
+        return pixels
+            .map(|(x, y)| {
+                fragments.clear();
+                sampler.sample(x, y, &mut fragments);
+                unlit_pixel(&fragments, background)
+            })
+            .collect();
+    }
+    let tile = Tile::new(sampler, lights, [left, top], [width, height]);
     pixels
         .map(|(x, y)| {
             let here = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
@@ -61,6 +72,28 @@ fn pixel(colour: Vec4, background: Option<[u8; 3]>) -> [u8; 4] {
                 .to_array()
                 .map(linear_to_srgb);
             [r, g, b, alpha]
+        }
+    }
+}
+
+/// The base colours of a pixel's fragments, blended by their sRGB values.
+fn unlit_pixel(fragments: &[Fragment], background: Option<[u8; 3]>) -> [u8; 4] {
+    let parts = fragments.iter();
+    let colour: Vec4 = parts
+        .map(|fragment| srgb_values(fragment.colour).extend(1.0) * fragment.weight)
+        .sum();
+    let (alpha, covered) = (colour.w.clamp(0.0, 1.0), colour.truncate());
+    let byte = |value: f32| (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8;
+    match background {
+        Some(background) => {
+            let behind = Vec3::from(background.map(|value| f32::from(value) / 255.0));
+            let [r, g, b] = (covered + behind * (1.0 - alpha)).to_array().map(byte);
+            [r, g, b, 255]
+        }
+        None if byte(alpha) == 0 => [0; 4],
+        None => {
+            let [r, g, b] = (covered / alpha).to_array().map(byte);
+            [r, g, b, byte(alpha)]
         }
     }
 }

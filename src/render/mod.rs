@@ -1,8 +1,8 @@
 //! Renders pictures of a glTF model. Knows no drawing, opens no file, prints nothing.
 //!
 //! [`read`] parses a file, [`Model::rest`] and [`PosedModel::new`] pose the model, [`PosedModel::picture`] renders it.
-//! [`PosedModel::visible_surfaces`] reports which surface each pixel shows, without light. A [`Film`] is a stretch of a
-//! clip that one camera renders:
+//! [`PosedModel::visible_surfaces`] reports which surface each pixel shows, without light. A [`Sheet`] is a rectangle in the
+//! world that a picture shows exactly. A [`Film`] is a stretch of a clip that one camera renders:
 //!
 //! ```text
 //!  bytes ─► Model ─► (Pose) ─► PosedModel ─► Image ─► PNG, GIF
@@ -44,7 +44,7 @@ use glam::DVec3;
 use crate::threads;
 
 pub use crate::import::{Clip, MAX_TRIANGLES, Pose};
-pub use camera::{MAX_PITCH, Projection, View};
+pub use camera::{MAX_PITCH, Projection, Sheet, View};
 pub use error::RenderError;
 pub use film::{Film, HeldFrame};
 pub use image_files::{AnimationWriter, MAX_GIF_FPS, Palette, write_png};
@@ -80,6 +80,8 @@ pub enum Shading {
     Smooth,
     /// Each triangle is flat.
     Flat,
+    /// In its base colour, without light and shadow, and blended as drawing programs do: the values of sRGB, not light.
+    Unlit,
 }
 
 /// Settings of a picture.

@@ -2,11 +2,11 @@
 
 use std::borrow::Cow;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use image::RgbaImage;
 use rayon::prelude::*;
 
-use super::camera::{Framing, View};
+use super::camera::{Camera, Framing, Sheet, View};
 use super::fragment::PixelSampler;
 use super::image_tile::{TILE_SIDE, draw_tile};
 use super::light::Lights;
@@ -79,24 +79,23 @@ impl<'a> PosedModel<'a> {
         self.normalization
     }
 
-    /// The surface of a view-dependent model for one view.
-    fn surface_from(&self, options: &Options, view: View) -> Result<Surface, RenderError> {
-        let pose = self.pose.seen_from(options.viewer(view));
+    /// The surface of a view-dependent model for a viewer; see [`Options::viewer`].
+    fn surface_from(&self, viewer: Option<DVec3>) -> Result<Surface, RenderError> {
+        let pose = self.pose.seen_from(viewer);
         self.model.surface(&pose, Some(self.normalization))
     }
 
-    /// Runs `work` on the geometry for a view, on the thread pool.
+    /// Runs `work` on the geometry for a viewer, on the thread pool.
     pub(super) fn with<T: Send>(
         &self,
-        options: &Options,
-        view: View,
+        viewer: Option<DVec3>,
         rays: Rays,
         work: impl FnOnce(&RayTarget<'_>) -> Result<T, RenderError> + Send,
     ) -> Result<T, RenderError> {
         on_pool(|| match &self.view_independent {
             Some(target) => work(target),
             None => {
-                let surface = self.surface_from(options, view)?;
+                let surface = self.surface_from(viewer)?;
                 work(&RayTarget::new(self.model, surface, rays))
             }
         })
@@ -109,6 +108,20 @@ impl<'a> PosedModel<'a> {
     pub fn picture(&self, options: &Options) -> Result<Image, RenderError> {
         let framing = self.framing(options, &[options.view])?;
         self.draw(options, &framing, options.view)
+    }
+
+    /// Renders what a rectangle in the world shows of the model. Of the options the view and the projection are not used; the
+    /// rectangle is as large as the size says.
+    ///
+    /// # Errors
+    /// A size out of range.
+    pub fn picture_of(&self, options: &Options, sheet: &Sheet) -> Result<Image, RenderError> {
+        check_size(options.size)?;
+        let viewer = options.bend.then_some(sheet.towards());
+        self.with(viewer, Rays::Many, |target| {
+            let camera = sheet.camera(options.size, &target.tracer.surface);
+            draw(target, options, &camera)
+        })
     }
 
     /// Renders the model from `frames` directions all around, starting from the view of the options. `each` gets the
@@ -139,15 +152,15 @@ impl<'a> PosedModel<'a> {
         let points = |view: View, ()| match &self.view_independent {
             Some(target) => Ok(Cow::Borrowed(&*target.points)),
             None => Ok(Cow::Owned(
-                self.surface_from(options, view)?.used_positions(),
+                self.surface_from(options.viewer(view))?.used_positions(),
             )),
         };
         on_pool(|| Framing::new(&shots, options.projection, options.size, points))
     }
 
     fn draw(&self, options: &Options, framing: &Framing, view: View) -> Result<Image, RenderError> {
-        self.with(options, view, Rays::Many, |target| {
-            draw(target, options, framing, view)
+        self.with(options.viewer(view), Rays::Many, |target| {
+            draw(target, options, &framing.camera(view))
         })
     }
 
@@ -156,7 +169,7 @@ impl<'a> PosedModel<'a> {
     pub(super) fn drawn_here(&self, options: &Options) -> Result<Image, RenderError> {
         let framing = self.framing(options, &[options.view])?;
         let target = self.view_independent.as_ref().ok_or(RenderError::Broken)?;
-        draw(target, options, &framing, options.view)
+        draw(target, options, &framing.camera(options.view))
     }
 }
 
@@ -173,15 +186,13 @@ pub(super) fn check_size([width, height]: [u32; 2]) -> Result<(), RenderError> {
 pub(super) fn draw(
     target: &RayTarget<'_>,
     options: &Options,
-    framing: &Framing,
-    view: View,
+    camera: &Camera,
 ) -> Result<Image, RenderError> {
     let [width, height] = options.size;
-    let camera = framing.camera(view);
     let lights = Lights::new(camera.yaw);
     let sampler = PixelSampler {
         tracer: &target.tracer,
-        camera: &camera,
+        camera,
         shading: options.shading,
     };
     let mut pixels = vec![[0_u8; 4]; width as usize * height as usize];

@@ -125,6 +125,11 @@ impl Surface {
         self.normalization = normalization;
     }
 
+    /// A distance from the origin, in any direction, beyond which there is nothing.
+    pub(super) fn reach(&self) -> f64 {
+        f64::from(1.0 + self.low.abs().max(self.high.abs()).length())
+    }
+
     /// The positions that triangles use.
     pub(super) fn used_positions(&self) -> Vec<Vec3> {
         let mut used = vec![false; self.positions.len()];

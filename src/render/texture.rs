@@ -1,6 +1,6 @@
 //! Images on surfaces, with mipmaps.
 
-use glam::{Vec2, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use image::RgbaImage;
 use std::sync::LazyLock;
 
@@ -23,11 +23,20 @@ pub(super) fn srgb_to_linear(byte: u8) -> f32 {
 
 /// The nearest sRGB byte of linear light.
 pub(super) fn linear_to_srgb(light: f32) -> u8 {
-    let value = match light <= 0.003_130_8 {
+    (srgb_value(light) * 255.0 + 0.5).clamp(0.0, 255.0) as u8
+}
+
+/// The sRGB value of linear light, both from 0 to 1.
+fn srgb_value(light: f32) -> f32 {
+    match light <= 0.003_130_8 {
         true => 12.92 * light,
         false => 1.055 * light.powf(1.0 / 2.4) - 0.055,
-    };
-    (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8
+    }
+}
+
+/// The sRGB values of a linear colour, each cut to the range from 0 to 1.
+pub(super) fn srgb_values(colour: Vec3) -> Vec3 {
+    colour.map(|light| srgb_value(light.clamp(0.0, 1.0)))
 }
 
 /// How texture coordinates outside an image are mapped into it.

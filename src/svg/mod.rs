@@ -15,6 +15,7 @@ mod paint;
 mod paths;
 mod pictures;
 mod prepare;
+mod raster;
 mod separate;
 mod shapes;
 mod style;
@@ -34,6 +35,7 @@ pub use oklab::oklab;
 pub use paths::StrokeSource;
 pub(crate) use pictures::LARGE;
 pub(crate) use prepare::character;
+pub use raster::{LeftOut, Raster, raster};
 pub use text::{Label, TextPosition};
 pub use unseen::{ConvertedText, Hidden, Unseen};
 

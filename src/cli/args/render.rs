@@ -21,6 +21,8 @@ Examples:
                                                       six frames side by side
   okoshi render island.svg --view 0,45 --projection orthographic
                                                       terrain, tile for tile as drawn
+  okoshi render human.svg -o drawn.png --as-drawn --scale 2
+                                                      lies on the drawing, pixel for pixel
   okoshi render human.glb --size 1920x1080 --background '#ffffff'
 
 The picture shows the model that `okoshi build` writes. The camera frames it by itself, a clip as a whole, so that a
@@ -38,6 +40,14 @@ pub(in crate::cli) struct Render {
     /// The direction of the camera: degrees to the model's left, degrees up
     #[arg(long, value_name = "YAW,PITCH", default_value = "30,15", value_parser = view, allow_hyphen_values = true)]
     pub(in crate::cli) view: View,
+    /// Show the page as drawn: from the front, in parallel, without light, and exactly as large as the page
+    ///
+    /// Terrain looks as from 45° above, bent. The model is at rest.
+    #[arg(long, conflicts_with_all = ["view", "size", "shading", "projection", "bend", "turntable", "clip", "time", "strip", "from", "to", "fps"])]
+    pub(in crate::cli) as_drawn: bool,
+    /// With --as-drawn, the pixels of a drawing unit [default: 1]
+    #[arg(long, value_name = "PIXELS", requires = "as_drawn", value_parser = scale)]
+    pub(in crate::cli) scale: Option<f64>,
     /// Width and height in pixels, 1 to 8192 each; of a strip, the size of each frame
     #[arg(long, value_name = "WxH", default_value = "800x800", value_parser = size)]
     pub(in crate::cli) size: [u32; 2],
@@ -98,6 +108,8 @@ pub(in crate::cli) enum Shading {
     Flat,
     /// With the normals of the model
     Smooth,
+    /// In plain colours, without light
+    Unlit,
 }
 
 /// How the camera projects.
@@ -154,6 +166,15 @@ fn size(text: &str) -> Result<[u32; 2], String> {
         Some(sides) if sides.iter().all(|side| (1..=MAX_SIDE).contains(side)) => Ok(sides),
         Some(_) => Err(format!("each side must have 1 to {MAX_SIDE} pixels")),
         None => Err("expected two whole numbers separated by an x, for example 800x800".to_owned()),
+    }
+}
+
+fn scale(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(pixels) if pixels > 0.0 && pixels <= f64::from(MAX_SIDE) => Ok(pixels),
+        _ => Err(format!(
+            "expected a number of pixels above 0, up to {MAX_SIDE}, for example 2"
+        )),
     }
 }
 

@@ -277,13 +277,16 @@ fn visible_surfaces_have_their_base_colour_without_light() {
         ..Options::default()
     };
     let found = posed.visible_surfaces(&sized([4, 1]), window).unwrap();
+    let srgb = |light: f32| 1.055 * light.powf(1.0 / 2.4) - 0.055;
     let near = Some(VisibleSurface {
         material: Some(0),
         base: [0.25, 0.25, 1.0, 1.0],
+        blended: [srgb(0.25), srgb(0.25), srgb(1.0), 1.0],
     });
     let far = Some(VisibleSurface {
         material: Some(1),
         base: [0.0, 1.0, 0.0, 1.0],
+        blended: [0.0, srgb(1.0), 0.0, 1.0],
     });
     assert_eq!(found, [near, near, far, None]);
     let sizes = [[0, 1], [1, MAX_SIDE + 1]];

@@ -1,0 +1,194 @@
+//! The drawing as pixels: colours, and what was drawn last.
+
+use resvg::tiny_skia::{FillRule, Mask, PathBuilder, Transform};
+use rustc_hash::FxHashMap;
+
+use super::LookError;
+use crate::assemble::Owner;
+use crate::bind::{Bindings, Part, PartKind};
+use crate::compile::Compiled;
+use crate::geometry::Outline;
+use crate::resolver::Resolver;
+use crate::svg::{self, Drawing, LeftOut};
+
+/// Shapes with less opacity are not seen.
+const CLEAR: f64 = 1.0 / 255.0;
+
+/// A picture of a drawing, of what is built.
+pub(super) struct Drawn {
+    /// Width and height, pixels.
+    pub(super) size: [u32; 2],
+    /// Per pixel the sRGB colour multiplied by alpha, and alpha.
+    pub(super) colours: Vec<[u8; 4]>,
+    /// Per pixel what was drawn last there.
+    pub(super) owners: Vec<Option<Owner>>,
+    /// Per part whether a linked model is in its place.
+    pub(super) models: Vec<bool>,
+}
+
+impl Drawn {
+    /// Draws what a drawing shows of its parts and tiles, at `scale` pixels a drawing unit.
+    pub(super) fn new(
+        compiled: &Compiled,
+        text: &str,
+        resolver: &dyn Resolver,
+        size: [u32; 2],
+        scale: f64,
+    ) -> Result<Self, LookError> {
+        let Compiled {
+            bindings, drawing, ..
+        } = compiled;
+        let owners = owners_of_parts(compiled);
+        let left_out = left_out(drawing, bindings, &owners);
+        let raster = svg::raster(text, resolver, &left_out, size, scale);
+        let raster = raster.ok_or(LookError::Drawing)?;
+        let models = 0..bindings.parts.len();
+        let is_model = |part: usize| bindings.attributes(part).shape().kind == "model";
+        Ok(Self {
+            size,
+            colours: raster.pixels,
+            owners: last_drawn(drawing, bindings, &owners, size, scale)?,
+            models: models.map(is_model).collect(),
+        })
+    }
+
+    /// Whether a linked model is built in the place of what was drawn.
+    pub(super) fn is_model(&self, owner: Option<Owner>) -> bool {
+        matches!(owner, Some(Owner::Part(part)) if self.models[part])
+    }
+}
+
+/// Per part what it is in the model; `None` for what is not built.
+fn owners_of_parts(compiled: &Compiled) -> Vec<Option<Owner>> {
+    let Compiled {
+        bindings, drawing, ..
+    } = compiled;
+    let owner = |(index, part): (usize, &Part)| match part.kind {
+        PartKind::Main | PartKind::Sub => {
+            let is_built = bindings.profile(drawing, index).is_some();
+            is_built.then_some(Owner::Part(index))
+        }
+        PartKind::Tile => layer_of(compiled, part.shape).map(Owner::Layer),
+        PartKind::Legend | PartKind::Unused => None,
+    };
+    bindings.parts.iter().enumerate().map(owner).collect()
+}
+
+/// The index of the tile map that a shape belongs to.
+fn layer_of(compiled: &Compiled, shape: usize) -> Option<usize> {
+    let group = compiled.drawing.shapes[shape].group;
+    let layer = compiled.bindings.tile_layer_of_group(group)?;
+    let string = compiled.bindings.layers[layer].string;
+    let mut layers = compiled.layers.iter();
+    layers.position(|layer| layer.string == string)
+}
+
+/// What of the file is not drawn: all that is not built. Keys are the first bytes of elements.
+fn left_out(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    owners: &[Option<Owner>],
+) -> FxHashMap<usize, LeftOut> {
+    /// What is built of an element, and how many shapes it has.
+    #[derive(Default)]
+    struct Built {
+        fill: bool,
+        stroke: bool,
+        has_stroke: bool,
+        is_clone: bool,
+    }
+    let mut elements: FxHashMap<usize, Built> = FxHashMap::default();
+    for (index, shape) in drawing.shapes.iter().enumerate() {
+        let built = elements.entry(shape.element.span.start).or_default();
+        // A picture that is a map is no part.
+        built.fill |= bindings.is_picture_of_tiles(drawing, index);
+        built.has_stroke |= shape.stroke.is_some();
+        built.is_clone |= shape.element.tag == "use";
+    }
+    for (part, _) in bindings.parts.iter().zip(owners).filter(|(_, o)| o.is_some()) {
+        let start = drawing.shapes[part.shape].element.span.start;
+        if let Some(built) = elements.get_mut(&start) {
+            match part.is_stroke {
+                true => built.stroke = true,
+                false => built.fill = true,
+            }
+        }
+    }
+    let left_out = elements.into_iter().filter_map(|(start, built)| {
+        let what = match built {
+            Built {
+                fill: false,
+                stroke: false,
+                ..
+            } => LeftOut::Element,
+            // What a clone shows has paints of its own.
+            Built { is_clone: true, .. } => return None,
+            Built { fill: false, .. } => LeftOut::Fill,
+            Built {
+                stroke: false,
+                has_stroke: true,
+                ..
+            } => LeftOut::Stroke,
+            _ => return None,
+        };
+        Some((start, what))
+    });
+    left_out.collect()
+}
+
+/// Per pixel what was drawn last over its middle.
+fn last_drawn(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    owners: &[Option<Owner>],
+    [width, height]: [u32; 2],
+    scale: f64,
+) -> Result<Vec<Option<Owner>>, LookError> {
+    let mut drawn = vec![None; width as usize * height as usize];
+    let mut mask = Mask::new(width, height).ok_or(LookError::Drawing)?;
+    for (part, owner) in bindings.parts.iter().zip(owners) {
+        if owner.is_none() || drawing.shapes[part.shape].opacity < CLEAR {
+            continue;
+        }
+        let Some(path) = path(&part.outline) else {
+            continue;
+        };
+        let corner = drawing.page.0;
+        let transform = Transform::from_scale(scale as f32, scale as f32)
+            .pre_translate(-corner.x as f32, -corner.y as f32);
+        mask.fill_path(&path, FillRule::EvenOdd, false, transform);
+        // Only the rows and columns that the part reaches are looked at.
+        let (low, high) = part.measure.bounds;
+        let within = |at: f64, side: u32| at.clamp(0.0, f64::from(side)) as usize;
+        let low = (low - corner) * scale - 1.0;
+        let high = (high - corner) * scale + 2.0;
+        let columns = within(low.x, width)..within(high.x, width);
+        for row in within(low.y, height)..within(high.y, height) {
+            let at = row * width as usize;
+            let covered = &mut mask.data_mut()[at + columns.start..at + columns.end];
+            let drawn = &mut drawn[at + columns.start..at + columns.end];
+            for (covered, drawn) in covered.iter_mut().zip(drawn) {
+                if std::mem::take(covered) > 0 {
+                    *drawn = *owner;
+                }
+            }
+        }
+    }
+    Ok(drawn)
+}
+
+/// An outline as a path; `None` if it is empty.
+fn path(outline: &Outline) -> Option<resvg::tiny_skia::Path> {
+    let mut path = PathBuilder::new();
+    for ring in outline.polygons.iter().flat_map(|polygon| &polygon.rings) {
+        for (index, point) in ring.iter().enumerate() {
+            let (x, y) = (point.x as f32, point.y as f32);
+            match index {
+                0 => path.move_to(x, y),
+                _ => path.line_to(x, y),
+            }
+        }
+        path.close();
+    }
+    path.finish()
+}

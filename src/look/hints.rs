@@ -1,0 +1,82 @@
+//! What looks different from the drawing, in words.
+
+use super::{Instead, Look, PartLook};
+use crate::bind::{Bindings, SetBy};
+use crate::compile::Compiled;
+use crate::diagnostic::{Code, Diagnostic};
+use crate::lang::keyword::Keyword;
+
+/// Parts with fewer pixels are not reported.
+const LEAST_PIXELS: usize = 20;
+/// Parts of which a larger share is right are not reported.
+const MOSTLY: f64 = 0.9;
+/// The kinds of `Shape` whose numbers are depths.
+const OF_DEPTHS: [&str; 5] = ["default", "flat", "cone", "conev", "coneh"];
+
+/// A hint for each part that the model shows less of than the drawing does, in the order of drawing.
+pub fn hints(compiled: &Compiled, look: &Look) -> Vec<Diagnostic> {
+    let parts = look.parts.iter();
+    let parts = parts.filter(|part| part.pixels >= LEAST_PIXELS && part.share() < MOSTLY);
+    parts
+        .filter_map(|part| hint(compiled, part, part.instead?.0))
+        .collect()
+}
+
+fn hint(compiled: &Compiled, look: &PartLook, instead: Instead) -> Option<Diagnostic> {
+    let Compiled {
+        bindings, drawing, ..
+    } = compiled;
+    let who = bindings.describe(drawing, look.part);
+    let span = |part: usize| drawing.shapes[bindings.parts[part].shape].element.span;
+    let (why, help) = match instead {
+        Instead::OtherColour => (
+            "it has another colour there".to_owned(),
+            "check its opacity, its mask and its gradient, and what lies behind it".to_owned(),
+        ),
+        Instead::Nothing => (
+            "nothing is built there".to_owned(),
+            "give it another `Shape`".to_owned(),
+        ),
+        Instead::Landscape(layer) => (
+            format!("the landscape `{}` is in front", compiled.layers.get(layer)?.name),
+            "move one of the two on the page".to_owned(),
+        ),
+        Instead::Part(other) => {
+            let name = bindings.describe(drawing, other);
+            let why = match other < look.part {
+                true => format!("it is inside or behind {name}, which is drawn before it"),
+                false => format!("{name} covers more of it than is drawn"),
+            };
+            let given = [look.part, other].into_iter();
+            let given = given.filter(|part| gives_depth(bindings, *part));
+            let given: Vec<String> = given.map(|part| bindings.describe(drawing, part)).collect();
+            let help = match given.as_slice() {
+                [] => format!("bring it to the front with `Offset`, or make {name} flatter with `Shape`"),
+                given => format!("take away or change the depth that is given for {}", given.join(" and ")),
+            };
+            (why, help)
+        }
+    };
+    let percent = (look.share() * 100.0).floor();
+    let message = format!("{who} shows {percent} % of what is drawn of it: {why}");
+    let hint = Diagnostic::new(Code::LooksDifferent, span(look.part), message).help(help);
+    Some(match instead {
+        Instead::Part(other) => hint.related(span(other), "this is seen there"),
+        _ => hint,
+    })
+}
+
+/// Whether the depth of a part is given: by `Offset`, or by depths of `Shape` in its own string or legend.
+pub fn gives_depth(bindings: &Bindings, part: usize) -> bool {
+    let own = |source: SetBy| source < SetBy::Default;
+    let attributes = bindings.attributes(part);
+    let shape = bindings.setting(part, Keyword::Shape);
+    let has_numbers = shape.is_some_and(|source| {
+        let is_number = |word: &str| word.parse::<f64>().is_ok();
+        own(source.from)
+            && OF_DEPTHS.contains(&attributes.shape().kind)
+            && source.setting.text.split_whitespace().any(is_number)
+    });
+    let has_offset = bindings.setting(part, Keyword::Offset).is_some();
+    has_numbers || has_offset
+}

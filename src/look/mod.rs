@@ -1,0 +1,301 @@
+//! Whether a model, seen from the front, looks like its drawing.
+//!
+//! [`compare`] draws both and says which pixels show the right colour, per part and in all; [`hints`] says it in words.
+//! [`DrawnView`] is where a camera has to be so that the model lies on the page as drawn:
+//!
+//! ```text
+//!  Compiled ─► DrawnView ─► render: per pixel the colour and the part that the model shows ─┐
+//!  text ─► svg::raster: per pixel the colour that the drawing shows ────────────────────────┼─► Look ─► hints
+//!  Bindings ─► Owners: per pixel the part that was drawn last ──────────────────────────────┘
+//! ```
+//!
+//! Conventions: pixels are in rows from the top; the parts are those of the bindings, back-most first. Pixels near a border in
+//! the drawing are not counted: there the two pictures are antialiased in different ways.
+
+mod borders;
+mod drawn;
+mod hints;
+mod view;
+
+use rustc_hash::FxHashMap;
+
+use crate::assemble::{Owner, assemble_apart};
+use crate::bind::Bindings;
+use crate::compile::Compiled;
+use crate::crash::Crash;
+use crate::export::{self, GLB};
+use crate::lang::keyword::Keyword;
+use crate::render::{self, Options, PosedModel, RenderError};
+use crate::resolver::Resolver;
+use crate::terrain::Layer;
+use crate::threads;
+use borders::Borders;
+use drawn::Drawn;
+
+pub use hints::{gives_depth, hints};
+pub use view::DrawnView;
+
+/// How far a channel may be off, of 255, over white.
+const TOLERANCE: u8 = 24;
+
+/// How a model looks, compared with its drawing.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Look {
+    /// The share of the counted pixels that show the right colour, 0 to 1; 1 if none is counted.
+    pub right: f64,
+    /// The number of counted pixels: those where the drawing or the model shows something, away from borders.
+    pub pixels: usize,
+    /// The parts that have counted pixels in the drawing, back-most first.
+    pub parts: Vec<PartLook>,
+}
+
+/// How a part looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PartLook {
+    /// Index of the part.
+    pub part: usize,
+    /// The number of counted pixels that show it in the drawing.
+    pub pixels: usize,
+    /// How many of them show the right colour in the model.
+    pub right: usize,
+    /// What most of the others show, and how many do.
+    pub instead: Option<(Instead, usize)>,
+}
+
+impl PartLook {
+    /// The share of its pixels that show the right colour, 0 to 1.
+    pub fn share(&self) -> f64 {
+        self.right as f64 / self.pixels.max(1) as f64
+    }
+}
+
+/// What a model shows in the place of a part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Instead {
+    /// The part itself, in another colour.
+    OtherColour,
+    /// Nothing.
+    Nothing,
+    /// Another part.
+    Part(usize),
+    /// The landscape of a tile layer.
+    Landscape(usize),
+}
+
+/// Why a model cannot be compared with its drawing. Messages follow the name of the drawing.
+#[derive(Debug, thiserror::Error)]
+pub enum LookError {
+    /// The page has no width or no height.
+    #[error("has a page without a size")]
+    NoPage,
+    /// The drawing cannot be drawn.
+    #[error("cannot be drawn for the comparison")]
+    Drawing,
+    /// The model cannot be drawn.
+    #[error(transparent)]
+    Render(#[from] RenderError),
+    /// The model cannot be written.
+    #[error("cannot be drawn: {0}")]
+    Export(#[from] std::io::Error),
+    /// Comparing panicked.
+    #[error("cannot be compared: {0}; {help}", help = crate::crash::HELP)]
+    Crash(#[from] Crash),
+}
+
+/// What a pixel shows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Shown {
+    #[default]
+    Nothing,
+    Owner(Owner),
+    /// A linked model, which looks as its file says.
+    LinkedModel,
+}
+
+/// Compares the model of a drawing with the drawing, seen from the front as [`DrawnView`] describes it, in pictures whose
+/// larger side has `side` pixels. `text` is the drawing that was compiled, and `resolver` reads the files that it links to.
+///
+/// A pixel is right if each channel, over white, is off by at most 24 of 255. Where strings give a part another colour than is
+/// drawn, it is right if it shows that part. Linked models are not counted.
+///
+/// # Errors
+/// See [`LookError`].
+pub fn compare(
+    compiled: &Compiled,
+    text: &str,
+    resolver: &dyn Resolver,
+    side: u32,
+) -> Result<Look, LookError> {
+    let longest = compiled.drawing.page.1.max_element();
+    if !(longest > 0.0 && longest.is_finite()) {
+        return Err(LookError::NoPage);
+    }
+    threads::run(|| {
+        let scale = f64::from(side) / longest;
+        let apart = assemble_apart(&compiled.drawing, &compiled.bindings, resolver);
+        let view = DrawnView::new(compiled, apart.scene, scale)?;
+        let drawn = Drawn::new(compiled, text, resolver, view.size, scale)?;
+        let shown = shown(&view, &apart.owners, resolver)?;
+        Ok(count(compiled, &drawn, &shown))
+    })?
+}
+
+/// What the model shows in each pixel: the surface, and its sRGB colour multiplied by alpha, and alpha.
+fn shown(
+    view: &DrawnView,
+    owners: &[Option<Owner>],
+    resolver: &dyn Resolver,
+) -> Result<Vec<(Shown, [u8; 4])>, LookError> {
+    let [width, height] = view.size;
+    if view.scene.meshes.is_empty() {
+        return Ok(vec![Default::default(); width as usize * height as usize]);
+    }
+    let bytes = export::to_memory(&GLB, &view.scene, None)?.bytes;
+    let model = render::read(&bytes, resolver)?;
+    drop(bytes);
+    let posed = PosedModel::new(&model, &model.rest())?;
+    let options = Options {
+        size: view.size,
+        ..Options::default()
+    };
+    let seen = posed.visible_surfaces_of(&options, &view.sheet)?;
+    let pixel = |surface: Option<render::VisibleSurface>| {
+        let Some(surface) = surface else {
+            return Default::default();
+        };
+        let owner = surface
+            .material
+            .and_then(|material| owners.get(material).copied().flatten());
+        let what = owner.map_or(Shown::LinkedModel, Shown::Owner);
+        let byte = |value: f32| (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8;
+        (what, surface.blended.map(byte))
+    };
+    Ok(seen.into_iter().map(pixel).collect())
+}
+
+/// Counts the pixels that show the right colour.
+fn count(compiled: &Compiled, drawn: &Drawn, shown: &[(Shown, [u8; 4])]) -> Look {
+    let borders = Borders::find(drawn);
+    let recoloured = Recoloured::new(compiled);
+    let (mut pixels, mut right) = (0, 0);
+    let mut parts: FxHashMap<usize, PartLook> = FxHashMap::default();
+    let mut instead: FxHashMap<(usize, Instead), usize> = FxHashMap::default();
+    for (at, (shown, colour)) in shown.iter().enumerate() {
+        let (owner, drawn_colour) = (drawn.owners[at], drawn.colours[at]);
+        let is_empty = drawn_colour[3] == 0 && colour[3] == 0;
+        if is_empty || borders.is_near(at) || *shown == Shown::LinkedModel || drawn.is_model(owner)
+        {
+            continue;
+        }
+        let is_same = owner.map_or(Shown::Nothing, Shown::Owner) == *shown;
+        let is_excused = is_same && owner.is_some_and(|owner| recoloured.contains(owner));
+        let is_right = is_excused || is_alike(drawn_colour, *colour);
+        pixels += 1;
+        right += usize::from(is_right);
+        let Some(Owner::Part(part)) = owner else {
+            continue;
+        };
+        let look = parts.entry(part).or_insert(PartLook {
+            part,
+            pixels: 0,
+            right: 0,
+            instead: None,
+        });
+        look.pixels += 1;
+        look.right += usize::from(is_right);
+        if !is_right {
+            let what = match *shown {
+                _ if is_same => Instead::OtherColour,
+                Shown::Owner(Owner::Part(other)) => Instead::Part(other),
+                Shown::Owner(Owner::Layer(layer)) => Instead::Landscape(layer),
+                Shown::Nothing | Shown::LinkedModel => Instead::Nothing,
+            };
+            *instead.entry((part, what)).or_default() += 1;
+        }
+    }
+    let mut instead: Vec<_> = instead.into_iter().collect();
+    instead.sort_unstable();
+    for ((part, what), count) in instead {
+        if let Some(look) = parts.get_mut(&part)
+            && look.instead.is_none_or(|(_, most)| count > most)
+        {
+            look.instead = Some((what, count));
+        }
+    }
+    let mut parts: Vec<PartLook> = parts.into_values().collect();
+    parts.sort_unstable_by_key(|look| look.part);
+    Look {
+        right: match pixels {
+            0 => 1.0,
+            _ => right as f64 / pixels as f64,
+        },
+        pixels,
+        parts,
+    }
+}
+
+/// Whether two colours, multiplied by alpha, look the same over white.
+fn is_alike(one: [u8; 4], other: [u8; 4]) -> bool {
+    let over_white =
+        |[r, g, b, alpha]: [u8; 4]| [r, g, b].map(|value| value.saturating_add(255 - alpha));
+    let (one, other) = (over_white(one), over_white(other));
+    (0..3).all(|channel| one[channel].abs_diff(other[channel]) <= TOLERANCE)
+}
+
+/// What shows other colours than were drawn.
+struct Recoloured {
+    parts: Vec<bool>,
+    layers: Vec<bool>,
+}
+
+impl Recoloured {
+    /// Finds what strings give a colour, a texture or an opacity, and what such things show through.
+    fn new(compiled: &Compiled) -> Self {
+        const OF_COLOUR: [Keyword; 3] = [Keyword::Color, Keyword::Texture, Keyword::Alpha];
+        let Compiled {
+            bindings, drawing, ..
+        } = compiled;
+        let by_strings = |part: usize| {
+            let set = |keyword: &Keyword| bindings.setting(part, *keyword).is_some();
+            OF_COLOUR.iter().any(set)
+        };
+        let mut parts: Vec<bool> = (0..bindings.parts.len()).map(by_strings).collect();
+        if parts.contains(&true) {
+            for (index, part) in bindings.parts.iter().enumerate() {
+                let has_server = part.paint(drawing).server.is_some();
+                parts[index] |= has_server || drawing.shapes[part.shape].opacity < 1.0;
+            }
+        }
+        let by_legends = |layer: &Layer| {
+            let index = tile_layer(bindings, layer)?;
+            let legends = (0..bindings.legends.len()).map(Some);
+            let mut all = std::iter::once(None).chain(legends);
+            Some(all.any(|legend| {
+                let attributes = bindings.tile_attributes(index, legend);
+                let set = |keyword: &Keyword| attributes.source(*keyword).is_some();
+                OF_COLOUR.iter().any(set)
+            }))
+        };
+        let layers = compiled.layers.iter();
+        Self {
+            parts,
+            layers: layers
+                .map(|layer| by_legends(layer).unwrap_or(false))
+                .collect(),
+        }
+    }
+
+    fn contains(&self, owner: Owner) -> bool {
+        match owner {
+            Owner::Part(part) => self.parts[part],
+            Owner::Layer(layer) => self.layers[layer],
+        }
+    }
+}
+
+/// The index of a tile layer among the bindings' layers.
+fn tile_layer(bindings: &Bindings, layer: &Layer) -> Option<usize> {
+    let mut layers = bindings.tile_layers();
+    let found = layers.find(|(_, other)| other.string == layer.string)?;
+    Some(found.0)
+}

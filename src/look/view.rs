@@ -1,0 +1,103 @@
+//! Where a model lies on the page of its drawing.
+
+use glam::{DQuat, DVec2, DVec3};
+
+use super::LookError;
+use crate::assemble::world_transform;
+use crate::compile::Compiled;
+use crate::render::{MAX_SIDE, RenderError, Sheet};
+use crate::scene::{Scene, WorldTransform};
+use crate::terrain::Layer;
+
+/// The elevation from which a landscape looks as drawn, in degrees.
+const ELEVATION: f64 = 45.0;
+/// A page reaches into the next pixel only by more than this, in pixels.
+const ROUNDING: f64 = 1e-6;
+
+/// A model as it is drawn: what shows it, and what of the world that is.
+///
+/// Figures are seen from the front. Landscapes are tilted by 45° towards the viewer, each at its place on the page, behind the
+/// figures unless they are drawn after all of them: with their bend, they look as drawn.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DrawnView {
+    /// The model. Its landscapes are roots.
+    pub scene: Scene,
+    /// The page, in the plane of the drawing.
+    pub sheet: Sheet,
+    /// Its width and height, pixels.
+    pub size: [u32; 2],
+}
+
+impl DrawnView {
+    /// How `scene`, the model of a compiled drawing, is drawn, at `scale` pixels a drawing unit.
+    ///
+    /// # Errors
+    /// A page without a size, or with too many pixels.
+    pub fn new(compiled: &Compiled, scene: Scene, scale: f64) -> Result<Self, LookError> {
+        let (corner, size) = compiled.drawing.page;
+        let [width, height] = (size * scale).to_array().map(|side| side - ROUNDING);
+        if !(width > 0.0 && height > 0.0) {
+            return Err(LookError::NoPage);
+        }
+        let size = [width, height].map(|side| side.ceil() as u32);
+        if size.iter().any(|side| *side > MAX_SIDE) {
+            return Err(RenderError::Size(size[0], size[1]).into());
+        }
+        let world = world_transform(&compiled.bindings, &compiled.layers);
+        let mut scene = scene;
+        tilt_landscapes(compiled, &world, &mut scene);
+        Ok(Self {
+            scene,
+            sheet: Sheet {
+                corner: world.point(DVec3::new(corner.x, -corner.y, 0.0)),
+                right: world.rotation * DVec3::X,
+                up: world.rotation * DVec3::Y,
+                pixel: world.scale / scale,
+            },
+            size,
+        })
+    }
+}
+
+/// Moves and turns the landscapes to where they look as drawn from the front.
+fn tilt_landscapes(compiled: &Compiled, world: &WorldTransform, scene: &mut Scene) {
+    let layers = &compiled.layers;
+    let nodes = scene.nodes.iter().enumerate();
+    let bent = nodes.filter(|(_, node)| node.view_dependent.is_some());
+    let bent: Vec<usize> = bent.map(|(index, _)| index).collect();
+    if layers.is_empty() || bent.len() != layers.len() {
+        return;
+    }
+    for node in &mut scene.nodes {
+        node.children.retain(|child| !bent.contains(child));
+    }
+    let extents = layers.iter().map(extent);
+    // So far apart that none reaches into another, or into a figure.
+    let apart = 2.0 * (compiled.drawing.page.1.length() + extents.fold(0.0, f64::max));
+    let last_part = compiled.bindings.parts.iter().rposition(|part| {
+        use crate::bind::PartKind;
+        matches!(part.kind, PartKind::Main | PartKind::Sub)
+    });
+    let last_shape = last_part.map(|part| compiled.bindings.parts[part].shape);
+    for (index, (node, layer)) in bent.into_iter().zip(layers).enumerate() {
+        let first = layer.sources.first().map(|source| source.shape);
+        let steps = match first > last_shape {
+            true => index as f64 + 1.0,
+            false => index as f64 - layers.len() as f64,
+        };
+        let [low, high] = layer.bounds();
+        let DVec2 { x, y } = low.midpoint(high);
+        let moved = &mut scene.nodes[node];
+        moved.translation = world.point(DVec3::new(x, -y, steps * apart));
+        moved.rotation = world.rotation * DQuat::from_rotation_x(ELEVATION.to_radians());
+        if !scene.roots.contains(&node) {
+            scene.roots.push(node);
+        }
+    }
+}
+
+/// The diagonal of a tile layer's grid, drawing units.
+fn extent(layer: &Layer) -> f64 {
+    let [low, high] = layer.bounds();
+    low.distance(high)
+}
