@@ -139,6 +139,10 @@ const ELSEWHERE: &[(Code, &str)] = &[
         Code::Crash,
         "no drawing is known to crash okoshi; tests/crash.rs",
     ),
+    (
+        Code::LooksDifferent,
+        "compiling does not draw the model; tests/as_drawn.rs",
+    ),
 ];
 
 fn every_diagnostic_has_a_case() {

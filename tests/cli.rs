@@ -722,3 +722,32 @@ fn links_are_followed_in_the_folder_of_the_drawing() {
     room.run(&["build", "in/c.svg", "--root", "."])
         .ends(0, "", "wrote in/c.glb");
 }
+
+#[test]
+fn check_says_how_models_look() {
+    let room = Room::with("a.svg", GOOD);
+    let share = "a.svg: 100.0 % of the drawing's pixels show the right colour from the front\n";
+    room.run(&["check", "--look", "a.svg"]).ends(0, share, "");
+    let hidden = GOOD
+        .replace("x=\"90\"", "x=\"20\"")
+        .replace("Shape roundv", "Offset -90")
+        .replace("x=\"120\" y=\"39\"", "x=\"40\" y=\"36\"");
+    room.write("hidden.svg", hidden);
+    room.run(&["check", "--look", "hidden.svg"]).ends(
+        0,
+        "hint[H411]: `Arm` shows 0 % of what is drawn of it: it is inside or behind `Body`, which is drawn before it",
+        "",
+    );
+    let run = room.run(&["check", "--look", "--format", "json", "hidden.svg", "a.svg"]);
+    let json: Value = serde_json::from_str(&run.out).expect("JSON");
+    assert_eq!(json["drawings"][1]["look"]["right"], 1.0);
+    let right = json["drawings"][0]["look"]["right"]
+        .as_f64()
+        .expect("a number");
+    assert!((0.5..0.9).contains(&right), "{right}");
+    room.write("bad.svg", BAD);
+    room.run(&["check", "--look", "bad.svg"])
+        .ends(1, "error[E101]", "");
+    let run = room.run(&["check", "--look", "--format", "sarif", "hidden.svg"]);
+    run.ends(0, "H411", "");
+}

@@ -54,6 +54,7 @@ const USES: &[(&str, &[&str])] = &[
             "disk",
             "export",
             "lang",
+            "look",
             "lsp",
             "motion",
             "preview",
@@ -119,6 +120,25 @@ const USES: &[(&str, &[&str])] = &[
     ("import", &["resolver", "scene"]),
     ("lang", &["diagnostic", "source"]),
     ("lib", &[]),
+    (
+        "look",
+        &[
+            "assemble",
+            "bind",
+            "compile",
+            "crash",
+            "diagnostic",
+            "export",
+            "geometry",
+            "lang",
+            "render",
+            "resolver",
+            "scene",
+            "svg",
+            "terrain",
+            "threads",
+        ],
+    ),
     (
         "lsp",
         &[

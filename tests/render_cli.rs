@@ -560,3 +560,81 @@ fn terrain_is_bent_with_the_view_by_default() {
         "[possible values: on, off]",
     );
 }
+
+#[test]
+fn a_page_is_shown_as_drawn() {
+    let room = room();
+    ends(
+        &room,
+        "render a.svg --as-drawn",
+        0,
+        "wrote a.png: 200 × 200 pixels, 12 triangles",
+    );
+    let image = picture(&room, "a.png");
+    for (x, y, pixel) in image.enumerate_pixels() {
+        let is_body = (20..80).contains(&x) && (20..60).contains(&y);
+        let wanted = if is_body { [0xcc, 0, 0, 255] } else { [0; 4] };
+        assert_eq!(pixel.0, wanted, "{x}, {y}");
+    }
+    ends(
+        &room,
+        "render a.svg -o half.png --as-drawn --scale 0.5 --background #00ff00",
+        0,
+        "wrote half.png: 100 × 100 pixels",
+    );
+    assert_eq!(
+        picture(&room, "half.png").get_pixel(9, 30).0,
+        [0, 255, 0, 255]
+    );
+    assert_eq!(
+        picture(&room, "half.png").get_pixel(10, 20).0,
+        [0xcc, 0, 0, 255]
+    );
+    ends(&room, "build a.svg", 0, "wrote");
+    let told = [
+        (
+            "a.glb --as-drawn",
+            "`a.glb` is a model, which has no page: --as-drawn needs the drawing",
+        ),
+        (
+            "a.svg --as-drawn --scale 41",
+            "`a.svg` cannot be drawn 8200 by 8200 pixels: each side may have 1 to 8192; choose a smaller --scale",
+        ),
+        (
+            "a.svg --as-drawn --scale 0",
+            "expected a number of pixels above 0, up to 8192, for example 2",
+        ),
+        ("a.svg --scale 2", "--as-drawn"),
+        (
+            "a.svg --as-drawn --view 0,0",
+            "'--as-drawn' cannot be used with '--view <YAW,PITCH>'",
+        ),
+        (
+            "a.svg --as-drawn --clip 1",
+            "'--as-drawn' cannot be used with '--clip <NAME>'",
+        ),
+        (
+            "a.svg --as-drawn --turntable 4",
+            "'--as-drawn' cannot be used with '--turntable <N>'",
+        ),
+        ("a.svg -o a.gif --as-drawn", "would be an animation"),
+    ];
+    for (arguments, message) in told {
+        ends(&room, &format!("render {arguments}"), 2, message);
+    }
+}
+
+#[test]
+fn unlit_pictures_show_the_colours_of_materials() {
+    let room = room();
+    ends(
+        &room,
+        "render a.svg --size 60x60 --shading unlit",
+        0,
+        "wrote",
+    );
+    for pixel in picture(&room, "a.png").pixels() {
+        let [r, g, b, alpha] = pixel.0;
+        assert!(alpha == 0 || [r, g, b] == [0xcc, 0, 0], "{pixel:?}");
+    }
+}

@@ -71,9 +71,6 @@ mod tests {
         };
         let borders = Borders::find(&drawn);
         let near: Vec<bool> = (0..8).map(|at| borders.is_near(at)).collect();
-        assert_eq!(
-            near,
-            [false, false, true, true, true, true, false, false]
-        );
+        assert_eq!(near, [false, false, true, true, true, true, false, false]);
     }
 }

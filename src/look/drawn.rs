@@ -105,7 +105,12 @@ fn left_out(
         built.has_stroke |= shape.stroke.is_some();
         built.is_clone |= shape.element.tag == "use";
     }
-    for (part, _) in bindings.parts.iter().zip(owners).filter(|(_, o)| o.is_some()) {
+    for (part, _) in bindings
+        .parts
+        .iter()
+        .zip(owners)
+        .filter(|(_, o)| o.is_some())
+    {
         let start = drawing.shapes[part.shape].element.span.start;
         if let Some(built) = elements.get_mut(&start) {
             match part.is_stroke {

@@ -26,7 +26,12 @@ fn hint(compiled: &Compiled, look: &PartLook, instead: Instead) -> Option<Diagno
     let Compiled {
         bindings, drawing, ..
     } = compiled;
-    let who = bindings.describe(drawing, look.part);
+    let name = |part: usize| match bindings.parts[part].is_automatic() {
+        // Nobody knows an automatic name.
+        true => drawing.describe(bindings.parts[part].shape),
+        false => bindings.describe(drawing, part),
+    };
+    let who = name(look.part);
     let span = |part: usize| drawing.shapes[bindings.parts[part].shape].element.span;
     let (why, help) = match instead {
         Instead::OtherColour => (
@@ -38,21 +43,29 @@ fn hint(compiled: &Compiled, look: &PartLook, instead: Instead) -> Option<Diagno
             "give it another `Shape`".to_owned(),
         ),
         Instead::Landscape(layer) => (
-            format!("the landscape `{}` is in front", compiled.layers.get(layer)?.name),
+            format!(
+                "the landscape `{}` is in front",
+                compiled.layers.get(layer)?.name
+            ),
             "move one of the two on the page".to_owned(),
         ),
         Instead::Part(other) => {
-            let name = bindings.describe(drawing, other);
+            let seen = name(other);
             let why = match other < look.part {
-                true => format!("it is inside or behind {name}, which is drawn before it"),
-                false => format!("{name} covers more of it than is drawn"),
+                true => format!("it is inside or behind {seen}, which is drawn before it"),
+                false => format!("{seen} covers more of it than is drawn"),
             };
             let given = [look.part, other].into_iter();
             let given = given.filter(|part| gives_depth(bindings, *part));
-            let given: Vec<String> = given.map(|part| bindings.describe(drawing, part)).collect();
+            let given: Vec<String> = given.map(name).collect();
             let help = match given.as_slice() {
-                [] => format!("bring it to the front with `Offset`, or make {name} flatter with `Shape`"),
-                given => format!("take away or change the depth that is given for {}", given.join(" and ")),
+                [] => format!(
+                    "bring it to the front with `Offset`, or make {seen} flatter with `Shape`"
+                ),
+                given => format!(
+                    "take away or change the depth that is given for {}",
+                    given.join(" and ")
+                ),
             };
             (why, help)
         }

@@ -114,9 +114,8 @@ impl PosedModel<'_> {
             let away = tracer.surface.reach();
             let at = |row: u32, column: u32| {
                 let [right, down] = beam.steps;
-                let place = beam.corner
-                    + right * (f64::from(column) + 0.5)
-                    + down * (f64::from(row) + 0.5);
+                let place =
+                    beam.corner + right * (f64::from(column) + 0.5) + down * (f64::from(row) + 0.5);
                 let place = normalization.apply(place);
                 let place = place + towards * (away - place.dot(towards));
                 first(tracer, place, -towards.as_vec3(), texel)
