@@ -1,6 +1,6 @@
 //! Whether a model, seen from the front, looks like its drawing.
 //!
-//! [`compare`] draws both and says which pixels show the right colour, per part and in all; [`hints`] says it in words.
+//! [`compare`] draws both and says which pixels show the right colour, per part and in all; [`hints()`] says it in words.
 //! [`DrawnView`] is where a camera has to be so that the model lies on the page as drawn:
 //!
 //! ```text
