@@ -5,25 +5,36 @@
 //! come out thinner than the trunk, and the surface is vertical at the border, so that both sides meet without an edge. The
 //! result does not depend on how densely the outline is sampled.
 
+mod delaunay;
+mod discs;
 mod mesh;
 mod points;
 mod poisson;
+mod sides;
 
 use glam::DVec2;
 
 pub(super) use mesh::{Mesh, mesh};
 pub(super) use points::Points;
+use sides::Sides;
 
-use super::Options;
 use super::crease::Crease;
 use super::layers::{MIN_THICKNESS, steps_per_half_turn};
-use super::shade::shade;
 use super::stack::PlacementTransform;
+use super::{Options, Placement};
 use crate::geometry::Outline;
 use crate::scene::Surface;
 
 /// The smallest height over an inner point, relative to depths, that `f32` can distinguish from 0.
 const MIN_HEIGHT: f64 = 1e-6;
+
+/// The front of an inflated outline: heights over a mesh in the drawing plane.
+#[derive(Debug, Default)]
+pub(in crate::solid) struct Field {
+    pub(in crate::solid) mesh: Mesh,
+    /// Over each point of the mesh, model units: 0 on the border, positive elsewhere.
+    pub(in crate::solid) heights: Vec<f64>,
+}
 
 /// The surface over both sides of an outline whose bounding box has these half extents. Its highest points have the given
 /// height, drawing units.
@@ -36,74 +47,67 @@ pub(super) fn inflate(
     half: DVec2,
     options: &Options,
 ) -> Surface {
+    let field = field(outline, given, half, options);
+    let Placement {
+        translation, scale, ..
+    } = options.placement;
+    let sides = Sides::of(&field, scale * translation.z);
+    // All edges come from the steps, so either all of them are smooth or none is.
+    let step = 180.0 / f64::from(steps_per_half_turn(options));
+    if options.crease <= step || options.crease.is_nan() {
+        sides.shaded(Crease::new(options.crease))
+    } else if field.mesh.has_pinches {
+        sides.shaded(Crease::new(180.0))
+    } else {
+        sides.smooth()
+    }
+}
+
+/// The front of the surface of [`inflate`].
+pub(in crate::solid) fn field(
+    outline: &Outline,
+    given: Option<f64>,
+    half: DVec2,
+    options: &Options,
+) -> Field {
     let most = height(given, half);
     let transform = PlacementTransform::new(options);
     let points = points::points(outline, steps_per_half_turn(options));
     let mesh = mesh(&points, &transform);
     let Some(first) = mesh.points.first() else {
-        return Surface::default();
+        return Field::default();
     };
 
     // Relative to one of the points and to the extent, so that products neither lose precision nor overflow.
     let flat = |[x, y]: &[f32; 2]| DVec2::new((*x).into(), (*y).into());
     let origin = flat(first);
-    let distances = mesh
-        .points
-        .iter()
-        .map(|p| (flat(p) - origin).abs().max_element());
+    let mut plane: Vec<DVec2> = mesh.points.iter().map(|p| flat(p) - origin).collect();
+    let distances = plane.iter().map(|p| p.abs().max_element());
     let extent = distances.fold(f64::MIN_POSITIVE, f64::max);
-    let plane: Vec<DVec2> = mesh
-        .points
-        .iter()
-        .map(|p| (flat(p) - origin) / extent)
-        .collect();
-    let field = poisson::solve(&plane, &mesh.triangles, &mesh.on_border);
-    let highest = field.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-    let own = 2.0 * highest.sqrt() * extent / options.placement.scale;
-    let height = if given.is_none() { most.min(own) } else { most };
+    for point in &mut plane {
+        *point /= extent;
+    }
+    let solution = poisson::solve(&plane, &mesh.triangles, &mesh.on_border);
+    let highest = solution.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
 
-    let least = (MIN_HEIGHT * options.placement.translation.z.abs()).max(MIN_HEIGHT * height);
-    let middle = transform.depth(0.0);
-    let mut written = Vec::with_capacity(2 * plane.len());
-    let mut back: Vec<u32> = (0..plane.len() as u32).collect();
-    let heights: Vec<f64> = field
-        .iter()
-        .map(|u| ((u / highest).max(0.0).sqrt() * height).max(least))
-        .collect();
-    for (i, [x, y]) in mesh.points.iter().enumerate() {
-        written.push([
-            *x,
-            *y,
-            if mesh.on_border[i] {
-                middle
-            } else {
-                transform.depth(heights[i])
-            },
-        ]);
-    }
-    for (i, [x, y]) in mesh.points.iter().enumerate() {
-        if !mesh.on_border[i] {
-            back[i] = written.len() as u32;
-            written.push([*x, *y, transform.depth(-heights[i])]);
+    let Placement {
+        translation, scale, ..
+    } = options.placement;
+    let own = 2.0 * highest.sqrt() * extent / scale;
+    let height = if given.is_none() { most.min(own) } else { most };
+    let least = MIN_HEIGHT * translation.z.abs().max(height);
+    let heights = solution.iter().zip(&mesh.on_border);
+    let heights = heights.map(|(u, on_border)| {
+        if *on_border {
+            0.0
+        } else {
+            scale * ((u / highest).max(0.0).sqrt() * height).max(least)
         }
+    });
+    Field {
+        heights: heights.collect(),
+        mesh,
     }
-    let mut triangles = mesh.triangles;
-    let behind: Vec<[u32; 3]> = triangles
-        .iter()
-        .map(|triangle| {
-            let [a, b, c] = triangle.map(|i| back[i as usize]);
-            [a, c, b]
-        })
-        .collect();
-    triangles.extend(behind);
-    // All edges come from the steps, so either all of them are smooth or none is.
-    let step = 180.0 / f64::from(steps_per_half_turn(options));
-    let crease = if options.crease > step {
-        180.0
-    } else {
-        options.crease
-    };
-    shade(&written, &triangles, Crease::new(crease), |_| false)
 }
 
 /// The largest height over an outline whose bounding box has these half extents, drawing units.

@@ -1,27 +1,19 @@
 //! Samples the points of an inflated outline.
 //!
 //! From points along the border, columns lead inward to the middle of the largest disc that touches
-//! the border there and lies in the outline (shrinking ball: Ma, Bae & Choi, "3D medial axis point
-//! approximation using nearest neighbors and the normal field", 2012). Their points are spaced as on a quarter
+//! the border there and lies in the outline. Their points are spaced as on a quarter
 //! circle seen from the side, so they are dense where the surface is steep. Points too close to
 //! others in space, for instance towards the middle of a disc, are left out.
 
 use glam::{DVec2, DVec3};
-use rstar::RTree;
-use rstar::primitives::Line;
-use rustc_hash::FxHashMap;
 
+use super::discs::{Disc, Discs};
 use crate::geometry::{Outline, bounds};
 
 /// The largest number of points added along borders, and of columns.
 const MAX_COLUMNS: usize = 1 << 13;
 /// The largest number of inner points.
 const MAX_INSIDE: usize = 1 << 16;
-/// A disc counts as inside the outline if the border comes no closer to its centre than this, relative
-/// to its radius: flattened curves cut off that little.
-const SLACK: f64 = 0.9;
-/// The largest number of iterations for a disc; a handful is usual.
-const MAX_ITERATIONS: usize = 24;
 /// Corners that turn left by more have no column, because discs in them have no size; radians.
 const CONVEX: f64 = 0.9;
 /// Corners that turn right have columns this far apart, radians.
@@ -34,6 +26,8 @@ const NOTHING: f64 = 0.01;
 const NEAR: f64 = 0.62;
 /// The largest distance between points on the border, relative to the radius of the disc there.
 const ALONG: f64 = 0.8;
+/// Limit of the cells along each side of the grid in which points keep their distance.
+const MAX_CELLS: f64 = 512.0;
 /// The lower limit of that distance, relative to the usual one.
 const LEAST_ALONG: f64 = 0.25;
 
@@ -53,54 +47,11 @@ struct Column {
     radius: f64,
 }
 
-/// A point on the border between two drawn points or at one of them, with the radius there.
+/// A point on the border between two drawn points or at one of them, with the disc there.
 #[derive(Clone, Copy)]
 struct Foot {
     at: DVec2,
-    radius: f64,
-}
-
-struct Discs {
-    border: RTree<Line<[f64; 2]>>,
-    /// The radius to begin with.
-    reach: f64,
-}
-
-impl Discs {
-    fn of(outline: &Outline, reach: f64) -> Self {
-        let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
-        let edges = rings.flat_map(|ring| {
-            let n = ring.len();
-            (0..n).map(move |i| Line::new(ring[i].to_array(), ring[(i + 1) % n].to_array()))
-        });
-        Self {
-            border: RTree::bulk_load(edges.collect()),
-            reach,
-        }
-    }
-
-    /// The radius of the largest disc that touches the border at `foot`; 0 where there is none.
-    fn radius(&self, foot: DVec2, inward: DVec2) -> f64 {
-        let mut radius = self.reach;
-        for _ in 0..MAX_ITERATIONS {
-            let middle = foot + radius * inward;
-            let Some(edge) = self.border.nearest_neighbor(middle.to_array()) else {
-                return 0.0;
-            };
-            let nearest = DVec2::from_array(edge.nearest_point(&middle.to_array()));
-            let distance = nearest.distance(middle);
-            if distance >= SLACK * radius {
-                return distance.min(radius);
-            }
-            let to = nearest - foot;
-            let smaller = to.length_squared() / (2.0 * inward.dot(to));
-            if !(smaller > 0.0 && smaller < radius) {
-                return 0.0;
-            }
-            radius = smaller;
-        }
-        0.0
-    }
+    disc: Disc,
 }
 
 /// Points for an outline, y up, at about the density of a rounding of so many layers per 180°.
@@ -148,15 +99,17 @@ pub(super) fn points(outline: &Outline, segments: u32) -> Points {
 fn border(ring: &[DVec2], apart: f64, discs: &Discs, all: &mut Points, columns: &mut Vec<Column>) {
     let n = ring.len();
     let direction = |i: usize| (ring[(i + 1) % n] - ring[i]).normalize_or_zero();
-    // Radii at corners, and columns there.
-    let mut radii = vec![0.0f64; n];
+    let directions: Vec<DVec2> = (0..n).map(direction).collect();
+    // Discs at corners, and columns there.
+    let mut corners = vec![Disc::default(); n];
     let mut last = DVec2::INFINITY;
     for i in 0..n {
-        let (before, after) = (direction((i + n - 1) % n), direction(i));
+        let (before, after) = (directions[(i + n - 1) % n], directions[i]);
         let turn = before.perp_dot(after).atan2(before.dot(after));
         if turn > CONVEX {
             continue;
         }
+        let neighbour = corners[(i + n - 1) % n];
         let crowded = ring[i].distance(last) < LEAST_ALONG * apart;
         let count = if turn < -FAN {
             (-turn / FAN).ceil() as usize
@@ -164,7 +117,7 @@ fn border(ring: &[DVec2], apart: f64, discs: &Discs, all: &mut Points, columns: 
             0
         };
         if crowded && count == 0 {
-            radii[i] = radii[(i + n - 1) % n];
+            corners[i] = neighbour;
             continue;
         }
         for k in 0..=count {
@@ -174,44 +127,41 @@ fn border(ring: &[DVec2], apart: f64, discs: &Discs, all: &mut Points, columns: 
                 k as f64 / count as f64
             };
             let inward = DVec2::from_angle(turn * part).rotate(before).perp();
-            let radius = discs.radius(ring[i], inward);
-            radii[i] = radii[i].max(radius);
+            let disc = discs.disc(ring[i], inward, neighbour);
+            if disc.radius > corners[i].radius {
+                corners[i] = disc;
+            }
             columns.push(Column {
                 foot: ring[i],
                 inward,
-                radius,
+                radius: disc.radius,
             });
         }
         last = ring[i];
     }
     let start = all.points.len();
+    let (mut coarse, mut fine) = (Vec::new(), Vec::new());
     for i in 0..n {
-        let (from, to) = (ring[i], ring[(i + 1) % n]);
-        let inward = direction(i).perp();
-        let ends = [
-            Foot {
-                at: from,
-                radius: radii[i],
-            },
-            Foot {
-                at: to,
-                radius: radii[(i + 1) % n],
-            },
-        ];
-        all.points.push(from);
+        let next = (i + 1) % n;
+        let ends = [i, next].map(|i| Foot {
+            at: ring[i],
+            disc: corners[i],
+        });
+        let inward = directions[i].perp();
+        all.points.push(ring[i]);
         // At the usual distance first, then closer where discs are small.
-        let coarse = between(ends, apart, inward, discs);
+        between(ends, apart, inward, discs, &mut coarse);
         for pair in coarse.windows(2) {
-            let mean = pair[0].radius.midpoint(pair[1].radius);
+            let mean = pair[0].disc.radius.midpoint(pair[1].disc.radius);
             let closer = (ALONG * mean).clamp(LEAST_ALONG * apart, apart);
-            let fine = between([pair[0], pair[1]], closer, inward, discs);
+            between([pair[0], pair[1]], closer, inward, discs, &mut fine);
             for foot in &fine[1..] {
-                if foot.at != to {
+                if foot.at != ring[next] {
                     all.points.push(foot.at);
                     columns.push(Column {
                         foot: foot.at,
                         inward,
-                        radius: foot.radius,
+                        radius: foot.disc.radius,
                     });
                 }
             }
@@ -223,17 +173,18 @@ fn border(ring: &[DVec2], apart: f64, discs: &Discs, all: &mut Points, columns: 
 }
 
 /// Points from one to another in equal steps, both included.
-fn between(ends: [Foot; 2], apart: f64, inward: DVec2, discs: &Discs) -> Vec<Foot> {
+fn between(ends: [Foot; 2], apart: f64, inward: DVec2, discs: &Discs, feet: &mut Vec<Foot>) {
     let [from, to] = ends;
     let count = (from.at.distance(to.at) / apart * 0.8).ceil().max(1.0) as usize;
-    let middle = (1..count).map(|k| {
+    feet.clear();
+    feet.push(from);
+    let mut disc = from.disc;
+    for k in 1..count {
         let at = from.at.lerp(to.at, k as f64 / count as f64);
-        Foot {
-            at,
-            radius: discs.radius(at, inward),
-        }
-    });
-    std::iter::once(from).chain(middle).chain([to]).collect()
+        disc = discs.disc(at, inward, disc);
+        feet.push(Foot { at, disc });
+    }
+    feet.push(to);
 }
 
 /// Adds the columns' points, layer by layer.
@@ -243,38 +194,95 @@ fn inside(columns: &[Column], layers: usize, most: f64, points: &mut Vec<DVec2>)
         let share = (column.radius / (SMALL * most)).min(1.0);
         ((layers as f64 * share).ceil() as usize).clamp(1, layers)
     };
+    let counts: Vec<usize> = columns.iter().map(count).collect();
     let cell = NEAR * most * quarter / layers as f64;
-    let mut taken: FxHashMap<[i32; 3], Vec<DVec3>> = FxHashMap::default();
+    let ends = columns.iter().map(|column| {
+        let middle = column.foot + column.radius * column.inward;
+        [column.foot.min(middle), column.foot.max(middle)]
+    });
+    let Some([low, high]) = ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]) else {
+        return;
+    };
+    let mut taken = Taken::new(low, high, cell);
     for layer in 1..=layers {
-        for column in columns {
-            let own = count(column);
-            if layer > own {
+        let angles = |own: usize| (quarter * layer as f64 / own as f64).sin_cos();
+        let usual = angles(layers);
+        for (column, own) in columns.iter().zip(&counts) {
+            if layer > *own {
                 continue;
             }
-            let angle = quarter * layer as f64 / own as f64;
-            let depth = column.radius * (1.0 - angle.cos());
+            let (sine, cosine) = if *own == layers { usual } else { angles(*own) };
+            let depth = column.radius * (1.0 - cosine);
             let at = column.foot + depth * column.inward;
-            let place = at.extend(column.radius * angle.sin());
-            let near = (NEAR * column.radius * quarter / own as f64).min(cell);
-            let cells = |place: DVec3| (place / cell).floor().as_ivec3().to_array();
-            let (low, high) = (cells(place - near), cells(place + near));
-            let mut around = (low[0]..=high[0]).flat_map(|x| {
-                (low[1]..=high[1]).flat_map(move |y| (low[2]..=high[2]).map(move |z| [x, y, z]))
-            });
-            let crowded = around.any(|cell| {
-                taken.get(&cell).is_some_and(|others| {
-                    others.iter().any(|other| {
-                        let apart = *other - place;
-                        apart.length_squared() < near * near
-                            // Estimates of height may differ between columns.
-                            || apart.truncate().length_squared() < (0.1 * near).powi(2)
-                    })
-                })
-            });
-            if !crowded {
-                taken.entry(cells(place)).or_default().push(place);
+            let near = (NEAR * column.radius * quarter / *own as f64).min(cell);
+            if taken.take(at.extend(column.radius * sine), near) {
                 points.push(at);
             }
         }
+    }
+}
+
+/// Points in space that others keep a distance from, by cells of the plane.
+struct Taken {
+    low: DVec2,
+    /// Cells a unit.
+    scale: f64,
+    /// The last cell across and up.
+    last: DVec2,
+    /// Per cell, row by row, the number of its last point.
+    cells: Vec<u32>,
+    /// Each with the number of the point before it in its cell.
+    points: Vec<(DVec3, u32)>,
+}
+
+impl Taken {
+    /// No point before another.
+    const NONE: u32 = u32::MAX;
+
+    /// An empty grid over a box. A cell is this wide, or wider where there would be too many.
+    fn new(low: DVec2, high: DVec2, cell: f64) -> Self {
+        let size = high - low;
+        let least = size.max_element() / MAX_CELLS;
+        let scale = cell.max(least).max(f64::MIN_POSITIVE).recip();
+        let last = (size * scale).floor();
+        let count = (last.x as usize + 1) * (last.y as usize + 1);
+        Self {
+            low,
+            scale,
+            last,
+            cells: vec![Self::NONE; count],
+            points: Vec::new(),
+        }
+    }
+
+    /// Adds a point unless another is nearer to it than this.
+    fn take(&mut self, place: DVec3, near: f64) -> bool {
+        let cell = |at: DVec2| {
+            let cell = ((at - self.low) * self.scale).clamp(DVec2::ZERO, self.last);
+            [cell.x as usize, cell.y as usize]
+        };
+        let at = place.truncate();
+        let ([left, bottom], [right, top]) = (cell(at - near), cell(at + near));
+        let across = self.last.x as usize + 1;
+        for y in bottom..=top {
+            for x in left..=right {
+                let mut next = self.cells[y * across + x];
+                while let Some((other, before)) = self.points.get(next as usize) {
+                    let apart = *other - place;
+                    // Estimates of height may differ between columns.
+                    if apart.length_squared() < near * near
+                        || apart.truncate().length_squared() < (0.1 * near).powi(2)
+                    {
+                        return false;
+                    }
+                    next = *before;
+                }
+            }
+        }
+        let [x, y] = cell(at);
+        let first = &mut self.cells[y * across + x];
+        let before = std::mem::replace(first, self.points.len() as u32);
+        self.points.push((place, before));
+        true
     }
 }

@@ -1,24 +1,28 @@
 //! Solves the Poisson equation Δu = −1 with u = 0 on the border, by linear finite elements on triangles: the cotangent
 //! Laplacian (Pinkall & Polthier, *Computing Discrete Minimal Surfaces and Their Conjugates*, 1993) and conjugate gradients with
-//! an incomplete Cholesky preconditioner.
+//! a modified incomplete Cholesky preconditioner (Gustafsson, *A Class of First Order Factorization Methods*, 1978).
 //!
 //! Written by hand, because the matrix is small, sparse and symmetric: general solvers bring linear algebra crates many times
 //! the size of this file, and results would depend on their versions.
 
 use glam::DVec2;
 
-/// The residual at which iteration stops, relative to the right-hand side.
-const PRECISION: f64 = 1e-7;
-/// The largest number of iterations; a few dozen are usual.
+/// The residual at which iteration stops, relative to the right-hand side, both as the preconditioner weighs them.
+const PRECISION: f64 = 1e-5;
+/// The largest number of iterations; a dozen is usual.
 const MAX_ITERATIONS: usize = 500;
 /// The largest weight of one angle, so that slivers do not dominate the matrix.
 const MAX_COTANGENT: f64 = 1e6;
+/// The share of entries outside the matrix's pattern that the preconditioner adds to its diagonal.
+const MODIFIED: f64 = 0.9;
+/// The least diagonal of the preconditioner, relative to that of the matrix.
+const LEAST_DIAGONAL: f64 = 0.05;
 
 /// The lower triangle of a symmetric sparse matrix, in compressed rows.
 struct Lower {
-    starts: Vec<usize>,
-    columns: Vec<u32>,
-    values: Vec<f64>,
+    starts: Vec<u32>,
+    /// Columns with their values, in order.
+    entries: Vec<(u32, f64)>,
     diagonal: Vec<f64>,
 }
 
@@ -33,7 +37,7 @@ pub(super) fn solve(points: &[DVec2], triangles: &[[u32; 3]], on_border: &[bool]
         }
     }
     let (matrix, load) = assemble(points, triangles, &unknown, count as usize);
-    let solution = conjugate_gradients(&matrix, &matrix.factor(), &load);
+    let solution = Scaled::of(matrix).solve(load);
     let value = |i: &u32| solution.get(*i as usize).copied().unwrap_or(0.0);
     unknown.iter().map(value).collect()
 }
@@ -45,163 +49,198 @@ fn assemble(
     unknown: &[u32],
     count: usize,
 ) -> (Lower, Vec<f64>) {
-    let mut diagonal = vec![0.0; count];
     let mut load = vec![0.0; count];
-    let mut entries: Vec<(u32, u32, f64)> = Vec::with_capacity(3 * triangles.len());
+    let mut matrix = Lower {
+        starts: vec![0; count + 1],
+        entries: Vec::new(),
+        diagonal: vec![0.0; count],
+    };
+    // Places for both triangles of each edge, in the rows of its ends with the greater number.
     for triangle in triangles {
-        let at = triangle.map(|i| points[i as usize]);
-        let area = (at[1] - at[0]).perp_dot(at[2] - at[0]) / 2.0;
-        for i in 0..3 {
-            let (a, b) = (triangle[(i + 1) % 3], triangle[(i + 2) % 3]);
-            let (to_a, to_b) = (at[(i + 1) % 3] - at[i], at[(i + 2) % 3] - at[i]);
-            let weight = (to_a.dot(to_b) / (4.0 * area)).clamp(-MAX_COTANGENT, MAX_COTANGENT);
-            let (a, b) = (unknown[a as usize], unknown[b as usize]);
-            for end in [a, b] {
-                if end != u32::MAX {
-                    diagonal[end as usize] += weight;
-                }
-            }
+        let own = triangle.map(|i| unknown[i as usize]);
+        for [a, b] in [[own[0], own[1]], [own[1], own[2]], [own[2], own[0]]] {
             if a != u32::MAX && b != u32::MAX {
-                entries.push((a.max(b), a.min(b), -weight));
-            }
-            let own = unknown[triangle[i] as usize];
-            if own != u32::MAX {
-                load[own as usize] += area / 3.0;
+                matrix.starts[a.max(b) as usize + 1] += 1;
             }
         }
     }
-    entries.sort_unstable_by_key(|(row, column, _)| (*row, *column));
-    let mut matrix = Lower {
-        starts: vec![0; count + 1],
-        columns: Vec::with_capacity(entries.len() / 2),
-        values: Vec::with_capacity(entries.len() / 2),
-        diagonal,
-    };
-    for edge in entries.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
-        matrix.columns.push(edge[0].1);
-        matrix.values.push(edge.iter().map(|entry| entry.2).sum());
-        matrix.starts[edge[0].0 as usize + 1] = matrix.columns.len();
-    }
     for row in 0..count {
-        matrix.starts[row + 1] = matrix.starts[row + 1].max(matrix.starts[row]);
+        matrix.starts[row + 1] += matrix.starts[row];
     }
+    let mut ends = matrix.starts.clone();
+    matrix.entries = vec![(0, 0.0); matrix.starts[count] as usize];
+    for triangle in triangles {
+        let at = triangle.map(|i| points[i as usize]);
+        let own = triangle.map(|i| unknown[i as usize]);
+        let twice = (at[1] - at[0]).perp_dot(at[2] - at[0]);
+        let inverse = 0.5 / twice;
+        for i in 0..3 {
+            let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+            let weight = (at[j] - at[i]).dot(at[k] - at[i]) * inverse;
+            let weight = weight.clamp(-MAX_COTANGENT, MAX_COTANGENT);
+            let (a, b) = (own[j], own[k]);
+            for end in [a, b] {
+                if end != u32::MAX {
+                    matrix.diagonal[end as usize] += weight;
+                }
+            }
+            if a != u32::MAX && b != u32::MAX {
+                let end = &mut ends[a.max(b) as usize];
+                matrix.entries[*end as usize] = (a.min(b), -weight);
+                *end += 1;
+            }
+            if own[i] != u32::MAX {
+                load[own[i] as usize] += twice / 6.0;
+            }
+        }
+    }
+    matrix.merge();
     (matrix, load)
 }
 
 impl Lower {
-    fn row(&self, i: usize) -> (&[u32], &[f64]) {
-        let range = self.starts[i]..self.starts[i + 1];
-        (&self.columns[range.clone()], &self.values[range])
+    fn row(&self, i: usize) -> &[(u32, f64)] {
+        &self.entries[self.starts[i] as usize..self.starts[i + 1] as usize]
     }
 
-    /// The incomplete Cholesky factor without fill (Meijerink & van der Vorst 1977).
-    fn factor(&self) -> Lower {
-        let mut factor = Lower {
-            starts: self.starts.clone(),
-            columns: self.columns.clone(),
-            values: self.values.clone(),
-            diagonal: self.diagonal.clone(),
-        };
-        for i in 0..self.diagonal.len() {
-            let range = self.starts[i]..self.starts[i + 1];
-            let mut rest = self.diagonal[i];
-            for at in range.clone() {
-                let k = self.columns[at] as usize;
-                let mut value = self.values[at];
-                let (mut p, mut q) = (range.start, self.starts[k]);
-                while p < at && q < self.starts[k + 1] {
-                    match self.columns[p].cmp(&self.columns[q]) {
-                        std::cmp::Ordering::Less => p += 1,
-                        std::cmp::Ordering::Greater => q += 1,
-                        std::cmp::Ordering::Equal => {
-                            value -= factor.values[p] * factor.values[q];
-                            p += 1;
-                            q += 1;
-                        }
-                    }
+    /// Sorts the entries of each row and adds up those of the same column.
+    fn merge(&mut self) {
+        let mut count = 0;
+        let mut start = 0;
+        for end in &mut self.starts[1..] {
+            let row = &mut self.entries[start..*end as usize];
+            row.sort_unstable_by_key(|(column, _)| *column);
+            start = *end as usize;
+            let first = count;
+            for i in start - row.len()..start {
+                let (column, value) = self.entries[i];
+                if count > first && self.entries[count - 1].0 == column {
+                    self.entries[count - 1].1 += value;
+                } else {
+                    self.entries[count] = (column, value);
+                    count += 1;
                 }
-                value /= factor.diagonal[k];
-                factor.values[at] = value;
-                rest -= value * value;
             }
-            // If rounding leaves no positive pivot, the diagonal alone still preconditions.
-            let rest = if rest > 1e-9 * self.diagonal[i] {
-                rest
-            } else {
-                self.diagonal[i].abs().max(f64::MIN_POSITIVE)
-            };
-            factor.diagonal[i] = rest.sqrt();
+            *end = count as u32;
+        }
+        self.entries.truncate(count);
+    }
+
+    /// The diagonal of the factor: what is left of that of the matrix without the products of entries above it. Products outside
+    /// the pattern are taken from the diagonal too, so that smooth vectors are preconditioned well.
+    fn factor(&self) -> Vec<f64> {
+        let n = self.diagonal.len();
+        let mut right = vec![0.0; n];
+        for (column, value) in &self.entries {
+            right[*column as usize] += value;
+        }
+        let mut factor = vec![0.0; n];
+        for i in 0..n {
+            let mut rest = self.diagonal[i];
+            for (column, value) in self.row(i) {
+                let j = *column as usize;
+                let products = value + MODIFIED * (right[j] - value);
+                rest -= value * products / factor[j];
+            }
+            let least = (LEAST_DIAGONAL * self.diagonal[i].abs()).max(f64::MIN_POSITIVE);
+            factor[i] = rest.max(least);
         }
         factor
     }
+}
 
-    /// The product of the symmetric matrix and a vector.
-    fn times(&self, x: &[f64], out: &mut [f64]) {
-        for (i, out) in out.iter_mut().enumerate() {
-            *out = self.diagonal[i] * x[i];
-        }
-        for i in 0..x.len() {
-            let (columns, values) = self.row(i);
-            let mut sum = 0.0;
-            for (column, value) in columns.iter().zip(values) {
-                sum += value * x[*column as usize];
-                out[*column as usize] += value * x[i];
+/// A matrix scaled so that its preconditioner is (I + L)(I + Lᵀ), where L is its strictly lower triangle.
+struct Scaled {
+    matrix: Lower,
+    /// From solutions of the scaled matrix to those of the original one.
+    scale: Vec<f64>,
+}
+
+impl Scaled {
+    fn of(mut matrix: Lower) -> Self {
+        let scale = matrix.factor();
+        let scale: Vec<f64> = scale.into_iter().map(|x| x.sqrt().recip()).collect();
+        for i in 0..scale.len() {
+            matrix.diagonal[i] *= scale[i] * scale[i];
+            let row = matrix.starts[i] as usize..matrix.starts[i + 1] as usize;
+            for (column, value) in &mut matrix.entries[row] {
+                *value *= scale[i] * scale[*column as usize];
             }
-            out[i] += sum;
+        }
+        Self { matrix, scale }
+    }
+
+    /// Replaces x by the solution of (I + L)·y = x.
+    fn forward(&self, x: &mut [f64]) {
+        for i in 0..x.len() {
+            x[i] = self.without_products(i, x[i], x);
         }
     }
 
-    /// Solves L·Lᵀ·x = b in place, where L is this matrix.
-    fn solve_both(&self, x: &mut [f64]) {
-        for i in 0..x.len() {
-            let (columns, values) = self.row(i);
-            let pairs = columns.iter().zip(values);
-            let sum: f64 = pairs.map(|(j, value)| value * x[*j as usize]).sum();
-            x[i] = (x[i] - sum) / self.diagonal[i];
-        }
+    /// A number minus the products of row i of L and x.
+    fn without_products(&self, i: usize, number: f64, x: &[f64]) -> f64 {
+        let row = self.matrix.row(i).iter();
+        row.fold(number, |rest, (column, value)| {
+            rest - value * x[*column as usize]
+        })
+    }
+
+    /// Replaces x by the solution of (I + Lᵀ)·y = x.
+    fn backward(&self, x: &mut [f64]) {
         for i in (0..x.len()).rev() {
-            x[i] /= self.diagonal[i];
-            let (columns, values) = self.row(i);
-            for (j, value) in columns.iter().zip(values) {
-                x[*j as usize] -= value * x[i];
+            let own = x[i];
+            for (column, value) in self.matrix.row(i) {
+                x[*column as usize] -= value * own;
             }
         }
     }
-}
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn conjugate_gradients(matrix: &Lower, factor: &Lower, load: &[f64]) -> Vec<f64> {
-    let n = load.len();
-    let mut x = vec![0.0; n];
-    let mut residual = load.to_vec();
-    let enough = PRECISION * PRECISION * dot(load, load);
-    let mut eased = residual.clone();
-    factor.solve_both(&mut eased);
-    let mut direction = eased.clone();
-    let mut energy = dot(&residual, &eased);
-    let mut product = vec![0.0; n];
-    for _ in 0..MAX_ITERATIONS {
-        if dot(&residual, &residual) <= enough {
-            break;
+    /// Conjugate gradients with the preconditioned matrix (I + L)⁻¹·A·(I + Lᵀ)⁻¹. Its products need no more than the two solutions
+    /// (Eisenstat, *Efficient Implementation of a Class of Preconditioned Conjugate Gradient Methods*, 1981).
+    fn solve(&self, mut load: Vec<f64>) -> Vec<f64> {
+        let n = load.len();
+        for (load, scale) in load.iter_mut().zip(&self.scale) {
+            *load *= scale;
         }
-        matrix.times(&direction, &mut product);
-        let step = energy / dot(&direction, &product);
-        if !step.is_finite() {
-            break;
+        self.forward(&mut load);
+        let mut x = vec![0.0; n];
+        let mut residual = load;
+        let mut direction = residual.clone();
+        let mut inner = residual.clone();
+        let (mut outer, mut product) = (vec![0.0; n], vec![0.0; n]);
+        let mut energy: f64 = residual.iter().map(|r| r * r).sum();
+        let enough = PRECISION * PRECISION * energy;
+        for _ in 0..MAX_ITERATIONS {
+            if energy <= enough {
+                break;
+            }
+            self.backward(&mut inner);
+            let mut along = 0.0;
+            for i in 0..n {
+                let own = direction[i] + (self.matrix.diagonal[i] - 2.0) * inner[i];
+                outer[i] = self.without_products(i, own, &outer);
+                product[i] = inner[i] + outer[i];
+                along += direction[i] * product[i];
+            }
+            let step = energy / along;
+            if !step.is_finite() {
+                break;
+            }
+            let before = std::mem::replace(&mut energy, 0.0);
+            for i in 0..n {
+                x[i] += step * direction[i];
+                residual[i] -= step * product[i];
+                energy += residual[i] * residual[i];
+            }
+            for i in 0..n {
+                direction[i] = residual[i] + energy / before * direction[i];
+                inner[i] = direction[i];
+            }
         }
-        for i in 0..n {
-            x[i] += step * direction[i];
-            residual[i] -= step * product[i];
+        self.backward(&mut x);
+        for (x, scale) in x.iter_mut().zip(&self.scale) {
+            *x *= scale;
         }
-        eased.copy_from_slice(&residual);
-        factor.solve_both(&mut eased);
-        let before = std::mem::replace(&mut energy, dot(&residual, &eased));
-        for i in 0..n {
-            direction[i] = eased[i] + energy / before * direction[i];
-        }
+        x
     }
-    x
 }
