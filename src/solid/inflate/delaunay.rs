@@ -13,7 +13,8 @@ use robust::{Coord, orient2d};
 const NONE: u32 = u32::MAX;
 /// Points of the square around all others; they come first.
 const CORNERS: u32 = 4;
-/// Relative rounding errors of the circle test (Shewchuk, "Adaptive precision floating-point arithmetic", 1997).
+/// Relative rounding errors of the line and the circle test (Shewchuk, "Adaptive precision floating-point arithmetic", 1997).
+const LINE_ERROR: f64 = 4e-16;
 const CIRCLE_ERROR: f64 = 1.2e-15;
 /// How often an edge of the border may at least flip those in its way.
 const MIN_FLIPS: usize = 64;
@@ -571,11 +572,21 @@ fn next(edge: u32) -> u32 {
 
 /// The one before.
 fn previous(edge: u32) -> u32 {
-    if edge % 4 == 0 { edge + 2 } else { edge - 1 }
+    if edge.is_multiple_of(4) {
+        edge + 2
+    } else {
+        edge - 1
+    }
 }
 
 /// Positive if the points are counter-clockwise, 0 if they are on a line.
 fn orientation(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    let (one, other) = ((a.x - c.x) * (b.y - c.y), (a.y - c.y) * (b.x - c.x));
+    let difference = one - other;
+    // Nearly always clear at once, without a call.
+    if difference.abs() > LINE_ERROR * (one.abs() + other.abs()) {
+        return difference;
+    }
     let coord = |p: DVec2| Coord { x: p.x, y: p.y };
     orient2d(coord(a), coord(b), coord(c))
 }

@@ -181,10 +181,10 @@ impl Discs {
             }
             return;
         }
-        let below = &self.levels[level - 1];
         let start = index * FAN;
-        for child in start..below.len().min(start + FAN) {
-            if below[child].distance_squared(point) < nearest.distance_squared {
+        let below = &self.levels[level - 1][start..];
+        for (child, bounds) in (start..).zip(below.iter().take(FAN)) {
+            if bounds.distance_squared(point) < nearest.distance_squared {
                 self.search(level - 1, child, point, nearest);
             }
         }

@@ -5,8 +5,10 @@ use proptest::prelude::*;
 
 use super::super::check::{closed, volume};
 use super::super::laws;
+use super::super::stack::PlacementTransform;
 use super::super::tests::{circle, options, outline, profile, rectangle};
 use super::super::{Options, Placement, build};
+use super::{Points, mesh};
 use crate::geometry::{Outline, bounds, contains};
 use crate::scene::Surface;
 
@@ -220,4 +222,44 @@ fn rings_and_bars_are_as_thick_as_their_strokes() {
     // The middle of a bar may not be higher than half its width.
     let bar = rectangle(2.0, 40.0);
     assert!((highest(&bar) - 1.0).abs() < 1e-3, "{}", highest(&bar));
+}
+
+/// Long edges between short ones are in each other's way in the triangulation before they are part of the border.
+#[test]
+fn borders_are_kept() {
+    let mut random = fastrand::Rng::with_seed(1);
+    for count in (3..120).chain([1000]) {
+        let mut ring: Vec<DVec2> = (0..count)
+            .map(|i| {
+                let radius = if random.bool() { 1.0 } else { random.f64() };
+                DVec2::from_angle(f64::from(i) / f64::from(count) * TAU) * radius.max(0.01)
+            })
+            .collect();
+        let edges = (0..ring.len()).map(|i| [i, (i + 1) % ring.len()]).collect();
+        let exact = |points: &[DVec2]| {
+            let next = points.iter().cycle().skip(1);
+            let sum: f64 = points.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum();
+            sum / 2.0
+        };
+        let expected = exact(&ring);
+        let inner = (0..count).map(|_| DVec2::new(random.f64(), random.f64()) * 2.0 - 1.0);
+        ring.extend(inner);
+        let points = Points {
+            points: ring,
+            edges,
+        };
+        let mesh = mesh(&points, &PlacementTransform::new(&options(16)));
+        let at = |i: u32| Vec3::new(mesh.points[i as usize][0], mesh.points[i as usize][1], 0.0);
+        let area = |triangle: &[u32; 3]| {
+            let corners = triangle.map(|i| at(i).as_dvec3().truncate());
+            let area = exact(&corners);
+            assert!(area > 0.0, "{corners:?}");
+            area
+        };
+        let found: f64 = mesh.triangles.iter().map(area).sum();
+        assert!(
+            (found / expected - 1.0).abs() < 1e-4,
+            "{count}: {found} {expected}"
+        );
+    }
 }
