@@ -18,16 +18,13 @@ use okoshi::disk::FolderResolver;
 use okoshi::look::{DrawnView, Instead, Look, compare, gives_depth, hints};
 use okoshi::render::{self, Options, PosedModel, Shading};
 use okoshi::resolver::MemoryResolver;
+use rayon::prelude::*;
 use resvg::tiny_skia::{Pixmap, Transform};
 
-/// The kinds, each with the least share of right pixels of every drawing; 0 expects nothing, and leaves the kind to the table.
-const LEAST: [(&str, f64); 5] = [
-    ("default", 0.99),
-    ("inflate", 0.0),
-    ("round", 0.0),
-    ("roundv", 0.0),
-    ("roundh", 0.0),
-];
+/// The kinds of `Shape` that are measured.
+const KINDS: [&str; 5] = ["default", "inflate", "round", "roundv", "roundh"];
+/// The least share of right pixels.
+const LEAST: f64 = 0.99;
 /// The larger side of the pictures, pixels.
 const SIDE: u32 = 400;
 /// Parts with fewer pixels in the drawing are not looked for.
@@ -130,35 +127,24 @@ fn free_drawings() -> Vec<PathBuf> {
     found
 }
 
-/// Measures the drawings for each of some kinds, and prints a row for each; returns those with too few right pixels.
-fn measure(kinds: impl Fn(f64) -> bool) -> Vec<String> {
-    let drawings = free_drawings();
-    assert!(drawings.len() > 15, "only {} were found", drawings.len());
-    let mut wrong = Vec::new();
-    for path in drawings {
-        for (kind, least) in LEAST.into_iter().filter(|(_, least)| kinds(*least)) {
-            let name = name(&path);
-            let sample = Sample::new(&path, kind).unwrap_or_else(|why| panic!("{name}: {why}"));
-            let row = sample.row(&name, kind);
-            println!("{row}");
-            if sample.look.right < least {
-                wrong.push(row);
-            }
-        }
-    }
-    wrong
-}
-
 #[test]
 fn models_look_like_their_drawings() {
-    let wrong = measure(|least| least > 0.0);
-    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
-}
-
-#[test]
-#[ignore = "takes long: measures the kinds too that nothing is expected of yet"]
-fn table() {
-    let wrong = measure(|_| true);
+    let drawings = free_drawings();
+    assert!(drawings.len() > 15, "only {} were found", drawings.len());
+    let samples = drawings
+        .iter()
+        .flat_map(|path| KINDS.map(|kind| (path, kind)));
+    let samples: Vec<(&PathBuf, &str)> = samples.collect();
+    let measured = samples.par_iter().map(|(path, kind)| {
+        let name = name(path);
+        let sample = Sample::new(path, kind).unwrap_or_else(|why| panic!("{name}: {why}"));
+        let is_right = sample.look.right >= LEAST && sample.lost().is_empty();
+        (is_right, sample.row(&name, kind))
+    });
+    let rows: Vec<(bool, String)> = measured.collect();
+    rows.iter().for_each(|(_, row)| println!("{row}"));
+    let wrong = rows.into_iter().filter(|(is_right, _)| !is_right);
+    let wrong: Vec<String> = wrong.map(|(_, row)| row).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
@@ -297,7 +283,7 @@ fn landscapes_look_as_drawn_at_their_places() {
 fn survey() {
     let folder = std::env::var("LOOK_DIR").expect("LOOK_DIR names a folder");
     let mut rows = 0;
-    for (kind, _) in LEAST {
+    for kind in KINDS {
         let (mut right, mut pixels, mut lost) = (0.0, 0, 0);
         for path in drawings(Path::new(&folder)) {
             let name = path.file_stem().unwrap_or_default().to_string_lossy();

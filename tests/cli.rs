@@ -565,7 +565,7 @@ fn inspect_as_json() {
     let expected = serde_json::json!({
         "name": "Arm", "named_by": "string", "parent": "Body", "kind": "main", "element": "arm",
         "string": { "line": 5, "column": 38, "text": "Arm@Body$Shape roundv", "bound_by": "nearest" },
-        "center": [120.0, 35.0], "ends": [[150.0, 35.0], [90.0, 35.0]], "origin": [90.0, 35.0], "axis": [1.0, 0.0],
+        "center": [120.0, 35.0], "ends": [[150.0, 35.0], [90.0, 35.0]], "origin": [90.0, 35.0], "axis": [1.0, 0.0], "depth": 0.0,
         "attributes": {
             "Color": { "value": "0 0 0.8", "from": "builtin" },
             "Metallic": { "value": "1", "from": "legend" },

@@ -72,6 +72,7 @@ const USES: &[(&str, &[&str])] = &[
             "bind",
             "crash",
             "diagnostic",
+            "figure",
             "memo",
             "resolver",
             "rig",
@@ -173,7 +174,10 @@ const USES: &[(&str, &[&str])] = &[
         ],
     ),
     ("render", &["crash", "import", "resolver", "threads"]),
-    ("report", &["bind", "compile", "rig", "source", "terrain"]),
+    (
+        "report",
+        &["bind", "compile", "figure", "rig", "source", "terrain"],
+    ),
     ("resolver", &[]),
     (
         "rig",

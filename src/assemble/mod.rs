@@ -9,7 +9,7 @@ mod world;
 
 use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
-use crate::figure::{FigureNodes, Figures, LinkedModels};
+use crate::figure::{FigureNodes, Figures, LinkedModels, NodeDepth};
 use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::rig::{self, FigureClip, RestNode};
@@ -29,6 +29,8 @@ pub struct Assembled {
     pub layers: Vec<Layer>,
     /// The clips that figures play.
     pub clips: Vec<FigureClip>,
+    /// Per part that has a node, how far in front of the drawing plane it lies.
+    pub depths: Vec<Option<NodeDepth>>,
 }
 
 /// What a surface of a scene is made from.
@@ -90,6 +92,7 @@ pub fn assemble(
         scene,
         layers,
         clips,
+        depths: figures.depths,
     }
 }
 
@@ -127,7 +130,7 @@ fn build(
     let mut models = LinkedModels::read(bindings, resolver, memo, diagnostics);
     let mut found = Vec::new();
     let (figures, materials) = rayon::join(
-        || Figures::lay_out(drawing, bindings, memo, &mut found),
+        || Figures::lay_out(drawing, bindings, &world, memo, &mut found),
         || {
             Materials::collect(
                 drawing,

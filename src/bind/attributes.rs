@@ -14,9 +14,10 @@ use crate::svg::{Drawing, PaintKey};
 const PLATE_DEPTH: f64 = 0.025;
 
 /// The attributes that ink takes from the part on which it lies.
-const OF_FORM: [Keyword; 6] = [
+const OF_FORM: [Keyword; 7] = [
     Keyword::Shape,
     Keyword::Offset,
+    Keyword::Stack,
     Keyword::Segments,
     Keyword::Smooth,
     Keyword::Axis,
@@ -317,6 +318,11 @@ impl<'a> Attributes<'a> {
         self.number(Keyword::Offset)
     }
 
+    /// `Stack`: how far drawing order spreads parts in depth.
+    pub fn stack(&self) -> f64 {
+        self.value_or(Keyword::Stack, 1.0)
+    }
+
     /// `Origin`, if it or `Shape -c` is set.
     pub fn origin(&self) -> Option<Origin> {
         let origin = typed!(self, Keyword::Origin, Value::Origin(origin) => *origin);
@@ -414,6 +420,7 @@ pub fn plate_depth(drawing: &Drawing) -> f64 {
 static DEFAULT_SHAPE: Shape = Shape {
     kind: "default",
     arguments: KindArguments::Numbers(Vec::new()),
+    has_depths: false,
     mirrored: false,
     doubled: false,
     centered: false,

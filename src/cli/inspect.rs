@@ -212,7 +212,12 @@ fn describe_part(loaded: &Loaded, index: usize) -> String {
     let element = loaded.compiled.drawing.shapes[part.shape]
         .element
         .describe();
-    format!("{solid}{subs}{ink}; {element}, {}", string(loaded, index))
+    let depth = report::depth_reason(&loaded.compiled, index);
+    let depth = depth.map_or(String::new(), |reason| format!("; {reason}"));
+    format!(
+        "{solid}{subs}{ink}; {element}, {}{depth}",
+        string(loaded, index)
+    )
 }
 
 /// By what rule a part has its string.

@@ -9,6 +9,7 @@ use crate::assemble::{self, Assembled};
 use crate::bind::{self, Bindings};
 use crate::crash::{self, Crash};
 use crate::diagnostic::{self, Code, Diagnostic, Severity};
+use crate::figure::NodeDepth;
 use crate::memo::Memo;
 use crate::resolver::{Dependency, Recorder, Resolver};
 use crate::rig;
@@ -49,6 +50,8 @@ pub struct Compiled {
     pub layers: Vec<terrain::Layer>,
     /// The clips that figures play.
     pub clips: Vec<rig::FigureClip>,
+    /// Per part that has a node, how far in front of the drawing plane it lies.
+    pub depths: Vec<Option<NodeDepth>>,
     /// The drawing. Its outlines and texts are shared with the bindings.
     pub drawing: Arc<Drawing>,
     /// The diagnostics, in the order of the text.
@@ -156,6 +159,7 @@ impl Reading {
             scene,
             layers,
             clips,
+            depths,
         } = assemble::assemble(&drawing, &bindings, &recorder, memo, &mut diagnostics);
         bind::locate(&drawing, &mut diagnostics);
         diagnostic::sort(&mut diagnostics);
@@ -168,6 +172,7 @@ impl Reading {
             bindings,
             layers,
             clips,
+            depths,
             drawing,
             diagnostics,
             dependencies,

@@ -4,10 +4,9 @@
 //! +Z towards the viewer; turning the node turns the limb about its joint.
 
 mod copies;
-mod ink;
+mod layers;
 mod models;
 mod nodes;
-mod relief;
 #[cfg(test)]
 mod tests;
 mod tree;
@@ -16,23 +15,22 @@ use std::sync::Arc;
 
 use glam::DAffine2;
 use rayon::prelude::*;
-use rustc_hash::FxHashMap;
 
-use crate::bind::{Bindings, Part, PartKind, SetBy};
+use crate::bind::{Bindings, PartKind, SetBy};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::{Frame, area, contains, intersect};
+use crate::geometry::Frame;
 use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::scene::{Mesh, Piece, Primitive, Scene, WorldTransform};
-use crate::solid::{self, Placement, Profile, Sides, Solid};
+use crate::solid::{self, LaidSolid, Placement, Profile, Sides, Solid};
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
 
-use ink::Ink;
+use layers::Layers;
 use models::Models;
-use relief::Relief;
 use tree::FigureNode;
 
+pub use layers::{NodeDepth, Reason};
 pub use nodes::PartNode;
 
 /// The linked models of a drawing's figures, read before anything else: parts that are models need no material.
@@ -60,15 +58,17 @@ impl LinkedModels {
     }
 }
 
-/// The figures of a drawing, laid out: frames, hierarchy and relief.
+/// The figures of a drawing, laid out: frames, hierarchy and depths.
 pub struct Figures<'a> {
     context: FigureContext<'a>,
-    relief: Relief,
-    ink: Ink,
+    layers: Layers,
     frames: Vec<Frame>,
     parts_of_node: Vec<Vec<usize>>,
     tree: Vec<FigureNode>,
 }
+
+/// How far ink comes out at most, as a share of its stroke's width.
+const MAX_INK_STEP: f64 = 0.5;
 
 /// The nodes of a drawing's figures, in the order in which they are in the scene.
 pub struct FigureNodes {
@@ -80,6 +80,8 @@ pub struct FigureNodes {
     pub nodes: Vec<PartNode>,
     /// Per part the first node that shows it.
     pub node_of_part: Vec<Option<usize>>,
+    /// Per part that has a node, how far in front of the drawing plane it lies.
+    pub depths: Vec<Option<NodeDepth>>,
 }
 
 /// The material of a part and, if it has a texture, the map from the drawing to texture coordinates; `None` for a part without a
@@ -91,28 +93,23 @@ impl<'a> Figures<'a> {
     pub fn lay_out(
         drawing: &'a Drawing,
         bindings: &'a Bindings,
+        world: &WorldTransform,
         memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let context = FigureContext::new(drawing, bindings);
-        let (relief, (frames, parts_of_node, tree)) = rayon::join(
-            || Relief::measure(&context, memo),
-            || {
-                let parts = bindings.parts.par_iter().with_min_len(GRAIN);
-                let frames: Vec<Frame> = parts
-                    .map(|part| Frame::new(&part.measure, part.origin))
-                    .collect();
-                let tree = tree::nodes(&context, &frames, diagnostics);
-                (frames, parts_of_node(bindings), tree)
-            },
-        );
+        let context = FigureContext { drawing, bindings };
+        let parts = bindings.parts.par_iter().with_min_len(GRAIN);
+        let frames: Vec<Frame> = parts
+            .map(|part| Frame::new(&part.measure, part.origin))
+            .collect();
+        let layers = Layers::arrange(&context, &frames, world, memo);
+        let tree = tree::nodes(&context, &frames, &layers, diagnostics);
         copies::check(&context, diagnostics);
         Self {
-            ink: Ink::new(&context),
+            parts_of_node: parts_of_node(bindings),
             context,
-            relief,
+            layers,
             frames,
-            parts_of_node,
             tree,
         }
     }
@@ -138,6 +135,7 @@ impl<'a> Figures<'a> {
             parts_of_node: self.parts_of_node,
             nodes,
             node_of_part,
+            depths: self.layers.into_nodes(),
         }
     }
 
@@ -161,51 +159,55 @@ impl<'a> Figures<'a> {
                 }),
             }
         };
-        let mut below_ink = FxHashMap::default();
         for &part in parts {
             if models.has(part) {
                 let frames = [&self.frames[part], &self.frames[main]];
-                let (depth, both) = self.context.stand(main, part);
+                let (_, both) = self.context.stand(main, part);
+                let depth = self.layers.offset(part);
                 let outline = &self.context.bindings.parts[part].outline;
                 for (material, surface) in
                     models.surfaces(part, outline, frames, depth, both, world.scale)
                 {
                     add(material, surface.into());
                 }
-            } else if self.context.is_draped(part) {
-                if let Some((material, texture)) = materials[part]
-                    && let Some(piece) = self.draped(part, texture, world, &mut below_ink)
-                {
-                    add(material, piece);
-                }
             } else if let Some((material, texture)) = materials[part]
-                && let Some(mut solid) = self.solid(main, part, world)
+                && let Some(piece) = self.piece(main, part, texture, world)
             {
-                solid.texture = texture;
-                add(material, Piece::Deferred(Arc::new(solid)));
+                add(material, piece);
             }
         }
         (!primitives.is_empty()).then_some(Mesh { primitives })
     }
 
-    fn solid(&self, main: usize, part: usize, world: &WorldTransform) -> Option<Solid> {
-        let profile = self.relief.raised(part, self.context.profile(part)?);
-        let (depth, both) = self.context.stand(main, part);
-        let (own, node) = (&self.frames[part], &self.frames[main]);
-        let mut options = self.context.options(part);
-        options.placement = Placement {
-            rotation: own.angle - node.angle,
-            translation: node.to_local(own.center).extend(depth),
-            scale: world.scale,
-        };
-        Some(Solid {
-            outline: Arc::clone(&self.context.bindings.parts[part].outline),
-            to_frame: own.from_drawing_about_center(),
-            profile,
-            options,
-            sides: if both { Sides::Both } else { Sides::Front },
-            texture: None,
-        })
+    /// The solid of a part in the frame of its node.
+    fn piece(
+        &self,
+        main: usize,
+        part: usize,
+        texture: Option<DAffine2>,
+        world: &WorldTransform,
+    ) -> Option<Piece> {
+        let (_, both) = self.context.stand(main, part);
+        let sides = if both { Sides::Both } else { Sides::Front };
+        if let Some((pile, body)) = self.layers.lifted(part) {
+            return Some(Piece::Deferred(Arc::new(LaidSolid {
+                pile: Arc::clone(pile),
+                body,
+                sides,
+                texture,
+            })));
+        }
+        let mut profile = self.context.profile(part)?;
+        profile.raise(self.layers.raised(part));
+        let mut solid = self
+            .context
+            .natural(&self.frames, world, [main, part], profile);
+        solid.options.placement.translation.z = self.layers.offset(part);
+        Some(Piece::Deferred(Arc::new(Solid {
+            sides,
+            texture,
+            ..solid
+        })))
     }
 }
 
@@ -224,19 +226,9 @@ fn parts_of_node(bindings: &Bindings) -> Vec<Vec<usize>> {
 struct FigureContext<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
-    /// See [`ink::figure_extents`].
-    figure_extents: Vec<f64>,
 }
 
 impl<'a> FigureContext<'a> {
-    fn new(drawing: &'a Drawing, bindings: &'a Bindings) -> Self {
-        Self {
-            drawing,
-            bindings,
-            figure_extents: ink::figure_extents(bindings),
-        }
-    }
-
     /// How far a part's solid, or its node, is moved along the viewer axis, drawing units.
     fn offset(&self, part: usize) -> f64 {
         let is_main = self.bindings.parts[part].main == part;
@@ -270,6 +262,42 @@ impl<'a> FigureContext<'a> {
         }
     }
 
+    /// The solid of a part by itself in the frame of its node, `[main, part]`, its plane at depth 0.
+    fn natural(
+        &self,
+        frames: &[Frame],
+        world: &WorldTransform,
+        [main, part]: [usize; 2],
+        profile: Profile,
+    ) -> Solid {
+        let (own, node) = (&frames[part], &frames[main]);
+        let mut options = self.options(part);
+        options.placement = Placement {
+            rotation: own.angle - node.angle,
+            translation: node.to_local(own.center).extend(0.0),
+            scale: world.scale,
+        };
+        Solid {
+            outline: Arc::clone(&self.bindings.parts[part].outline),
+            to_frame: own.from_drawing_about_center(),
+            profile,
+            options,
+            sides: Sides::Front,
+            texture: None,
+        }
+    }
+
+    /// The step by which a part comes out in front of what it lies on, at most this: ink no farther than half its width, drawing
+    /// units.
+    fn step(&self, part: usize, step: f64) -> f64 {
+        let own = &self.bindings.parts[part];
+        let stroke = self.drawing.shapes[own.shape].stroke.as_ref();
+        match stroke {
+            Some(stroke) if own.host.is_some() => step.min(MAX_INK_STEP * stroke.width()),
+            _ => step,
+        }
+    }
+
     /// How far a part's solid stands from the plane of its node, drawing units, and whether it stands on both sides.
     fn stand(&self, main: usize, part: usize) -> (f64, bool) {
         // Ink stands where the part does on which it lies.
@@ -281,14 +309,4 @@ impl<'a> FigureContext<'a> {
         // A sub-part has no node of its own that could be doubled.
         (depth, shape.mirrored || (shape.doubled && part != main))
     }
-}
-
-fn overlap(a: &Part, b: &Part) -> bool {
-    // Usually the centre of one lies in both, which is quick to check.
-    let both = |point| contains(&a.outline, point) && contains(&b.outline, point);
-    if both(a.measure.center) || both(b.measure.center) {
-        return true;
-    }
-    let common = area(&intersect(&a.outline, &b.outline));
-    common > 1e-6 * area(&a.outline).min(area(&b.outline))
 }

@@ -4,6 +4,7 @@ use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::FigureContext;
+use super::layers::Layers;
 use crate::bind::PartKind;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::Frame;
@@ -42,6 +43,7 @@ struct Pending {
 pub(super) fn nodes(
     context: &FigureContext<'_>,
     frames: &[Frame],
+    layers: &Layers,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<FigureNode> {
     let parts = &context.bindings.parts;
@@ -93,7 +95,7 @@ pub(super) fn nodes(
             break;
         }
         let index = nodes.len();
-        let mut node = node(context, frames, pending);
+        let mut node = node(context, frames, layers, pending);
         if pending.copies > 0 {
             node.name = free_name(node.name, &mut names);
         }
@@ -128,10 +130,15 @@ fn free_name(name: String, names: &mut FxHashMap<String, usize>) -> String {
     }
 }
 
-fn node(context: &FigureContext<'_>, frames: &[Frame], pending: Pending) -> FigureNode {
+fn node(
+    context: &FigureContext<'_>,
+    frames: &[Frame],
+    layers: &Layers,
+    pending: Pending,
+) -> FigureNode {
     let part = &context.bindings.parts[pending.part];
     let own = &frames[pending.part];
-    let offset = context.node_offset(pending.part);
+    let offset = layers.node_step(pending.part, part.parent);
     let depth = if pending.is_mirrored { -offset } else { offset };
     let (position, angle) = match part.parent {
         Some(parent) if pending.parent.is_some() => (

@@ -23,8 +23,8 @@ pub(crate) use contact::{Body, connected, touching};
 pub use flatten::flatten;
 pub use frame::{Frame, y_up};
 pub use measure::{Measure, measure, measure_along};
-pub(crate) use query::crosses;
 pub use query::{area, bounds, contains, distance_squared};
+pub(crate) use query::{crosses, shoelace};
 pub(crate) use scanline::{EdgeRanges, Intervals, Scanlines};
 
 use glam::DVec2;

@@ -68,6 +68,11 @@ impl Scanlines {
         }
     }
 
+    /// The vertical position of a line.
+    pub(crate) fn place(&self, line: usize) -> f64 {
+        self.first + self.step * line as f64
+    }
+
     /// The area that an interval's unit of length stands for.
     pub(crate) fn weight(&self) -> f64 {
         self.step
@@ -197,6 +202,20 @@ impl Intervals {
             line.clone_from(rest);
         }
         removed
+    }
+
+    /// Calls `each` with the pieces of lines that are in both, and the index of their lines.
+    pub(crate) fn each_common(&self, other: &Self, mut each: impl FnMut(usize, [f64; 2])) {
+        for (index, (line, other)) in self.lines.iter().zip(&other.lines).enumerate() {
+            for [start, end] in line {
+                for [from, to] in other {
+                    let (from, to) = (from.max(*start), to.min(*end));
+                    if from < to {
+                        each(index, [from, to]);
+                    }
+                }
+            }
+        }
     }
 
     /// The length of what is in both.

@@ -44,6 +44,7 @@ keywords! {
     Color = part::COLOR;
     Shape = part::SHAPE;
     Offset = part::OFFSET;
+    Stack = part::STACK;
     Origin = part::ORIGIN;
     Axis = part::AXIS;
     Segments = part::SEGMENTS;

@@ -65,6 +65,8 @@ pub struct Shape {
     pub kind: &'static str,
     /// Its arguments, defaults filled in as far as the table has them.
     pub arguments: KindArguments,
+    /// Whether depths are among the arguments that were given.
+    pub has_depths: bool,
     /// `-s`: a second, mirrored solid in the same node.
     pub mirrored: bool,
     /// `-d`: a second, mirrored node.

@@ -1,11 +1,13 @@
 //! Reports on a compiled drawing, as data for programs: `inspect --json` and the preview's page.
 
 mod clips;
+mod depths;
 mod joints;
 mod parts;
 mod terrain;
 
 pub use clips::{Clip, Held, Joint, PageDetails, Reader, clips, cut_frames};
+pub use depths::depth_reason;
 pub use joints::{Driver, drivers, ranges, undriven};
 pub use parts::{AttributeReport, Part, StringReport, landscapes, own_name, part_count, parts};
 pub use terrain::{Group, House, Terrain, terrain};

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::depths::depth_reason;
 use super::drivers;
 use crate::bind::{self, DrawingString, PartKind, SetBy};
 use crate::compile::Compiled;
@@ -38,6 +39,12 @@ pub struct Part<'a> {
     pub origin: [f64; 2],
     /// The direction of its axis.
     pub axis: [f64; 2],
+    /// For a main part, how far its plane lies in front of the drawing's, drawing units.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth: Option<f64>,
+    /// Why it lies there; `None` for a part in the plane of what it hangs on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth_why: Option<String>,
     /// All attributes that are set, and those that every solid has.
     pub attributes: BTreeMap<&'static str, AttributeReport>,
     /// The joint that drives it in the first clip that does.
@@ -100,6 +107,8 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
         ends: part.measure.ends.map(|end| end.to_array()),
         origin: part.origin.to_array(),
         axis: part.measure.axis.to_array(),
+        depth: compiled.depths[index].map(|node| node.depth),
+        depth_why: depth_reason(compiled, index),
         attributes: attributes(compiled, index),
         joint: drivers[index].and_then(|driver| driver.joint),
         joint_why: drivers[index].map(|driver| driver.why),
@@ -141,6 +150,8 @@ pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
             ends: [[low.x, middle], [high.x, middle]],
             origin: center.to_array(),
             axis: [1.0, 0.0],
+            depth: None,
+            depth_why: None,
             attributes: settings.collect(),
             joint: None,
             joint_why: None,

@@ -1,11 +1,11 @@
 //! How far solids come towards the viewer, looked up in their surfaces.
 
-use std::collections::VecDeque;
+use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DAffine2, DVec2, DVec3, Vec3};
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::Solid;
 use crate::scene::{Surface, SurfaceSource};
@@ -14,10 +14,12 @@ use crate::scene::{Surface, SurfaceSource};
 const WALL: f64 = 1e-6;
 /// The distance, relative to the largest coordinate, at which a point counts as lying in a triangle.
 const SLACK: f64 = 1e-7;
+/// Cells a triangle.
+const CELLS: f64 = 3.0;
 /// Limit of the cells along each side of the grid.
 const MAX_CELLS: f64 = 512.0;
-/// How many solids' heights are kept.
-const MAX_RECENT: usize = 64;
+/// Limit of the triangles that are kept.
+const MAX_FACETS: usize = 1 << 20;
 
 /// The side of a surface that faces the viewer.
 #[derive(Debug)]
@@ -34,23 +36,30 @@ pub(super) struct Heights {
 impl Heights {
     pub(super) fn of(surface: &Surface) -> Self {
         let position = |corner: u32| surface.positions[corner as usize];
-        let at = |corner: u32| Vec3::from(position(corner)).as_dvec3();
-        let largest = surface.positions.iter().flatten();
-        let largest = largest.fold(0.0_f64, |most, x| most.max(f64::from(x.abs())));
-        let mut facets = Vec::new();
         // The sum maps -0.0 to 0.0.
-        let place = |corner: u32| position(corner).map(|x| (x + 0.0).to_bits());
-        let mut edges: FxHashSet<[[u32; 3]; 2]> = FxHashSet::default();
-        for triangle in &surface.triangles {
-            let corners = triangle.map(at);
+        let at = |corner: u32| Vec3::from(position(corner).map(|x| x + 0.0)).as_dvec3();
+        let triangles = surface.triangles.iter();
+        Self::over(triangles.map(|triangle| triangle.map(at)))
+    }
+
+    /// The heights of those triangles that face the viewer. Their corners have the same coordinates where they share edges.
+    pub(super) fn over(triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
+        let mut largest = 0.0_f64;
+        let mut facets = Vec::new();
+        let place = |corner: DVec3| corner.to_array().map(f64::to_bits);
+        let mut edges: FxHashSet<[[u64; 3]; 2]> = FxHashSet::default();
+        for corners in triangles {
+            largest = corners
+                .iter()
+                .fold(largest, |most, corner| most.max(corner.abs().max_element()));
             let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
             if normal.z > WALL * normal.length() {
                 facets.push(Facet { corners, normal });
-                let [a, b, c] = triangle.map(place);
+                let [a, b, c] = corners.map(place);
                 edges.extend([[a, b], [b, c], [c, a]]);
             }
         }
-        let point = |place: [u32; 3]| Vec3::from(place.map(f32::from_bits)).as_dvec3();
+        let point = |place: [u64; 3]| DVec3::from(place.map(f64::from_bits));
         let alone = edges.iter().filter(|[a, b]| !edges.contains(&[*b, *a]));
         let mut border: Vec<Edge> = alone.map(|ends| Edge(ends.map(point))).collect();
         // The tree, and so the nearest of several at the same distance, depends on the order.
@@ -73,6 +82,15 @@ impl Heights {
         let heights =
             near.filter_map(|facet| self.facets[*facet as usize].height(point, self.slack));
         heights.reduce(f64::max)
+    }
+
+    /// The greatest height; 0 for nothing.
+    fn highest(&self) -> f64 {
+        let corners = self.facets.iter().flat_map(|facet| facet.corners);
+        corners
+            .map(|corner| corner.z)
+            .reduce(f64::max)
+            .unwrap_or(0.0)
     }
 
     /// The height at the point of the surface's border that is nearest to a point of the drawing plane.
@@ -133,7 +151,10 @@ impl Facet {
         // At a sharp corner, a point may be near both edges and still be far away.
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let close = point.clamp(low.truncate() - slack, high.truncate() + slack);
-        (close == point && self.edges().into_iter().all(is_left)).then(|| {
+        if close != point {
+            return None;
+        }
+        self.edges().into_iter().all(is_left).then(|| {
             let slope = self.normal.truncate().dot(point - a.truncate()) / self.normal.z;
             // In steep triangles the plane is known less precisely than the corners.
             (a.z - slope).clamp(low.z, high.z)
@@ -204,8 +225,8 @@ impl Grid {
             points().reduce(DVec2::max).unwrap_or_default(),
         );
         let extent = (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
-        // About as many cells as triangles, and not much longer than wide.
-        let side = (extent.x * extent.y / facets.len().max(1) as f64).sqrt();
+        // Cells are about as long as wide.
+        let side = (extent.x * extent.y / (CELLS * facets.len().max(1) as f64)).sqrt();
         let size = (extent / side.max(f64::MIN_POSITIVE)).ceil();
         let size = size.clamp(DVec2::ONE, DVec2::splat(MAX_CELLS));
         let mut grid = Self {
@@ -308,35 +329,148 @@ impl Grid {
     }
 }
 
-/// The heights of the solids that were asked for last, so that those of a solid with much ink on it are found once, and those of
-/// thousands of solids do not fill the memory.
-#[derive(Debug, Default)]
-pub struct RecentHeights(Mutex<VecDeque<Recent>>);
+/// Heights of the front and of the back of a solid.
+#[derive(Debug, Clone)]
+pub(super) struct BothHeights {
+    pub(super) front: Arc<Heights>,
+    /// Of the solid mirrored in its plane.
+    pub(super) back: Arc<Heights>,
+}
 
-/// The heights of a solid, once they are known.
-type Recent = (Arc<Solid>, Arc<OnceLock<Heights>>);
-
-impl RecentHeights {
-    /// Calls `work` with the heights of these solids.
-    pub(super) fn with<R>(&self, solids: &[Arc<Solid>], work: impl FnOnce(&[&Heights]) -> R) -> R {
-        let slots: Vec<_> = solids.iter().map(|solid| self.slot(solid)).collect();
-        let known = slots.iter().zip(solids);
-        let known = known.map(|(slot, solid)| slot.get_or_init(|| Heights::of(&solid.surface())));
-        work(&known.collect::<Vec<_>>())
+impl BothHeights {
+    fn of(surface: &Surface) -> Self {
+        Self {
+            front: Arc::new(Heights::of(surface)),
+            back: Arc::new(Heights::of(&surface.mirrored())),
+        }
     }
 
-    fn slot(&self, solid: &Arc<Solid>) -> Arc<OnceLock<Heights>> {
-        let mut recent = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = recent
-            .iter()
-            .position(|(other, _)| Arc::ptr_eq(other, solid));
-        let found = known.and_then(|place| recent.remove(place));
-        let found = found.unwrap_or_else(|| (Arc::clone(solid), Arc::default()));
-        let slot = Arc::clone(&found.1);
-        recent.push_back(found);
-        if recent.len() > MAX_RECENT {
-            recent.pop_front();
+    fn facet_count(&self) -> usize {
+        self.front.facets.len() + self.back.facets.len()
+    }
+}
+
+/// The heights that were asked for last, so that those of a solid with much on it are found once, and those of thousands of solids
+/// do not fill the memory. They are known by hashes of all that they are made from.
+#[derive(Debug, Default)]
+pub struct RecentHeights(Mutex<Kept>);
+
+#[derive(Debug, Default)]
+struct Kept {
+    slots: FxHashMap<u128, Slot>,
+    /// The keys by when they were last asked for.
+    order: BTreeMap<u64, u128>,
+    next: u64,
+    /// The triangles of all.
+    facets: usize,
+}
+
+#[derive(Debug)]
+struct Slot {
+    cell: Arc<OnceLock<Option<BothHeights>>>,
+    used: u64,
+    /// Its triangles, once they are known.
+    facets: usize,
+}
+
+impl RecentHeights {
+    /// The heights of a solid by itself.
+    pub(super) fn of_solid(&self, solid: &Solid) -> BothHeights {
+        let make = || BothHeights::of(&solid.surface());
+        let found = self.get(solid.long_key(), || Some(make()));
+        found.unwrap_or_else(make)
+    }
+
+    /// What is kept for a key, if anything is.
+    pub(super) fn find(&self, key: u128) -> Option<Option<BothHeights>> {
+        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        kept.slots
+            .contains_key(&key)
+            .then(|| kept.slot(key))?
+            .get()
+            .cloned()
+    }
+
+    /// What is kept for a key, or made now.
+    pub(super) fn get(
+        &self,
+        key: u128,
+        make: impl FnOnce() -> Option<BothHeights>,
+    ) -> Option<BothHeights> {
+        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let cell = lock().slot(key);
+        let mut is_new = false;
+        let made = cell.get_or_init(|| {
+            is_new = true;
+            make()
+        });
+        if is_new {
+            let facets = made.as_ref().map_or(0, BothHeights::facet_count);
+            lock().grow(key, facets);
         }
-        slot
+        made.clone()
+    }
+}
+
+impl Kept {
+    /// The slot of a key, which becomes the one that was asked for last.
+    fn slot(&mut self, key: u128) -> Arc<OnceLock<Option<BothHeights>>> {
+        let used = self.next;
+        self.next += 1;
+        let slot = self.slots.entry(key).or_insert_with(|| Slot {
+            cell: Arc::default(),
+            used,
+            facets: 0,
+        });
+        self.order.remove(&slot.used);
+        slot.used = used;
+        self.order.insert(used, key);
+        Arc::clone(&slot.cell)
+    }
+
+    /// Notes how large a result is, and forgets the oldest ones if all together are too large.
+    fn grow(&mut self, key: u128, facets: usize) {
+        if let Some(slot) = self.slots.get_mut(&key) {
+            self.facets += facets - slot.facets;
+            slot.facets = facets;
+        }
+        while self.facets > MAX_FACETS
+            && self.order.len() > 1
+            && let Some((_, oldest)) = self.order.pop_first()
+        {
+            let forgotten = self.slots.remove(&oldest);
+            self.facets -= forgotten.map_or(0, |slot| slot.facets);
+        }
+    }
+}
+
+/// How far a solid by itself reaches from its plane, over points of the drawing.
+#[derive(Debug, Clone)]
+pub struct SolidHeights {
+    both: BothHeights,
+    /// From the drawing, y down, to the solid's final positions.
+    to_final: DAffine2,
+    scale: f64,
+}
+
+impl SolidHeights {
+    /// The heights of a solid, its plane at depth 0.
+    pub fn of(solid: &Solid, recent: &RecentHeights) -> Self {
+        Self {
+            both: recent.of_solid(solid),
+            to_final: solid.to_final(),
+            scale: solid.options.placement.scale,
+        }
+    }
+
+    /// How far it reaches to the front over a point, drawing units; 0 beside it.
+    pub fn front(&self, point: DVec2) -> f64 {
+        let height = self.both.front.at(self.to_final.transform_point2(point));
+        height.unwrap_or(0.0) / self.scale
+    }
+
+    /// How far it reaches to the front and to the back at most, drawing units.
+    pub fn highest(&self) -> [f64; 2] {
+        [&self.both.front, &self.both.back].map(|side| side.highest() / self.scale)
     }
 }

@@ -3,11 +3,14 @@
 use glam::DVec2;
 
 use super::Options;
+use crate::geometry::Outline;
 
 /// Smaller scales become 0: the copy is a line or a point.
 pub(super) const MIN_SCALE: f64 = 1e-3;
 /// The smallest thickness, relative to the larger extent.
 pub(super) const MIN_THICKNESS: f64 = 1e-4;
+/// Edges that are turned by less than this, as a share of the squared extent, make no copy reach out visibly.
+const OVERFLOW: f64 = 1e-3;
 /// Layers per 180°: from the fewest that enclose a volume to more than are visible.
 const SEGMENTS: std::ops::RangeInclusive<u32> = 2..=512;
 
@@ -80,6 +83,27 @@ pub(super) fn rounding(
 /// The scales across and along the axis where the outline is scaled in these directions only.
 pub(super) fn scales<const ACROSS: bool, const ALONG: bool>(scale: f64) -> [f64; 2] {
     [ACROSS, ALONG].map(|is_scaled| if is_scaled { scale } else { 1.0 })
+}
+
+/// Whether copies of an outline that are smaller across the axis, along it or both reach out of it. `outline` is relative to its
+/// centre.
+pub(super) fn overflows<const ACROSS: bool, const ALONG: bool>(outline: &Outline) -> bool {
+    let rings = || outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let reach = rings().flatten().map(|point| point.length_squared());
+    let slack = OVERFLOW * reach.fold(0.0, f64::max);
+    // Copies stay inside if each edge sees the centre, or the line to which copies shrink, on its filled side.
+    let is_turned = |from: DVec2, to: DVec2| match (ACROSS, ALONG) {
+        (true, true) => from.perp_dot(to) < -slack,
+        (true, false) => (from.x + to.x) * (to.y - from.y) < -slack,
+        (false, true) => (from.y + to.y) * (from.x - to.x) < -slack,
+        (false, false) => false,
+    };
+    rings().any(|ring| {
+        let next = ring.iter().cycle().skip(1);
+        ring.iter()
+            .zip(next)
+            .any(|(from, to)| is_turned(*from, *to))
+    })
 }
 
 /// Angles from `a0` to `a1`, within a half turn, in equal steps on either side of 0, where the outline is whole.

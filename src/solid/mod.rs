@@ -10,13 +10,13 @@ pub mod check;
 
 mod cap;
 mod crease;
-mod drape;
 mod ears;
 mod heights;
 mod inflate;
 mod kinds;
 mod lathe;
 mod layers;
+mod pile;
 mod prism;
 mod ridge;
 mod rings;
@@ -30,10 +30,10 @@ use glam::{DMat2, DVec3};
 use crate::geometry::{Outline, bounds};
 use crate::scene::Surface;
 
-pub use drape::Drape;
-pub use heights::RecentHeights;
+pub use heights::{RecentHeights, SolidHeights};
 pub use kinds::{Faces, Kind, Profile};
 pub use layers::Layer;
+pub use pile::{Body, LaidSolid, Lay, LayForm, Pile};
 pub use source::{Sides, Solid};
 
 /// What a solid depends on besides its outline and its profile.
@@ -83,8 +83,8 @@ pub fn build(outline: &Outline, profile: &Profile, options: &Options) -> Surface
 }
 
 #[cfg(test)]
-mod drape_tests;
-#[cfg(test)]
 mod laws;
+#[cfg(test)]
+mod pile_tests;
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! The description of a solid, from which its surface is made on demand.
 
 use std::any::Any;
-use std::hash::Hasher;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
@@ -84,6 +84,32 @@ impl SurfaceSource for Solid {
 
     fn key(&self) -> u64 {
         let mut hasher = FxHasher::default();
+        self.hash_into(&mut hasher);
+        hasher.finish()
+    }
+
+    fn mirrored(&self) -> Arc<dyn SurfaceSource> {
+        Arc::new(Self {
+            sides: self.sides.mirrored(),
+            ..self.clone()
+        })
+    }
+
+    fn is_equal(&self, other: &dyn SurfaceSource) -> bool {
+        (other as &dyn Any).downcast_ref::<Self>() == Some(self)
+    }
+}
+
+impl Solid {
+    /// A hash of everything that the surface is made from that tells surfaces apart by itself.
+    pub(super) fn long_key(&self) -> u128 {
+        long_hash(|hasher| self.hash_into(hasher))
+    }
+
+    fn hash_into(&self, hasher: &mut dyn Hasher) {
+        hasher.write_u8(self.sides as u8);
+        let mut hasher = hasher;
+        std::mem::discriminant(&self.profile).hash(&mut hasher);
         let mut number = |number: f64| hasher.write_u64(number.to_bits());
         let polygons = self.outline.polygons.iter();
         for ring in polygons.flat_map(|polygon| &polygon.rings) {
@@ -106,28 +132,30 @@ impl SurfaceSource for Solid {
         let transforms = transforms.flat_map(|transform| transform.to_cols_array());
         let numbers = transforms.chain(self.profile.numbers());
         numbers.for_each(&mut number);
-        hasher.finish()
     }
 
-    fn mirrored(&self) -> Arc<dyn SurfaceSource> {
-        Arc::new(Self {
-            sides: self.sides.mirrored(),
-            ..self.clone()
-        })
-    }
-
-    fn is_equal(&self, other: &dyn SurfaceSource) -> bool {
-        (other as &dyn Any).downcast_ref::<Self>() == Some(self)
-    }
-}
-
-impl Solid {
     /// From the solid's final positions, as seen from the front, to the drawing.
     fn to_drawing(&self) -> DAffine2 {
+        self.to_final().inverse()
+    }
+
+    /// From the drawing to the solid's final positions as seen from the front.
+    pub(super) fn to_final(&self) -> DAffine2 {
         let placement = &self.options.placement;
         let placed = DAffine2::from_scale(DVec2::splat(placement.scale))
             * DAffine2::from_translation(placement.translation.truncate())
             * DAffine2::from_angle(placement.rotation);
-        (placed * self.to_frame).inverse()
+        placed * self.to_frame
     }
+}
+
+/// A hash of 128 bits, the same in every run: what it is made from need not be compared.
+pub(super) fn long_hash(content: impl Fn(&mut dyn Hasher)) -> u128 {
+    let [high, low] = [0, 1].map(|salt| {
+        let mut hasher = DefaultHasher::new();
+        hasher.write_u8(salt);
+        content(&mut hasher);
+        u128::from(hasher.finish())
+    });
+    high << 64 | low
 }

@@ -192,6 +192,7 @@ impl Checker<'_> {
         let shape = Shape {
             kind: kind.name,
             arguments,
+            has_depths: kind.takes_depths() && !values.is_empty(),
             mirrored: has('s'),
             doubled: has('d'),
             centered: has('c'),

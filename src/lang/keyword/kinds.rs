@@ -23,6 +23,14 @@ pub struct Kind {
     pub example: &'static str,
 }
 
+impl Kind {
+    /// Whether its parameters are depths in the drawing, rather than a height, a radius or angles.
+    pub fn takes_depths(&self) -> bool {
+        let first = self.form.parameters.first();
+        first.is_some_and(|parameter| matches!(parameter.name, "z" | "z0"))
+    }
+}
+
 /// A rule about the numbers of a kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rule {

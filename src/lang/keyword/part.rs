@@ -40,6 +40,11 @@ static CREASE: [Parameter; 1] = [number(
     Bounds::new(0., 180., Restriction::None),
     "the angle between two faces",
 )];
+static SPREAD: [Parameter; 1] = [number(
+    "factor",
+    Bounds::NOT_NEGATIVE,
+    "0 is none, 1 is the usual distance",
+)];
 static FACTOR: [Parameter; 1] = [number("factor", Bounds::FRACTION, "0 is none, 1 is full")];
 static RGB: [Parameter; 3] = [
     number("r", Bounds::FRACTION, "red"),
@@ -99,6 +104,18 @@ pub(super) static OFFSET: Row = Row {
     long: "Moves the part by `d` drawing units towards the viewer, or away if `d` is negative. \
            With `Shape -s` and `Shape -d` one copy moves to `d` and the other to `-d`.",
     example: "Rarm@Ubody$Offset 12",
+    ..Row::ROW
+};
+
+pub(super) static STACK: Row = Row {
+    forms: &[Form::new(&SPREAD, &[1])],
+    default: "1",
+    summary: "how far the order of drawing spreads parts in depth",
+    long: "What is drawn later lies in front: an arm that is drawn over the trunk is moved towards \
+           the viewer, one that is drawn before it away. `Stack` multiplies that distance, of one \
+           part or, after `%`, of all. With 0 parts stay in one plane; what is drawn later still \
+           comes out of what it covers.",
+    example: "Rarm@Ubody$Stack 0.5",
     ..Row::ROW
 };
 

@@ -114,6 +114,7 @@ fn values_are_computed() {
     let round = Shape {
         kind: "round",
         arguments: KindArguments::Numbers(vec![-90., 90.]),
+        has_depths: false,
         mirrored: true,
         doubled: false,
         centered: true,

@@ -15,7 +15,7 @@ mod sides;
 use glam::DVec2;
 
 pub(super) use mesh::{Mesh, mesh};
-pub(super) use points::Points;
+pub(super) use points::{Points, points};
 use sides::Sides;
 
 use super::crease::Crease;
@@ -72,7 +72,7 @@ pub(in crate::solid) fn field(
 ) -> Field {
     let most = height(given, half);
     let transform = PlacementTransform::new(options);
-    let points = points::points(outline, steps_per_half_turn(options));
+    let points = points(outline, steps_per_half_turn(options));
     let mesh = mesh(&points, &transform);
     let Some(first) = mesh.points.first() else {
         return Field::default();

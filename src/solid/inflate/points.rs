@@ -55,7 +55,7 @@ struct Foot {
 }
 
 /// Points for an outline, y up, at about the density of a rounding of so many layers per 180°.
-pub(super) fn points(outline: &Outline, segments: u32) -> Points {
+pub(in crate::solid) fn points(outline: &Outline, segments: u32) -> Points {
     let mut all = Points {
         points: Vec::new(),
         edges: Vec::new(),

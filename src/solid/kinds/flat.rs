@@ -35,6 +35,10 @@ impl Kind for Flat {
         self.z += front;
     }
 
+    fn is_soft(&self) -> bool {
+        false
+    }
+
     fn is_open(&self) -> bool {
         true
     }

@@ -120,6 +120,16 @@ pub trait Kind {
         false
     }
 
+    /// Whether it is rounded or pointed: its front is no plane parallel to the drawing.
+    fn is_soft(&self) -> bool {
+        true
+    }
+
+    /// Whether the solid, as seen from the front, covers more than its outline, whose points are relative to its centre.
+    fn overflows(&self, _outline: &Outline) -> bool {
+        false
+    }
+
     /// Whether the solid depends on the direction of the outline's axis.
     fn depends_on_axis(&self) -> bool {
         false

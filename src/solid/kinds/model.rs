@@ -6,7 +6,7 @@ use super::{Kind, taper};
 use crate::solid::Options;
 use crate::solid::layers::Layer;
 
-/// A plate like that of `default`. Its faces do not take part in the relief, because a model's surface does not.
+/// A plate like that of `default`. Its faces move nothing, because a model's surface does not.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Model(taper::Default);
 
@@ -17,6 +17,10 @@ impl Kind for Model {
 
     fn numbers(&self) -> Vec<f64> {
         self.0.numbers()
+    }
+
+    fn is_soft(&self) -> bool {
+        false
     }
 
     fn layers(&self, half: DVec2, options: &Options) -> Vec<Layer> {

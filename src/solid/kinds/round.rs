@@ -3,8 +3,9 @@
 use glam::DVec2;
 
 use super::Kind;
+use crate::geometry::Outline;
 use crate::solid::Options;
-use crate::solid::layers::{Layer, finite, least_thickness, rounding, scales};
+use crate::solid::layers::{Layer, finite, least_thickness, overflows, rounding, scales};
 
 /// `roundv`: rounded about the axis.
 pub(super) type RoundV = Rounding<true, false>;
@@ -47,6 +48,10 @@ impl<const ACROSS: bool, const ALONG: bool> Kind for Rounding<ACROSS, ALONG> {
             }
         };
         rounding(self.angles, radius, options, scales::<ACROSS, ALONG>)
+    }
+
+    fn overflows(&self, outline: &Outline) -> bool {
+        overflows::<ACROSS, ALONG>(outline)
     }
 
     fn depends_on_axis(&self) -> bool {

@@ -3,8 +3,9 @@
 use glam::DVec2;
 
 use super::{Faces, Kind};
+use crate::geometry::Outline;
 use crate::solid::Options;
-use crate::solid::layers::{Layer, finite, scales, snap};
+use crate::solid::layers::{Layer, finite, overflows, scales, snap};
 
 /// `default`: a plate with straight walls.
 pub(super) type Default = Taper<false, false>;
@@ -63,6 +64,14 @@ impl<const ACROSS: bool, const ALONG: bool> Kind for Taper<ACROSS, ALONG> {
         } else {
             [z0 + front, z1 - back]
         };
+    }
+
+    fn is_soft(&self) -> bool {
+        ACROSS || ALONG
+    }
+
+    fn overflows(&self, outline: &Outline) -> bool {
+        overflows::<ACROSS, ALONG>(outline)
     }
 
     fn depends_on_axis(&self) -> bool {

@@ -3,11 +3,10 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2, Vec3};
 use proptest::prelude::*;
 
-use super::drape::Drape;
 use super::heights::Heights;
 use super::laws::{config, lawful, rings};
 use super::tests::{circle, kinds_with, options, outline, profile, rectangle};
-use super::{Profile, RecentHeights, Sides, Solid};
+use super::{Body, LaidSolid, Lay, LayForm, Pile, Profile, Sides, Solid};
 use crate::geometry::{Outline, Ring, area};
 use crate::scene::{Surface, SurfaceSource};
 
@@ -22,16 +21,51 @@ fn solid(outline: Outline, profile: Profile) -> Solid {
     }
 }
 
-fn ink(outline: Outline, below: Vec<Solid>, reach: f64) -> Drape {
-    Drape {
-        outline: Arc::new(outline),
-        to_model: DAffine2::IDENTITY,
-        below: below.into_iter().map(Arc::new).collect(),
-        reach: [reach; 2],
-        crease: 30.0,
+/// A line on these solids, which comes out by this step.
+fn ink(outline: Outline, below: Vec<Solid>, step: f64) -> LaidSolid {
+    let count = below.len();
+    laid(
+        outline,
+        Profile::new("inflate", &[], 1.0).unwrap(),
+        below,
+        |_| Lay {
+            below: (0..count).collect(),
+            wraps: vec![],
+            behind: vec![],
+            clips: false,
+            step,
+            bulge: 0.0,
+            form: LayForm::Ink,
+        },
+    )
+}
+
+/// A solid laid on others.
+fn laid(
+    outline: Outline,
+    profile: Profile,
+    below: Vec<Solid>,
+    lay: impl Fn(usize) -> Lay,
+) -> LaidSolid {
+    let body = |solid: Solid, lay: Option<Lay>| Body {
+        solid,
+        to_plane: DAffine2::IDENTITY,
+        depth: 0.0,
+        node_depth: 0.0,
+        flattened: 1.0,
+        is_given: false,
+        is_detail: false,
+        lay,
+    };
+    let count = below.len();
+    let below = below.into_iter().map(|below| body(below, None));
+    let own = body(solid(outline, profile), Some(lay(count)));
+    let bodies = below.chain([own]).collect();
+    LaidSolid {
+        pile: Arc::new(Pile::new(bodies, Arc::default())),
+        body: count,
         sides: Sides::Front,
         texture: None,
-        recent: Arc::new(RecentHeights::default()),
     }
 }
 

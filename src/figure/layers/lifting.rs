@@ -1,0 +1,283 @@
+//! What lifts the surface of each shape (layers.md, steps 6 and 7).
+//!
+//! Plates and sheets that lie on plates and sheets alone stay exact: their faces are moved outwards. All others that lie over
+//! something are laid on a pile.
+
+use std::sync::Arc;
+
+use glam::{DAffine2, DVec2};
+
+use super::nodes::Nodes;
+use super::overlaps::Overlap;
+use super::shapes::Shape;
+use super::{Cover, FigureContext, Layers, NodeDepth};
+use crate::geometry::Frame;
+use crate::scene::WorldTransform;
+use crate::solid::{Body, Lay, LayForm, Pile, RecentHeights};
+
+/// The share of its own heights that a rounded shape adds to those of what it lies on.
+const BULGE: f64 = 0.3;
+/// The same for a detail with a name of its own: a nose, a button.
+const NAMED_BULGE: f64 = 0.6;
+/// How far a face of a plate is moved outwards at most, in its own heights.
+const MAX_RAISE: f64 = 2.0;
+/// Planes that are less than this share of a step apart coincide.
+const SAME: f64 = 0.01;
+
+/// All that lifting depends on.
+pub(super) struct Lifting<'a> {
+    pub(super) context: &'a FigureContext<'a>,
+    pub(super) frames: &'a [Frame],
+    pub(super) world: &'a WorldTransform,
+    pub(super) shapes: &'a [Shape],
+    pub(super) nodes: &'a Nodes,
+    pub(super) overlaps: &'a [Vec<Overlap>],
+    pub(super) covers: &'a [Cover],
+    /// Per node its depth.
+    pub(super) depths: &'a [f64],
+    /// Per shape its step.
+    pub(super) steps: &'a [f64],
+    pub(super) is_one: bool,
+}
+
+/// The depths of plane faces, back and front, both measured outwards; `None` for a side without one.
+type Faces = [Option<f64>; 2];
+
+/// How a shape comes out in front of what it lies on.
+enum Form {
+    /// Its faces are moved outwards by these distances, back and front.
+    Raised([f64; 2]),
+    Laid(Lay),
+}
+
+impl Lifting<'_> {
+    /// How the parts lie in depth, with nodes at these depths.
+    pub(super) fn arrange(
+        &self,
+        nodes: Vec<Option<NodeDepth>>,
+        recent: Arc<RecentHeights>,
+    ) -> Layers {
+        let parts = self.context.bindings.parts.len();
+        let mut offsets: Vec<f64> = (0..parts)
+            .map(|part| {
+                self.context
+                    .stand(self.context.bindings.parts[part].main, part)
+                    .0
+            })
+            .collect();
+        for shape in self.shapes {
+            offsets[shape.part] = shape.offset;
+        }
+        let mut raised = vec![[0.0; 2]; parts];
+        // Per shape its faces, moved outwards, if it is not laid on others.
+        let mut moved: Vec<Option<Faces>> = Vec::with_capacity(self.shapes.len());
+        let mut lays: Vec<Option<Lay>> = Vec::with_capacity(self.shapes.len());
+        for (index, shape) in self.shapes.iter().enumerate() {
+            let (faces, lay) = match self.form(index, &moved) {
+                Form::Raised(by) => {
+                    raised[shape.part] = by;
+                    let [back, front] = self.faces(index);
+                    let faces = [
+                        back.map(|back| back + by[0]),
+                        front.map(|front| front + by[1]),
+                    ];
+                    (Some(faces), None)
+                }
+                Form::Laid(lay) => (None, Some(lay)),
+            };
+            moved.push(faces);
+            lays.push(lay);
+        }
+        let (pile, lifted) = self.pile(lays, &raised, recent);
+        Layers {
+            nodes,
+            offsets,
+            raised,
+            lifted,
+            pile: Arc::new(pile),
+        }
+    }
+
+    /// The depth of a shape's plane, drawing units.
+    fn plane(&self, index: usize) -> f64 {
+        self.depths[self.nodes.of_shape[index]] + self.shapes[index].offset
+    }
+
+    fn form(&self, index: usize, moved: &[Option<Faces>]) -> Form {
+        let shape = &self.shapes[index];
+        let cover = &self.covers[index];
+        let below = || self.overlaps[index].iter().map(|overlap| overlap.below);
+        if shape.is_given {
+            return Form::Raised(self.raise(index, moved));
+        }
+        let is_plate = |other: usize| moved[other].is_some() && !self.shapes[other].is_soft;
+        if !shape.is_soft && below().all(is_plate) {
+            let by = self.raise(index, moved);
+            if by[1] <= MAX_RAISE * shape.height.max(self.steps[index])
+                || self.shapes[index].profile.is_open()
+            {
+                return Form::Raised(by);
+            }
+        }
+        let overflows = || {
+            let own = self.frames[shape.part].from_drawing_about_center();
+            let place = |point: &DVec2| own.transform_point2(*point);
+            let outline = shape
+                .outline
+                .map_rings(|ring| ring.iter().map(place).collect());
+            shape.profile.overflows(&outline)
+        };
+        let form = match () {
+            () if shape.is_ink => LayForm::Ink,
+            () if shape.profile.is_open() => LayForm::Sheet,
+            () if !cover.is_detail => LayForm::Volume,
+            () if shape.is_main && !self.is_one => LayForm::DeepSkin,
+            () => LayForm::Skin,
+        };
+        // What keeps its volume stays beside others whose depth is given, unless it hangs on them.
+        let lifts = |other: usize| {
+            form != LayForm::Volume || !self.shapes[other].is_given || self.is_kin(index, other)
+        };
+        let below = below()
+            .filter(|other| lifts(*other))
+            .collect::<Vec<usize>>();
+        let clips = shape.is_soft && !shape.is_ink && overflows();
+        let is_alone = below.is_empty() && cover.behind.is_empty();
+        if is_alone && !clips {
+            return Form::Raised(self.raise(index, moved));
+        }
+        let bulge = match form {
+            _ if !shape.is_soft => 0.0,
+            LayForm::Ink => 0.0,
+            LayForm::DeepSkin if shape.is_named => NAMED_BULGE,
+            _ => BULGE,
+        };
+        Form::Laid(Lay {
+            below,
+            wraps: cover.wraps.clone(),
+            behind: cover.behind.clone(),
+            clips,
+            step: self.steps[index] * self.world.scale,
+            bulge,
+            form,
+        })
+    }
+
+    /// The depths of the plane faces of a shape by itself, both measured outwards.
+    fn faces(&self, index: usize) -> Faces {
+        let [back, front] = self.shapes[index].faces;
+        let depth = self.plane(index);
+        [
+            back.map(|back| back - depth),
+            front.map(|front| front + depth),
+        ]
+    }
+
+    /// Whether a shape is in the node of another one or hangs on it.
+    fn is_kin(&self, index: usize, other: usize) -> bool {
+        let [node, other] = [index, other].map(|shape| self.nodes.of_shape[shape]);
+        self.is_one || self.nodes.hangs_on(node, other)
+    }
+
+    /// How far the plane faces of a shape are moved outwards, back and front, because of those of others that it lies over.
+    fn raise(&self, index: usize, moved: &[Option<Faces>]) -> [f64; 2] {
+        let shape = &self.shapes[index];
+        let step = self.steps[index];
+        let faces = self.faces(index);
+        [0, 1].map(|side| {
+            let Some(own) = faces[side] else { return 0.0 };
+            let below = self.overlaps[index].iter().filter_map(|overlap| {
+                let moved = moved[overlap.below]?[side]?;
+                Some((self.faces(overlap.below)[side]?, moved))
+            });
+            let below: Vec<(f64, f64)> = below.collect();
+            let is_free = side == 1 && !shape.is_given && !shape.is_soft;
+            let mut level = own;
+            for (by_itself, moved) in &below {
+                // What lies in the same plane is told apart from behind, too.
+                let is_same = (by_itself - own).abs() <= SAME * step;
+                let hides = is_free && *moved > own - (1.0 - SAME) * step;
+                if is_same || hides {
+                    level = level.max(moved + step);
+                }
+            }
+            let near = |level: f64| {
+                let mut moved = below.iter().map(|(_, moved)| *moved);
+                moved.find(|moved| (moved - level).abs() < 0.5 * step)
+            };
+            for _ in 0..below.len() {
+                let Some(other) = near(level) else { break };
+                level = other + step;
+            }
+            level - own
+        })
+    }
+
+    /// The pile of all shapes that are laid on others, and of those that they are laid on. Per part its place in it, if it is
+    /// laid on others.
+    fn pile(
+        &self,
+        lays: Vec<Option<Lay>>,
+        raised: &[[f64; 2]],
+        recent: Arc<RecentHeights>,
+    ) -> (Pile, Vec<Option<usize>>) {
+        let mut takes_part = vec![false; self.shapes.len()];
+        for (index, lay) in lays.iter().enumerate() {
+            if let Some(lay) = lay {
+                takes_part[index] = true;
+                let others = lay.below.iter().chain(&lay.wraps).chain(&lay.behind);
+                others.for_each(|other| takes_part[*other] = true);
+            }
+        }
+        let mut place = vec![usize::MAX; self.shapes.len()];
+        let mut lifted = vec![None; self.context.bindings.parts.len()];
+        let mut count = 0;
+        for index in (0..self.shapes.len()).filter(|index| takes_part[*index]) {
+            place[index] = count;
+            count += 1;
+        }
+        let to_place = |list: Vec<usize>| list.into_iter().map(|index| place[index]).collect();
+        let mut made = Vec::with_capacity(count);
+        for (index, lay) in lays
+            .into_iter()
+            .enumerate()
+            .filter(|(index, _)| takes_part[*index])
+        {
+            let shape = &self.shapes[index];
+            let lay = lay.map(|lay| Lay {
+                below: to_place(lay.below),
+                wraps: to_place(lay.wraps),
+                behind: to_place(lay.behind),
+                ..lay
+            });
+            if lay.is_some() {
+                lifted[shape.part] = Some(made.len());
+            }
+            made.push(self.body(index, lay, raised[shape.part]));
+        }
+        (Pile::new(made, recent), lifted)
+    }
+
+    fn body(&self, index: usize, lay: Option<Lay>, raised: [f64; 2]) -> Body {
+        let shape = &self.shapes[index];
+        let scale = self.world.scale;
+        let mut profile = shape.profile.clone();
+        profile.raise(raised);
+        let solid =
+            self.context
+                .natural(self.frames, self.world, [shape.main, shape.part], profile);
+        let node = &self.frames[shape.main];
+        let to_plane =
+            DAffine2::from_translation(node.origin * scale) * DAffine2::from_angle(node.angle);
+        Body {
+            solid,
+            to_plane,
+            depth: self.plane(index) * scale,
+            node_depth: self.depths[self.nodes.of_shape[index]] * scale,
+            flattened: shape.flattened,
+            is_given: shape.is_given,
+            is_detail: self.covers[index].is_detail,
+            lay,
+        }
+    }
+}

@@ -1,0 +1,336 @@
+//! Layers (layers.md): how far in front of the drawing plane each part lies, and what lifts its surface, so that seen from the
+//! front the model is the drawing.
+
+mod lifting;
+mod nodes;
+mod overlaps;
+mod placement;
+mod shapes;
+mod wraps;
+
+use std::sync::Arc;
+
+use rayon::prelude::*;
+
+use super::FigureContext;
+use crate::geometry::Frame;
+use crate::memo::Memo;
+use crate::scene::WorldTransform;
+use crate::solid::{Pile, RecentHeights, Solid, SolidHeights};
+
+use nodes::Nodes;
+use overlaps::{Overlap, Scratch, overlaps, ranks};
+use placement::{Figure, Placement, backdrops};
+use shapes::{Shape, shapes};
+
+/// The share of its area from which on a shape that lies on its own part, or on those that it hangs on, is a detail.
+const DETAIL: f64 = 0.95;
+/// The step by which what is drawn later comes out, as a share of the figure's larger extent.
+const STEP: f64 = 0.002;
+/// The same for the longest chain of shapes that lie over one another.
+const ALL_STEPS: f64 = 0.03;
+
+/// Why a node lies where it does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// It lies in the plane of what it hangs on.
+    Plane,
+    /// Numbers say so.
+    Given,
+    /// It is drawn over a part.
+    DrawnOver {
+        /// Index of the part.
+        part: usize,
+    },
+    /// It is drawn before a part that lies over it.
+    DrawnUnder {
+        /// Index of the part.
+        part: usize,
+    },
+    /// It lies on a part, or around it, and goes with it.
+    With {
+        /// Index of the part.
+        part: usize,
+    },
+    /// It is the far one of two limbs.
+    Twin {
+        /// Index of the near one.
+        of: usize,
+    },
+    /// It lies behind a part that covers it.
+    Backdrop {
+        /// Index of the part.
+        of: usize,
+    },
+}
+
+/// The depth of a node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NodeDepth {
+    /// In front of the drawing plane, drawing units.
+    pub depth: f64,
+    /// Why it is that.
+    pub reason: Reason,
+}
+
+/// How a shape lies on others and around them.
+#[derive(Debug, Default)]
+pub(super) struct Cover {
+    /// Whether it lies on its own part, or on those that it hangs on.
+    is_detail: bool,
+    /// The earlier shapes that it reaches around.
+    wraps: Vec<usize>,
+    /// The later shapes that it is a backdrop of.
+    behind: Vec<usize>,
+}
+
+/// How the parts of a drawing lie in depth.
+pub(super) struct Layers {
+    /// Per part that has a node, its depth.
+    nodes: Vec<Option<NodeDepth>>,
+    /// Per part how far the plane of its solid lies in front of that of its node, drawing units.
+    offsets: Vec<f64>,
+    /// Per part how far the faces of its solid are moved outwards, back and front.
+    raised: Vec<[f64; 2]>,
+    /// Per part that is lifted, its place in the pile.
+    lifted: Vec<Option<usize>>,
+    pile: Arc<Pile>,
+}
+
+impl Layers {
+    pub(super) fn arrange(
+        context: &FigureContext<'_>,
+        frames: &[Frame],
+        world: &WorldTransform,
+        memo: &Memo,
+    ) -> Self {
+        let recent = memo.get((), |_: &()| Arc::new(RecentHeights::default()));
+        let mut shapes = shapes(context);
+        let nodes = Nodes::new(context, &shapes);
+        let overlaps = overlaps(&shapes);
+        let solid = |shape: &Shape| {
+            let profile = shape.profile.clone();
+            context.natural(frames, world, [shape.main, shape.part], profile)
+        };
+        measure(&mut shapes, &overlaps, solid, &recent);
+        let is_one = !context.bindings.annotated;
+        let mut covers = covers(&shapes, &nodes, &overlaps, is_one);
+        let spread: Vec<f64> = nodes
+            .main
+            .iter()
+            .map(|part| context.bindings.attributes(*part).stack())
+            .collect();
+        let placement = if is_one {
+            Placement {
+                depths: vec![0.0; nodes.len()],
+                reasons: vec![Reason::Plane; nodes.len()],
+            }
+        } else {
+            let behind = backdrops(&mut shapes, &nodes, &overlaps);
+            for (cover, behind) in covers.iter_mut().zip(behind) {
+                cover.behind = behind;
+            }
+            Figure {
+                parts: &context.bindings.parts,
+                shapes: &shapes,
+                nodes: &nodes,
+                overlaps: &overlaps,
+                covers: &covers,
+                spread: &spread,
+            }
+            .place()
+        };
+        let steps = steps(context, &shapes, &nodes, &overlaps, is_one);
+        let lifting = lifting::Lifting {
+            context,
+            frames,
+            world,
+            shapes: &shapes,
+            nodes: &nodes,
+            overlaps: &overlaps,
+            covers: &covers,
+            depths: &placement.depths,
+            steps: &steps,
+            is_one,
+        };
+        let node = |part: usize| {
+            let node = nodes.of_part[part]?;
+            Some(NodeDepth {
+                depth: placement.depths[node],
+                reason: placement.reasons[node],
+            })
+        };
+        lifting.arrange(
+            (0..context.bindings.parts.len()).map(node).collect(),
+            recent,
+        )
+    }
+
+    /// Per part that has a node, its depth.
+    pub(super) fn into_nodes(self) -> Vec<Option<NodeDepth>> {
+        self.nodes
+    }
+
+    /// How far the node of a main part is in front of the node that it hangs on, drawing units.
+    pub(super) fn node_step(&self, part: usize, parent: Option<usize>) -> f64 {
+        let depth = |part: usize| self.nodes[part].map_or(0.0, |node| node.depth);
+        depth(part) - parent.map_or(0.0, depth)
+    }
+
+    /// How far the plane of a part's solid lies in front of that of its node, drawing units.
+    pub(super) fn offset(&self, part: usize) -> f64 {
+        self.offsets[part]
+    }
+
+    /// How far the back and the front face of a part's solid are moved outwards, drawing units.
+    pub(super) fn raised(&self, part: usize) -> [f64; 2] {
+        self.raised[part]
+    }
+
+    /// A part's place in the pile, if it is lifted by others.
+    pub(super) fn lifted(&self, part: usize) -> Option<(&Arc<Pile>, usize)> {
+        self.lifted[part].map(|body| (&self.pile, body))
+    }
+}
+
+/// Looks up the heights of soft shapes that lie over others or under them.
+fn measure(
+    shapes: &mut [Shape],
+    overlaps: &[Vec<Overlap>],
+    solid: impl Fn(&Shape) -> Solid + Sync,
+    recent: &RecentHeights,
+) {
+    let mut takes_part = vec![false; shapes.len()];
+    for (above, below) in overlaps.iter().enumerate() {
+        for overlap in below {
+            takes_part[above] = true;
+            takes_part[overlap.below] = true;
+        }
+    }
+    let soft = shapes.par_iter_mut().zip(takes_part);
+    let soft = soft.filter(|(shape, takes_part)| *takes_part && shape.is_soft && !shape.is_ink);
+    soft.for_each(|(shape, _)| {
+        let heights = SolidHeights::of(&solid(shape), recent);
+        let [front, back] = heights.highest();
+        shape.height = front.max(back).max(0.0);
+        shape.natural = Some(heights);
+    });
+}
+
+/// How shapes lie on others and around them, backdrops left out.
+fn covers(shapes: &[Shape], nodes: &Nodes, overlaps: &[Vec<Overlap>], is_one: bool) -> Vec<Cover> {
+    let is_kin = |above: usize, below: usize| {
+        is_one || nodes.hangs_on(nodes.of_shape[above], nodes.of_shape[below])
+    };
+    let details = overlaps.par_iter().enumerate();
+    let details: Vec<bool> = details
+        .map_init(Scratch::default, |scratch, (above, below)| {
+            if shapes[above].is_ink {
+                return true;
+            }
+            let kin = below
+                .iter()
+                .rev()
+                .filter(|overlap| is_kin(above, overlap.below));
+            let area: f64 = kin.clone().map(|overlap| overlap.area).sum();
+            if area < 0.9 * DETAIL * shapes[above].area {
+                return false;
+            }
+            let below = kin.map(|overlap| &shapes[overlap.below]);
+            scratch.covered(&shapes[above], below) >= DETAIL
+        })
+        .collect();
+    let has_chords: Vec<bool> = {
+        let mut wanted = vec![false; shapes.len()];
+        for (above, below) in overlaps.iter().enumerate() {
+            if may_wrap(&shapes[above], details[above]) {
+                below
+                    .iter()
+                    .for_each(|overlap| wanted[overlap.below] = true);
+            }
+        }
+        wanted
+    };
+    let chords: Vec<Vec<wraps::Chord>> = shapes
+        .par_iter()
+        .zip(has_chords)
+        .map(|(shape, wanted)| match wanted && may_be_wrapped(shape) {
+            true => wraps::chords(shape),
+            false => Vec::new(),
+        })
+        .collect();
+    let reached: Vec<Vec<usize>> = overlaps
+        .par_iter()
+        .enumerate()
+        .map(|(above, below)| {
+            let own = &shapes[above];
+            if !may_wrap(own, details[above]) {
+                return Vec::new();
+            }
+            let is_parent = |below: usize| {
+                let [node, other] = [above, below].map(|shape| nodes.of_shape[shape]);
+                !is_one && node != other && nodes.hangs_on(other, node)
+            };
+            let below = below.iter().map(|overlap| overlap.below);
+            let below = below.filter(|below| !is_parent(*below) && !details[*below]);
+            let reached = below.filter(|below| wraps::wraps(own, &chords[*below]));
+            reached.collect()
+        })
+        .collect();
+    details
+        .into_iter()
+        .zip(reached)
+        .map(|(is_detail, wraps)| Cover {
+            is_detail,
+            wraps,
+            behind: Vec::new(),
+        })
+        .collect()
+}
+
+fn may_wrap(shape: &Shape, is_detail: bool) -> bool {
+    shape.is_soft && !is_detail && !shape.is_given && !shape.is_ink
+}
+
+fn may_be_wrapped(shape: &Shape) -> bool {
+    shape.is_soft && !shape.is_given && shape.height > 0.0
+}
+
+/// Per shape the step by which it comes out in front of what it lies on, drawing units.
+fn steps(
+    context: &FigureContext<'_>,
+    shapes: &[Shape],
+    nodes: &Nodes,
+    overlaps: &[Vec<Overlap>],
+    is_one: bool,
+) -> Vec<f64> {
+    let mut root: Vec<usize> = (0..nodes.len()).collect();
+    for node in nodes.by_level() {
+        if let Some(parent) = nodes.parent[node].filter(|_| !is_one) {
+            root[node] = root[parent];
+        }
+    }
+    let figure = |shape: usize| match is_one {
+        true => 0,
+        false => root[nodes.of_shape[shape]],
+    };
+    let mut figures: Vec<Option<(glam::DVec2, glam::DVec2)>> = vec![None; nodes.len().max(1)];
+    let mut highest = vec![1; figures.len()];
+    let ranks = ranks(overlaps);
+    for (index, shape) in shapes.iter().enumerate() {
+        let (low, high) = shape.bounds;
+        let bounds = &mut figures[figure(index)];
+        let (all_low, all_high) = bounds.unwrap_or((low, high));
+        *bounds = Some((low.min(all_low), high.max(all_high)));
+        let most = &mut highest[figure(index)];
+        *most = ranks[index].max(*most);
+    }
+    (0..shapes.len())
+        .map(|shape| {
+            let extent =
+                figures[figure(shape)].map_or(0.0, |(low, high)| (high - low).max_element());
+            let step = extent * STEP.min(ALL_STEPS / highest[figure(shape)] as f64);
+            context.step(shapes[shape].part, step)
+        })
+        .collect()
+}

@@ -1,0 +1,137 @@
+//! Which shapes lie over which, and how much of them does.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::shapes::Shape;
+use crate::geometry::{BoxTree, Intervals, Scanlines, area_around, indexed_box};
+use crate::threads::GRAIN;
+
+/// Limit of the bounding boxes that are compared with a shape.
+const MAX_BOXES: usize = 4096;
+/// Limit of the shapes that a shape lies over: of a higher pile, only the topmost ones are looked at.
+const MAX_BELOW: usize = 64;
+/// Shapes overlap if they have more in common than this share of the smaller one.
+const LEAST: f64 = 1e-4;
+/// Points along a line of samples.
+const SAMPLES: usize = 12;
+
+/// An earlier shape that a shape lies over.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Overlap {
+    /// The earlier shape.
+    pub(super) below: usize,
+    /// The area that they have in common, square units.
+    pub(super) area: f64,
+}
+
+/// Memory that is used again for the next shapes.
+#[derive(Default)]
+pub(super) struct Scratch {
+    own: Intervals,
+    other: Intervals,
+}
+
+/// Per shape those that it lies over, back-most first.
+pub(super) fn overlaps(shapes: &[Shape]) -> Vec<Vec<Overlap>> {
+    let boxes = shapes.iter().enumerate();
+    let boxes = boxes.map(|(index, shape)| indexed_box(shape.bounds, index));
+    let tree = BoxTree::bulk_load(boxes.collect());
+    (0..shapes.len())
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .map_init(Scratch::default, |scratch, shape| {
+            below(shapes, shape, &tree, scratch)
+        })
+        .collect()
+}
+
+fn below(shapes: &[Shape], above: usize, tree: &BoxTree, scratch: &mut Scratch) -> Vec<Overlap> {
+    let own = &shapes[above];
+    let near = tree.locate_in_envelope_intersecting(area_around(own.bounds, 0.0));
+    let near = near.take(MAX_BOXES).map(|found| found.data);
+    let mut near: Vec<usize> = near.filter(|other| *other < above).collect();
+    near.sort_unstable_by(|a, b| b.cmp(a));
+    let mut found = Vec::new();
+    for below in near {
+        let other = &shapes[below];
+        let area = scratch.common(own, other);
+        if area > LEAST * own.area.min(other.area) {
+            found.push(Overlap { below, area });
+            if found.len() == MAX_BELOW {
+                break;
+            }
+        }
+    }
+    found.reverse();
+    found
+}
+
+impl Scratch {
+    /// The lines across the common part of two bounding boxes, cut to both shapes.
+    fn cut(&mut self, a: &Shape, b: &Shape) -> Option<Scanlines> {
+        let (low, high) = (a.bounds.0.max(b.bounds.0), a.bounds.1.min(b.bounds.1));
+        if !low.cmplt(high).all() {
+            return None;
+        }
+        let lines = Scanlines::across((low, high));
+        lines.cut(&a.outline, &a.ranges, &mut self.own);
+        lines.cut(&b.outline, &b.ranges, &mut self.other);
+        Some(lines)
+    }
+
+    /// The area that two shapes have in common.
+    fn common(&mut self, a: &Shape, b: &Shape) -> f64 {
+        let lines = self.cut(a, b);
+        lines.map_or(0.0, |lines| self.own.common(&self.other) * lines.weight())
+    }
+
+    /// Points spread over what two shapes have in common.
+    pub(super) fn samples(&mut self, a: &Shape, b: &Shape) -> Vec<DVec2> {
+        let Some(lines) = self.cut(a, b) else {
+            return Vec::new();
+        };
+        let width = a.bounds.1.x.min(b.bounds.1.x) - a.bounds.0.x.max(b.bounds.0.x);
+        let apart = width / SAMPLES as f64;
+        let mut points = Vec::new();
+        self.own.each_common(&self.other, |line, [from, to]| {
+            let count = ((to - from) / apart).round().max(1.0) as usize;
+            let place = |k: usize| from + (to - from) * (k as f64 + 0.5) / count as f64;
+            points.extend((0..count).map(|k| DVec2::new(place(k), lines.place(line))));
+        });
+        points
+    }
+
+    /// The share of a shape that lies over these others.
+    pub(super) fn covered<'a>(
+        &mut self,
+        shape: &Shape,
+        below: impl Iterator<Item = &'a Shape>,
+    ) -> f64 {
+        let lines = Scanlines::across(shape.bounds);
+        lines.cut(&shape.outline, &shape.ranges, &mut self.own);
+        let whole = self.own.length();
+        for other in below {
+            if self.own.is_empty() {
+                break;
+            }
+            lines.cut(&other.outline, &other.ranges, &mut self.other);
+            self.own.remove(&self.other);
+        }
+        if whole > 0.0 {
+            1.0 - self.own.length() / whole
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Per shape the length of the longest chain of shapes that lie over one another and end in it.
+pub(super) fn ranks(overlaps: &[Vec<Overlap>]) -> Vec<usize> {
+    let mut ranks = Vec::with_capacity(overlaps.len());
+    for below in overlaps {
+        let below = below.iter().map(|overlap| ranks[overlap.below]);
+        ranks.push(1 + below.max().unwrap_or(0));
+    }
+    ranks
+}

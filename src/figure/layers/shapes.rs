@@ -1,0 +1,128 @@
+//! The shapes of figures as far as their depths depend on them.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::super::FigureContext;
+use crate::bind::{PartKind, SetBy};
+use crate::geometry::{EdgeRanges, Outline, area};
+use crate::solid::{Profile, SolidHeights};
+use crate::threads::GRAIN;
+
+/// A part with a solid, in the order of drawing.
+#[derive(Debug)]
+pub(super) struct Shape {
+    /// Index of the part.
+    pub(super) part: usize,
+    /// The main part of its node.
+    pub(super) main: usize,
+    pub(super) outline: Arc<Outline>,
+    pub(super) bounds: (DVec2, DVec2),
+    pub(super) ranges: EdgeRanges,
+    pub(super) area: f64,
+    pub(super) profile: Profile,
+    pub(super) is_main: bool,
+    pub(super) is_named: bool,
+    pub(super) is_ink: bool,
+    /// Whether it is rounded or pointed.
+    pub(super) is_soft: bool,
+    /// Whether its depth is given by numbers.
+    pub(super) is_given: bool,
+    /// How far its plane lies in front of that of its node, drawing units.
+    pub(super) offset: f64,
+    /// How far a shape that is not soft reaches to the back and to the front of its plane, drawing units.
+    pub(super) plate: [f64; 2],
+    /// How far its plane faces are from its plane, back and front, drawing units; `None` for a side without one.
+    pub(super) faces: [Option<f64>; 2],
+    /// The heights of a soft shape that lies over others or under them.
+    pub(super) natural: Option<SolidHeights>,
+    /// How far it reaches from its plane at most, drawing units; see [`Shape::flatten`].
+    pub(super) height: f64,
+    /// What its heights are multiplied by.
+    pub(super) flattened: f64,
+}
+
+impl Shape {
+    /// How far it reaches to the front over a point, drawing units.
+    pub(super) fn front(&self, point: DVec2) -> f64 {
+        match &self.natural {
+            Some(natural) => self.flattened * natural.front(point),
+            None => self.plate[1],
+        }
+    }
+
+    /// Makes it no higher than this.
+    pub(super) fn flatten(&mut self, height: f64) {
+        if height < self.height {
+            self.flattened = height / self.height;
+            self.height = height;
+        }
+    }
+}
+
+/// The shapes of a drawing, back-most first.
+pub(super) fn shapes(context: &FigureContext<'_>) -> Vec<Shape> {
+    (0..context.bindings.parts.len())
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .filter_map(|part| shape(context, part))
+        .collect()
+}
+
+fn shape(context: &FigureContext<'_>, index: usize) -> Option<Shape> {
+    let bindings = context.bindings;
+    let part = &bindings.parts[index];
+    if !matches!(part.kind, PartKind::Main | PartKind::Sub) {
+        return None;
+    }
+    let profile = context.profile(index)?;
+    if matches!(profile, Profile::Model(_)) {
+        return None;
+    }
+    let attributes = bindings.attributes(bindings.form(index));
+    let is_own = |from: SetBy| from < SetBy::Default;
+    let shape = attributes.shape_if_set();
+    let has_depths = shape.is_some_and(|shape| is_own(shape.source.from) && shape.value.has_depths);
+    let has_offset = attributes
+        .offset()
+        .is_some_and(|offset| is_own(offset.source.from));
+    let is_mirrored = attributes.shape().mirrored;
+    let is_ink = part.host.is_some();
+    let is_soft = profile.is_soft();
+    let faces = profile.faces();
+    let plate = match &faces {
+        Some(faces) if !is_soft => {
+            let [back, front] = faces.depths.map(|depth| depth.unwrap_or(0.0));
+            // A sheet has no back of its own.
+            let back = if profile.is_open() { front } else { back };
+            [-back, front]
+        }
+        _ => [0.0; 2],
+    };
+    let faces = faces.map_or([None; 2], |faces| {
+        let [back, front] = faces.depths;
+        [back.map(|back| -back), front]
+    });
+    Some(Shape {
+        part: index,
+        main: part.main,
+        outline: Arc::clone(&part.outline),
+        bounds: part.measure.bounds,
+        ranges: EdgeRanges::new(&part.outline),
+        area: area(&part.outline),
+        is_main: part.main == index,
+        is_named: !part.is_automatic() && !part.name.is_empty(),
+        is_ink,
+        is_soft,
+        is_given: !is_ink && (has_depths || has_offset || is_mirrored),
+        offset: context.stand(part.main, index).0,
+        plate,
+        faces,
+        natural: None,
+        height: plate[0].midpoint(plate[1]).max(0.0),
+        flattened: 1.0,
+        profile,
+    })
+}

@@ -1,0 +1,112 @@
+//! Which shapes reach around others: a belt, a sleeve, a cap of hair (layers.md, step 1).
+
+use glam::DVec2;
+
+use super::shapes::Shape;
+use crate::geometry::{contains, shoelace};
+
+/// Points along the border of a shape.
+const CHORDS: usize = 160;
+/// The share of chords that begin in what wraps and also end there.
+const SHARE: f64 = 0.5;
+/// How far inside the border a chord begins and ends, as a share of its length.
+const SLACK: f64 = 0.08;
+/// How wide what wraps may be, in lengths of the chords.
+const WIDE: f64 = 1.8;
+/// How far the width is measured along a chord to either side, in lengths of the chord, and the number of points there.
+const REACH: f64 = 2.0;
+const ACROSS: usize = 25;
+/// The number of chords along which the width is measured.
+const MEASURED: usize = 15;
+
+/// A line through a shape, from a point of its border along the inward normal to the opposite border.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Chord {
+    from: DVec2,
+    /// To the other end.
+    along: DVec2,
+}
+
+/// The chords of a shape.
+pub(super) fn chords(shape: &Shape) -> Vec<Chord> {
+    let rings = || {
+        shape
+            .outline
+            .polygons
+            .iter()
+            .flat_map(|polygon| &polygon.rings)
+    };
+    let edges = || {
+        rings().flat_map(|ring| {
+            let next = ring.iter().cycle().skip(1);
+            ring.iter().zip(next).map(|(from, to)| [*from, *to])
+        })
+    };
+    let around: f64 = edges().map(|[from, to]| from.distance(to)).sum();
+    let apart = around / CHORDS as f64;
+    let area: f64 = rings().map(shoelace).sum();
+    let filled_side = if area < 0.0 { -1.0 } else { 1.0 };
+    let mut chords = Vec::with_capacity(CHORDS);
+    let mut next = apart / 2.0;
+    for [from, to] in edges() {
+        let length = from.distance(to);
+        let inward = (to - from).perp() * filled_side / length;
+        while next < length {
+            let foot = from.lerp(to, next / length);
+            next += apart;
+            let ends = edges().filter_map(|edge| crossing(foot, inward, edge));
+            let nearest = ends.filter(|end| *end > 1e-6 * around).reduce(f64::min);
+            if let Some(nearest) = nearest {
+                chords.push(Chord {
+                    from: foot,
+                    along: inward * nearest,
+                });
+            }
+        }
+        next -= length;
+    }
+    chords
+}
+
+/// How far along a ray it crosses an edge.
+fn crossing(from: DVec2, direction: DVec2, [a, b]: [DVec2; 2]) -> Option<f64> {
+    let edge = b - a;
+    let across = direction.perp_dot(edge);
+    let to = a - from;
+    let place = to.perp_dot(direction) / across;
+    ((0.0..=1.0).contains(&place)).then(|| to.perp_dot(edge) / across)
+}
+
+/// Whether a shape reaches around another one, whose chords these are.
+pub(super) fn wraps(shape: &Shape, chords: &[Chord]) -> bool {
+    let holds = |chord: &Chord, share: f64| {
+        let point = chord.from + chord.along * share;
+        let (low, high) = shape.bounds;
+        point.clamp(low, high) == point && contains(&shape.outline, point)
+    };
+    let begin: Vec<&Chord> = chords.iter().filter(|chord| holds(chord, SLACK)).collect();
+    if begin.len() < 2 {
+        return false;
+    }
+    let through: Vec<&&Chord> = begin
+        .iter()
+        .filter(|chord| holds(chord, 1.0 - SLACK))
+        .collect();
+    if (through.len() as f64) < SHARE * begin.len() as f64 {
+        return false;
+    }
+    let length = 1.0 + 2.0 * REACH;
+    let width = |chord: &Chord| {
+        let places = (0..ACROSS).map(|k| -REACH + length * (k as f64 + 0.5) / ACROSS as f64);
+        let inside = places.filter(|share| holds(chord, *share)).count();
+        length * inside as f64 / ACROSS as f64
+    };
+    let every = through.len().div_ceil(MEASURED);
+    let mut widths: Vec<f64> = through
+        .iter()
+        .step_by(every)
+        .map(|chord| width(chord))
+        .collect();
+    widths.sort_unstable_by(f64::total_cmp);
+    widths[widths.len() / 2] <= WIDE
+}

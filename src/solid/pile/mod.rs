@@ -1,0 +1,360 @@
+//! Solids that lie over one another (layers.md, Surfaces): each comes out in front of what is drawn before it.
+//!
+//! A solid that is lifted by what lies below it becomes two height fields over one mesh of its outline, joined by walls where
+//! they differ at the border. The heights below are looked up in the surfaces that are written, so that what is drawn later lies
+//! in front of the triangles, not only of what these stand for.
+//!
+//! All heights are depths in the drawing, towards the viewer, model units; points are in the frame of a solid's node as seen from
+//! the front.
+
+use std::any::Any;
+use std::hash::Hasher;
+use std::sync::Arc;
+
+use glam::{DAffine2, DVec2};
+use rustc_hash::{FxHashMap, FxHasher};
+
+use super::heights::{BothHeights, RecentHeights};
+use super::source::{long_hash, on_sides};
+use super::{Sides, Solid};
+use crate::geometry::Outline;
+use crate::scene::{Surface, SurfaceSource};
+use field::Field;
+use ground::{Ground, Place, Target};
+
+mod field;
+mod ground;
+
+/// The solids of a drawing that lie over one another or that others lie on, back-most first.
+#[derive(Debug)]
+pub struct Pile {
+    bodies: Vec<Body>,
+    /// Per body a hash of all that its surface is made from.
+    keys: Vec<u128>,
+    recent: Arc<RecentHeights>,
+}
+
+/// A solid in a pile.
+#[derive(Debug, Clone)]
+pub struct Body {
+    /// The solid as it is by itself, in the frame of its node, its own plane at depth 0.
+    pub solid: Solid,
+    /// From the frame of its node to the plane of the drawing, model units.
+    pub to_plane: DAffine2,
+    /// The depth of its plane.
+    pub depth: f64,
+    /// The depth of its node.
+    pub node_depth: f64,
+    /// What its heights are multiplied by.
+    pub flattened: f64,
+    /// Whether its depth is given by numbers: what is behind it may come out in front of it.
+    pub is_given: bool,
+    /// Whether it lies on others without a volume of its own.
+    pub is_detail: bool,
+    /// How it is lifted; `None` leaves it as it is.
+    pub lay: Option<Lay>,
+}
+
+/// How a solid is lifted by those below it.
+#[derive(Debug, Clone)]
+pub struct Lay {
+    /// The earlier bodies that it overlaps, back-most first.
+    pub below: Vec<usize>,
+    /// Those of them that it closes behind.
+    pub wraps: Vec<usize>,
+    /// The later bodies that it stays behind.
+    pub behind: Vec<usize>,
+    /// Whether the solid by itself covers more than its outline, as seen from the front, and is cut off there.
+    pub clips: bool,
+    /// How far it comes out in front of what it lies on, at least.
+    pub step: f64,
+    /// The share of its own heights that it adds to those of the volumes below it.
+    pub bulge: f64,
+    /// Its form.
+    pub form: LayForm,
+}
+
+/// What becomes of a solid that is lifted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LayForm {
+    /// It keeps its volume, and covers what is below.
+    Volume,
+    /// A skin on what is below, which ends a step under it.
+    Skin,
+    /// A skin whose back is as deep as its own.
+    DeepSkin,
+    /// A line drawn on what is below. Beside that it is as deep as the nearest border.
+    Ink,
+    /// A surface without thickness.
+    Sheet,
+}
+
+/// The heights of a body, and where its plane is.
+#[derive(Debug, Clone)]
+pub(super) struct Placed {
+    heights: BothHeights,
+    /// Added to the heights, which are multiplied by the factor before.
+    depth: f64,
+    factor: f64,
+}
+
+impl Placed {
+    /// Heights of a body that is lifted, which are depths already.
+    fn lifted(heights: BothHeights) -> Self {
+        Self {
+            heights,
+            depth: 0.0,
+            factor: 1.0,
+        }
+    }
+
+    /// The front and the back over a point, where the body is.
+    fn front(&self, point: DVec2) -> Option<f64> {
+        let height = self.heights.front.at(point)?;
+        Some(self.depth + self.factor * height)
+    }
+
+    fn back(&self, point: DVec2) -> Option<f64> {
+        let height = self.heights.back.at(point)?;
+        Some(self.depth - self.factor * height)
+    }
+
+    /// How far the front is from the plane, over a point of its outline.
+    fn front_reach(&self, point: DVec2) -> f64 {
+        let front = &self.heights.front;
+        let height = front.at(point).or_else(|| front.nearest(point));
+        self.factor * height.unwrap_or(0.0)
+    }
+
+    /// How far front and back are from the plane, over a point of its outline.
+    fn reach(&self, point: DVec2) -> [f64; 2] {
+        let BothHeights { front, back } = &self.heights;
+        [front, back].map(|side| {
+            let height = side.at(point).or_else(|| side.nearest(point));
+            self.factor * height.unwrap_or(0.0)
+        })
+    }
+}
+
+impl Lay {
+    /// What it is laid on or around.
+    fn on(&self) -> impl Iterator<Item = usize> + '_ {
+        self.below.iter().chain(&self.wraps).copied()
+    }
+}
+
+impl Pile {
+    /// A pile of bodies, back-most first. `recent` are the heights that were looked up last, in this pile or in others.
+    pub fn new(bodies: Vec<Body>, recent: Arc<RecentHeights>) -> Self {
+        let mut pile = Self {
+            bodies,
+            keys: Vec::new(),
+            recent,
+        };
+        for body in &pile.bodies {
+            let key = pile.key_of(body);
+            pile.keys.push(key);
+        }
+        pile
+    }
+
+    /// The bodies.
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// A hash of all that the surface of a body is made from; those of earlier bodies are known.
+    fn key_of(&self, body: &Body) -> u128 {
+        let place = |hasher: &mut dyn Hasher, body: &Body| {
+            hasher.write_u128(body.solid.long_key());
+            let numbers = body.to_plane.to_cols_array().into_iter();
+            let numbers = numbers.chain([body.depth, body.node_depth, body.flattened]);
+            numbers.for_each(|number| hasher.write_u64(number.to_bits()));
+        };
+        long_hash(|hasher| {
+            place(hasher, body);
+            let Some(lay) = &body.lay else { return };
+            hasher.write_u64(lay.step.to_bits());
+            hasher.write_u64(lay.bulge.to_bits());
+            hasher.write_u8(lay.form as u8);
+            hasher.write_u8(lay.clips.into());
+            for list in [&lay.below, &lay.wraps] {
+                hasher.write_usize(list.len());
+                for other in list {
+                    hasher.write_u8(self.bodies[*other].is_given.into());
+                    hasher.write_u8(self.bodies[*other].is_detail.into());
+                    hasher.write_u128(self.keys[*other]);
+                }
+            }
+            for later in &lay.behind {
+                place(hasher, &self.bodies[*later]);
+            }
+        })
+    }
+
+    /// A body as it is by itself, its plane at its depth.
+    fn unlifted(&self, index: usize) -> Placed {
+        let body = &self.bodies[index];
+        Placed {
+            heights: self.recent.of_solid(&body.solid),
+            depth: body.depth,
+            factor: body.flattened,
+        }
+    }
+
+    /// The heights of a body, and those of all that it lies on.
+    fn placed(&self, body: usize) -> FxHashMap<usize, Placed> {
+        // Not by recursion, as piles can be higher than a stack is deep.
+        let mut known: FxHashMap<usize, Placed> = FxHashMap::default();
+        let mut open = vec![body];
+        while let Some(&top) = open.last() {
+            let Some(lay) = self.bodies[top]
+                .lay
+                .as_ref()
+                .filter(|_| !known.contains_key(&top))
+            else {
+                known.entry(top).or_insert_with(|| self.unlifted(top));
+                open.pop();
+                continue;
+            };
+            let before = open.len();
+            if top != body
+                && let Some(recent) = self.recent.find(self.keys[top])
+            {
+                known.insert(
+                    top,
+                    recent.map_or_else(|| self.unlifted(top), Placed::lifted),
+                );
+                continue;
+            }
+            open.extend(lay.on().filter(|other| !known.contains_key(other)));
+            if open.len() == before {
+                let made = self.recent.get(self.keys[top], || {
+                    self.field(top, &known).map(|field| field.heights())
+                });
+                known.insert(top, made.map_or_else(|| self.unlifted(top), Placed::lifted));
+            }
+        }
+        known
+    }
+
+    /// The height fields of a body that is lifted by others, whose heights are known; `None` if nothing lifts it after all.
+    fn field(&self, index: usize, known: &FxHashMap<usize, Placed>) -> Option<Field> {
+        let body = &self.bodies[index];
+        let lay = body.lay.as_ref()?;
+        let place = |other: &usize, placed: Placed| Place {
+            placed,
+            to: self.bodies[*other].to_plane.inverse() * body.to_plane,
+            is_given: self.bodies[*other].is_given,
+            is_detail: self.bodies[*other].is_detail,
+        };
+        let lies_on = |other: &usize| place(other, known[other].clone());
+        let ground = Ground {
+            below: lay.below.iter().rev().map(lies_on).collect(),
+            wraps: lay.wraps.iter().map(lies_on).collect(),
+            behind: lay
+                .behind
+                .iter()
+                .map(|other| place(other, self.unlifted(*other)))
+                .collect(),
+        };
+        let is_line = lay.form == LayForm::Ink;
+        let target = Target {
+            own: (!is_line).then(|| self.unlifted(index)),
+            depth: body.depth,
+            lay,
+            ground: &ground,
+        };
+        Field::new(&self.outline(body), &body.solid.options, &target)
+    }
+
+    /// The outline of a body in the frame of its node.
+    fn outline(&self, body: &Body) -> Outline {
+        let to_node = body.solid.to_final();
+        let place = |point: &DVec2| to_node.transform_point2(*point);
+        let outline = &body.solid.outline;
+        outline.map_rings(|ring| ring.iter().map(place).collect())
+    }
+
+    fn surface(&self, index: usize) -> Surface {
+        let body = &self.bodies[index];
+        let mut known = FxHashMap::default();
+        let ons = body.lay.iter().flat_map(Lay::on);
+        for on in ons {
+            if !known.contains_key(&on) {
+                let placed = self.placed(on)[&on].clone();
+                known.insert(on, placed);
+            }
+        }
+        match self.field(index, &known) {
+            Some(field) => field.surface(body.node_depth, body.solid.options.crease),
+            None => self.unlifted_surface(body),
+        }
+    }
+
+    fn unlifted_surface(&self, body: &Body) -> Surface {
+        let mut solid = body.solid.clone();
+        let placement = &mut solid.options.placement;
+        placement.translation.z = (body.depth - body.node_depth) / placement.scale;
+        solid.texture = None;
+        solid.surface()
+    }
+}
+
+/// A body of a pile as a source of a surface.
+#[derive(Debug, Clone)]
+pub struct LaidSolid {
+    /// The pile.
+    pub pile: Arc<Pile>,
+    /// The index of the body.
+    pub body: usize,
+    /// The sides of the drawing plane that it is on.
+    pub sides: Sides,
+    /// From the drawing to texture coordinates, if it is textured.
+    pub texture: Option<DAffine2>,
+}
+
+impl LaidSolid {
+    fn content(&self) -> (u128, Sides, Option<[u64; 6]>) {
+        let texture = self
+            .texture
+            .map(|map| map.to_cols_array().map(f64::to_bits));
+        (self.pile.keys[self.body], self.sides, texture)
+    }
+}
+
+impl SurfaceSource for LaidSolid {
+    fn surface(&self) -> Surface {
+        let mut surface = self.pile.surface(self.body);
+        if let Some(texture) = self.texture {
+            let map = texture * self.pile.bodies[self.body].solid.to_final().inverse();
+            let uv = |[x, y, _]: &[f32; 3]| {
+                let point = map.transform_point2(DVec2::new(f64::from(*x), f64::from(*y)));
+                point.as_vec2().to_array()
+            };
+            surface.uvs = surface.positions.iter().map(uv).collect();
+        }
+        on_sides(surface, self.sides)
+    }
+
+    fn mirrored(&self) -> Arc<dyn SurfaceSource> {
+        Arc::new(Self {
+            sides: self.sides.mirrored(),
+            ..self.clone()
+        })
+    }
+
+    fn key(&self) -> u64 {
+        let (key, _, texture) = self.content();
+        let mut hasher = FxHasher::default();
+        hasher.write_u64(key as u64);
+        let numbers = texture.into_iter().flatten();
+        numbers.for_each(|number| hasher.write_u64(number));
+        hasher.finish()
+    }
+
+    fn is_equal(&self, other: &dyn SurfaceSource) -> bool {
+        let other = (other as &dyn Any).downcast_ref::<Self>();
+        other.is_some_and(|other| self.content() == other.content())
+    }
+}
