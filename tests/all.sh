@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Runs everything that tells whether okoshi is in order: bash tests/all.sh [--quick]
 #
-# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender, Inkscape, Neovim and Emacs are installed if they are
-# missing and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the summary says why.
+# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender, Inkscape, Neovim, Emacs and clip art are installed if they
+# are missing and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the summary says why.
 # --quick leaves Blender out, and installs nothing. Exit status 1 if anything failed. All of cargo's work is done in one profile.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -109,6 +109,23 @@ install() { # WHAT PACKAGES…
   $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends "$@"
 }
 
+# Models of clip art by others, beside the drawings.
+clip_art() {
+  [ $quick = no ] || skip "--quick"
+  need npm
+  local art=/usr/share/openclipart/svg
+  [ -d $art ] || (install "the Open Clip Art Library" openclipart-svg) || [ $? = 77 ] || exit 1
+  (cd $tools && npm ci --no-audit --no-fund)
+  rm -rf "$target/clip-art"
+  if [ -d $art ]; then
+    node $tools/clip_art.mjs "$target/clip-art" $art
+  else
+    echo "without the Open Clip Art Library: $(cat "$reason")"
+    node $tools/clip_art.mjs "$target/clip-art"
+  fi
+  LOOK_DIR=$(realpath "$target/clip-art") cargo test --locked --test as_drawn -- --ignored --nocapture survey
+}
+
 blender_import() {
   [ $quick = no ] || skip "--quick"
   need node
@@ -186,6 +203,7 @@ step doc manual
 step licences licences
 step examples examples
 step validator validator
+step clip-art clip_art
 step blender blender_import
 step gallery gallery
 step readme readme

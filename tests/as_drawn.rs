@@ -1,8 +1,8 @@
 //! Seen from the front, models look like their drawings, for every kind of `Shape`.
 //!
-//! Drawings are drawings of our own without given depths, and clip art by others, each with all its parts of one kind.
-//! `cargo test --test as_drawn -- --nocapture --ignored table` prints how all of them look for all kinds, and
-//! `LOOK_DIR=FOLDER cargo test --test as_drawn -- --nocapture --ignored survey` does so for the drawings in a folder.
+//! Drawings are drawings of our own without given depths, clip art by others, and generated stacks, each with all its parts of one
+//! kind. `LOOK_DIR=FOLDER cargo test --test as_drawn -- --nocapture --ignored survey` measures the drawings in a folder;
+//! `tests/tools/clip_art.sh` fills one from packages.
 #![allow(clippy::print_stdout, reason = "tables are for people")]
 
 mod common;
@@ -10,6 +10,9 @@ mod common;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 
 use okoshi::bind::PartKind;
 use okoshi::compile::Compiled;
@@ -17,8 +20,7 @@ use okoshi::diagnostic::Code;
 use okoshi::disk::FolderResolver;
 use okoshi::look::{DrawnView, Instead, Look, compare, gives_depth, hints};
 use okoshi::render::{self, Options, PosedModel, Shading};
-use okoshi::resolver::MemoryResolver;
-use rayon::prelude::*;
+use okoshi::resolver::{MemoryResolver, Resolver};
 use resvg::tiny_skia::{Pixmap, Transform};
 
 /// The kinds of `Shape` that are measured.
@@ -27,6 +29,8 @@ const KINDS: [&str; 5] = ["default", "inflate", "round", "roundv", "roundh"];
 const LEAST: f64 = 0.99;
 /// The larger side of the pictures, pixels.
 const SIDE: u32 = 400;
+/// The same for generated stacks.
+const STACK_SIDE: u32 = 200;
 /// Parts with fewer pixels in the drawing are not looked for.
 const LEAST_PIXELS: usize = 40;
 /// A part of which a smaller share is right is lost.
@@ -42,16 +46,21 @@ impl Sample {
     /// Compares a drawing with its model; the reason if that is not possible.
     fn new(path: &Path, kind: &str) -> Result<Self, String> {
         let text = fs::read_to_string(path).map_err(|error| error.to_string())?;
+        let resolver = FolderResolver::new(path.parent().unwrap_or(Path::new("")));
+        Self::of(&text, &resolver, kind, SIDE)
+    }
+
+    /// Compares a drawing with its model, in pictures whose larger side has so many pixels.
+    fn of(text: &str, resolver: &dyn Resolver, kind: &str, side: u32) -> Result<Self, String> {
         let end = text.rfind("</svg").ok_or("it has no end")?;
         let (before, after) = text.split_at(end);
         let string = format!(r#"<text x="-900" y="-900" font-size="5">%Shape {kind}</text>"#);
         let text = format!("{before}{string}{after}");
-        let resolver = FolderResolver::new(path.parent().unwrap_or(Path::new("")));
-        let compiled = common::compiled(&text, &resolver);
+        let compiled = common::compiled(&text, resolver);
         if compiled.has_errors() {
             return Err(format!("{:?}", compiled.diagnostics));
         }
-        let look = compare(&compiled, &text, &resolver, SIDE).map_err(|error| error.to_string())?;
+        let look = compare(&compiled, &text, resolver, side).map_err(|error| error.to_string())?;
         Ok(Self { compiled, look })
     }
 
@@ -64,6 +73,11 @@ impl Sample {
         } = &self.compiled;
         lost.map(|part| bindings.describe(drawing, part.part))
             .collect()
+    }
+
+    /// Whether the model looks like its drawing.
+    fn is_right(&self) -> bool {
+        self.look.right >= LEAST && self.lost().is_empty()
     }
 
     /// A row of the table.
@@ -135,17 +149,158 @@ fn models_look_like_their_drawings() {
         .iter()
         .flat_map(|path| KINDS.map(|kind| (path, kind)));
     let samples: Vec<(&PathBuf, &str)> = samples.collect();
-    let measured = samples.par_iter().map(|(path, kind)| {
+    let rows = each(&samples, |(path, kind)| {
         let name = name(path);
         let sample = Sample::new(path, kind).unwrap_or_else(|why| panic!("{name}: {why}"));
-        let is_right = sample.look.right >= LEAST && sample.lost().is_empty();
-        (is_right, sample.row(&name, kind))
+        (sample.is_right(), sample.row(&name, kind))
     });
-    let rows: Vec<(bool, String)> = measured.collect();
     rows.iter().for_each(|(_, row)| println!("{row}"));
+    assert_all_right(rows);
+}
+
+/// The results of `measure` for each sample, found on all processors. The pool of the program itself would begin with further
+/// samples while it waits for pieces of one, deeper and deeper on the same stack.
+fn each<S: Sync, R: Send>(samples: &[S], measure: impl Fn(&S) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let found: Mutex<Vec<(usize, R)>> = Mutex::default();
+    let threads = thread::available_parallelism().map_or(2, usize::from);
+    thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    let Some(sample) = samples.get(index) else {
+                        break;
+                    };
+                    let result = measure(sample);
+                    found.lock().expect("no panic").push((index, result));
+                }
+            });
+        }
+    });
+    let mut found = found.into_inner().expect("no panic");
+    found.sort_by_key(|(index, _)| *index);
+    found.into_iter().map(|(_, result)| result).collect()
+}
+
+fn assert_all_right(rows: Vec<(bool, String)>) {
     let wrong = rows.into_iter().filter(|(is_right, _)| !is_right);
     let wrong: Vec<String> = wrong.map(|(_, row)| row).collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Shapes that lie over one another in many ways: beside, inside and around each other, some of them with names and hung on others.
+fn stack(seed: u64) -> String {
+    let mut random = fastrand::Rng::with_seed(seed);
+    let mut between = |low: f64, high: f64| low + (high - low) * random.f64();
+    let count = between(3.0, 11.0) as usize;
+    let has_names = seed % 2 == 1;
+    let mut body = String::new();
+    let mut texts = String::new();
+    let mut drawn: Vec<([f64; 2], f64)> = Vec::new();
+    for index in 0..count {
+        let (middle, size) = if index == 0 {
+            ([50.0, 50.0], between(15.0, 35.0))
+        } else {
+            let ([x, y], size) = drawn[between(0.0, index as f64) as usize];
+            let angle = between(0.0, std::f64::consts::TAU);
+            let away = between(0.0, 1.2) * size;
+            let middle = [x + away * angle.cos(), y + away * angle.sin()];
+            (
+                middle.map(|x| x.clamp(15.0, 85.0)),
+                (between(0.15, 0.9) * size).max(3.0),
+            )
+        };
+        let [x, y] = middle;
+        let fill = format!(
+            "#{:02x}{:02x}{:02x}",
+            30 + 20 * index,
+            255 - 21 * index,
+            (index * 67) % 256
+        );
+        let style = match between(0.0, 4.0) as usize {
+            0 => format!(
+                r##"fill="{fill}" stroke="#101010" stroke-width="{:.1}""##,
+                0.1 * size
+            ),
+            _ => format!(r#"fill="{fill}""#),
+        };
+        let wide = size * between(0.4, 1.0);
+        let turn = format!(
+            r#"transform="rotate({:.0} {x:.2} {y:.2})""#,
+            between(0.0, 180.0)
+        );
+        let _ = match between(0.0, 4.0) as usize {
+            0 => write!(
+                body,
+                r#"<circle cx="{x:.2}" cy="{y:.2}" r="{size:.2}" {style}/>"#
+            ),
+            1 => write!(
+                body,
+                r#"<ellipse cx="{x:.2}" cy="{y:.2}" rx="{wide:.2}" ry="{size:.2}" {turn} {style}/>"#
+            ),
+            2 => write!(
+                body,
+                r#"<rect x="{:.2}" y="{:.2}" width="{:.2}" height="{:.2}" rx="{:.2}" {turn} {style}/>"#,
+                x - wide,
+                y - size,
+                2.0 * wide,
+                2.0 * size,
+                between(0.0, 0.5) * wide
+            ),
+            _ => {
+                let corners = between(3.0, 9.0) as usize;
+                let corners = (0..2 * corners).map(|corner| {
+                    let angle = corner as f64 / corners as f64 * std::f64::consts::PI;
+                    let far = if corner % 2 == 0 {
+                        size
+                    } else {
+                        size * between(0.4, 1.0)
+                    };
+                    format!("{:.2},{:.2} ", x + far * angle.cos(), y + far * angle.sin())
+                });
+                let corners: String = corners.collect();
+                write!(body, r#"<polygon points="{corners}" {style}/>"#)
+            }
+        };
+        if has_names {
+            let parent = match index {
+                0 => String::new(),
+                _ => format!("@P{}", between(0.0, index as f64) as usize),
+            };
+            let _ = write!(
+                texts,
+                r#"<text x="{x:.2}" y="{y:.2}" font-size="0.5" text-anchor="middle">P{index}{parent}</text>"#
+            );
+        }
+        drawn.push((middle, size));
+    }
+    format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="-30 -30 160 160">{body}{texts}</svg>"#
+    )
+}
+
+#[test]
+fn generated_stacks_look_like_their_drawings() {
+    const COUNT: u64 = 200;
+    let samples = (0..COUNT).flat_map(|seed| KINDS.map(|kind| (seed, kind)));
+    let samples: Vec<(u64, &str)> = samples.collect();
+    let measured = each(&samples, |(seed, kind)| {
+        let name = format!("stack {seed}");
+        let sample = Sample::of(&stack(*seed), &MemoryResolver::default(), kind, STACK_SIDE);
+        let sample = sample.unwrap_or_else(|why| panic!("{name}: {why}"));
+        (
+            (sample.is_right(), sample.row(&name, kind)),
+            sample.look.pixels,
+        )
+    });
+    let (rows, pixels): (Vec<_>, Vec<usize>) = measured.into_iter().unzip();
+    let looked_at = pixels.iter().filter(|pixels| **pixels > 1000).count();
+    assert!(
+        looked_at * 10 > samples.len() * 9,
+        "only {looked_at} are large enough"
+    );
+    assert_all_right(rows);
 }
 
 /// A drawing on a page that does not begin at the origin.
@@ -282,27 +437,17 @@ fn landscapes_look_as_drawn_at_their_places() {
 #[ignore = "measures the drawings in the folder LOOK_DIR"]
 fn survey() {
     let folder = std::env::var("LOOK_DIR").expect("LOOK_DIR names a folder");
-    let mut rows = 0;
-    for kind in KINDS {
-        let (mut right, mut pixels, mut lost) = (0.0, 0, 0);
-        for path in drawings(Path::new(&folder)) {
-            let name = path.file_stem().unwrap_or_default().to_string_lossy();
-            match Sample::new(&path, kind) {
-                Ok(sample) => {
-                    println!("{}", sample.row(&name, kind));
-                    right += sample.look.right * sample.look.pixels as f64;
-                    pixels += sample.look.pixels;
-                    lost += sample.lost().len();
-                    rows += 1;
-                }
-                Err(why) => println!("{name:36} {kind:8} {why}"),
-            }
-        }
-        println!(
-            "{:36} {kind:8} {:7.2} % of {pixels:6} pixels, {lost:3} lost",
-            "all",
-            right / pixels.max(1) as f64 * 100.0
-        );
-    }
-    assert!(rows > 0, "there is no drawing in {folder}");
+    let paths = drawings(Path::new(&folder));
+    let samples: Vec<(&PathBuf, &str)> = paths
+        .iter()
+        .flat_map(|path| KINDS.map(|kind| (path, kind)))
+        .collect();
+    let rows = each(&samples, |(path, kind)| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy();
+        let sample = Sample::new(path, kind).unwrap_or_else(|why| panic!("{name}: {why}"));
+        (sample.is_right(), sample.row(&name, kind))
+    });
+    rows.iter().for_each(|(_, row)| println!("{row}"));
+    assert_all_right(rows);
+    assert!(!paths.is_empty(), "there is no drawing in {folder}");
 }

@@ -25,7 +25,7 @@ pub use frame::{Frame, y_up};
 pub use measure::{Measure, measure, measure_along};
 pub use query::{area, bounds, contains, distance_squared};
 pub(crate) use query::{crosses, shoelace};
-pub(crate) use scanline::{EdgeRanges, Intervals, Scanlines};
+pub(crate) use scanline::{EdgeRanges, Intervals, LINES, Scanlines};
 
 use glam::DVec2;
 

@@ -204,6 +204,13 @@ impl Intervals {
         removed
     }
 
+    /// Calls `each` with each interval and the index of its line.
+    pub(crate) fn each(&self, mut each: impl FnMut(usize, [f64; 2])) {
+        for (index, line) in self.lines.iter().enumerate() {
+            line.iter().for_each(|interval| each(index, *interval));
+        }
+    }
+
     /// Calls `each` with the pieces of lines that are in both, and the index of their lines.
     pub(crate) fn each_common(&self, other: &Self, mut each: impl FnMut(usize, [f64; 2])) {
         for (index, (line, other)) in self.lines.iter().zip(&other.lines).enumerate() {

@@ -1,14 +1,12 @@
 //! How far solids come towards the viewer, looked up in their surfaces.
 
-use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, OnceLock};
 
-use glam::{DAffine2, DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
 
-use super::Solid;
-use crate::scene::{Surface, SurfaceSource};
+use crate::scene::Surface;
 
 /// Triangles that are steeper than this, as the cosine of their slope, are walls, which nothing lies on.
 const WALL: f64 = 1e-6;
@@ -18,94 +16,116 @@ const SLACK: f64 = 1e-7;
 const CELLS: f64 = 3.0;
 /// Limit of the cells along each side of the grid.
 const MAX_CELLS: f64 = 512.0;
-/// Limit of the triangles that are kept.
-const MAX_FACETS: usize = 1 << 20;
 
 /// The side of a surface that faces the viewer.
 #[derive(Debug)]
 pub(super) struct Heights {
     facets: Vec<Facet>,
     grid: Grid,
-    /// The edges at which nothing on the other side faces the viewer.
-    border: RTree<Edge>,
-    /// The height of all of the border, if it is the same everywhere, as at the border of soft kinds.
-    level: Option<f64>,
+    /// Whether no point lies in several triangles.
+    is_field: bool,
     slack: f64,
+    border: OnceLock<Border>,
+}
+
+/// The edges at which nothing on the other side faces the viewer.
+#[derive(Debug)]
+enum Border {
+    /// All of it is at this height, as around soft kinds.
+    Level(f64),
+    Uneven(RTree<Edge>),
 }
 
 impl Heights {
+    /// The heights of a surface.
     pub(super) fn of(surface: &Surface) -> Self {
         let position = |corner: u32| surface.positions[corner as usize];
         // The sum maps -0.0 to 0.0.
-        let at = |corner: u32| Vec3::from(position(corner).map(|x| x + 0.0)).as_dvec3();
+        let at = |corner: u32| Vec3::from(position(corner).map(|x| x + 0.0));
         let triangles = surface.triangles.iter();
-        Self::over(triangles.map(|triangle| triangle.map(at)))
+        Self::over(triangles.map(|triangle| triangle.map(at)), false)
+    }
+
+    /// The heights of triangles whose projections do not overlap.
+    pub(super) fn of_field(triangles: impl Iterator<Item = [Vec3; 3]>) -> Self {
+        Self::over(triangles, true)
     }
 
     /// The heights of those triangles that face the viewer. Their corners have the same coordinates where they share edges.
-    pub(super) fn over(triangles: impl Iterator<Item = [DVec3; 3]>) -> Self {
-        let mut largest = 0.0_f64;
-        let mut facets = Vec::new();
-        let place = |corner: DVec3| corner.to_array().map(f64::to_bits);
-        let mut edges: FxHashSet<[[u64; 3]; 2]> = FxHashSet::default();
-        for corners in triangles {
-            largest = corners
-                .iter()
-                .fold(largest, |most, corner| most.max(corner.abs().max_element()));
-            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-            if normal.z > WALL * normal.length() {
-                facets.push(Facet { corners, normal });
-                let [a, b, c] = corners.map(place);
-                edges.extend([[a, b], [b, c], [c, a]]);
-            }
-        }
-        let point = |place: [u64; 3]| DVec3::from(place.map(f64::from_bits));
-        let alone = edges.iter().filter(|[a, b]| !edges.contains(&[*b, *a]));
-        let mut border: Vec<Edge> = alone.map(|ends| Edge(ends.map(point))).collect();
-        // The tree, and so the nearest of several at the same distance, depends on the order.
-        border.sort_unstable_by(|a, b| a.order(b));
-        let ends = || border.iter().flat_map(|edge| edge.0.map(|end| end.z));
-        let first = ends().next();
-        let level = first.filter(|first| ends().all(|z| (z - first).abs() <= SLACK * largest));
+    fn over(triangles: impl Iterator<Item = [Vec3; 3]>, is_field: bool) -> Self {
+        let facets: Vec<Facet> = triangles.filter_map(Facet::new).collect();
+        let corners = facets.iter().flat_map(|facet| facet.corners);
+        let largest = corners.fold(0.0_f32, |most, corner| most.max(corner.abs().max_element()));
         Self {
             grid: Grid::of(&facets),
             facets,
-            level,
-            border: RTree::bulk_load(border),
-            slack: SLACK * largest,
+            is_field,
+            slack: SLACK * f64::from(largest),
+            border: OnceLock::new(),
         }
+    }
+
+    /// The number of its triangles.
+    pub(super) fn facet_count(&self) -> usize {
+        self.facets.len()
     }
 
     /// The height over a point of the drawing plane, if the surface is there.
     pub(super) fn at(&self, point: DVec2) -> Option<f64> {
         let near = self.grid.at(point).iter();
-        let heights =
+        let mut heights =
             near.filter_map(|facet| self.facets[*facet as usize].height(point, self.slack));
-        heights.reduce(f64::max)
+        if self.is_field {
+            heights.next()
+        } else {
+            heights.reduce(f64::max)
+        }
     }
 
     /// The greatest height; 0 for nothing.
-    fn highest(&self) -> f64 {
+    pub(super) fn highest(&self) -> f64 {
         let corners = self.facets.iter().flat_map(|facet| facet.corners);
-        corners
-            .map(|corner| corner.z)
-            .reduce(f64::max)
-            .unwrap_or(0.0)
+        let highest = corners.map(|corner| corner.z).reduce(f32::max);
+        highest.unwrap_or(0.0).into()
     }
 
     /// The height at the point of the surface's border that is nearest to a point of the drawing plane.
     pub(super) fn nearest(&self, point: DVec2) -> Option<f64> {
-        self.level.or_else(|| {
-            let edge = self.border.nearest_neighbor(point.to_array())?;
-            Some(edge.nearest(point).z)
-        })
+        match self.border.get_or_init(|| self.find_border()) {
+            Border::Level(level) => Some(*level),
+            Border::Uneven(edges) => {
+                let edge = edges.nearest_neighbor(point.to_array())?;
+                Some(edge.nearest(point).z)
+            }
+        }
+    }
+
+    fn find_border(&self) -> Border {
+        let place = |corner: Vec3| corner.to_array().map(f32::to_bits);
+        let mut edges: FxHashSet<[[u32; 3]; 2]> = FxHashSet::default();
+        for facet in &self.facets {
+            let [a, b, c] = facet.corners.map(place);
+            edges.extend([[a, b], [b, c], [c, a]]);
+        }
+        let point = |place: [u32; 3]| Vec3::from(place.map(f32::from_bits)).as_dvec3();
+        let alone = edges.iter().filter(|[a, b]| !edges.contains(&[*b, *a]));
+        let mut border: Vec<Edge> = alone.map(|ends| Edge(ends.map(point))).collect();
+        let ends = || border.iter().flat_map(|edge| edge.0.map(|end| end.z));
+        let (low, high) = ends().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| {
+            (low.min(z), high.max(z))
+        });
+        if high - low <= self.slack {
+            return Border::Level(low);
+        }
+        // The tree, and so the nearest of several at the same distance, depends on the order.
+        border.sort_unstable_by(|a, b| a.order(b));
+        Border::Uneven(RTree::bulk_load(border))
     }
 
     /// The corners of the triangles in a box, some of them several times.
     pub(super) fn corners(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = DVec2> + '_ {
         let facets = self.grid.in_box(low, high);
-        let corners = facets.flat_map(|facet| self.facets[facet as usize].corners);
-        let corners = corners.map(DVec3::truncate);
+        let corners = facets.flat_map(|facet| self.facets[facet as usize].flat());
         corners.filter(move |point| point.clamp(low, high) == *point)
     }
 
@@ -130,34 +150,53 @@ impl Heights {
 /// A triangle that faces the viewer.
 #[derive(Debug)]
 struct Facet {
-    corners: [DVec3; 3],
-    normal: DVec3,
+    corners: [Vec3; 3],
+    /// How much higher it is per unit, across and up.
+    slope: DVec2,
 }
 
 impl Facet {
+    /// A triangle, if it faces the viewer.
+    fn new(corners: [Vec3; 3]) -> Option<Self> {
+        let [a, b, c] = corners.map(|corner| corner.as_dvec3());
+        let normal = (b - a).cross(c - a);
+        (normal.z > WALL * normal.length()).then(|| Self {
+            corners,
+            slope: normal.truncate() / -normal.z,
+        })
+    }
+
+    /// Its corners in the drawing plane.
+    fn flat(&self) -> [DVec2; 3] {
+        self.corners.map(|corner| corner.truncate().as_dvec2())
+    }
+
     fn edges(&self) -> [[DVec2; 2]; 3] {
-        let [a, b, c] = self.corners.map(DVec3::truncate);
+        let [a, b, c] = self.flat();
         [[a, b], [b, c], [c, a]]
     }
 
     /// The height over a point that is in the triangle, or outside by at most `slack`.
     fn height(&self, point: DVec2, slack: f64) -> Option<f64> {
-        let is_left = |[from, to]: [DVec2; 2]| {
+        let mut is_inside = true;
+        for [from, to] in self.edges() {
             let edge = to - from;
             let distance = edge.perp_dot(point - from);
-            distance >= 0.0 || distance * distance <= slack * slack * edge.length_squared()
-        };
-        let [a, b, c] = self.corners;
-        // At a sharp corner, a point may be near both edges and still be far away.
-        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-        let close = point.clamp(low.truncate() - slack, high.truncate() + slack);
-        if close != point {
-            return None;
+            if distance < 0.0 {
+                is_inside = false;
+                if distance * distance > slack * slack * edge.length_squared() {
+                    return None;
+                }
+            }
         }
-        self.edges().into_iter().all(is_left).then(|| {
-            let slope = self.normal.truncate().dot(point - a.truncate()) / self.normal.z;
+        let [a, b, c] = self.corners;
+        let (low, high) = (a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3());
+        // At a sharp corner, a point may be near both edges and still be far away.
+        let is_near = || point.clamp(low.truncate() - slack, high.truncate() + slack) == point;
+        (is_inside || is_near()).then(|| {
+            let a = a.as_dvec3();
             // In steep triangles the plane is known less precisely than the corners.
-            (a.z - slope).clamp(low.z, high.z)
+            (a.z + self.slope.dot(point - a.truncate())).clamp(low.z, high.z)
         })
     }
 }
@@ -215,11 +254,7 @@ struct Grid {
 
 impl Grid {
     fn of(facets: &[Facet]) -> Self {
-        let points = || {
-            facets
-                .iter()
-                .flat_map(|facet| facet.corners.map(DVec3::truncate))
-        };
+        let points = || facets.iter().flat_map(Facet::flat);
         let (low, high) = (
             points().reduce(DVec2::min).unwrap_or_default(),
             points().reduce(DVec2::max).unwrap_or_default(),
@@ -241,15 +276,20 @@ impl Grid {
         for (index, facet) in facets.iter().enumerate() {
             grid.cells_of(facet, |cell| cells.push((cell as u32, index as u32)));
         }
-        cells.sort_unstable();
-        grid.starts = vec![0; grid.size[0] * grid.size[1] + 1];
+        let mut ends = vec![0_u32; grid.size[0] * grid.size[1] + 1];
         for (cell, _) in &cells {
-            grid.starts[*cell as usize + 1] += 1;
+            ends[*cell as usize + 1] += 1;
         }
-        for cell in 1..grid.starts.len() {
-            grid.starts[cell] += grid.starts[cell - 1];
+        for cell in 1..ends.len() {
+            ends[cell] += ends[cell - 1];
         }
-        grid.list = cells.into_iter().map(|(_, facet)| facet).collect();
+        grid.starts.clone_from(&ends);
+        grid.list = vec![0; cells.len()];
+        for (cell, facet) in cells {
+            let place = &mut ends[cell as usize];
+            grid.list[*place as usize] = facet;
+            *place += 1;
+        }
         grid
     }
 
@@ -338,139 +378,14 @@ pub(super) struct BothHeights {
 }
 
 impl BothHeights {
-    fn of(surface: &Surface) -> Self {
+    pub(super) fn of(surface: &Surface) -> Self {
         Self {
             front: Arc::new(Heights::of(surface)),
             back: Arc::new(Heights::of(&surface.mirrored())),
         }
     }
 
-    fn facet_count(&self) -> usize {
-        self.front.facets.len() + self.back.facets.len()
-    }
-}
-
-/// The heights that were asked for last, so that those of a solid with much on it are found once, and those of thousands of solids
-/// do not fill the memory. They are known by hashes of all that they are made from.
-#[derive(Debug, Default)]
-pub struct RecentHeights(Mutex<Kept>);
-
-#[derive(Debug, Default)]
-struct Kept {
-    slots: FxHashMap<u128, Slot>,
-    /// The keys by when they were last asked for.
-    order: BTreeMap<u64, u128>,
-    next: u64,
-    /// The triangles of all.
-    facets: usize,
-}
-
-#[derive(Debug)]
-struct Slot {
-    cell: Arc<OnceLock<Option<BothHeights>>>,
-    used: u64,
-    /// Its triangles, once they are known.
-    facets: usize,
-}
-
-impl RecentHeights {
-    /// The heights of a solid by itself.
-    pub(super) fn of_solid(&self, solid: &Solid) -> BothHeights {
-        let make = || BothHeights::of(&solid.surface());
-        let found = self.get(solid.long_key(), || Some(make()));
-        found.unwrap_or_else(make)
-    }
-
-    /// What is kept for a key, if anything is.
-    pub(super) fn find(&self, key: u128) -> Option<Option<BothHeights>> {
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.slots
-            .contains_key(&key)
-            .then(|| kept.slot(key))?
-            .get()
-            .cloned()
-    }
-
-    /// What is kept for a key, or made now.
-    pub(super) fn get(
-        &self,
-        key: u128,
-        make: impl FnOnce() -> Option<BothHeights>,
-    ) -> Option<BothHeights> {
-        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let cell = lock().slot(key);
-        let mut is_new = false;
-        let made = cell.get_or_init(|| {
-            is_new = true;
-            make()
-        });
-        if is_new {
-            let facets = made.as_ref().map_or(0, BothHeights::facet_count);
-            lock().grow(key, facets);
-        }
-        made.clone()
-    }
-}
-
-impl Kept {
-    /// The slot of a key, which becomes the one that was asked for last.
-    fn slot(&mut self, key: u128) -> Arc<OnceLock<Option<BothHeights>>> {
-        let used = self.next;
-        self.next += 1;
-        let slot = self.slots.entry(key).or_insert_with(|| Slot {
-            cell: Arc::default(),
-            used,
-            facets: 0,
-        });
-        self.order.remove(&slot.used);
-        slot.used = used;
-        self.order.insert(used, key);
-        Arc::clone(&slot.cell)
-    }
-
-    /// Notes how large a result is, and forgets the oldest ones if all together are too large.
-    fn grow(&mut self, key: u128, facets: usize) {
-        if let Some(slot) = self.slots.get_mut(&key) {
-            self.facets += facets - slot.facets;
-            slot.facets = facets;
-        }
-        while self.facets > MAX_FACETS
-            && self.order.len() > 1
-            && let Some((_, oldest)) = self.order.pop_first()
-        {
-            let forgotten = self.slots.remove(&oldest);
-            self.facets -= forgotten.map_or(0, |slot| slot.facets);
-        }
-    }
-}
-
-/// How far a solid by itself reaches from its plane, over points of the drawing.
-#[derive(Debug, Clone)]
-pub struct SolidHeights {
-    both: BothHeights,
-    /// From the drawing, y down, to the solid's final positions.
-    to_final: DAffine2,
-    scale: f64,
-}
-
-impl SolidHeights {
-    /// The heights of a solid, its plane at depth 0.
-    pub fn of(solid: &Solid, recent: &RecentHeights) -> Self {
-        Self {
-            both: recent.of_solid(solid),
-            to_final: solid.to_final(),
-            scale: solid.options.placement.scale,
-        }
-    }
-
-    /// How far it reaches to the front over a point, drawing units; 0 beside it.
-    pub fn front(&self, point: DVec2) -> f64 {
-        let height = self.both.front.at(self.to_final.transform_point2(point));
-        height.unwrap_or(0.0) / self.scale
-    }
-
-    /// How far it reaches to the front and to the back at most, drawing units.
-    pub fn highest(&self) -> [f64; 2] {
-        [&self.both.front, &self.both.back].map(|side| side.highest() / self.scale)
+    pub(super) fn facet_count(&self) -> usize {
+        self.front.facet_count() + self.back.facet_count()
     }
 }

@@ -30,10 +30,9 @@ use glam::{DMat2, DVec3};
 use crate::geometry::{Outline, bounds};
 use crate::scene::Surface;
 
-pub use heights::{RecentHeights, SolidHeights};
 pub use kinds::{Faces, Kind, Profile};
 pub use layers::Layer;
-pub use pile::{Body, LaidSolid, Lay, LayForm, Pile};
+pub use pile::{Body, LaidSolid, Lay, LayForm, Pile, RecentHeights, SolidHeights};
 pub use source::{Sides, Solid};
 
 /// What a solid depends on besides its outline and its profile.

@@ -36,8 +36,23 @@ fn ink(outline: Outline, below: Vec<Solid>, step: f64) -> LaidSolid {
             step,
             bulge: 0.0,
             form: LayForm::Ink,
+            is_line: true,
         },
     )
+}
+
+/// A solid in the plane of the drawing, by itself.
+fn body(solid: Solid) -> Body {
+    Body {
+        solid,
+        to_plane: DAffine2::IDENTITY,
+        depth: 0.0,
+        node_depth: 0.0,
+        flattened: 1.0,
+        is_given: false,
+        is_detail: false,
+        lay: None,
+    }
 }
 
 /// A solid laid on others.
@@ -47,19 +62,12 @@ fn laid(
     below: Vec<Solid>,
     lay: impl Fn(usize) -> Lay,
 ) -> LaidSolid {
-    let body = |solid: Solid, lay: Option<Lay>| Body {
-        solid,
-        to_plane: DAffine2::IDENTITY,
-        depth: 0.0,
-        node_depth: 0.0,
-        flattened: 1.0,
-        is_given: false,
-        is_detail: false,
-        lay,
-    };
     let count = below.len();
-    let below = below.into_iter().map(|below| body(below, None));
-    let own = body(solid(outline, profile), Some(lay(count)));
+    let below = below.into_iter().map(body);
+    let own = Body {
+        lay: Some(lay(count)),
+        ..body(solid(outline, profile))
+    };
     let bodies = below.chain([own]).collect();
     LaidSolid {
         pile: Arc::new(Pile::new(bodies, Arc::default())),
@@ -127,6 +135,144 @@ proptest! {
             return Err(TestCaseError::fail(format!("{name}: {error}")));
         }
     }
+}
+
+/// A layer of a generated stack: its outline, how large it is beside the stack and where, its kind and its form.
+type Drawn = (
+    Vec<Ring>,
+    f64,
+    (f64, f64),
+    prop::sample::Index,
+    prop::sample::Index,
+);
+
+fn drawn() -> impl Strategy<Value = Vec<Drawn>> {
+    let layer = (
+        rings(),
+        0.1..1.2f64,
+        (-0.7..0.7f64, -0.7..0.7f64),
+        any::<prop::sample::Index>(),
+        any::<prop::sample::Index>(),
+    );
+    prop::collection::vec(layer, 2..6)
+}
+
+/// The solids of a stack, each laid on all before it, and closed around the one below if `wraps` says so.
+fn stack(layers: &[Drawn], size: f64, wraps: bool) -> Option<Vec<Body>> {
+    let kinds = ["inflate", "round", "roundv", "roundh", "default"];
+    let forms = [
+        LayForm::Volume,
+        LayForm::Volume,
+        LayForm::Skin,
+        LayForm::DeepSkin,
+        LayForm::Ink,
+    ];
+    let mut bodies = Vec::new();
+    for (index, (rings, scale, at, kind, form)) in layers.iter().enumerate() {
+        let scale = if index == 0 { size } else { size * scale };
+        let place = |point: &DVec2| *point * scale + size * DVec2::from(*at);
+        let outline = outline(
+            rings
+                .iter()
+                .map(|ring| ring.iter().map(place).collect())
+                .collect(),
+        );
+        if area(&outline) <= 0.0 {
+            return None;
+        }
+        let kind = *kind.get(&kinds);
+        let numbers: &[f64] = match kind {
+            "inflate" => &[],
+            "default" => &[-0.05 * size, 0.05 * size],
+            _ => &[-90.0, 90.0],
+        };
+        let form = if index == 0 {
+            LayForm::Volume
+        } else {
+            *form.get(&forms)
+        };
+        let is_soft = kind != "default" && form != LayForm::Ink;
+        let lay = (index > 0).then(|| Lay {
+            below: (0..index).collect(),
+            wraps: (wraps && form == LayForm::Volume)
+                .then_some(index - 1)
+                .into_iter()
+                .collect(),
+            behind: Vec::new(),
+            clips: is_soft,
+            step: 0.004 * size,
+            bulge: if is_soft { 0.3 } else { 0.0 },
+            form,
+            is_line: form == LayForm::Ink,
+        });
+        bodies.push(Body {
+            is_detail: form != LayForm::Volume,
+            lay,
+            ..body(solid(outline, profile(kind, numbers)))
+        });
+    }
+    Some(bodies)
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn stacks_are_lawful(layers in drawn(), size in -3.0..4.0f64, wraps in any::<bool>()) {
+        let size = 10f64.powf(size);
+        let bodies = stack(&layers, size, wraps);
+        prop_assume!(bodies.is_some());
+        let pile = Arc::new(Pile::new(bodies.unwrap_or_default(), Arc::default()));
+        for body in 1..pile.bodies().len() {
+            let laid = LaidSolid { pile: Arc::clone(&pile), body, sides: Sides::Front, texture: None };
+            let surface = laid.surface();
+            if let Err(error) = lawful(&surface) {
+                return Err(TestCaseError::fail(format!("{body}: {error}")));
+            }
+            prop_assert!(surface.triangles.len() < 40_000, "{body}: {} triangles", surface.triangles.len());
+        }
+    }
+}
+
+#[test]
+fn high_piles_grow_linearly() {
+    let triangles = |count: usize| {
+        let layer = |index: usize| {
+            let at = DVec2::new((index % 7) as f64, (index % 5) as f64);
+            let outline = moved(circle(30.0 - (index % 11) as f64, 64), at);
+            Body {
+                lay: (index > 0).then(|| Lay {
+                    below: (0..index).collect(),
+                    wraps: vec![],
+                    behind: vec![],
+                    clips: false,
+                    step: 0.01,
+                    bulge: 0.3,
+                    form: LayForm::Skin,
+                    is_line: false,
+                }),
+                is_detail: index > 0,
+                ..body(solid(outline, profile("inflate", &[])))
+            }
+        };
+        let bodies = (0..count).map(layer).collect();
+        let pile = Arc::new(Pile::new(bodies, Arc::default()));
+        let surfaces = (0..count).map(|body| {
+            let pile = Arc::clone(&pile);
+            LaidSolid {
+                pile,
+                body,
+                sides: Sides::Front,
+                texture: None,
+            }
+            .surface()
+        });
+        surfaces
+            .map(|surface| surface.triangles.len())
+            .sum::<usize>()
+    };
+    let (low, high) = (triangles(6), triangles(24));
+    assert!(high < 6 * low, "{low} triangles of 6, {high} of 24");
 }
 
 #[test]

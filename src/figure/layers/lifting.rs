@@ -160,6 +160,7 @@ impl Lifting<'_> {
             step: self.steps[index] * self.world.scale,
             bulge,
             form,
+            is_line: self.context.bindings.parts[shape.part].is_stroke,
         })
     }
 

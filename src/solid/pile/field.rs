@@ -1,21 +1,22 @@
 //! Two height fields over one mesh of an outline, the front and the back of a solid that is lifted.
 //!
-//! The mesh has the points that the solid by itself would have, the corners of the surfaces below where those lift it, points
-//! wherever its border crosses an edge of one, and more where it would still deviate. What deviates even so is made up for by
-//! lifting the front.
+//! The mesh has the points that the solid by itself would have, points where its border crosses an edge of a surface below and
+//! bends there, corners of those surfaces that it would miss, and more where it would still deviate. What deviates even so is made
+//! up for by lifting the front.
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DVec2, Vec3};
 use rustc_hash::FxHashSet;
 
 use super::LayForm;
-use super::ground::{Level, Place, Target};
+use super::cover::Cover;
+use super::ground::Target;
 use crate::geometry::Outline;
 use crate::scene::Surface;
 use crate::solid::crease::Crease;
 use crate::solid::heights::{BothHeights, Heights};
-use crate::solid::inflate::{Mesh, Points, mesh, points};
+use crate::solid::inflate::{Mesh, Points, mesh as mesh_of, points};
 use crate::solid::layers::steps_per_half_turn;
 use crate::solid::shade::shade;
 use crate::solid::stack::PlacementTransform;
@@ -23,20 +24,15 @@ use crate::solid::{Options, Placement};
 
 /// How far the mesh may deviate from the surfaces below it before it is refined, as a share of the step.
 const TOLERANCE: f64 = 0.5;
-/// The cosine of the steepest slope at which deviations are measured at a right angle.
-const STEEP: f64 = 0.4;
-/// Triangles whose sides are all shorter than this, in tolerances, are not refined.
-const SMALL: f64 = 1.0;
 /// Points of the border are no closer than this, in tolerances.
 const NEAR: f64 = 0.2;
-/// The front is lifted where the surface below would come closer to it than the rest of this share of the step.
-const LIFTED: f64 = 0.8;
 /// The number of rounds of refinement.
-const MAX_ROUNDS: usize = 3;
-/// Limit of the growth of a mesh by refinement. It is reached only over surfaces with steps, which no mesh can follow.
-const MAX_GROWTH: usize = 3;
-/// Limit of the points of a mesh that is refined.
-const MAX_POINTS: usize = 1 << 14;
+const MAX_ROUNDS: usize = 2;
+/// Limit of the points that are added to those of a solid by itself and of its border, as a multiple of these, beside what the
+/// pile allows for. It is reached only over surfaces with many steps.
+const MAX_GROWTH: usize = 1;
+/// Limit of the points of a border.
+const MAX_BORDER: usize = 1 << 14;
 /// The least thickness, relative to depths, that `f32` can distinguish from none.
 const MIN_THICKNESS: f64 = 1e-6;
 /// Edges of rounded solids that are sharper than this are seen as edges, degrees: it is between the steps of a rounding and
@@ -44,6 +40,7 @@ const MIN_THICKNESS: f64 = 1e-6;
 const ROUND_CREASE: f64 = 75.0;
 
 /// The front and the back of a solid over one mesh.
+#[derive(Debug)]
 pub(super) struct Field {
     mesh: Mesh,
     /// Per point.
@@ -82,24 +79,33 @@ impl Field {
         let inner = all.points.split_off(all.edges.len());
         let mut all = border(&rings, target, tolerance);
         all.points.extend(inner);
-        corners(&rings, target, &mut all.points);
         let in_place = PlacementTransform::new(&Options {
             placement: Placement::default(),
             ..*options
         });
-        let mut cover = Cover::new(mesh(&all, &in_place), target);
-        let most = MAX_POINTS.min(MAX_GROWTH * all.points.len());
-        for _ in 0..MAX_ROUNDS {
-            let wanted = cover.deviations(tolerance, most.saturating_sub(all.points.len()));
-            if wanted.is_empty() {
+        let mut cover = Cover::new(target, tolerance);
+        let mut mesh = mesh_of(&all, &in_place);
+        let most = (MAX_GROWTH + 1) * all.points.len() + target.more_points;
+        for round in 0..=MAX_ROUNDS {
+            cover.lay(&mesh);
+            let room = most.saturating_sub(all.points.len());
+            let wanted = match round {
+                // Half of them are left for what the corners do not tell.
+                0 => cover.corners(&mesh, room / 2),
+                MAX_ROUNDS => Vec::new(),
+                _ => cover.deviations(&mesh, room),
+            };
+            if wanted.is_empty() && round > 0 {
                 break;
             }
-            all.points.extend(wanted);
-            cover = Cover::new(mesh(&all, &in_place), target);
+            if !wanted.is_empty() {
+                all.points.extend(wanted);
+                mesh = mesh_of(&all, &in_place);
+            }
         }
-        let [front, back] = cover.fields();
+        let [front, back] = cover.fields(&mesh);
         Some(Self {
-            mesh: cover.mesh,
+            mesh,
             front,
             back,
             is_open: target.lay.form == LayForm::Sheet,
@@ -108,17 +114,16 @@ impl Field {
         })
     }
 
-    fn place(&self, i: u32, depth: f64) -> DVec3 {
-        flat(&self.mesh.points[i as usize]).extend(depth)
-    }
-
     /// The heights of both sides, depths in the drawing.
     pub(super) fn heights(&self) -> BothHeights {
         let over = |depth: &dyn Fn(usize) -> f64| {
+            let place = |i: u32| {
+                let [x, y] = self.mesh.points[i as usize];
+                Vec3::new(x, y, depth(i as usize) as f32)
+            };
             let triangles = self.mesh.triangles.iter();
-            let corners =
-                triangles.map(|triangle| triangle.map(|i| self.place(i, depth(i as usize))));
-            Arc::new(Heights::over(corners))
+            let triangles = triangles.map(|triangle| triangle.map(place));
+            Arc::new(Heights::of_field(triangles))
         };
         BothHeights {
             front: over(&|i| self.front[i]),
@@ -214,8 +219,8 @@ fn border(rings: &[Vec<DVec2>], target: &Target<'_>, tolerance: f64) -> Points {
             points.points.push(*from);
             let to = ring[(index + 1) % ring.len()];
             crossings.clear();
-            if points.points.len() < MAX_POINTS {
-                for place in &target.ground.below {
+            if points.points.len() < MAX_BORDER {
+                for place in target.ground.visible() {
                     place.crossings(*from, to, &mut crossings);
                 }
             }
@@ -258,174 +263,6 @@ fn keep_bends(profile: &[(f64, f64)], tolerance: f64, keep: &mut impl FnMut(f64)
         keep(profile[worst].0);
         keep_bends(&profile[worst..], tolerance, keep);
     }
-}
-
-/// Adds the corners of the triangles below an outline that lift it, or behind which it is. Those that are not in the outline have
-/// no triangles in its mesh.
-fn corners(rings: &[Vec<DVec2>], target: &Target<'_>, points: &mut Vec<DVec2>) {
-    let all = || rings.iter().flatten().copied();
-    let (Some(low), Some(high)) = (all().reduce(DVec2::min), all().reduce(DVec2::max)) else {
-        return;
-    };
-    let mut known: FxHashSet<[u64; 2]> = FxHashSet::default();
-    let ground = target.ground;
-    let is_volume = target.lay.form == LayForm::Volume;
-    let mut add = |corner: DVec2, is_wanted: &dyn Fn(DVec2) -> bool| {
-        if points.len() < MAX_POINTS
-            && known.insert(corner.to_array().map(f64::to_bits))
-            && is_wanted(corner)
-        {
-            points.push(corner);
-        }
-    };
-    for place in &ground.below {
-        let lifts = |corner: DVec2| !is_volume || target.lifts(corner);
-        place.corners([low, high], Place::front_heights, |corner| {
-            add(corner, &lifts)
-        });
-    }
-    for place in ground.wraps.iter().chain(&ground.behind) {
-        place.corners([low, high], Place::back_heights, |corner| {
-            add(corner, &|_| true)
-        });
-    }
-}
-
-/// A mesh with the levels of the target.
-struct Cover {
-    mesh: Mesh,
-    /// Per point.
-    levels: Vec<Level>,
-    /// In the order of the triangles, the middle of each first.
-    samples: Vec<Sample>,
-    step: f64,
-    is_volume: bool,
-}
-
-/// A point of a triangle, and how far the target deviates there.
-struct Sample {
-    triangle: usize,
-    at: DVec2,
-    /// How far the surface below is above the triangle's front.
-    below: f64,
-    /// The cosine of the triangle's slope, but at least [`STEEP`].
-    slope: f64,
-    /// How far the triangle is from where it should be, at a right angle; in very steep places more than that, or a border that
-    /// is lifted by it would be ragged as seen from the side.
-    apart: f64,
-}
-
-/// The points of a triangle at which it is compared with the target: its middle, those of its sides, and points near its
-/// corners, as shares of the corners.
-const PLACES: [[f64; 3]; 7] = [
-    [1.0 / 3.0; 3],
-    [0.5, 0.5, 0.0],
-    [0.0, 0.5, 0.5],
-    [0.5, 0.0, 0.5],
-    [0.7, 0.15, 0.15],
-    [0.15, 0.7, 0.15],
-    [0.15, 0.15, 0.7],
-];
-
-impl Cover {
-    fn new(mesh: Mesh, target: &Target<'_>) -> Self {
-        let levels: Vec<Level> = mesh
-            .points
-            .iter()
-            .map(|point| target.at(flat(point)))
-            .collect();
-        let is_volume = target.lay.form == LayForm::Volume;
-        let mut samples = Vec::new();
-        for (triangle, corners) in mesh.triangles.iter().enumerate() {
-            // Where nothing below lifts it the solid by itself is fine enough.
-            let own = corners.map(|i| levels[i as usize]);
-            if own.iter().all(|level| level.below.is_none()) && is_volume {
-                continue;
-            }
-            let corners =
-                corners.map(|i| flat(&mesh.points[i as usize]).extend(levels[i as usize].front));
-            let [a, b, c] = corners;
-            let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
-            let slope = normal.z.max(STEEP);
-            for [share_a, share_b, share_c] in PLACES {
-                let own = a * share_a + b * share_b + c * share_c;
-                let point = own.truncate();
-                let (below, apart) = if is_volume {
-                    let below = target.below(point);
-                    let below = below.map_or(f64::NEG_INFINITY, |below| below - own.z);
-                    // A volume may stand out more than it has to.
-                    (below, (below + target.lay.step).max(0.0))
-                } else {
-                    match target.lifted(point, || target.front_reach(point)) {
-                        Some([below, lifted]) => (below - own.z, (lifted - own.z).abs()),
-                        None => (f64::NEG_INFINITY, (target.at(point).front - own.z).abs()),
-                    }
-                };
-                samples.push(Sample {
-                    triangle,
-                    at: own.truncate(),
-                    below,
-                    slope,
-                    apart: apart * slope,
-                });
-            }
-        }
-        Self {
-            mesh,
-            levels,
-            samples,
-            step: target.lay.step,
-            is_volume,
-        }
-    }
-
-    /// Where triangles are farther from the target than the tolerance: of each the worst place, moved inward from its sides; of
-    /// too many the worst.
-    fn deviations(&self, tolerance: f64, most: usize) -> Vec<DVec2> {
-        let of_triangles = self.samples.chunk_by(|a, b| a.triangle == b.triangle);
-        let worst = of_triangles.filter_map(|samples| {
-            let worst = samples.iter().max_by(|a, b| a.apart.total_cmp(&b.apart))?;
-            let at =
-                self.mesh.triangles[worst.triangle].map(|i| flat(&self.mesh.points[i as usize]));
-            let is_large = (0..3).any(|i| at[i].distance(at[(i + 1) % 3]) > SMALL * tolerance);
-            let place = worst.at.lerp(samples[0].at, 0.2);
-            (is_large && worst.apart > tolerance).then_some((worst.apart, place))
-        });
-        let mut worst: Vec<(f64, DVec2)> = worst.collect();
-        worst.sort_by(|a, b| b.0.total_cmp(&a.0));
-        worst.truncate(most);
-        worst.into_iter().map(|(_, place)| place).collect()
-    }
-
-    /// The depths of the front and of the back at each point.
-    fn fields(&self) -> [Vec<f64>; 2] {
-        let mut more = vec![0.0_f64; self.levels.len()];
-        for sample in &self.samples {
-            // On slopes the front is as far from the surface below as elsewhere.
-            let step = self.step / sample.slope;
-            let missing = sample.below + (1.0 - LIFTED) * step;
-            let least = if self.is_volume {
-                0.0
-            } else {
-                step - self.step
-            };
-            for i in self.mesh.triangles[sample.triangle] {
-                let most = &mut more[i as usize];
-                *most = most.max(missing).max(least);
-            }
-        }
-        let front = self.levels.iter().zip(&more);
-        let front = front.map(|(level, more)| level.front + more);
-        [
-            front.collect(),
-            self.levels.iter().map(|level| level.back).collect(),
-        ]
-    }
-}
-
-fn flat(place: &[f32; 2]) -> DVec2 {
-    let [x, y] = place.map(f64::from);
-    DVec2::new(x, y)
 }
 
 fn sides([a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {

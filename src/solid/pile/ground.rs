@@ -2,7 +2,9 @@
 
 use glam::{DAffine2, DVec2};
 
+use super::rim::Rim;
 use super::{Lay, LayForm, Placed};
+use crate::geometry::{EdgeRanges, Intervals, LINES, Outline, Scanlines, bounds};
 use crate::solid::heights::Heights;
 
 /// A body that another one lies on or around, as seen from that.
@@ -17,7 +19,10 @@ pub(super) struct Place {
 /// What a solid lies on, around and behind.
 pub(super) struct Ground {
     /// The topmost first.
-    pub(super) below: Vec<Place>,
+    below: Vec<Place>,
+    /// Those of them that are volumes, and those that others do not hide from the front.
+    volumes: Vec<usize>,
+    visible: Vec<usize>,
     pub(super) wraps: Vec<Place>,
     pub(super) behind: Vec<Place>,
 }
@@ -73,32 +78,44 @@ impl Place {
 }
 
 impl Ground {
-    /// The front of what lies below a point: of all of it, and, if wanted, of the volumes alone.
-    fn fronts(&self, point: DVec2, wants_volumes: bool) -> [Option<f64>; 2] {
-        let (mut all, mut volumes) = (None, None);
-        let (mut needs_all, mut needs_volumes) = (true, wants_volumes);
-        let higher = |highest: Option<f64>, front: f64| {
-            Some(highest.map_or(front, |highest| highest.max(front)))
-        };
-        for place in &self.below {
-            if !(needs_all || needs_volumes) {
-                break;
-            }
-            let is_wanted = needs_all || !place.is_detail;
-            let Some(front) = is_wanted.then(|| place.front(point)).flatten() else {
-                continue;
-            };
-            if needs_all {
-                all = higher(all, front);
-                // What is not given comes out in front of all that is below it itself.
-                needs_all = place.is_given;
-            }
-            if needs_volumes && !place.is_detail {
-                volumes = higher(volumes, front);
-                needs_volumes = place.is_given;
-            }
+    /// What a solid with this outline lies on, the topmost first, around and behind.
+    pub(super) fn new(
+        below: Vec<Place>,
+        wraps: Vec<Place>,
+        behind: Vec<Place>,
+        outline: &Outline,
+    ) -> Self {
+        let volumes = (0..below.len()).filter(|index| !below[*index].is_detail);
+        Self {
+            volumes: volumes.collect(),
+            visible: visible(&below, outline),
+            below,
+            wraps,
+            behind,
         }
-        [all, volumes]
+    }
+
+    /// Those that it lies on and that others do not hide from the front.
+    pub(super) fn visible(&self) -> impl Iterator<Item = &Place> {
+        self.visible.iter().map(|index| &self.below[*index])
+    }
+
+    /// The front of what lies below a point.
+    pub(super) fn front(&self, point: DVec2) -> Option<f64> {
+        highest(self.below.iter(), point)
+    }
+
+    /// The front of the volumes below a point.
+    fn volumes(&self, point: DVec2) -> Option<f64> {
+        highest(self.volumes.iter().map(|index| &self.below[*index]), point)
+    }
+
+    /// The index of the topmost volume below a point.
+    pub(super) fn top(&self, point: DVec2) -> Option<usize> {
+        let mut volumes = self.volumes.iter();
+        volumes
+            .find(|index| self.below[**index].front(point).is_some())
+            .copied()
     }
 
     /// The depth of the nearest border of what lies directly below.
@@ -112,11 +129,60 @@ impl Ground {
             let height = heights.front.nearest(place.to.transform_point2(point))?;
             Some(depth + factor * height)
         };
-        self.below
-            .iter()
-            .find(|place| !place.is_detail)
-            .and_then(nearest)
+        self.volumes
+            .first()
+            .and_then(|index| nearest(&self.below[*index]))
     }
+}
+
+/// The highest front over a point, of places in their order, the topmost first.
+fn highest<'a>(places: impl Iterator<Item = &'a Place>, point: DVec2) -> Option<f64> {
+    let mut highest: Option<f64> = None;
+    for place in places {
+        if let Some(front) = place.front(point) {
+            highest = Some(highest.map_or(front, |highest| highest.max(front)));
+            // What is not given comes out in front of all that is below it itself.
+            if !place.is_given {
+                break;
+            }
+        }
+    }
+    highest
+}
+
+/// Those of the places below an outline, the topmost first, that can be seen from the front, as far as a number of points tell.
+fn visible(below: &[Place], outline: &Outline) -> Vec<usize> {
+    if below.len() < 2 {
+        return (0..below.len()).collect();
+    }
+    let Some((low, high)) = bounds(outline) else {
+        return Vec::new();
+    };
+    let lines = Scanlines::across((low, high));
+    let mut inside = Intervals::default();
+    lines.cut(outline, &EdgeRanges::new(outline), &mut inside);
+    let apart = (high.x - low.x) / (4 * LINES) as f64;
+    let mut points = Vec::new();
+    inside.each(|line, [from, to]| {
+        let count = ((to - from) / apart).ceil().max(1.0);
+        points.extend((0..count as usize).map(|i| {
+            let share = (i as f64 + 0.5) / count;
+            DVec2::new(from + (to - from) * share, lines.place(line))
+        }));
+    });
+    let mut visible = Vec::new();
+    for (index, place) in below.iter().enumerate() {
+        let mut is_visible = false;
+        points.retain(|point| {
+            let is_over = place.front(*point).is_some();
+            is_visible |= is_over;
+            !is_over || place.is_given
+        });
+        if is_visible {
+            visible.push(index);
+        }
+    }
+    visible
 }
 
 /// What the height fields of a solid are to be.
@@ -127,6 +193,10 @@ pub(super) struct Target<'a> {
     pub(super) depth: f64,
     pub(super) lay: &'a Lay,
     pub(super) ground: &'a Ground,
+    /// Where a line is a hoop around what it lies on.
+    pub(super) rim: Option<Rim>,
+    /// How many points of the mesh may be spent on following the ground, however few it has.
+    pub(super) more_points: usize,
 }
 
 /// The target over a point.
@@ -147,8 +217,7 @@ impl Target<'_> {
 
     /// The front of what lies below a point.
     pub(super) fn below(&self, point: DVec2) -> Option<f64> {
-        let [below, _] = self.ground.fronts(point, false);
-        below
+        self.ground.front(point)
     }
 
     /// How far the solid by itself reaches to the front.
@@ -157,14 +226,26 @@ impl Target<'_> {
         own.map_or(0.0, |own| own.front_reach(point))
     }
 
+    /// The front of the hoop that a line is at a point; -∞ where it is none.
+    fn rim(&self, point: DVec2) -> f64 {
+        let front = self.rim.as_ref().and_then(|rim| rim.front(point));
+        front.unwrap_or(f64::NEG_INFINITY)
+    }
+
+    /// The depth of the nearest border of what it lies on.
+    fn beside(&self, point: DVec2) -> f64 {
+        self.ground.nearest(point).unwrap_or(self.depth)
+    }
+
     /// The front of what lies below a point, and the depth that it lifts this solid to, which by itself reaches this far to the
     /// front there.
     pub(super) fn lifted(&self, point: DVec2, front: impl Fn() -> f64) -> Option<[f64; 2]> {
         let Lay { step, bulge, .. } = self.lay;
-        let [below, volumes] = self.ground.fronts(point, *bulge > 0.0);
-        let below = below?;
+        let below = self.ground.front(point)?;
+        let volumes = (*bulge > 0.0).then(|| self.ground.volumes(point)).flatten();
         let on_volumes = volumes.map_or(f64::NEG_INFINITY, |volumes| volumes + bulge * front());
-        Some([below, on_volumes.max(below + step)])
+        let lifted = on_volumes.max(below + step).max(self.rim(point));
+        Some([below, lifted])
     }
 
     /// Whether what lies below a point lifts the solid there.
@@ -197,20 +278,20 @@ impl Target<'_> {
         let natural = [self.depth + front, self.depth - back];
         let [front, back] = match (form, lifted, below) {
             (LayForm::Volume, lifted, _) => {
-                let lifted = lifted.unwrap_or(f64::NEG_INFINITY);
+                let lifted = lifted.unwrap_or_else(|| self.rim(point));
                 [natural[0].max(lifted), natural[1]]
             }
             (LayForm::Sheet, lifted, _) => [lifted.unwrap_or(natural[0]); 2],
             (LayForm::DeepSkin, Some(lifted), Some(below)) => [lifted, below - step - back],
             (_, Some(lifted), Some(below)) => [lifted, below - step],
             (LayForm::Ink, ..) => {
-                let beside = self.ground.nearest(point).unwrap_or(self.depth);
-                [beside + step, beside - step]
+                let beside = self.beside(point);
+                [self.rim(point).max(beside + step), beside - step]
             }
             _ => {
                 let bulge = bulge * front;
                 [
-                    self.depth + bulge.max(*step),
+                    (self.depth + bulge.max(*step)).max(self.rim(point)),
                     self.depth - back.min(bulge + step),
                 ]
             }
@@ -222,7 +303,11 @@ impl Target<'_> {
         let around = behind(&self.ground.wraps);
         let around = around.map(|around| around - step - bulge * (natural[0] - self.depth));
         let covered = behind(&self.ground.behind).map(|covered| covered - step);
-        let back = around.into_iter().chain(covered).fold(back, f64::min);
+        // A hoop is as deep behind the border that it is around as in front of it.
+        let rim = self.rim(point);
+        let hoop = rim.is_finite().then(|| 2.0 * self.beside(point) - rim);
+        let lower = around.into_iter().chain(covered).chain(hoop);
+        let back = lower.fold(back, f64::min);
         Level { front, back, below }
     }
 }

@@ -14,16 +14,29 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use rustc_hash::{FxHashMap, FxHasher};
 
-use super::heights::{BothHeights, RecentHeights};
+use super::heights::BothHeights;
 use super::source::{long_hash, on_sides};
 use super::{Sides, Solid};
 use crate::geometry::Outline;
 use crate::scene::{Surface, SurfaceSource};
 use field::Field;
 use ground::{Ground, Place, Target};
+use recent::Recent;
+use rim::Rim;
 
+pub use recent::{RecentHeights, SolidHeights};
+
+mod cover;
 mod field;
 mod ground;
+mod recent;
+mod rim;
+
+/// Points that all bodies together may spend on following those below, beside what each may by its own size.
+const MORE_POINTS: usize = 1 << 16;
+/// The same for one of a few bodies, and for one of many.
+const MOST_EACH: usize = 1 << 9;
+const LEAST_EACH: usize = 1 << 5;
 
 /// The solids of a drawing that lie over one another or that others lie on, back-most first.
 #[derive(Debug)]
@@ -31,6 +44,10 @@ pub struct Pile {
     bodies: Vec<Body>,
     /// Per body a hash of all that its surface is made from.
     keys: Vec<u128>,
+    /// Per body whether others lie on it.
+    carries: Vec<bool>,
+    /// How many points the mesh of each may spend on following those below, however few it has.
+    more_points: usize,
     recent: Arc<RecentHeights>,
 }
 
@@ -72,6 +89,8 @@ pub struct Lay {
     pub bulge: f64,
     /// Its form.
     pub form: LayForm,
+    /// Whether it is the stroke of a line.
+    pub is_line: bool,
 }
 
 /// What becomes of a solid that is lifted.
@@ -146,9 +165,17 @@ impl Lay {
 impl Pile {
     /// A pile of bodies, back-most first. `recent` are the heights that were looked up last, in this pile or in others.
     pub fn new(bodies: Vec<Body>, recent: Arc<RecentHeights>) -> Self {
+        let mut carries = vec![false; bodies.len()];
+        let lays = bodies.iter().filter_map(|body| body.lay.as_ref());
+        lays.flat_map(Lay::on).for_each(|on| carries[on] = true);
+        let lifted = bodies.iter().filter(|body| body.lay.is_some()).count();
+        // Rounded, so that most changes of one body leave those of the others as they are.
+        let each = MORE_POINTS / lifted.max(1).next_power_of_two();
         let mut pile = Self {
+            more_points: each.clamp(LEAST_EACH, MOST_EACH),
             bodies,
             keys: Vec::new(),
+            carries,
             recent,
         };
         for body in &pile.bodies {
@@ -176,8 +203,10 @@ impl Pile {
             let Some(lay) = &body.lay else { return };
             hasher.write_u64(lay.step.to_bits());
             hasher.write_u64(lay.bulge.to_bits());
+            hasher.write_usize(self.more_points);
             hasher.write_u8(lay.form as u8);
             hasher.write_u8(lay.clips.into());
+            hasher.write_u8(lay.is_line.into());
             for list in [&lay.below, &lay.wraps] {
                 hasher.write_usize(list.len());
                 for other in list {
@@ -202,40 +231,33 @@ impl Pile {
         }
     }
 
-    /// The heights of a body, and those of all that it lies on.
-    fn placed(&self, body: usize) -> FxHashMap<usize, Placed> {
+    /// Makes a body that others lie on, and all that it lies on, and adds where they are.
+    fn place(&self, body: usize, known: &mut FxHashMap<usize, Placed>) {
         // Not by recursion, as piles can be higher than a stack is deep.
-        let mut known: FxHashMap<usize, Placed> = FxHashMap::default();
         let mut open = vec![body];
         while let Some(&top) = open.last() {
-            let Some(lay) = self.bodies[top]
-                .lay
-                .as_ref()
-                .filter(|_| !known.contains_key(&top))
-            else {
-                known.entry(top).or_insert_with(|| self.unlifted(top));
+            if known.contains_key(&top) {
                 open.pop();
                 continue;
-            };
-            let before = open.len();
-            if top != body
-                && let Some(recent) = self.recent.find(self.keys[top])
-            {
-                known.insert(
-                    top,
-                    recent.map_or_else(|| self.unlifted(top), Placed::lifted),
-                );
-                continue;
             }
-            open.extend(lay.on().filter(|other| !known.contains_key(other)));
-            if open.len() == before {
-                let made = self.recent.get(self.keys[top], || {
-                    self.field(top, &known).map(|field| field.heights())
-                });
-                known.insert(top, made.map_or_else(|| self.unlifted(top), Placed::lifted));
+            let Some(lay) = &self.bodies[top].lay else {
+                known.insert(top, self.unlifted(top));
+                continue;
+            };
+            let key = self.keys[top];
+            let recent = self.recent.find(key).or_else(|| {
+                let before = open.len();
+                open.extend(lay.on().filter(|other| !known.contains_key(other)));
+                (open.len() == before).then(|| {
+                    self.recent
+                        .get(key, || self.field(top, known).map(Recent::lifted))
+                })
+            });
+            if let Some(recent) = recent {
+                let lifted = recent.map(|recent| Placed::lifted(recent.heights));
+                known.insert(top, lifted.unwrap_or_else(|| self.unlifted(top)));
             }
         }
-        known
     }
 
     /// The height fields of a body that is lifted by others, whose heights are known; `None` if nothing lifts it after all.
@@ -249,23 +271,28 @@ impl Pile {
             is_detail: self.bodies[*other].is_detail,
         };
         let lies_on = |other: &usize| place(other, known[other].clone());
-        let ground = Ground {
-            below: lay.below.iter().rev().map(lies_on).collect(),
-            wraps: lay.wraps.iter().map(lies_on).collect(),
-            behind: lay
-                .behind
-                .iter()
+        let behind = lay.behind.iter();
+        let outline = self.outline(body);
+        let ground = Ground::new(
+            lay.below.iter().rev().map(lies_on).collect(),
+            lay.wraps.iter().map(lies_on).collect(),
+            behind
                 .map(|other| place(other, self.unlifted(*other)))
                 .collect(),
-        };
-        let is_line = lay.form == LayForm::Ink;
+            &outline,
+        );
         let target = Target {
-            own: (!is_line).then(|| self.unlifted(index)),
+            own: (lay.form != LayForm::Ink).then(|| self.unlifted(index)),
             depth: body.depth,
             lay,
             ground: &ground,
+            rim: lay
+                .is_line
+                .then(|| Rim::new(&outline, &ground, lay.step))
+                .flatten(),
+            more_points: self.more_points,
         };
-        Field::new(&self.outline(body), &body.solid.options, &target)
+        Field::new(&outline, &body.solid.options, &target)
     }
 
     /// The outline of a body in the frame of its node.
@@ -278,15 +305,21 @@ impl Pile {
 
     fn surface(&self, index: usize) -> Surface {
         let body = &self.bodies[index];
-        let mut known = FxHashMap::default();
-        let ons = body.lay.iter().flat_map(Lay::on);
-        for on in ons {
-            if !known.contains_key(&on) {
-                let placed = self.placed(on)[&on].clone();
-                known.insert(on, placed);
-            }
-        }
-        match self.field(index, &known) {
+        let make = || {
+            let mut known = FxHashMap::default();
+            let ons = body.lay.iter().flat_map(Lay::on);
+            ons.for_each(|on| self.place(on, &mut known));
+            self.field(index, &known)
+        };
+        let field = if self.carries[index] {
+            let recent = self
+                .recent
+                .get(self.keys[index], || make().map(Recent::lifted));
+            recent.and_then(|recent| recent.field)
+        } else {
+            make().map(Arc::new)
+        };
+        match field {
             Some(field) => field.surface(body.node_depth, body.solid.options.crease),
             None => self.unlifted_surface(body),
         }

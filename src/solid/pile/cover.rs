@@ -1,0 +1,243 @@
+//! How a mesh follows what it is laid on, and where it does not.
+
+use glam::{DVec2, DVec3, Vec3};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::LayForm;
+use super::ground::{Level, Place, Target};
+use crate::solid::heights::Heights;
+use crate::solid::inflate::Mesh;
+
+/// The cosine of the steepest slope at which deviations are measured at a right angle.
+const STEEP: f64 = 0.4;
+/// Triangles whose sides are all shorter than this, in tolerances, are not refined.
+const SMALL: f64 = 1.0;
+/// The front is lifted where the surface below would come closer to it than the rest of this share of the step.
+const LIFTED: f64 = 0.8;
+/// The points of a triangle at which it is compared with the target: its middle, those of its sides, and points near its
+/// corners, as shares of the corners.
+const PLACES: [[f64; 3]; 7] = [
+    [1.0 / 3.0; 3],
+    [0.5, 0.5, 0.0],
+    [0.0, 0.5, 0.5],
+    [0.5, 0.0, 0.5],
+    [0.7, 0.15, 0.15],
+    [0.15, 0.7, 0.15],
+    [0.15, 0.15, 0.7],
+];
+
+/// A place of the plane, told apart exactly.
+type Key = [u32; 2];
+
+/// What is known of a mesh that is laid on others, and of those that it was refined from.
+pub(super) struct Cover<'a> {
+    target: &'a Target<'a>,
+    tolerance: f64,
+    is_volume: bool,
+    /// Per point of the mesh.
+    levels: Vec<Level>,
+    /// Per triangle of the mesh, if what lies below matters there.
+    samples: Vec<Option<Samples>>,
+    /// What was known of the last mesh, most of which is in the next one.
+    known_levels: FxHashMap<Key, Level>,
+    known_samples: FxHashMap<[Key; 3], Option<Samples>>,
+}
+
+/// A triangle compared with the target.
+#[derive(Debug, Clone, Copy)]
+struct Samples {
+    /// How far the surface below is above the triangle, where it is farthest.
+    below: f64,
+    /// The cosine of the triangle's slope, but at least [`STEEP`].
+    slope: f64,
+    /// How far the triangle is from where it should be, at a right angle; in very steep places more than that, or a border that
+    /// is lifted by it would be ragged as seen from the side.
+    apart: f64,
+    /// Where it is that far from there.
+    at: DVec2,
+}
+
+impl<'a> Cover<'a> {
+    pub(super) fn new(target: &'a Target<'a>, tolerance: f64) -> Self {
+        Self {
+            target,
+            tolerance,
+            is_volume: target.lay.form == LayForm::Volume,
+            levels: Vec::new(),
+            samples: Vec::new(),
+            known_levels: FxHashMap::default(),
+            known_samples: FxHashMap::default(),
+        }
+    }
+
+    /// Compares a mesh with the target.
+    pub(super) fn lay(&mut self, mesh: &Mesh) {
+        let key = |i: u32| mesh.points[i as usize].map(f32::to_bits);
+        self.levels = (0..mesh.points.len())
+            .map(|i| {
+                let level = || self.target.at(flat(&mesh.points[i]));
+                *self.known_levels.entry(key(i as u32)).or_insert_with(level)
+            })
+            .collect();
+        let mut samples = Vec::with_capacity(mesh.triangles.len());
+        let mut known = FxHashMap::default();
+        for triangle in &mesh.triangles {
+            let first = (0..3).min_by_key(|i| key(triangle[*i])).unwrap_or(0);
+            let turned = [0, 1, 2].map(|i| triangle[(first + i) % 3]);
+            let keys = turned.map(key);
+            let found = self.known_samples.get(&keys).copied();
+            let found = found.unwrap_or_else(|| self.samples_of(turned, mesh));
+            known.insert(keys, found);
+            samples.push(found);
+        }
+        self.samples = samples;
+        self.known_samples = known;
+    }
+
+    /// Compares a triangle with the target; `None` where nothing below matters.
+    fn samples_of(&self, triangle: [u32; 3], mesh: &Mesh) -> Option<Samples> {
+        let target = self.target;
+        let levels = triangle.map(|i| self.levels[i as usize]);
+        // Where nothing below lifts it the solid by itself is fine enough.
+        if self.is_volume && levels.iter().all(|level| level.below.is_none()) {
+            return None;
+        }
+        let flats = triangle.map(|i| flat(&mesh.points[i as usize]));
+        let [a, b, c] = [0, 1, 2].map(|i| flats[i].extend(levels[i].front));
+        let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
+        let mut samples = Samples {
+            below: f64::NEG_INFINITY,
+            slope: normal.z.max(STEEP),
+            apart: 0.0,
+            at: flats[0],
+        };
+        for [share_a, share_b, share_c] in PLACES {
+            let own = a * share_a + b * share_b + c * share_c;
+            let point = own.truncate();
+            let (below, apart) = if self.is_volume {
+                let below = target.below(point);
+                let below = below.map_or(f64::NEG_INFINITY, |below| below - own.z);
+                // A volume may stand out more than it has to.
+                (below, (below + target.lay.step).max(0.0))
+            } else {
+                match target.lifted(point, || target.front_reach(point)) {
+                    Some([below, lifted]) => (below - own.z, (lifted - own.z).abs()),
+                    None => (f64::NEG_INFINITY, (target.at(point).front - own.z).abs()),
+                }
+            };
+            samples.below = samples.below.max(below);
+            if apart * samples.slope > samples.apart {
+                samples.apart = apart * samples.slope;
+                samples.at = point;
+            }
+        }
+        Some(samples)
+    }
+
+    /// The corners of the triangles below, and of those that it is wrapped around or behind, which the mesh misses by more than
+    /// the tolerance; of too many those that it misses most.
+    pub(super) fn corners(&self, mesh: &Mesh, most: usize) -> Vec<DVec2> {
+        let target = self.target;
+        let points = || mesh.points.iter().map(flat);
+        let (Some(low), Some(high)) = (points().reduce(DVec2::min), points().reduce(DVec2::max))
+        else {
+            return Vec::new();
+        };
+        let heights = |depth: &dyn Fn(&Level) -> f64| {
+            let place = |i: u32| {
+                let [x, y] = mesh.points[i as usize];
+                Vec3::new(x, y, depth(&self.levels[i as usize]) as f32)
+            };
+            let triangles = mesh.triangles.iter();
+            Heights::of_field(triangles.map(|triangle| triangle.map(place)))
+        };
+        let mut known: FxHashSet<[i64; 2]> = FxHashSet::default();
+        let mut missed: Vec<(f64, DVec2)> = Vec::new();
+        let mut add = |corner: DVec2, apart: &dyn Fn(DVec2) -> Option<f64>| {
+            // Of corners that are closer than this one is enough.
+            let cell = (corner / self.tolerance).round();
+            if known.insert(cell.to_array().map(|x| x as i64))
+                && let Some(apart) = apart(corner).filter(|apart| *apart > self.tolerance)
+            {
+                missed.push((apart, corner));
+            }
+        };
+        let front = heights(&|level| level.front);
+        let apart = |corner: DVec2| {
+            let own = front.at(corner)?;
+            Some(if self.is_volume {
+                target.below(corner)? + target.lay.step - own
+            } else {
+                (target.at(corner).front - own).abs()
+            })
+        };
+        for place in target.ground.visible() {
+            place.corners([low, high], Place::front_heights, |corner| {
+                add(corner, &apart);
+            });
+        }
+        let around = || target.ground.wraps.iter().chain(&target.ground.behind);
+        if around().next().is_some() {
+            let back = heights(&|level| level.back);
+            let apart = |corner: DVec2| Some((target.at(corner).back - back.at(corner)?).abs());
+            for place in around() {
+                place.corners([low, high], Place::back_heights, |corner| {
+                    add(corner, &apart);
+                });
+            }
+        }
+        worst(missed, most)
+    }
+
+    /// Where triangles are farther from the target than the tolerance: of each the worst place, moved inward from its sides; of
+    /// too many the worst.
+    pub(super) fn deviations(&self, mesh: &Mesh, most: usize) -> Vec<DVec2> {
+        let of_triangles = mesh.triangles.iter().zip(&self.samples);
+        let deviations = of_triangles.filter_map(|(triangle, samples)| {
+            let samples = samples.as_ref()?;
+            let at = triangle.map(|i| flat(&mesh.points[i as usize]));
+            let longest = (0..3)
+                .map(|i| at[i].distance(at[(i + 1) % 3]))
+                .fold(0.0, f64::max);
+            let middle = (at[0] + at[1] + at[2]) / 3.0;
+            (longest > SMALL * self.tolerance && samples.apart > self.tolerance)
+                .then(|| (samples.apart, samples.at.lerp(middle, 0.2)))
+        });
+        worst(deviations.collect(), most)
+    }
+
+    /// The depths of the front and of the back at each point, the front lifted where the surface below would cut through it.
+    pub(super) fn fields(&self, mesh: &Mesh) -> [Vec<f64>; 2] {
+        let own_step = self.target.lay.step;
+        let mut more = vec![0.0_f64; self.levels.len()];
+        for (triangle, samples) in mesh.triangles.iter().zip(&self.samples) {
+            let Some(samples) = samples else { continue };
+            // On slopes the front is as far from the surface below as elsewhere.
+            let step = own_step / samples.slope;
+            let missing = samples.below + (1.0 - LIFTED) * step;
+            let least = if self.is_volume { 0.0 } else { step - own_step };
+            for i in triangle {
+                let most = &mut more[*i as usize];
+                *most = most.max(missing).max(least);
+            }
+        }
+        let front = self.levels.iter().zip(&more);
+        let front = front.map(|(level, more)| level.front + more);
+        [
+            front.collect(),
+            self.levels.iter().map(|level| level.back).collect(),
+        ]
+    }
+}
+
+/// The places with the greatest deviations, at most this many, the greatest first.
+fn worst(mut places: Vec<(f64, DVec2)>, most: usize) -> Vec<DVec2> {
+    places.sort_by(|a, b| b.0.total_cmp(&a.0));
+    places.truncate(most);
+    places.into_iter().map(|(_, place)| place).collect()
+}
+
+fn flat(place: &[f32; 2]) -> DVec2 {
+    let [x, y] = place.map(f64::from);
+    DVec2::new(x, y)
+}
