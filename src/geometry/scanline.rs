@@ -204,6 +204,20 @@ impl Intervals {
         removed
     }
 
+    /// Calls `each` with all intervals, and the index of their lines.
+    pub(crate) fn each(&self, mut each: impl FnMut(usize, [f64; 2])) {
+        for (index, line) in self.lines.iter().enumerate() {
+            line.iter().for_each(|interval| each(index, *interval));
+        }
+    }
+
+    /// Whether a place on a line is within the area.
+    pub(crate) fn contains(&self, line: usize, place: f64) -> bool {
+        let after = self.lines[line].partition_point(|[_, end]| *end < place);
+        let interval = self.lines[line].get(after);
+        interval.is_some_and(|[start, _]| *start <= place)
+    }
+
     /// Calls `each` with the pieces of lines that are in both, and the index of their lines.
     pub(crate) fn each_common(&self, other: &Self, mut each: impl FnMut(usize, [f64; 2])) {
         for (index, (line, other)) in self.lines.iter().zip(&other.lines).enumerate() {
