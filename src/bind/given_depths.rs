@@ -138,7 +138,7 @@ fn cuts_of(
     let (first, last) = (attributes.first()?, attributes.last()?);
     if whole.iter().all(|whole| *whole) {
         let sign = sign.filter(|sign| sign.end <= first.range.start)?;
-        return Some(vec![sign.start..last.range.end]);
+        return Some(Vec::from([sign.start..last.range.end]));
     }
     let kept = |index: &usize| !whole[*index];
     let cut = |index: usize| {
