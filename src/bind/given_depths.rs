@@ -136,9 +136,11 @@ fn cuts_of(
     sign: Option<&Range<usize>>,
 ) -> Option<Vec<Range<usize>>> {
     let (first, last) = (attributes.first()?, attributes.last()?);
+    let mut cuts: Vec<Range<usize>> = Vec::new();
     if whole.iter().all(|whole| *whole) {
         let sign = sign.filter(|sign| sign.end <= first.range.start)?;
-        return Some(Vec::from([sign.start..last.range.end]));
+        cuts.push(sign.start..last.range.end);
+        return Some(cuts);
     }
     let kept = |index: &usize| !whole[*index];
     let cut = |index: usize| {
@@ -151,7 +153,6 @@ fn cuts_of(
             }
         }
     };
-    let mut cuts: Vec<Range<usize>> = Vec::new();
     for index in (0..whole.len()).filter(|index| whole[*index]) {
         let cut = cut(index);
         // Neighbours that go together are cut as one.

@@ -120,10 +120,18 @@ impl Search<'_> {
                 above[overlap.below].push(later);
             }
         }
+        if !wanted.contains(&true) {
+            return Vec::new();
+        }
+        let opaque: Vec<bool> = (0..self.shapes.len())
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(|shape| self.is_opaque(shape))
+            .collect();
         (0..self.shapes.len())
             .into_par_iter()
             .filter(|shape| wanted[*shape])
-            .flat_map_iter(|shape| self.look_at(shape, &above[shape]))
+            .flat_map_iter(|shape| self.look_at(shape, &above[shape], &opaque))
             .collect()
     }
 
@@ -164,7 +172,10 @@ impl Search<'_> {
     /// How deep the front of a shape by itself may be at least, drawing units.
     fn lowest(&self, shape: usize) -> f64 {
         let own = &self.shapes[shape];
-        let front = if own.is_soft { 0.0 } else { own.plate[1] };
+        let front = match own.is_soft {
+            true => 0.0,
+            false => own.plate[1] + self.layers.raised(own.part)[1],
+        };
         self.plane(shape) + front
     }
 
@@ -226,6 +237,9 @@ impl Search<'_> {
             depth: self.own_front(shape, at),
             from: shape,
         };
+        if !self.is_laid(shape) {
+            return own;
+        }
         let lifting = below
             .iter()
             .filter(|below| self.is_lifted_by(shape, below.shape));
@@ -278,8 +292,8 @@ impl Search<'_> {
     }
 
     /// What given depths do to a shape, which these shapes are drawn over.
-    fn look_at(&self, shape: usize, above: &[usize]) -> Vec<Buried> {
-        let (points, whole) = self.points(shape, above);
+    fn look_at(&self, shape: usize, above: &[usize], opaque: &[bool]) -> Vec<Buried> {
+        let (points, whole) = self.points(shape, above, opaque);
         let visible: f64 = points.iter().map(|point| point.weight).sum();
         let own = &self.shapes[shape];
         if visible <= 0.0 {
@@ -293,7 +307,7 @@ impl Search<'_> {
             let by = point.below.iter().filter(|below| {
                 below.depth > front + 0.5 * self.steps[shape]
                     && !self.is_lifted_by(shape, below.shape)
-                    && self.is_opaque(below.shape)
+                    && opaque[below.shape]
             });
             let top = by.max_by(|a, b| a.depth.total_cmp(&b.depth));
             let given = top.and_then(|top| {
@@ -364,7 +378,7 @@ impl Search<'_> {
 
     /// Points spread over what the drawing shows of a shape that these are drawn over, and the length that all of the shape would
     /// stand for.
-    fn points(&self, shape: usize, above: &[usize]) -> (Vec<Point>, f64) {
+    fn points(&self, shape: usize, above: &[usize], opaque: &[bool]) -> (Vec<Point>, f64) {
         let own = &self.shapes[shape];
         let lines = Scanlines::across(own.bounds);
         let (mut shown, mut other) = (Intervals::default(), Intervals::default());
@@ -374,7 +388,7 @@ impl Search<'_> {
         };
         cut(shape, &mut shown);
         let whole = shown.length();
-        for later in above.iter().filter(|later| self.is_opaque(**later)) {
+        for later in above.iter().filter(|later| opaque[**later]) {
             cut(*later, &mut other);
             shown.remove(&other);
         }
