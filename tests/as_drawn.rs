@@ -18,7 +18,7 @@ use okoshi::bind::PartKind;
 use okoshi::compile::Compiled;
 use okoshi::diagnostic::Code;
 use okoshi::disk::FolderResolver;
-use okoshi::look::{DrawnView, Instead, Look, compare, gives_depth, hints};
+use okoshi::look::{DrawnView, Instead, Look, compare, hints};
 use okoshi::render::{self, Options, PosedModel, Shading};
 use okoshi::resolver::{MemoryResolver, Resolver};
 use resvg::tiny_skia::{Pixmap, Transform};
@@ -102,7 +102,7 @@ fn is_free(compiled: &Compiled) -> bool {
     let parts = &compiled.bindings.parts;
     let built = |index: &usize| matches!(parts[*index].kind, PartKind::Main | PartKind::Sub);
     let mut built = (0..parts.len()).filter(built).peekable();
-    built.peek().is_some() && built.all(|part| !gives_depth(&compiled.bindings, part))
+    built.peek().is_some() && built.all(|part| compiled.bindings.given_depth(part).is_none())
 }
 
 /// All drawings in a folder, in order.

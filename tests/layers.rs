@@ -98,6 +98,7 @@ const USES: &[(&str, &[&str])] = &[
             "resolver",
             "scene",
             "solid",
+            "source",
             "svg",
             "threads",
         ],

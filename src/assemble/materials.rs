@@ -38,23 +38,22 @@ pub(super) struct Materials {
 /// Collects materials; equal ones of one owner share an index.
 #[derive(Default)]
 struct Shared {
-    /// Who owns the material that is added next; `None` is everybody.
-    owner: Option<usize>,
     list: Vec<Material>,
     known: FxHashMap<Key, usize>,
 }
 
 impl Shared {
-    /// The index of a material.
+    /// The index of a material of this owner; `None` is everybody.
     fn slot(
         &mut self,
+        owner: Option<usize>,
         factors: &MaterialFactors,
         double_sided: bool,
         texture: Option<usize>,
         textures: &Textures,
     ) -> usize {
         let list = &mut self.list;
-        let key = key(factors, double_sided, texture, self.owner);
+        let key = key(factors, double_sided, texture, owner);
         let known = self.known.entry(key);
         *known.or_insert_with(|| {
             let mut material = material(factors, double_sided);
@@ -128,10 +127,9 @@ impl Materials {
                     factors.color[..3].fill(1.0);
                 }
             }
-            shared.owner = owned_by(index);
             let double_sided = profile.is_open();
             let texture = textured.map(|textured| textured.texture);
-            let slot = shared.slot(&factors, double_sided, texture, &textures);
+            let slot = shared.slot(owned_by(index), &factors, double_sided, texture, &textures);
             of_part.push(Some((slot, textured.map(|textured| textured.map))));
         }
         let mut of_look = |layer: usize, number: usize, found: &TileMaterial| {
@@ -140,9 +138,9 @@ impl Materials {
             if texture.is_some() && !found.is_tinted {
                 factors.color[..3].fill(1.0);
             }
-            shared.owner = owned_by(bindings.parts.len() + layer);
+            let owner = owned_by(bindings.parts.len() + layer);
             let drawn = found.tile != Tile::None;
-            drawn.then(|| shared.slot(&factors, false, texture, &textures))
+            drawn.then(|| shared.slot(owner, &factors, false, texture, &textures))
         };
         let of_layer = |(index, layer): (usize, &Layer)| {
             let looks = layer.materials.iter().enumerate();

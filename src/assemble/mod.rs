@@ -9,14 +9,14 @@ mod world;
 
 use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
-use crate::figure::{FigureNodes, Figures, LinkedModels, NodeDepth};
+use crate::figure::{FigureNodes, Figures, LinkedModels, NodeDepth, PartMaterial};
 use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::rig::{self, FigureClip, RestNode};
 use crate::scene::{Scene, WorldTransform};
 use crate::svg::Drawing;
 use crate::terrain::{self, Layer};
-use materials::{Materials, Sharing};
+use materials::{LookMaterials, Materials, Sharing};
 
 pub use world::world_transform;
 
@@ -100,9 +100,20 @@ pub fn assemble(
 pub fn assemble_apart(drawing: &Drawing, bindings: &Bindings, resolver: &dyn Resolver) -> Apart {
     let (memo, sharing) = (Memo::none(), Sharing::Apart);
     let built = build(drawing, bindings, sharing, resolver, &memo, &mut Vec::new());
+    let mut owners = vec![None; built.scene.materials.len()];
+    for (part, material) in built.of_part.iter().enumerate() {
+        if let Some((material, _)) = material {
+            owners[*material] = Some(Owner::Part(part));
+        }
+    }
+    for (layer, materials) in built.of_looks.layers().enumerate() {
+        for material in materials.iter().flatten() {
+            owners[*material] = Some(Owner::Layer(layer));
+        }
+    }
     Apart {
         scene: built.scene,
-        owners: built.owners,
+        owners,
     }
 }
 
@@ -112,8 +123,9 @@ struct Built {
     layers: Vec<Layer>,
     world: WorldTransform,
     figures: FigureNodes,
-    /// Per material of the scene the last one that has it.
-    owners: Vec<Option<Owner>>,
+    /// Per part its material.
+    of_part: Vec<PartMaterial>,
+    of_looks: LookMaterials,
 }
 
 /// Builds the figures and landscapes of a drawing.
@@ -147,17 +159,6 @@ fn build(
     diagnostics.extend(found);
     let (mut scene, of_part, of_looks) = materials.into_scene();
     models.add_materials(&mut scene);
-    let mut owners = vec![None; scene.materials.len()];
-    for (part, material) in of_part.iter().enumerate() {
-        if let Some((material, _)) = material {
-            owners[*material] = Some(Owner::Part(part));
-        }
-    }
-    for (layer, materials) in of_looks.layers().enumerate() {
-        for material in materials.iter().flatten() {
-            owners[*material] = Some(Owner::Layer(layer));
-        }
-    }
     let figures = figures.build(&models, &of_part, &world, &mut scene);
     for (index, layer) in layers.iter().enumerate() {
         let parent = layer
@@ -178,6 +179,7 @@ fn build(
         layers,
         world,
         figures,
-        owners,
+        of_part,
+        of_looks,
     }
 }

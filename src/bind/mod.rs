@@ -12,6 +12,7 @@ mod contact;
 mod describe;
 mod details;
 mod fills;
+mod given_depths;
 mod hierarchy;
 mod ink;
 mod joints;
@@ -41,6 +42,7 @@ pub use attributes::{
     Attribute, Attributes, MaterialFactors, Resolved, SetBy, SetColor, Source, plate_depth,
 };
 pub use bindings::{Binding, Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, Place};
+pub use given_depths::GivenDepth;
 pub use layers::{Layer, LayerKind, in_tile_layers};
 pub use legends::Legend;
 pub use located::locate;

@@ -543,6 +543,21 @@ codes! {
     /// Bring the part to the front with `Offset`, choose a flatter `Shape` for what hides it, or take away depths that
     /// strings give. `okoshi render --as-drawn` draws the same view.
     LooksDifferent = "H411", "looks different from the front";
+    /// A depth that is given by numbers hides a part that is drawn later, or leaves a gap between a detail and what it is drawn
+    /// on. Depths of `Shape`, and `Offset`, in a part's own string or in a legend are kept exactly, whatever the order of
+    /// drawing says; so a part can end up inside another one, behind it, or far in front of it. Only what is noticeable is
+    /// reported: at least 20 % of what the drawing shows of the part, and no speck.
+    ///
+    /// ```text
+    /// Head@Body$Shape default -20 20
+    /// Nose@Head$Shape default -5 5
+    /// ```
+    ///
+    /// The fix takes the depth away, so that the part lies as it is drawn: `Nose@Head`. Where `%Shape` sets another kind, the
+    /// kind stays: `Nose@Head$Shape default`. For a thickness that all parts have, write it after `%`:
+    /// `%Shape default -20 20`. If the part is meant to be hidden, leave it as it is. The fix is not offered for copies
+    /// (`-s`, `-d`), which need their depths.
+    Buried = "H412", "depth hides or detaches a part";
 }
 
 impl Code {

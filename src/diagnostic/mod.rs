@@ -11,8 +11,9 @@ pub use apply::apply_safe_fixes;
 pub use codes::Code;
 
 use std::borrow::Cow;
+use std::ops::Range;
 
-use crate::source::Span;
+use crate::source::{Span, Text};
 
 /// The severity of a diagnostic. With errors, `build` does not write a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -52,6 +53,26 @@ pub struct Edit {
     pub span: Span,
     /// The new text, already escaped for XML.
     pub text: String,
+}
+
+impl Edit {
+    /// The edits that replace the decoded characters `range` of a text by `new`, and nothing else: tags between them stay.
+    /// `None` if they are only a part of an entity's expansion.
+    pub fn replacing(text: &Text, range: Range<usize>, new: &str) -> Option<Vec<Self>> {
+        if !text.can_replace(range.clone()) {
+            return None;
+        }
+        let escaped = text.escape_at(range.start, new);
+        let pieces = text.pieces(range).into_iter().enumerate();
+        let edits = pieces.map(|(index, span)| Self {
+            span,
+            text: match index {
+                0 => escaped.clone(),
+                _ => String::new(),
+            },
+        });
+        Some(edits.collect())
+    }
 }
 
 /// A fix that can be applied to the drawing automatically.

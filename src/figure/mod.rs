@@ -102,9 +102,10 @@ impl<'a> Figures<'a> {
         let frames: Vec<Frame> = parts
             .map(|part| Frame::new(&part.measure, part.origin))
             .collect();
-        let layers = Layers::arrange(&context, &frames, world, memo);
+        let (layers, buried) = Layers::arrange(&context, &frames, world, memo);
         let tree = tree::nodes(&context, &frames, &layers, diagnostics);
         copies::check(&context, diagnostics);
+        layers::report(&context, buried, diagnostics);
         Self {
             parts_of_node: parts_of_node(bindings),
             context,

@@ -211,6 +211,13 @@ impl Intervals {
         }
     }
 
+    /// Whether a place on a line is within the area.
+    pub(crate) fn contains(&self, line: usize, place: f64) -> bool {
+        let after = self.lines[line].partition_point(|[_, end]| *end < place);
+        let interval = self.lines[line].get(after);
+        interval.is_some_and(|[start, _]| *start <= place)
+    }
+
     /// Calls `each` with the pieces of lines that are in both, and the index of their lines.
     pub(crate) fn each_common(&self, other: &Self, mut each: impl FnMut(usize, [f64; 2])) {
         for (index, (line, other)) in self.lines.iter().zip(&other.lines).enumerate() {

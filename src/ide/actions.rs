@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 
 use super::Analysis;
 use super::at::{At, attributes};
-use super::rename::replace;
 use crate::bind::{BindRule, DistanceMode, Part, PartKind};
 use crate::diagnostic::Edit;
 use crate::lang::ast::{Annotation, Attribute};
@@ -160,7 +159,7 @@ impl Analysis {
         });
         let alike = alike.count();
         let words = words_of(&found.text, first.range.start..last.range.end);
-        let mut edits = replace(&found.text, sign.start..last.range.end, "")?;
+        let mut edits = Edit::replacing(&found.text, sign.start..last.range.end, "")?;
         match part.legend {
             Some(legend) => {
                 let (legend, _) = *self.bindings().legends[legend].settings.first()?;
@@ -289,7 +288,7 @@ mod tests {
     use super::super::fixtures::{analysis, figure};
     use super::*;
     use crate::bind::BoundBy;
-    use crate::diagnostic::applied;
+    use crate::diagnostic::{Code, Diagnostic, applied};
     use crate::lang::keyword::Keyword;
 
     fn after(source: &str, title: &str) -> Analysis {
@@ -316,6 +315,17 @@ mod tests {
         let after = after(&source, "Write `Body`");
         assert!(after.source().contains("Rarm@Body"));
         assert!(!after.compiled().has_errors());
+    }
+
+    #[test]
+    fn a_depth_that_hides_its_part_is_taken_away() {
+        let source = "<svg xmlns='http://www.w3.org/2000/svg' width='100' height='100'>\
+            <rect width='100' height='100'><desc>Body$Shape default -20 20</desc></rect>\
+            <circle cx='50' cy='50' r='20'><desc>Eye@Body$Color red Off¦set -40</desc></circle></svg>";
+        let after = after(source, "Take the depth of `Eye` away");
+        assert!(after.source().contains("<desc>Eye@Body$Color red</desc>"));
+        let is_hidden = |found: &Diagnostic| found.code == Code::Buried;
+        assert!(!after.diagnostics().iter().any(is_hidden));
     }
 
     #[test]

@@ -2,7 +2,6 @@
 
 use super::Analysis;
 use super::at::attributes;
-use super::rename::replace;
 use crate::diagnostic::Edit;
 use crate::lang::ast::ArgumentKind;
 use crate::lang::keyword::Keyword;
@@ -86,7 +85,7 @@ impl Analysis {
         }
         let range = first.range.start..last.range.end;
         let edits = forms.into_iter().filter_map(|form| {
-            let edits = replace(&string.text, range.clone(), &form)?;
+            let edits = Edit::replacing(&string.text, range.clone(), &form)?;
             Some((form, edits))
         });
         edits.collect()

@@ -2,7 +2,6 @@
 
 use super::Analysis;
 use super::at::{Item, Token, attributes, tokens};
-use super::rename::replace;
 use crate::bind::DrawingString;
 use crate::diagnostic::{Edit, applied};
 use crate::lang::ast::{Annotation, ArgumentKind};
@@ -90,7 +89,7 @@ impl Analysis {
             let usual = self.canonical(string, token, written);
             if usual != written {
                 edits.extend(
-                    replace(&string.text, token.range.clone(), &usual)
+                    Edit::replacing(&string.text, token.range.clone(), &usual)
                         .into_iter()
                         .flatten(),
                 );
@@ -170,7 +169,7 @@ fn gap(
         }];
     }
     match text.pieces(range.clone()).as_slice() {
-        [_] => replace(text, range, usual).unwrap_or_default(),
+        [_] => Edit::replacing(text, range, usual).unwrap_or_default(),
         // There are tags between the tokens.
         _ => vec![],
     }

@@ -7,7 +7,7 @@ use crate::diagnostic::Edit;
 use crate::lang::keyword::{Keyword, colours, vocabulary};
 use crate::lang::quoting::{NamePlace, can_be_bare, quoted_if_needed, read_name};
 use crate::lang::{is_word_char, looks_like_string};
-use crate::source::{Span, Text, end_of_tag, escape_xml};
+use crate::source::{Span, end_of_tag, escape_xml};
 
 /// Why a rename is refused.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -83,7 +83,7 @@ impl Analysis {
         for found in self.uses(&symbol) {
             let string = &self.bindings().strings[found.string];
             let new = rewritten(string, &found, &symbol, &name);
-            let replaced = replace(&string.text, found.range.clone(), &new);
+            let replaced = Edit::replacing(&string.text, found.range.clone(), &new);
             edits.extend(replaced.ok_or_else(|| RenameError::InEntity(symbol.name().to_owned()))?);
         }
         if let Symbol::Part(old) = &symbol {
@@ -230,24 +230,6 @@ fn rewritten(string: &DrawingString, found: &Use, symbol: &Symbol, name: &str) -
         true => format!("\"{name}\""),
         false => quoted_if_needed(name, role),
     }
-}
-
-/// The edits that replace the decoded characters `range` by `new`, and nothing else: tags between
-/// them stay. `None` if they are only a part of an entity's expansion.
-pub(super) fn replace(text: &Text, range: std::ops::Range<usize>, new: &str) -> Option<Vec<Edit>> {
-    if !text.can_replace(range.clone()) {
-        return None;
-    }
-    let escaped = text.escape_at(range.start, new);
-    let pieces = text.pieces(range).into_iter().enumerate();
-    let edits = pieces.map(|(index, span)| Edit {
-        span,
-        text: match index {
-            0 => escaped.clone(),
-            _ => String::new(),
-        },
-    });
-    Some(edits.collect())
 }
 
 #[cfg(test)]

@@ -1,18 +1,13 @@
 //! What looks different from the drawing, in words.
 
 use super::{Instead, Look, PartLook};
-use crate::bind::{Bindings, SetBy};
 use crate::compile::Compiled;
 use crate::diagnostic::{Code, Diagnostic};
-use crate::lang::keyword::Keyword;
 
 /// Parts with fewer pixels are not reported.
 const LEAST_PIXELS: usize = 20;
 /// Parts of which a larger share is right are not reported.
 const MOSTLY: f64 = 0.9;
-/// The kinds of `Shape` whose numbers are depths.
-const OF_DEPTHS: [&str; 5] = ["default", "flat", "cone", "conev", "coneh"];
-
 /// A hint for each part that the model shows less of than the drawing does, in the order of drawing.
 pub fn hints(compiled: &Compiled, look: &Look) -> Vec<Diagnostic> {
     let parts = look.parts.iter();
@@ -56,7 +51,7 @@ fn hint(compiled: &Compiled, look: &PartLook, instead: Instead) -> Option<Diagno
                 false => format!("{seen} covers more of it than is drawn"),
             };
             let given = [look.part, other].into_iter();
-            let given = given.filter(|part| gives_depth(bindings, *part));
+            let given = given.filter(|part| bindings.given_depth(*part).is_some());
             let given: Vec<String> = given.map(name).collect();
             let help = match given.as_slice() {
                 [] => format!(
@@ -77,19 +72,4 @@ fn hint(compiled: &Compiled, look: &PartLook, instead: Instead) -> Option<Diagno
         Instead::Part(other) => hint.related(span(other), "this is seen there"),
         _ => hint,
     })
-}
-
-/// Whether the depth of a part is given: by `Offset`, or by depths of `Shape` in its own string or legend.
-pub fn gives_depth(bindings: &Bindings, part: usize) -> bool {
-    let own = |source: SetBy| source < SetBy::Default;
-    let attributes = bindings.attributes(part);
-    let shape = bindings.setting(part, Keyword::Shape);
-    let has_numbers = shape.is_some_and(|source| {
-        let is_number = |word: &str| word.parse::<f64>().is_ok();
-        own(source.from)
-            && OF_DEPTHS.contains(&attributes.shape().kind)
-            && source.setting.text.split_whitespace().any(is_number)
-    });
-    let has_offset = bindings.setting(part, Keyword::Offset).is_some();
-    has_numbers || has_offset
 }

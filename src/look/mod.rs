@@ -32,7 +32,7 @@ use crate::threads;
 use borders::Borders;
 use drawn::Drawn;
 
-pub use hints::{gives_depth, hints};
+pub use hints::hints;
 pub use view::DrawnView;
 
 /// How far a channel may be off, of 255, over white.

@@ -30,7 +30,7 @@ pub(super) fn draw_tile(
             .map(|(x, y)| {
                 fragments.clear();
                 sampler.sample(x, y, &mut fragments);
-                unlit_pixel(&fragments, background)
+                pixel(base_colour(&fragments), &SRGB, background)
             })
             .collect();
     }
@@ -48,54 +48,54 @@ pub(super) fn draw_tile(
                 }
                 colour += light * fragment.weight;
             }
-            pixel(colour, background)
+            pixel(colour, &LINEAR, background)
         })
         .collect()
 }
 
-fn pixel(colour: Vec4, background: Option<[u8; 3]>) -> [u8; 4] {
-    let alpha = colour.w.clamp(0.0, 1.0);
-    match background {
-        Some(background) => {
-            let behind = Vec3::from(background.map(srgb_to_linear));
-            let [r, g, b] = (colour.truncate() + behind * (1.0 - alpha))
-                .to_array()
-                .map(linear_to_srgb);
-            [r, g, b, 255]
-        }
-        None => {
-            let alpha = (alpha * 255.0 + 0.5) as u8;
-            if alpha == 0 {
-                return [0; 4];
-            }
-            let [r, g, b] = (colour.truncate() / colour.w)
-                .to_array()
-                .map(linear_to_srgb);
-            [r, g, b, alpha]
-        }
-    }
+/// How colour values are written as sRGB bytes, and read from them.
+struct Encoding {
+    read: fn(u8) -> f32,
+    write: fn(f32) -> u8,
 }
 
-/// The base colours of a pixel's fragments, blended by their sRGB values.
-fn unlit_pixel(fragments: &[Fragment], background: Option<[u8; 3]>) -> [u8; 4] {
-    let parts = fragments.iter();
-    let colour: Vec4 = parts
-        .map(|fragment| srgb_values(fragment.colour).extend(1.0) * fragment.weight)
-        .sum();
-    let (alpha, covered) = (colour.w.clamp(0.0, 1.0), colour.truncate());
-    let byte = |value: f32| (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8;
-    match background {
+/// Linear light.
+const LINEAR: Encoding = Encoding {
+    read: srgb_to_linear,
+    write: linear_to_srgb,
+};
+/// sRGB values from 0 to 1.
+const SRGB: Encoding = Encoding {
+    read: |byte| f32::from(byte) / 255.0,
+    write: byte,
+};
+
+/// A pixel of a colour that is multiplied by its alpha, both in an encoding, over a background or without one.
+fn pixel(colour: Vec4, encoding: &Encoding, background: Option<[u8; 3]>) -> [u8; 4] {
+    let alpha = colour.w.clamp(0.0, 1.0);
+    let (seen, alpha) = match background {
         Some(background) => {
-            let behind = Vec3::from(background.map(|value| f32::from(value) / 255.0));
-            let [r, g, b] = (covered + behind * (1.0 - alpha)).to_array().map(byte);
-            [r, g, b, 255]
+            let behind = Vec3::from(background.map(encoding.read));
+            (colour.truncate() + behind * (1.0 - alpha), 255)
         }
-        None if byte(alpha) == 0 => [0; 4],
-        None => {
-            let [r, g, b] = (covered / alpha).to_array().map(byte);
-            [r, g, b, byte(alpha)]
-        }
-    }
+        None if byte(alpha) == 0 => return [0; 4],
+        None => (colour.truncate() / colour.w, byte(alpha)),
+    };
+    let [r, g, b] = seen.to_array().map(encoding.write);
+    [r, g, b, alpha]
+}
+
+/// A value from 0 to 1 as a byte.
+fn byte(value: f32) -> u8 {
+    (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8
+}
+
+/// The base colours of a pixel's fragments as sRGB values, multiplied by alpha, and alpha.
+fn base_colour(fragments: &[Fragment]) -> Vec4 {
+    let parts = fragments.iter();
+    parts
+        .map(|fragment| srgb_values(fragment.colour).extend(1.0) * fragment.weight)
+        .sum()
 }
 
 /// The fragments of a tile and its halo.

@@ -44,11 +44,12 @@ export class Commands {
     this.viewer.posed();
   }
 
-  /** Undoes one thing: a drag, a pose, the mode, the selection. */
+  /** Undoes one thing: a drag, a pose, the mode, the view of the layers, the selection. */
   escape(): void {
     if (this.pointer?.cancel()) return;
     if (!this.viewer.pose.isEmpty) this.resetPose();
     else if (this.isPosing) this.togglePosing();
+    else if (this.viewer.stack.isOn) this.viewer.stack.toggle();
     else this.state.select(null);
   }
 

@@ -13,6 +13,7 @@ import { Findings } from "./panels/findings";
 import { Gallery } from "./panels/gallery";
 import { Help } from "./panels/help";
 import { Inspector } from "./panels/inspector";
+import { Layers } from "./panels/layers";
 import { Notes } from "./panels/notes";
 import { PoseBar } from "./panels/posebar";
 import { Side } from "./panels/side";
@@ -58,7 +59,7 @@ function start(page: HTMLElement): void {
   const help = new Help();
   commands.help = () => help.toggle();
 
-  place.append(new Captions(viewer).element, poseBar.element, new Notes(state, viewer).element, findings.element);
+  place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer).element, findings.element);
   const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, new BendBar(viewer, commands).element, clips.panel, new Side(state, tree, inspector).element);
   page.append(new Bar(state, viewer).element, studio, new Gallery(state, host).element, help.element);
 

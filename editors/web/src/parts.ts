@@ -70,5 +70,18 @@ export class Parts {
 
 export const isAside = (part: Part): boolean => part.kind === "legend" || part.kind === "unused";
 
+/** How deep a part lies, in words; null for a part without a node. */
+export function depthOf({ depth }: Part): string | null {
+  if (depth === null) return null;
+  const length = Number(Math.abs(depth).toFixed(2));
+  if (length === 0) return "in the drawing plane";
+  return `${length} ${depth > 0 ? "in front of" : "behind"} the drawing plane`;
+}
+
+/** Why it lies there, in words. */
+export function depthReasonOf(part: Part): string {
+  return part.depthWhy ?? (part.parent === null ? "nothing moves it" : `in the plane of ${part.parent}`);
+}
+
 /** Whether okoshi generated the part's name, because no string gives one. */
 export const isAutomatic = (part: Part): boolean => part.namedBy === "automatic";

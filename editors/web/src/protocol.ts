@@ -48,6 +48,10 @@ export interface Part {
   readonly string: StringOfPart | null;
   readonly attributes: readonly { readonly name: string; readonly value: string; readonly from: Source }[];
   readonly joint: string | null;
+  /** How far its plane is in front of the drawing plane, in drawing units; null for parts without a node. */
+  readonly depth: number | null;
+  /** Why, in words; null for a part in the plane of its parent. */
+  readonly depthWhy: string | null;
 }
 
 /** Facts about a figure's clip that are not in the model's animation of the same name. */
@@ -226,5 +230,7 @@ function readPart(value: unknown): Part {
       return { name, value: text(value), from: oneOf<Source>(from, ["own", "legend", "default", "builtin"], "builtin") };
     }),
     joint: textOrNull(raw["joint"]),
+    depth: typeof raw["depth"] === "number" ? number(raw["depth"]) : null,
+    depthWhy: textOrNull(raw["depth_why"]),
   };
 }

@@ -83,6 +83,8 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
         return shiftKey ? () => void commands.toggleFullScreen() : () => view.frame();
       case "b":
         return commands.bends ? () => commands.toggleBend() : undefined;
+      case "l":
+        return () => viewer.stack.toggle();
       case "z":
         return () => commands.nextShading();
       case "p":

@@ -21,12 +21,12 @@ test("unknown messages are dropped, and missing fields become empty", () => {
   assert.equal(build.build.model, null);
   assert.deepEqual(build.build.findings, []);
   assert.deepEqual(build.build.parts, [
-    { name: "Arm", parent: null, kind: "main", element: "", namedBy: null, string: null, attributes: [{ name: "Shape", value: "round", from: "own" }], joint: null },
+    { name: "Arm", parent: null, kind: "main", element: "", namedBy: null, string: null, attributes: [{ name: "Shape", value: "round", from: "own" }], joint: null, depth: null, depthWhy: null },
   ]);
   assert.deepEqual(read({ type: "light", drawing: "a" }), { type: "light", drawing: "a", part: null });
 });
 
-const part = (name: string, parent: string | null, kind: Part["kind"] = "main"): Part => ({ name, parent, kind, element: `e-${name}`, namedBy: null, string: null, attributes: [], joint: null });
+const part = (name: string, parent: string | null, kind: Part["kind"] = "main"): Part => ({ name, parent, kind, element: `e-${name}`, namedBy: null, string: null, attributes: [], joint: null, depth: null, depthWhy: null });
 
 test("the hierarchy has every part of the model once", () => {
   const parts = new Parts([part("eye", "Head", "sub"), part("Head", "Body"), part("Body", null), part("Arm", "Body"), part("swatch", null, "legend"), part("old", null, "unused")]);

@@ -1,6 +1,7 @@
 //! Layers (layers.md): how far in front of the drawing plane each part lies, and what lifts its surface, so that seen from the
 //! front the model is the drawing.
 
+mod buried;
 mod lifting;
 mod nodes;
 mod overlaps;
@@ -18,10 +19,13 @@ use crate::memo::Memo;
 use crate::scene::WorldTransform;
 use crate::solid::{Pile, RecentHeights, Solid, SolidHeights};
 
+use buried::Search;
 use nodes::Nodes;
 use overlaps::{Overlap, Scratch, overlaps, ranks};
 use placement::{Figure, Placement, backdrops};
 use shapes::{Shape, shapes};
+
+pub(super) use buried::{Buried, report};
 
 /// The share of its area from which on a shape that lies on its own part, or on those that it hangs on, is a detail.
 const DETAIL: f64 = 0.95;
@@ -98,12 +102,13 @@ pub(super) struct Layers {
 }
 
 impl Layers {
+    /// How the parts lie, and which of them given depths hide or let float.
     pub(super) fn arrange(
         context: &FigureContext<'_>,
         frames: &[Frame],
         world: &WorldTransform,
         memo: &Memo,
-    ) -> Self {
+    ) -> (Self, Vec<Buried>) {
         let recent = memo.get((), |_: &()| Arc::new(RecentHeights::default()));
         let mut shapes = shapes(context);
         let nodes = Nodes::new(context, &shapes);
@@ -160,10 +165,23 @@ impl Layers {
                 reason: placement.reasons[node],
             })
         };
-        lifting.arrange(
+        let layers = lifting.arrange(
             (0..context.bindings.parts.len()).map(node).collect(),
             recent,
-        )
+        );
+        let buried = Search {
+            context,
+            shapes: &shapes,
+            nodes: &nodes,
+            overlaps: &overlaps,
+            covers: &covers,
+            depths: &placement.depths,
+            steps: &steps,
+            is_one,
+            layers: &layers,
+        }
+        .find();
+        (layers, buried)
     }
 
     /// Per part that has a node, its depth.

@@ -6,7 +6,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::super::FigureContext;
-use crate::bind::{PartKind, SetBy};
+use crate::bind::PartKind;
 use crate::geometry::{EdgeRanges, Outline, area};
 use crate::solid::{Profile, SolidHeights};
 use crate::threads::GRAIN;
@@ -82,12 +82,7 @@ fn shape(context: &FigureContext<'_>, index: usize) -> Option<Shape> {
         return None;
     }
     let attributes = bindings.attributes(bindings.form(index));
-    let is_own = |from: SetBy| from < SetBy::Default;
-    let shape = attributes.shape_if_set();
-    let has_depths = shape.is_some_and(|shape| is_own(shape.source.from) && shape.value.has_depths);
-    let has_offset = attributes
-        .offset()
-        .is_some_and(|offset| is_own(offset.source.from));
+    let has_depth = bindings.given_depth(bindings.form(index)).is_some();
     let is_mirrored = attributes.shape().mirrored;
     let is_ink = part.host.is_some();
     let is_soft = profile.is_soft();
@@ -116,7 +111,7 @@ fn shape(context: &FigureContext<'_>, index: usize) -> Option<Shape> {
         is_named: !part.is_automatic() && !part.name.is_empty(),
         is_ink,
         is_soft,
-        is_given: !is_ink && (has_depths || has_offset || is_mirrored),
+        is_given: !is_ink && (has_depth || is_mirrored),
         offset: context.stand(part.main, index).0,
         plate,
         faces,

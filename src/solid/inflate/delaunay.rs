@@ -4,10 +4,14 @@
 //! It covers a square around all points. Orientations are exact, so all triangles have area. Edges are flipped only if the
 //! circle test is clear of rounding, so that flipping ends.
 
+mod search;
+
 use std::collections::VecDeque;
 
 use glam::DVec2;
 use robust::{Coord, orient2d};
+
+use search::Place;
 
 /// In place of a half-edge or a triangle that does not exist.
 const NONE: u32 = u32::MAX;
@@ -55,15 +59,6 @@ pub(super) struct Delaunay {
     has_pinches: bool,
     /// Half-edges whose neighbours may have to be flipped.
     open: Vec<u32>,
-}
-
-/// Where a point lies.
-enum Place {
-    /// In the triangle of a half-edge.
-    In(u32),
-    /// On a half-edge.
-    On(u32),
-    At(u32),
 }
 
 impl Delaunay {
@@ -352,56 +347,6 @@ impl Delaunay {
         orientation(self.at(self.edge(edge).from), self.at(to), point)
     }
 
-    /// Walks from triangle to triangle towards a point.
-    fn find(&self, point: DVec2, start: u32) -> Place {
-        let mut edge = start;
-        let side = self.side(edge, point);
-        // Whether the point is on the edge that the walk has come over.
-        let mut is_on_edge = side == 0.0;
-        if side < 0.0 {
-            edge = self.edge(edge).twin;
-        }
-        for step in 0..self.is_inside.len() {
-            let (mut one, mut other) = (next(edge), previous(edge));
-            // In turn, because a walk that always turns the same way may go round in circles.
-            if step % 2 == 1 {
-                (one, other) = (other, one);
-            }
-            let sides = [self.side(one, point), self.side(other, point)];
-            if sides[0] < 0.0 {
-                edge = self.edge(one).twin;
-            } else if sides[1] < 0.0 {
-                edge = self.edge(other).twin;
-            } else if is_on_edge || sides[0] == 0.0 || sides[1] == 0.0 {
-                return self.place(point, edge);
-            } else {
-                return Place::In(edge);
-            }
-            is_on_edge = false;
-        }
-        let contains = |edge: &u32| {
-            [*edge, edge + 1, edge + 2]
-                .iter()
-                .all(|side| self.side(*side, point) >= 0.0)
-        };
-        let mut triangles = (0..self.is_inside.len() as u32).map(|i| 4 * i);
-        self.place(point, triangles.find(contains).unwrap_or(edge))
-    }
-
-    /// Where in a triangle a point lies.
-    fn place(&self, point: DVec2, edge: u32) -> Place {
-        let edges = [edge, next(edge), previous(edge)];
-        let Some(zero) = edges
-            .into_iter()
-            .find(|edge| self.side(*edge, point) == 0.0)
-        else {
-            return Place::In(edge);
-        };
-        let corners = edges.map(|edge| self.edge(edge).from);
-        let corner = corners.into_iter().find(|corner| self.at(*corner) == point);
-        corner.map_or(Place::On(zero), Place::At)
-    }
-
     fn push_triangle(&mut self, [a, b, c]: [HalfEdge; 3], is_inside: bool) {
         let first = self.edges.len() as u32;
         self.edges.extend([a, b, c, UNUSED]);
@@ -511,44 +456,6 @@ impl Delaunay {
         self.vertices[old_ad.from as usize].edge = ab;
         self.vertices[old_bp.from as usize].edge = ad;
         self.vertices[old_db.from as usize].edge = ba;
-    }
-
-    /// The half-edges that start at a point, counter-clockwise; of a corner of the square only some.
-    fn around_vertex(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
-        let first = self.vertices[vertex as usize].edge;
-        let turned = move |edge: &u32| {
-            let next = self.edge(previous(*edge)).twin;
-            (next != NONE && next != first).then_some(next)
-        };
-        std::iter::successors(Some(first), turned)
-    }
-
-    /// The half-edge from one point to another.
-    fn between(&self, from: u32, to: u32) -> Option<u32> {
-        self.around_vertex(from)
-            .find(|edge| self.edge(next(*edge)).from == to)
-    }
-
-    /// What is between two points: an edge, the first edge in the way if it is in `Place::In`, or an edge to a point in the way.
-    fn towards(&self, from: u32, to: u32) -> Place {
-        if let Some(edge) = self.between(from, to) {
-            return Place::At(edge);
-        }
-        let (start, end) = (self.at(from), self.at(to));
-        for edge in self.around_vertex(from) {
-            let opposite = next(edge);
-            let right = self.at(self.edge(opposite).from);
-            let left = self.at(self.edge(next(opposite)).from);
-            let side = orientation(start, end, right);
-            if side == 0.0 && (right - start).dot(end - start) > 0.0 {
-                return Place::On(edge);
-            }
-            if side < 0.0 && orientation(start, end, left) > 0.0 {
-                return Place::In(opposite);
-            }
-        }
-        // Not reached: the triangles around a point leave no gap.
-        Place::At(self.vertices[from as usize].edge)
     }
 }
 

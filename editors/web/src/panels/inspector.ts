@@ -1,7 +1,7 @@
 // The properties of the selected part.
 
 import { count, fill, h } from "../dom";
-import { isAside } from "../parts";
+import { depthOf, depthReasonOf, isAside } from "../parts";
 import type { ClipFacts, Part, Source } from "../protocol";
 import type { State } from "../state";
 import type { Viewer } from "../viewport/viewer";
@@ -81,6 +81,8 @@ export class Inspector {
     const driven = drivenBy(part.name, this.state.drawing?.build?.clips ?? [], this.clip);
     if (driven) rows.push(["Driven by", driven]);
     else if (part.joint !== null) rows.push(["Joint", part.joint]);
+    const depth = depthOf(part);
+    if (depth !== null) rows.push(["Depth", `${depth} — ${depthReasonOf(part)}`]);
     rows.push(["Element", `#${part.element}`]);
     return h("dl", { class: "facts" }, ...rows.flatMap(([term, value]) => [h("dt", {}, term), h("dd", {}, value)]));
   }

@@ -1,6 +1,6 @@
 // The buttons above the viewport.
 
-import { Camera, Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, PersonStanding } from "lucide";
+import { Camera, Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, Layers, PersonStanding } from "lucide";
 import { button, fill, h } from "../dom";
 import type { Commands } from "../commands";
 import type { Shading } from "../viewport/model";
@@ -20,6 +20,7 @@ export class Toolbar {
       ] as const
     ).map(([shading, icon, label]) => [shading, button({ icon, label, press: () => viewer.setShading(shading) })]);
     const parallel = h("button", { class: "button text", title: "Parallel projection (5)", attributes: { type: "button", "aria-keyshortcuts": "5" }, on: { click: () => commands.toggleParallel() } }, "Parallel");
+    const layers = button({ icon: Layers, label: "Layers from the side", key: "L", press: () => viewer.stack.toggle() });
     const pose = button({ icon: PersonStanding, label: "Pose", key: "P", wide: true, press: () => commands.togglePosing() });
     const picture = menu({ icon: Camera, label: "Screenshot" }, [
       { label: "With background", key: "S", press: () => void commands.screenshot(false) },
@@ -36,7 +37,7 @@ export class Toolbar {
         ),
       ),
       group("Shading", ...shadings.map(([, element]) => element)),
-      group("View", button({ icon: Focus, label: "Frame the model", key: "F", press: () => viewer.view.frame() }), parallel),
+      group("View", button({ icon: Focus, label: "Frame the model", key: "F", press: () => viewer.view.frame() }), layers, parallel),
       group("Pose", pose),
       h("span", { class: "spring" }),
       group(
@@ -50,10 +51,12 @@ export class Toolbar {
     const follow = (): void => {
       for (const [shading, element] of shadings) element.setAttribute("aria-pressed", String(viewer.shading === shading));
       parallel.setAttribute("aria-pressed", String(viewer.view.isParallel));
+      layers.setAttribute("aria-pressed", String(viewer.stack.isOn));
+      layers.disabled = viewer.model === null;
       pose.setAttribute("aria-pressed", String(commands.isPosing));
       download.disabled = viewer.model === null;
     };
-    viewer.on(["display", "model"], follow);
+    viewer.on(["display", "model", "layers"], follow);
     commands.onMode(follow);
     follow();
   }

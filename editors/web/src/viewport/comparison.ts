@@ -123,7 +123,7 @@ export class Comparison {
     const { originals } = this.sideBySide;
     if (!model || !originals) return;
     const first = this.back === null;
-    this.back ??= view.remember();
+    this.back ??= view.rememberPlace();
     pose.release();
     this.sideBySide.put(model, originals);
     this.arrange();

@@ -94,10 +94,21 @@ export class View {
   }
 
   /** Remembers target and distance. The returned function goes back to them, from the direction of that time. */
-  remember(): () => void {
+  rememberPlace(): () => void {
     const target = this.controls.target.clone();
     const distance = this.distance();
     return () => this.go(this.direction(), target, distance, true);
+  }
+
+  /** Remembers direction, target and distance. The returned function goes back to them. */
+  remember(): () => void {
+    const back = { direction: this.direction(), target: this.controls.target.clone(), distance: this.distance() };
+    return () => this.go(back.direction, back.target, back.distance, true);
+  }
+
+  /** Whether the camera looks exactly from a named view. */
+  isAt(name: ViewName): boolean {
+    return this.direction().dot(directionOf(VIEWS[name])) > 1 - 1e-9;
   }
 
   /** The position of a point in the picture: fractions of its width from the left and of its height from above. Null behind the camera. */

@@ -14,6 +14,7 @@ import { elementOf, nodeName, readModel, type Model, type Shading } from "./mode
 import { drawingAt, Player } from "./clips";
 import { Pose } from "./pose";
 import { RenderLoop } from "./render-loop";
+import { Stack } from "./stack";
 import { View } from "./view";
 import { Box3, Vector3, type Camera, type Object3D } from "three";
 
@@ -31,9 +32,9 @@ const isSame = (a: Wanted, b: Wanted | null): boolean => b !== null && a.drawing
 
 /**
  * model: another is shown, or none · display: shading, projection or mode changed · time: the clip moved · pose: a limb moved ·
- * sideBySide: the copy beside the model changed
+ * sideBySide: the copy beside the model changed · layers: they are shown from the side, or no longer
  */
-export type ViewerTopic = "model" | "display" | "time" | "pose" | "sideBySide";
+export type ViewerTopic = "model" | "display" | "time" | "pose" | "sideBySide" | "layers";
 
 export class Viewer {
   readonly canvas = document.createElement("canvas");
@@ -43,6 +44,7 @@ export class Viewer {
   readonly player = new Player();
   readonly sideBySide: SideBySide;
   readonly comparison: Comparison;
+  readonly stack: Stack;
   private readonly ground: Ground;
   private readonly highlight = new Highlight();
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
@@ -96,6 +98,7 @@ export class Viewer {
         this.notify("sideBySide");
       },
     });
+    this.stack = new Stack(this);
     this.renderLoop.beforeFrame((seconds) => this.step(seconds));
     this.renderLoop.follow = (camera) => this.bend(camera);
     state.on(["current", "build", "link"], () => this.update());
@@ -162,6 +165,12 @@ export class Viewer {
     this.bent = amount;
     this.renderLoop.invalidate();
     this.notify("display");
+  }
+
+  /** The layers are shown from the side, or no longer. */
+  layersShown(): void {
+    this.canvas.dataset["layers"] = this.stack.isExact ? "shown" : "";
+    this.notify("layers");
   }
 
   /** Moves the camera to where terrain looks as it is drawn. */

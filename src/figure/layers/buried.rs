@@ -1,0 +1,658 @@
+//! Parts that given depths hide, although they are drawn later, or let float (layers.md, Words).
+//!
+//! Looked for over a few lines across each part: at points where the drawing shows it, the fronts of what it lies over are
+//! compared with its own. Fronts are those of the solids by themselves, lifted by what they lie on.
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::nodes::Nodes;
+use super::overlaps::Overlap;
+use super::shapes::Shape;
+use super::{Cover, FigureContext, Layers};
+use crate::diagnostic::{Code, Diagnostic, Fix, listed};
+use crate::geometry::{Intervals, Scanlines};
+use crate::source::Span;
+use crate::threads::GRAIN;
+
+/// The share of a part's visible area from which on it is reported as hidden: less is seldom more than an edge that was drawn
+/// over on purpose.
+const LEAST: f64 = 0.2;
+/// The same as an area: that of 40 pixels in a picture whose larger side has 400, which is about the smallest detail that is
+/// missed on a figure as large as the page.
+const LEAST_AREA: f64 = 40.0 / (400.0 * 400.0);
+/// How far a detail stands off what it is drawn on to be reported, as a share of the larger extent of that.
+const FLOATS: f64 = 0.1;
+/// Points along a line across a part.
+const SAMPLES: f64 = 12.0;
+/// Limit of the places that a hint refers to.
+const MAX_RELATED: usize = 3;
+
+/// What a given depth does to a part.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Harm {
+    /// This share of it is hidden, 0 to 1.
+    Hidden(f64),
+    /// It is this far in front of what it is drawn on, drawing units.
+    Floats(f64),
+}
+
+impl Harm {
+    fn amount(self) -> f64 {
+        match self {
+            Self::Hidden(amount) | Self::Floats(amount) => amount,
+        }
+    }
+}
+
+/// A part that a given depth hides or lets float.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(in super::super) struct Buried {
+    /// Index of the part whose depth is given.
+    given: usize,
+    /// Index of the part that is hidden or floats.
+    part: usize,
+    /// Index of the part that hides it, or on which it is drawn.
+    other: usize,
+    harm: Harm,
+}
+
+/// All that the search depends on.
+pub(super) struct Search<'a> {
+    pub(super) context: &'a FigureContext<'a>,
+    pub(super) shapes: &'a [Shape],
+    pub(super) nodes: &'a Nodes,
+    pub(super) overlaps: &'a [Vec<Overlap>],
+    pub(super) covers: &'a [Cover],
+    /// Per node its depth.
+    pub(super) depths: &'a [f64],
+    /// Per shape its step.
+    pub(super) steps: &'a [f64],
+    pub(super) is_one: bool,
+    pub(super) layers: &'a Layers,
+}
+
+/// A point of a part that the drawing shows.
+struct Point {
+    line: usize,
+    at: DVec2,
+    /// The length that it stands for.
+    weight: f64,
+    /// The fronts of what lies under it, back-most first.
+    below: Vec<Front>,
+}
+
+/// The front of a shape over a point.
+#[derive(Clone, Copy)]
+struct Front {
+    shape: usize,
+    depth: f64,
+    /// The shape whose depth it follows: itself, or what lifts it.
+    from: usize,
+}
+
+impl Search<'_> {
+    /// The parts that given depths hide or let float, in the order of drawing.
+    pub(super) fn find(&self) -> Vec<Buried> {
+        let is_moved: Vec<bool> = self.moved();
+        let is_numbered =
+            |shape: usize| self.shapes[shape].is_given || is_moved[self.nodes.of_shape[shape]];
+        if !(0..self.shapes.len()).any(is_numbered) {
+            return Vec::new();
+        }
+        let highest = self.highest();
+        let may_be_hidden = |above: usize| {
+            let below = || self.overlaps[above].iter().map(|overlap| overlap.below);
+            let lowest = self.lowest(above);
+            (is_numbered(above) || below().any(is_numbered))
+                && below().any(|below| highest[below] > lowest && !self.is_lifted_by(above, below))
+        };
+        let wanted: Vec<bool> = (0..self.shapes.len())
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(|shape| {
+                !self.shapes[shape].is_ink && (may_be_hidden(shape) || self.may_float(shape))
+            })
+            .collect();
+        let mut above: Vec<Vec<usize>> = vec![Vec::new(); self.shapes.len()];
+        for (later, below) in self.overlaps.iter().enumerate() {
+            for overlap in below.iter().filter(|overlap| wanted[overlap.below]) {
+                above[overlap.below].push(later);
+            }
+        }
+        if !wanted.contains(&true) {
+            return Vec::new();
+        }
+        let opaque: Vec<bool> = (0..self.shapes.len())
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(|shape| self.is_opaque(shape))
+            .collect();
+        (0..self.shapes.len())
+            .into_par_iter()
+            .filter(|shape| wanted[*shape])
+            .flat_map_iter(|shape| self.look_at(shape, &above[shape], &opaque))
+            .collect()
+    }
+
+    /// Per node whether an `Offset` moves it or what it hangs on.
+    fn moved(&self) -> Vec<bool> {
+        let mut moved = vec![false; self.nodes.len()];
+        for node in self.nodes.by_level() {
+            let parent = self.nodes.parent[node].filter(|_| !self.is_one);
+            moved[node] = self.nodes.given[node].is_some_and(|offset| offset != 0.0)
+                || parent.is_some_and(|parent| moved[parent]);
+        }
+        moved
+    }
+
+    /// The depth of a shape's plane, drawing units.
+    fn plane(&self, shape: usize) -> f64 {
+        self.depths[self.nodes.of_shape[shape]] + self.shapes[shape].offset
+    }
+
+    fn is_laid(&self, shape: usize) -> bool {
+        self.layers.lifted(self.shapes[shape].part).is_some()
+    }
+
+    /// Whether a shape keeps its volume, rather than being a skin on what it lies on.
+    fn is_volume(&self, shape: usize) -> bool {
+        !self.covers[shape].is_detail && !self.shapes[shape].profile.is_open()
+    }
+
+    /// Whether a shape comes out in front of an earlier one that it lies over.
+    fn is_lifted_by(&self, shape: usize, below: usize) -> bool {
+        let is_kin = || {
+            let [node, other] = [shape, below].map(|shape| self.nodes.of_shape[shape]);
+            self.is_one || self.nodes.hangs_on(node, other)
+        };
+        self.is_laid(shape) && (!self.is_volume(shape) || !self.shapes[below].is_given || is_kin())
+    }
+
+    /// How deep the front of a shape by itself may be at least, drawing units.
+    fn lowest(&self, shape: usize) -> f64 {
+        let own = &self.shapes[shape];
+        let front = match own.is_soft {
+            true => 0.0,
+            false => own.plate[1] + self.layers.raised(own.part)[1],
+        };
+        self.plane(shape) + front
+    }
+
+    /// Per shape how far its front reaches at most, what lifts it included, drawing units.
+    fn highest(&self) -> Vec<f64> {
+        let mut highest: Vec<f64> = Vec::with_capacity(self.shapes.len());
+        for (index, shape) in self.shapes.iter().enumerate() {
+            let reach = shape.height.max(shape.plate[1]) + self.layers.raised(shape.part)[1];
+            let own = self.plane(index) + reach;
+            let copies = self
+                .mirrors(index)
+                .map(|plane| 2.0 * plane - self.plane(index) + shape.height.max(shape.plate[0]));
+            let mut most = copies.fold(own, f64::max);
+            if self.is_laid(index) {
+                let below = self.overlaps[index].iter();
+                let below =
+                    below.map(|overlap| highest[overlap.below] + reach.max(self.steps[index]));
+                most = below.fold(most, f64::max);
+            }
+            highest.push(most);
+        }
+        highest
+    }
+
+    /// The planes, drawing units, in which copies of a shape are mirrored.
+    fn mirrors(&self, shape: usize) -> impl Iterator<Item = f64> {
+        let node = self.nodes.of_shape[shape];
+        let (_, both) = self
+            .context
+            .stand(self.shapes[shape].main, self.shapes[shape].part);
+        let own = both.then(|| self.depths[node]);
+        let is_doubled = |node: usize| {
+            let attributes = self.context.bindings.attributes(self.nodes.main[node]);
+            attributes.shape().doubled
+        };
+        let parent = is_doubled(node).then(|| {
+            let parent = self.nodes.parent[node];
+            parent.map_or(0.0, |parent| self.depths[parent])
+        });
+        own.into_iter().chain(parent)
+    }
+
+    /// How deep the front of a shape by itself is over a point, copies included, drawing units.
+    fn own_front(&self, shape: usize, at: DVec2) -> f64 {
+        let own = &self.shapes[shape];
+        let (plane, front) = (self.plane(shape), own.front(at));
+        // What is soft is about as thick behind its plane as in front of it.
+        let back = if own.is_soft { front } else { own.plate[0] };
+        let copies = self
+            .mirrors(shape)
+            .map(|mirror| 2.0 * mirror - plane + back);
+        copies.fold(plane + front + self.layers.raised(own.part)[1], f64::max)
+    }
+
+    /// The front of a shape over a point, above these.
+    fn front(&self, shape: usize, at: DVec2, below: &[Front]) -> Front {
+        let own = Front {
+            shape,
+            depth: self.own_front(shape, at),
+            from: shape,
+        };
+        if !self.is_laid(shape) {
+            return own;
+        }
+        let lifting = below
+            .iter()
+            .filter(|below| self.is_lifted_by(shape, below.shape));
+        let Some(top) = lifting.max_by(|a, b| a.depth.total_cmp(&b.depth)) else {
+            return own;
+        };
+        let depth = top.depth + self.steps[shape];
+        if self.is_volume(shape) && own.depth >= depth {
+            return own;
+        }
+        Front {
+            depth,
+            shape,
+            from: top.from,
+        }
+    }
+
+    fn is_opaque(&self, shape: usize) -> bool {
+        let FigureContext { drawing, bindings } = self.context;
+        let factors = bindings.material_factors(drawing, self.shapes[shape].part);
+        factors.color[3] >= 1.0
+    }
+
+    /// Whether the depth of a shape on others is given so that it could float. What has copies stands off the plane between
+    /// them on purpose.
+    fn may_float(&self, shape: usize) -> bool {
+        let has_copies = self.mirrors(shape).next().is_some();
+        self.covers[shape].is_detail && self.gives(shape).is_some() && !has_copies
+    }
+
+    /// The part whose numbers say how deep a shape lies by itself.
+    fn gives(&self, shape: usize) -> Option<usize> {
+        let bindings = self.context.bindings;
+        let part = bindings.form(self.shapes[shape].part);
+        bindings.given_depth(part).map(|_| part)
+    }
+
+    /// The part whose `Offset` moves a shape away from another one, to this side.
+    fn moves(&self, shape: usize, other: usize, is_forward: bool) -> Option<usize> {
+        let nodes = self.nodes;
+        let mut next = Some(nodes.of_shape[shape]).filter(|_| !self.is_one);
+        while let Some(node) = next.filter(|node| !nodes.hangs_on(nodes.of_shape[other], *node)) {
+            let offset = nodes.given[node].unwrap_or_default();
+            if (is_forward && offset > 0.0) || (!is_forward && offset < 0.0) {
+                return Some(nodes.main[node]);
+            }
+            next = nodes.parent[node];
+        }
+        None
+    }
+
+    /// What given depths do to a shape, which these shapes are drawn over.
+    fn look_at(&self, shape: usize, above: &[usize], opaque: &[bool]) -> Vec<Buried> {
+        let (points, whole) = self.points(shape, above, opaque);
+        let visible: f64 = points.iter().map(|point| point.weight).sum();
+        let own = &self.shapes[shape];
+        if visible <= 0.0 {
+            return Vec::new();
+        }
+        // Per part whose depth is given, and what it hides this shape behind, how much.
+        let mut hidden: Vec<(usize, usize, f64)> = Vec::new();
+        let mut gaps: Vec<(f64, usize)> = Vec::new();
+        for point in &points {
+            let front = self.front(shape, point.at, &point.below).depth;
+            let by = point.below.iter().filter(|below| {
+                below.depth > front + 0.5 * self.steps[shape]
+                    && !self.is_lifted_by(shape, below.shape)
+                    && opaque[below.shape]
+            });
+            let top = by.max_by(|a, b| a.depth.total_cmp(&b.depth));
+            let given = top.and_then(|top| {
+                let given = self.gives(shape);
+                let given = given.or_else(|| self.moves(shape, top.from, false));
+                let given = given.or_else(|| self.gives(top.from));
+                let given = given.or_else(|| self.moves(top.from, shape, true))?;
+                Some((given, self.shapes[top.shape].part))
+            });
+            if let Some((given, other)) = given {
+                let mut found = hidden.iter_mut();
+                match found.find(|(by, at, _)| (*by, *at) == (given, other)) {
+                    Some((_, _, weight)) => *weight += point.weight,
+                    None => hidden.push((given, other, point.weight)),
+                }
+            }
+            let below = point
+                .below
+                .iter()
+                .max_by(|a, b| a.depth.total_cmp(&b.depth));
+            if let Some(below) = below {
+                let back = match own.is_soft {
+                    true => own.front(point.at),
+                    false => own.plate[0],
+                };
+                gaps.push((self.plane(shape) - back - below.depth, below.shape));
+            }
+        }
+        let mut found = Vec::new();
+        let page = self.context.drawing.page.1.max_element();
+        let shown = visible / whole * own.area;
+        let mut givens: Vec<usize> = hidden.iter().map(|(given, ..)| *given).collect();
+        givens.sort_unstable();
+        givens.dedup();
+        for given in givens {
+            let by = hidden.iter().filter(|(by, ..)| *by == given);
+            let share = by.clone().map(|(.., weight)| weight).sum::<f64>() / visible;
+            let most = by.max_by(|a, b| a.2.total_cmp(&b.2));
+            if let Some((_, other, _)) = most
+                && share >= LEAST
+                && share * shown >= LEAST_AREA * page * page
+            {
+                found.push(Buried {
+                    given,
+                    part: own.part,
+                    other: *other,
+                    harm: Harm::Hidden(share),
+                });
+            }
+        }
+        found.extend(self.floating(shape, &gaps));
+        found
+    }
+
+    /// A detail that touches nothing, with these distances from what is under it.
+    fn floating(&self, shape: usize, gaps: &[(f64, usize)]) -> Option<Buried> {
+        let nearest = gaps.iter().min_by(|a, b| a.0.total_cmp(&b.0));
+        let (gap, other) = *nearest.filter(|_| self.may_float(shape))?;
+        let (own, other) = (&self.shapes[shape], &self.shapes[other]);
+        let extent = (other.bounds.1 - other.bounds.0).max_element();
+        (gap > FLOATS * extent && gap > 2.0 * own.height).then_some(Buried {
+            given: self.gives(shape)?,
+            part: own.part,
+            other: other.part,
+            harm: Harm::Floats(gap),
+        })
+    }
+
+    /// Points spread over what the drawing shows of a shape that these are drawn over, and the length that all of the shape would
+    /// stand for.
+    fn points(&self, shape: usize, above: &[usize], opaque: &[bool]) -> (Vec<Point>, f64) {
+        let own = &self.shapes[shape];
+        let lines = Scanlines::across(own.bounds);
+        let (mut shown, mut other) = (Intervals::default(), Intervals::default());
+        let cut = |shape: usize, out: &mut Intervals| {
+            let shape = &self.shapes[shape];
+            lines.cut(&shape.outline, &shape.ranges, out);
+        };
+        cut(shape, &mut shown);
+        let whole = shown.length();
+        for later in above.iter().filter(|later| opaque[**later]) {
+            cut(*later, &mut other);
+            shown.remove(&other);
+        }
+        let apart = (own.bounds.1.x - own.bounds.0.x) / SAMPLES;
+        let mut points = Vec::new();
+        shown.each(|line, [from, to]| {
+            let count = ((to - from) / apart).round().max(1.0);
+            let weight = (to - from) / count;
+            points.extend((0..count as usize).map(|k| Point {
+                line,
+                at: DVec2::new(from + weight * (k as f64 + 0.5), lines.place(line)),
+                weight,
+                below: Vec::new(),
+            }));
+        });
+        for overlap in &self.overlaps[shape] {
+            cut(overlap.below, &mut other);
+            for point in &mut points {
+                if other.contains(point.line, point.at.x) {
+                    let front = self.front(overlap.below, point.at, &point.below);
+                    point.below.push(front);
+                }
+            }
+        }
+        (points, whole)
+    }
+}
+
+/// Adds a hint for each given depth that hides parts, and for each that lets parts float.
+pub(in super::super) fn report(
+    context: &FigureContext<'_>,
+    found: Vec<Buried>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    let bindings = context.bindings;
+    let placed = found.into_iter().filter_map(|found| {
+        let given = bindings.given_depth(found.given)?;
+        let floats = matches!(found.harm, Harm::Floats(_));
+        Some(((bindings.span_of_depth(&given), floats), found))
+    });
+    let mut placed: Vec<((Span, bool), Buried)> = placed.collect();
+    placed.sort_by_key(|(place, _)| *place);
+    let groups = placed.chunk_by(|(a, _), (b, _)| a == b);
+    diagnostics.extend(groups.filter_map(|group| {
+        let ((span, floats), _) = group[0];
+        let mut found: Vec<&Buried> = group.iter().map(|(_, found)| found).collect();
+        // The worst first.
+        found.sort_by(|a, b| b.harm.amount().total_cmp(&a.harm.amount()));
+        hint(context, span, floats, &found)
+    }));
+}
+
+/// The hint for the depth at `span` that hides these parts or lets them float.
+fn hint(
+    context: &FigureContext<'_>,
+    span: Span,
+    floats: bool,
+    found: &[&Buried],
+) -> Option<Diagnostic> {
+    let FigureContext { drawing, bindings } = context;
+    let given = bindings.given_depth(found.first()?.given)?;
+    let name = |part: usize| match bindings.parts[part].is_automatic() {
+        // Nobody knows an automatic name.
+        true => drawing.describe(bindings.parts[part].shape),
+        false => bindings.describe(drawing, part),
+    };
+    let mut others: Vec<usize> = found.iter().map(|found| found.other).collect();
+    others.sort_unstable();
+    others.dedup();
+    let what = listed(found.iter().map(|found| match found.harm {
+        Harm::Hidden(share) => format!("{:.0} % of {}", share * 100.0, name(found.part)),
+        Harm::Floats(_) => name(found.part),
+    }));
+    let by = listed(others.iter().map(|other| name(*other)));
+    let is_one = found.len() == 1;
+    let message = match (floats, is_one) {
+        (false, true) => format!("{what} is hidden by {by}, although it is drawn later"),
+        (false, false) => format!("{what} are hidden by {by}, although they are drawn later"),
+        (true, true) => {
+            let gap = found[0].harm.amount();
+            format!("{what} floats {gap:.1} in front of {by}, on which it is drawn")
+        }
+        (true, false) => format!("{what} float in front of {by}, on which they are drawn"),
+    };
+    let whose = match given.is_in_legend() {
+        true => "parts with this paint lie".to_owned(),
+        false => format!("{} lies", name(found[0].given)),
+    };
+    let mut hint = Diagnostic::new(Code::Buried, span, message).label(format!(
+        "this says how deep {whose}, whatever the order of drawing"
+    ));
+    let [of_part, of_other] = match floats {
+        true => ["this floats", "it is drawn on this"],
+        false => ["this is hidden", "this hides it"],
+    };
+    let place = |part: usize| drawing.shapes[bindings.parts[part].shape].element.span;
+    let parts = found.iter().map(|found| (found.part, of_part));
+    let others = others.into_iter().map(|other| (other, of_other));
+    for (part, what) in parts.take(MAX_RELATED).chain(others.take(MAX_RELATED)) {
+        hint = hint.related(place(part), what);
+    }
+    let Some(edits) = bindings.without_depth(&given) else {
+        return Some(hint.help("change the depth, or draw in the order in which things lie"));
+    };
+    hint.fixes.push(Fix {
+        title: match given.is_in_legend() {
+            true => "Take the depth out of the legend".to_owned(),
+            false => format!("Take the depth of {} away", name(found[0].given)),
+        },
+        edits,
+        safe: false,
+    });
+    Some(hint.help(match given.shape {
+        Some(_) => "without a depth, a part lies as it is drawn; `%Shape` with depths sets a thickness for all parts",
+        None => "without `Offset`, a part lies as it is drawn",
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::compile::{Compiled, Options, compile};
+    use crate::diagnostic::{Code, Diagnostic, applied};
+    use crate::resolver::MemoryResolver;
+
+    fn compiled(source: &str) -> Compiled {
+        compile(source, &Options::default(), &MemoryResolver::default())
+    }
+
+    fn hints(compiled: &Compiled) -> Vec<&Diagnostic> {
+        let all = compiled.diagnostics.iter();
+        all.filter(|found| found.code == Code::Buried).collect()
+    }
+
+    /// A drawing of these shapes, each with its string.
+    fn drawing(shapes: &[(&str, &str)]) -> String {
+        let head = "<svg xmlns='http://www.w3.org/2000/svg' width='400' height='400'>";
+        let shape = |(shape, string): &(&str, &str)| format!("{shape}<desc>{string}</desc></g>");
+        let shapes: String = shapes.iter().map(shape).collect();
+        format!("{head}{shapes}</svg>")
+    }
+
+    const BODY: &str = "<g><circle cx='200' cy='200' r='120' fill='#48c'/>";
+    const EYE: &str = "<g><circle cx='200' cy='200' r='20' fill='#222'/>";
+    const ARM: &str = "<g><rect x='200' y='180' width='190' height='40' fill='#fc9'/>";
+    const HAND: &str = "<g><circle cx='210' cy='200' r='40' fill='#f96'/>";
+    const PATCH: &str = "<g><circle cx='200' cy='200' r='30' fill='#282'/>";
+
+    #[track_caller]
+    fn check(shapes: &[(&str, &str)], expected: &[&str]) {
+        let compiled = compiled(&drawing(shapes));
+        let hints = hints(&compiled);
+        let messages: Vec<&str> = hints.iter().map(|hint| hint.message.as_str()).collect();
+        assert_eq!(messages, expected);
+    }
+
+    #[test]
+    fn a_depth_that_hides_its_own_part_is_reported() {
+        for string in ["Eye@Body$Shape default -5 5", "Eye@Body$Offset -40"] {
+            let hidden = "100 % of `Eye` is hidden by `Body`, although it is drawn later";
+            check(
+                &[(BODY, "Body$Shape default -20 20"), (EYE, string)],
+                &[hidden],
+            );
+        }
+        check(
+            &[(BODY, "Body$Shape default -20 20"), (EYE, "Eye@Body")],
+            &[],
+        );
+        check(
+            &[
+                (BODY, "Body$Shape default -20 20"),
+                (EYE, "Eye@Body$Shape default 0 25"),
+            ],
+            &[],
+        );
+    }
+
+    #[test]
+    fn a_depth_that_hides_other_parts_is_reported() {
+        // What is round and does not hang on the body keeps its volume beside it.
+        let other = "<g><rect x='190' y='10' width='60' height='380' fill='#fc9'/>";
+        let shapes = [(BODY, "Body$Offset 90"), (other, "Pole$Shape inflate 10")];
+        check(
+            &shapes,
+            &["62 % of `Pole` is hidden by `Body`, although it is drawn later"],
+        );
+    }
+
+    #[test]
+    fn what_hangs_on_a_part_that_is_moved_away_is_reported_with_it() {
+        check(
+            &[
+                (BODY, "Wall$Shape default -20 20"),
+                (ARM, "Arm$Offset -90"),
+                (HAND, "Hand@Arm$Shape inflate 10"),
+            ],
+            &[
+                "100 % of `Hand` and 50 % of `Arm` are hidden by `Wall`, although they are drawn later",
+            ],
+        );
+    }
+
+    #[test]
+    fn what_is_drawn_over_is_not_missed() {
+        let shapes = [
+            (BODY, "Body$Shape default -20 20"),
+            (EYE, "Eye@Body$Shape default -5 5"),
+            (PATCH, "Patch@Body"),
+        ];
+        check(&shapes, &[]);
+    }
+
+    #[test]
+    fn what_is_behind_glass_is_seen() {
+        let glass = "<g><circle cx='200' cy='200' r='120' fill='#48c' fill-opacity='.5'/>";
+        let shapes = [
+            (glass, "Body$Shape default -20 20"),
+            (EYE, "Eye@Body$Shape default -5 5"),
+        ];
+        check(&shapes, &[]);
+    }
+
+    #[test]
+    fn a_copy_in_front_counts() {
+        let string = "Eye@Body$Shape -d default -30 -25";
+        check(&[(BODY, "Body$Shape default -20 20"), (EYE, string)], &[]);
+    }
+
+    #[test]
+    fn a_speck_is_not_reported() {
+        let speck = "<g><circle cx='200' cy='200' r='3' fill='#222'/>";
+        let shapes = [
+            (BODY, "Body$Shape default -20 20"),
+            (speck, "Eye@Body$Offset -30"),
+        ];
+        check(&shapes, &[]);
+    }
+
+    #[test]
+    fn a_detail_that_floats_is_reported() {
+        check(
+            &[
+                (BODY, "Body$Shape default -20 20"),
+                (EYE, "Eye@Body$Shape default 60 65"),
+            ],
+            &["`Eye` floats 40.0 in front of `Body`, on which it is drawn"],
+        );
+        let near = "Eye@Body$Shape default 24 30";
+        check(&[(BODY, "Body$Shape default -20 20"), (EYE, near)], &[]);
+    }
+
+    #[test]
+    fn the_fix_brings_parts_to_the_front() {
+        for string in [
+            "Eye@Body$Shape default -5 5",
+            "Eye@Body$Offset -40",
+            "Eye@Body$Shape default 60 65 Color red",
+            "Eye@Body$Shape inflate 3 Offset -2",
+        ] {
+            let source = drawing(&[(BODY, "Body$Shape default -20 20"), (EYE, string)]);
+            let before = compiled(&source);
+            let edits = &hints(&before)[0].fixes[0].edits;
+            let after = compiled(&applied(&source, edits));
+            assert!(hints(&after).is_empty(), "{string}");
+        }
+    }
+}
