@@ -67,10 +67,12 @@ pub(super) fn read(
         tolerance,
         page: DAffine2::from_translation(offset),
         unsolid: Vec::new(),
+        has_markers: false,
     };
     walk.group(document.root_element());
     let root = document.root_element().id();
     walk.children(tree.root(), root, 1.0, None);
+    walk.note_markers(&styles);
     let labels = labels
         .into_iter()
         .map(|(node, label)| (label, walk.group(node)))
