@@ -18,6 +18,9 @@ pub(super) const MAX_DEPTH: usize = 1000;
 /// The prefix of generated ids, unless the drawing itself has ids with that prefix.
 pub(super) const ID_PREFIX: &str = "okoshi-";
 
+/// How many elements a drawing may have; usvg reads no more.
+const MAX_ELEMENTS: usize = 1_000_000;
+
 /// How many bytes the entities of any drawing may expand to.
 const ENTITY_TEXT: usize = 1 << 20;
 
@@ -42,6 +45,8 @@ pub(super) struct Prepared {
     pub id_count: usize,
     /// Whether there are definitions that are drawn again at each reference.
     pub draws_again: bool,
+    /// Whether there are clones.
+    pub has_clones: bool,
     /// The text of the drawing's own entities, by name.
     pub entities: FxHashMap<String, String>,
     /// The number of elements in the text, without those in entities.
@@ -163,6 +168,7 @@ struct Scan<'a> {
     tag: Tag,
     seen_root: bool,
     draws_again: bool,
+    has_clones: bool,
     ids: FxHashSet<&'a str>,
     counter: usize,
     replacements: Vec<Replacement>,
@@ -181,6 +187,7 @@ impl<'a> Scan<'a> {
             tag: Tag::default(),
             seen_root: false,
             draws_again: false,
+            has_clones: false,
             ids: FxHashSet::default(),
             counter: 0,
             replacements: Vec::new(),
@@ -195,6 +202,14 @@ impl<'a> Scan<'a> {
         match token {
             Token::ElementStart { local, span, .. } => {
                 self.element_count += 1;
+                if self.element_count > MAX_ELEMENTS {
+                    let message = format!("the drawing has more than {MAX_ELEMENTS} elements");
+                    return Err(Box::new(
+                        Diagnostic::new(Code::LimitPassed, span.range().into(), message)
+                            .help("split the drawing into several files"),
+                    ));
+                }
+                self.has_clones |= local.as_str() == "use";
                 self.depth += 1;
                 if self.depth > MAX_DEPTH {
                     let message = format!("elements are nested more than {MAX_DEPTH} deep");
@@ -356,6 +371,7 @@ impl<'a> Scan<'a> {
             id_prefix: self.prefix.to_owned(),
             id_count: self.counter,
             draws_again: self.draws_again,
+            has_clones: self.has_clones,
             entities: self.entities,
             element_count: self.element_count,
             replacements,
