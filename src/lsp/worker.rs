@@ -22,6 +22,7 @@ use crate::compile::{Compiled, Compiler, Options};
 use crate::crash::{self, Crash};
 use crate::disk::FolderResolver;
 use crate::ide::Analysis;
+use crate::threads;
 
 /// How long after a text was closed the allocator is used, and how many bytes it is asked for: enough to go beyond what
 /// a thread keeps for itself.
@@ -96,7 +97,10 @@ impl Worker {
     fn release_memory(&self) {
         self.runtime.spawn(async {
             tokio::time::sleep(RELEASE_DELAY).await;
-            drop(std::hint::black_box(vec![0_u8; RELEASE_SIZE]));
+            let use_allocator = || drop(std::hint::black_box(vec![0_u8; RELEASE_SIZE]));
+            use_allocator();
+            // Each thread has memory of its own.
+            threads::run_on_each(use_allocator);
         });
     }
 
