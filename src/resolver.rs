@@ -1,7 +1,7 @@
 //! Links of a drawing, resolved to the bytes of files.
 //!
-//! The compiler never opens files: it asks a [`Resolver`]. Every resolver follows the rule of [`inside`]: a link is a
-//! relative path that stays in the drawing's folder.
+//! The compiler never opens files: it asks a [`Resolver`]. A link is a relative path that starts at the drawing's folder.
+//! It stays there, by the rule of [`inside`], unless a person allows a larger folder.
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -47,11 +47,23 @@ pub enum LinkError {
 /// The relative path of `link`, with `/` between its parts and no `.` or `..` left, if it stays inside
 /// the folder that it starts from.
 ///
+/// # Errors
+/// Those of [`relative`], and if the link leaves the folder.
+pub fn inside(link: &str) -> Result<String, LinkError> {
+    let path = relative(link)?;
+    match path == ".." || path.starts_with("../") {
+        true => Err(LinkError::Outside),
+        false => Ok(path),
+    }
+}
+
+/// The relative path of `link`, with `/` between its parts, without `.`, and with `..` only at its beginning.
+///
 /// A backslash separates like a slash, so that a drawing means the same on every system.
 ///
 /// # Errors
-/// If the link is not a relative path, leaves the folder, or is empty.
-pub fn inside(link: &str) -> Result<String, LinkError> {
+/// If the link is not a relative path, or is empty.
+pub fn relative(link: &str) -> Result<String, LinkError> {
     let link = link.replace('\\', "/");
     if link.starts_with("//") {
         return Err(LinkError::Remote);
@@ -74,8 +86,8 @@ pub fn inside(link: &str) -> Result<String, LinkError> {
     for part in link.split('/') {
         match part {
             "" | "." => {}
-            ".." => {
-                parts.pop().ok_or(LinkError::Outside)?;
+            ".." if parts.last().is_some_and(|last| *last != "..") => {
+                parts.pop();
             }
             part => parts.push(part),
         }
@@ -97,16 +109,17 @@ pub fn spellings(link: &str) -> impl Iterator<Item = String> {
 
 /// The first answer of `read` over the spellings of a link that is not [`LinkError::Missing`].
 ///
-/// Both spellings must follow the rule of [`inside`], so that an encoded `..` leads nowhere either.
+/// Each spelling is normalised by `rule`, [`inside`] or [`relative`], so that an encoded `..` is judged like a plain one.
 ///
 /// # Errors
 /// If no spelling leads anywhere.
 pub fn first_spelling<T>(
     link: &str,
+    rule: fn(&str) -> Result<String, LinkError>,
     read: impl Fn(&str) -> Result<T, LinkError>,
 ) -> Result<T, LinkError> {
     spellings(link)
-        .map(|spelling| inside(&spelling).and_then(|path| read(&path)))
+        .map(|spelling| rule(&spelling).and_then(|path| read(&path)))
         .find(|answer| !matches!(answer, Err(LinkError::Missing)))
         .unwrap_or(Err(LinkError::Missing))
 }
@@ -188,7 +201,7 @@ impl MemoryResolver {
 
 impl Resolver for MemoryResolver {
     fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
-        first_spelling(link, |path| {
+        first_spelling(link, inside, |path| {
             self.files.get(path).cloned().ok_or(LinkError::Missing)
         })
     }
@@ -227,6 +240,21 @@ mod tests {
         ] {
             assert_eq!(inside(link), expected.map(str::to_owned), "{link}");
         }
+    }
+
+    #[test]
+    fn links_that_leave_begin_with_two_dots() {
+        for (link, expected) in [
+            ("../a.png", Ok("../a.png")),
+            (r"..\..\a\.\b.png", Ok("../../a/b.png")),
+            ("a/../../b/../c.png", Ok("../c.png")),
+            ("a/b/../../c", Ok("c")),
+            ("..", Ok("..")),
+            ("/a/../b", Err(LinkError::Absolute)),
+        ] {
+            assert_eq!(relative(link), expected.map(str::to_owned), "{link}");
+        }
+        assert_eq!(inside(".."), Err(LinkError::Outside));
     }
 
     #[test]

@@ -36,6 +36,13 @@ pub(crate) fn run<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, Crash> 
     crash::catch(|| pool.install(work))
 }
 
+/// Runs `work` on every thread of the pool without waiting for it.
+pub(crate) fn run_on_each(work: impl Fn() + Send + Sync + 'static) {
+    if let Some(pool) = POOL.as_ref() {
+        pool.spawn_broadcast(move |_| work());
+    }
+}
+
 /// Runs `work` on the pool without waiting for it.
 pub(crate) fn run_aside(work: impl FnOnce() + Send + 'static) {
     if let Some(pool) = POOL.as_ref() {

@@ -115,6 +115,7 @@ fn nothing_is_written_on_errors() {
     run.ends(1, "", "nothing was written; `bad.glb` is unchanged\n");
     assert_eq!(room.read("bad.glb"), b"the last good one");
     assert_eq!(room.files(), ["bad.glb", "bad.svg"]);
+    fs::remove_file(room.path("bad.glb")).expect("removed");
     room.run(&["build", "bad.svg", "--keep-going"]).ends(
         1,
         "",
@@ -719,8 +720,166 @@ fn links_are_followed_in_the_folder_of_the_drawing() {
     fs::remove_file(room.path("in/full.png")).expect("removed");
     room.run(&["build", "in/c.svg"])
         .ends(1, "", "error[E006]: the link `full.png` is not there");
+    room.run(&["build", "in/c.svg", "--base", "."])
+        .ends(0, "", "wrote in/c.glb");
+    // `--root` allows more places, and links start where they did.
+    room.run(&["build", "in/b.svg", "--root", "."])
+        .ends(0, "", "wrote in/b.glb");
+    room.run(&["build", "in/c.svg", "--root", "."]).ends(
+        1,
+        "",
+        "error[E006]: the link `full.png` is not there",
+    );
+    room.write("in/full.png", &png);
     room.run(&["build", "in/c.svg", "--root", "."])
         .ends(0, "", "wrote in/c.glb");
+    room.write("in/d.svg", drawing("../../full.png"));
+    room.run(&["build", "in/d.svg", "--root", "."]).ends(
+        1,
+        "",
+        "error[E007]: the link `../../full.png` is outside the drawing's folder",
+    );
+}
+
+/// A motion of two joints, in two frames.
+const MOTION: &str = "HIERARCHY\nROOT Hips\n{\nOFFSET 0 0 0\nCHANNELS 6 Xposition Yposition Zposition Zrotation Xrotation Yrotation\n\
+    JOINT Spine\n{\nOFFSET 0 10 0\nCHANNELS 3 Zrotation Xrotation Yrotation\nEnd Site\n{\nOFFSET 0 10 0\n}\n}\n}\n\
+    MOTION\nFrames: 2\nFrame Time: 0.04\n0 0 0 0 0 0 0 0 0\n0 1 0 0 0 0 0 0 9\n";
+
+#[test]
+fn nothing_that_is_read_is_replaced() {
+    let photo = GOOD.replace(
+        "</svg>",
+        "<image width=\"9\" height=\"9\" href=\"cat.png\"/></svg>",
+    );
+    let room = Room::with("cat.svg", &photo);
+    let mut png = std::io::Cursor::new(Vec::new());
+    let gradient =
+        image::RgbImage::from_fn(4, 4, |x, y| image::Rgb([40 * x as u8, 40 * y as u8, 0]));
+    gradient
+        .write_to(&mut png, image::ImageFormat::Png)
+        .expect("a picture");
+    let png = png.into_inner();
+    room.write("cat.png", &png);
+    let lost = |run: Run, what: &str, other: &str| {
+        run.ends(
+            2,
+            "",
+            &format!("{what}, which would be lost; choose another name, `{other}` for example"),
+        );
+    };
+    lost(
+        room.run(&["render", "cat.svg", "--size", "8x8"]),
+        "`cat.png` is linked by what is read",
+        "cat-2.png",
+    );
+    lost(
+        room.run(&["render", "cat.svg", "-o", "./cat.png"]),
+        "`./cat.png` is linked by what is read",
+        "./cat-2.png",
+    );
+    assert_eq!(room.read("cat.png"), png);
+
+    // A model that the drawing takes in.
+    room.write("part.svg", GOOD);
+    room.run(&["build", "part.svg", "-o", "car.glb", "-q"])
+        .ends(0, "", "");
+    let model = room.read("car.glb");
+    let car = GOOD.replace("Shape roundv", "Shape model \"car.glb\"");
+    room.write("car.svg", &car);
+    lost(
+        room.run(&["build", "car.svg"]),
+        "`car.glb` is linked by what is read",
+        "car-2.glb",
+    );
+    assert_eq!(room.read("car.glb"), model);
+    room.run(&["build", "car.svg", "-o", "car-2.glb"])
+        .ends(0, "", "wrote car-2.glb");
+
+    for (file, what) in [
+        ("car.svg", "is the file that is read"),
+        ("car.glb", "is linked by what is read"),
+        ("out.glb", "is another output"),
+    ] {
+        let run = room.run(&["build", "car.svg", "-o", "out.glb", "--depfile", file]);
+        run.ends(2, "", &format!("`{file}` {what}, which would be lost"));
+    }
+    assert_eq!(room.read("car.svg"), car.as_bytes());
+
+    room.write("kick.bvh", MOTION);
+    room.write("kick.svg", GOOD);
+    lost(
+        room.run(&["motion", "kick.bvh", "-o", "kick.svg"]),
+        "`kick.svg` is a drawing",
+        "kick-2.svg",
+    );
+    lost(
+        room.run(&["motion", "kick.bvh", "-o", "kick.bvh"]),
+        "`kick.bvh` is the file that is read",
+        "kick-2.bvh",
+    );
+    assert_eq!(room.read("kick.svg"), GOOD.as_bytes());
+    for _ in 0..2 {
+        room.run(&["motion", "kick.bvh", "-o", "chart.svg"])
+            .ends(0, "", "wrote chart.svg");
+    }
+    lost(
+        room.run(&[
+            "motion",
+            "kick.bvh",
+            "-o",
+            "chart.svg",
+            "--plot",
+            "chart.svg",
+        ]),
+        "`chart.svg` is another output",
+        "chart-2.svg",
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn an_output_that_links_to_the_drawing_does_not_replace_it() {
+    let room = Room::with("a.svg", GOOD);
+    std::os::unix::fs::symlink("a.svg", room.path("soft.glb")).expect("linked");
+    fs::hard_link(room.path("a.svg"), room.path("hard.glb")).expect("linked");
+    for output in ["soft.glb", "hard.glb"] {
+        let run = room.run(&["build", "a.svg", "-o", output]);
+        run.ends(
+            2,
+            "",
+            &format!("`{output}` is the file that is read, which would be lost"),
+        );
+    }
+    assert_eq!(room.read("a.svg"), GOOD.as_bytes());
+}
+
+#[test]
+fn files_of_other_programs_are_replaced_only_when_they_are_named() {
+    let room = Room::with("a.svg", GOOD);
+    room.write("a.glb", b"a model that took a week");
+    room.write("a.png", b"a photo");
+    for command in [
+        &["build", "a.svg"][..],
+        &["render", "a.svg", "--size", "8x8"],
+    ] {
+        let run = room.run(command);
+        run.ends(
+            2,
+            "",
+            "was not written by okoshi; rename it, or choose another name with -o, `a-2.",
+        );
+    }
+    assert_eq!(room.read("a.glb"), b"a model that took a week");
+    assert_eq!(room.read("a.png"), b"a photo");
+    room.run(&["build", "a.svg", "-o", "a.glb", "-q"])
+        .ends(0, "", "");
+    room.run(&["render", "a.svg", "-o", "a.png", "--size", "8x8", "-q"])
+        .ends(0, "", "");
+    // What okoshi wrote may be replaced.
+    room.run(&["build", "a.svg", "-q"]).ends(0, "", "");
+    room.run(&["render", "a.svg", "--size", "8x8", "-q"])
+        .ends(0, "", "");
 }
 
 #[test]

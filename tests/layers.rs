@@ -60,6 +60,7 @@ const USES: &[(&str, &[&str])] = &[
             "preview",
             "render",
             "report",
+            "resolver",
             "source",
             "terrain",
             "watch",
@@ -155,6 +156,7 @@ const USES: &[(&str, &[&str])] = &[
             "preview",
             "resolver",
             "source",
+            "threads",
             "watch",
         ],
     ),
@@ -238,8 +240,8 @@ const ONLY_IN: &[(&str, &[&str], &str)] = &[
     ),
     (
         "std::process",
-        &["cli", "lsp", "main"],
-        "compiling starts no process",
+        &["cli", "disk", "lsp", "main"],
+        "compiling starts no process, and only what handles signals ends one",
     ),
     (
         "tower_lsp",

@@ -613,3 +613,54 @@ fn parts_of_all_drawings_are_found_by_name() {
     let all = editor.ask("workspace/symbol", json!({"query": ""}));
     assert_eq!(all.as_array().expect("symbols").len(), 6);
 }
+
+#[test]
+fn messages_that_cannot_be_read_are_answered() {
+    let mut editor = Editor::new();
+    editor.opened(URI, DRAWING);
+    let notify = |text: &str| {
+        format!(
+            r#"{{"jsonrpc":"2.0","method":"textDocument/didChange","params":{{"textDocument":{{"uri":"{URI}","version":2}},"contentChanges":[{{"range":{{"start":{{"line":10,"character":0}},"end":{{"line":10,"character":0}}}},"text":"{text}"}}]}}}}"#
+        )
+    };
+    for (bad, code) in [
+        ("{\"jsonrpc\": \"2.0\", ", -32700),
+        (
+            "[{\"jsonrpc\": \"2.0\", \"method\": \"initialized\"}]",
+            -32600,
+        ),
+        ("{\"id\": 1}", -32600),
+    ] {
+        editor.send_raw(&format!("Content-Length: {}\r\n\r\n{bad}", bad.len()));
+        assert_eq!(editor.answer_to_nothing()["error"]["code"], code, "{bad}");
+    }
+    // Half a character is a change like any other, as long as one character of UTF-16.
+    let half = notify("<!-- \\ud83d -->\\n");
+    editor.send_raw(&format!("Content-Length: {}\r\n\r\n{half}", half.len()));
+    editor.diagnostics(URI, 2);
+    assert!(editor.ask("textDocument/hover", place(DRAWING, "Rarm@"))["contents"].is_object());
+    assert!(editor.shut_down().success());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn closed_texts_give_their_memory_back() {
+    let mut editor = Editor::new();
+    let status = format!("/proc/{}/status", editor.id());
+    let resident = || {
+        let status = fs::read_to_string(&status).expect("it runs");
+        let line = status.lines().find(|line| line.starts_with("VmRSS:"));
+        let number = line.and_then(|line| line.split_whitespace().nth(1)?.parse::<u64>().ok());
+        number.expect("a number") >> 10
+    };
+    let idle = resident();
+    editor.opened(URI, &many(10_000));
+    let open = resident();
+    editor.notify("textDocument/didClose", document());
+    let until = Instant::now() + Duration::from_secs(20);
+    // Without optimisation, and with other threads at work, less is given back.
+    while resident().saturating_sub(idle) > (open - idle) * 2 / 3 {
+        assert!(Instant::now() < until, "{idle}, {open}, {} MiB", resident());
+        std::thread::sleep(Duration::from_millis(100));
+    }
+}

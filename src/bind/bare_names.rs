@@ -21,17 +21,19 @@ pub(super) fn is_bare_name(text: &str) -> bool {
         && text.chars().any(char::is_alphabetic)
 }
 
-/// Whether the texts of a drawing without any sign of the language are names of parts: distinct words, two or more, each on a filled
-/// shape, beside one, or joined to one by a line.
+/// Whether the texts of a drawing without any sign of the language but `*` are names of parts: distinct words, two or more with the
+/// `*`s, each on a filled shape, beside one, or joined to one by a line.
 pub(super) fn name_parts(drawing: &Drawing) -> bool {
     let labels = drawing.labels.iter().map(|(label, _)| label);
     let labels: Vec<&Label> = labels
         .filter(|label| !label.text.as_str().trim().is_empty())
         .collect();
     let mut seen = FxHashSet::default();
-    let mut words = labels.iter().map(|label| label.text.as_str().trim());
-    let distinct = words.all(|word| is_bare_name(word) && seen.insert(word));
-    if !distinct || labels.len() < FEWEST {
+    let words = labels.iter().map(|label| label.text.as_str().trim());
+    // A `*` leaves a shape out: beside a name it says that the texts are about the shapes.
+    let mut names = words.filter(|word| !word.starts_with('*'));
+    let distinct = names.all(|word| is_bare_name(word) && seen.insert(word));
+    if !distinct || seen.is_empty() || labels.len() < FEWEST {
         return false;
     }
     let fills = Fills::from(drawing, 0);

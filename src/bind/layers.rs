@@ -78,7 +78,7 @@ pub fn in_tile_layers(drawing: &Drawing) -> Vec<bool> {
     let shapes = shapes.map(|shape| (&shape.element, shape.group));
     for (element, group) in groups.chain(shapes) {
         let desc = element.desc.as_deref();
-        if let Some(text) = desc.filter(|text| lang::looks_like_string(text.as_str())) {
+        if let Some(text) = desc.filter(|text| lang::describes(text.as_str())) {
             layer_groups.extend(is_layer(text, lang::Container::Desc).then_some(group));
         }
     }

@@ -26,6 +26,7 @@ mod motions;
 mod names;
 mod nearest;
 mod node_groups;
+mod outlines;
 mod parents;
 mod settings;
 mod stacking;
@@ -99,6 +100,7 @@ pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -
     motions::without_motion(&bindings, diagnostics);
     uncertain::report(drawing, &bindings, &node_groups, diagnostics);
     many::off_page(drawing, &bindings, diagnostics);
+    outlines::report(drawing, &bindings, diagnostics);
     many::far_away(drawing, &bindings, diagnostics);
     unseen::hidden(drawing, &bindings, diagnostics);
     unseen::converted(drawing, diagnostics);

@@ -17,6 +17,7 @@ pub(super) fn parents(
     names: &FxHashMap<String, usize>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
+    let mut unknown = Unknown::new(names);
     for index in 0..bindings.parts.len() {
         let part = &bindings.parts[index];
         if part.kind != PartKind::Main {
@@ -24,7 +25,7 @@ pub(super) fn parents(
         }
         let Some(string) = part.string else { continue };
         let (own, string) = (part.name.as_str(), &bindings.strings[string]);
-        match parent(drawing, bindings, string, own, names) {
+        match parent(drawing, bindings, string, own, &mut unknown) {
             Ok(None) => {}
             Ok(parent) => bindings.parts[index].parent = parent,
             Err(finding) => diagnostics.push(*finding),
@@ -81,13 +82,14 @@ pub(super) fn of_layers(
     names: &FxHashMap<String, usize>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
+    let mut unknown = Unknown::new(names);
     for index in 0..bindings.layers.len() {
         let layer = &bindings.layers[index];
         if layer.kind != LayerKind::Tiles {
             continue;
         }
         let string = &bindings.strings[layer.string];
-        match parent(drawing, bindings, string, &layer.name, names) {
+        match parent(drawing, bindings, string, &layer.name, &mut unknown) {
             Ok(parent) => bindings.layers[index].parent = parent,
             Err(finding) => diagnostics.push(*finding),
         }
@@ -100,7 +102,7 @@ fn parent(
     bindings: &Bindings,
     string: &DrawingString,
     own: &str,
-    names: &FxHashMap<String, usize>,
+    unknown: &mut Unknown<'_>,
 ) -> Result<Option<usize>, Box<Diagnostic>> {
     let Annotation::Part(annotation) = &string.annotation else {
         return Ok(None);
@@ -108,7 +110,7 @@ fn parent(
     let Some(parent) = &annotation.parent else {
         return Ok(None);
     };
-    if let Some(parent) = names.get(&parent.text) {
+    if let Some(parent) = unknown.names.get(&parent.text) {
         return Ok(Some(*parent));
     }
     // `Root` names the virtual root, unless a part has that name.
@@ -119,12 +121,11 @@ fn parent(
     let span = text.span(parent.range.clone());
     let message = format!("there is no part named `{}`", parent.text);
     let mut diagnostic = Diagnostic::new(Code::UnknownParent, span, message);
-    let is_named = |part: &&Part| part.name == parent.text && part.kind != PartKind::Main;
     let mut layers = bindings.tile_layers();
-    if let Some(other) = bindings.parts.iter().find(is_named) {
+    if let Some(other) = unknown.sub_part(bindings, &parent.text) {
         diagnostic = diagnostic
             .related(
-                drawing.shapes[other.shape].element.span,
+                drawing.shapes[bindings.parts[other].shape].element.span,
                 "this sub-part has that name, but sub-parts have no joints",
             )
             .help("name the main part of its group instead");
@@ -136,10 +137,7 @@ fn parent(
             )
             .help("attach both to the same part, or to none");
     } else {
-        let mut known: Vec<&str> = names.keys().map(String::as_str).collect();
-        known.sort_unstable();
-        let others = known.iter().copied().filter(|name| *name != own);
-        if let Some(near) = nearest_word(&parent.text, others) {
+        if let Some(near) = unknown.nearest(&parent.text, own) {
             diagnostic = diagnostic.label(format!("did you mean `{near}`?")).fix(
                 format!("Write `{near}`"),
                 span,
@@ -150,6 +148,78 @@ fn parent(
             .help("the name after `@` must be the name of a part, spelled exactly the same");
     }
     Err(Box::new(diagnostic))
+}
+
+/// How many characters of names are compared with unknown names in one drawing; then no more offers are made.
+const MAX_COMPARED: usize = 1 << 22;
+
+/// What is known about names that no main part has, so that one that many strings name is looked up once.
+struct Unknown<'a> {
+    /// The main parts by name.
+    names: &'a FxHashMap<String, usize>,
+    sorted: Option<Vec<&'a str>>,
+    /// The nearest names of those looked up: at most two, as one may be that of the part itself.
+    near: FxHashMap<String, [Option<&'a str>; 2]>,
+    /// The first part that is no main part, by name.
+    sub_parts: Option<FxHashMap<String, usize>>,
+    compared: usize,
+}
+
+impl<'a> Unknown<'a> {
+    fn new(names: &'a FxHashMap<String, usize>) -> Self {
+        Self {
+            names,
+            sorted: None,
+            near: FxHashMap::default(),
+            sub_parts: None,
+            compared: 0,
+        }
+    }
+
+    /// The nearest name to an unknown one, except the part's own.
+    fn nearest(&mut self, unknown: &str, own: &str) -> Option<&'a str> {
+        let near = match self.near.get(unknown) {
+            Some(near) => *near,
+            None => {
+                let near = self.two_nearest(unknown);
+                self.near.insert(unknown.to_owned(), near);
+                near
+            }
+        };
+        near.into_iter().flatten().find(|name| *name != own)
+    }
+
+    fn two_nearest(&mut self, unknown: &str) -> [Option<&'a str>; 2] {
+        let names = self.names;
+        let sorted = self.sorted.get_or_insert_with(|| {
+            let mut sorted: Vec<&str> = names.keys().map(String::as_str).collect();
+            sorted.sort_unstable();
+            sorted
+        });
+        self.compared += sorted.len() * unknown.len();
+        if self.compared > MAX_COMPARED {
+            return [None; 2];
+        }
+        let first = nearest_word(unknown, sorted.iter().copied());
+        let others = sorted.iter().copied().filter(|name| Some(*name) != first);
+        let second = first.and_then(|_| nearest_word(unknown, others));
+        [first, second]
+    }
+
+    /// A sub-part, or a part that is left out, with a name.
+    fn sub_part(&mut self, bindings: &Bindings, name: &str) -> Option<usize> {
+        let sub_parts = self.sub_parts.get_or_insert_with(|| {
+            let mut found = FxHashMap::default();
+            let is_sub_part = |part: &Part| part.kind != PartKind::Main && !part.name.is_empty();
+            for (index, part) in bindings.parts.iter().enumerate() {
+                if is_sub_part(part) {
+                    found.entry(part.name.clone()).or_insert(index);
+                }
+            }
+            found
+        });
+        sub_parts.get(name).copied()
+    }
 }
 
 /// Signs that people write in place of `@`.
@@ -262,9 +332,39 @@ pub(super) fn break_cycles(
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::compile::{Options, compile};
-    use crate::diagnostic::Code;
     use crate::resolver::MemoryResolver;
+
+    fn names(count: usize) -> FxHashMap<String, usize> {
+        (0..count)
+            .map(|index| (format!("Part{index}"), index))
+            .collect()
+    }
+
+    #[test]
+    fn a_name_that_many_misspell_is_looked_up_once() {
+        let names = names(3000);
+        let mut unknown = Unknown::new(&names);
+        let offer = unknown.nearest("Part10x", "Head");
+        assert!(offer.is_some_and(|offer| offer.starts_with("Part10")));
+        let compared = unknown.compared;
+        for _ in 0..3000 {
+            assert_eq!(unknown.nearest("Part10x", "Head"), offer);
+        }
+        assert_eq!(unknown.compared, compared);
+        // A part is no parent of itself.
+        let own = offer.unwrap();
+        assert_ne!(unknown.nearest("Part10x", own), Some(own));
+    }
+
+    #[test]
+    fn many_unknown_names_get_a_limited_number_of_offers() {
+        let names = names(3000);
+        let mut unknown = Unknown::new(&names);
+        let offers = (0..3000).filter_map(|index| unknown.nearest(&format!("Prat{index}"), ""));
+        assert!(offers.count() < 1000);
+    }
 
     /// The fix for a misspelled parent names the part as the parser reads it: a name in full-width letters without
     /// quotes would be read in ASCII letters, which is another name.

@@ -23,7 +23,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
         || drawing
             .labels
             .iter()
-            .any(|(label, _)| lang::looks_like_string(label.text.as_str()))
+            .any(|(label, _)| lang::annotates(label.text.as_str()))
         || bare_names::name_parts(drawing);
     if !annotated {
         return Bindings::default();
@@ -128,7 +128,7 @@ fn descriptions(drawing: &Drawing) -> Vec<(Place, Arc<Text>)> {
     };
     let mut take = |desc: &Option<Arc<Text>>, place| {
         if let Some(text) = desc
-            && (lang::looks_like_string(text.as_str()) || is_name(text.as_str(), place))
+            && (lang::describes(text.as_str()) || is_name(text.as_str(), place))
         {
             texts.push((place, Arc::clone(text)));
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::bindings::Bindings;
 use super::many;
 use crate::diagnostic::{Code, Diagnostic, listed};
-use crate::lang::looks_like_string;
+use crate::lang::annotates;
 use crate::source::{Span, Text};
 use crate::svg::{ConvertedText, Drawing, GroupKind, Hidden};
 
@@ -30,7 +30,7 @@ pub(super) fn hidden(drawing: &Drawing, bindings: &Bindings, diagnostics: &mut V
     if bindings.annotated {
         return;
     }
-    let is_string = |text: &&Arc<Text>| looks_like_string(text.as_str());
+    let is_string = |text: &&Arc<Text>| annotates(text.as_str());
     let strings = |hidden: &Hidden| hidden.texts.iter().filter(is_string).count();
     let all = drawing.unseen.hidden.iter();
     let all: Vec<(&Hidden, usize)> = all
@@ -59,7 +59,7 @@ pub(super) struct ConvertedStrings(Vec<Span>);
 impl ConvertedStrings {
     pub(super) fn of(drawing: &Drawing) -> Self {
         let converted = drawing.unseen.converted.iter();
-        let converted = converted.filter(|converted| looks_like_string(&converted.text));
+        let converted = converted.filter(|converted| annotates(&converted.text));
         let mut spans: Vec<Span> = Vec::new();
         for ConvertedText { whole, .. } in converted {
             // One in another is the outer one's.
@@ -81,7 +81,7 @@ impl ConvertedStrings {
 pub(super) fn converted(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) {
     let converted = drawing.unseen.converted.iter();
     let converted: Vec<&ConvertedText> = converted
-        .filter(|converted| looks_like_string(&converted.text))
+        .filter(|converted| annotates(&converted.text))
         .collect();
     let findings = converted.iter().map(|converted| {
         let message = format!(

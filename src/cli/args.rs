@@ -104,9 +104,12 @@ pub(super) enum Command {
 /// How drawings are read.
 #[derive(Debug, Clone, Args)]
 pub(super) struct Reading {
-    /// The folder that linked files must be in [default: the drawing's]
+    /// A folder that linked files may be in, besides the drawing's
     #[arg(long, value_name = "DIR")]
     pub(super) root: Option<PathBuf>,
+    /// Where links start, for a drawing that is read from a copy or from stdin [default: the drawing's folder]
+    #[arg(long, value_name = "DIR")]
+    pub(super) base: Option<PathBuf>,
     /// How far a flattened curve may deviate, as a fraction of its part's larger side
     #[arg(long, value_name = "FRACTION", default_value_t = crate::compile::TOLERANCE, value_parser = tolerance)]
     pub(super) tolerance: f64,

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use super::args::{Build, Common};
-use super::loading::{Detail, Loaded, describe, load, root};
+use super::loading::{Detail, Loaded, describe, load, resolver};
 use super::parallel::each;
 use super::progress::spinning;
 use super::{Outcome, counted, fail, style};
-use crate::disk::{FolderResolver, is_drawing, is_standard_stream, write_atomic};
+use crate::disk::{Inputs, Naming, is_drawing, is_standard_stream};
 use crate::export::{self, Exporter, GLB, Written};
 use crate::report::part_count;
 
@@ -137,19 +137,7 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
             }
         }
     }
-    let written = exporter(output).and_then(|exporter| {
-        write_atomic(output, |out| {
-            export::write(exporter, &loaded.compiled.scene, out, None)
-        })
-        .map_err(|error| error.to_string())
-    });
-    let written = written.and_then(|written| match &arguments.depfile {
-        Some(depfile) => {
-            write_depfile(depfile, drawing, output, &loaded, arguments).map(|()| written)
-        }
-        None => Ok(written),
-    });
-    let written = match written {
+    let written = match write(drawing, output, &loaded, arguments) {
         Ok(written) => written,
         Err(message) => {
             let _ = writeln!(text, "error: {message}");
@@ -177,6 +165,43 @@ fn build(drawing: &Path, output: &Path, arguments: &Build, common: Common) -> (O
         std::mem::forget(loaded);
     }
     (outcome, text)
+}
+
+/// Writes the model and the depfile, if one is wanted.
+fn write(
+    drawing: &Path,
+    output: &Path,
+    loaded: &Loaded,
+    arguments: &Build,
+) -> Result<Written, String> {
+    let exporter = exporter(output)?;
+    let linked = loaded.linked(&resolver(drawing, &arguments.reading));
+    let inputs = Inputs::of(drawing).linking(linked.clone());
+    let naming = match &arguments.output {
+        Some(named) if named == output => Naming::Given,
+        _ => Naming::Derived,
+    };
+    let target = inputs
+        .target(output, naming)
+        .map_err(|error| error.to_string())?;
+    let depfile = match &arguments.depfile {
+        Some(depfile) => {
+            // Written after the model, which it must not replace either.
+            let inputs = inputs.writing(output);
+            let target = inputs.target(depfile, Naming::Given);
+            Some(target.map_err(|error| error.to_string())?)
+        }
+        None => None,
+    };
+    let written = target
+        .write(|out| export::write(exporter, &loaded.compiled.scene, out, None))
+        .map_err(|error| error.to_string())?;
+    if let Some(depfile) = depfile {
+        let rule = rule(drawing, output, &linked);
+        let written = depfile.write(|out| out.write_all(rule.as_bytes()));
+        written.map_err(|error| error.to_string())?;
+    }
+    Ok(written)
 }
 
 fn summary(loaded: &Loaded, written: Written) -> String {
@@ -216,23 +241,11 @@ fn stats(loaded: &Loaded, output: &Path, written: Written, times: [Duration; 2])
     })
 }
 
-/// Writes `output: drawing links…`, so that make and similar tools know when to build again.
-fn write_depfile(
-    depfile: &Path,
-    drawing: &Path,
-    output: &Path,
-    loaded: &Loaded,
-    arguments: &Build,
-) -> Result<(), String> {
-    let resolver = FolderResolver::new(root(drawing, &arguments.reading));
-    let links = loaded
-        .compiled
-        .dependencies
-        .iter()
-        .filter_map(|link| resolver.place(link).ok());
-    let inputs: Vec<String> = std::iter::once(drawing.to_path_buf())
-        .chain(links)
-        .map(|path| for_make(&path))
+/// `output: drawing links…`, so that make and similar tools know when to build again.
+fn rule(drawing: &Path, output: &Path, linked: &[PathBuf]) -> String {
+    let inputs: Vec<String> = std::iter::once(drawing)
+        .chain(linked.iter().map(PathBuf::as_path))
+        .map(for_make)
         .collect();
     let mut rule = format!("{}: {}\n", for_make(output), inputs.join(" "));
     // An empty rule for each input, so that make does not fail when one of them is deleted.
@@ -240,7 +253,7 @@ fn write_depfile(
         .iter()
         .skip(1)
         .for_each(|input| rule.push_str(&format!("{input}:\n")));
-    write_atomic(depfile, |out| out.write_all(rule.as_bytes())).map_err(|error| error.to_string())
+    rule
 }
 
 /// A path escaped for make.

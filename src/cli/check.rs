@@ -4,13 +4,13 @@ use std::path::Path;
 
 use super::args::{Check, Common, Format};
 use super::fix::fix;
-use super::loading::{Detail, Loaded, count, describe, load, root, tally};
+use super::loading::{Detail, Loaded, count, describe, load, resolver, tally};
 use super::parallel::each;
 use super::progress::spinning;
 use super::{Outcome, counted, fail, json, print_out, sarif, style};
 use crate::bind;
 use crate::diagnostic;
-use crate::disk::{FolderResolver, is_standard_stream};
+use crate::disk::is_standard_stream;
 use crate::look;
 
 /// The larger side of the pictures that `--look` compares, pixels.
@@ -65,7 +65,7 @@ pub(super) fn run(arguments: &Check, common: Common) -> Outcome {
 
 /// Compares the model with the drawing, and adds what looks different to the findings.
 fn look_at(path: &Path, loaded: &mut Loaded, arguments: &Check) -> Result<(), Outcome> {
-    let resolver = FolderResolver::new(root(path, &arguments.reading));
+    let resolver = resolver(path, &arguments.reading);
     let found = look::compare(&loaded.compiled, &loaded.text, &resolver, LOOK_SIDE);
     let found = found.map_err(|error| fail(&format!("`{}` {error}", loaded.path)))?;
     let mut hints = look::hints(&loaded.compiled, &found);

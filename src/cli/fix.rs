@@ -6,7 +6,7 @@ use super::args::Check;
 use super::loading::{Loaded, compiled, tally};
 use super::{Outcome, counted, fail};
 use crate::diagnostic::{Code, Diagnostic, Severity, apply_safe_fixes};
-use crate::disk::{is_packed, is_standard_stream, read_file, write_atomic};
+use crate::disk::{is_packed, is_standard_stream, read_file, rewrite};
 
 /// How often a drawing is read again for fixes that others made possible.
 const MAX_ROUNDS: usize = 8;
@@ -58,7 +58,6 @@ pub(super) fn fix(path: &Path, loaded: &mut Loaded, arguments: &Check) -> Result
             )));
         }
     }
-    write_atomic(path, |out| out.write_all(loaded.text.as_bytes()))
-        .map_err(|error| fail(&error.to_string()))?;
+    rewrite(path, loaded.text.as_bytes()).map_err(|error| fail(&error.to_string()))?;
     Ok(fixed)
 }

@@ -36,6 +36,12 @@ impl Loaded {
         }
     }
 
+    /// The files that it links to, including missing ones.
+    pub(super) fn linked(&self, resolver: &FolderResolver) -> Vec<PathBuf> {
+        let links = self.compiled.dependencies.iter();
+        links.filter_map(|link| resolver.place(link).ok()).collect()
+    }
+
     pub(super) fn outcome(&self) -> Outcome {
         if self.compiled.has_errors() {
             Outcome::Errors
@@ -77,19 +83,18 @@ pub(super) fn load(path: &Path, reading: &Reading) -> Result<Loaded, Outcome> {
 
 /// Compiles the text of the drawing at `path`.
 pub(super) fn compiled(text: &str, path: &Path, reading: &Reading) -> Compiled {
-    let resolver = FolderResolver::new(root(path, reading));
+    let resolver = resolver(path, reading);
     let options = Options {
         tolerance: reading.tolerance,
     };
     compile(text, &options, &resolver)
 }
 
-/// The folder that links are resolved in.
-pub(super) fn root(path: &Path, reading: &Reading) -> PathBuf {
-    reading
-        .root
-        .clone()
-        .unwrap_or_else(|| path.parent().map_or_else(PathBuf::new, Path::to_path_buf))
+/// Resolves the links of the drawing, or of the model, at `path`.
+pub(super) fn resolver(path: &Path, reading: &Reading) -> FolderResolver {
+    let beside = || path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+    let base = reading.base.clone().unwrap_or_else(beside);
+    FolderResolver::new(base).allowing(reading.root.as_deref())
 }
 
 /// Which findings to show.

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::args::{Common, Motion};
 use super::progress::spinning;
 use super::{Outcome, fail, print_out};
-use crate::disk::{WriteError, is_same_file, open_stream, write_atomic};
+use crate::disk::{Inputs, Naming, Target, WriteError, open_stream};
 use crate::export::{self, Exporter};
 use crate::motion::bvh::{self, Reading};
 use crate::motion::edit::{EditedClip, ExposureMethod, edit};
@@ -28,15 +28,22 @@ enum Kind {
 
 /// Edits a motion file, or lists its joints.
 pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
-    let kind = match arguments
-        .output
-        .as_deref()
-        .map(|output| kind(output, &arguments.motion))
-        .transpose()
-    {
+    let kind = match arguments.output.as_deref().map(kind).transpose() {
         Ok(kind) => kind,
         Err(message) => return fail(&message),
     };
+    let plot = arguments.plot.as_ref().map(|plot| (plot, Kind::Chart));
+    let outputs = arguments.output.as_ref().zip(kind).into_iter().chain(plot);
+    let mut inputs = Inputs::of(&arguments.motion);
+    let mut targets = Vec::new();
+    for (output, kind) in outputs {
+        match inputs.target(output, Naming::Given) {
+            Ok(target) => targets.push((output, target, kind)),
+            Err(error) => return fail(&error.to_string()),
+        }
+        // The chart must not replace the motion that was written before.
+        inputs = inputs.writing(output);
+    }
     let name = arguments.motion.display().to_string();
     let stream = match open_stream(&arguments.motion) {
         Ok(stream) => stream,
@@ -92,12 +99,10 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
     for note in &edited.notes {
         let _ = writeln!(messages, "  {note}");
     }
-    let plot = arguments.plot.as_ref().map(|plot| (plot, Kind::Chart));
-    let outputs = arguments.output.as_ref().zip(kind).into_iter().chain(plot);
     let mut wrote = String::new();
     let mut count = 0;
-    for (output, kind) in outputs {
-        if let Err(error) = spinning("writing", || write(&edited, output, kind, arguments)) {
+    for (output, target, kind) in targets {
+        if let Err(error) = spinning("writing", || write(&edited, &target, kind, arguments)) {
             return fail(&error.to_string());
         }
         if output.as_os_str() != "-" {
@@ -123,16 +128,10 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
 }
 
 /// What to write, by the ending of the output's name.
-fn kind(output: &Path, input: &Path) -> Result<Kind, String> {
+fn kind(output: &Path) -> Result<Kind, String> {
     let ending = output
         .extension()
         .map(|ending| ending.to_string_lossy().to_lowercase());
-    if output.as_os_str() != "-" && is_same_file(output, input) {
-        return Err(format!(
-            "`{}` is the motion itself: name another file, so that nothing is lost",
-            output.display()
-        ));
-    }
     match ending.as_deref() {
         _ if output.as_os_str() == "-" => Ok(Kind::Bvh),
         Some("bvh") => Ok(Kind::Bvh),
@@ -168,21 +167,19 @@ fn exposure_method(arguments: &Motion) -> ExposureMethod {
 
 fn write(
     edited: &EditedClip,
-    output: &Path,
+    target: &Target,
     kind: Kind,
     arguments: &Motion,
 ) -> Result<(), WriteError> {
     let stem = arguments.motion.file_stem().filter(|stem| *stem != "-");
     let stem = stem.map_or("motion".into(), |stem| stem.to_string_lossy());
     match kind {
-        Kind::Bvh => write_atomic(output, |out| edited.write_bvh(out)),
-        Kind::Chart => write_atomic(output, |out| out.write_all(edited.chart(&stem).as_bytes())),
+        Kind::Bvh => target.write(|out| edited.write_bvh(out)),
+        Kind::Chart => target.write(|out| out.write_all(edited.chart(&stem).as_bytes())),
         Kind::Model(exporter) => {
             let exposure = edited.exposure.as_ref();
             let scene = skeleton_model(&edited.clip, exposure, &stem, edited.to_model);
-            write_atomic(output, |out| {
-                export::write(exporter, &scene, out, None).map(|_| ())
-            })
+            target.write(|out| export::write(exporter, &scene, out, None).map(|_| ()))
         }
     }
 }

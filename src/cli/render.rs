@@ -1,20 +1,20 @@
 //! `okoshi render`
 
-use std::fmt::Write as _;
 use std::io;
 use std::path::{Path, PathBuf};
 
 use super::args::{Bend, Common, Projection, Render, Shading};
-use super::loading::{Detail, describe, load, root};
+use super::loading::{Detail, describe, load, resolver};
 use super::progress::{counting, spinning};
 use super::{Outcome, fail, style};
-use crate::disk::{FolderResolver, read_file, write_atomic};
+use crate::disk::{Inputs, Naming, Target, WriteError, read_file};
 use crate::export::{self, GLB};
 use crate::look::{DrawnView, LookError};
 use crate::render::{
     self, AnimationWriter, Clip, Model, Options, Palette, PosedModel, RenderError, Sheet,
     TURNTABLE_SECONDS, write_png,
 };
+use crate::resolver::Recorder;
 
 mod clips;
 
@@ -58,18 +58,30 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
     let Source {
         bytes,
         page,
+        linked,
         outcome,
     } = match model(arguments, common) {
         Ok(found) => found,
         Err(outcome) => return outcome,
     };
     let name = arguments.drawing.display();
-    let resolver = FolderResolver::new(root(&arguments.drawing, &arguments.reading));
-    let model = match render::read(&bytes, &resolver) {
+    let resolver = resolver(&arguments.drawing, &arguments.reading);
+    let recorder = Recorder::new(&resolver);
+    let model = match render::read(&bytes, &recorder) {
         Ok(model) => model,
         Err(error) => return fail(&format!("`{name}` {error}")),
     };
     drop(bytes);
+    let read = recorder.into_dependencies().into_iter();
+    let read = read.filter_map(|file| resolver.place(&file.link).ok());
+    let output = Destination {
+        inputs: Inputs::of(&arguments.drawing).linking(linked.into_iter().chain(read)),
+        naming: match &arguments.output {
+            Some(named) if *named == output => Naming::Given,
+            _ => Naming::Derived,
+        },
+        path: output,
+    };
     let clip = match clip(&model, arguments) {
         Ok(clip) => clip,
         Err(message) => return fail(&format!("`{name}` {message}")),
@@ -112,6 +124,46 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
             outcome
         }
         Err(Failure(message)) => fail(&message),
+    }
+}
+
+/// Where pictures are written.
+struct Destination {
+    path: PathBuf,
+    naming: Naming,
+    /// What is read, and must not be replaced.
+    inputs: Inputs,
+}
+
+impl Destination {
+    /// The file of a single picture or animation.
+    fn single(&self) -> Result<Target, WriteError> {
+        self.inputs.target(&self.path, self.naming)
+    }
+
+    /// The file of one of several pictures: `turn.png` becomes `turn-07.png`, with as many digits as the last number has.
+    fn numbered(&self, number: u32, last: u32) -> Result<Target, WriteError> {
+        let path = self.numbered_path(number, last);
+        self.inputs.target(&path, self.naming)
+    }
+
+    fn numbered_path(&self, number: u32, last: u32) -> PathBuf {
+        let digits = last.to_string().len();
+        let mut name = self.path.file_stem().unwrap_or_default().to_owned();
+        name.push(format!("-{number:0digits$}."));
+        name.push(self.path.extension().unwrap_or_default());
+        self.path.with_file_name(name)
+    }
+
+    /// Refuses before anything is drawn if one of `count` pictures may not be written.
+    fn check_numbered(&self, count: u32) -> Result<(), WriteError> {
+        (1..=count).try_for_each(|number| self.numbered(number, count).map(|_| ()))
+    }
+
+    /// The names of the first and the last of several pictures.
+    fn range(&self, last: u32) -> String {
+        let [first, last] = [1, last].map(|number| self.numbered_path(number, last));
+        format!("{} to {}", first.display(), last.display())
     }
 }
 
@@ -196,6 +248,8 @@ struct Source {
     bytes: Vec<u8>,
     /// With `--as-drawn`, the page and its size in pixels.
     page: Option<(Sheet, [u32; 2])>,
+    /// The files that the drawing links to.
+    linked: Vec<PathBuf>,
     /// The outcome of compiling the drawing.
     outcome: Outcome,
 }
@@ -217,6 +271,7 @@ fn model(arguments: &Render, common: Common) -> Result<Source, Outcome> {
         return Ok(Source {
             bytes,
             page: None,
+            linked: Vec::new(),
             outcome: Outcome::Done,
         });
     }
@@ -238,6 +293,7 @@ fn model(arguments: &Render, common: Common) -> Result<Source, Outcome> {
         return Err(Outcome::Errors);
     }
     let outcome = loaded.outcome();
+    let linked = loaded.linked(&resolver(drawing, &arguments.reading));
     let mut scene = std::mem::take(&mut loaded.compiled.scene);
     let page = match arguments.as_drawn {
         true => {
@@ -253,6 +309,7 @@ fn model(arguments: &Render, common: Common) -> Result<Source, Outcome> {
         Ok(model) => Ok(Source {
             bytes: model.bytes,
             page,
+            linked,
             outcome,
         }),
         Err(error) => Err(fail(&format!("`{}` cannot be drawn: {error}", loaded.path))),
@@ -277,33 +334,33 @@ fn describe_picture([width, height]: [u32; 2], triangles: usize) -> String {
 fn draw(
     posed: &PosedModel<'_>,
     arguments: &Render,
-    output: &Path,
+    output: &Destination,
     what: (Form, Subject),
 ) -> Result<String, Failure> {
     let options = options(arguments);
     let picture = describe_picture(options.size, posed.triangles());
-    let name = output.display();
+    let name = output.path.display();
     match what {
         (Form::Png, Subject::Turntable(frames)) => {
+            output.check_numbered(frames).map_err(Failure::written)?;
             let mut number = 0;
             counting("drawing", frames, |done| {
                 posed.turntable(&options, frames, |image| {
                     number += 1;
-                    write_atomic(&numbered(output, number, frames), |out| {
-                        write_png(&image, out)
-                    })
-                    .map_err(Failure::written)?;
+                    output
+                        .numbered(number, frames)
+                        .and_then(|target| target.write(|out| write_png(&image, out)))
+                        .map_err(Failure::written)?;
                     done(number);
                     Ok::<(), Failure>(())
                 })
             })?;
-            let [first, last] = [1, frames].map(|number| numbered(output, number, frames));
-            let (first, last) = (first.display(), last.display());
-            Ok(format!("{first} to {last}: {picture} each"))
+            Ok(format!("{}: {picture} each", output.range(frames)))
         }
         (form, Subject::Turntable(frames)) => {
+            let target = output.single().map_err(Failure::written)?;
             counting("drawing", frames, |done| {
-                write_atomic(output, |out| {
+                target.write(|out| {
                     let mut animation = match form {
                         Form::Gif => {
                             let palette = palette(posed, &options, frames)?;
@@ -325,8 +382,10 @@ fn draw(
             Ok(format!("{name}: {frames} frames, {picture} each"))
         }
         _ => {
+            let target = output.single().map_err(Failure::written)?;
             let image = spinning("drawing", || posed.picture(&options))?;
-            write_atomic(output, |out| write_png(&image, out)).map_err(Failure::written)?;
+            let written = target.write(|out| write_png(&image, out));
+            written.map_err(Failure::written)?;
             Ok(format!("{name}: {picture}"))
         }
     }
@@ -336,7 +395,7 @@ fn draw(
 fn draw_page(
     posed: &PosedModel<'_>,
     arguments: &Render,
-    output: &Path,
+    output: &Destination,
     (sheet, size): (Sheet, [u32; 2]),
 ) -> Result<String, Failure> {
     let options = Options {
@@ -345,10 +404,12 @@ fn draw_page(
         background: arguments.background,
         ..Options::default()
     };
+    let target = output.single().map_err(Failure::written)?;
     let image = spinning("drawing", || posed.picture_of(&options, &sheet))?;
-    write_atomic(output, |out| write_png(&image, out)).map_err(Failure::written)?;
+    let written = target.write(|out| write_png(&image, out));
+    written.map_err(Failure::written)?;
     let picture = describe_picture(size, posed.triangles());
-    Ok(format!("{}: {picture}", output.display()))
+    Ok(format!("{}: {picture}", output.path.display()))
 }
 
 /// Why pictures could not be drawn or written, as a message.
@@ -408,15 +469,4 @@ fn palette(posed: &PosedModel<'_>, options: &Options, frames: u32) -> io::Result
         },
     )?;
     Ok(Palette::new(&thumbnails))
-}
-
-/// `turn.png` becomes `turn-07.png`, with as many digits as the last number has.
-fn numbered(output: &Path, number: u32, last: u32) -> PathBuf {
-    let digits = last.to_string().len();
-    let mut name = output.file_stem().unwrap_or_default().to_owned();
-    let mut tail = String::new();
-    let _ = write!(tail, "-{number:0digits$}.");
-    name.push(tail);
-    name.push(output.extension().unwrap_or_default());
-    output.with_file_name(name)
 }

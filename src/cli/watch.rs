@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::args::{Common, Noticing, Reading, Watch};
 use super::loading::{Detail, count, describe, tally};
 use super::{Findings, Outcome, counted, fail, style};
-use crate::disk::{ChangeDetection, ReadError, make_folder, write_atomic};
+use crate::disk::{ChangeDetection, Inputs, Naming, ReadError, make_folder};
 use crate::export::Model;
 use crate::report::part_count;
 use crate::watch::{Build, Event, NoModel, Options, watch};
@@ -47,6 +47,7 @@ pub(super) fn follow(
 pub(super) fn options(reading: &Reading, noticing: &Noticing) -> Options {
     Options {
         shows_incomplete: false,
+        base: reading.base.clone(),
         root: reading.root.clone(),
         tolerance: reading.tolerance,
         detection: noticing.poll.map_or(ChangeDetection::Native, |pause| {
@@ -110,7 +111,11 @@ fn built(drawing: &Path, build: &Build, outputs: &mut Outputs<'_>, common: Commo
             let folder = output.parent().filter(|_| outputs.folder.is_some());
             let written = folder
                 .map_or(Ok(()), make_folder)
-                .and_then(|()| write_atomic(&output, |out| out.write_all(&model.bytes)));
+                .and_then(|()| {
+                    let inputs = Inputs::of(drawing).linking(build.linked.iter().cloned());
+                    inputs.target(&output, Naming::Derived)
+                })
+                .and_then(|target| target.write(|out| out.write_all(&model.bytes)));
             match written {
                 Err(error) => (error.to_string(), true),
                 Ok(()) => {

@@ -35,8 +35,9 @@ macro_rules! codes {
 codes! {
     // The file
     /// The drawing is not well-formed XML: a tag is never closed, a quote is missing in a tag, or a text
-    /// contains a bare `&` or `<`. Drawing programs write correct XML, so this usually comes from editing the
-    /// file by hand, or from a file that was cut off.
+    /// contains a bare `&` or `<`, or the first line is no XML declaration but looks like one. Drawing programs
+    /// write correct XML, so this usually comes from editing the file by hand, or from a file that was cut off.
+    /// Entities that stand for elements are not read either.
     ///
     /// ```text
     /// <text>Salt & Pepper</text>
@@ -474,6 +475,16 @@ codes! {
     ///
     /// Write `@` between a part and what it is attached to: `Rarm@Ubody`.
     SignInName = "W321", "another sign in the place of @";
+    /// Filled shapes have outlines (strokes), and the drawing does not say what is to become of them. They are left out,
+    /// so that the model shows filled areas only, and is smaller than the drawing by half the width of each outline.
+    ///
+    /// ```text
+    /// %Strokes all
+    /// ```
+    ///
+    /// Write this text anywhere on the page to build outlines as ink on their shapes, or `%Strokes none` if the filled
+    /// areas are enough.
+    OutlinesLeftOut = "W322", "outlines left out";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

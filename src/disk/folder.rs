@@ -6,68 +6,124 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::read::read_limited;
-use crate::resolver::{LinkError, Resolver, first_spelling, inside};
+use crate::resolver::{LinkError, Resolver, first_spelling, inside, relative};
 
 /// The largest linked file that is read, in bytes.
 pub const LINK_LIMIT: u64 = 256 << 20;
 
-/// Reads links below one folder and nothing outside it, symbolic links included.
+/// Reads the links of the drawings in one folder: files below it, or below another folder that a person allowed, and
+/// nothing outside of both, symbolic links included.
 #[derive(Debug, Clone)]
 pub struct FolderResolver {
-    root: PathBuf,
+    /// Where links start.
+    base: PathBuf,
+    /// The folder that links may lead to besides the base.
+    allowed: Option<PathBuf>,
 }
 
 impl FolderResolver {
-    /// A resolver for the links of drawings in `root`.
-    pub fn new(root: impl Into<PathBuf>) -> Self {
-        let root = root.into();
-        let here = root.as_os_str().is_empty();
+    /// A resolver for the links of drawings in the folder `base`.
+    pub fn new(base: impl Into<PathBuf>) -> Self {
         Self {
-            root: if here { PathBuf::from(".") } else { root },
+            base: named_folder(base.into()),
+            allowed: None,
         }
     }
 
-    /// The path of the linked file, whether it exists or not, for a watcher. It is relative if the root is, so that
+    /// Also allows links to files below the folder `root`, if there is one. Links still start at the base.
+    #[must_use]
+    pub fn allowing(self, root: Option<&Path>) -> Self {
+        let allowed = root.map(|root| named_folder(root.to_owned()));
+        Self { allowed, ..self }
+    }
+
+    /// The path of the linked file, whether it exists or not, for a watcher. It is relative if the folder is, so that
     /// moving a drawing does not change the result.
     ///
     /// # Errors
-    /// If the link is absolute, remote or leads out of the folder.
+    /// If the link is absolute, remote or leads to a place that is not allowed.
     pub fn place(&self, link: &str) -> Result<PathBuf, LinkError> {
-        match first_spelling(link, |path| self.locate(path)) {
-            Err(LinkError::Missing) => inside(link).map(|path| self.named(Path::new(&path))),
+        match first_spelling(link, self.rule(), |path| self.locate(path)) {
+            Err(LinkError::Missing) => self.rule()(link).map(|path| self.base.join(path)),
             Ok(place) => {
-                let root = fs::canonicalize(&self.root).map_err(failure)?;
-                Ok(place
-                    .strip_prefix(root)
-                    .map_or(place.clone(), |path| self.named(path)))
+                let mut folders = self.folders();
+                let named = folders.find_map(|folder| {
+                    let inner = place.strip_prefix(fs::canonicalize(folder).ok()?).ok()?;
+                    Some(folder.join(inner))
+                });
+                Ok(named.unwrap_or(place))
             }
             answer => answer,
         }
+        .map(|place| match place.strip_prefix(".") {
+            Ok(short) => short.to_owned(),
+            Err(_) => place,
+        })
     }
 
-    /// The path of a file in the root, relative to the working directory if the root is.
-    fn named(&self, path: &Path) -> PathBuf {
-        if self.root == Path::new(".") {
-            path.to_owned()
-        } else {
-            self.root.join(path)
+    /// The folders that links may lead to.
+    fn folders(&self) -> impl Iterator<Item = &Path> {
+        std::iter::once(&self.base)
+            .chain(&self.allowed)
+            .map(PathBuf::as_path)
+    }
+
+    /// What is required of the text of a link.
+    fn rule(&self) -> fn(&str) -> Result<String, LinkError> {
+        match self.allowed {
+            None => inside,
+            // Whether the place is allowed is decided when it is known.
+            Some(_) => relative,
         }
     }
 
     /// The canonical path of an existing file.
     fn locate(&self, path: &str) -> Result<PathBuf, LinkError> {
-        let root = fs::canonicalize(&self.root).map_err(failure)?;
-        let place = fs::canonicalize(root.join(path)).map_err(failure)?;
-        match place.starts_with(&root) {
-            true => Ok(place),
-            false => Err(LinkError::Outside),
+        let base = fs::canonicalize(&self.base).map_err(failure)?;
+        let place = fs::canonicalize(base.join(path));
+        let inside = |place: &Path| {
+            self.folders().any(|folder| {
+                fs::canonicalize(folder).is_ok_and(|folder| place.starts_with(folder))
+            })
+        };
+        match place {
+            Ok(place) if inside(&place) => Ok(place),
+            // Whether there is a file outside is nobody's business.
+            Err(error) if !path.starts_with("..") || self.names_allowed(&base, path) => {
+                Err(failure(error))
+            }
+            _ => Err(LinkError::Outside),
         }
+    }
+
+    /// Whether the text of a path that leads out of the base leads to the allowed folder.
+    fn names_allowed(&self, base: &Path, path: &str) -> bool {
+        let mut place = base.to_owned();
+        for part in path.split('/') {
+            match part {
+                ".." => drop(place.pop()),
+                part => place.push(part),
+            }
+        }
+        let allowed = self
+            .allowed
+            .as_ref()
+            .and_then(|allowed| fs::canonicalize(allowed).ok());
+        allowed.is_some_and(|allowed| place.starts_with(allowed))
+    }
+}
+
+/// The folder that an empty path stands for is the working directory.
+fn named_folder(folder: PathBuf) -> PathBuf {
+    match folder.as_os_str().is_empty() {
+        true => PathBuf::from("."),
+        false => folder,
     }
 }
 
 impl Resolver for FolderResolver {
     fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError> {
-        let place = first_spelling(link, |path| self.locate(path))?;
+        let place = first_spelling(link, self.rule(), |path| self.locate(path))?;
         read_file(&place, LINK_LIMIT)
     }
 }
@@ -152,6 +208,42 @@ mod tests {
         let absolute = folder.path().join("secret");
         let absolute = absolute.to_str().unwrap();
         assert_eq!(files.read(absolute), Err(LinkError::Absolute));
+    }
+
+    #[test]
+    fn an_allowed_folder_widens_what_links_may_lead_to() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        for name in [
+            "all/figures",
+            "all/textures",
+            "all/figures/textures",
+            "other",
+        ] {
+            fs::create_dir_all(path(name)).unwrap();
+        }
+        fs::write(path("all/textures/wood"), "outer").unwrap();
+        fs::write(path("all/figures/textures/wood"), "inner").unwrap();
+        fs::write(path("other/secret"), "secret").unwrap();
+        let narrow = FolderResolver::new(path("all/figures"));
+        assert_eq!(narrow.read("../textures/wood"), Err(LinkError::Outside));
+        let wide = narrow.allowing(Some(&path("all")));
+        assert_eq!(*wide.read("textures/wood").unwrap(), *b"inner");
+        assert_eq!(*wide.read("../textures/wood").unwrap(), *b"outer");
+        assert_eq!(*wide.read("%2e%2e/textures/wood").unwrap(), *b"outer");
+        assert_eq!(wide.read("../textures/none"), Err(LinkError::Missing));
+        for link in ["../../other/secret", "../../other/none", "../../../none"] {
+            assert_eq!(wide.read(link), Err(LinkError::Outside), "{link}");
+        }
+        assert_eq!(
+            wide.place("../textures/wood").unwrap(),
+            path("all/textures/wood")
+        );
+        // A folder that is elsewhere takes nothing away.
+        let elsewhere = FolderResolver::new(path("all/figures")).allowing(Some(&path("other")));
+        assert_eq!(*elsewhere.read("textures/wood").unwrap(), *b"inner");
+        assert_eq!(*elsewhere.read("../../other/secret").unwrap(), *b"secret");
+        assert_eq!(elsewhere.read("../textures/wood"), Err(LinkError::Outside));
     }
 
     #[test]

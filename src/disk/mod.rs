@@ -6,6 +6,8 @@ mod poll;
 mod read;
 mod search;
 mod sniff;
+mod target;
+mod temporary;
 mod text;
 mod watch;
 mod write;
@@ -17,20 +19,15 @@ pub use read::{
 };
 pub use search::{Below, Stamp, below, is_drawing, stamp};
 pub use sniff::NotADrawing;
+pub use target::{Inputs, Naming, Target, rewrite};
 pub use text::{Decode, decode};
 pub use watch::{ChangeDetection, Changed, FolderWatch, WatchError, event_path, event_paths};
-pub use write::{WriteError, make_folder, write_atomic, write_new};
+pub use write::{WriteError, make_folder, write_new};
 
 use std::path::Path;
 
 /// The path that stands for stdin and stdout.
 const STANDARD_STREAM: &str = "-";
-
-/// Whether two paths refer to the same existing file.
-pub fn is_same_file(one: &Path, other: &Path) -> bool {
-    let place = |path: &Path| std::fs::canonicalize(path).ok();
-    one == other || place(one).is_some_and(|one| place(other) == Some(one))
-}
 
 /// Whether a path stands for stdin or stdout.
 pub fn is_standard_stream(path: &Path) -> bool {

@@ -1,12 +1,13 @@
 //! Writes outputs completely or not at all.
 //!
-//! `tempfile` makes the temporary file. The rest is done here, because an output keeps its permissions and symbolic
-//! links, and can be a device or a pipe, which crates for atomic writes do not cover.
+//! An output keeps its permissions and symbolic links, and can be a device or a pipe, which crates for atomic writes do
+//! not cover.
 
-use std::fs::{self, File, Permissions};
+use std::fs::{self, File};
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
+use super::temporary::Temporary;
 use crate::export::{Output, SeekableOutput};
 
 /// Why an output cannot be written. Each message names the file and says how to fix it.
@@ -27,6 +28,30 @@ pub enum WriteError {
     /// The file exists and must not be replaced.
     #[error("`{}` exists; choose another name", .0.display())]
     Exists(PathBuf),
+    /// It is an input, is linked by one, or is a drawing.
+    #[error(
+        "`{}` {why}, which would be lost; choose another name, `{}` for example",
+        .path.display(), .other.display()
+    )]
+    Loss {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        why: &'static str,
+        /// A name that is free.
+        other: PathBuf,
+    },
+    /// Another program wrote it, and nobody named it.
+    #[error(
+        "`{}` was not written by okoshi; rename it, or choose another name with -o, `{}` for example",
+        .path.display(), .other.display()
+    )]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+        /// A name that is free.
+        other: PathBuf,
+    },
     /// The operating system cannot write it, or its content cannot be generated.
     #[error("`{}` cannot be written: {source}", .path.display())]
     Failed {
@@ -39,15 +64,14 @@ pub enum WriteError {
 
 /// Writes a file through `fill`; `-` is stdout.
 ///
-/// The file is replaced atomically: the content goes to a temporary file in the same folder
-/// (`.okoshi-….tmp`), which is then renamed. If the program is killed, or `fill` fails, the old file
-/// stays. The permissions of an existing file are kept; a symbolic link stays a link, and its target is
-/// replaced. Devices and pipes are written to directly.
+/// The file is replaced atomically: the content goes to a [`Temporary`] file in the same folder, which then gets the name.
+/// If the program is killed, or `fill` fails, the old file stays. The permissions of an existing file are kept; a symbolic
+/// link stays a link, and its target is replaced. Devices and pipes are written to directly.
 ///
 /// # Errors
 ///
 /// If the file cannot be written, or `fill` fails.
-pub fn write_atomic<T>(
+pub(super) fn write_atomic<T>(
     path: &Path,
     fill: impl FnOnce(&mut dyn Output) -> io::Result<T>,
 ) -> Result<T, WriteError> {
@@ -78,22 +102,18 @@ pub fn write_atomic<T>(
     }
 
     let mut temporary =
-        temporary_beside(&target).map_err(|error| folder_failure(&target, path, error))?;
-    let mut out = SeekableOutput::new(temporary.as_file_mut());
+        Temporary::new(folder_of(&target)).map_err(|error| folder_failure(&target, path, error))?;
+    let mut out = SeekableOutput::new(temporary.file());
     let answer = fill(&mut out)
         .and_then(|answer| out.finish().map(|_| answer))
         .map_err(failed)?;
     if let Some(permissions) = existing {
-        temporary
-            .as_file()
-            .set_permissions(permissions)
-            .map_err(failed)?;
+        let written = temporary.file().set_permissions(permissions);
+        written.map_err(failed)?;
     }
     // Does not wait for the disk: outputs can be built again, and common file systems write the data
     // before the rename.
-    temporary
-        .persist(&target)
-        .map_err(|error| failed(error.error))?;
+    temporary.replace(&target).map_err(failed)?;
     Ok(answer)
 }
 
@@ -126,16 +146,13 @@ pub fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
         source,
     };
     let mut temporary =
-        temporary_beside(path).map_err(|error| folder_failure(path, path, error))?;
-    temporary.write_all(content).map_err(failed)?;
-    match temporary.persist_noclobber(path) {
-        Ok(_) => Ok(()),
+        Temporary::new(folder_of(path)).map_err(|error| folder_failure(path, path, error))?;
+    temporary.file().write_all(content).map_err(failed)?;
+    temporary.create(path).map_err(|error| match error.kind() {
         // Another program created the file meanwhile.
-        Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => {
-            Err(WriteError::Exists(path.to_owned()))
-        }
-        Err(error) => Err(failed(error.error)),
-    }
+        io::ErrorKind::AlreadyExists => WriteError::Exists(path.to_owned()),
+        _ => failed(error),
+    })
 }
 
 /// Fills a stream, which gets the complete output or, if `fill` fails, nothing.
@@ -148,28 +165,6 @@ fn fill_stream<T>(
     out.write_all(content.finish()?.get_ref())?;
     out.flush()?;
     Ok(answer)
-}
-
-fn temporary_beside(target: &Path) -> io::Result<tempfile::NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".okoshi-").suffix(".tmp");
-    let permissions = new_file_permissions();
-    if let Some(permissions) = &permissions {
-        builder.permissions(permissions.clone());
-    }
-    builder.tempfile_in(folder_of(target))
-}
-
-/// The permissions with which programs create files; the system subtracts the user's umask.
-#[cfg(unix)]
-fn new_file_permissions() -> Option<Permissions> {
-    use std::os::unix::fs::PermissionsExt as _;
-    Some(Permissions::from_mode(0o666))
-}
-
-#[cfg(not(unix))]
-fn new_file_permissions() -> Option<Permissions> {
-    None
 }
 
 /// The target of a chain of symbolic links. It need not exist.
@@ -218,6 +213,11 @@ fn folder_failure(target: &Path, path: &Path, source: io::Error) -> WriteError {
 
 #[cfg(test)]
 mod tests {
+    use std::io::BufRead as _;
+
+    #[cfg(unix)]
+    use std::fs::Permissions;
+
     use super::*;
 
     fn names(folder: &Path) -> Vec<String> {
@@ -410,15 +410,15 @@ mod tests {
 
     /// Not a test: the program that `a_kill_leaves_the_old_file` kills.
     #[test]
+    #[allow(clippy::print_stdout, reason = "it says when it is writing")]
     fn victim() {
         let Some(path) = std::env::var_os(VICTIM) else {
             return;
         };
         write_atomic(Path::new(&path), |out| {
-            for _ in 0..1000 {
-                out.write_all(&[0; 1024])?;
-                std::thread::sleep(std::time::Duration::from_millis(10));
-            }
+            out.write_all(&[0; 1 << 20])?;
+            println!("writing");
+            std::thread::sleep(std::time::Duration::from_secs(60));
             Ok(())
         })
         .unwrap();
@@ -430,21 +430,18 @@ mod tests {
         let path = folder.path().join("a.glb");
         fs::write(&path, "old").unwrap();
         let mut child = std::process::Command::new(std::env::current_exe().unwrap())
-            .args(["disk::write::tests::victim", "--exact"])
+            .args(["disk::write::tests::victim", "--exact", "--nocapture"])
             .env(VICTIM, &path)
-            .stdout(std::process::Stdio::null())
+            .stdout(std::process::Stdio::piped())
             .spawn()
             .unwrap();
-        while names(folder.path()).len() < 2 {
-            assert!(
-                child.try_wait().unwrap().is_none(),
-                "ended before it was killed"
-            );
-            std::thread::sleep(std::time::Duration::from_millis(2));
-        }
+        let mut lines = io::BufReader::new(child.stdout.take().unwrap()).lines();
+        assert!(lines.any(|line| line.unwrap().contains("writing")));
         child.kill().unwrap();
         child.wait().unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"old");
+        #[cfg(target_os = "linux")]
+        assert_eq!(names(folder.path()), ["a.glb"]);
         write_atomic(&path, |out| out.write_all(b"new")).unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"new");
     }

@@ -14,6 +14,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
 use super::query::{bounds, shoelace};
+use super::tangled::is_tangled;
 use super::touching::{separate, touches};
 use super::{FillRule, Outline, Polygon, Ring, disjoint};
 
@@ -33,7 +34,7 @@ const SLIVER: f64 = 1e-6;
 /// Extents outside of this range are not drawn geometry: their squares would overflow or vanish.
 const VALID_EXTENTS: std::ops::Range<f64> = 1e-60..1e60;
 
-/// The area that rings enclose by a fill rule, as valid polygons.
+/// The area that rings enclose by a fill rule, as valid polygons; nothing, if they cross too often (see [`is_tangled`]).
 pub fn resolve_overlaps(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
     for ring in &mut rings {
         if !ring.iter().all(|p| p.is_finite()) {
@@ -49,12 +50,16 @@ pub fn resolve_overlaps(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
         remove_collinear(ring, flat);
     }
     rings.retain(|ring| ring.len() > 2);
-    let simple = match &rings[..] {
+    let mut simple = match &rings[..] {
         [ring] if is_convex(ring) => true,
-        rings => {
-            disjoint::are_disjoint(rings, MIN_CLEARANCE * grid.extent) || is_simple(rings, &grid)
-        }
+        rings => disjoint::are_disjoint(rings, MIN_CLEARANCE * grid.extent),
     };
+    if !simple {
+        if is_tangled(&rings) {
+            return Outline::default();
+        }
+        simple = is_simple(&rings, &grid);
+    }
     if simple && rings.len() <= disjoint::MAX_NESTED_RINGS {
         rings.retain(|ring| !is_sliver(ring, grid.extent));
         return disjoint::nest(rings, rule);

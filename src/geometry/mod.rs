@@ -14,6 +14,7 @@ mod frame;
 mod measure;
 mod query;
 mod scanline;
+mod tangled;
 mod touching;
 
 pub use boolean::{intersect, resolve_overlaps, union};
@@ -26,6 +27,7 @@ pub use measure::{Measure, measure, measure_along};
 pub use query::{area, bounds, contains, distance_squared};
 pub(crate) use query::{crosses, shoelace};
 pub(crate) use scanline::{EdgeRanges, Intervals, LINES, Scanlines};
+pub use tangled::{MAX_CROSSINGS, is_tangled};
 
 use glam::DVec2;
 

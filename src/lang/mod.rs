@@ -26,7 +26,10 @@ mod tests;
 pub use check::settings;
 pub use normalize::normalize;
 pub use parameter::{ParameterRef, parameter_at};
-pub use parse::{Container, is_name_char, is_word_char, looks_like_string, parse, strings_in};
+pub use parse::{
+    Container, annotates, describes, is_name_char, is_word_char, looks_like_string, parse,
+    strings_in,
+};
 pub use variables::Variables;
 
 use crate::diagnostic::Diagnostic;

@@ -20,7 +20,7 @@ use std::ops::Range;
 use super::ast::{Annotation, Part};
 use super::keyword::Keyword;
 use super::normalize::Normalized;
-use crate::diagnostic::{Code, Diagnostic, Edit, Fix};
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix, nearest_word};
 use crate::source::{Span, Text};
 
 /// The element that contains a string.
@@ -51,7 +51,27 @@ pub fn parse(text: &Text, container: Container) -> (Annotation, Vec<Diagnostic>)
     (annotation, diagnostics)
 }
 
-/// Whether `text` looks like a string, so that its drawing counts as annotated: it starts with one
+/// Whether `text` makes its drawing an annotated one: `%` or `$` with a keyword, which may be misspelled, or the form `Name@…`
+/// or `Name$…`. What only begins with a sign, as on keypads, price tags and in templates, does not: in drawings without
+/// strings, such texts are art.
+pub fn annotates(text: &str) -> bool {
+    let normalized = Normalized::new(text);
+    let trimmed = normalized.as_str().trim_start();
+    match trimmed.strip_prefix(['%', '$']) {
+        Some(attributes) => starts_with_near_keyword(attributes),
+        None if trimmed.starts_with(['*', '@']) => trimmed
+            .split_once('$')
+            .is_some_and(|(_, attributes)| starts_with_keyword(attributes)),
+        None => looks_like_string(text),
+    }
+}
+
+/// Whether a description is a string: what [annotates] a drawing, or a `*`, which nobody describes a shape with by chance.
+pub fn describes(text: &str) -> bool {
+    annotates(text) || Normalized::new(text).as_str().trim_start().starts_with('*')
+}
+
+/// Whether `text` looks like a string in an annotated drawing: it starts with one
 /// of `% $ * @`, or has the form `Name@…` or `Name$…`. White space before `$` counts if a keyword follows, white space
 /// around `@` if a name follows: `costs $5` and `see you @ 5 pm` are captions.
 pub fn looks_like_string(text: &str) -> bool {
@@ -100,6 +120,29 @@ fn names_a_parent(text: &str) -> bool {
     rest.is_empty() || rest.starts_with('$')
 }
 
+/// Whether a text starts with a keyword, or with what could be a misspelled one and its arguments; it may have another sign
+/// before it.
+fn starts_with_near_keyword(text: &str) -> bool {
+    let text = text.trim_start_matches(|c: char| c.is_whitespace() || matches!(c, '%' | '$'));
+    let Ok((rest, word)) = lexical::word(text) else {
+        return false;
+    };
+    // `%name%`, `${name}` and `$name` are fields of templates.
+    if rest.starts_with(['%', '$', '}']) {
+        return false;
+    }
+    let keywords = Keyword::ALL.iter().map(|keyword| keyword.name());
+    let can_be_misspelled = !rest.trim().is_empty() && word.starts_with(char::is_uppercase);
+    Keyword::from_name(word).is_some()
+        || can_be_misspelled && nearest_word(word, keywords).is_some()
+}
+
+/// Whether what follows a sign is a price or another number: `$5.99`, `% 20`.
+fn is_amount(text: &str) -> bool {
+    let digits = text.trim_start().trim_start_matches(['-', '+', '.', ',']);
+    digits.starts_with(|c: char| c.is_ascii_digit())
+}
+
 /// Whether a text starts with a keyword.
 fn starts_with_keyword(text: &str) -> bool {
     let word = lexical::word(text.trim_start());
@@ -130,6 +173,9 @@ impl<'a> Parser<'a> {
         match sign {
             '#' => Annotation::Comment,
             '*' => Annotation::Unused,
+            '%' | '$' | '@' if container == Container::Text && is_amount(&self.rest()[1..]) => {
+                Annotation::Caption
+            }
             '%' => {
                 self.at += 1;
                 Annotation::Defaults(self.attributes())

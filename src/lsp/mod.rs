@@ -1,17 +1,17 @@
 //! The language server: the strings of drawings, understood in any editor that speaks the protocol.
 //!
 //! ```text
-//!  stdin ─► Ordered ─► Backend ─► ide          (requests, answered from the state when they came)
-//!              │                   ▲
-//!              └► Documents ─► Scheduler ─► Worker ─► diagnostics     (one thread, the newest state of each text)
-//!                                  ▲
-//!                        Links ────┘           (linked files that change)
+//!  stdin ─► messages ─► Ordered ─► Backend ─► ide          (requests, answered from the state when they came)
+//!                          │                   ▲
+//!                          └► Documents ─► Scheduler ─► Worker ─► diagnostics     (one thread, the newest state of each text)
+//!                                              ▲
+//!                                    Links ────┘           (linked files that change)
 //! ```
 //!
 //! Only this module names the protocol's types; what is said about drawings comes from [`crate::ide`]. The framework is
 //! tower-lsp, in its maintained continuation `tower-lsp-server` under the old name: the original has had no release
 //! since 2023 and depends on an unmaintained crate of types. What it leaves open, the order of changes and panics of handlers, is
-//! handled by the service in `ordered`.
+//! handled by the service in `ordered`; messages that it cannot decode, by `messages`.
 
 mod backend;
 mod capabilities;
@@ -20,6 +20,7 @@ mod documents;
 mod edits;
 mod links;
 mod manual;
+mod messages;
 mod ordered;
 mod positions;
 mod preview;
@@ -31,9 +32,11 @@ mod tests;
 mod worker;
 mod workspace;
 
+use std::pin::pin;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use futures::future::{Either, select};
 use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::runtime::Handle;
 use tower_lsp::{LspService, Server};
@@ -45,6 +48,9 @@ use ordered::Ordered;
 use preview::Previews;
 use scheduler::Scheduler;
 use worker::{ClientSupport, Worker};
+
+/// How many bytes of messages wait for the server.
+const PIPE: usize = 64 << 10;
 
 /// Serves one client on stdin and stdout until it disconnects. Returns whether the client ended the session as the protocol wants,
 /// by `shutdown` and `exit`.
@@ -65,7 +71,15 @@ pub fn serve() -> std::io::Result<bool> {
 /// Serves one client; see [`serve`].
 async fn serve_client(input: impl AsyncRead + Unpin, output: impl AsyncWrite) -> bool {
     let (service, socket, shut_down) = service();
-    Server::new(input, output, socket).serve(service).await;
+    let (passed_on, to_server) = tokio::io::duplex(PIPE);
+    let serving = pin!(Server::new(passed_on, output, socket).serve(service));
+    let passing = pin!(messages::pass_on(input, to_server));
+    match select(serving, passing).await {
+        // The client has sent `exit`, and what it still sends is nobody's.
+        Either::Left(_) => {}
+        // The client has disconnected; the server answers what was passed on.
+        Either::Right((_, serving)) => serving.await,
+    }
     shut_down.load(Ordering::Relaxed)
 }
 

@@ -18,13 +18,14 @@ use serde::Deserialize;
 use serde_json::Value;
 use tokio::task::JoinError;
 use tower::Service;
-use tower_lsp::jsonrpc::{Error, Request, Response};
+use tower_lsp::jsonrpc::{Error, Id, Request, Response};
 use tower_lsp::ls_types::{
     DidChangeConfigurationParams, DidChangeTextDocumentParams, DidCloseTextDocumentParams,
     DidOpenTextDocumentParams, DidSaveTextDocumentParams,
 };
 
 use super::documents::{Documents, Snapshot};
+use super::messages::UNREADABLE;
 use super::scheduler::Scheduler;
 use crate::crash::{self, Crash};
 
@@ -112,6 +113,10 @@ where
     }
 
     fn call(&mut self, request: Request) -> Self::Future {
+        if let Some(error) = unreadable(&request) {
+            let answer = Response::from_error(Id::Null, error);
+            return Box::pin(std::future::ready(Ok(Some(answer))));
+        }
         let request = without_empty_params(request);
         let id = request.id().cloned();
         let begun = crash::catch(|| {
@@ -146,8 +151,16 @@ fn without_empty_params(request: Request) -> Request {
     }
 }
 
+/// The error that stands for a message that could not be read.
+fn unreadable(request: &Request) -> Option<Error> {
+    let params = request
+        .params()
+        .filter(|_| request.method() == UNREADABLE)?;
+    Some(read(params).unwrap_or_else(Error::invalid_request))
+}
+
 /// The answer to a request whose handler panicked.
-fn crashed(id: tower_lsp::jsonrpc::Id, crash: &Crash) -> Response {
+fn crashed(id: Id, crash: &Crash) -> Response {
     Response::from_error(id, crash_error(crash))
 }
 

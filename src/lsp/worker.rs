@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use tokio::runtime::Handle;
 use tower_lsp::Client;
@@ -21,6 +22,12 @@ use crate::compile::{Compiled, Compiler, Options};
 use crate::crash::{self, Crash};
 use crate::disk::FolderResolver;
 use crate::ide::Analysis;
+use crate::threads;
+
+/// How long after a text was closed the allocator is used, and how many bytes it is asked for: enough to go beyond what
+/// a thread keeps for itself.
+const RELEASE_DELAY: Duration = Duration::from_millis(200);
+const RELEASE_SIZE: usize = 1 << 20;
 
 /// The state of the thread.
 #[derive(Debug)]
@@ -66,6 +73,7 @@ impl Worker {
                 self.links.forget(uri.as_str());
                 self.previews.closed(uri.as_str());
                 self.send(uri, vec![], None);
+                self.release_memory();
             }
             Task::Analyse(uri) => {
                 let Some(document) = self.documents.current(&uri) else {
@@ -80,6 +88,20 @@ impl Worker {
                 drop(before);
             }
         }
+    }
+
+    /// Gives the memory of a closed text back to the system.
+    ///
+    /// The allocator does that itself a while after memory was freed, but only when it is used again, and a server that
+    /// waits for messages does not use it.
+    fn release_memory(&self) {
+        self.runtime.spawn(async {
+            tokio::time::sleep(RELEASE_DELAY).await;
+            let use_allocator = || drop(std::hint::black_box(vec![0_u8; RELEASE_SIZE]));
+            use_allocator();
+            // Each thread has memory of its own.
+            threads::run_on_each(use_allocator);
+        });
     }
 
     /// Sends the diagnostics of an analysis, if that was requested.

@@ -35,6 +35,9 @@ pub fn write_png(image: &Image, out: &mut (impl Write + ?Sized)) -> io::Result<(
     let mut encoder = png::Encoder::new(out, image.width(), image.height());
     encoder.set_color(png::ColorType::Rgba);
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    // Tells pictures that may be replaced from those of other programs.
+    let software = concat!("okoshi ", env!("CARGO_PKG_VERSION"));
+    encoder.add_text_chunk("Software".to_owned(), software.to_owned())?;
     let mut writer = encoder.write_header()?;
     writer.write_image_data(image.as_raw())?;
     Ok(writer.finish()?)

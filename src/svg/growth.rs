@@ -1,7 +1,7 @@
 //! Estimates how much a drawing grows when its references are expanded, before usvg expands them.
 //!
-//! Patterns filled with patterns, or nested clips, masks and markers, can expand to more shapes than fit into memory.
-//! Clones are not counted here: usvg itself limits them.
+//! Patterns filled with patterns, nested clips, masks and markers, and clones of clones can expand to more shapes than fit
+//! into memory.
 
 use roxmltree::{Document, Node, NodeId};
 use rustc_hash::FxHashMap;
@@ -13,6 +13,9 @@ use crate::diagnostic::{Code, Diagnostic};
 
 /// How many elements a drawing may expand to.
 const MOST: u64 = 1 << 22;
+
+/// How many elements its clones may expand to. Each becomes a part.
+const MOST_CLONED: u64 = 100_000;
 
 /// Definitions that are drawn again at each reference.
 pub(super) const DRAWN_AGAIN: &[&str] = &["pattern", "clipPath", "mask", "marker"];
@@ -42,14 +45,23 @@ pub(super) fn check(
         depth: 0,
         too_deep: false,
         blamed: None,
+        blamed_clone: None,
+        has_references: prepared.draws_again,
     };
     let Size { elements, .. } = growth.size(document.root_element());
+    if let Some(clone) = growth.blamed_clone.and_then(|node| document.get_node(node)) {
+        let message = format!("clones expand to more than {MOST_CLONED} elements");
+        let help = "use fewer clones, or split the drawing into several files";
+        return Err(Box::new(
+            Diagnostic::new(Code::LimitPassed, start_tag(clone, prepared), message).help(help),
+        ));
+    }
     if elements <= MOST {
         return Ok(());
     }
     let blamed = growth.blamed.and_then(|node| document.get_node(node));
     let span = start_tag(blamed.unwrap_or(document.root_element()), prepared);
-    let what = "nested patterns, clips, masks or markers";
+    let what = "nested clones, patterns, clips, masks or markers";
     let message = match growth.too_deep {
         true => format!("{what} are more than {MAX_DEPTH} levels deep"),
         false => format!("{what} expand to more than {MOST} elements"),
@@ -64,6 +76,8 @@ pub(super) fn check(
 #[derive(Clone, Copy, Default)]
 struct Size {
     elements: u64,
+    /// The elements among them that clones draw.
+    cloned: u64,
     /// The shapes among them that are drawn in place, and the number of their vertices.
     shapes: u64,
     corners: u64,
@@ -73,13 +87,17 @@ struct Growth<'a, 'input> {
     document: &'a Document<'input>,
     styles: &'a Styles<'a>,
     ids: &'a Ids<'a>,
-    /// The sizes of expanded definitions; zero while a definition is being expanded, in case it refers to itself.
-    known: FxHashMap<NodeId, u64>,
+    /// The sizes of what references draw; zero while a definition is being expanded, in case it refers to itself.
+    known: FxHashMap<NodeId, Size>,
     /// The number of nested definitions that are being expanded.
     depth: usize,
     too_deep: bool,
     /// The innermost element that grows beyond the limit.
     blamed: Option<NodeId>,
+    /// The innermost element whose clones grow beyond their limit.
+    blamed_clone: Option<NodeId>,
+    /// Whether there are definitions that are drawn again at each reference, besides clones.
+    has_references: bool,
 }
 
 impl<'a, 'input> Growth<'a, 'input> {
@@ -92,9 +110,23 @@ impl<'a, 'input> Growth<'a, 'input> {
             if !DEFINITIONS.contains(&child.tag_name().name()) {
                 let inner = self.size(child);
                 size.elements = size.elements.saturating_add(inner.elements);
-                size.shapes += inner.shapes;
-                size.corners += inner.corners;
+                size.cloned = size.cloned.saturating_add(inner.cloned);
+                size.shapes = size.shapes.saturating_add(inner.shapes);
+                size.corners = size.corners.saturating_add(inner.corners);
             }
+        }
+        if node.tag_name().name() == "use" {
+            let target = self.cloned_size(node);
+            size.elements = size.elements.saturating_add(target.elements);
+            size.cloned = size.cloned.saturating_add(target.elements);
+            size.shapes = target.shapes;
+            size.corners = target.corners;
+        }
+        if size.cloned > MOST_CLONED && self.blamed_clone.is_none() {
+            self.blamed_clone = Some(node.id());
+        }
+        if !self.has_references {
+            return size;
         }
         if size.shapes == 0 {
             let corners = node.attribute("d").or_else(|| node.attribute("points"));
@@ -128,19 +160,80 @@ impl<'a, 'input> Growth<'a, 'input> {
         else {
             return 0;
         };
+        self.expanded(target).elements
+    }
+
+    /// The size of what a clone draws.
+    fn cloned_size(&mut self, clone: Node<'a, 'input>) -> Size {
+        let mut attributes = clone.attributes();
+        let href = attributes.find(|attribute| attribute.name() == "href");
+        let id = href.and_then(|href| href.value().trim().strip_prefix('#'));
+        let target = id.and_then(|id| self.document.get_node(self.ids.get(id)?));
+        target.map_or(Size::default(), |target| self.expanded(target))
+    }
+
+    /// The size of an element that is drawn at each reference.
+    fn expanded(&mut self, target: Node<'a, 'input>) -> Size {
         if let Some(known) = self.known.get(&target.id()) {
             return *known;
         }
         if self.depth >= MAX_DEPTH {
             // usvg expands references recursively.
             self.too_deep = true;
-            return MOST + 1;
+            let elements = MOST + 1;
+            return Size {
+                elements,
+                ..Size::default()
+            };
         }
-        self.known.insert(target.id(), 0);
+        self.known.insert(target.id(), Size::default());
         self.depth += 1;
-        let Size { elements, .. } = self.size(target);
+        let size = self.size(target);
         self.depth -= 1;
-        self.known.insert(target.id(), elements);
-        elements
+        self.known.insert(target.id(), size);
+        size
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::diagnostic::Code;
+    use crate::resolver::MemoryResolver;
+
+    fn refused(body: &str) -> Option<String> {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' xmlns:xlink='http://www.w3.org/1999/xlink' width='9' height='9'>{body}</svg>"
+        );
+        let (drawing, diagnostics) =
+            crate::svg::read(&text, 0.001, &MemoryResolver::default(), &|_| vec![]);
+        let refused = diagnostics
+            .into_iter()
+            .find(|found| found.code == Code::LimitPassed)?;
+        assert!(drawing.shapes.is_empty());
+        Some(refused.message)
+    }
+
+    /// Groups of ten clones of the group before.
+    fn clones(levels: usize) -> String {
+        let first = "<g id='g0'><rect width='1' height='1'/></g>".to_owned();
+        (1..=levels).fold(first, |text, level| {
+            let clones = format!("<use xlink:href='#g{}'/>", level - 1).repeat(10);
+            format!("{text}<g id='g{level}'>{clones}</g>")
+        })
+    }
+
+    #[test]
+    fn clones_of_clones_are_counted_before_they_are_made() {
+        assert_eq!(refused(&clones(3)), None);
+        let message = "clones expand to more than 100000 elements";
+        for levels in [6, 40] {
+            assert_eq!(refused(&clones(levels)).as_deref(), Some(message));
+        }
+        let flat =
+            "<defs><g id='a'><rect width='1' height='1'/><rect width='1' height='1'/></g></defs>";
+        let many = format!("{flat}{}", "<use href='#a'/>".repeat(40_000));
+        assert_eq!(refused(&many).as_deref(), Some(message));
+        // What refers to itself is not drawn.
+        assert_eq!(refused("<g id='a'><use href='#a'/></g>"), None);
     }
 }

@@ -209,6 +209,7 @@ fn read_document(
     };
     let document = roxmltree::Document::parse_with_options(&prepared.text, options)
         .map_err(|error| Box::new(not_xml(&error, &prepared, source)))?;
+    prepare::check_elements(&document, &prepared)?;
     let root = document.root_element();
     if root.tag_name().name() != "svg"
         || !matches!(

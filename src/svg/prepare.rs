@@ -18,8 +18,15 @@ pub(super) const MAX_DEPTH: usize = 1000;
 /// The prefix of generated ids, unless the drawing itself has ids with that prefix.
 pub(super) const ID_PREFIX: &str = "okoshi-";
 
-/// How many characters all entities of a drawing may expand to.
-pub(super) const MAX_ENTITY_TEXT: usize = 16 << 20;
+/// How many elements a drawing may have; usvg reads no more.
+const MAX_ELEMENTS: usize = 1_000_000;
+
+/// How many bytes the entities of any drawing may expand to.
+const ENTITY_TEXT: usize = 1 << 20;
+
+/// How many more they may expand to, as a multiple of the drawing's own length: programs that write every style as an
+/// entity stay far below.
+const ENTITY_GROWTH: usize = 4;
 
 /// Elements that usvg turns into nodes.
 pub(super) const JOINED: &[&str] = &[
@@ -38,8 +45,12 @@ pub(super) struct Prepared {
     pub id_count: usize,
     /// Whether there are definitions that are drawn again at each reference.
     pub draws_again: bool,
+    /// Whether there are clones.
+    pub has_clones: bool,
     /// The text of the drawing's own entities, by name.
     pub entities: FxHashMap<String, String>,
+    /// The number of elements in the text, without those in entities.
+    element_count: usize,
     /// Replacements in order: start in the copy, length there, start in the original, length there.
     replacements: Vec<[usize; 4]>,
 }
@@ -71,9 +82,9 @@ struct Replacement {
 ///
 /// # Errors
 ///
-/// If elements are nested deeper than [`MAX_DEPTH`], or entities expand to more than [`MAX_ENTITY_TEXT`]. Text that is
-/// not well-formed is not an error here: from that position on the copy equals the original, and the parser reports the
-/// problem.
+/// If the XML declaration is malformed, elements are nested deeper than [`MAX_DEPTH`], or entities expand to too much
+/// text. Other text that is not well-formed is not an error here: from that position on the copy equals the original,
+/// and the parser, which knows more about XML, reports the problem.
 pub(super) fn prepare(text: &str) -> Result<Prepared, Box<Diagnostic>> {
     let mut prefix = ID_PREFIX.to_owned();
     while ['"', '\'']
@@ -84,10 +95,58 @@ pub(super) fn prepare(text: &str) -> Result<Prepared, Box<Diagnostic>> {
     }
     let mut scan = Scan::new(text, &prefix);
     for token in Tokenizer::from(text) {
-        let Ok(token) = token else { break };
-        scan.token(token)?;
+        match token {
+            Ok(token) => scan.token(token)?,
+            // The only mistake that the parser overlooks: what follows would be read without ids and without limits.
+            Err(xmlparser::Error::InvalidDeclaration(..)) => {
+                return Err(Box::new(invalid_declaration(text)));
+            }
+            Err(_) => break,
+        }
     }
-    scan.finish()
+    Ok(scan.finish())
+}
+
+/// The error of a drawing that begins with a malformed XML declaration.
+fn invalid_declaration(text: &str) -> Diagnostic {
+    const PLAIN: &str = r#"<?xml version="1.0" encoding="UTF-8"?>"#;
+    let start = text.find("<?xml").unwrap_or_default();
+    let end = text[start..]
+        .find("?>")
+        .map_or(text.len(), |end| start + end + 2);
+    let span = Span::new(start, end);
+    let message = "not well-formed XML: the XML declaration at the beginning is malformed";
+    Diagnostic::new(Code::NotXml, span, message)
+        .help(format!("write it as `{PLAIN}`, or remove it"))
+        .fix(format!("Write `{PLAIN}`"), span, PLAIN)
+        .safe()
+}
+
+/// Checks that the parsed copy has exactly the elements that were prepared.
+///
+/// # Errors
+///
+/// If it has others: those that entities stand for have no ids, and their growth was not counted.
+pub(super) fn check_elements(
+    document: &roxmltree::Document<'_>,
+    prepared: &Prepared,
+) -> Result<(), Box<Diagnostic>> {
+    let elements = || document.descendants().filter(roxmltree::Node::is_element);
+    if elements().count() == prepared.element_count {
+        return Ok(());
+    }
+    let root = document.root_element().range().start;
+    let start = elements()
+        .map(|node| node.range().start)
+        .find(|start| *start < root)
+        .unwrap_or(root);
+    let message = "an entity stands for elements, which okoshi does not read";
+    let place = prepared.original(start);
+    Err(Box::new(
+        Diagnostic::new(Code::NotXml, Span::new(place, place + 1), message)
+            .label("elements in an entity")
+            .help("open the drawing in Inkscape and save it as Plain SVG, which has no entities"),
+    ))
 }
 
 /// The state of the start tag that is being read.
@@ -109,11 +168,14 @@ struct Scan<'a> {
     tag: Tag,
     seen_root: bool,
     draws_again: bool,
+    has_clones: bool,
     ids: FxHashSet<&'a str>,
     counter: usize,
     replacements: Vec<Replacement>,
     entities: FxHashMap<String, String>,
     entity_text: usize,
+    entity_limit: usize,
+    element_count: usize,
 }
 
 impl<'a> Scan<'a> {
@@ -125,17 +187,29 @@ impl<'a> Scan<'a> {
             tag: Tag::default(),
             seen_root: false,
             draws_again: false,
+            has_clones: false,
             ids: FxHashSet::default(),
             counter: 0,
             replacements: Vec::new(),
             entities: FxHashMap::default(),
             entity_text: 0,
+            entity_limit: ENTITY_TEXT + ENTITY_GROWTH * text.len(),
+            element_count: 0,
         }
     }
 
     fn token(&mut self, token: Token<'a>) -> Result<(), Box<Diagnostic>> {
         match token {
             Token::ElementStart { local, span, .. } => {
+                self.element_count += 1;
+                if self.element_count > MAX_ELEMENTS {
+                    let message = format!("the drawing has more than {MAX_ELEMENTS} elements");
+                    return Err(Box::new(
+                        Diagnostic::new(Code::LimitPassed, span.range().into(), message)
+                            .help("split the drawing into several files"),
+                    ));
+                }
+                self.has_clones |= local.as_str() == "use";
                 self.depth += 1;
                 if self.depth > MAX_DEPTH {
                     let message = format!("elements are nested more than {MAX_DEPTH} deep");
@@ -185,7 +259,7 @@ impl<'a> Scan<'a> {
                 ..
             } => {
                 self.count_entities(value.as_str(), value.start())?;
-                let text = expand(value.as_str(), &self.entities);
+                let text = expand(value.as_str(), &self.entities, self.entity_limit);
                 self.entities
                     .entry(name.as_str().to_owned())
                     .or_insert(text);
@@ -203,10 +277,10 @@ impl<'a> Scan<'a> {
         }
         for (name, _) in references(text) {
             self.entity_text += self.entities.get(name).map_or(0, String::len);
-            if self.entity_text > MAX_ENTITY_TEXT {
+            if self.entity_text > self.entity_limit {
                 let message = format!(
-                    "the drawing's entities expand to more than {} MiB of text",
-                    MAX_ENTITY_TEXT >> 20
+                    "the drawing's entities expand to more than {} MiB and {ENTITY_GROWTH} times the drawing's length",
+                    ENTITY_TEXT >> 20
                 );
                 return Err(Box::new(
                     Diagnostic::new(Code::LimitPassed, Span::new(at, at + text.len()), message)
@@ -274,7 +348,7 @@ impl<'a> Scan<'a> {
         }
     }
 
-    fn finish(mut self) -> Result<Prepared, Box<Diagnostic>> {
+    fn finish(mut self) -> Prepared {
         self.replacements
             .sort_by_key(|replacement| replacement.span.start);
         let grown: usize = self
@@ -292,14 +366,16 @@ impl<'a> Scan<'a> {
             done = span.end;
         }
         text.push_str(&self.text[done..]);
-        Ok(Prepared {
+        Prepared {
             text,
             id_prefix: self.prefix.to_owned(),
             id_count: self.counter,
             draws_again: self.draws_again,
+            has_clones: self.has_clones,
             entities: self.entities,
+            element_count: self.element_count,
             replacements,
-        })
+        }
     }
 }
 
@@ -312,8 +388,8 @@ pub(super) fn references(text: &str) -> impl Iterator<Item = (&str, std::ops::Ra
     })
 }
 
-/// `text` with its known references replaced.
-fn expand(text: &str, entities: &FxHashMap<String, String>) -> String {
+/// `text` with its known references replaced, except those that exceed twice the `limit`.
+fn expand(text: &str, entities: &FxHashMap<String, String>, limit: usize) -> String {
     let mut out = String::new();
     let mut done = 0;
     for (name, range) in references(text) {
@@ -327,7 +403,7 @@ fn expand(text: &str, entities: &FxHashMap<String, String>) -> String {
             .or_else(|| character(name).map(String::from))
         {
             // Nested entities may multiply; an entity above the limit is rejected where it is used.
-            Some(value) if out.len() + value.len() <= 2 * MAX_ENTITY_TEXT => out.push_str(&value),
+            Some(value) if out.len() + value.len() <= 2 * limit => out.push_str(&value),
             _ => out.push_str(&text[range.clone()]),
         }
         done = range.end;
@@ -406,5 +482,141 @@ mod tests {
             prepare(&format!("<svg>{deep}")).unwrap_err().code,
             Code::LimitPassed
         );
+    }
+
+    const BOMB: &str = r#"<!DOCTYPE svg [<!ENTITY a "0123456789">]>"#;
+
+    /// The diagnostic of a drawing that is not read.
+    fn refused(text: &str) -> Diagnostic {
+        let (drawing, mut diagnostics) = crate::svg::read(
+            text,
+            0.001,
+            &crate::resolver::MemoryResolver::default(),
+            &|_| vec![],
+        );
+        assert!(drawing.shapes.is_empty());
+        assert_eq!(diagnostics.len(), 1, "{diagnostics:?}");
+        diagnostics.remove(0)
+    }
+
+    #[test]
+    fn a_malformed_declaration_does_not_hide_the_drawing() {
+        for declaration in [
+            r#"<?xml version="1"?>"#,
+            r#"<?xml version="2.0"?>"#,
+            r#"<?xml version="1.0" standalone="maybe"?>"#,
+            "<?xml ?>",
+            "<?xml ",
+        ] {
+            let text = format!("{declaration}<svg><rect width='9' height='9'/></svg>");
+            let diagnostic = refused(&text);
+            assert_eq!(diagnostic.code, Code::NotXml, "{declaration}");
+            assert_eq!(diagnostic.span.start, 0);
+        }
+        let fixed = r#"<?xml version="1.0" encoding="UTF-8"?><svg/>"#;
+        let text = r#"<?xml version="1"?><svg/>"#;
+        let (_, applied) = (
+            refused(text),
+            crate::diagnostic::applied(text, &refused(text).fixes[0].edits),
+        );
+        assert_eq!(applied, fixed);
+    }
+
+    #[test]
+    fn limits_apply_behind_every_declaration() {
+        let text = format!(
+            "<?xml version='2.0'?>{BOMB}<svg><text>{}</text></svg>",
+            "&a;".repeat(200_000)
+        );
+        assert_eq!(refused(&text).code, Code::NotXml);
+        let text = format!("{BOMB}<svg><text>{}</text></svg>", "&a;".repeat(2_000_000));
+        prepare(&text).unwrap();
+        let long = BOMB.replace("0123456789", &"0123456789".repeat(1000));
+        let text = format!("{long}<svg><text>{}</text></svg>", "&a;".repeat(200));
+        assert_eq!(refused(&text).code, Code::LimitPassed);
+    }
+
+    #[test]
+    fn elements_in_entities_are_refused() {
+        let text = "<!DOCTYPE svg [<!ENTITY a \"<rect width='9' height='9'/>\">]><svg>&a;</svg>";
+        let diagnostic = refused(text);
+        assert_eq!(diagnostic.code, Code::NotXml);
+        assert_eq!(diagnostic.span.start, text.find("<rect").unwrap());
+    }
+
+    /// Pieces of XML that parsers may disagree about.
+    const PIECES: &[&str] = &[
+        "<",
+        ">",
+        "/",
+        "\"",
+        "'",
+        "&",
+        "&a;",
+        "&#x0;",
+        "&#60;",
+        "<!--",
+        "-->",
+        "--",
+        "<![CDATA[",
+        "]]>",
+        "<?",
+        "?>",
+        "<?xml ",
+        "<!DOCTYPE svg",
+        "[",
+        "]",
+        "=",
+        " ",
+        "\n",
+        "\u{feff}",
+        "\u{0}",
+        "\u{1}",
+        "\u{ffff}",
+        "é",
+        ":",
+        "xmlns=''",
+        "<g>",
+        "</g>",
+        "<g/>",
+        "<!ENTITY b '<g/>'>",
+        "&b;",
+        "%",
+        "1",
+        "\u{b7}",
+        "xml:",
+        "xmlns:",
+        "\r",
+    ];
+
+    const WELL_FORMED: &str = "<?xml version='1.0' encoding='utf-8' standalone='no'?><!DOCTYPE svg PUBLIC 'a' 'b' \
+        [<!ENTITY a 'x'><!ENTITY % p SYSTEM 'u'><!ELEMENT q (z)><!-- c --><?pi x?>]><!-- c --><?pi y?><svg \
+        xmlns='http://www.w3.org/2000/svg' xmlns:x='u' a = 'b'><x:g><![CDATA[q]]>&a;&amp;&#65; ]]</x:g><rect/></svg>";
+
+    proptest::proptest! {
+        #[test]
+        fn what_is_parsed_was_prepared(
+            edits in proptest::collection::vec(
+                (proptest::prelude::any::<proptest::sample::Index>(), 0..6_usize, proptest::sample::select(PIECES)), 1..4),
+        ) {
+            let mut text = WELL_FORMED.to_owned();
+            for (place, removed, piece) in edits {
+                let boundary = |at: usize| (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap();
+                let start = boundary(place.index(text.len() + 1));
+                let end = boundary(start + removed).max(start);
+                text.replace_range(start..end, piece);
+            }
+            let tokenized = Tokenizer::from(text.as_str()).all(|token| token.is_ok());
+            if let Ok(prepared) = prepare(&text) {
+                let options = roxmltree::ParsingOptions { allow_dtd: true, ..Default::default() };
+                if let Ok(document) = roxmltree::Document::parse_with_options(&prepared.text, options)
+                    && check_elements(&document, &prepared).is_ok()
+                {
+                    proptest::prop_assert!(tokenized, "{text}");
+                    let mut joined = document.descendants().filter(|node| JOINED.contains(&node.tag_name().name()));
+                    proptest::prop_assert!(joined.all(|node| node.attribute("id").is_some()), "{text}");
+                }
+            }
+        }
     }
 }

@@ -16,7 +16,7 @@ use super::unsolid::Who;
 use super::walk::{Leaf, Task, Walk};
 use super::{Drawing, Element, Paint, PaintKey, PictureSource, Shape, growth, unseen};
 use crate::diagnostic::{Code, Diagnostic};
-use crate::geometry::{FillRule, Outline, resolve_overlaps};
+use crate::geometry::{FillRule, MAX_CROSSINGS, Outline, is_tangled, resolve_overlaps};
 use crate::resolver::Resolver;
 
 /// Joins usvg's tree and the XML.
@@ -29,7 +29,7 @@ pub(super) fn read(
 ) -> Result<Drawing, Box<Diagnostic>> {
     let broken_links = Mutex::new(Vec::new());
     let styles = Styles::read(document);
-    let early_ids = match prepared.draws_again {
+    let early_ids = match prepared.draws_again || prepared.has_clones {
         true => {
             let ids = Ids::read(document, prepared);
             growth::check(document, prepared, &styles, &ids)?;
@@ -67,10 +67,12 @@ pub(super) fn read(
         tolerance,
         page: DAffine2::from_translation(offset),
         unsolid: Vec::new(),
+        has_markers: false,
     };
     walk.group(document.root_element());
     let root = document.root_element().id();
     walk.children(tree.root(), root, 1.0, None);
+    walk.note_markers(&styles);
     let labels = labels
         .into_iter()
         .map(|(node, label)| (label, walk.group(node)))
@@ -144,6 +146,18 @@ pub(super) fn read(
     Ok(drawing)
 }
 
+/// The largest coordinate that is built, in user units: the surfaces of larger shapes do not fit into the `f32` that models
+/// are written in.
+const MAX_COORDINATE: f32 = 1e12;
+
+/// Whether a path has coordinates that cannot be built.
+fn is_beyond_use(path: &usvg::Path) -> bool {
+    let bounds = path.abs_bounding_box();
+    let sides = [bounds.left(), bounds.top(), bounds.right(), bounds.bottom()];
+    // Not a number is beyond use, too.
+    !sides.iter().all(|side| side.abs() <= MAX_COORDINATE)
+}
+
 fn page_corner(document: &roxmltree::Document<'_>) -> DVec2 {
     let view_box = document
         .root_element()
@@ -172,15 +186,48 @@ impl Context<'_, '_> {
             return (None, None);
         };
         match task.node {
+            Leaf::Path(path) if is_beyond_use(path) => {
+                let finding = self.beyond_use(node);
+                (None, Some(Box::new(finding)))
+            }
             Leaf::Path(path) => {
                 let shape = self.path(path, node, task);
-                let finding = shape
-                    .as_ref()
-                    .and_then(|shape| self.clipped_away(shape, path, task));
+                let finding = shape.as_ref().and_then(|shape| {
+                    self.tangled(shape, path)
+                        .or_else(|| self.clipped_away(shape, path, task))
+                });
                 (shape, finding.map(Box::new))
             }
             Leaf::Image(image) => (Some(self.image(index, image, node, task)), None),
         }
+    }
+
+    /// Reports that a shape is left out because of its coordinates.
+    fn beyond_use(&self, node: Node<'_, '_>) -> Diagnostic {
+        let element = self.element(node);
+        let name = element.describe();
+        let message = format!(
+            "{name} is left out: it has coordinates beyond {MAX_COORDINATE}, which cannot be built"
+        );
+        Diagnostic::new(Code::Vanishes, element.span, message)
+            .help("make it smaller, move it onto the page, or delete it")
+    }
+
+    /// Reports that a fill is left out because its outline crosses itself too often.
+    fn tangled(&self, shape: &Shape, path: &usvg::Path) -> Option<Diagnostic> {
+        let filled = path.fill().is_some_and(|fill| fill.opacity().get() > 0.0);
+        if !filled || !shape.outline.polygons.is_empty() {
+            return None;
+        }
+        let whole = bez_path(path.data(), self.page * affine(path.abs_transform()));
+        is_tangled(&rings(&whole, self.tolerance)).then(|| {
+            let name = shape.describe_as(&shape.outline, self.page_box);
+            let message = format!(
+                "{name} is left out: its outline crosses itself more than {MAX_CROSSINGS} times"
+            );
+            Diagnostic::new(Code::Vanishes, shape.element.span, message)
+                .help("draw it with fewer points, or in several shapes (in Inkscape, Path → Simplify, or Path → Break Apart)")
+        })
     }
 
     /// Reports that a clip removes a fill completely.

@@ -9,6 +9,9 @@ use crate::source::Span;
 pub(super) enum Feature {
     Mask,
     Filter,
+    /// The opacity of a group of several shapes.
+    GroupOpacity,
+    Marker,
 }
 
 /// What uses a feature: the index of a shape or a group.
@@ -21,23 +24,32 @@ pub(super) enum Who {
 impl Feature {
     /// One warning about all that use the feature.
     pub(super) fn report(self, drawing: &Drawing, users: &[Who]) -> Diagnostic {
-        let (what, help) = match self {
+        let (one, many, help) = match self {
             Self::Mask => (
-                "mask",
+                "has a mask, which has no meaning for solids",
+                "have masks, which have no meaning for solids",
                 "it is built without the mask; cut the shape itself instead, or use a clip (in Inkscape, Object → Clip)",
             ),
             Self::Filter => (
-                "filter",
+                "has a filter, which has no meaning for solids",
+                "have filters, which have no meaning for solids",
                 "it is built without the filter's effect, such as a blur or a shadow",
+            ),
+            Self::GroupOpacity => (
+                "is transparent as a whole, but its shapes become transparent one by one",
+                "are transparent as a whole, but their shapes become transparent one by one",
+                "where they overlap, they show through each other; unite them (in Inkscape, Path → Union), or remove the opacity of the group",
+            ),
+            Self::Marker => (
+                "has markers, such as arrowheads, which are not built",
+                "have markers, such as arrowheads, which are not built",
+                "turn them into shapes: in Inkscape, Path → Stroke to Path",
             ),
         };
         let names = listed(users.iter().map(|user| user.describe(drawing)));
         let message = match users {
-            [_] => format!("{names} has a {what}, which has no meaning for solids"),
-            _ => format!(
-                "{} shapes and groups have {what}s, which have no meaning for solids: {names}",
-                users.len()
-            ),
+            [_] => format!("{names} {one}"),
+            _ => format!("{} shapes and groups {many}: {names}", users.len()),
         };
         let span = users.first().map_or(Span::at(0), |user| user.span(drawing));
         Diagnostic::new(Code::NoSolidMeaning, span, message).help(help)

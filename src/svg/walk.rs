@@ -10,6 +10,7 @@ use super::clip::Clip;
 use super::elements::{Ids, element};
 use super::paths::affine;
 use super::prepare::Prepared;
+use super::style::Styles;
 use super::unsolid::Feature;
 use super::{Group, GroupKind};
 use crate::geometry::Outline;
@@ -51,6 +52,8 @@ pub(super) struct Walk<'a, 'input> {
     pub(super) page: DAffine2,
     /// The elements that use features without a meaning for solids, by feature.
     pub(super) unsolid: Vec<(Feature, Vec<NodeId>)>,
+    /// Whether shapes of markers were left out.
+    pub(super) has_markers: bool,
 }
 
 impl<'a> Walk<'a, '_> {
@@ -114,15 +117,15 @@ impl<'a> Walk<'a, '_> {
         let features = [
             (Feature::Mask, group.mask().is_some()),
             (Feature::Filter, !group.filters().is_empty()),
+            (
+                Feature::GroupOpacity,
+                group.opacity().get() < 1.0 && only_leaf(group).is_none(),
+            ),
         ];
         let used = features.into_iter().filter(|(_, used)| *used);
         let used: Vec<_> = used.map(|(feature, _)| (feature, user())).collect();
         for (feature, user) in used {
-            let known = self.unsolid.iter_mut().find(|(other, _)| *other == feature);
-            match known {
-                Some((_, users)) => users.push(user),
-                None => self.unsolid.push((feature, vec![user])),
-            }
+            self.note(feature, user);
         }
         let xml = own.unwrap_or(xml);
         let opacity = opacity * f64::from(group.opacity().get());
@@ -144,6 +147,40 @@ impl<'a> Walk<'a, '_> {
         }
     }
 
+    /// Notes that an element uses a feature without a meaning for solids.
+    fn note(&mut self, feature: Feature, user: NodeId) {
+        let known = self.unsolid.iter_mut().find(|(other, _)| *other == feature);
+        match known {
+            Some((_, users)) => users.push(user),
+            None => self.unsolid.push((feature, vec![user])),
+        }
+    }
+
+    /// Notes the elements that have markers, whose shapes are left out.
+    pub(super) fn note_markers(&mut self, styles: &Styles<'_>) {
+        if !self.has_markers {
+            return;
+        }
+        let document = self.root.document();
+        let has_marker = |node: Node<'_, '_>| {
+            let mut values = MARKERS
+                .iter()
+                .map(|property| styles.inherited(node, property));
+            values.any(|value| value.is_some_and(|value| value.starts_with("url")))
+        };
+        let paths = self
+            .tasks
+            .iter()
+            .filter(|task| matches!(task.node, Leaf::Path(_)));
+        let nodes: Vec<NodeId> = paths
+            .map(|task| task.xml)
+            .filter(|id| document.get_node(*id).is_some_and(has_marker))
+            .collect();
+        for node in nodes {
+            self.note(Feature::Marker, node);
+        }
+    }
+
     fn leaf(
         &mut self,
         leaf: Leaf<'a>,
@@ -152,15 +189,20 @@ impl<'a> Walk<'a, '_> {
         opacity: f64,
         clips: Option<&Arc<Vec<Clip>>>,
     ) {
-        let xml = self.by_id.get(id).unwrap_or(xml);
-        let Some(node) = self
-            .root
-            .document()
-            .get_node(xml)
-            .filter(|node| node.parent_element().is_some())
-        else {
+        let own = self.by_id.get(id);
+        let Some(node) = self.root.document().get_node(own.unwrap_or(xml)) else {
             return;
         };
+        // Of paths, only those that a clone or a marker draws have no element of their own.
+        let is_path = matches!(leaf, Leaf::Path(_));
+        if own.is_none() && is_path && node.tag_name().name() != "use" {
+            self.has_markers = true;
+            return;
+        }
+        if node == self.root {
+            return;
+        }
+        let xml = node.id();
         let group = self.group(node);
         self.tasks.push(Task {
             node: leaf,
@@ -171,6 +213,9 @@ impl<'a> Walk<'a, '_> {
         });
     }
 }
+
+/// The properties whose targets are drawn at a path's vertices.
+const MARKERS: [&str; 3] = ["marker-start", "marker-mid", "marker-end"];
 
 /// The kind of group that an element is, if it is one.
 pub(super) fn group_kind(node: Node<'_, '_>) -> Option<GroupKind> {

@@ -55,7 +55,8 @@ impl Drawing {
             options: compile::Options {
                 tolerance: options.tolerance,
             },
-            resolver: FolderResolver::new(options.root.clone().unwrap_or(folder)),
+            resolver: FolderResolver::new(options.base.clone().unwrap_or(folder))
+                .allowing(options.root.as_deref()),
             compiler: Compiler::default(),
             surfaces: Memo::default(),
             last: None,
@@ -116,6 +117,7 @@ impl Drawing {
             text,
             compiled,
             model,
+            linked: self.linked().collect(),
             incomplete,
             times,
         })))

@@ -20,7 +20,9 @@ pub use drawing::Drawing;
 /// How drawings are read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// The folder that linked files must lie in; `None` means the drawing's.
+    /// Where links start; `None` means the drawing's folder.
+    pub base: Option<PathBuf>,
+    /// A folder that linked files may be in, besides the drawing's.
     pub root: Option<PathBuf>,
     /// See [`TOLERANCE`].
     pub tolerance: f64,
@@ -33,6 +35,7 @@ pub struct Options {
 impl Default for Options {
     fn default() -> Self {
         Self {
+            base: None,
             root: None,
             tolerance: TOLERANCE,
             detection: ChangeDetection::default(),
@@ -50,6 +53,8 @@ pub struct Build {
     pub compiled: Compiled,
     /// The model as binary glTF, or why there is none.
     pub model: Result<Model, NoModel>,
+    /// The files that the drawing links to, including missing ones.
+    pub linked: Vec<PathBuf>,
     /// What can be built of a drawing with errors, if that is wanted.
     pub incomplete: Option<Model>,
     /// When it was built.

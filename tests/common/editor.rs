@@ -76,14 +76,31 @@ impl Editor {
         self.server.id()
     }
 
-    /// Sends a raw message.
+    /// Sends a message.
     pub(crate) fn send(&mut self, message: &Value) {
         let body = message.to_string();
+        self.send_raw(&format!("Content-Length: {}\r\n\r\n{body}", body.len()));
+    }
+
+    /// Sends text that need not be a message.
+    pub(crate) fn send_raw(&mut self, text: &str) {
         let input = self.input.as_mut().expect("the conversation is open");
-        let written = write!(input, "Content-Length: {}\r\n\r\n{body}", body.len());
+        let written = input.write_all(text.as_bytes());
         written
             .and_then(|()| input.flush())
             .expect("the server listens");
+    }
+
+    /// The next answer to a message whose number the server could not read.
+    pub(crate) fn answer_to_nothing(&mut self) -> Value {
+        let until = Instant::now() + PATIENCE;
+        loop {
+            let message = self.receive(until).expect("an answer");
+            if message.get("error").is_some() && message["id"].is_null() {
+                return message;
+            }
+            self.notes.push_back(message);
+        }
     }
 
     /// Sends a notification.

@@ -57,7 +57,7 @@ class Drawing:
                 links = os.path.join(folder, "links")
                 os.mkdir(links)
             # `--` because the name may begin with a dash.
-            yield folder, ["--root", links, "--", self.name]
+            yield folder, ["--base", links, "--", self.name]
         finally:
             shutil.rmtree(folder, ignore_errors=True)
 

@@ -86,7 +86,7 @@ def main(program, copy, original, root, folder, port):
         return
     state = {"pid": os.getpid(), "port": int(port), "copy": copy}
     follower = Follower(original, copy) if original else None
-    command = [program, "--color", "never", "preview", copy, "--root", root, "--port", port]
+    command = [program, "--color", "never", "preview", copy, "--base", root, "--port", port]
     server = None
     try:
         for name in ("SIGTERM", "SIGHUP"):

@@ -165,7 +165,7 @@ class Drawings(Folder):
     def test_the_copy_has_the_drawings_name_and_the_drawings_folder(self):
         drawing = self.drawing(os.path.join(self.folder, "-Mensch.svg"))
         with drawing.in_folder() as (folder, reading):
-            self.assertEqual(reading, ["--root", self.folder, "--", "-Mensch.svg"])
+            self.assertEqual(reading, ["--base", self.folder, "--", "-Mensch.svg"])
             with open(os.path.join(folder, "-Mensch.svg"), "rb") as file:
                 self.assertEqual(file.read(), drawing.data)
         self.assertFalse(os.path.exists(folder))
@@ -292,7 +292,7 @@ class Previews(Folder):
         self.assertNotEqual(self.lines(self.opened, 3)[2], pages[0])
         calls = [line.split("\t") for line in self.lines(self.calls, 2)]
         self.assertEqual(len(calls), 2)
-        self.assertEqual(calls[0][2:4], ["--root", self.folder])
+        self.assertEqual(calls[0][2:4], ["--base", self.folder])
         self.assertEqual(os.path.basename(calls[0][1]), "Mensch.svg")
         self.assertEqual(okoshi_previews.stop_all(), 2)
         self.assertEqual(okoshi_previews.stop_all(), 0)

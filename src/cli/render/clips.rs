@@ -1,12 +1,10 @@
 //! Rendering clips: which one, which part of it, and how it is written.
 
 use std::io;
-use std::path::Path;
 
-use super::{Failure, Form, MAX_THUMBNAILS, describe_picture, numbered, options};
+use super::{Destination, Failure, Form, MAX_THUMBNAILS, describe_picture, options};
 use crate::cli::args::Render;
 use crate::cli::progress::{counting, spinning};
-use crate::disk::write_atomic;
 use crate::render::{
     AnimationWriter, Clip, Film, HeldFrame, MAX_GIF_FPS, Model, Options, Palette, write_png,
 };
@@ -94,16 +92,18 @@ pub(super) fn strip(
     film: &Film<'_>,
     arguments: &Render,
     cells: u32,
-    output: &Path,
+    output: &Destination,
 ) -> Result<String, Failure> {
     let options = options(arguments);
+    let target = output.single().map_err(Failure::written)?;
     let image = counting("drawing", cells, |done| {
         film.film_strip(&options, cells, done)
     })
     .map_err(|error| Failure::of(arguments, &error))?;
-    write_atomic(output, |out| write_png(&image, out)).map_err(Failure::written)?;
+    let written = target.write(|out| write_png(&image, out));
+    written.map_err(Failure::written)?;
     let picture = describe_picture(options.size, film.triangles());
-    let name = output.display();
+    let name = output.path.display();
     Ok(format!("{name}: {cells} moments, {picture} each"))
 }
 
@@ -112,7 +112,7 @@ pub(super) fn moving(
     film: &Film<'_>,
     arguments: &Render,
     form: Form,
-    output: &Path,
+    output: &Destination,
 ) -> Result<String, Failure> {
     let options = options(arguments);
     let pictures = film
@@ -123,6 +123,7 @@ pub(super) fn moving(
     let picture = describe_picture(options.size, film.triangles());
     if form == Form::Png {
         let frames: u32 = pictures.iter().map(|picture| picture.frames).sum();
+        output.check_numbered(frames).map_err(Failure::written)?;
         counting("drawing", count, |done| {
             let mut number = 0;
             let mut left = pictures.iter().zip(1..);
@@ -134,19 +135,20 @@ pub(super) fn moving(
                 };
                 for _ in 0..picture.frames {
                     number += 1;
-                    let name = numbered(output, number, frames);
-                    write_atomic(&name, |out| out.write_all(&png)).map_err(Failure::written)?;
+                    output
+                        .numbered(number, frames)
+                        .and_then(|target| target.write(|out| out.write_all(&png)))
+                        .map_err(Failure::written)?;
                 }
                 done(drawn);
                 Ok::<(), Failure>(())
             })
         })?;
-        let [first, last] = [1, frames].map(|number| numbered(output, number, frames));
-        let (first, last) = (first.display(), last.display());
-        return Ok(format!("{first} to {last}: {picture} each"));
+        return Ok(format!("{}: {picture} each", output.range(frames)));
     }
+    let target = output.single().map_err(Failure::written)?;
     counting("drawing", count, |done| {
-        write_atomic(output, |out| {
+        target.write(|out| {
             let mut animation = match form {
                 Form::Gif => {
                     AnimationWriter::gif(out, options.size, palette(film, &options, &pictures)?)?
@@ -166,7 +168,7 @@ pub(super) fn moving(
     })
     .map_err(Failure::written)?;
     let seconds = rounded(pictures.iter().map(|picture| picture.seconds).sum());
-    let name = output.display();
+    let name = output.path.display();
     Ok(format!(
         "{name}: {count} pictures in {seconds} seconds, {picture} each"
     ))

@@ -11,6 +11,10 @@ use crate::lang::keyword::{Keyword, vocabulary};
 use crate::lang::parse::suggestions;
 use crate::lang::variables::{as_expression, evaluation_diagnostic};
 
+/// The largest number that an attribute can have, in whatever unit: products of a few of them still fit into the `f32` that
+/// models are written in.
+const MAX_NUMBER: f64 = 1e12;
+
 /// The value of an argument that matches its parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum ArgumentValue {
@@ -187,21 +191,30 @@ impl Checker<'_> {
                 return Err(ArgumentError::Invalid);
             }
         };
-        if bounds.contains(value) {
+        let is_usable = value.abs() <= MAX_NUMBER;
+        if is_usable && bounds.contains(value) {
             return Ok(ArgumentValue::Number(value));
         }
         let owner = match callee.parameters {
             1 => format!("`{}`", callee.name),
             _ => format!("`{}` of `{}`", parameter.name, callee.name),
         };
-        let message = format!("{owner} cannot be {value}");
+        let message = match is_usable {
+            true => format!("{owner} cannot be {value}"),
+            // Up to 300 digits otherwise.
+            false => format!("{owner} cannot be {value:e}"),
+        };
+        let expected = match is_usable || !bounds.contains(value) {
+            true => bounds.describe(),
+            false => format!("a number from -{MAX_NUMBER} to {MAX_NUMBER}"),
+        };
         self.diagnostics.push(
             Diagnostic::new(
                 Code::OutOfRange,
                 self.text.span(argument.range.clone()),
                 message,
             )
-            .label(format!("expected {}", bounds.describe())),
+            .label(format!("expected {expected}")),
         );
         Err(ArgumentError::Invalid)
     }

@@ -1,8 +1,8 @@
 //! The syntax tree and values of strings.
 
 use super::*;
-use crate::lang::looks_like_string;
 use crate::lang::value::{KindArguments, Origin, Shape, Value};
+use crate::lang::{annotates, looks_like_string};
 use crate::source::{Form, Span};
 
 fn head(input: &str, container: Container) -> String {
@@ -98,6 +98,62 @@ fn strings_are_distinguished_from_other_texts() {
         "(a)@b",
     ] {
         assert!(!looks_like_string(text), "{text}");
+    }
+}
+
+#[test]
+fn signs_alone_do_not_annotate() {
+    for text in [
+        "%Scale 2",
+        "% Strokes all",
+        "%Scael 2",
+        "$Color red",
+        "$Colr red",
+        "%%Scale 2",
+        "%$Scale 2",
+        "Arm$",
+        "Arm@Body",
+        "@Body$Shape round",
+        "*$Shape round",
+        "＄Ｃｏｌｏｒ red",
+    ] {
+        assert!(annotates(text), "{text}");
+    }
+    for text in [
+        "*",
+        "**",
+        "#",
+        "%",
+        "$",
+        "@",
+        "5",
+        "*5",
+        "* required",
+        "$5.99",
+        "$ 20",
+        "%50",
+        "100%",
+        "@5 pm",
+        "@anna",
+        "%name%",
+        "$NAME$",
+        "${total}",
+        "%s",
+        "%d items",
+        "$title",
+        "$-3",
+        "*Unuse",
+        "@",
+        "%,5",
+        "$!",
+        "%(a)",
+    ] {
+        assert!(!annotates(text), "{text}");
+    }
+    for text in ["$5.99", "% 20", "@ 5 pm", "$-3"] {
+        let reading = read(&Text::plain(text, 0), Container::Text);
+        assert_eq!(reading.annotation, Annotation::Caption, "{text}");
+        assert_eq!(reading.diagnostics, [], "{text}");
     }
 }
 

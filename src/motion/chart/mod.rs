@@ -97,9 +97,11 @@ fn escaped(text: &str) -> String {
 fn open(out: &mut String, chart: &Chart<'_>) {
     let [width, height] = SIZE;
     let title = escaped(chart.title);
+    let version = env!("CARGO_PKG_VERSION");
     let _ = write!(
         out,
         r##"<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" viewBox="0 0 {width} {height}" role="img" font-family="system-ui, sans-serif" font-size="12" fill="{QUIET}">
+<!-- Chart of a motion, written by okoshi {version} -->
 <title>{title}</title>
 <rect x="0.5" y="0.5" width="{}" height="{}" rx="8" fill="#ffffff" stroke="#d1d9e0"/>
 <text x="24" y="32" font-size="17" font-weight="600" fill="{INK}">{title}</text>
