@@ -139,12 +139,12 @@ const DRAWINGS: &[&str] = &[
 <path d="M150 178 L82 42" fill="none" stroke="black"/><path d="M0 0 9 9" fill="none" stroke="black" inkscape:connection-start="#far" inkscape:connection-end="#head"/>
 <text x="5" y="190" display="none">hidden</text><text x="9" y="199"> </text><text x="5" y="195"><desc>of a text</desc>* left out</text><rect x="2" y="188" width="5" height="5"/>
 <rect x="180" y="5" width="9" height="9" fill="#00f"/><text x="181" y="9">=$Color red</text></svg>"##,
-    // Entities of the drawing, one with markup; Japanese, emoji; a link to a file and a broken one.
-    "<!DOCTYPE svg [<!ENTITY e \"胴\"><!ENTITY m \"<tspan>腕＠胴</tspan>\"><!ENTITY t \"<text x='5' y='30'>twice</text>\">]>\r\n\
+    // Entities of the drawing; Japanese, emoji; a link to a file and a broken one.
+    "<!DOCTYPE svg [<!ENTITY e \"胴\"><!ENTITY m \"腕＠胴\"><!ENTITY t \"twice\">]>\r\n\
 <svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"100\" height=\"100\">\r\n\
 <rect x=\"20\" y=\"20\" width=\"30\" height=\"40\"/><text x=\"22\" y=\"30\">&e;＄形 丸 －９０ ９０</text>\r\n\
 <rect x=\"60\" y=\"20\" width=\"30\" height=\"10\"/><text x=\"62\" y=\"25\">&m;</text>\r\n\
-<circle cx=\"30\" cy=\"80\" r=\"9\"/><text x=\"30\" y=\"80\">🦀🦀@胴\r\n  $Offset 3\r\n</text>&t;&t;<rect x=\"3\" y=\"29\" width=\"4\" height=\"4\"/>\r\n\
+<circle cx=\"30\" cy=\"80\" r=\"9\"/><text x=\"30\" y=\"80\">🦀🦀@胴\r\n  $Offset 3\r\n</text><text x='5' y='30'>&t;</text><text x='5' y='30'>&t;</text><rect x=\"3\" y=\"29\" width=\"4\" height=\"4\"/>\r\n\
 <image x=\"60\" y=\"60\" width=\"30\" height=\"30\" xlink:href=\"gull.png\"/><text x=\"70\" y=\"75\">bird$Texture gull.png</text>\
 <image x=\"0\" y=\"60\" width=\"9\" height=\"9\" xlink:href=\"missing.png\"/></svg>\r\n",
     // Tiles: drawn, in a readable picture and in a broken one.
@@ -472,7 +472,7 @@ fn edits_that_may_change_markup_parse_the_drawing_again() {
         (0, ">Ubody<", ">]]>Ubody<"),
         (0, "\"30\"", "\"31\""),
         // Entities count wherever they are used.
-        (2, ">twice", ">thrice"),
+        (2, "\"twice\"", "\"thrice\""),
         (2, "\"胴\"", "\"体\""),
         // A line end beside another, and a name like a generated one.
         (2, "3\r\n<", "3\r<"),

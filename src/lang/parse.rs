@@ -66,9 +66,11 @@ pub fn annotates(text: &str) -> bool {
     }
 }
 
-/// Whether a description is a string: what [annotates] a drawing, or a `*`, which nobody describes a shape with by chance.
+/// Whether a description is a string: what [annotates] a drawing, a `*`, or the parent of a part without a name, which nobody
+/// describes a shape with by chance.
 pub fn describes(text: &str) -> bool {
-    annotates(text) || Normalized::new(text).as_str().trim_start().starts_with('*')
+    let normalized = Normalized::new(text);
+    annotates(text) || normalized.as_str().trim_start().starts_with(['*', '@'])
 }
 
 /// Whether `text` looks like a string in an annotated drawing: it starts with one

@@ -63,7 +63,11 @@ impl<'a> Tracer<'a> {
             .collect();
         let effort = match rays {
             Rays::Few => BvhBuildParams::fastest_build(),
-            Rays::Many => BvhBuildParams::medium_build(),
+            // Reinsertion would improve the tree a little, but may make it deeper than the stack that `obvhs` traverses it with.
+            Rays::Many => BvhBuildParams {
+                reinsertion_batch_ratio: 0.0,
+                ..BvhBuildParams::medium_build()
+            },
         };
         let tree = build_bvh2(&triangles, effort, &mut Duration::default());
         let order = || tree.primitive_indices.iter().map(|index| *index as usize);

@@ -299,8 +299,8 @@ fn wrong_usage_is_rejected() {
     for (arguments, message) in [
         (&["-o", "out.png"] as &[&str], "must end in .bvh"),
         (&["-o", "out"], "must end in .bvh"),
-        (&["-o", "kick.bvh"], "is the motion itself"),
-        (&["-o", "./kick.bvh"], "is the motion itself"),
+        (&["-o", "kick.bvh"], "is the file that is read"),
+        (&["-o", "./kick.bvh"], "is the file that is read"),
         (
             &["--range", "60:90"],
             "there is no frame 90: the clip has 68",
