@@ -107,7 +107,7 @@ impl Inputs {
 pub struct Target(PathBuf);
 
 impl Target {
-    /// Writes the file through `fill`, completely or not at all; see [`write_atomic`].
+    /// Writes the file through `fill`, completely or not at all.
     ///
     /// # Errors
     /// If the file cannot be written, or `fill` fails.

@@ -356,13 +356,16 @@ mod tests {
         std::thread::sleep(Duration::from_secs(60));
     }
 
-    #[cfg(unix)]
+    #[cfg(target_os = "linux")]
     #[test]
     fn an_interrupt_removes_named_files() {
         use rustix::process::{Pid, Signal, kill_process};
         for signal in [Signal::INT, Signal::TERM, Signal::HUP] {
             let folder = tempfile::tempdir().unwrap();
-            let mut child = std::process::Command::new(std::env::current_exe().unwrap())
+            // Jobs in the background of a shell ignore Ctrl-C, and their children do too.
+            let mut child = std::process::Command::new("env")
+                .arg("--default-signal=INT,TERM,HUP")
+                .arg(std::env::current_exe().unwrap())
                 .args(["disk::temporary::tests::victim", "--exact"])
                 .env(VICTIM, folder.path())
                 .stdout(std::process::Stdio::null())

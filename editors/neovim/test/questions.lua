@@ -148,7 +148,7 @@ return {
       h.open(h.example('human.svg'))
       h.equal(labels(complete(arm, 5)), { 'Lbody', 'Ubody', 'Larm', 'Head', 'U-1', 'U-2' })
       local keywords = complete(arm, 11)
-      h.equal(vim.list_slice(labels(keywords), 1, 4), { 'Color', 'Offset', 'Origin', 'Axis' })
+      h.equal(vim.list_slice(labels(keywords), 1, 4), { 'Color', 'Offset', 'Stack', 'Origin' })
       local kinds = complete(arm, 17)
       h.equal(vim.list_slice(labels(kinds), 1, 6), { '-s', '-c', '-d', 'default', 'roundv', 'roundh' })
       h.equal(kinds[5].detail, 'rounded about the part\'s axis: an arm, a leg, a trunk')

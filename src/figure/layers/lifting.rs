@@ -143,7 +143,8 @@ impl Lifting<'_> {
             .collect::<Vec<usize>>();
         let clips = shape.is_soft && !shape.is_ink && overflows();
         let is_alone = below.is_empty() && cover.behind.is_empty();
-        if is_alone && !clips {
+        // A line beside all shapes is a band too, and no solid of its host's kind.
+        if is_alone && !clips && !shape.is_ink {
             return Form::Raised(self.raise(index, moved));
         }
         let bulge = match form {
