@@ -204,10 +204,16 @@ impl Intervals {
         removed
     }
 
-    /// Calls `each` with each interval and the index of its line.
-    pub(crate) fn each(&self, mut each: impl FnMut(usize, [f64; 2])) {
+    /// Calls `each` with evenly spaced places in each interval, about this far apart and at least one: the index of the line, the
+    /// place, and the length that it stands for.
+    pub(crate) fn spread(&self, apart: f64, mut each: impl FnMut(usize, f64, f64)) {
         for (index, line) in self.lines.iter().enumerate() {
-            line.iter().for_each(|interval| each(index, *interval));
+            for [from, to] in line {
+                let count = ((to - from) / apart).round().max(1.0);
+                let weight = (to - from) / count;
+                (0..count as usize)
+                    .for_each(|k| each(index, from + weight * (k as f64 + 0.5), weight));
+            }
         }
     }
 

@@ -7,10 +7,7 @@ use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 
-use super::nodes::Nodes;
-use super::overlaps::Overlap;
-use super::shapes::Shape;
-use super::{Cover, FigureContext, Layers, NodeDepth};
+use super::{Arrangement, Layers, NodeDepth};
 use crate::geometry::Frame;
 use crate::scene::WorldTransform;
 use crate::solid::{Body, Lay, LayForm, Pile, RecentHeights};
@@ -26,18 +23,9 @@ const SAME: f64 = 0.01;
 
 /// All that lifting depends on.
 pub(super) struct Lifting<'a> {
-    pub(super) context: &'a FigureContext<'a>,
+    pub(super) arrangement: Arrangement<'a>,
     pub(super) frames: &'a [Frame],
     pub(super) world: &'a WorldTransform,
-    pub(super) shapes: &'a [Shape],
-    pub(super) nodes: &'a Nodes,
-    pub(super) overlaps: &'a [Vec<Overlap>],
-    pub(super) covers: &'a [Cover],
-    /// Per node its depth.
-    pub(super) depths: &'a [f64],
-    /// Per shape its step.
-    pub(super) steps: &'a [f64],
-    pub(super) is_one: bool,
 }
 
 /// The depths of plane faces, back and front, both measured outwards; `None` for a side without one.
@@ -57,22 +45,23 @@ impl Lifting<'_> {
         nodes: Vec<Option<NodeDepth>>,
         recent: Arc<RecentHeights>,
     ) -> Layers {
-        let parts = self.context.bindings.parts.len();
+        let parts = self.arrangement.context.bindings.parts.len();
         let mut offsets: Vec<f64> = (0..parts)
             .map(|part| {
-                self.context
-                    .stand(self.context.bindings.parts[part].main, part)
+                self.arrangement
+                    .context
+                    .stand(self.arrangement.context.bindings.parts[part].main, part)
                     .0
             })
             .collect();
-        for shape in self.shapes {
+        for shape in self.arrangement.shapes {
             offsets[shape.part] = shape.offset;
         }
         let mut raised = vec![[0.0; 2]; parts];
         // Per shape its faces, moved outwards, if it is not laid on others.
-        let mut moved: Vec<Option<Faces>> = Vec::with_capacity(self.shapes.len());
-        let mut lays: Vec<Option<Lay>> = Vec::with_capacity(self.shapes.len());
-        for (index, shape) in self.shapes.iter().enumerate() {
+        let mut moved: Vec<Option<Faces>> = Vec::with_capacity(self.arrangement.shapes.len());
+        let mut lays: Vec<Option<Lay>> = Vec::with_capacity(self.arrangement.shapes.len());
+        for (index, shape) in self.arrangement.shapes.iter().enumerate() {
             let (faces, lay) = match self.form(index, &moved) {
                 Form::Raised(by) => {
                     raised[shape.part] = by;
@@ -98,23 +87,23 @@ impl Lifting<'_> {
         }
     }
 
-    /// The depth of a shape's plane, drawing units.
-    fn plane(&self, index: usize) -> f64 {
-        self.depths[self.nodes.of_shape[index]] + self.shapes[index].offset
-    }
-
     fn form(&self, index: usize, moved: &[Option<Faces>]) -> Form {
-        let shape = &self.shapes[index];
-        let cover = &self.covers[index];
-        let below = || self.overlaps[index].iter().map(|overlap| overlap.below);
+        let shape = &self.arrangement.shapes[index];
+        let cover = &self.arrangement.covers[index];
+        let below = || {
+            self.arrangement.overlaps[index]
+                .iter()
+                .map(|overlap| overlap.below)
+        };
         if shape.is_given {
             return Form::Raised(self.raise(index, moved));
         }
-        let is_plate = |other: usize| moved[other].is_some() && !self.shapes[other].is_soft;
+        let is_plate =
+            |other: usize| moved[other].is_some() && !self.arrangement.shapes[other].is_soft;
         if !shape.is_soft && below().all(is_plate) {
             let by = self.raise(index, moved);
-            if by[1] <= MAX_RAISE * shape.height.max(self.steps[index])
-                || self.shapes[index].profile.is_open()
+            if by[1] <= MAX_RAISE * shape.height.max(self.arrangement.steps[index])
+                || self.arrangement.shapes[index].profile.is_open()
             {
                 return Form::Raised(by);
             }
@@ -131,12 +120,14 @@ impl Lifting<'_> {
             () if shape.is_ink => LayForm::Ink,
             () if shape.profile.is_open() => LayForm::Sheet,
             () if !cover.is_detail => LayForm::Volume,
-            () if shape.is_main && !self.is_one => LayForm::DeepSkin,
+            () if shape.is_main && !self.arrangement.is_one => LayForm::DeepSkin,
             () => LayForm::Skin,
         };
         // What keeps its volume stays beside others whose depth is given, unless it hangs on them.
         let lifts = |other: usize| {
-            form != LayForm::Volume || !self.shapes[other].is_given || self.is_kin(index, other)
+            form != LayForm::Volume
+                || !self.arrangement.shapes[other].is_given
+                || self.arrangement.is_kin(index, other)
         };
         let below = below()
             .filter(|other| lifts(*other))
@@ -158,40 +149,36 @@ impl Lifting<'_> {
             wraps: cover.wraps.clone(),
             behind: cover.behind.clone(),
             clips,
-            step: self.steps[index] * self.world.scale,
+            step: self.arrangement.steps[index] * self.world.scale,
             bulge,
             form,
-            is_line: self.context.bindings.parts[shape.part].is_stroke,
+            is_line: self.arrangement.context.bindings.parts[shape.part].is_stroke,
         })
     }
 
     /// The depths of the plane faces of a shape by itself, both measured outwards.
     fn faces(&self, index: usize) -> Faces {
-        let [back, front] = self.shapes[index].faces;
-        let depth = self.plane(index);
+        let [back, front] = self.arrangement.shapes[index].faces;
+        let depth = self.arrangement.plane(index);
         [
             back.map(|back| back - depth),
             front.map(|front| front + depth),
         ]
     }
 
-    /// Whether a shape is in the node of another one or hangs on it.
-    fn is_kin(&self, index: usize, other: usize) -> bool {
-        let [node, other] = [index, other].map(|shape| self.nodes.of_shape[shape]);
-        self.is_one || self.nodes.hangs_on(node, other)
-    }
-
     /// How far the plane faces of a shape are moved outwards, back and front, because of those of others that it lies over.
     fn raise(&self, index: usize, moved: &[Option<Faces>]) -> [f64; 2] {
-        let shape = &self.shapes[index];
-        let step = self.steps[index];
+        let shape = &self.arrangement.shapes[index];
+        let step = self.arrangement.steps[index];
         let faces = self.faces(index);
         [0, 1].map(|side| {
             let Some(own) = faces[side] else { return 0.0 };
-            let below = self.overlaps[index].iter().filter_map(|overlap| {
-                let moved = moved[overlap.below]?[side]?;
-                Some((self.faces(overlap.below)[side]?, moved))
-            });
+            let below = self.arrangement.overlaps[index]
+                .iter()
+                .filter_map(|overlap| {
+                    let moved = moved[overlap.below]?[side]?;
+                    Some((self.faces(overlap.below)[side]?, moved))
+                });
             let below: Vec<(f64, f64)> = below.collect();
             let is_free = side == 1 && !shape.is_given && !shape.is_soft;
             let mut level = own;
@@ -223,7 +210,7 @@ impl Lifting<'_> {
         raised: &[[f64; 2]],
         recent: Arc<RecentHeights>,
     ) -> (Pile, Vec<Option<usize>>) {
-        let mut takes_part = vec![false; self.shapes.len()];
+        let mut takes_part = vec![false; self.arrangement.shapes.len()];
         for (index, lay) in lays.iter().enumerate() {
             if let Some(lay) = lay {
                 takes_part[index] = true;
@@ -231,10 +218,10 @@ impl Lifting<'_> {
                 others.for_each(|other| takes_part[*other] = true);
             }
         }
-        let mut place = vec![usize::MAX; self.shapes.len()];
-        let mut lifted = vec![None; self.context.bindings.parts.len()];
+        let mut place = vec![usize::MAX; self.arrangement.shapes.len()];
+        let mut lifted = vec![None; self.arrangement.context.bindings.parts.len()];
         let mut count = 0;
-        for index in (0..self.shapes.len()).filter(|index| takes_part[*index]) {
+        for index in (0..self.arrangement.shapes.len()).filter(|index| takes_part[*index]) {
             place[index] = count;
             count += 1;
         }
@@ -245,7 +232,7 @@ impl Lifting<'_> {
             .enumerate()
             .filter(|(index, _)| takes_part[*index])
         {
-            let shape = &self.shapes[index];
+            let shape = &self.arrangement.shapes[index];
             let lay = lay.map(|lay| Lay {
                 below: to_place(lay.below),
                 wraps: to_place(lay.wraps),
@@ -261,24 +248,27 @@ impl Lifting<'_> {
     }
 
     fn body(&self, index: usize, lay: Option<Lay>, raised: [f64; 2]) -> Body {
-        let shape = &self.shapes[index];
+        let shape = &self.arrangement.shapes[index];
         let scale = self.world.scale;
         let mut profile = shape.profile.clone();
         profile.raise(raised);
-        let solid =
-            self.context
-                .natural(self.frames, self.world, [shape.main, shape.part], profile);
+        let solid = self.arrangement.context.natural(
+            self.frames,
+            self.world,
+            [shape.main, shape.part],
+            profile,
+        );
         let node = &self.frames[shape.main];
         let to_plane =
             DAffine2::from_translation(node.origin * scale) * DAffine2::from_angle(node.angle);
         Body {
             solid,
             to_plane,
-            depth: self.plane(index) * scale,
-            node_depth: self.depths[self.nodes.of_shape[index]] * scale,
+            depth: self.arrangement.plane(index) * scale,
+            node_depth: self.arrangement.depths[self.arrangement.nodes.of_shape[index]] * scale,
             flattened: shape.flattened,
             is_given: shape.is_given,
-            is_detail: self.covers[index].is_detail,
+            is_detail: self.arrangement.covers[index].is_detail,
             lay,
         }
     }

@@ -88,6 +88,34 @@ pub(super) struct Cover {
     behind: Vec<usize>,
 }
 
+/// Shapes, how they lie over one another, and where their nodes are: what lifting them depends on.
+#[derive(Clone, Copy)]
+struct Arrangement<'a> {
+    context: &'a FigureContext<'a>,
+    shapes: &'a [Shape],
+    nodes: &'a Nodes,
+    overlaps: &'a [Vec<Overlap>],
+    covers: &'a [Cover],
+    /// Per node its depth.
+    depths: &'a [f64],
+    /// Per shape its step.
+    steps: &'a [f64],
+    is_one: bool,
+}
+
+impl Arrangement<'_> {
+    /// The depth of a shape's plane, drawing units.
+    fn plane(&self, shape: usize) -> f64 {
+        self.depths[self.nodes.of_shape[shape]] + self.shapes[shape].offset
+    }
+
+    /// Whether a shape is in the node of another one or hangs on it.
+    fn is_kin(&self, shape: usize, other: usize) -> bool {
+        let [node, other] = [shape, other].map(|shape| self.nodes.of_shape[shape]);
+        self.is_one || self.nodes.hangs_on(node, other)
+    }
+}
+
 /// How the parts of a drawing lie in depth.
 pub(super) struct Layers {
     /// Per part that has a node, its depth.
@@ -146,10 +174,8 @@ impl Layers {
             .place()
         };
         let steps = steps(context, &shapes, &nodes, &overlaps, is_one);
-        let lifting = lifting::Lifting {
+        let arrangement = Arrangement {
             context,
-            frames,
-            world,
             shapes: &shapes,
             nodes: &nodes,
             overlaps: &overlaps,
@@ -157,6 +183,11 @@ impl Layers {
             depths: &placement.depths,
             steps: &steps,
             is_one,
+        };
+        let lifting = lifting::Lifting {
+            arrangement,
+            frames,
+            world,
         };
         let node = |part: usize| {
             let node = nodes.of_part[part]?;
@@ -170,14 +201,7 @@ impl Layers {
             recent,
         );
         let buried = Search {
-            context,
-            shapes: &shapes,
-            nodes: &nodes,
-            overlaps: &overlaps,
-            covers: &covers,
-            depths: &placement.depths,
-            steps: &steps,
-            is_one,
+            arrangement,
             layers: &layers,
         }
         .find();

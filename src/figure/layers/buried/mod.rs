@@ -3,16 +3,15 @@
 //! Looked for over a few lines across each part: at points where the drawing shows it, the fronts of what it lies over are
 //! compared with its own. Fronts are those of the solids by themselves, lifted by what they lie on.
 
+mod hint;
+
 use glam::DVec2;
 use rayon::prelude::*;
 
-use super::nodes::Nodes;
-use super::overlaps::Overlap;
-use super::shapes::Shape;
-use super::{Cover, FigureContext, Layers};
-use crate::diagnostic::{Code, Diagnostic, Fix, listed};
+pub(in super::super) use hint::report;
+
+use super::{Arrangement, FigureContext, Layers};
 use crate::geometry::{Intervals, Scanlines};
-use crate::source::Span;
 use crate::threads::GRAIN;
 
 /// The share of a part's visible area from which on it is reported as hidden: less is seldom more than an edge that was drawn
@@ -25,8 +24,6 @@ const LEAST_AREA: f64 = 40.0 / (400.0 * 400.0);
 const FLOATS: f64 = 0.1;
 /// Points along a line across a part.
 const SAMPLES: f64 = 12.0;
-/// Limit of the places that a hint refers to.
-const MAX_RELATED: usize = 3;
 
 /// What a given depth does to a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -59,16 +56,7 @@ pub(in super::super) struct Buried {
 
 /// All that the search depends on.
 pub(super) struct Search<'a> {
-    pub(super) context: &'a FigureContext<'a>,
-    pub(super) shapes: &'a [Shape],
-    pub(super) nodes: &'a Nodes,
-    pub(super) overlaps: &'a [Vec<Overlap>],
-    pub(super) covers: &'a [Cover],
-    /// Per node its depth.
-    pub(super) depths: &'a [f64],
-    /// Per shape its step.
-    pub(super) steps: &'a [f64],
-    pub(super) is_one: bool,
+    pub(super) arrangement: Arrangement<'a>,
     pub(super) layers: &'a Layers,
 }
 
@@ -95,27 +83,34 @@ impl Search<'_> {
     /// The parts that given depths hide or let float, in the order of drawing.
     pub(super) fn find(&self) -> Vec<Buried> {
         let is_moved: Vec<bool> = self.moved();
-        let is_numbered =
-            |shape: usize| self.shapes[shape].is_given || is_moved[self.nodes.of_shape[shape]];
-        if !(0..self.shapes.len()).any(is_numbered) {
+        let is_numbered = |shape: usize| {
+            self.arrangement.shapes[shape].is_given
+                || is_moved[self.arrangement.nodes.of_shape[shape]]
+        };
+        if !(0..self.arrangement.shapes.len()).any(is_numbered) {
             return Vec::new();
         }
         let highest = self.highest();
         let may_be_hidden = |above: usize| {
-            let below = || self.overlaps[above].iter().map(|overlap| overlap.below);
+            let below = || {
+                self.arrangement.overlaps[above]
+                    .iter()
+                    .map(|overlap| overlap.below)
+            };
             let lowest = self.lowest(above);
             (is_numbered(above) || below().any(is_numbered))
                 && below().any(|below| highest[below] > lowest && !self.is_lifted_by(above, below))
         };
-        let wanted: Vec<bool> = (0..self.shapes.len())
+        let wanted: Vec<bool> = (0..self.arrangement.shapes.len())
             .into_par_iter()
             .with_min_len(GRAIN)
             .map(|shape| {
-                !self.shapes[shape].is_ink && (may_be_hidden(shape) || self.may_float(shape))
+                !self.arrangement.shapes[shape].is_ink
+                    && (may_be_hidden(shape) || self.may_float(shape))
             })
             .collect();
-        let mut above: Vec<Vec<usize>> = vec![Vec::new(); self.shapes.len()];
-        for (later, below) in self.overlaps.iter().enumerate() {
+        let mut above: Vec<Vec<usize>> = vec![Vec::new(); self.arrangement.shapes.len()];
+        for (later, below) in self.arrangement.overlaps.iter().enumerate() {
             for overlap in below.iter().filter(|overlap| wanted[overlap.below]) {
                 above[overlap.below].push(later);
             }
@@ -123,12 +118,12 @@ impl Search<'_> {
         if !wanted.contains(&true) {
             return Vec::new();
         }
-        let opaque: Vec<bool> = (0..self.shapes.len())
+        let opaque: Vec<bool> = (0..self.arrangement.shapes.len())
             .into_par_iter()
             .with_min_len(GRAIN)
             .map(|shape| self.is_opaque(shape))
             .collect();
-        (0..self.shapes.len())
+        (0..self.arrangement.shapes.len())
             .into_par_iter()
             .filter(|shape| wanted[*shape])
             .flat_map_iter(|shape| self.look_at(shape, &above[shape], &opaque))
@@ -137,62 +132,60 @@ impl Search<'_> {
 
     /// Per node whether an `Offset` moves it or what it hangs on.
     fn moved(&self) -> Vec<bool> {
-        let mut moved = vec![false; self.nodes.len()];
-        for node in self.nodes.by_level() {
-            let parent = self.nodes.parent[node].filter(|_| !self.is_one);
-            moved[node] = self.nodes.given[node].is_some_and(|offset| offset != 0.0)
+        let mut moved = vec![false; self.arrangement.nodes.len()];
+        for node in self.arrangement.nodes.by_level() {
+            let parent = self.arrangement.nodes.parent[node].filter(|_| !self.arrangement.is_one);
+            moved[node] = self.arrangement.nodes.given[node].is_some_and(|offset| offset != 0.0)
                 || parent.is_some_and(|parent| moved[parent]);
         }
         moved
     }
 
-    /// The depth of a shape's plane, drawing units.
-    fn plane(&self, shape: usize) -> f64 {
-        self.depths[self.nodes.of_shape[shape]] + self.shapes[shape].offset
-    }
-
     fn is_laid(&self, shape: usize) -> bool {
-        self.layers.lifted(self.shapes[shape].part).is_some()
+        self.layers
+            .lifted(self.arrangement.shapes[shape].part)
+            .is_some()
     }
 
     /// Whether a shape keeps its volume, rather than being a skin on what it lies on.
     fn is_volume(&self, shape: usize) -> bool {
-        !self.covers[shape].is_detail && !self.shapes[shape].profile.is_open()
+        !self.arrangement.covers[shape].is_detail
+            && !self.arrangement.shapes[shape].profile.is_open()
     }
 
     /// Whether a shape comes out in front of an earlier one that it lies over.
     fn is_lifted_by(&self, shape: usize, below: usize) -> bool {
-        let is_kin = || {
-            let [node, other] = [shape, below].map(|shape| self.nodes.of_shape[shape]);
-            self.is_one || self.nodes.hangs_on(node, other)
-        };
-        self.is_laid(shape) && (!self.is_volume(shape) || !self.shapes[below].is_given || is_kin())
+        self.is_laid(shape)
+            && (!self.is_volume(shape)
+                || !self.arrangement.shapes[below].is_given
+                || self.arrangement.is_kin(shape, below))
     }
 
     /// How deep the front of a shape by itself may be at least, drawing units.
     fn lowest(&self, shape: usize) -> f64 {
-        let own = &self.shapes[shape];
+        let own = &self.arrangement.shapes[shape];
         let front = match own.is_soft {
             true => 0.0,
             false => own.plate[1] + self.layers.raised(own.part)[1],
         };
-        self.plane(shape) + front
+        self.arrangement.plane(shape) + front
     }
 
     /// Per shape how far its front reaches at most, what lifts it included, drawing units.
     fn highest(&self) -> Vec<f64> {
-        let mut highest: Vec<f64> = Vec::with_capacity(self.shapes.len());
-        for (index, shape) in self.shapes.iter().enumerate() {
+        let mut highest: Vec<f64> = Vec::with_capacity(self.arrangement.shapes.len());
+        for (index, shape) in self.arrangement.shapes.iter().enumerate() {
             let reach = shape.height.max(shape.plate[1]) + self.layers.raised(shape.part)[1];
-            let own = self.plane(index) + reach;
-            let copies = self
-                .mirrors(index)
-                .map(|plane| 2.0 * plane - self.plane(index) + shape.height.max(shape.plate[0]));
+            let own = self.arrangement.plane(index) + reach;
+            let copies = self.mirrors(index).map(|plane| {
+                2.0 * plane - self.arrangement.plane(index) + shape.height.max(shape.plate[0])
+            });
             let mut most = copies.fold(own, f64::max);
             if self.is_laid(index) {
-                let below = self.overlaps[index].iter();
-                let below =
-                    below.map(|overlap| highest[overlap.below] + reach.max(self.steps[index]));
+                let below = self.arrangement.overlaps[index].iter();
+                let below = below.map(|overlap| {
+                    highest[overlap.below] + reach.max(self.arrangement.steps[index])
+                });
                 most = below.fold(most, f64::max);
             }
             highest.push(most);
@@ -202,26 +195,31 @@ impl Search<'_> {
 
     /// The planes, drawing units, in which copies of a shape are mirrored.
     fn mirrors(&self, shape: usize) -> impl Iterator<Item = f64> {
-        let node = self.nodes.of_shape[shape];
-        let (_, both) = self
-            .context
-            .stand(self.shapes[shape].main, self.shapes[shape].part);
-        let own = both.then(|| self.depths[node]);
+        let node = self.arrangement.nodes.of_shape[shape];
+        let (_, both) = self.arrangement.context.stand(
+            self.arrangement.shapes[shape].main,
+            self.arrangement.shapes[shape].part,
+        );
+        let own = both.then(|| self.arrangement.depths[node]);
         let is_doubled = |node: usize| {
-            let attributes = self.context.bindings.attributes(self.nodes.main[node]);
+            let attributes = self
+                .arrangement
+                .context
+                .bindings
+                .attributes(self.arrangement.nodes.main[node]);
             attributes.shape().doubled
         };
         let parent = is_doubled(node).then(|| {
-            let parent = self.nodes.parent[node];
-            parent.map_or(0.0, |parent| self.depths[parent])
+            let parent = self.arrangement.nodes.parent[node];
+            parent.map_or(0.0, |parent| self.arrangement.depths[parent])
         });
         own.into_iter().chain(parent)
     }
 
     /// How deep the front of a shape by itself is over a point, copies included, drawing units.
     fn own_front(&self, shape: usize, at: DVec2) -> f64 {
-        let own = &self.shapes[shape];
-        let (plane, front) = (self.plane(shape), own.front(at));
+        let own = &self.arrangement.shapes[shape];
+        let (plane, front) = (self.arrangement.plane(shape), own.front(at));
         // What is soft is about as thick behind its plane as in front of it.
         let back = if own.is_soft { front } else { own.plate[0] };
         let copies = self
@@ -246,7 +244,7 @@ impl Search<'_> {
         let Some(top) = lifting.max_by(|a, b| a.depth.total_cmp(&b.depth)) else {
             return own;
         };
-        let depth = top.depth + self.steps[shape];
+        let depth = top.depth + self.arrangement.steps[shape];
         if self.is_volume(shape) && own.depth >= depth {
             return own;
         }
@@ -258,8 +256,8 @@ impl Search<'_> {
     }
 
     fn is_opaque(&self, shape: usize) -> bool {
-        let FigureContext { drawing, bindings } = self.context;
-        let factors = bindings.material_factors(drawing, self.shapes[shape].part);
+        let FigureContext { drawing, bindings } = self.arrangement.context;
+        let factors = bindings.material_factors(drawing, self.arrangement.shapes[shape].part);
         factors.color[3] >= 1.0
     }
 
@@ -267,20 +265,20 @@ impl Search<'_> {
     /// them on purpose.
     fn may_float(&self, shape: usize) -> bool {
         let has_copies = self.mirrors(shape).next().is_some();
-        self.covers[shape].is_detail && self.gives(shape).is_some() && !has_copies
+        self.arrangement.covers[shape].is_detail && self.gives(shape).is_some() && !has_copies
     }
 
     /// The part whose numbers say how deep a shape lies by itself.
     fn gives(&self, shape: usize) -> Option<usize> {
-        let bindings = self.context.bindings;
-        let part = bindings.form(self.shapes[shape].part);
+        let bindings = self.arrangement.context.bindings;
+        let part = bindings.form(self.arrangement.shapes[shape].part);
         bindings.given_depth(part).map(|_| part)
     }
 
     /// The part whose `Offset` moves a shape away from another one, to this side.
     fn moves(&self, shape: usize, other: usize, is_forward: bool) -> Option<usize> {
-        let nodes = self.nodes;
-        let mut next = Some(nodes.of_shape[shape]).filter(|_| !self.is_one);
+        let nodes = self.arrangement.nodes;
+        let mut next = Some(nodes.of_shape[shape]).filter(|_| !self.arrangement.is_one);
         while let Some(node) = next.filter(|node| !nodes.hangs_on(nodes.of_shape[other], *node)) {
             let offset = nodes.given[node].unwrap_or_default();
             if (is_forward && offset > 0.0) || (!is_forward && offset < 0.0) {
@@ -295,7 +293,7 @@ impl Search<'_> {
     fn look_at(&self, shape: usize, above: &[usize], opaque: &[bool]) -> Vec<Buried> {
         let (points, whole) = self.points(shape, above, opaque);
         let visible: f64 = points.iter().map(|point| point.weight).sum();
-        let own = &self.shapes[shape];
+        let own = &self.arrangement.shapes[shape];
         if visible <= 0.0 {
             return Vec::new();
         }
@@ -305,7 +303,7 @@ impl Search<'_> {
         for point in &points {
             let front = self.front(shape, point.at, &point.below).depth;
             let by = point.below.iter().filter(|below| {
-                below.depth > front + 0.5 * self.steps[shape]
+                below.depth > front + 0.5 * self.arrangement.steps[shape]
                     && !self.is_lifted_by(shape, below.shape)
                     && opaque[below.shape]
             });
@@ -315,7 +313,7 @@ impl Search<'_> {
                 let given = given.or_else(|| self.moves(shape, top.from, false));
                 let given = given.or_else(|| self.gives(top.from));
                 let given = given.or_else(|| self.moves(top.from, shape, true))?;
-                Some((given, self.shapes[top.shape].part))
+                Some((given, self.arrangement.shapes[top.shape].part))
             });
             if let Some((given, other)) = given {
                 let mut found = hidden.iter_mut();
@@ -333,11 +331,14 @@ impl Search<'_> {
                     true => own.front(point.at),
                     false => own.plate[0],
                 };
-                gaps.push((self.plane(shape) - back - below.depth, below.shape));
+                gaps.push((
+                    self.arrangement.plane(shape) - back - below.depth,
+                    below.shape,
+                ));
             }
         }
         let mut found = Vec::new();
-        let page = self.context.drawing.page.1.max_element();
+        let page = self.arrangement.context.drawing.page.1.max_element();
         let shown = visible / whole * own.area;
         let mut givens: Vec<usize> = hidden.iter().map(|(given, ..)| *given).collect();
         givens.sort_unstable();
@@ -366,7 +367,10 @@ impl Search<'_> {
     fn floating(&self, shape: usize, gaps: &[(f64, usize)]) -> Option<Buried> {
         let nearest = gaps.iter().min_by(|a, b| a.0.total_cmp(&b.0));
         let (gap, other) = *nearest.filter(|_| self.may_float(shape))?;
-        let (own, other) = (&self.shapes[shape], &self.shapes[other]);
+        let (own, other) = (
+            &self.arrangement.shapes[shape],
+            &self.arrangement.shapes[other],
+        );
         let extent = (other.bounds.1 - other.bounds.0).max_element();
         (gap > FLOATS * extent && gap > 2.0 * own.height).then_some(Buried {
             given: self.gives(shape)?,
@@ -379,11 +383,11 @@ impl Search<'_> {
     /// Points spread over what the drawing shows of a shape that these are drawn over, and the length that all of the shape would
     /// stand for.
     fn points(&self, shape: usize, above: &[usize], opaque: &[bool]) -> (Vec<Point>, f64) {
-        let own = &self.shapes[shape];
+        let own = &self.arrangement.shapes[shape];
         let lines = Scanlines::across(own.bounds);
         let (mut shown, mut other) = (Intervals::default(), Intervals::default());
         let cut = |shape: usize, out: &mut Intervals| {
-            let shape = &self.shapes[shape];
+            let shape = &self.arrangement.shapes[shape];
             lines.cut(&shape.outline, &shape.ranges, out);
         };
         cut(shape, &mut shown);
@@ -394,17 +398,15 @@ impl Search<'_> {
         }
         let apart = (own.bounds.1.x - own.bounds.0.x) / SAMPLES;
         let mut points = Vec::new();
-        shown.each(|line, [from, to]| {
-            let count = ((to - from) / apart).round().max(1.0);
-            let weight = (to - from) / count;
-            points.extend((0..count as usize).map(|k| Point {
+        shown.spread(apart, |line, x, weight| {
+            points.push(Point {
                 line,
-                at: DVec2::new(from + weight * (k as f64 + 0.5), lines.place(line)),
+                at: DVec2::new(x, lines.place(line)),
                 weight,
                 below: Vec::new(),
-            }));
+            });
         });
-        for overlap in &self.overlaps[shape] {
+        for overlap in &self.arrangement.overlaps[shape] {
             cut(overlap.below, &mut other);
             for point in &mut points {
                 if other.contains(point.line, point.at.x) {
@@ -415,96 +417,6 @@ impl Search<'_> {
         }
         (points, whole)
     }
-}
-
-/// Adds a hint for each given depth that hides parts, and for each that lets parts float.
-pub(in super::super) fn report(
-    context: &FigureContext<'_>,
-    found: Vec<Buried>,
-    diagnostics: &mut Vec<Diagnostic>,
-) {
-    let bindings = context.bindings;
-    let placed = found.into_iter().filter_map(|found| {
-        let given = bindings.given_depth(found.given)?;
-        let floats = matches!(found.harm, Harm::Floats(_));
-        Some(((bindings.span_of_depth(&given), floats), found))
-    });
-    let mut placed: Vec<((Span, bool), Buried)> = placed.collect();
-    placed.sort_by_key(|(place, _)| *place);
-    let groups = placed.chunk_by(|(a, _), (b, _)| a == b);
-    diagnostics.extend(groups.filter_map(|group| {
-        let ((span, floats), _) = group[0];
-        let mut found: Vec<&Buried> = group.iter().map(|(_, found)| found).collect();
-        // The worst first.
-        found.sort_by(|a, b| b.harm.amount().total_cmp(&a.harm.amount()));
-        hint(context, span, floats, &found)
-    }));
-}
-
-/// The hint for the depth at `span` that hides these parts or lets them float.
-fn hint(
-    context: &FigureContext<'_>,
-    span: Span,
-    floats: bool,
-    found: &[&Buried],
-) -> Option<Diagnostic> {
-    let FigureContext { drawing, bindings } = context;
-    let given = bindings.given_depth(found.first()?.given)?;
-    let name = |part: usize| match bindings.parts[part].is_automatic() {
-        // Nobody knows an automatic name.
-        true => drawing.describe(bindings.parts[part].shape),
-        false => bindings.describe(drawing, part),
-    };
-    let mut others: Vec<usize> = found.iter().map(|found| found.other).collect();
-    others.sort_unstable();
-    others.dedup();
-    let what = listed(found.iter().map(|found| match found.harm {
-        Harm::Hidden(share) => format!("{:.0} % of {}", share * 100.0, name(found.part)),
-        Harm::Floats(_) => name(found.part),
-    }));
-    let by = listed(others.iter().map(|other| name(*other)));
-    let is_one = found.len() == 1;
-    let message = match (floats, is_one) {
-        (false, true) => format!("{what} is hidden by {by}, although it is drawn later"),
-        (false, false) => format!("{what} are hidden by {by}, although they are drawn later"),
-        (true, true) => {
-            let gap = found[0].harm.amount();
-            format!("{what} floats {gap:.1} in front of {by}, on which it is drawn")
-        }
-        (true, false) => format!("{what} float in front of {by}, on which they are drawn"),
-    };
-    let whose = match given.is_in_legend() {
-        true => "parts with this paint lie".to_owned(),
-        false => format!("{} lies", name(found[0].given)),
-    };
-    let mut hint = Diagnostic::new(Code::Buried, span, message).label(format!(
-        "this says how deep {whose}, whatever the order of drawing"
-    ));
-    let [of_part, of_other] = match floats {
-        true => ["this floats", "it is drawn on this"],
-        false => ["this is hidden", "this hides it"],
-    };
-    let place = |part: usize| drawing.shapes[bindings.parts[part].shape].element.span;
-    let parts = found.iter().map(|found| (found.part, of_part));
-    let others = others.into_iter().map(|other| (other, of_other));
-    for (part, what) in parts.take(MAX_RELATED).chain(others.take(MAX_RELATED)) {
-        hint = hint.related(place(part), what);
-    }
-    let Some(edits) = bindings.without_depth(&given) else {
-        return Some(hint.help("change the depth, or draw in the order in which things lie"));
-    };
-    hint.fixes.push(Fix {
-        title: match given.is_in_legend() {
-            true => "Take the depth out of the legend".to_owned(),
-            false => format!("Take the depth of {} away", name(found[0].given)),
-        },
-        edits,
-        safe: false,
-    });
-    Some(hint.help(match given.shape {
-        Some(_) => "without a depth, a part lies as it is drawn; `%Shape` with depths sets a thickness for all parts",
-        None => "without `Offset`, a part lies as it is drawn",
-    }))
 }
 
 #[cfg(test)]
