@@ -1,8 +1,8 @@
 //! How far solids come towards the viewer, looked up in their surfaces.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec2, Vec3};
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use rustc_hash::FxHashSet;
 
@@ -13,7 +13,7 @@ const WALL: f64 = 1e-6;
 /// The distance, relative to the largest coordinate, at which a point counts as lying in a triangle.
 const SLACK: f64 = 1e-7;
 /// Cells a triangle.
-const CELLS: f64 = 3.0;
+const CELLS: f64 = 2.0;
 /// Limit of the cells along each side of the grid.
 const MAX_CELLS: f64 = 512.0;
 
@@ -26,6 +26,7 @@ pub(super) struct Heights {
     is_field: bool,
     slack: f64,
     border: OnceLock<Border>,
+    corners: OnceLock<Vec<Vec2>>,
 }
 
 /// The edges at which nothing on the other side faces the viewer.
@@ -62,12 +63,8 @@ impl Heights {
             is_field,
             slack: SLACK * f64::from(largest),
             border: OnceLock::new(),
+            corners: OnceLock::new(),
         }
-    }
-
-    /// The number of its triangles.
-    pub(super) fn facet_count(&self) -> usize {
-        self.facets.len()
     }
 
     /// The height over a point of the drawing plane, if the surface is there.
@@ -122,11 +119,16 @@ impl Heights {
         Border::Uneven(RTree::bulk_load(border))
     }
 
-    /// The corners of the triangles in a box, some of them several times.
-    pub(super) fn corners(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = DVec2> + '_ {
-        let facets = self.grid.in_box(low, high);
-        let corners = facets.flat_map(|facet| self.facets[facet as usize].flat());
-        corners.filter(move |point| point.clamp(low, high) == *point)
+    /// The corners of the triangles, each of them once.
+    pub(super) fn corners(&self) -> impl Iterator<Item = DVec2> + '_ {
+        let corners = self.corners.get_or_init(|| {
+            let mut known: FxHashSet<[u32; 2]> = FxHashSet::default();
+            let all = self.facets.iter().flat_map(|facet| facet.corners);
+            all.map(Vec3::truncate)
+                .filter(|corner| known.insert(corner.to_array().map(f32::to_bits)))
+                .collect()
+        });
+        corners.iter().map(|corner| corner.as_dvec2())
     }
 
     /// Where a line from one point to another crosses the edges of triangles, as shares of its length: in no order, some of them
@@ -152,7 +154,7 @@ impl Heights {
 struct Facet {
     corners: [Vec3; 3],
     /// How much higher it is per unit, across and up.
-    slope: DVec2,
+    slope: Vec2,
 }
 
 impl Facet {
@@ -162,24 +164,34 @@ impl Facet {
         let normal = (b - a).cross(c - a);
         (normal.z > WALL * normal.length()).then(|| Self {
             corners,
-            slope: normal.truncate() / -normal.z,
+            slope: (normal.truncate() / -normal.z).as_vec2(),
         })
     }
 
     /// Its corners in the drawing plane.
+    #[inline]
     fn flat(&self) -> [DVec2; 3] {
-        self.corners.map(|corner| corner.truncate().as_dvec2())
+        // Spelled out, because this is where piles spend their time.
+        let [a, b, c] = &self.corners;
+        [
+            DVec2::new(a.x.into(), a.y.into()),
+            DVec2::new(b.x.into(), b.y.into()),
+            DVec2::new(c.x.into(), c.y.into()),
+        ]
     }
 
+    #[inline]
     fn edges(&self) -> [[DVec2; 2]; 3] {
         let [a, b, c] = self.flat();
         [[a, b], [b, c], [c, a]]
     }
 
     /// The height over a point that is in the triangle, or outside by at most `slack`.
+    #[inline]
     fn height(&self, point: DVec2, slack: f64) -> Option<f64> {
+        let [a, b, c] = self.flat();
         let mut is_inside = true;
-        for [from, to] in self.edges() {
+        for [from, to] in [[a, b], [b, c], [c, a]] {
             let edge = to - from;
             let distance = edge.perp_dot(point - from);
             if distance < 0.0 {
@@ -189,14 +201,17 @@ impl Facet {
                 }
             }
         }
-        let [a, b, c] = self.corners;
-        let (low, high) = (a.min(b).min(c).as_dvec3(), a.max(b).max(c).as_dvec3());
+        let (low, high) = (a.min(b).min(c) - slack, a.max(b).max(c) + slack);
         // At a sharp corner, a point may be near both edges and still be far away.
-        let is_near = || point.clamp(low.truncate() - slack, high.truncate() + slack) == point;
-        (is_inside || is_near()).then(|| {
-            let a = a.as_dvec3();
+        (is_inside || point.clamp(low, high) == point).then(|| {
+            let [low, middle, high] = &self.corners;
+            let (low, high) = (
+                low.z.min(middle.z).min(high.z),
+                low.z.max(middle.z).max(high.z),
+            );
+            let height = f64::from(self.corners[0].z) + self.slope.as_dvec2().dot(point - a);
             // In steep triangles the plane is known less precisely than the corners.
-            (a.z + self.slope.dot(point - a.truncate())).clamp(low.z, high.z)
+            height.clamp(low.into(), high.into())
         })
     }
 }
@@ -373,19 +388,36 @@ impl Grid {
 #[derive(Debug, Clone)]
 pub(super) struct BothHeights {
     pub(super) front: Arc<Heights>,
-    /// Of the solid mirrored in its plane.
-    pub(super) back: Arc<Heights>,
+    back: Arc<LazyHeights>,
 }
 
+/// Heights that are made when they are first needed.
+type LazyHeights = LazyLock<Heights, Box<dyn FnOnce() -> Heights + Send + Sync>>;
+
 impl BothHeights {
-    pub(super) fn of(surface: &Surface) -> Self {
+    /// The heights of a front, and of a back, which few need: those of the solid mirrored in its plane.
+    pub(super) fn new(
+        front: Heights,
+        back: impl FnOnce() -> Heights + Send + Sync + 'static,
+    ) -> Self {
         Self {
-            front: Arc::new(Heights::of(surface)),
-            back: Arc::new(Heights::of(&surface.mirrored())),
+            front: Arc::new(front),
+            back: Arc::new(LazyLock::new(Box::new(back))),
         }
     }
 
+    pub(super) fn of(surface: &Surface) -> Self {
+        let back = Heights::of(&surface.mirrored());
+        Self::new(Heights::of(surface), move || back)
+    }
+
+    /// The heights of the solid mirrored in its plane.
+    pub(super) fn back(&self) -> &Heights {
+        &self.back
+    }
+
+    /// The number of triangles of its front.
     pub(super) fn facet_count(&self) -> usize {
-        self.front.facet_count() + self.back.facet_count()
+        self.front.facets.len()
     }
 }

@@ -46,10 +46,8 @@ pub(super) struct Cover<'a> {
 /// A triangle compared with the target.
 #[derive(Debug, Clone, Copy)]
 struct Samples {
-    /// How far the surface below is above the triangle, where it is farthest.
-    below: f64,
-    /// The cosine of the triangle's slope, but at least [`STEEP`].
-    slope: f64,
+    /// How far each corner has to be lifted so that the surface below does not cut through the triangle.
+    lifts: [f64; 3],
     /// How far the triangle is from where it should be, at a right angle; in very steep places more than that, or a border that
     /// is lifted by it would be ragged as seen from the side.
     apart: f64,
@@ -86,8 +84,11 @@ impl<'a> Cover<'a> {
             let turned = [0, 1, 2].map(|i| triangle[(first + i) % 3]);
             let keys = turned.map(key);
             let found = self.known_samples.get(&keys).copied();
-            let found = found.unwrap_or_else(|| self.samples_of(turned, mesh));
+            let mut found = found.unwrap_or_else(|| self.samples_of(turned, mesh));
             known.insert(keys, found);
+            if let Some(found) = &mut found {
+                found.lifts.rotate_right(first);
+            }
             samples.push(found);
         }
         self.samples = samples;
@@ -105,13 +106,19 @@ impl<'a> Cover<'a> {
         let flats = triangle.map(|i| flat(&mesh.points[i as usize]));
         let [a, b, c] = [0, 1, 2].map(|i| flats[i].extend(levels[i].front));
         let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
+        let slope = normal.z.max(STEEP);
         let mut samples = Samples {
-            below: f64::NEG_INFINITY,
-            slope: normal.z.max(STEEP),
+            lifts: [0.0; 3],
             apart: 0.0,
             at: flats[0],
         };
-        for [share_a, share_b, share_c] in PLACES {
+        let mut missing = [f64::NEG_INFINITY; PLACES.len()];
+        let fronts = levels.map(|level| level.front);
+        let mut top = fronts.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        // On slopes the front is as far from the surface below as elsewhere.
+        let step = target.lay.step / slope;
+        for (shares, missing) in PLACES.iter().zip(&mut missing) {
+            let [share_a, share_b, share_c] = *shares;
             let own = a * share_a + b * share_b + c * share_c;
             let point = own.truncate();
             let (below, apart) = if self.is_volume {
@@ -120,17 +127,28 @@ impl<'a> Cover<'a> {
                 // A volume may stand out more than it has to.
                 (below, (below + target.lay.step).max(0.0))
             } else {
-                match target.lifted(point, || target.front_reach(point)) {
+                match target.lifted(point, target.rim(point), || target.front_reach(point)) {
                     Some([below, lifted]) => (below - own.z, (lifted - own.z).abs()),
                     None => (f64::NEG_INFINITY, (target.at(point).front - own.z).abs()),
                 }
             };
-            samples.below = samples.below.max(below);
-            if apart * samples.slope > samples.apart {
-                samples.apart = apart * samples.slope;
+            *missing = below + (1.0 - LIFTED) * step;
+            top = top.max(own.z + *missing);
+            if apart * slope > samples.apart {
+                samples.apart = apart * slope;
                 samples.at = point;
             }
         }
+        let room = fronts.map(|front| top - front);
+        let lifts = PLACES.iter().zip(missing);
+        let lifts = lifts.map(|(shares, missing)| lift(*shares, room, missing));
+        let lift = lifts.fold(0.0, f64::max);
+        let least = if self.is_volume {
+            0.0
+        } else {
+            step - target.lay.step
+        };
+        samples.lifts = room.map(|room| lift.min(room).max(least));
         Some(samples)
     }
 
@@ -143,14 +161,6 @@ impl<'a> Cover<'a> {
         else {
             return Vec::new();
         };
-        let heights = |depth: &dyn Fn(&Level) -> f64| {
-            let place = |i: u32| {
-                let [x, y] = mesh.points[i as usize];
-                Vec3::new(x, y, depth(&self.levels[i as usize]) as f32)
-            };
-            let triangles = mesh.triangles.iter();
-            Heights::of_field(triangles.map(|triangle| triangle.map(place)))
-        };
         let mut known: FxHashSet<[i64; 2]> = FxHashSet::default();
         let mut missed: Vec<(f64, DVec2)> = Vec::new();
         let mut add = |corner: DVec2, apart: &dyn Fn(DVec2) -> Option<f64>| {
@@ -162,7 +172,7 @@ impl<'a> Cover<'a> {
                 missed.push((apart, corner));
             }
         };
-        let front = heights(&|level| level.front);
+        let front = heights_over(mesh, |i| self.levels[i].front);
         let apart = |corner: DVec2| {
             let own = front.at(corner)?;
             Some(if self.is_volume {
@@ -172,18 +182,16 @@ impl<'a> Cover<'a> {
             })
         };
         for place in target.ground.visible() {
-            place.corners([low, high], Place::front_heights, |corner| {
-                add(corner, &apart);
-            });
+            let corners = place.corners([low, high], Place::front_heights);
+            corners.for_each(|corner| add(corner, &apart));
         }
         let around = || target.ground.wraps.iter().chain(&target.ground.behind);
         if around().next().is_some() {
-            let back = heights(&|level| level.back);
+            let back = heights_over(mesh, |i| self.levels[i].back);
             let apart = |corner: DVec2| Some((target.at(corner).back - back.at(corner)?).abs());
             for place in around() {
-                place.corners([low, high], Place::back_heights, |corner| {
-                    add(corner, &apart);
-                });
+                let corners = place.corners([low, high], Place::back_heights);
+                corners.for_each(|corner| add(corner, &apart));
             }
         }
         worst(missed, most)
@@ -208,17 +216,12 @@ impl<'a> Cover<'a> {
 
     /// The depths of the front and of the back at each point, the front lifted where the surface below would cut through it.
     pub(super) fn fields(&self, mesh: &Mesh) -> [Vec<f64>; 2] {
-        let own_step = self.target.lay.step;
         let mut more = vec![0.0_f64; self.levels.len()];
         for (triangle, samples) in mesh.triangles.iter().zip(&self.samples) {
             let Some(samples) = samples else { continue };
-            // On slopes the front is as far from the surface below as elsewhere.
-            let step = own_step / samples.slope;
-            let missing = samples.below + (1.0 - LIFTED) * step;
-            let least = if self.is_volume { 0.0 } else { step - own_step };
-            for i in triangle {
+            for (i, lift) in triangle.iter().zip(samples.lifts) {
                 let most = &mut more[*i as usize];
-                *most = most.max(missing).max(least);
+                *most = most.max(lift);
             }
         }
         let front = self.levels.iter().zip(&more);
@@ -228,6 +231,35 @@ impl<'a> Cover<'a> {
             self.levels.iter().map(|level| level.back).collect(),
         ]
     }
+}
+
+/// How far the corners of a triangle have to be lifted, each by no more than its room, to lift a place in it, where the corners have
+/// these shares, by `missing`. A corner without room is as high as the highest place that is to be cleared, so lifting it more
+/// would only make a spike.
+fn lift(shares: [f64; 3], room: [f64; 3], missing: f64) -> f64 {
+    let mut lift = missing.max(0.0);
+    // Each round but the last finds another corner without room.
+    for _ in 0..shares.len() {
+        let corners = || shares.into_iter().zip(room);
+        let lifted: f64 = corners().map(|(share, room)| share * lift.min(room)).sum();
+        let free = corners().filter(|(_, room)| *room > lift);
+        let free: f64 = free.map(|(share, _)| share).sum();
+        if lifted >= missing || free <= 0.0 {
+            break;
+        }
+        lift += (missing - lifted) / free;
+    }
+    lift
+}
+
+/// The heights over a mesh whose points have these.
+pub(super) fn heights_over(mesh: &Mesh, height: impl Fn(usize) -> f64) -> Heights {
+    let place = |i: u32| {
+        let [x, y] = mesh.points[i as usize];
+        Vec3::new(x, y, height(i as usize) as f32)
+    };
+    let triangles = mesh.triangles.iter();
+    Heights::of_field(triangles.map(|triangle| triangle.map(place)))
 }
 
 /// The places with the greatest deviations, at most this many, the greatest first.

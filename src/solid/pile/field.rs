@@ -6,16 +6,16 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, Vec3};
+use glam::DVec2;
 use rustc_hash::FxHashSet;
 
 use super::LayForm;
-use super::cover::Cover;
+use super::cover::{Cover, heights_over};
 use super::ground::Target;
 use crate::geometry::Outline;
 use crate::scene::Surface;
 use crate::solid::crease::Crease;
-use crate::solid::heights::{BothHeights, Heights};
+use crate::solid::heights::BothHeights;
 use crate::solid::inflate::{Mesh, Points, mesh as mesh_of, points};
 use crate::solid::layers::steps_per_half_turn;
 use crate::solid::shade::shade;
@@ -115,20 +115,15 @@ impl Field {
     }
 
     /// The heights of both sides, depths in the drawing.
-    pub(super) fn heights(&self) -> BothHeights {
-        let over = |depth: &dyn Fn(usize) -> f64| {
-            let place = |i: u32| {
-                let [x, y] = self.mesh.points[i as usize];
-                Vec3::new(x, y, depth(i as usize) as f32)
-            };
-            let triangles = self.mesh.triangles.iter();
-            let triangles = triangles.map(|triangle| triangle.map(place));
-            Arc::new(Heights::of_field(triangles))
-        };
-        BothHeights {
-            front: over(&|i| self.front[i]),
-            back: over(&|i| -self.back[i]),
-        }
+    pub(super) fn heights(self: &Arc<Self>) -> BothHeights {
+        let field = Arc::clone(self);
+        let back = move || heights_over(&field.mesh, |i| -field.back[i]);
+        BothHeights::new(heights_over(&self.mesh, |i| self.front[i]), back)
+    }
+
+    /// The number of triangles of its front.
+    pub(super) fn facet_count(&self) -> usize {
+        self.mesh.triangles.len()
     }
 
     /// The surface in the frame of a node at this depth, with its back and its walls.

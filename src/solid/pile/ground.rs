@@ -41,7 +41,7 @@ impl Place {
     }
 
     pub(super) fn back_heights(&self) -> &Heights {
-        &self.placed.heights.back
+        self.placed.heights.back()
     }
 
     /// Where a line crosses edges of the front, as shares of its length: in no order, some of them several times.
@@ -50,30 +50,16 @@ impl Place {
         self.front_heights().crossings(from, to, found);
     }
 
-    /// Calls `each` with the corners of one side's triangles that are in a box, some of them several times.
+    /// The corners of one side's triangles that are in a box.
     pub(super) fn corners(
         &self,
         [low, high]: [DVec2; 2],
         side: fn(&Self) -> &Heights,
-        mut each: impl FnMut(DVec2),
-    ) {
-        let corners = [
-            low,
-            DVec2::new(high.x, low.y),
-            high,
-            DVec2::new(low.x, high.y),
-        ];
-        let turned = corners.map(|corner| self.to.transform_point2(corner));
-        let [first, rest @ ..] = turned;
-        let lowest = rest.into_iter().fold(first, DVec2::min);
-        let highest = rest.into_iter().fold(first, DVec2::max);
+    ) -> impl Iterator<Item = DVec2> {
         let back = self.to.inverse();
-        for corner in side(self).corners(lowest, highest) {
-            let corner = back.transform_point2(corner);
-            if corner.clamp(low, high) == corner {
-                each(corner);
-            }
-        }
+        let corners = side(self).corners();
+        let corners = corners.map(move |corner| back.transform_point2(corner));
+        corners.filter(move |corner| corner.clamp(low, high) == *corner)
     }
 }
 
@@ -163,12 +149,8 @@ fn visible(below: &[Place], outline: &Outline) -> Vec<usize> {
     lines.cut(outline, &EdgeRanges::new(outline), &mut inside);
     let apart = (high.x - low.x) / (4 * LINES) as f64;
     let mut points = Vec::new();
-    inside.each(|line, [from, to]| {
-        let count = ((to - from) / apart).ceil().max(1.0);
-        points.extend((0..count as usize).map(|i| {
-            let share = (i as f64 + 0.5) / count;
-            DVec2::new(from + (to - from) * share, lines.place(line))
-        }));
+    inside.spread(apart, |line, x, _| {
+        points.push(DVec2::new(x, lines.place(line)))
     });
     let mut visible = Vec::new();
     for (index, place) in below.iter().enumerate() {
@@ -227,7 +209,7 @@ impl Target<'_> {
     }
 
     /// The front of the hoop that a line is at a point; -∞ where it is none.
-    fn rim(&self, point: DVec2) -> f64 {
+    pub(super) fn rim(&self, point: DVec2) -> f64 {
         let front = self.rim.as_ref().and_then(|rim| rim.front(point));
         front.unwrap_or(f64::NEG_INFINITY)
     }
@@ -238,20 +220,25 @@ impl Target<'_> {
     }
 
     /// The front of what lies below a point, and the depth that it lifts this solid to, which by itself reaches this far to the
-    /// front there.
-    pub(super) fn lifted(&self, point: DVec2, front: impl Fn() -> f64) -> Option<[f64; 2]> {
+    /// front there, and whose hoop reaches to `rim`.
+    pub(super) fn lifted(
+        &self,
+        point: DVec2,
+        rim: f64,
+        front: impl Fn() -> f64,
+    ) -> Option<[f64; 2]> {
         let Lay { step, bulge, .. } = self.lay;
         let below = self.ground.front(point)?;
         let volumes = (*bulge > 0.0).then(|| self.ground.volumes(point)).flatten();
         let on_volumes = volumes.map_or(f64::NEG_INFINITY, |volumes| volumes + bulge * front());
-        let lifted = on_volumes.max(below + step).max(self.rim(point));
+        let lifted = on_volumes.max(below + step).max(rim);
         Some([below, lifted])
     }
 
     /// Whether what lies below a point lifts the solid there.
     pub(super) fn lifts(&self, point: DVec2) -> bool {
         let front = self.front_reach(point);
-        let lifted = self.lifted(point, || front);
+        let lifted = self.lifted(point, self.rim(point), || front);
         lifted.is_some_and(|[_, lifted]| lifted > self.depth + front)
     }
 
@@ -272,13 +259,14 @@ impl Target<'_> {
             step, bulge, form, ..
         } = self.lay;
         let [front, back] = self.reach(point);
-        let lifted = self.lifted(point, || front);
+        let rim = self.rim(point);
+        let lifted = self.lifted(point, rim, || front);
         let below = lifted.map(|[below, _]| below);
         let lifted = lifted.map(|[_, lifted]| lifted);
         let natural = [self.depth + front, self.depth - back];
         let [front, back] = match (form, lifted, below) {
             (LayForm::Volume, lifted, _) => {
-                let lifted = lifted.unwrap_or_else(|| self.rim(point));
+                let lifted = lifted.unwrap_or(rim);
                 [natural[0].max(lifted), natural[1]]
             }
             (LayForm::Sheet, lifted, _) => [lifted.unwrap_or(natural[0]); 2],
@@ -286,12 +274,12 @@ impl Target<'_> {
             (_, Some(lifted), Some(below)) => [lifted, below - step],
             (LayForm::Ink, ..) => {
                 let beside = self.beside(point);
-                [self.rim(point).max(beside + step), beside - step]
+                [rim.max(beside + step), beside - step]
             }
             _ => {
                 let bulge = bulge * front;
                 [
-                    (self.depth + bulge.max(*step)).max(self.rim(point)),
+                    (self.depth + bulge.max(*step)).max(rim),
                     self.depth - back.min(bulge + step),
                 ]
             }
@@ -304,7 +292,6 @@ impl Target<'_> {
         let around = around.map(|around| around - step - bulge * (natural[0] - self.depth));
         let covered = behind(&self.ground.behind).map(|covered| covered - step);
         // A hoop is as deep behind the border that it is around as in front of it.
-        let rim = self.rim(point);
         let hoop = rim.is_finite().then(|| 2.0 * self.beside(point) - rim);
         let lower = around.into_iter().chain(covered).chain(hoop);
         let back = lower.fold(back, f64::min);

@@ -21,7 +21,6 @@ use crate::geometry::Outline;
 use crate::scene::{Surface, SurfaceSource};
 use field::Field;
 use ground::{Ground, Place, Target};
-use recent::Recent;
 use rim::Rim;
 
 pub use recent::{RecentHeights, SolidHeights};
@@ -134,7 +133,7 @@ impl Placed {
     }
 
     fn back(&self, point: DVec2) -> Option<f64> {
-        let height = self.heights.back.at(point)?;
+        let height = self.heights.back().at(point)?;
         Some(self.depth - self.factor * height)
     }
 
@@ -147,8 +146,7 @@ impl Placed {
 
     /// How far front and back are from the plane, over a point of its outline.
     fn reach(&self, point: DVec2) -> [f64; 2] {
-        let BothHeights { front, back } = &self.heights;
-        [front, back].map(|side| {
+        [&*self.heights.front, self.heights.back()].map(|side| {
             let height = side.at(point).or_else(|| side.nearest(point));
             self.factor * height.unwrap_or(0.0)
         })
@@ -245,16 +243,13 @@ impl Pile {
                 continue;
             };
             let key = self.keys[top];
-            let recent = self.recent.find(key).or_else(|| {
+            let field = self.recent.find_field(key).or_else(|| {
                 let before = open.len();
                 open.extend(lay.on().filter(|other| !known.contains_key(other)));
-                (open.len() == before).then(|| {
-                    self.recent
-                        .get(key, || self.field(top, known).map(Recent::lifted))
-                })
+                (open.len() == before).then(|| self.recent.field(key, || self.field(top, known)))
             });
-            if let Some(recent) = recent {
-                let lifted = recent.map(|recent| Placed::lifted(recent.heights));
+            if let Some(field) = field {
+                let lifted = field.map(|field| Placed::lifted(self.recent.of_field(key, &field)));
                 known.insert(top, lifted.unwrap_or_else(|| self.unlifted(top)));
             }
         }
@@ -312,10 +307,7 @@ impl Pile {
             self.field(index, &known)
         };
         let field = if self.carries[index] {
-            let recent = self
-                .recent
-                .get(self.keys[index], || make().map(Recent::lifted));
-            recent.and_then(|recent| recent.field)
+            self.recent.field(self.keys[index], make)
         } else {
             make().map(Arc::new)
         };

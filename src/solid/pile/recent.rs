@@ -1,7 +1,7 @@
 //! The height fields that were needed last.
 
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use glam::{DAffine2, DVec2};
 use rustc_hash::FxHashMap;
@@ -11,99 +11,134 @@ use crate::scene::SurfaceSource;
 use crate::solid::Solid;
 use crate::solid::heights::BothHeights;
 
-/// Limit of the triangles that are kept.
-const MAX_FACETS: usize = 1 << 20;
-
-/// A solid as others lie on it.
-#[derive(Debug, Clone)]
-pub(super) struct Recent {
-    pub(super) heights: BothHeights,
-    /// What it is lifted to, if it is lifted itself.
-    pub(super) field: Option<Arc<Field>>,
-}
-
-impl Recent {
-    /// A solid that is lifted.
-    pub(super) fn lifted(field: Field) -> Self {
-        Self {
-            heights: field.heights(),
-            field: Some(Arc::new(field)),
-        }
-    }
-}
+/// Limit of the triangles of the fields that are kept: to make a field again, all below it is needed.
+const MAX_OF_FIELDS: usize = 1 << 23;
+/// Limit of the triangles of the heights that are kept, which take more memory and are made from fields in no time.
+const MAX_OF_HEIGHTS: usize = 1 << 20;
 
 /// The solids that others were laid on last, so that one with much on it is made once, and thousands of them do not fill the
 /// memory. They are known by hashes of all that they are made from.
-#[derive(Debug, Default)]
-pub struct RecentHeights(Mutex<Kept>);
-
-#[derive(Debug, Default)]
-struct Kept {
-    slots: FxHashMap<u128, Slot>,
-    /// The keys by when they were last asked for.
-    order: BTreeMap<u64, u128>,
-    next: u64,
-    /// The triangles of all.
-    facets: usize,
+#[derive(Debug)]
+pub struct RecentHeights {
+    /// What solids are lifted to; `None` for one that nothing lifts.
+    fields: Cache<Option<Arc<Field>>>,
+    heights: Cache<BothHeights>,
 }
 
-#[derive(Debug)]
-struct Slot {
-    cell: Arc<OnceLock<Option<Recent>>>,
-    used: u64,
-    /// Its triangles, once they are known.
-    facets: usize,
+impl Default for RecentHeights {
+    fn default() -> Self {
+        Self {
+            fields: Cache::new(MAX_OF_FIELDS, |field| {
+                field.as_ref().map_or(0, |field| field.facet_count())
+            }),
+            heights: Cache::new(MAX_OF_HEIGHTS, BothHeights::facet_count),
+        }
+    }
 }
 
 impl RecentHeights {
     /// The heights of a solid by itself.
     pub(super) fn of_solid(&self, solid: &Solid) -> BothHeights {
-        let make = || Recent {
-            heights: BothHeights::of(&solid.surface()),
-            field: None,
+        let make = || BothHeights::of(&solid.surface());
+        self.heights.get(solid.long_key(), make)
+    }
+
+    /// The heights of a body with this key that is lifted to a field.
+    pub(super) fn of_field(&self, key: u128, field: &Arc<Field>) -> BothHeights {
+        self.heights.get(key, || field.heights())
+    }
+
+    /// The field of a body with this key, if it is kept.
+    pub(super) fn find_field(&self, key: u128) -> Option<Option<Arc<Field>>> {
+        self.fields.find(key)
+    }
+
+    /// The field of a body with this key, kept or made now.
+    pub(super) fn field(
+        &self,
+        key: u128,
+        make: impl FnOnce() -> Option<Field>,
+    ) -> Option<Arc<Field>> {
+        self.fields.get(key, || make().map(Arc::new))
+    }
+}
+
+/// Results that were needed last, up to a total size.
+#[derive(Debug)]
+struct Cache<T> {
+    kept: Mutex<Kept<T>>,
+    most: usize,
+    size: fn(&T) -> usize,
+}
+
+#[derive(Debug)]
+struct Kept<T> {
+    slots: FxHashMap<u128, Slot<T>>,
+    /// The keys by when they were last asked for.
+    order: BTreeMap<u64, u128>,
+    next: u64,
+    /// The size of all.
+    size: usize,
+}
+
+#[derive(Debug)]
+struct Slot<T> {
+    cell: Arc<OnceLock<T>>,
+    used: u64,
+    /// Its size, once it is known.
+    size: usize,
+}
+
+impl<T: Clone> Cache<T> {
+    fn new(most: usize, size: fn(&T) -> usize) -> Self {
+        let kept = Kept {
+            slots: FxHashMap::default(),
+            order: BTreeMap::new(),
+            next: 0,
+            size: 0,
         };
-        let found = self.get(solid.long_key(), || Some(make()));
-        found.unwrap_or_else(make).heights
+        Self {
+            kept: Mutex::new(kept),
+            most,
+            size,
+        }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Kept<T>> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// What is kept for a key, if anything is.
-    pub(super) fn find(&self, key: u128) -> Option<Option<Recent>> {
-        let mut kept = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        kept.slots
-            .contains_key(&key)
-            .then(|| kept.slot(key))?
-            .get()
-            .cloned()
+    fn find(&self, key: u128) -> Option<T> {
+        let mut kept = self.lock();
+        let is_kept = kept.slots.contains_key(&key);
+        is_kept.then(|| kept.slot(key))?.get().cloned()
     }
 
     /// What is kept for a key, or made now.
-    pub(super) fn get(&self, key: u128, make: impl FnOnce() -> Option<Recent>) -> Option<Recent> {
-        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        let cell = lock().slot(key);
+    fn get(&self, key: u128, make: impl FnOnce() -> T) -> T {
+        let cell = self.lock().slot(key);
         let mut is_new = false;
         let made = cell.get_or_init(|| {
             is_new = true;
             make()
         });
         if is_new {
-            let facets = made
-                .as_ref()
-                .map_or(0, |recent| recent.heights.facet_count());
-            lock().grow(key, facets);
+            self.lock().grow(key, (self.size)(made), self.most);
         }
         made.clone()
     }
 }
 
-impl Kept {
+impl<T> Kept<T> {
     /// The slot of a key, which becomes the one that was asked for last.
-    fn slot(&mut self, key: u128) -> Arc<OnceLock<Option<Recent>>> {
+    fn slot(&mut self, key: u128) -> Arc<OnceLock<T>> {
         let used = self.next;
         self.next += 1;
         let slot = self.slots.entry(key).or_insert_with(|| Slot {
             cell: Arc::default(),
             used,
-            facets: 0,
+            size: 0,
         });
         self.order.remove(&slot.used);
         slot.used = used;
@@ -111,18 +146,18 @@ impl Kept {
         Arc::clone(&slot.cell)
     }
 
-    /// Notes how large a result is, and forgets the oldest ones if all together are too large.
-    fn grow(&mut self, key: u128, facets: usize) {
+    /// Notes how large a result is, and forgets the oldest ones if all together are larger than `most`.
+    fn grow(&mut self, key: u128, size: usize, most: usize) {
         if let Some(slot) = self.slots.get_mut(&key) {
-            self.facets += facets - slot.facets;
-            slot.facets = facets;
+            self.size += size - slot.size;
+            slot.size = size;
         }
-        while self.facets > MAX_FACETS
+        while self.size > most
             && self.order.len() > 1
             && let Some((_, oldest)) = self.order.pop_first()
         {
             let forgotten = self.slots.remove(&oldest);
-            self.facets -= forgotten.map_or(0, |slot| slot.facets);
+            self.size -= forgotten.map_or(0, |slot| slot.size);
         }
     }
 }
@@ -154,6 +189,6 @@ impl SolidHeights {
 
     /// How far it reaches to the front and to the back at most, drawing units.
     pub fn highest(&self) -> [f64; 2] {
-        [&self.both.front, &self.both.back].map(|side| side.highest() / self.scale)
+        [&*self.both.front, self.both.back()].map(|side| side.highest() / self.scale)
     }
 }
