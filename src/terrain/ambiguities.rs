@@ -8,7 +8,8 @@ use super::groups::{GroupKind, Groups};
 use super::houses::House;
 use super::levels::Levels;
 use super::map::Tile;
-use super::solids::{MapContext, Solids, Visible};
+use super::occlusion::Visible;
+use super::solids::{MapContext, Solids};
 
 /// A place in a map that can be read in more than one way.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

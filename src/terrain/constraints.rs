@@ -32,7 +32,9 @@ pub(super) struct Constraints {
     pub(super) strong: Vec<HeightConstraint>,
     /// Those that are only likely. Strongest first.
     pub(super) weak: Vec<HeightConstraint>,
-    /// Row and column of the first pit: fronts between parts of one surface.
+    /// Per surface with pits the rows of front of its deepest one. A pit is a front between parts of one surface.
+    pub(super) pits: FxHashMap<u32, i32>,
+    /// Row and column of the first pit.
     pub(super) pit: Option<[usize; 2]>,
 }
 
@@ -40,6 +42,7 @@ pub(super) struct Constraints {
 struct Collected {
     strong: FxHashMap<(u32, u32), HeightConstraint>,
     weak: FxHashMap<(u32, u32, i32), HeightConstraint>,
+    pits: FxHashMap<u32, i32>,
     pit: Option<[usize; 2]>,
 }
 
@@ -83,11 +86,23 @@ impl Collected {
         }
     }
 
+    fn pit_in(&mut self, surface: u32, depth: i32) {
+        let deepest = self.pits.entry(surface).or_default();
+        *deepest = depth.max(*deepest);
+    }
+
     fn with(mut self, other: Self) -> Self {
         if self.strong.len() + self.weak.len() < other.strong.len() + other.weak.len() {
             return other.with(self);
         }
         self.pit = self.pit.into_iter().chain(other.pit).min();
+        #[expect(
+            clippy::iter_over_hash_type,
+            reason = "the deepest pit does not depend on the order"
+        )]
+        for (surface, depth) in other.pits {
+            self.pit_in(surface, depth);
+        }
         // The result of merging does not depend on the order.
         for constraint in other.strong.into_values() {
             self.strong(constraint);
@@ -116,6 +131,7 @@ impl Collected {
             match below {
                 Below::Surface(lower) if lower == upper => {
                     self.pit = self.pit.into_iter().chain([first]).min();
+                    self.pit_in(upper, fronts);
                 }
                 Below::Surface(GROUND) => self.strong(constraint(GROUND, fronts)),
                 Below::Surface(lower) if fronts > 0 || (!water(upper) && water(lower)) => {
@@ -194,6 +210,7 @@ impl Collected {
         Constraints {
             strong,
             weak,
+            pits: self.pits,
             pit: self.pit,
         }
     }

@@ -2,12 +2,14 @@
 
 use super::ambiguities::{self, Ambiguity};
 use super::constraints::Constraints;
+use super::flush;
 use super::grid::Grid;
 use super::groups::{GroupKind, Groups};
 use super::houses;
 use super::levels::Levels;
 use super::map::{Map, Tile};
-use super::solids::{self, MapContext, Solids, Visible};
+use super::occlusion::Visible;
+use super::solids::{MapContext, Solids};
 use super::surface;
 use crate::scene::Surface;
 
@@ -64,7 +66,7 @@ impl Landscape {
         let levels = Levels::new(&groups, &constraints);
         let houses = houses::measure(&grid, &groups, &levels);
         let context = MapContext {
-            flush: solids::flush(&grid, &groups, &levels),
+            flush: flush::flush(&grid, &groups, &levels),
             earth: commonest(map, Tile::Brown),
             houses_of: houses::by_stripe(&houses, map.columns),
             grid,
@@ -111,8 +113,8 @@ impl Landscape {
         self.context.grid.columns
     }
 
-    /// The solid blocks of a column in no order, each as `[back, front]` and `[bottom, top]`. They may overlap, some have no
-    /// height, and roofs are not among them.
+    /// The solid blocks of a column in no order, each as `[back, front]` and `[bottom, top]`. They may overlap, plates have no
+    /// height here, and roofs are not among them.
     pub fn blocks(&self, column: usize) -> Vec<[[i32; 2]; 2]> {
         let mut solids = Solids::default();
         solids.build(&self.context, column);

@@ -1,5 +1,7 @@
 //! The height of every surface: constraints applied one after another (terrain.md, rule 3).
 
+use rustc_hash::{FxHashMap, FxHashSet};
+
 use super::constraints::{Constraints, HeightConstraint};
 use super::groups::{GROUND, Groups};
 
@@ -10,6 +12,8 @@ pub(super) struct Levels {
     pub(super) level: Vec<i32>,
     /// Per surface the height down to which it is solid, where nothing visible says otherwise.
     pub(super) base: Vec<i32>,
+    /// The heights up to 0 at which something drawn has nothing below it, so that it is a plate (rule 11).
+    pub(super) plates: FxHashSet<i32>,
     /// Per surface the one that it stands on.
     pub(super) support: Vec<Option<u32>>,
     /// Surfaces whose height follows from no constraint.
@@ -117,8 +121,10 @@ impl Levels {
             .into_iter()
             .filter(|c| c.rise < height(c.upper) - height(c.lower))
             .collect();
+        let base = bases(&level, &support, &host, &constraints.pits);
         Self {
-            base: bases(&level, &support, &host),
+            plates: plates(&level, &base, &constraints.pits),
+            base,
             level,
             support,
             unconstrained,
@@ -127,8 +133,13 @@ impl Levels {
     }
 }
 
-/// The height down to which each surface is solid: that of its support, and of everything that is dug into it.
-fn bases(level: &[i32], support: &[Option<u32>], host: &[Option<u32>]) -> Vec<i32> {
+/// The height down to which each surface is solid: that of its support, of its pits, and of everything that is dug into it.
+fn bases(
+    level: &[i32],
+    support: &[Option<u32>],
+    host: &[Option<u32>],
+    pits: &FxHashMap<u32, i32>,
+) -> Vec<i32> {
     let outermost = |surface: usize| {
         let mut surface = surface;
         // This ends: hosts form a forest, because each constraint joined two sets.
@@ -137,9 +148,9 @@ fn bases(level: &[i32], support: &[Option<u32>], host: &[Option<u32>]) -> Vec<i3
         }
         surface
     };
-    let own = |surface: usize| match support[surface] {
-        Some(support) => level[surface].min(level[support as usize]),
-        None => level[surface],
+    let own = |surface: usize| {
+        let floor = level[surface] - pits.get(&(surface as u32)).unwrap_or(&0);
+        support[surface].map_or(floor, |support| floor.min(level[support as usize]))
     };
     let hosts: Vec<usize> = (0..level.len()).map(outermost).collect();
     let mut base: Vec<i32> = (0..level.len()).map(own).collect();
@@ -147,4 +158,17 @@ fn bases(level: &[i32], support: &[Option<u32>], host: &[Option<u32>]) -> Vec<i3
         base[*host] = base[*host].min(base[surface]);
     }
     hosts.iter().map(|host| base[*host]).collect()
+}
+
+/// The heights up to 0 of surfaces and floors of pits that are not solid below.
+fn plates(level: &[i32], base: &[i32], pits: &FxHashMap<u32, i32>) -> FxHashSet<i32> {
+    let is_plate = |surface: &usize| {
+        let floor = pits
+            .get(&(*surface as u32))
+            .map(|depth| level[*surface] - depth);
+        base[*surface] <= 0 && [Some(level[*surface]), floor].contains(&Some(base[*surface]))
+    };
+    // The first surface is the ground, which is not drawn.
+    let plates = (1..level.len()).filter(is_plate);
+    plates.map(|surface| base[surface]).collect()
 }

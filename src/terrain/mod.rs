@@ -6,6 +6,7 @@
 mod ambiguities;
 mod column;
 mod constraints;
+mod flush;
 mod grid;
 mod groups;
 mod houses;
@@ -13,6 +14,7 @@ mod landscape;
 mod levels;
 mod map;
 mod nodes;
+mod occlusion;
 mod reading;
 mod solids;
 mod surface;

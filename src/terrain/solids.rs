@@ -11,12 +11,10 @@ use super::grid::Grid;
 use super::groups::{GROUND, GroupKind, Groups};
 use super::houses::House;
 use super::levels::Levels;
-use super::map::Tile;
+use super::occlusion::{Occlusion, View, Visible};
 
-/// A row after all others, small enough for sums not to overflow.
-const NEVER: i32 = i32::MAX / 2;
-
-/// A block in a column: `[back, front]` and `[bottom, top]`, which are equal for a sheet.
+/// A block in a column: `[back, front]` and `[bottom, top]`. If these are equal, it is a plate whose top is there, or, under a
+/// roof, the roof's underside.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Block {
     pub(super) z: [i32; 2],
@@ -25,55 +23,6 @@ pub(super) struct Block {
     pub(super) top: Option<u8>,
     /// The material of its sides where none is drawn.
     pub(super) side: u8,
-}
-
-/// What is visible in some rows of a column.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Visible {
-    /// Nothing is drawn; the ground is assumed.
-    Nothing,
-    /// A top at a height.
-    Top(i32),
-    /// A front, with its z.
-    Front(i32),
-    /// A roof over eaves at a height.
-    Roof(i32),
-}
-
-/// Rows of a column and what is visible there.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct View {
-    pub(super) start: i32,
-    pub(super) end: i32,
-    pub(super) visible: Visible,
-}
-
-impl View {
-    /// The smallest visible z.
-    fn back(&self) -> i32 {
-        match self.visible {
-            Visible::Nothing => self.start,
-            Visible::Top(level) | Visible::Roof(level) => self.start + level,
-            Visible::Front(plane) => plane,
-        }
-    }
-
-    /// The smallest visible height.
-    fn bottom(&self) -> i32 {
-        match self.visible {
-            Visible::Nothing => 0,
-            Visible::Top(level) | Visible::Roof(level) => level,
-            Visible::Front(plane) => plane - self.end,
-        }
-    }
-
-    /// The first row where the visible point is lower than a height.
-    fn sinks_below(&self, height: i32) -> i32 {
-        match self.visible {
-            Visible::Front(plane) => (plane - height).max(self.start),
-            _ => self.start,
-        }
-    }
 }
 
 /// The map and everything computed from it, which columns are built from.
@@ -102,60 +51,6 @@ pub(super) struct Solids {
     /// Per segment the z of its block's back.
     backs: Vec<i32>,
     hidden: Occlusion,
-}
-
-/// Finds the row at which a hidden block would become visible. Filled from the column's bottom to its top.
-#[derive(Debug, Default)]
-struct Occlusion {
-    /// A monotonic stack of views: from the last to the first they are farther down and their `back` is smaller.
-    backs: Vec<usize>,
-    /// The same for `bottom`.
-    bottoms: Vec<usize>,
-}
-
-impl Occlusion {
-    fn clear(&mut self) {
-        self.backs.clear();
-        self.bottoms.clear();
-    }
-
-    fn push(&mut self, views: &[View], index: usize) {
-        while let Some(last) = self.backs.last()
-            && views[*last].back() >= views[index].back()
-        {
-            self.backs.pop();
-        }
-        self.backs.push(index);
-        while let Some(last) = self.bottoms.last()
-            && views[*last].bottom() >= views[index].bottom()
-        {
-            self.bottoms.pop();
-        }
-        self.bottoms.push(index);
-    }
-
-    /// The first row at which a wall at z would be visible.
-    fn wall_seen(&self, views: &[View], z: i32, end: i32) -> i32 {
-        let at = self.backs.partition_point(|view| views[*view].back() < z);
-        match at.checked_sub(1) {
-            Some(at) => views[self.backs[at]].start,
-            // Beyond the border is the ground.
-            None if end < z => end,
-            None => NEVER,
-        }
-    }
-
-    /// The first row at which a level at a height would be visible.
-    fn level_seen(&self, views: &[View], height: i32, end: i32) -> i32 {
-        let at = self
-            .bottoms
-            .partition_point(|view| views[*view].bottom() < height);
-        match at.checked_sub(1) {
-            Some(at) => views[self.bottoms[at]].sinks_below(height),
-            None if height <= 0 => NEVER,
-            None => end,
-        }
-    }
 }
 
 impl Solids {
@@ -292,10 +187,13 @@ impl Solids {
         let segment = self.column.segments[index];
         let level = context.levels.level[surface as usize];
         let material = context.grid.cells[number * context.grid.rows + segment.start as usize];
-        let side = self.side(context, number, index + 1, material);
         let (fronts, _, _) = self.column.below(index);
         let [back, front] = [self.backs[index], segment.end + level];
         let bottom = self.bottom(context, index, surface, end);
+        let side = match context.groups.surfaces[surface as usize].water && bottom == level {
+            true => material,
+            false => self.side(context, number, index + 1, material),
+        };
         self.flush_below(context, number, index, [level, bottom], side);
         if fronts == 0 {
             self.support(context, index, surface, index + 1, end);
@@ -311,17 +209,35 @@ impl Solids {
             && let Some(nearer) = self.views.get(index + 1)
             && let Visible::Top(top) | Visible::Roof(top) = nearer.visible
         {
-            let seen = self.hidden.level_seen(&self.views, level, end);
-            let hidden = (top - level).min(seen - segment.end);
-            let end = self.hidden.wall_seen(&self.views, front + hidden, end);
-            let bottom = bottom.max(front + hidden - end).min(level);
-            self.blocks.push(Block {
-                z: [front, front + hidden],
-                y: [bottom, level],
-                top: Some(material),
-                side,
-            });
+            let rows = segment.end..segment.end + top - level;
+            self.hidden_top(rows, [bottom, level], [material, side], end);
         }
+    }
+
+    /// Adds the block of a top at a height that something nearer hides in some rows, as far as it is hidden there. Must be called
+    /// when `hidden` has all views from these rows on and no others.
+    fn hidden_top(&mut self, rows: Range<i32>, y: [i32; 2], [top, side]: [u8; 2], end: i32) {
+        let [bottom, level] = y;
+        let seen = self.hidden.level_seen(&self.views, level, end);
+        let front = rows.end.min(seen) + level;
+        let seen = self.hidden.wall_seen(&self.views, front, end);
+        self.blocks.push(Block {
+            z: [rows.start + level, front],
+            y: [bottom.max(front - seen).min(level), level],
+            top: Some(top),
+            side,
+        });
+    }
+
+    /// Adds the floor of a pit below its near bank (rule 7). `front` is its far wall.
+    fn floor(&mut self, context: &MapContext, number: usize, front: usize, surface: u32, end: i32) {
+        let wall = self.column.segments[front];
+        let level = context.levels.level[surface as usize] - wall.rows();
+        let base = context.levels.base[surface as usize];
+        let top = context.grid.cells[number * context.grid.rows + wall.start as usize - 1];
+        let side = self.side(context, number, front, top);
+        let rows = wall.end..wall.end + wall.rows();
+        self.hidden_top(rows, [base, level], [top, side], end);
     }
 
     /// The bottom of a top's block: its foot, or lower where that stays hidden.
@@ -413,6 +329,9 @@ impl Solids {
             .map(|above| self.column.segments[above].kind);
         match above {
             Some(GroupKind::Surface(surface)) => {
+                if self.column.below(index - 1).1 == Below::Surface(surface) {
+                    self.floor(context, number, index, surface, end);
+                }
                 return self.support(context, index - 1, surface, index + 1, end);
             }
             Some(GroupKind::Wall(_)) => return,
@@ -436,13 +355,22 @@ impl Solids {
         let column = number as i32;
         for house in &context.houses_of[number / STRIPE] {
             let house = &context.houses[*house as usize];
+            let [roof, wall] = house.materials;
+            let roofed = house.roof.contains(&column) && house.depth > 0;
             if house.walls.contains(&column) {
-                let wall = house.materials[1];
                 self.blocks.push(Block {
                     z: [house.back(), house.front],
                     y: [house.base, house.eaves()],
-                    top: (!house.roof.contains(&column)).then_some(wall),
+                    top: (!roofed).then_some(wall),
                     side: wall,
+                });
+            } else if roofed {
+                // The underside of a roof that extends beyond the walls.
+                self.blocks.push(Block {
+                    z: [house.back(), house.front],
+                    y: [house.eaves(); 2],
+                    top: None,
+                    side: roof,
                 });
             }
         }
@@ -514,74 +442,5 @@ impl Solids {
         if row < rows.end {
             each(row..rows.end, None);
         }
-    }
-}
-
-/// Per group of fronts its lowest row, if it ends flush with what is behind it: it has an edge to another front, and all its
-/// columns hang (rule 6).
-pub(super) fn flush(grid: &Grid, groups: &Groups, levels: &Levels) -> Vec<Option<i32>> {
-    let mut lowest = vec![None::<i32>; groups.kinds.len()];
-    let rows = grid.rows;
-    let front = |cell: usize| grid.tile(cell) == Tile::Brown;
-    if !grid.edges.iter().any(|edges| *edges != 0) {
-        return lowest;
-    }
-    for cell in 0..groups.labels.len() {
-        if !front(cell) {
-            continue;
-        }
-        let below = (cell % rows + 1 < rows && grid.edge_below(cell)).then_some(cell + 1);
-        let right = cell + rows;
-        let right = (right < groups.labels.len() && grid.edge_right(cell)).then_some(right);
-        for other in [below, right].into_iter().flatten() {
-            let [one, other] = [cell, other].map(|cell| groups.labels[cell] as usize);
-            if one != other && groups.kinds[other] == GroupKind::Front {
-                lowest[one].get_or_insert(0);
-                lowest[other].get_or_insert(0);
-            }
-        }
-    }
-    let mut column = Column::default();
-    for number in 0..grid.columns {
-        column.read(grid, groups, number);
-        for index in 0..column.segments.len() {
-            let segment = column.segments[index];
-            if segment.kind != GroupKind::Front {
-                continue;
-            }
-            let cells =
-                number * rows + segment.start as usize..number * rows + segment.end as usize;
-            let hangs = hangs(&column, levels, index);
-            for cell in cells {
-                let label = groups.labels[cell] as usize;
-                if let Some(low) = &mut lowest[label] {
-                    // A group that stands on something in any column is not filled.
-                    *low = if hangs && *low >= 0 {
-                        (*low).max((cell % rows) as i32)
-                    } else {
-                        -1
-                    };
-                }
-            }
-        }
-    }
-    lowest
-        .iter_mut()
-        .for_each(|low| *low = low.filter(|low| *low >= 0));
-    lowest
-}
-
-/// Whether a front's foot is visibly above what lies below it.
-fn hangs(column: &Column, levels: &Levels, front: usize) -> bool {
-    let above = front
-        .checked_sub(1)
-        .map(|above| column.segments[above].kind);
-    let Some(GroupKind::Surface(surface)) = above else {
-        return false;
-    };
-    let foot = levels.level[surface as usize] - column.segments[front].rows();
-    match column.below(front - 1) {
-        (_, Below::Surface(below), _) => foot > levels.level[below as usize],
-        (_, Below::House(_), _) => false,
     }
 }

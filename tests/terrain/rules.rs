@@ -178,7 +178,8 @@ fn without_edges_a_plate_has_a_hole() {
         1 1 1 1 1
         . . . . .",
     );
-    assert_volume(plate, 19.0);
+    // Its floor is a plate on the ground, and what stands there reaches as deep: 20 tiles of 1¼, less the pit.
+    assert_volume(plate, 24.0);
     assert_eq!(notes(plate), [AmbiguityKind::Pits]);
 }
 
@@ -341,6 +342,48 @@ fn water_at_any_border_is_open() {
     assert_eq!(notes(lines), []);
 }
 
+/// Rule 7: a dry pit has a floor below its near bank, as deep as its far wall has browns.
+#[test]
+fn pits_have_floors() {
+    let pit = |browns: &str| {
+        format!(
+            "
+        g g g g g
+        {browns}
+        g g g g g
+        g g g g g
+        b b b b b
+        b b b b b
+        b b b b b"
+        )
+    };
+    // 5 × 4 or 5 × 5 tiles of 3, less the pit: it is as long as it is deep.
+    let shallow = measured(&map(&pit("g b b b g"))).0;
+    assert!(
+        (shallow - (5.0 * 4.0 * 3.0 - 3.0)).abs() < 1e-3,
+        "{shallow}"
+    );
+    let deep = measured(&map(&pit("g b b b g\n g b b b g"))).0;
+    assert!(
+        (deep - (5.0 * 5.0 * 3.0 - 3.0 * 4.0)).abs() < 1e-3,
+        "{deep}"
+    );
+}
+
+/// Rule 11: grass, a hill on it and the sea beside it are one solid, a quarter tile thick where nothing is drawn below.
+#[test]
+fn ground_and_sea_are_a_plate() {
+    let lines = "
+        g g g w
+        :  -
+        g|g|g w
+        g b g w
+        g g g w";
+    let (volume, [low, high]) = measured(&map(lines));
+    assert!((volume - (16.0 * 0.25 + 1.0)).abs() < 1e-3, "{volume}");
+    assert_eq!([low[1], high[1]], [-0.25, 1.0]);
+}
+
 /// Rule 7: a sunken floor.
 #[test]
 fn a_green_floor_lies_below_its_wall() {
@@ -496,6 +539,6 @@ fn arches_are_open() {
     let land = Landscape::new(&map(arch));
     assert_eq!(land.top(0, 0), Some(3));
     assert_eq!(land.top(1, 2), Some(0));
-    // Two posts of 3, a lintel of 2, and sheets of grass.
-    assert_volume(arch, 8.0);
+    // Two posts of 3, a lintel of 2, and plates of a quarter tile: grass, which the posts go down through.
+    assert_volume(arch, 8.0 + 6.0 * 0.25);
 }

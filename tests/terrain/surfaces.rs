@@ -33,8 +33,11 @@ fn landscapes_are_reconstructed_from_their_maps() {
     assert!(exact * 2 >= scores.len(), "{exact} maps are right");
 }
 
-/// A triangle with its material: corners in tiles from the map's top left.
-type Shown = (u8, [[f64; 3]; 3]);
+/// The corners of a triangle, in tiles from the map's top left.
+type Triangle = [[f64; 3]; 3];
+
+/// A triangle with its material.
+type Shown = (u8, Triangle);
 
 /// All triangles of a landscape.
 fn triangles(map: &Map, land: &Landscape, roof: f64, bevel: f64) -> Vec<Shown> {
@@ -148,6 +151,82 @@ fn assert_closed(map: &Map, roof: f64, bevel: f64, name: &str) {
     assert!(open.is_empty(), "{name}: {open:?}\n{}", picture(map));
 }
 
+/// The area that two triangles of one plane share, seen along the axis `drop`.
+fn shared(one: &Triangle, other: &Triangle, drop: usize) -> f64 {
+    let [u, v] = [(drop + 1) % 3, (drop + 2) % 3];
+    let flat = |corners: &Triangle| corners.map(|place| [place[u], place[v]]);
+    let area = |ring: &[[f64; 2]]| -> f64 {
+        let sides = ring.iter().zip(ring.iter().cycle().skip(1));
+        let twice = sides.map(|(a, b)| a[0] * b[1] - a[1] * b[0]);
+        twice.sum::<f64>() / 2.0
+    };
+    let (mut ring, mut clip) = (flat(one).to_vec(), flat(other));
+    if area(&clip) < 0.0 {
+        clip.reverse();
+    }
+    // Sutherland and Hodgman: what lies left of each side of the other triangle remains.
+    for side in 0..3 {
+        let [a, b] = [clip[side], clip[(side + 1) % 3]];
+        let left = |p: [f64; 2]| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+        let mut kept = vec![];
+        for (at, p) in ring.iter().enumerate() {
+            let q = ring[(at + 1) % ring.len()];
+            let [before, after] = [left(*p), left(q)];
+            if before >= 0.0 {
+                kept.push(*p);
+            }
+            if before * after < 0.0 {
+                let along = before / (before - after);
+                kept.push([0, 1].map(|axis| p[axis] + along * (q[axis] - p[axis])));
+            }
+        }
+        ring = kept;
+    }
+    area(&ring).abs()
+}
+
+/// Fails where two faces lie back to back in one plane: no solid has a thickness of 0, and solids that touch have no faces
+/// between them.
+fn assert_no_faces_back_to_back(map: &Map, roof: f64, bevel: f64, name: &str) {
+    let land = Landscape::new(map);
+    // Per plane the triangles that look along its normal, and those that look against it.
+    let mut planes: BTreeMap<[i64; 4], [Vec<Triangle>; 2]> = BTreeMap::new();
+    for (_, corners) in triangles(map, &land, roof, bevel) {
+        let [a, b, c] = corners;
+        let [u, v] = [b, c].map(|end| [0, 1, 2].map(|axis| end[axis] - a[axis]));
+        let normal = [1, 2, 0].map(|i: usize| {
+            let j = (i + 1) % 3;
+            u[i] * v[j] - u[j] * v[i]
+        });
+        let length = normal.iter().map(|value| value * value).sum::<f64>().sqrt();
+        if length < 1e-9 {
+            continue;
+        }
+        let normal = normal.map(|value| value / length);
+        let first = normal.iter().find(|value| value.abs() > 1e-4);
+        let against = first.is_some_and(|value| *value < 0.0);
+        let sign = if against { -1.0 } else { 1.0 };
+        let offset: f64 = (0..3).map(|axis| normal[axis] * a[axis]).sum();
+        let [x, y, z] = normal;
+        let plane = [x, y, z, offset].map(|value| (sign * value * 4096.0).round() as i64);
+        planes.entry(plane).or_default()[usize::from(against)].push(corners);
+    }
+    for (plane, [along, against]) in &planes {
+        let drop = (0..3).max_by_key(|axis| plane[*axis].abs()).unwrap_or(0);
+        for (one, other) in along
+            .iter()
+            .flat_map(|one| against.iter().map(move |other| (one, other)))
+        {
+            let area = shared(one, other, drop);
+            assert!(
+                area < 1e-4,
+                "{name}: {one:?} and {other:?}\n{}",
+                picture(map)
+            );
+        }
+    }
+}
+
 #[test]
 fn surfaces_look_like_their_maps() {
     let open = |map: &Map| !Landscape::new(map).ambiguities().is_empty();
@@ -172,5 +251,23 @@ fn bevelled_surfaces_are_closed() {
         let drawn = World::random(seed).draw();
         assert_closed(&drawn.map, 0.5, 0.25, &format!("landscape {seed}"));
         assert_closed(&scribble(seed), 0.7, 0.4, &format!("scribble {seed}"));
+    }
+}
+
+#[test]
+fn no_faces_lie_back_to_back() {
+    for seed in 0..300 {
+        let drawn = World::random(seed).draw();
+        assert_no_faces_back_to_back(&drawn.map, 0.5, 0.0, &format!("landscape {seed}"));
+        assert_no_faces_back_to_back(&scribble(seed), 0.7, 0.0, &format!("scribble {seed}"));
+    }
+}
+
+#[test]
+fn no_bevelled_faces_lie_back_to_back() {
+    for seed in 0..100 {
+        let drawn = World::random(seed).draw();
+        assert_no_faces_back_to_back(&drawn.map, 0.5, 0.25, &format!("landscape {seed}"));
+        assert_no_faces_back_to_back(&scribble(seed), 0.7, 0.4, &format!("scribble {seed}"));
     }
 }

@@ -9,37 +9,88 @@ use super::super::constraints::STRIPE;
 use super::super::houses::House;
 use super::greedy::{Facing, Rect};
 use super::mesh::Mesh;
+use super::steps;
 
 /// A wider bevel would turn thin walls inside out.
-pub(super) const WIDEST: f64 = 0.49;
+const WIDEST: f64 = 0.49;
+
+/// The axis of heights, which are in steps.
+const UP: usize = 1;
 
 type Point = [i32; 3];
 
-/// Splits a rectangle into the unit squares along its border, which may be bevelled, and the rest.
-pub(super) fn ring(rect: &Rect, squares: &mut Vec<Rect>, rest: &mut Vec<Rect>) {
+/// The grid that faces are split along: whole tiles, and the undersides of plates where a face ends there. All faces have
+/// the same lines, so that squares beside each other share whole sides.
+#[derive(Debug, Default)]
+pub(super) struct Lines {
+    undersides: FxHashSet<i32>,
+}
+
+impl Lines {
+    pub(super) fn new<'a>(rects: impl Iterator<Item = &'a Rect>) -> Self {
+        let steps = rects.flat_map(|rect| match rect.facing.axes() {
+            [_, UP, _] => rect.along,
+            _ => [rect.plane; 2],
+        });
+        Self {
+            undersides: steps.filter(|step| step % 2 != 0).collect(),
+        }
+    }
+
+    /// The next line after one on an axis.
+    fn after(&self, axis: usize, at: i32) -> i32 {
+        match axis == UP && at % 2 == 0 && !self.undersides.contains(&(at + 1)) {
+            true => at + 2,
+            false => at + 1,
+        }
+    }
+
+    /// The last line before one on an axis.
+    fn before(&self, axis: usize, at: i32) -> i32 {
+        match axis == UP && at % 2 == 0 && !self.undersides.contains(&(at - 1)) {
+            true => at - 2,
+            false => at - 1,
+        }
+    }
+
+    /// The point on the next line along an axis.
+    fn next(&self, mut point: Point, axis: usize) -> Point {
+        point[axis] = self.after(axis, point[axis]);
+        point
+    }
+}
+
+/// Splits a rectangle into the squares of the grid along its border, which may be bevelled, and the rest.
+pub(super) fn ring(rect: &Rect, lines: &Lines, squares: &mut Vec<Rect>, rest: &mut Vec<Rect>) {
     let [across, along] = [rect.across, rect.along];
+    let [_, axis, _] = rect.facing.axes();
     let mut square = |a: i32, b: i32| {
         squares.push(Rect {
             across: [a, a + 1],
-            along: [b, b + 1],
+            along: [b, lines.after(axis, b)],
             ..*rect
         });
     };
+    let inner = [lines.after(axis, along[0]), lines.before(axis, along[1])];
     for a in across[0]..across[1] {
         let side = a == across[0] || a + 1 == across[1];
         if side {
-            (along[0]..along[1]).for_each(|b| square(a, b));
+            let mut b = along[0];
+            while b < along[1] {
+                square(a, b);
+                b = lines.after(axis, b);
+            }
         } else {
             square(a, along[0]);
-            if along[1] - along[0] > 1 {
-                square(a, along[1] - 1);
+            if inner[0] < along[1] {
+                square(a, inner[1]);
             }
         }
     }
-    if across[1] - across[0] > 2 && along[1] - along[0] > 2 {
+    if across[1] - across[0] > 2 && inner[0] < inner[1] {
         rest.push(Rect {
             across: [across[0] + 1, across[1] - 1],
-            along: [along[0] + 1, along[1] - 1],
+            along: inner,
             ..*rect
         });
     }
@@ -64,6 +115,7 @@ struct Corner {
 /// The squares of a stripe and its neighbours, and how they meet.
 pub(super) struct Bevel<'a> {
     radius: f64,
+    lines: &'a Lines,
     /// The squares that may be bevelled.
     squares: FxHashMap<(Facing, Point), u8>,
     /// The faces at each side of a square, up to four. A side is its smaller point and its axis.
@@ -73,7 +125,7 @@ pub(super) struct Bevel<'a> {
     houses: Vec<&'a House>,
 }
 
-/// The smallest corner of a square, which identifies it together with its facing.
+/// The smallest corner of a square of the grid, which identifies it together with its facing.
 fn name(rect: &Rect) -> Point {
     let [across, along, up] = rect.facing.axes();
     let mut point = [0; 3];
@@ -83,20 +135,17 @@ fn name(rect: &Rect) -> Point {
     point
 }
 
-fn moved(mut point: Point, axis: usize, by: i32) -> Point {
-    point[axis] += by;
-    point
-}
-
 impl<'a> Bevel<'a> {
     /// Collects the squares of a stripe and those of its neighbours that touch it.
     pub(super) fn new(
         radius: f64,
+        lines: &'a Lines,
         squares: &mut dyn Iterator<Item = &Rect>,
         houses: Vec<&'a House>,
     ) -> Self {
         let mut bevel = Self {
             radius: radius.min(WIDEST),
+            lines,
             squares: FxHashMap::default(),
             sides: FxHashMap::default(),
             fixed: FxHashSet::default(),
@@ -108,9 +157,9 @@ impl<'a> Bevel<'a> {
             let [across, along, _] = facing.axes();
             for (start, axis) in [
                 (point, across),
-                (moved(point, along, 1), across),
+                (lines.next(point, along), across),
                 (point, along),
-                (moved(point, across, 1), along),
+                (lines.next(point, across), along),
             ] {
                 let faces = bevel.sides.entry((start, axis)).or_default();
                 faces.push((facing, point));
@@ -128,7 +177,7 @@ impl<'a> Bevel<'a> {
             reason = "a set does not depend on the order"
         )]
         for ((start, axis), faces) in &self.sides {
-            let end = moved(*start, *axis, 1);
+            let end = self.lines.next(*start, *axis);
             let whole = self.pairs(*start, *axis, faces).is_some_and(|pairs| {
                 let folded = |pair: &[(Facing, Point); 2]| opposite(pair[0].0, pair[1].0);
                 !pairs.iter().any(folded)
@@ -179,15 +228,17 @@ impl<'a> Bevel<'a> {
 
     fn fan(&self, facing: Facing, square: Point, point: Point) -> Fan {
         let [across, along, _] = facing.axes();
-        let has = |a: i32, b: i32| {
-            let name = moved(moved(point, across, a - 1), along, b - 1);
+        let has = |is_after: [bool; 2]| {
+            let mut name = point;
+            for (axis, is_after) in [across, along].into_iter().zip(is_after) {
+                if !is_after {
+                    name[axis] = self.lines.before(axis, point[axis]);
+                }
+            }
             self.squares.contains_key(&(facing, name))
         };
-        let there = [[has(0, 0), has(0, 1)], [has(1, 0), has(1, 1)]];
-        let own = [
-            (square[across] - point[across] + 1) as usize,
-            (square[along] - point[along] + 1) as usize,
-        ];
+        let there = [false, true].map(|a| [false, true].map(|b| has([a, b])));
+        let own = [across, along].map(|axis| usize::from(square[axis] == point[axis]));
         let mut squares = 1 << (own[0] | own[1] << 1);
         let mut add = |a: usize, b: usize| {
             if there[a][b] {
@@ -205,7 +256,7 @@ impl<'a> Bevel<'a> {
 
     /// The position of a corner after insetting.
     fn place(&self, corner: &Corner) -> [f64; 3] {
-        let mut place = corner.point.map(f64::from);
+        let mut place = steps::place(corner.point);
         if self.fixed.contains(&corner.point) {
             return place;
         }
@@ -223,10 +274,28 @@ impl<'a> Bevel<'a> {
         // With one square the corner moves into it, with two away from their side, with three away from the missing one, with four
         // not at all.
         if count < 4 {
-            place[across] += self.radius * towards[0].signum() * f64::from(towards[0] != 0.0);
-            place[along] += self.radius * towards[1].signum() * f64::from(towards[1] != 0.0);
+            for (axis, towards) in [across, along].into_iter().zip(towards) {
+                place[axis] += self.inset(corner.point, axis, towards);
+            }
         }
         place
+    }
+
+    /// How far a point moves along an axis into the squares on one side of it: in proportion to their side.
+    fn inset(&self, point: Point, axis: usize, towards: f64) -> f64 {
+        if towards == 0.0 {
+            return 0.0;
+        }
+        let side = match (axis == UP, towards > 0.0) {
+            (false, _) => 1.0,
+            (true, true) => {
+                steps::height(self.lines.after(UP, point[UP])) - steps::height(point[UP])
+            }
+            (true, false) => {
+                steps::height(point[UP]) - steps::height(self.lines.before(UP, point[UP]))
+            }
+        };
+        self.radius * side * towards.signum()
     }
 
     fn corner(&self, (facing, square): (Facing, Point), point: Point) -> Corner {
@@ -259,7 +328,7 @@ impl<'a> Bevel<'a> {
                 if one.0 == other.0 {
                     continue;
                 }
-                let end = moved(*start, *axis, 1);
+                let end = self.lines.next(*start, *axis);
                 // The face that runs along the side in its direction goes first.
                 let forward = runs_forward(one, *start, *axis);
                 let [f, g] = if forward { [one, other] } else { [other, one] };
@@ -336,7 +405,7 @@ fn opposite(one: Facing, other: Facing) -> bool {
 fn touches(house: &House, [x, y, z]: Point) -> bool {
     let columns = house.roof.start.min(house.walls.start)..=house.roof.end.max(house.walls.end);
     columns.contains(&x)
-        && (house.base..=house.eaves()).contains(&y)
+        && (steps::step(house.base)..=steps::step(house.eaves())).contains(&y)
         && (house.back()..=house.front).contains(&z)
 }
 

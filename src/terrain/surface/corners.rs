@@ -13,8 +13,8 @@ pub(super) struct Corners {
     stripes: Vec<FxHashSet<u64>>,
 }
 
-/// A point in one number, its column relative to its stripe. Heights and depths are below 2²⁷, because both are sums of
-/// rows of a map of 2²⁶ cells.
+/// A point in one number, its column relative to its stripe. Depths and steps of heights are below 2²⁷: heights are sums of rows
+/// of a map of 2²⁶ cells, depths the sum of a row and a height.
 fn packed(stripe: usize, [x, y, z]: [i32; 3]) -> u64 {
     const HALF: i64 = 1 << 27;
     let x = (i64::from(x) - (stripe * STRIPE) as i64) as u64;

@@ -2,9 +2,11 @@
 
 use std::ops::Range;
 
-use super::super::solids::{MapContext, Solids, Visible};
+use super::super::occlusion::Visible;
+use super::super::solids::{MapContext, Solids};
 use super::greedy::{FaceRun, Facing, GreedyMesher, Rect};
 use super::slices::{Slice, Slices, Span};
+use super::steps::{step, tiles};
 
 /// Finds the faces of columns and between neighbouring columns.
 struct Faces<'a> {
@@ -31,14 +33,15 @@ pub(super) fn faces(context: &MapContext, columns: Range<usize>) -> Vec<Rect> {
         runs: Default::default(),
         rects: Vec::new(),
     };
+    let plates = &context.levels.plates;
     if let Some(before) = columns.start.checked_sub(1) {
         faces.solids.build(context, before);
-        faces.columns[1].build(&faces.solids.blocks);
+        faces.columns[1].build(&faces.solids.blocks, plates);
     }
     for column in columns.clone() {
         faces.solids.build(context, column);
         faces.columns.swap(0, 1);
-        faces.columns[1].build(&faces.solids.blocks);
+        faces.columns[1].build(&faces.solids.blocks, plates);
         faces.column(column);
         faces.between(column as i32);
     }
@@ -165,10 +168,12 @@ fn top_runs(
     hidden: u8,
     runs: &mut Vec<FaceRun>,
 ) {
-    let rows = slice.z[0] - plane..slice.z[1] - plane;
-    let is = |visible| visible == Visible::Top(plane);
+    // Tops are at whole heights.
+    let [level, _] = tiles([plane; 2]);
+    let rows = slice.z[0] - level..slice.z[1] - level;
+    let is = |visible| visible == Visible::Top(level);
     solids.drawn_materials(context, number, rows, is, |rows, material| {
-        let along = [rows.start + plane, rows.end + plane];
+        let along = [rows.start + level, rows.end + level];
         runs.push(FaceRun::new(plane, along, material.unwrap_or(hidden)));
     });
 }
@@ -183,13 +188,17 @@ fn front_runs(
     runs: &mut Vec<FaceRun>,
 ) {
     let is = |visible| visible == Visible::Front(plane);
+    let [bottom, top] = tiles(y);
     solids.drawn_materials(
         context,
         number,
-        plane - y[1]..plane - y[0],
+        plane - top..plane - bottom,
         is,
         |rows, material| {
-            let along = [plane - rows.end, plane - rows.start];
+            let along = [
+                y[0].max(step(plane - rows.end)),
+                y[1].min(step(plane - rows.start)),
+            ];
             runs.push(FaceRun::new(plane, along, material.unwrap_or(hidden)));
         },
     );

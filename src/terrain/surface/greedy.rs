@@ -1,6 +1,6 @@
 //! Greedy meshing (Lysenko, *Meshing in a Minecraft Game*, 2012): coplanar faces of one material are merged to large rectangles.
 //!
-//! Faces come as lines of runs, in order. A rectangle grows as long as the next line covers it.
+//! Faces come as lines of runs, in order. A rectangle grows as long as the next line covers it. Heights are in steps.
 
 /// The direction that a face looks in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

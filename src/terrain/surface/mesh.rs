@@ -1,8 +1,10 @@
 //! Triangulates polygons that have additional points on their sides.
 
+use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
 
 use super::greedy::Facing;
+use super::steps;
 use crate::scene::Surface;
 
 /// The surfaces under construction, one for each material.
@@ -40,7 +42,7 @@ impl Mesh {
 
     /// Adds a corner, shared by all polygons that look in the same direction.
     fn corner(&mut self, material: u8, facing: Facing, point: [i32; 3]) -> u32 {
-        let place = point.map(f64::from);
+        let place = steps::place(point);
         let MaterialSurface { surface, known } = &mut self.materials[usize::from(material)];
         *known.entry((point, facing)).or_insert_with(|| {
             push_corner(
@@ -68,8 +70,8 @@ impl Mesh {
             self.zip(material, &ids, 1);
         } else {
             // A fan about the middle has no degenerate triangle.
-            let [a, b] = [sides[0][0], sides[2][0]];
-            let middle = [0, 1, 2].map(|axis| f64::from(a[axis] + b[axis]) / 2.0);
+            let [a, b] = [sides[0][0], sides[2][0]].map(steps::place);
+            let middle = [0, 1, 2].map(|axis| (a[axis] + b[axis]) / 2.0);
             let surface = &mut self.materials[usize::from(material)].surface;
             let centre = push_corner(
                 surface,
@@ -139,10 +141,13 @@ impl Mesh {
         if let [a, b, c, rest @ ..] = ids.as_slice()
             && rest.len() < 2
         {
-            let two = [[*a, *b, *c]]
-                .into_iter()
-                .chain(rest.iter().map(|d| [*a, *c, *d]));
-            two.for_each(|triangle| push_triangle(surface, triangle));
+            let triangles = match rest {
+                [d] => halves(surface, [*a, *b, *c, *d]).to_vec(),
+                _ => vec![[*a, *b, *c]],
+            };
+            for triangle in triangles {
+                push_triangle(surface, triangle);
+            }
             return;
         }
         let sum = |of: &dyn Fn(usize) -> [f64; 3]| {
@@ -175,6 +180,26 @@ impl Mesh {
         surface
             .triangles
             .extend(pairs.map(|pair| [ids[0], pair[0], pair[1]]));
+    }
+}
+
+/// Cuts a quadrilateral along the diagonal that leaves both triangles facing as its corners' normals do. Where a wide bevel bends
+/// a corner inward, only one diagonal does.
+fn halves(surface: &Surface, [a, b, c, d]: [u32; 4]) -> [[u32; 3]; 2] {
+    let place = |corner: u32| DVec3::from(Vec3::from(surface.positions[corner as usize]));
+    let normals = [a, b, c, d].map(|corner| Vec3::from(surface.normals[corner as usize]));
+    let facing = DVec3::from(normals.into_iter().sum::<Vec3>());
+    let least = |halves: &[[u32; 3]; 2]| {
+        let areas = halves.map(|[a, b, c]| {
+            let [a, b, c] = [a, b, c].map(place);
+            (b - a).cross(c - a).dot(facing)
+        });
+        areas[0].min(areas[1])
+    };
+    let [usual, other] = [[[a, b, c], [a, c, d]], [[a, b, d], [b, c, d]]];
+    match least(&usual) < 0.0 && least(&other) > least(&usual) {
+        true => other,
+        false => usual,
     }
 }
 

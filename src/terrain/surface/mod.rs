@@ -1,7 +1,8 @@
 //! The surface of the landscape.
 //!
-//! Invariant: the surface is closed. Coplanar faces are merged, there are no faces between solids that touch, and a corner on
-//! the side of another face is a point of that face too (no T-junctions), so that no gaps show.
+//! Invariants: the surface is closed, and no two faces lie back to back in one plane. Coplanar faces are merged, there are no faces
+//! between solids that touch, and a corner on the side of another face is a point of that face too (no T-junctions), so that no
+//! gaps show.
 
 mod bevel;
 mod corners;
@@ -10,6 +11,7 @@ mod greedy;
 mod mesh;
 mod roofs;
 mod slices;
+mod steps;
 
 use rayon::prelude::*;
 
@@ -18,7 +20,7 @@ use super::houses::House;
 use super::solids::MapContext;
 use crate::scene::Surface;
 
-use bevel::Bevel;
+use bevel::{Bevel, Lines};
 use corners::Corners;
 use greedy::Rect;
 use mesh::Mesh;
@@ -37,19 +39,21 @@ pub(super) fn surface(context: &MapContext, factor: f64, radius: f64) -> Vec<(u8
         .map(|stripe| faces::faces(context, columns(stripe)))
         .collect();
     let roofed = |house: &&House| house.depth > 0 && !house.roof.is_empty();
-    let mut eaves = vec![];
-    for house in context.houses.iter().filter(roofed) {
-        eaves.extend(roofs::eaves(house));
-        for rect in roofs::soffits(house) {
-            rects[rect.across[0] as usize / STRIPE].push(rect);
-        }
-    }
-    let mut squares = vec![vec![]; if radius > 0.0 { stripes } else { 0 }];
+    let houses: Vec<&House> = context.houses.iter().filter(roofed).collect();
+    let eaves: Vec<[i32; 3]> = houses
+        .iter()
+        .flat_map(|house| roofs::eaves(house))
+        .collect();
+    let gables = roofs::gables(&houses, &rects, factor);
+    let (lines, mut squares) = match radius > 0.0 {
+        true => (Lines::new(rects.iter().flatten()), vec![vec![]; stripes]),
+        false => (Lines::default(), vec![]),
+    };
     for (squares, rects) in squares.iter_mut().zip(&mut rects) {
         let mut rest = vec![];
         rects
             .iter()
-            .for_each(|rect| bevel::ring(rect, squares, &mut rest));
+            .for_each(|rect| bevel::ring(rect, &lines, squares, &mut rest));
         *rects = rest;
     }
     let corners = Corners::new(&rects, &squares, &eaves);
@@ -72,14 +76,14 @@ pub(super) fn surface(context: &MapContext, factor: f64, radius: f64) -> Vec<(u8
                 mesh.rectangle(rect.material, rect.facing, &sides);
             }
             if radius > 0.0 {
-                bevelled(context, radius, &squares, stripe, &mut mesh);
+                bevelled(context, radius, &lines, &squares, stripe, &mut mesh);
             }
             mesh.finish()
         })
         .collect();
     let mut roof = mesh();
-    for house in context.houses.iter().filter(roofed) {
-        roofs::roof(&mut roof, &corners, house, factor);
+    for (house, gables) in houses.into_iter().zip(gables) {
+        roofs::roof(&mut roof, &corners, house, factor, gables);
     }
     made.push(roof.finish());
     let mut surfaces: Vec<(u8, Vec<Surface>)> =
@@ -95,6 +99,7 @@ pub(super) fn surface(context: &MapContext, factor: f64, radius: f64) -> Vec<(u8
 fn bevelled(
     context: &MapContext,
     radius: f64,
+    lines: &Lines,
     squares: &[Vec<Rect>],
     stripe: usize,
     mesh: &mut Mesh,
@@ -112,7 +117,7 @@ fn bevelled(
         house.roof.start.min(house.walls.start) <= end + 1
             && house.roof.end.max(house.walls.end) >= start - 1
     });
-    let bevel = Bevel::new(radius, &mut around, houses.collect());
+    let bevel = Bevel::new(radius, lines, &mut around, houses.collect());
     bevel.add(
         mesh,
         &squares[stripe],

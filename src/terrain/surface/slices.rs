@@ -2,12 +2,15 @@
 
 use std::cmp::Ordering;
 
+use rustc_hash::FxHashSet;
+
 use super::super::solids::Block;
+use super::steps::{step, underside};
 
 /// A solid range of heights in a slice.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Span {
-    /// `[bottom, top]`, which are equal for a sheet.
+    /// `[bottom, top]` in steps, which are equal for the underside of a roof.
     pub(super) y: [i32; 2],
     /// The material of its top where none is drawn; `None` under a roof.
     pub(super) top: Option<u8>,
@@ -30,9 +33,9 @@ pub(super) struct Slice {
 pub(super) struct Slices {
     pub(super) list: Vec<Slice>,
     spans: Vec<Span>,
-    /// The materials of sides where none is drawn, from below, each with the height up to which it goes.
+    /// The materials of sides where none is drawn, from below, each with the step up to which it goes.
     sides: Vec<(i32, u8)>,
-    /// Eaves inside of another solid: height, range of z, and the material of the walls.
+    /// Eaves inside of another solid: step, range of z, and the material of the walls.
     pub(super) inner: Vec<(i32, [i32; 2], u8)>,
     bounds: Vec<i32>,
     order: Vec<Block>,
@@ -52,7 +55,7 @@ impl Slices {
         &self.spans[slice.spans[0]..slice.spans[1]]
     }
 
-    /// The materials of a slice's sides between two heights, from below.
+    /// The materials of a slice's sides between two steps, from below.
     pub(super) fn sides(&self, slice: &Slice, y: [i32; 2], mut each: impl FnMut([i32; 2], u8)) {
         let mut from = y[0];
         for (to, material) in &self.sides[slice.sides[0]..slice.sides[1]] {
@@ -64,12 +67,15 @@ impl Slices {
         }
     }
 
-    /// Builds the slices of a column.
-    pub(super) fn build(&mut self, blocks: &[Block]) {
+    /// Builds the slices of a column. `plates` are the heights of [`Levels::plates`](super::super::levels::Levels::plates).
+    pub(super) fn build(&mut self, blocks: &[Block], plates: &FxHashSet<i32>) {
         self.clear();
         self.order.clear();
-        self.order
-            .extend(blocks.iter().filter(|block| block.z[0] < block.z[1]));
+        let solid = blocks.iter().filter(|block| block.z[0] < block.z[1]);
+        self.order.extend(solid.map(|block| Block {
+            y: in_steps(block, plates),
+            ..*block
+        }));
         self.order.sort_unstable_by_key(|block| block.z[0]);
         self.bounds.clear();
         self.bounds
@@ -146,4 +152,21 @@ impl Slices {
             sides: [sides, self.sides.len()],
         });
     }
+}
+
+/// The bottom and top of a block in steps, with the thickness that plates have below.
+fn in_steps(block: &Block, plates: &FxHashSet<i32>) -> [i32; 2] {
+    let [bottom, top] = block.y;
+    let founded = match block.top {
+        // What stands beside a plate reaches as deep as the plate, so that they are one solid.
+        _ if bottom < top => plates.contains(&bottom),
+        // Without a top it is the underside of a roof.
+        top => top.is_some(),
+    };
+    let bottom = if founded {
+        underside(bottom)
+    } else {
+        step(bottom)
+    };
+    [bottom, step(top)]
 }
