@@ -257,7 +257,12 @@ pub(crate) fn remove_collinear(ring: &mut Ring, flat: f64) {
         }
         let mut kept: Ring = Vec::with_capacity(n);
         for i in 0..n {
-            let (p, next) = (ring[i], ring[(i + 1) % n]);
+            let p = ring[i];
+            // Of two points that are close together one has to stay, also where the ring begins.
+            let next = match ring.get(i + 1) {
+                Some(next) => *next,
+                None => kept.first().copied().unwrap_or(ring[0]),
+            };
             let before = kept.last().copied().unwrap_or(ring[n - 1]);
             if is_corner(before, p, next, flat) {
                 kept.push(p);
