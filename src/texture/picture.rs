@@ -11,6 +11,8 @@ use crate::scene::MediaType;
 
 /// The largest width and height of a picture in pixels.
 const MAX_SIDE: u32 = 16_384;
+/// The gamma of sRGB as PNG files give it, in 1/100,000.
+const SRGB_GAMMA: u32 = 45_455;
 /// How far colours are extended into transparent pixels; farther away they get the mean colour.
 const BLEED: usize = 16;
 /// The largest width of antialiasing along a sharp border, in pixels to either side.
@@ -23,7 +25,7 @@ const STRAY_SHARE: usize = 1000;
 pub struct Decoded {
     /// Its pixels, sRGB with straight alpha.
     pub pixels: RgbaImage,
-    /// The format of the file, if glTF supports it.
+    /// The format of the file, if glTF allows it as it is.
     pub media_type: Option<MediaType>,
 }
 
@@ -68,7 +70,7 @@ pub fn decode(bytes: &[u8]) -> Result<Decoded, PictureError> {
     })
 }
 
-/// Decodes a picture in its stored pixel format; also returns the format of the file, if glTF supports it.
+/// Decodes a picture in its stored pixel format; also returns the format of the file, if glTF allows it as it is.
 ///
 /// # Errors
 /// See [`PictureError`].
@@ -81,11 +83,27 @@ pub fn pixels(bytes: &[u8]) -> Result<(DynamicImage, Option<MediaType>), Picture
     limits.max_image_height = Some(MAX_SIDE);
     reader.limits(limits);
     let media_type = match reader.format() {
-        Some(image::ImageFormat::Png) => Some(MediaType::Png),
+        Some(image::ImageFormat::Png) => is_plain_png(bytes).then_some(MediaType::Png),
         Some(image::ImageFormat::Jpeg) => Some(MediaType::Jpeg),
         _ => None,
     };
     Ok((reader.decode()?, media_type))
+}
+
+/// Whether a PNG is one that glTF allows: sRGB, with square pixels, and not animated.
+fn is_plain_png(bytes: &[u8]) -> bool {
+    let Ok(reader) = png::Decoder::new(Cursor::new(bytes)).read_info() else {
+        return false;
+    };
+    let info = reader.info();
+    let is_square = |dots: png::PixelDimensions| dots.xppu == dots.yppu;
+    info.gama_chunk
+        .is_none_or(|gamma| gamma.into_scaled() == SRGB_GAMMA)
+        && info.chrm_chunk.is_none()
+        && info.icc_profile.is_none()
+        && info.coding_independent_code_points.is_none()
+        && info.animation_control.is_none()
+        && info.pixel_dims.is_none_or(is_square)
 }
 
 /// The image file for a picture in the model: the original if it is opaque. `None` if there is not enough memory.

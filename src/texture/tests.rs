@@ -153,3 +153,37 @@ fn opaque_files_are_kept_unchanged() {
     assert_eq!(converted.media_type, MediaType::Png);
     assert!(converted.bytes.starts_with(b"\x89PNG"));
 }
+
+/// A PNG of one opaque pixel with the settings that `set` makes.
+fn pixel(set: impl FnOnce(&mut png::Encoder<'_, &mut Vec<u8>>)) -> Arc<[u8]> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 1, 1);
+    encoder.set_color(png::ColorType::Rgb);
+    set(&mut encoder);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(&[1, 2, 3]).unwrap();
+    writer.finish().unwrap();
+    bytes.into()
+}
+
+#[test]
+fn files_that_gltf_does_not_allow_are_encoded_again() {
+    let is_kept = |bytes: &Arc<[u8]>| {
+        let made = picture(decode(bytes).unwrap(), bytes, Holes::Outline).unwrap();
+        assert_eq!(
+            decode(&made.bytes).unwrap().pixels.get_pixel(0, 0).0,
+            [1, 2, 3, 255]
+        );
+        Arc::ptr_eq(&made.bytes, bytes)
+    };
+    let gamma = |scaled| pixel(|png| png.set_source_gamma(png::ScaledFloat::from_scaled(scaled)));
+    let dots = |xppu, yppu| {
+        let unit = png::Unit::Meter;
+        pixel(|png| png.set_pixel_dims(Some(png::PixelDimensions { xppu, yppu, unit })))
+    };
+    assert!(is_kept(&gamma(45_455)));
+    assert!(!is_kept(&gamma(55_000)));
+    assert!(is_kept(&dots(2835, 2835)));
+    assert!(!is_kept(&dots(2835, 1417)));
+    assert!(!is_kept(&pixel(|png| png.set_animated(1, 0).unwrap())));
+}
