@@ -17,8 +17,11 @@ use crate::svg::{Drawing, Element, GroupKind, PaintKey, Shape};
 const PAGE: f64 = 0.9;
 /// The least share of everything else that a background holds, by area of bounding boxes.
 const HELD: f64 = 0.9;
-/// The least share of its bounding box that a rectangle fills: its corners may be rounded.
-const RECTANGULAR: f64 = 0.95;
+/// The least share of its bounding box that a rectangle fills. Paper has corners: a sheet with rounded ones is a card, or the tile of an
+/// icon.
+const RECTANGULAR: f64 = 0.998;
+/// Shapes this close to an edge of the page reach it, relative to its width or height.
+const EDGE: f64 = 0.005;
 /// The most backgrounds of a drawing.
 const MAX_BACKGROUNDS: usize = 16;
 /// First words of the ids and labels that programs give to artboards and layers.
@@ -187,6 +190,7 @@ fn backgrounds(
             || described
             || has_string_beside(drawing, strings, &filled, shape)
             || !holds(drawing, own, rest)
+            || reaches_all_edges(drawing, rest)
         {
             break;
         }
@@ -206,6 +210,29 @@ fn is_rectangle(shape: &Shape) -> bool {
     polygon.rings.len() == 1
         && !matches!(shape.paint.key, PaintKey::Picture(_))
         && area(&shape.outline) >= RECTANGULAR * whole
+}
+
+/// Whether shapes reach all four edges of the page: then what is drawn fills the page, as a flag does, and a rectangle behind it is a part
+/// of it. Further rectangles that cover the page say nothing.
+fn reaches_all_edges(drawing: &Drawing, shapes: &[usize]) -> bool {
+    let (page, size) = drawing.page;
+    let near = EDGE * size;
+    let mut reached = [false; 4];
+    for shape in shapes {
+        let shape = &drawing.shapes[*shape];
+        let Some((low, high)) = bounds(&shape.outline) else {
+            continue;
+        };
+        if covers_page(drawing, (low, high)) && is_rectangle(shape) {
+            continue;
+        }
+        let [left, top]: [bool; 2] = low.cmple(page + near).into();
+        let [right, bottom]: [bool; 2] = high.cmpge(page + size - near).into();
+        for (reached, reaches) in reached.iter_mut().zip([left, top, right, bottom]) {
+            *reached |= reaches;
+        }
+    }
+    reached == [true; 4]
 }
 
 /// Whether a rectangle holds most of the other shapes.
