@@ -10,7 +10,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::bindings::{Bindings, DrawingString, NamedBy, PartKind};
 use super::{contact, joints, many, names, parents};
-use crate::diagnostic::{Code, Diagnostic, listed};
+use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{Measure, measure_along};
 use crate::lang::ast::{self, Annotation, Name};
 use crate::memo::{Bits, Long, Memo};
@@ -245,7 +245,7 @@ fn axes(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagno
     }
     let (parts, findings): (Vec<usize>, Vec<Diagnostic>) = guessed.into_iter().unzip();
     let names = || listed(parts.iter().map(|part| bindings.describe(drawing, *part)));
-    many::few_or_one(
+    few_or_one(
         findings,
         |count| {
             let names = names();

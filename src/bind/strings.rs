@@ -7,9 +7,8 @@ use rayon::prelude::*;
 
 use super::bare_names;
 use super::bindings::{Bindings, DrawingString, Place};
-use super::many;
 use super::settings::DrawingSettings;
-use crate::diagnostic::{Code, Diagnostic, Edit, Fix, listed};
+use crate::diagnostic::{Code, Diagnostic, Edit, Fix, few_or_one, listed};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::lang::{self, variables::Variables};
@@ -83,7 +82,7 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
                 .map(|text| format!("`{}`", shortened(text.as_str()))),
         )
     };
-    many::few_or_one(
+    few_or_one(
         captions.iter().map(|text| caption(text)).collect(),
         |count| {
             let words = words();

@@ -1,8 +1,7 @@
 //! Strings without a part, and why there is none for them.
 
 use super::bindings::{Bindings, DrawingString, PartKind, Place};
-use super::many;
-use crate::diagnostic::{Code, Diagnostic, listed};
+use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::lang::ast::Annotation;
 use crate::svg::{Drawing, Hidden};
 
@@ -51,7 +50,7 @@ pub(super) fn report(drawing: &Drawing, bindings: &Bindings, diagnostics: &mut V
         left_over.push(finding.help(help));
     }
     let names = || listed(waiting.iter().map(|string| called(string)));
-    many::few_or_one(
+    few_or_one(
         left_over,
         |_| {
             let (cause, _) = all_taken.cause_and_help();

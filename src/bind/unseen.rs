@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use super::bindings::Bindings;
-use super::many;
-use crate::diagnostic::{Code, Diagnostic, listed};
+use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::lang::annotates;
 use crate::source::{Span, Text};
 use crate::svg::{ConvertedText, Drawing, GroupKind, Hidden};
@@ -95,7 +94,7 @@ pub(super) fn converted(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) {
         let texts = converted.iter();
         listed(texts.map(|converted| format!("`{}`", converted.text.trim())))
     };
-    many::few_or_one(
+    few_or_one(
         findings.collect(),
         |count| {
             format!(

@@ -5,10 +5,12 @@
 
 mod apply;
 pub mod codes;
+mod gather;
 
 pub(crate) use apply::applied;
 pub use apply::apply_safe_fixes;
 pub use codes::Code;
+pub(crate) use gather::{FEW, few_or_one};
 
 use std::borrow::Cow;
 use std::ops::Range;

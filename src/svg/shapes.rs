@@ -15,9 +15,10 @@ use super::style::Styles;
 use super::unsolid::Who;
 use super::walk::{Leaf, Task, Walk};
 use super::{Drawing, Element, Paint, PaintKey, PictureSource, Shape, growth, unseen};
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::{FillRule, MAX_CROSSINGS, Outline, is_tangled, resolve_overlaps};
 use crate::resolver::Resolver;
+use crate::source::Span;
 
 /// Joins usvg's tree and the XML.
 pub(super) fn read(
@@ -106,7 +107,7 @@ pub(super) fn read(
         .map(|(index, task)| {
             let (shape, finding) = context.shape(index, task);
             if let (Some(finding), Ok(mut found)) = (finding, found.lock()) {
-                found.push((index, *finding));
+                found.push((index, finding));
             }
             shape
         })
@@ -124,7 +125,7 @@ pub(super) fn read(
     crate::threads::run_aside(move || drop(tree));
     let mut found = found.into_inner().unwrap_or_default();
     found.sort_by_key(|(index, _)| *index);
-    diagnostics.extend(found.into_iter().map(|(_, finding)| finding));
+    report_losses(found.into_iter().map(|(_, loss)| loss), diagnostics);
     let mut shapes = Vec::with_capacity(made.len());
     made.into_iter().for_each(|shape| shapes.extend(shape));
     let drawing = Drawing {
@@ -149,6 +150,36 @@ pub(super) fn read(
 /// The largest coordinate that is built, in user units: the surfaces of larger shapes do not fit into the `f32` that models
 /// are written in.
 const MAX_COORDINATE: f32 = 1e12;
+
+/// What is not built of the drawing.
+enum Loss {
+    /// A shape that is left out.
+    LeftOut(Box<Diagnostic>),
+    /// A shape that its clip removes, by its description for people.
+    ClippedAway(String, Span),
+}
+
+/// Reports what is not built. Maps and flags are clipped at the page, so that there may be hundreds of shapes outside.
+fn report_losses(losses: impl Iterator<Item = Loss>, diagnostics: &mut Vec<Diagnostic>) {
+    let mut clipped = Vec::new();
+    for loss in losses {
+        match loss {
+            Loss::LeftOut(finding) => diagnostics.push(*finding),
+            Loss::ClippedAway(name, span) => clipped.push((name, span)),
+        }
+    }
+    let findings = clipped.iter().map(|(name, span)| {
+        let message = format!("its clip leaves nothing of {name}");
+        Diagnostic::new(Code::Vanishes, *span, message)
+            .help("release the clip, or delete the shape")
+    });
+    let names = || listed(clipped.iter().map(|(name, _)| name.clone()));
+    few_or_one(
+        findings.collect(),
+        |count| format!("clips leave nothing of {count} shapes: {}", names()),
+        diagnostics,
+    );
+}
 
 /// Whether a path has coordinates that cannot be built.
 fn is_beyond_use(path: &usvg::Path) -> bool {
@@ -181,22 +212,23 @@ pub(super) struct Context<'a, 'input> {
 }
 
 impl Context<'_, '_> {
-    fn shape(&self, index: usize, task: &Task<'_>) -> (Option<Shape>, Option<Box<Diagnostic>>) {
+    fn shape(&self, index: usize, task: &Task<'_>) -> (Option<Shape>, Option<Loss>) {
         let Some(node) = self.document.get_node(task.xml) else {
             return (None, None);
         };
         match task.node {
             Leaf::Path(path) if is_beyond_use(path) => {
                 let finding = self.beyond_use(node);
-                (None, Some(Box::new(finding)))
+                (None, Some(Loss::LeftOut(Box::new(finding))))
             }
             Leaf::Path(path) => {
                 let shape = self.path(path, node, task);
-                let finding = shape.as_ref().and_then(|shape| {
-                    self.tangled(shape, path)
-                        .or_else(|| self.clipped_away(shape, path, task))
+                let loss = shape.as_ref().and_then(|shape| {
+                    let tangled = self.tangled(shape, path).map(Box::new);
+                    let tangled = tangled.map(Loss::LeftOut);
+                    tangled.or_else(|| self.clipped_away(shape, path, task))
                 });
-                (shape, finding.map(Box::new))
+                (shape, loss)
             }
             Leaf::Image(image) => (Some(self.image(index, image, node, task)), None),
         }
@@ -230,13 +262,8 @@ impl Context<'_, '_> {
         })
     }
 
-    /// Reports that a clip removes a fill completely.
-    fn clipped_away(
-        &self,
-        shape: &Shape,
-        path: &usvg::Path,
-        task: &Task<'_>,
-    ) -> Option<Diagnostic> {
+    /// A fill that a clip removes completely.
+    fn clipped_away(&self, shape: &Shape, path: &usvg::Path, task: &Task<'_>) -> Option<Loss> {
         let filled = path.fill().is_some_and(|fill| fill.opacity().get() > 0.0);
         if task.clips.is_none() || !filled || !shape.outline.polygons.is_empty() {
             return None;
@@ -245,9 +272,7 @@ impl Context<'_, '_> {
         let whole = resolve_overlaps(rings(&whole, self.tolerance), FillRule::NonZero);
         (!whole.polygons.is_empty()).then(|| {
             let name = shape.describe_as(&whole, self.page_box);
-            let message = format!("its clip leaves nothing of {name}");
-            Diagnostic::new(Code::Vanishes, shape.element.span, message)
-                .help("release the clip, or delete the shape")
+            Loss::ClippedAway(name, shape.element.span)
         })
     }
 
