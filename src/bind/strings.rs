@@ -17,13 +17,10 @@ use crate::svg::{Drawing, GroupKind, Label};
 use crate::threads::GRAIN;
 
 pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
-    let mut texts = descriptions(drawing);
-    let annotated = !texts.is_empty()
-        || drawing
-            .labels
-            .iter()
-            .any(|(label, _)| lang::annotates(label.text.as_str()))
-        || bare_names::name_parts(drawing);
+    let mut labels = drawing.labels.iter();
+    let signed = labels.any(|(label, _)| lang::annotates(label.text.as_str()));
+    let mut texts = descriptions(drawing, signed);
+    let annotated = signed || !texts.is_empty() || bare_names::name_parts(drawing);
     if !annotated {
         return Bindings::default();
     }
@@ -116,29 +113,30 @@ pub(super) fn read(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) -> Bind
     bindings
 }
 
-/// Descriptions of shapes and groups that are strings, or the name of their part alone.
-fn descriptions(drawing: &Drawing) -> Vec<(Place, Arc<Text>)> {
-    let mut texts = Vec::new();
-    // The description of the whole file is seldom about its only part.
-    let is_name = |text: &str, place| {
+/// Descriptions of shapes and groups that are strings, and those that are the name of their part alone.
+///
+/// Office programs describe every element by its kind (`Drawing`, `Group`, `Slide`). So names alone count only if the drawing has
+/// signs elsewhere (`signed`), or if they can name parts: all are distinct, and none is about a group without shapes of its own.
+fn descriptions(drawing: &Drawing, signed: bool) -> Vec<(Place, Arc<Text>)> {
+    let shapes = drawing.shapes.iter().enumerate();
+    let shapes = shapes.map(|(index, shape)| (Place::Shape(index), &shape.element.desc));
+    let groups = drawing.groups.iter().enumerate();
+    let groups = groups.map(|(index, group)| (Place::Group(index), &group.element.desc));
+    let (strings, others): (Vec<_>, Vec<_>) = shapes
+        .chain(groups)
+        .filter_map(|(place, desc)| Some((place, Arc::clone(desc.as_ref()?))))
+        .partition(|(_, text)| lang::describes(text.as_str()));
+    let mut names = others;
+    names.retain(|(place, text)| {
+        // The description of the whole file is seldom about its only part.
         let is_root =
-            matches!(place, Place::Group(group) if drawing.groups[group].kind == GroupKind::Root);
-        !is_root && bare_names::is_bare_name(text)
-    };
-    let mut take = |desc: &Option<Arc<Text>>, place| {
-        if let Some(text) = desc
-            && (lang::describes(text.as_str()) || is_name(text.as_str(), place))
-        {
-            texts.push((place, Arc::clone(text)));
-        }
-    };
-    for (index, shape) in drawing.shapes.iter().enumerate() {
-        take(&shape.element.desc, Place::Shape(index));
+            matches!(place, Place::Group(group) if drawing.groups[*group].kind == GroupKind::Root);
+        !is_root && bare_names::is_bare_name(text.as_str())
+    });
+    if !signed && strings.is_empty() && !bare_names::descriptions_name_parts(drawing, &names) {
+        names.clear();
     }
-    for (index, group) in drawing.groups.iter().enumerate() {
-        take(&group.element.desc, Place::Group(index));
-    }
-    texts
+    [strings, names].concat()
 }
 
 /// Reports a text that holds several strings, of which only the first is read, with a fix that splits it.
@@ -234,7 +232,9 @@ fn caption(text: &Text) -> Diagnostic {
     let start = text.span(0..0);
     let message = "this text is not a string; it is taken for a caption";
     let finding = Diagnostic::new(Code::Caption, text.whole(), message)
-        .help("put `#` before it to make it a comment; a part's name with spaces needs quotes")
+        .help(
+            "put `#` before it to make it a comment; a part's name with spaces needs quotes",
+        )
         .fix("Make it a comment", start, "#");
     match without_sign(text.as_str()) {
         Some(blank) => finding.label("is `$` missing before the attributes?").fix(
