@@ -13,7 +13,7 @@ use common::rewrite::rewrites;
 use libtest_mimic::{Arguments, Failed, Trial};
 use okoshi::cli::Findings;
 use okoshi::cli::report::{Style, human};
-use okoshi::diagnostic::Code;
+use okoshi::diagnostic::{Code, Diagnostic};
 use okoshi::disk::FolderResolver;
 
 fn folder() -> PathBuf {
@@ -44,6 +44,11 @@ fn outcome(case: &Path) -> Result<String, String> {
         },
         Style::Plain,
     );
+    if let Some(found) = compiled.diagnostics.iter().find(|found| !is_worded(found)) {
+        return Err(format!(
+            "the wording of {found:?} is not that of the others"
+        ));
+    }
     let glb = common::glb(&compiled);
     if glb != common::glb(&common::compiled(&text, &FolderResolver::new(case))) {
         return Err("two builds differ".to_owned());
@@ -67,6 +72,19 @@ fn outcome(case: &Path) -> Result<String, String> {
         String::from_utf8_lossy(&inspected.stdout),
         common::tree(&nodes)
     ))
+}
+
+/// Whether a diagnostic reads as all do: a message and help that begin like the middle of a sentence and end without a full stop or a
+/// question, and a way out, which is help, a fix, or what was expected.
+fn is_worded(diagnostic: &Diagnostic) -> bool {
+    let is_plain = |text: &str| {
+        !text.starts_with(|c: char| c.is_uppercase()) && !text.ends_with(['.', '?', '!', ':'])
+    };
+    let label = diagnostic.label.as_deref().unwrap_or_default();
+    let help = diagnostic.help.as_deref();
+    is_plain(&diagnostic.message)
+        && help.is_none_or(is_plain)
+        && (help.is_some() || !diagnostic.fixes.is_empty() || label.starts_with("expected "))
 }
 
 /// Compares the result of a drawing with its `expected.txt`, or writes that.

@@ -131,13 +131,13 @@ const NO_DRAWINGS: &[(&str, &[u8], i32, &str)] = &[
         "cut.svg",
         b"<svg xmlns=\"http://www.w3.org/2000/svg\"><rect wid",
         1,
-        "the file ends too early: was it cut off while it was saved?",
+        "the file ends too early, as if it was cut off while it was saved: save it again",
     ),
     (
         "cut2.svg",
         b"<svg xmlns=\"http://www.w3.org/2000/svg\"><g>",
         1,
-        "the file ends too early: was it cut off while it was saved?",
+        "the file ends too early, as if it was cut off while it was saved: save it again",
     ),
     (
         "page.svg",

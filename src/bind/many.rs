@@ -109,7 +109,7 @@ pub(super) fn off_page(drawing: &Drawing, bindings: &Bindings, diagnostics: &mut
         let element = &drawing.shapes[part.shape].element;
         let message = format!("{} is off the page", name(&part.name));
         Diagnostic::new(Code::OffPage, element.span, message)
-            .help("it is built anyway; to leave it out, write `*` beside it")
+            .help("write `*` beside it to leave it out, or move it onto the page")
     });
     let names = || listed(off.iter().map(|part| name(&part.name)));
     few_or_one(

@@ -233,7 +233,7 @@ fn caption(text: &Text) -> Diagnostic {
     let message = "this text is not a string; it is taken for a caption";
     let finding = Diagnostic::new(Code::Caption, text.whole(), message)
         .help(
-            "put `#` before it to make it a comment; a part's name with spaces needs quotes",
+            "put `#` before a caption to make it a comment; a part's name with spaces needs quotes",
         )
         .fix("Make it a comment", start, "#");
     match without_sign(text.as_str()) {

@@ -84,7 +84,7 @@ pub(super) fn converted(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) {
         .collect();
     let findings = converted.iter().map(|converted| {
         let message = format!(
-            "the text `{}` was converted to paths, so it is no string any more",
+            "the text `{}` was converted to paths, so it is no longer a string",
             converted.text.trim()
         );
         Diagnostic::new(Code::ConvertedText, converted.element.span, message)
@@ -98,7 +98,7 @@ pub(super) fn converted(drawing: &Drawing, diagnostics: &mut Vec<Diagnostic>) {
         findings.collect(),
         |count| {
             format!(
-                "{count} texts were converted to paths, so they are no strings any more: {}",
+                "{count} texts were converted to paths, so they are no longer strings: {}",
                 texts()
             )
         },

@@ -532,7 +532,8 @@ codes! {
     /// Name the joint that drives it with `Bone`, or leave it as it is.
     NoJoint = "H408", "limb without a joint";
     /// A rectangle as large as the page lies behind everything else. Such a rectangle is the paper rather than a part of the
-    /// figure, so it is left out of the model.
+    /// figure, so it is left out of the model. One with rounded corners is built, and so is one below shapes that together reach
+    /// all edges of the page, as those of a flag do.
     ///
     /// You need not change anything. To build it too, write a name on it.
     Background = "H409", "background left out";

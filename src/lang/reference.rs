@@ -80,8 +80,9 @@ pub fn reference() -> String {
     out
 }
 
-/// `docs/diagnostics.md`: a section for each code.
-pub fn diagnostics() -> String {
+/// `docs/diagnostics.md`: a section for each code. `report` gives what okoshi prints for a drawing with the diagnostic, if that is to be
+/// shown.
+pub fn diagnostics(report: impl Fn(Code) -> Option<String>) -> String {
     let mut out = format!(
         "# Diagnostics\n\n{GENERATED}\nWith errors, `okoshi build` does not write a model; warnings and hints \
          do not prevent it. `okoshi explain CODE` prints a section in the terminal.\n"
@@ -97,6 +98,9 @@ pub fn diagnostics() -> String {
                 each.title(),
                 paragraphs(each.manual())
             );
+            if let Some(report) = report(*each) {
+                let _ = write!(out, "\nPrinted as:\n\n```text\n{}\n```\n", report.trim());
+            }
         }
     }
     out

@@ -143,7 +143,8 @@ fn collect_string<'a>(
             diagnostics.push(
                 Diagnostic::new(Code::Overridden, span, format!("`{word}` is defined again"))
                     .label("this definition counts")
-                    .related(earlier.span, "this one is ignored"),
+                    .related(earlier.span, "this one is ignored")
+                    .help("delete one of them, or give one another name"),
             );
         }
     }
@@ -272,11 +273,14 @@ pub(super) fn evaluation_diagnostic(
 ) -> Option<Diagnostic> {
     match error {
         EvaluationError::InvalidVariable => None,
-        EvaluationError::NotANumber(why) => Some(Diagnostic::new(
-            Code::OutOfRange,
-            text.span(argument.range.clone()),
-            format!("this calculation {why}"),
-        )),
+        EvaluationError::NotANumber(why) => {
+            let span = text.span(argument.range.clone());
+            let message = format!("this calculation {why}");
+            Some(
+                Diagnostic::new(Code::OutOfRange, span, message)
+                    .help("change the calculation, or a variable in it, so that it has a result"),
+            )
+        }
         EvaluationError::UndefinedVariable(name) => {
             let span = text.span(name.range.clone());
             let message = format!("there is no variable called `{}`", name.text);

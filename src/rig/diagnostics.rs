@@ -32,6 +32,7 @@ pub(super) fn broken_file(link: &str, error: &bvh::Error, frames: usize, span: S
 pub(super) fn note(link: &str, note: &str, span: Span) -> Diagnostic {
     let message = format!("the motion `{link}`: {note}");
     Diagnostic::new(Code::MotionRepaired, span, message)
+        .help("you need not change anything; `okoshi motion IN.bvh --full -o OUT.bvh` writes the motion as it was read")
 }
 
 /// A drawing whose clips have too many keys.
@@ -177,7 +178,7 @@ fn match_problem(
                 [] => diagnostic.help("`okoshi motion FILE` lists the joints of a motion"),
                 nearest => {
                     let names: Vec<String> = nearest.iter().map(|name| format!("`{name}`")).collect();
-                    diagnostic.help(format!("did you mean {}?", names.join(" or ")))
+                    diagnostic.help(format!("write {} instead", names.join(" or ")))
                 }
             }
         }

@@ -263,7 +263,7 @@ fn not_xml(error: &roxmltree::Error, prepared: &prepare::Prepared, source: &str)
         .rsplit_once(" at ")
         .map_or(message.as_str(), |(head, _)| head);
     let help = if ended {
-        "the file ends too early: was it cut off while it was saved?"
+        "the file ends too early, as if it was cut off while it was saved: save it again"
     } else {
         "open the drawing in Inkscape and save it again, or fix the text at this place"
     };

@@ -28,12 +28,12 @@ impl Feature {
             Self::Mask => (
                 "has a mask, which has no meaning for solids",
                 "have masks, which have no meaning for solids",
-                "it is built without the mask; cut the shape itself instead, or use a clip (in Inkscape, Object → Clip)",
+                "cut the shape itself, or use a clip instead (in Inkscape, Object → Clip); the model is built without the mask",
             ),
             Self::Filter => (
                 "has a filter, which has no meaning for solids",
                 "have filters, which have no meaning for solids",
-                "it is built without the filter's effect, such as a blur or a shadow",
+                "draw a blur or a shadow as a shape with a gradient, or remove the filter; the model is built without it",
             ),
             Self::GroupOpacity => (
                 "is transparent as a whole, but its shapes become transparent one by one",

@@ -218,7 +218,7 @@ impl Checker<'_> {
         let range = first.range.start..second.range.end;
         let message = format!("nothing is left of a rounding from {a0} to {a1} degrees");
         let mut diagnostic = Diagnostic::new(Code::OutOfRange, self.text.span(range), message)
-            .label("the first angle must be the smaller one");
+            .label("expected the smaller angle first");
         if a0 > a1 {
             let written = |argument: &Argument| &self.text.as_str()[argument.range.clone()];
             let edit = |from: &Argument, to: &Argument| Edit {

@@ -44,7 +44,8 @@ impl Checker<'_> {
         let message = format!("`{name}` has no effect in this version");
         self.diagnostics.push(
             Diagnostic::new(Code::NotBuiltYet, self.text.span(range), message)
-                .label("read and checked, but not supported yet"),
+                .label("read and checked, but not supported yet")
+                .help("leave it in for a later version, or delete it"),
         );
     }
 

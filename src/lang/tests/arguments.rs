@@ -35,6 +35,7 @@ fn e101_unknown_keyword() {
         r#"
             Arm$Follow Rarm Colr 1 0 0
                 ^^^^^^ W310: `Follow` has no effect in this version (read and checked, but not supported yet)
+              help: leave it in for a later version, or delete it
                             ^^^^ E101: `Colr` is not a keyword (did you mean `Color`?)
               fix: Write `Color` -> Arm$Follow Rarm Color 1 0 0
         "#,
@@ -182,6 +183,7 @@ fn e103_argument_count() {
              ^^^ E103: `Let` needs arguments
               help: write `Let name value`; a variable cannot have the name of a keyword
                  ^^^^ W310: `Size` has no effect in this version (read and checked, but not supported yet)
+              help: leave it in for a later version, or delete it
         "#,
     );
     check(
@@ -210,6 +212,7 @@ fn e104_argument_type() {
         r#"
             Arm$Follow Rarm 5
                 ^^^^^^ W310: `Follow` has no effect in this version (read and checked, but not supported yet)
+              help: leave it in for a later version, or delete it
                             ^ E104: `5` is not what `Follow` needs here (expected one or more names)
               help: write `Follow name…`
         "#,
@@ -347,7 +350,7 @@ fn e105_out_of_range() {
         "Arm$Shape roundv 90 -90",
         r#"
             Arm$Shape roundv 90 -90
-                             ^^^^^^ E105: nothing is left of a rounding from 90 to -90 degrees (the first angle must be the smaller one)
+                             ^^^^^^ E105: nothing is left of a rounding from 90 to -90 degrees (expected the smaller angle first)
               fix: Swap the angles -> Arm$Shape roundv -90 90
         "#,
     );
@@ -356,6 +359,7 @@ fn e105_out_of_range() {
         r#"
             Arm$Offset (2 / 0)
                        ^^^^^^^ E105: this calculation divides by zero
+              help: change the calculation, or a variable in it, so that it has a result
         "#,
     );
     check(
@@ -363,6 +367,7 @@ fn e105_out_of_range() {
         r#"
             Arm$Offset (sqrt(-1))
                        ^^^^^^^^^^ E105: this calculation takes the square root of a negative number
+              help: change the calculation, or a variable in it, so that it has a result
         "#,
     );
     check(
@@ -385,6 +390,7 @@ fn e105_out_of_range() {
         r#"
             %Let w (1 / 0) Offset w
                    ^^^^^^^ E105: this calculation divides by zero
+              help: change the calculation, or a variable in it, so that it has a result
         "#,
     );
 }

@@ -56,6 +56,7 @@ fn w302_overridden() {
             %Let a 1 Let a 2
                          ^ W302: `a` is defined again (this definition counts)
               see `a`: this one is ignored
+              help: delete one of them, or give one another name
         "#,
     );
 }
@@ -87,6 +88,7 @@ fn w310_not_built_yet() {
         r#"
             Boy$View 0 0
                 ^^^^ W310: `View` has no effect in this version (read and checked, but not supported yet)
+              help: leave it in for a later version, or delete it
         "#,
     );
 }

@@ -59,7 +59,7 @@ pub(super) fn empty(
             format!(
                 "the tile layer `{name}` has no tiles: no shape covers the centre of a cell, or legends set `none` for all that do"
             ),
-            "is the tile size larger than the drawn tiles?",
+            "write the size that the tiles are drawn with, so that each covers the centre of a cell",
         ),
         false => (
             format!(
@@ -284,7 +284,7 @@ pub(super) fn off_grid(
             )
         }
         _ => format!(
-            "is {} the size they are drawn with? A cell becomes whatever is drawn at its centre",
+            "write the size that they are drawn with in place of {}, or move them onto the grid: a cell becomes whatever is drawn at its centre",
             grid.size
         ),
     };
