@@ -6,6 +6,8 @@ import fs from 'node:fs'
 import { createRequire } from 'node:module'
 import path from 'node:path'
 
+import { drawing } from './iconify.mjs'
+
 const [folder, openclipart] = process.argv.slice(2)
 if (!folder) {
   console.error('usage: node clip_art.mjs FOLDER [OPENCLIPART]')
@@ -28,12 +30,10 @@ function isFigure(text) {
 
 const load = createRequire(import.meta.url)
 for (const [name, count] of [['fluent-emoji-flat', 20], ['noto', 20]]) {
-  const { icons, width = 16, height = 16 } = load(`@iconify-json/${name}/icons.json`)
-  const figures = Object.keys(icons).sort().filter((key) => isFigure(icons[key].body))
+  const set = load(`@iconify-json/${name}/icons.json`)
+  const figures = Object.keys(set.icons).sort().filter((key) => isFigure(set.icons[key].body))
   for (const key of sample(figures, count)) {
-    const { body, width: wide = width, height: high = height } = icons[key]
-    const svg = `<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 ${wide} ${high}">${body}</svg>`
-    fs.writeFileSync(path.join(folder, `${name}-${key}.svg`), svg)
+    fs.writeFileSync(path.join(folder, `${name}-${key}.svg`), drawing(set, key))
   }
 }
 
