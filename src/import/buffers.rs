@@ -46,6 +46,11 @@ impl Buffers {
             .map(Self)
     }
 
+    /// The length of all buffers, bytes.
+    pub(super) fn length(&self) -> usize {
+        self.0.iter().map(Vec::len).sum()
+    }
+
     /// The bytes of a buffer.
     pub(super) fn of(&self, buffer: &Buffer<'_>) -> Option<&[u8]> {
         self.0.get(buffer.index()).map(Vec::as_slice)

@@ -2,12 +2,43 @@
 
 use ::gltf::mesh::Mode;
 use ::gltf::texture::TextureTransform;
-use ::gltf::{Accessor, Material, Primitive as Source, Semantic};
+use ::gltf::{Accessor, Document, Material, Primitive as Source, Semantic};
 use glam::{DMat3, DVec3, Vec2, Vec4};
 
 use super::buffers::{Buffers, F32, SCALAR, U8, U16, U32, VEC2, VEC3, VEC4};
 use super::pose::Primitive;
-use super::{ImportError, malformed};
+use super::{ImportError, MAX_REPEATED, malformed};
+
+/// Checks how much memory the vertices of a file need, before they are read.
+///
+/// # Errors
+/// If that is more than its data and [`MAX_REPEATED`].
+pub(super) fn check_size(document: &Document, buffers: &Buffers) -> Result<(), ImportError> {
+    let mut needed = 0_usize;
+    for primitive in document.meshes().flat_map(|mesh| mesh.primitives()) {
+        let attributes = primitive.attributes().map(|(_, accessor)| {
+            let length = accessor.count().saturating_mul(accessor.size());
+            // One that is longer than its view is refused when it is read.
+            let view = accessor.view();
+            view.map_or(length, |view| length.min(view.length()))
+        });
+        // In a strip or fan every index makes a triangle.
+        let of_index = match primitive.mode() {
+            Mode::Triangles => size_of::<u32>(),
+            _ => size_of::<[u32; 3]>(),
+        };
+        let indices = primitive
+            .indices()
+            .map(|indices| indices.count().saturating_mul(of_index));
+        needed = attributes
+            .chain(indices)
+            .fold(needed, usize::saturating_add);
+    }
+    match needed <= buffers.length().saturating_add(MAX_REPEATED) {
+        true => Ok(()),
+        false => Err(ImportError::TooManyVertices(needed >> 20)),
+    }
+}
 
 /// The primitives of a mesh that consist of triangles.
 pub(super) fn read(

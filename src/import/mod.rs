@@ -27,6 +27,10 @@ pub use static_model::{StaticModel, read_static_model};
 /// The largest number of triangles in a file; those of a mesh count once for each node that uses it.
 pub const MAX_TRIANGLES: usize = 32 << 20;
 
+/// How much memory the vertices of all primitives may need beyond the length of the file's data, bytes. Accessors can give the
+/// same data many times over, or zeros without any data.
+pub const MAX_REPEATED: usize = 256 << 20;
+
 /// Why a file cannot be read. Messages follow the name of the file.
 #[derive(Debug, Clone, thiserror::Error)]
 pub enum ImportError {
@@ -57,6 +61,13 @@ pub enum ImportError {
     /// More than [`MAX_TRIANGLES`] triangles.
     #[error("has {0} triangles, more than the limit of {MAX_TRIANGLES}")]
     TooManyTriangles(usize),
+    /// Vertices that repeat the file's data by more than [`MAX_REPEATED`].
+    #[error(
+        "repeats vertices so often that they need {0} MiB, more than the limit of {limit} MiB beyond its data; export each \
+         mesh with vertices of its own",
+        limit = MAX_REPEATED >> 20
+    )]
+    TooManyVertices(usize),
     /// More than [`MAX_KEYS`] keys.
     #[error("has clips with {0} keys, more than the limit of {MAX_KEYS}")]
     TooManyKeys(usize),
@@ -74,19 +85,10 @@ pub(crate) struct ParsedFile {
 /// # Errors
 /// Bytes that are not glTF, that violate the specification or require an unsupported extension; broken links.
 pub(crate) fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<ParsedFile, ImportError> {
-    let Gltf { document, blob } = Gltf::from_slice(bytes).map_err(|error| {
-        let unknown = Gltf::from_slice_without_validation(bytes)
-            .ok()
-            .and_then(|file| {
-                let mut needed = file.extensions_required();
-                needed
-                    .find(|name| !SUPPORTED_EXTENSIONS.contains(name))
-                    .map(str::to_owned)
-            });
-        unknown.map_or_else(|| malformed(error.to_string()), ImportError::Extension)
-    })?;
+    let Gltf { document, blob } = parse(bytes)?;
     let buffers = Buffers::read(&document, blob, resolver)?;
     let nodes = nodes(&document)?;
+    meshes::check_size(&document, &buffers)?;
     let geometry = Geometry {
         order: order(&document, &nodes)?,
         visible: visible(&document, &nodes),
@@ -105,6 +107,43 @@ pub(crate) fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<ParsedFile, 
         buffers,
         geometry,
     })
+}
+
+/// The length of the header of a binary file, bytes.
+const GLB_HEADER: usize = 12;
+
+/// The file as JSON and binary data, validated.
+fn parse(bytes: &[u8]) -> Result<Gltf, ImportError> {
+    let unreadable = |error: ::gltf::Error| malformed(error.to_string());
+    if let Some((header, _)) = bytes.split_first_chunk::<GLB_HEADER>()
+        && let [b'g', b'l', b'T', b'F', _, _, _, _, length @ ..] = *header
+        && (u32::from_le_bytes(length) as usize) < GLB_HEADER
+    {
+        // The `gltf` crate subtracts the one from the other.
+        return Err(malformed("it says that it is shorter than its header"));
+    }
+    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(unreadable)?;
+    let json = document.into_json();
+    // The validation of the `gltf` crate takes the accessors of positions for present.
+    let primitives = json.meshes.iter().flat_map(|mesh| &mesh.primitives);
+    let mut named = primitives
+        .flat_map(|primitive| primitive.attributes.values())
+        .map(|accessor| accessor.value());
+    if let Some(missing) = named.find(|accessor| *accessor >= json.accessors.len()) {
+        return Err(malformed(format!(
+            "a mesh uses accessor {missing}, which is not there"
+        )));
+    }
+    let unknown = json
+        .extensions_required
+        .iter()
+        .find(|name| !SUPPORTED_EXTENSIONS.contains(&name.as_str()));
+    let unknown = unknown.cloned();
+    match (Document::from_json(json), unknown) {
+        (Ok(document), _) => Ok(Gltf { document, blob }),
+        (Err(_), Some(unknown)) => Err(ImportError::Extension(unknown)),
+        (Err(error), None) => Err(unreadable(error)),
+    }
 }
 
 /// The extensions that a file may require.

@@ -3,7 +3,7 @@
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
 
 use super::view_dependent::bend_matrix;
-use super::{ImportError, MAX_TRIANGLES};
+use super::{ImportError, MAX_REPEATED, MAX_TRIANGLES};
 
 /// The geometry of a file, not yet posed.
 #[derive(Debug)]
@@ -137,6 +137,19 @@ impl Geometry {
         });
         if count > MAX_TRIANGLES {
             return Err(ImportError::TooManyTriangles(count));
+        }
+        let vertices =
+            |mesh: &Vec<Primitive>| mesh.iter().map(|one| one.positions.len()).sum::<usize>();
+        let repeated = seen().fold(0_usize, |sum, (_, _, mesh)| {
+            sum.saturating_add(vertices(mesh))
+        });
+        // Corners of triangles are limited already; what can be more are vertices that no triangle uses.
+        let own = self.meshes.iter().map(vertices).sum::<usize>();
+        let size = size_of::<[f32; 3]>();
+        if repeated > own + 3 * count + MAX_REPEATED / size {
+            return Err(ImportError::TooManyVertices(
+                repeated.saturating_mul(size) >> 20,
+            ));
         }
         let mut out = TriangleSoup::default();
         for (index, node, mesh) in seen() {

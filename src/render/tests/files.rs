@@ -114,6 +114,10 @@ fn broken_files_are_refused() {
         b"glTF\x02\0\0\0\xff\xff\xff\xff",
         "is not a readable glTF file",
     );
+    refused(
+        b"glTF\x02\0\0\0\x0b\0\0\0\0\0\0\0JSON",
+        "shorter than its header",
+    );
     refused(&file(&[], &json!({})), "");
     let quad = || square(Vec3::ZERO, 1.0, unlit(1.0, 1.0, 1.0, 1.0));
     let with = |change: &dyn Fn(&mut Value)| {
@@ -144,6 +148,10 @@ fn broken_files_are_refused() {
     refused(
         &with(&|root| root["accessors"][2]["componentType"] = 5126.into()),
         "accessor 2",
+    );
+    refused(
+        &with(&|root| root["accessors"] = json!([])),
+        "a mesh uses accessor 0, which is not there",
     );
     refused(
         &with(&|root| root["nodes"][0]["children"] = json!([0])),
@@ -186,4 +194,41 @@ fn many_nodes_of_one_mesh_are_counted_before_they_are_made() {
         &serde_json::to_vec(&root).unwrap(),
         "has 36868096 triangles, more than the limit of 33554432",
     );
+}
+
+/// A sparse accessor is all zeros but for what it lists, and primitives and nodes can share one: a small file can claim
+/// any memory.
+#[test]
+fn vertices_without_data_are_counted_before_they_are_made() {
+    let quad = || square(Vec3::ZERO, 1.0, unlit(1.0, 1.0, 1.0, 1.0));
+    let with = |extra: Value, count: usize, uses: usize, more: Value| {
+        let mut root: Value = serde_json::from_slice(&file(&[quad()], &extra)).unwrap();
+        let accessors = root["accessors"].as_array_mut().unwrap();
+        accessors.push(json!({
+            "componentType": 5126, "count": count, "type": "VEC3", "min": [0, 0, 0], "max": [0, 0, 0],
+            "sparse": {
+                "count": 1,
+                "indices": { "bufferView": 0, "componentType": 5121 },
+                "values": { "bufferView": 0 },
+            },
+        }));
+        let mut zeros = more;
+        zeros["attributes"] = json!({ "POSITION": accessors.len() - 1 });
+        let primitives = root["meshes"][0]["primitives"].as_array_mut().unwrap();
+        primitives.extend(vec![zeros; uses]);
+        root
+    };
+    let refused =
+        |root: &Value, message: &str| refused(&serde_json::to_vec(root).unwrap(), message);
+    refused(
+        &with(json!({}), 30_000_000, 1, json!({})),
+        "so often that they need 343 MiB, more than the limit of 256 MiB beyond its data",
+    );
+    refused(&with(json!({}), 3_000_000, 10, json!({})), "need 343 MiB");
+    // Shared by many nodes; the triangles use hardly any of them.
+    let nodes: Vec<Value> = (0..3000).map(|_| json!({ "mesh": 0 })).collect();
+    let all: Vec<usize> = (0..3001).collect();
+    let mut root = with(json!({ "nodes": nodes }), 8_000, 1, json!({ "indices": 2 }));
+    root["scenes"][0]["nodes"] = json!(all);
+    refused(&root, "need 274 MiB");
 }
