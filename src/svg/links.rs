@@ -3,28 +3,53 @@
 use std::sync::{Arc, Mutex};
 
 use super::elements::start_tag;
+use super::fit::{Origin, Places};
 use super::prepare::Prepared;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::resolver::{LinkError, Resolver};
 use crate::source::Span;
 
+/// Why a picture is not shown.
+#[derive(Debug)]
+pub(super) enum Unshown {
+    /// Its link cannot be followed.
+    Broken(String, LinkError),
+    /// It does not fit into the place with this link or data URI.
+    TooNarrow(String),
+}
+
 pub(super) fn options<'a>(
     resolver: &'a dyn Resolver,
-    broken: &'a Mutex<Vec<(String, LinkError)>>,
+    places: &'a Places<'_>,
+    unshown: &'a Mutex<Vec<Unshown>>,
 ) -> usvg::Options<'a> {
-    let data = usvg::ImageHrefResolver::default_data_resolver();
+    // usvg's own data resolver recognises the format by the first bytes.
+    let read = usvg::ImageHrefResolver::default_data_resolver();
+    let read_embedded = usvg::ImageHrefResolver::default_data_resolver();
+    let leave_out = |why| {
+        if let Ok(mut unshown) = unshown.lock() {
+            unshown.push(why);
+        }
+        None
+    };
     usvg::Options {
         image_href_resolver: usvg::ImageHrefResolver {
-            resolve_data: usvg::ImageHrefResolver::default_data_resolver(),
-            resolve_string: Box::new(move |href, options| match resolver.read(href) {
-                // usvg's own data resolver recognises the format by the first bytes.
-                Ok(bytes) => data("text/plain", Arc::new(bytes.to_vec()), options),
-                Err(error) => {
-                    if let Ok(mut broken) = broken.lock() {
-                        broken.push((href.to_owned(), error));
-                    }
-                    None
+            resolve_data: Box::new(move |media_type, bytes, options| {
+                let picture = read_embedded(media_type, Arc::clone(&bytes), options)?;
+                match places.misfit(Origin::Embedded(&bytes), &picture) {
+                    None => Some(picture),
+                    Some(place) => leave_out(Unshown::TooNarrow(place.to_owned())),
                 }
+            }),
+            resolve_string: Box::new(move |href, options| match resolver.read(href) {
+                Ok(bytes) => {
+                    let picture = read("text/plain", Arc::new(bytes.to_vec()), options)?;
+                    match places.misfit(Origin::Link(href), &picture) {
+                        None => Some(picture),
+                        Some(place) => leave_out(Unshown::TooNarrow(place.to_owned())),
+                    }
+                }
+                Err(error) => leave_out(Unshown::Broken(href.to_owned(), error)),
             }),
         },
         ..usvg::Options::default()
@@ -51,24 +76,40 @@ pub(super) fn unusable(
     }
 }
 
+/// Reports the pictures that are not shown.
 pub(super) fn report_links(
     document: &roxmltree::Document<'_>,
     prepared: &Prepared,
-    broken: Vec<(String, LinkError)>,
+    unshown: Vec<Unshown>,
     diagnostics: &mut Vec<Diagnostic>,
 ) {
-    for (href, error) in broken {
+    for why in unshown {
+        let (Unshown::Broken(link, _) | Unshown::TooNarrow(link)) = &why;
         let images = document
             .descendants()
             .filter(|node| node.tag_name().name() == "image");
         let attribute = images
             .flat_map(|node| node.attributes().collect::<Vec<_>>())
-            .find(|attribute| attribute.name() == "href" && attribute.value() == href);
+            .find(|attribute| attribute.name() == "href" && attribute.value() == link);
         let span = attribute.map_or(Span::at(0), |attribute| {
             prepared.span(attribute.range_value())
         });
-        diagnostics.push(broken_link(&href, &error, span));
+        diagnostics.push(match &why {
+            Unshown::Broken(link, error) => broken_link(link, error, span),
+            Unshown::TooNarrow(link) => too_narrow(link, span),
+        });
     }
+}
+
+fn too_narrow(link: &str, span: Span) -> Diagnostic {
+    let picture = match link.trim_start().starts_with("data:") {
+        true => "an embedded picture".to_owned(),
+        false => format!("the picture `{link}`"),
+    };
+    let message =
+        format!("{picture} is too narrow to be shown: its sides are too unequal for its place");
+    Diagnostic::new(Code::Vanishes, span, message)
+        .help("crop the picture, or enlarge its place, or set its preserveAspectRatio to none")
 }
 
 /// The diagnostic for a broken link.

@@ -6,6 +6,7 @@
 
 mod clip;
 mod elements;
+mod fit;
 mod growth;
 mod image;
 mod incremental;

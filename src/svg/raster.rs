@@ -5,6 +5,7 @@ use std::sync::Mutex;
 use resvg::tiny_skia::{Pixmap, Transform};
 use rustc_hash::FxHashMap;
 
+use super::fit::Places;
 use super::links::options;
 use super::prepare::prepare;
 use crate::resolver::Resolver;
@@ -61,10 +62,11 @@ pub fn raster(
 ) -> Option<Raster> {
     let marked = marked(text, left_out)?;
     let document = roxmltree::Document::parse_with_options(&marked, parsing()).ok()?;
-    let broken = Mutex::new(Vec::new());
+    let unshown = Mutex::new(Vec::new());
+    let places = Places::of(&document);
     let options = usvg::Options {
         style_sheet: Some(STYLE.to_owned()),
-        ..options(resolver, &broken)
+        ..options(resolver, &places, &unshown)
     };
     let tree = usvg::Tree::from_xmltree(&document, &options).ok()?;
     let mut pixmap = Pixmap::new(width, height)?;

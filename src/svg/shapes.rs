@@ -8,6 +8,7 @@ use roxmltree::{Node, NodeId};
 use rustc_hash::FxHashMap;
 
 use super::elements::{Ids, element, labels};
+use super::fit::Places;
 use super::links::{options, report_links, unusable};
 use super::paths::{StrokeSource, affine, bez_path, open_line, rings};
 use super::prepare::Prepared;
@@ -28,7 +29,8 @@ pub(super) fn read(
     resolver: &dyn Resolver,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Result<Drawing, Box<Diagnostic>> {
-    let broken_links = Mutex::new(Vec::new());
+    let unshown = Mutex::new(Vec::new());
+    let places = Places::of(document);
     let styles = Styles::read(document);
     let early_ids = match prepared.draws_again || prepared.has_clones {
         true => {
@@ -40,7 +42,7 @@ pub(super) fn read(
     };
     // usvg uses one core; the texts, which it does not read, need only the XML.
     let (tree, (labels, by_id, unseen)) = rayon::join(
-        || usvg::Tree::from_xmltree(document, &options(resolver, &broken_links)),
+        || usvg::Tree::from_xmltree(document, &options(resolver, &places, &unshown)),
         || {
             (
                 labels(document, &styles, prepared),
@@ -53,7 +55,7 @@ pub(super) fn read(
     report_links(
         document,
         prepared,
-        broken_links.into_inner().unwrap_or_default(),
+        unshown.into_inner().unwrap_or_default(),
         diagnostics,
     );
     let offset = page_corner(document);
