@@ -52,6 +52,17 @@ pub enum WriteError {
         /// A name that is free.
         other: PathBuf,
     },
+    /// There is no space for it, or the user may not write so much.
+    #[error(
+        "there is no space for `{}` ({source}); free some, or write to another place",
+        .path.display()
+    )]
+    Full {
+        /// The file.
+        path: PathBuf,
+        /// The error.
+        source: io::Error,
+    },
     /// The operating system cannot write it, or its content cannot be generated.
     #[error("`{}` cannot be written: {source}", .path.display())]
     Failed {
@@ -75,10 +86,7 @@ pub(super) fn write_atomic<T>(
     path: &Path,
     fill: impl FnOnce(&mut dyn Output) -> io::Result<T>,
 ) -> Result<T, WriteError> {
-    let failed = |source| WriteError::Failed {
-        path: path.to_owned(),
-        source,
-    };
+    let failed = |source| failure(path, source);
     if super::is_standard_stream(path) {
         return fill_stream(io::stdout().lock(), fill).map_err(failed);
     }
@@ -122,10 +130,7 @@ pub(super) fn write_atomic<T>(
 /// # Errors
 /// If the system cannot create one of them.
 pub fn make_folder(path: &Path) -> Result<(), WriteError> {
-    fs::create_dir_all(path).map_err(|source| WriteError::Failed {
-        path: path.to_owned(),
-        source,
-    })
+    fs::create_dir_all(path).map_err(|source| failure(path, source))
 }
 
 /// Writes a new file, completely or not at all. An existing file, or a dangling link, is left unchanged.
@@ -141,10 +146,7 @@ pub fn write_new(path: &Path, content: &[u8]) -> Result<(), WriteError> {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {}
         Err(error) => return Err(folder_failure(path, path, error)),
     }
-    let failed = |source| WriteError::Failed {
-        path: path.to_owned(),
-        source,
-    };
+    let failed = |source| failure(path, source);
     let mut temporary =
         Temporary::new(folder_of(path)).map_err(|error| folder_failure(path, path, error))?;
     temporary.file().write_all(content).map_err(failed)?;
@@ -204,10 +206,17 @@ fn folder_failure(target: &Path, path: &Path, source: io::Error) -> WriteError {
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
             WriteError::FolderDenied(folder)
         }
-        _ => WriteError::Failed {
-            path: path.to_owned(),
-            source,
-        },
+        _ => failure(path, source),
+    }
+}
+
+fn failure(path: &Path, source: io::Error) -> WriteError {
+    let path = path.to_owned();
+    match source.kind() {
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
+            WriteError::Full { path, source }
+        }
+        _ => WriteError::Failed { path, source },
     }
 }
 

@@ -37,10 +37,30 @@ pub fn write_png(image: &Image, out: &mut (impl Write + ?Sized)) -> io::Result<(
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     // Tells pictures that may be replaced from those of other programs.
     let software = concat!("okoshi ", env!("CARGO_PKG_VERSION"));
-    encoder.add_text_chunk("Software".to_owned(), software.to_owned())?;
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(image.as_raw())?;
-    Ok(writer.finish()?)
+    let written = encoder
+        .add_text_chunk("Software".to_owned(), software.to_owned())
+        .and_then(|()| encoder.write_header())
+        .and_then(|mut writer| {
+            writer.write_image_data(image.as_raw())?;
+            writer.finish()
+        });
+    written.map_err(png_failure)
+}
+
+/// The error of the output itself, whose kind the conversion of the crate loses.
+fn png_failure(error: png::EncodingError) -> io::Error {
+    match error {
+        png::EncodingError::IoError(error) => error,
+        error => error.into(),
+    }
+}
+
+/// As [`png_failure`].
+fn gif_failure(error: gif::EncodingError) -> io::Error {
+    match error {
+        gif::EncodingError::Io(error) => error,
+        error => io::Error::other(error),
+    }
 }
 
 /// The colours of a GIF: one palette for all frames avoids flicker.
@@ -107,11 +127,11 @@ impl<W: Write> AnimationWriter<W> {
     /// Those of `out`.
     pub fn gif(out: W, size: [u32; 2], palette: Palette) -> io::Result<Self> {
         let sides = size.map(|side| u16::try_from(side).unwrap_or(u16::MAX));
-        let mut encoder = gif::Encoder::new(out, sides[0], sides[1], &palette.table())
-            .map_err(io::Error::other)?;
+        let mut encoder =
+            gif::Encoder::new(out, sides[0], sides[1], &palette.table()).map_err(gif_failure)?;
         encoder
             .set_repeat(gif::Repeat::Infinite)
-            .map_err(io::Error::other)?;
+            .map_err(gif_failure)?;
         Ok(Self::new(Format::Gif {
             encoder,
             palette,
@@ -126,9 +146,12 @@ impl<W: Write> AnimationWriter<W> {
     pub fn apng(out: W, [width, height]: [u32; 2], frames: u32) -> io::Result<Self> {
         let mut encoder = png::Encoder::new(out, width, height);
         encoder.set_color(png::ColorType::Rgba);
-        encoder.set_animated(frames, 0)?;
-        encoder.set_blend_op(png::BlendOp::Source)?;
-        Ok(Self::new(Format::Apng(encoder.write_header()?)))
+        encoder.set_animated(frames, 0).map_err(png_failure)?;
+        encoder
+            .set_blend_op(png::BlendOp::Source)
+            .map_err(png_failure)?;
+        let writer = encoder.write_header().map_err(png_failure)?;
+        Ok(Self::new(Format::Apng(writer)))
     }
 
     fn new(file: Format<W>) -> Self {
@@ -161,8 +184,10 @@ impl<W: Write> AnimationWriter<W> {
         };
         match &mut self.file {
             Format::Apng(writer) => {
-                writer.set_frame_delay(delay, 1000)?;
-                Ok(writer.write_image_data(image.as_raw())?)
+                let written = writer
+                    .set_frame_delay(delay, 1000)
+                    .and_then(|()| writer.write_image_data(image.as_raw()));
+                written.map_err(png_failure)
             }
             Format::Gif {
                 encoder,
@@ -187,7 +212,7 @@ impl<W: Write> AnimationWriter<W> {
                     gif::Frame::from_indexed_pixels(size[0], size[1], pixels, Some(clear));
                 frame.delay = delay;
                 frame.dispose = gif::DisposalMethod::Background;
-                encoder.write_frame(&frame).map_err(io::Error::other)
+                encoder.write_frame(&frame).map_err(gif_failure)
             }
         }
     }
@@ -198,8 +223,8 @@ impl<W: Write> AnimationWriter<W> {
     /// Those of the output, or missing frames.
     pub fn finish(self) -> io::Result<()> {
         match self.file {
-            Format::Apng(writer) => Ok(writer.finish()?),
-            Format::Gif { encoder, .. } => encoder.into_inner().map(drop).map_err(io::Error::other),
+            Format::Apng(writer) => writer.finish().map_err(png_failure),
+            Format::Gif { encoder, .. } => encoder.into_inner().map(drop).map_err(gif_failure),
         }
     }
 }
