@@ -1,21 +1,48 @@
 #!/usr/bin/env bash
-# Fuzzes a target: bash fuzz/run.sh string|drawing|motion [SECONDS]
+# Fuzzes one target or all of them, one after the other: bash fuzz/run.sh all|TARGET [SECONDS EACH]
 #
-# Takes Rust's nightly and `cargo install cargo-fuzz`. The corpus begins with the cases of the tests; what is found lies in
-# fuzz/artifacts.
+# Takes Rust's nightly and `cargo install cargo-fuzz`. The targets are the laws in tests/fuzzing. A search begins with the cases
+# of the tests and goes on from what earlier ones found (fuzz/corpus). It goes on after a finding, too: inputs that break the law,
+# take 20 seconds or need 2 GiB are in fuzz/artifacts/TARGET, beside the log. The last lines sum it up.
 set -euo pipefail
 cd "$(dirname "$0")"
-target=${1:?string, drawing or motion}
-corpus=corpus/$target
-mkdir -p "$corpus"
-for drawing in ../tests/cases/*/drawing.svg $(find ../examples -name "*.svg"); do
-  name=$(basename "$(dirname "$drawing")")-$(basename "$drawing")
-  case $target in
-    drawing) cp "$drawing" "$corpus/$name" ;;
-    string) sed -n 's/.*<\(text\|tspan\|desc\)[^>]*>\([^<]\{1,\}\)<.*/\2/p' "$drawing" > "$corpus/$name" ;;
-  esac
+usage="bash fuzz/run.sh all|TARGET [SECONDS EACH]"
+all=$(sed -n 's/^name = "\([a-z]*\)"$/\1/p' Cargo.toml)
+targets=${1:?$usage}
+seconds=${2:-60}
+[ "$targets" = all ] && targets=$all
+for target in $targets; do
+  if ! grep -qx "$target" <<<"$all"; then
+    echo "there is no target \`$target\`; choose one of: all" $all >&2
+    exit 2
+  fi
 done
-case $target in
-  motion) cp ../examples/motion/*.bvh ../tests/motion/data/*.bvh "$corpus" ;;
-esac
-cargo +nightly fuzz run "$target" "$corpus" -- -max_total_time="${2:-60}" -timeout=20 -rss_limit_mb=4096
+
+# The preview's page takes npm, and is not fuzzed.
+export OKOSHI_NO_PAGE=1
+# Without AddressSanitizer: okoshi has no unsafe code, and several times as many inputs are tried.
+cargo +nightly fuzz build --sanitizer none
+
+summary=()
+broken=0
+for target in $targets; do
+  corpus=corpus/$target
+  artifacts=artifacts/$target
+  log=$artifacts/log
+  mkdir -p "$corpus" "$artifacts"
+  OKOSHI_FUZZ_SEEDS=$corpus cargo +nightly fuzz run --sanitizer none "$target" > "$log" 2>&1
+  for regression in ../tests/regressions/fuzzed/"$target"/*; do
+    [ -f "$regression" ] && cp "$regression" "$corpus"
+  done
+  # In a process of its own, an input that ends it does not end the search.
+  cargo +nightly fuzz run --sanitizer none "$target" "$corpus" -- -max_total_time="$seconds" -max_len=16384 -timeout=20 \
+    -rss_limit_mb=2048 -fork=1 -ignore_crashes=1 -ignore_timeouts=1 -ignore_ooms=1 2>&1 | tee "$log" || true
+  # The last line of statistics: #RUNS: cov: … oom/timeout/crash: 0/0/0 …
+  last=$(grep '^#[0-9]*: cov: ' "$log" | tail -1 || true)
+  runs=$(sed 's/^#\([0-9]*\):.*/\1/' <<<"$last")
+  found=$(sed 's|.*oom/timeout/crash: \([0-9/]*\).*|\1|' <<<"$last")
+  summary+=("$target: ${runs:-no} runs, $(find "$corpus" -type f | wc -l) inputs in the corpus, findings (memory/time/law): ${found:-unknown}")
+  [ "$found" = 0/0/0 ] || broken=1
+done
+printf '%s\n' "${summary[@]}"
+exit $broken

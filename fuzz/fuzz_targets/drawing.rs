@@ -1,15 +1,11 @@
-//! Every drawing compiles, its scene can be written, and diagnostics point into the drawing.
+//! See tests/fuzzing/drawing.rs.
 #![no_main]
 
-use libfuzzer_sys::fuzz_target;
-use okoshi::compile::{Options, compile};
-use okoshi::export::{GLB, to_memory};
-use okoshi::resolver::MemoryResolver;
+#[path = "../../tests/fuzzing/mod.rs"]
+mod fuzzing;
+#[path = "../seeds.rs"]
+mod seeds;
 
-fuzz_target!(|drawing: &str| {
-    let compiled = compile(drawing, &Options::default(), &MemoryResolver::default());
-    for finding in &compiled.diagnostics {
-        assert!(drawing.get(finding.span.start..finding.span.end).is_some(), "{finding:?}");
-    }
-    to_memory(&GLB, &compiled.scene, None).expect("a scene keeps its own rules");
+libfuzzer_sys::fuzz_target!(init: seeds::write_if_asked(fuzzing::target("drawing")), |bytes: &[u8]| {
+    (fuzzing::target("drawing").check)(bytes);
 });

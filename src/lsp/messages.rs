@@ -25,7 +25,7 @@ const MAX_FIELD: u64 = 1 << 10;
 ///
 /// # Errors
 /// Those of the streams.
-pub(super) async fn pass_on(
+pub async fn pass_on(
     input: impl AsyncRead + Unpin,
     mut output: impl AsyncWrite + Unpin,
 ) -> io::Result<()> {

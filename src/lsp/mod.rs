@@ -41,6 +41,8 @@ use tokio::io::{AsyncRead, AsyncWrite};
 use tokio::runtime::Handle;
 use tower_lsp::{LspService, Server};
 
+pub use messages::pass_on;
+
 use backend::Backend;
 use documents::Documents;
 use links::Links;
@@ -68,8 +70,11 @@ pub fn serve() -> std::io::Result<bool> {
     Ok(shut_down)
 }
 
-/// Serves one client; see [`serve`].
-async fn serve_client(input: impl AsyncRead + Unpin, output: impl AsyncWrite) -> bool {
+/// Serves one client on any streams until it disconnects, as [`serve`] does on those of the process. Must be called in a
+/// multi-threaded runtime of tokio.
+///
+/// Two threads are started for the client, which stay until the process ends.
+pub async fn serve_client(input: impl AsyncRead + Unpin, output: impl AsyncWrite) -> bool {
     let (service, socket, shut_down) = service();
     let (passed_on, to_server) = tokio::io::duplex(PIPE);
     let serving = pin!(Server::new(passed_on, output, socket).serve(service));
