@@ -1,5 +1,7 @@
 //! Bounding boxes in spatial indices.
 
+use std::sync::OnceLock;
+
 use glam::DVec2;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
@@ -19,4 +21,114 @@ pub(crate) fn indexed_box((low, high): (DVec2, DVec2), index: usize) -> IndexedB
 /// The area up to `reach` around the box from `low` to `high`, for questions to a [`BoxTree`].
 pub(crate) fn area_around((low, high): (DVec2, DVec2), reach: f64) -> AABB<[f64; 2]> {
     AABB::from_corners((low - reach).to_array(), (high + reach).to_array())
+}
+
+/// Where more boxes than this meet, those that are last in the order are looked for first.
+const FEW: usize = 256;
+
+/// A box whose third coordinate is its place in an order.
+type OrderedBox = GeomWithData<Rectangle<[f64; 3]>, usize>;
+
+/// Bounding boxes in an order, to find those before another one.
+pub(crate) struct OrderedBoxes {
+    boxes: Vec<(DVec2, DVec2)>,
+    tree: BoxTree,
+    /// Needed only where many boxes meet.
+    ordered: OnceLock<RTree<OrderedBox>>,
+}
+
+impl OrderedBoxes {
+    pub(crate) fn new(boxes: Vec<(DVec2, DVec2)>) -> Self {
+        let indexed = boxes.iter().enumerate();
+        let indexed = indexed.map(|(index, corners)| indexed_box(*corners, index));
+        Self {
+            tree: BoxTree::bulk_load(indexed.collect()),
+            boxes,
+            ordered: OnceLock::new(),
+        }
+    }
+
+    /// Calls `each` with those that meet a box and are before it, the last first, until it returns `false` or has been called `most`
+    /// times. The time grows with the number of calls and little with that of the boxes that meet there.
+    pub(crate) fn before(&self, index: usize, most: usize, mut each: impl FnMut(usize) -> bool) {
+        let area = area_around(self.boxes[index], 0.0);
+        let near = self.tree.locate_in_envelope_intersecting(area);
+        let near: Vec<usize> = near.take(FEW + 1).map(|near| near.data).collect();
+        let mut left = most;
+        let mut visit = |mut near: Vec<usize>| {
+            near.sort_unstable_by(|a, b| b.cmp(a));
+            near.truncate(left);
+            left -= near.len();
+            near.into_iter().all(&mut each) && left > 0
+        };
+        if near.len() <= FEW {
+            visit(near.into_iter().filter(|near| *near < index).collect());
+            return;
+        }
+        // The pieces of the order grow, as of many boxes enough are usually in the first one.
+        let (mut end, mut length) = (index, FEW);
+        while end > 0 {
+            let start = end.saturating_sub(length);
+            let [low, high] = in_order(self.boxes[index], [start, end - 1]);
+            let area = AABB::from_corners(low, high);
+            let near = self.ordered().locate_in_envelope_intersecting(area);
+            if !visit(near.map(|near| near.data).collect()) {
+                return;
+            }
+            (end, length) = (start, 2 * length);
+        }
+    }
+
+    fn ordered(&self) -> &RTree<OrderedBox> {
+        self.ordered.get_or_init(|| {
+            let boxes = self.boxes.iter().enumerate().map(|(index, corners)| {
+                let [low, high] = in_order(*corners, [index; 2]);
+                GeomWithData::new(Rectangle::from_corners(low, high), index)
+            });
+            RTree::bulk_load(boxes.collect())
+        })
+    }
+}
+
+/// The corners of a box from the first to the last of these places in the order.
+fn in_order((low, high): (DVec2, DVec2), [first, last]: [usize; 2]) -> [[f64; 3]; 2] {
+    [[low.x, low.y, first as f64], [high.x, high.y, last as f64]]
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 24, ..ProptestConfig::default() })]
+
+        #[test]
+        fn boxes_before_another_are_found_the_last_first(
+            places in prop::collection::vec((0.0..1.0f64, 0.0..1.0f64, 0.01..0.3f64), 1..1500),
+            spread in 0.2..20.0f64, most in 1..400usize,
+        ) {
+            let corners = |(x, y, size): &(f64, f64, f64)| {
+                let low = DVec2::new(*x, *y) * spread;
+                (low, low + *size)
+            };
+            let boxes: Vec<(DVec2, DVec2)> = places.iter().map(corners).collect();
+            let ordered = OrderedBoxes::new(boxes.clone());
+            for index in (0..boxes.len()).rev().step_by(97) {
+                let (low, high) = boxes[index];
+                let meets = |other: &usize| {
+                    let (other_low, other_high) = boxes[*other];
+                    low.cmple(other_high).all() && other_low.cmple(high).all()
+                };
+                let expected: Vec<usize> = (0..index).rev().filter(meets).take(most).collect();
+                let mut found = Vec::new();
+                ordered.before(index, most, |other| { found.push(other); true });
+                prop_assert_eq!(&found, &expected);
+                found.clear();
+                ordered.before(index, most, |other| { found.push(other); found.len() < 3 });
+                prop_assert_eq!(&found[..], &expected[..expected.len().min(3)]);
+            }
+        }
+    }
 }

@@ -19,7 +19,7 @@ mod touching;
 
 pub use boolean::{intersect, resolve_overlaps, union};
 pub(crate) use boolean::{is_convex, remove_collinear};
-pub(crate) use boxes::{BoxTree, area_around, indexed_box};
+pub(crate) use boxes::{BoxTree, OrderedBoxes, area_around, indexed_box};
 pub(crate) use contact::{Body, connected, touching};
 pub use flatten::flatten;
 pub use frame::{Frame, y_up};

@@ -4,7 +4,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::shapes::Shape;
-use crate::geometry::{BoxTree, Intervals, Scanlines, area_around, indexed_box};
+use crate::geometry::{Intervals, OrderedBoxes, Scanlines};
 use crate::threads::GRAIN;
 
 /// Limit of the bounding boxes that are compared with a shape.
@@ -34,35 +34,32 @@ pub(super) struct Scratch {
 
 /// Per shape those that it lies over, back-most first.
 pub(super) fn overlaps(shapes: &[Shape]) -> Vec<Vec<Overlap>> {
-    let boxes = shapes.iter().enumerate();
-    let boxes = boxes.map(|(index, shape)| indexed_box(shape.bounds, index));
-    let tree = BoxTree::bulk_load(boxes.collect());
+    let boxes = OrderedBoxes::new(shapes.iter().map(|shape| shape.bounds).collect());
     (0..shapes.len())
         .into_par_iter()
         .with_min_len(GRAIN)
         .map_init(Scratch::default, |scratch, shape| {
-            below(shapes, shape, &tree, scratch)
+            below(shapes, shape, &boxes, scratch)
         })
         .collect()
 }
 
-fn below(shapes: &[Shape], above: usize, tree: &BoxTree, scratch: &mut Scratch) -> Vec<Overlap> {
+fn below(
+    shapes: &[Shape],
+    above: usize,
+    boxes: &OrderedBoxes,
+    scratch: &mut Scratch,
+) -> Vec<Overlap> {
     let own = &shapes[above];
-    let near = tree.locate_in_envelope_intersecting(area_around(own.bounds, 0.0));
-    let near = near.take(MAX_BOXES).map(|found| found.data);
-    let mut near: Vec<usize> = near.filter(|other| *other < above).collect();
-    near.sort_unstable_by(|a, b| b.cmp(a));
     let mut found = Vec::new();
-    for below in near {
+    boxes.before(above, MAX_BOXES, |below| {
         let other = &shapes[below];
         let area = scratch.common(own, other);
         if area > LEAST * own.area.min(other.area) {
             found.push(Overlap { below, area });
-            if found.len() == MAX_BELOW {
-                break;
-            }
         }
-    }
+        found.len() < MAX_BELOW
+    });
     found.reverse();
     found
 }
