@@ -543,6 +543,19 @@ fn coordinates_that_are_no_numbers() {
     }
 }
 
+/// usvg makes the more curves of an arc, the larger its radius is.
+#[test]
+fn round_shapes_of_any_radius() {
+    for shape in [
+        "<circle r=\"1e38\"/>",
+        "<ellipse rx=\"9\" ry=\"1e38\"/>",
+        "<rect width=\"3e38\" height=\"3e38\" rx=\"1e38\"/>",
+        "<path d=\"M0 0A1e38 1e38 0 0 0 1e38 0z\"/>",
+    ] {
+        survived(&svg(&shape.repeat(1000)));
+    }
+}
+
 #[test]
 fn dashes_without_end() {
     let dashed = |length: &str, dash: &str| {

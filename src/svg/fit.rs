@@ -2,8 +2,11 @@
 //!
 //! usvg panics at such a picture, so it is found before, with the calculation that usvg does.
 
+use std::ops::RangeInclusive;
+
 use data_url::DataUrl;
 use resvg::tiny_skia::{NonZeroRect, Size};
+use rustc_hash::FxHashMap;
 use svgtypes::{Align, AspectRatio, Length, LengthUnit, ViewBox};
 
 /// A font size in user units, to guess lengths that depend on it.
@@ -15,18 +18,27 @@ const PAGE: f32 = 100.0;
 /// User units in an inch.
 const DPI: f32 = 96.0;
 
-/// Pictures whose sides are less unequal fit into nearly every place; only the others are compared with each.
-const USUAL_RATIO: f32 = 16_384.0;
+/// The largest ratio of the sides of a picture: those whose sides are more unequal have more pixels than are read.
+const MAX_RATIO: f32 = 16_384.0;
 
 /// How much smaller a fitting picture could be: lengths are only guessed if they depend on fonts or the page.
 const MARGIN: f32 = 8.0;
 
+/// How links to embedded pictures begin.
+pub(super) const EMBEDDED: &str = "data:";
+
 /// Where a drawing shows pictures. A picture that does not fit into one of its places is left out of all.
+///
+/// Places in filters, and in drawings that are pictures, are not known.
 pub(super) struct Places<'a> {
-    all: Vec<Place<'a>>,
-    /// Those that not every picture of a usual ratio fits into.
-    narrow: Vec<Place<'a>>,
+    /// What fits into all places of a link; without the links that every picture fits into.
+    linked: FxHashMap<&'a str, Ratios>,
+    /// The same for the bytes of embedded pictures, with their data URI.
+    embedded: FxHashMap<Vec<u8>, (&'a str, Ratios)>,
 }
+
+/// A range of the ratio of width to height; empty if it begins behind its end.
+type Ratios = RangeInclusive<f32>;
 
 /// Where a picture comes from.
 #[derive(Clone, Copy)]
@@ -36,35 +48,49 @@ pub(super) enum Origin<'a> {
     Embedded(&'a [u8]),
 }
 
-/// The place of an `<image>`.
-#[derive(Clone, Copy)]
-struct Place<'a> {
-    link: &'a str,
-    rect: NonZeroRect,
-    /// Whether the picture covers the place, rather than lying within it.
-    covers: bool,
-}
-
 impl<'a> Places<'a> {
     /// The places in a drawing.
     pub(super) fn of(document: &'a roxmltree::Document<'_>) -> Self {
         let page = page_size(document.root_element());
+        let mut places = Self {
+            linked: FxHashMap::default(),
+            embedded: FxHashMap::default(),
+        };
         let images = document
             .descendants()
             .filter(|node| node.tag_name().name() == "image");
-        let all: Vec<Place<'a>> = images.filter_map(|node| Place::of(node, page)).collect();
-        let is_narrow = |place: &&Place<'_>| {
-            let extremes = [[USUAL_RATIO, 1.0], [1.0, USUAL_RATIO]];
-            !extremes.into_iter().all(|[width, height]| {
-                Size::from_wh(width, height).is_some_and(|size| place.fits(size))
-            })
-        };
-        let narrow = all.iter().filter(is_narrow).copied().collect();
-        Self { all, narrow }
+        for image in images {
+            let link = image
+                .attributes()
+                .find(|attribute| attribute.name() == "href");
+            if let Some(link) = link
+                && let Some(place) = Place::of(image, page)
+                && let Some(ratios) = place.limited_ratios()
+            {
+                places.add(link.value(), ratios);
+            }
+        }
+        places
     }
 
-    /// The link, or data URI, at a place of the picture that it does not fit into.
-    pub(super) fn misfit(&self, origin: Origin<'_>, picture: &usvg::ImageKind) -> Option<&'a str> {
+    fn add(&mut self, link: &'a str, ratios: Ratios) {
+        let known = match DataUrl::process(link) {
+            Err(_) => self.linked.entry(link).or_insert_with(|| ratios.clone()),
+            Ok(url) => {
+                // usvg leaves out what cannot be decoded.
+                let Ok((bytes, _)) = url.decode_to_vec() else {
+                    return;
+                };
+                let entry = self.embedded.entry(bytes);
+                let (_, known) = entry.or_insert_with(|| (link, ratios.clone()));
+                known
+            }
+        };
+        *known = known.start().max(*ratios.start())..=known.end().min(*ratios.end());
+    }
+
+    /// The link or data URI of a picture, if it does not fit into one of its places, or is too narrow for any.
+    pub(super) fn misfit(&self, origin: Origin<'_>, picture: &usvg::ImageKind) -> Option<String> {
         let size = match picture {
             usvg::ImageKind::SVG(tree) => Some(tree.size()),
             usvg::ImageKind::JPEG(bytes)
@@ -75,28 +101,34 @@ impl<'a> Places<'a> {
                 .and_then(|size| Size::from_wh(size.width as f32, size.height as f32)),
         };
         // usvg leaves out pictures without a size.
-        let size = size?;
-        let ratio = size.width() / size.height();
-        let places = match (USUAL_RATIO.recip()..=USUAL_RATIO).contains(&ratio) {
-            true => &self.narrow,
-            false => &self.all,
+        let ratio = size.map(|size| size.width() / size.height())?;
+        let (link, limited) = match origin {
+            Origin::Link(link) => (link, self.linked.get(link)),
+            Origin::Embedded(bytes) => match self.embedded.get(bytes) {
+                Some((link, ratios)) => (*link, Some(ratios)),
+                None => (EMBEDDED, None),
+            },
         };
-        let is_meant = |place: &&Place<'_>| match origin {
-            Origin::Link(link) => place.link == link,
-            Origin::Embedded(bytes) => DataUrl::process(place.link)
-                .ok()
-                .and_then(|url| url.decode_to_vec().ok())
-                .is_some_and(|(embedded, _)| embedded == bytes),
-        };
-        let mut places = places.iter().filter(|place| !place.fits(size));
-        places.find(is_meant).map(|place| place.link)
+        let fits =
+            every_ratio().contains(&ratio) && limited.is_none_or(|ratios| ratios.contains(&ratio));
+        (!fits).then(|| link.to_owned())
     }
 }
 
-impl<'a> Place<'a> {
-    fn of(node: roxmltree::Node<'a, '_>, page: [f32; 2]) -> Option<Self> {
-        let attributes = || node.attributes();
-        let link = attributes().find(|attribute| attribute.name() == "href")?;
+fn every_ratio() -> Ratios {
+    MAX_RATIO.recip()..=MAX_RATIO
+}
+
+/// The place of an `<image>`.
+struct Place {
+    rect: NonZeroRect,
+    /// Whether the picture covers the place, rather than lying within it.
+    covers: bool,
+}
+
+impl Place {
+    /// `None` if every picture fits, because it gets the shape of the place or the place that of the picture.
+    fn of(node: roxmltree::Node<'_, '_>, page: [f32; 2]) -> Option<Self> {
         let length = |name, page| {
             let length: Length = node.attribute(name)?.parse().ok()?;
             Some(user_units(length, page))
@@ -107,27 +139,44 @@ impl<'a> Place<'a> {
             .unwrap_or_default();
         let [x, y] =
             [("x", page[0]), ("y", page[1])].map(|(name, page)| length(name, page).unwrap_or(0.0));
-        // Without a width or a height, the place has the shape of the picture.
         let (width, height) = (length("width", page[0])?, length("height", page[1])?);
-        Some(Self {
-            link: link.value(),
+        let place = Self {
             rect: NonZeroRect::from_xywh(x, y, width, height)?,
             covers: aspect.slice,
-        })
-        .filter(|_| aspect.align != Align::None)
+        };
+        (aspect.align != Align::None).then_some(place)
     }
 
-    /// Whether there is a rectangle for a picture of this size in its own units.
-    fn fits(&self, size: Size) -> bool {
+    /// The ratios of the pictures that fit, either end too near by a factor of up to 2; `None` if all fit.
+    fn limited_ratios(&self) -> Option<Ratios> {
+        let every = every_ratio();
+        if self.fits(*every.start()) && self.fits(*every.end()) {
+            return None;
+        }
+        // A picture with the ratio of the place fits best.
+        let own = (self.rect.width() / self.rect.height()).clamp(*every.start(), *every.end());
+        let furthest = |factor: f32| {
+            let ratios = std::iter::successors(Some(own), |ratio| Some(ratio * factor));
+            let within = ratios.take_while(|ratio| every.contains(ratio) && self.fits(*ratio));
+            within.last()
+        };
+        let none = Ratios::new(1.0, 0.0);
+        Some(match (furthest(0.5), furthest(2.0)) {
+            (Some(least), Some(most)) => least..=most,
+            _ => none,
+        })
+    }
+
+    /// Whether there is a rectangle for a picture with this ratio of width to height.
+    fn fits(&self, ratio: f32) -> bool {
         let (width, height) = (self.rect.width(), self.rect.height());
-        let scaled_width = height * size.width() / size.height();
         let fills_width = match self.covers {
-            true => scaled_width <= width,
-            false => scaled_width >= width,
+            true => height * ratio <= width,
+            false => height * ratio >= width,
         };
         let (scaled_width, scaled_height) = match fills_width {
-            true => (width, width * size.height() / size.width()),
-            false => (scaled_width, height),
+            true => (width, width / ratio),
+            false => (height * ratio, height),
         };
         [MARGIN.recip(), 1.0, MARGIN].into_iter().all(|margin| {
             let (scaled_width, scaled_height) = (scaled_width * margin, scaled_height * margin);

@@ -3,7 +3,7 @@
 use std::sync::{Arc, Mutex};
 
 use super::elements::start_tag;
-use super::fit::{Origin, Places};
+use super::fit::{EMBEDDED, Origin, Places};
 use super::prepare::Prepared;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::resolver::{LinkError, Resolver};
@@ -38,7 +38,7 @@ pub(super) fn options<'a>(
                 let picture = read_embedded(media_type, Arc::clone(&bytes), options)?;
                 match places.misfit(Origin::Embedded(&bytes), &picture) {
                     None => Some(picture),
-                    Some(place) => leave_out(Unshown::TooNarrow(place.to_owned())),
+                    Some(link) => leave_out(Unshown::TooNarrow(link)),
                 }
             }),
             resolve_string: Box::new(move |href, options| match resolver.read(href) {
@@ -46,7 +46,7 @@ pub(super) fn options<'a>(
                     let picture = read("text/plain", Arc::new(bytes.to_vec()), options)?;
                     match places.misfit(Origin::Link(href), &picture) {
                         None => Some(picture),
-                        Some(place) => leave_out(Unshown::TooNarrow(place.to_owned())),
+                        Some(link) => leave_out(Unshown::TooNarrow(link)),
                     }
                 }
                 Err(error) => leave_out(Unshown::Broken(href.to_owned(), error)),
@@ -102,7 +102,7 @@ pub(super) fn report_links(
 }
 
 fn too_narrow(link: &str, span: Span) -> Diagnostic {
-    let picture = match link.trim_start().starts_with("data:") {
+    let picture = match link.trim_start().starts_with(EMBEDDED) {
         true => "an embedded picture".to_owned(),
         false => format!("the picture `{link}`"),
     };

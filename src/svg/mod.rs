@@ -17,6 +17,7 @@ mod paths;
 mod pictures;
 mod prepare;
 mod raster;
+mod round;
 mod separate;
 mod shapes;
 mod style;

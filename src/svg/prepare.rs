@@ -5,10 +5,13 @@
 //! elements that repeat one, are given one here, by byte range. Positions in the copy are mapped back by
 //! [`Prepared::original`].
 
+use std::borrow::Cow;
+
 use rustc_hash::{FxHashMap, FxHashSet};
-use xmlparser::{ElementEnd, EntityDefinition, Token, Tokenizer};
+use xmlparser::{ElementEnd, EntityDefinition, StrSpan, Token, Tokenizer};
 
 use super::growth::DRAWN_AGAIN;
+use super::round;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
@@ -240,7 +243,7 @@ impl<'a> Scan<'a> {
                         "width" => self.tag.width = place,
                         "height" => self.tag.height = place,
                         "viewBox" => self.tag.view_box = place,
-                        _ => {}
+                        name => self.bound(name, value),
                     }
                 }
                 self.count_entities(value.as_str(), value.start())?;
@@ -268,6 +271,23 @@ impl<'a> Scan<'a> {
             _ => {}
         }
         Ok(())
+    }
+
+    /// Replaces a radius that is beyond use.
+    fn bound(&mut self, attribute: &str, value: StrSpan<'_>) {
+        if !round::ATTRIBUTES.contains(&attribute) {
+            return;
+        }
+        let text = match value.as_str().contains('&') {
+            true => Cow::Owned(expand(value.as_str(), &self.entities, self.entity_limit)),
+            false => Cow::Borrowed(value.as_str()),
+        };
+        if let Some(text) = round::bounded(attribute, &text) {
+            self.replacements.push(Replacement {
+                span: value.range().into(),
+                text: text.to_owned(),
+            });
+        }
     }
 
     /// Adds up the expanded size of the entities in `text`, before they are expanded.

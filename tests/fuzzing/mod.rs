@@ -1,7 +1,7 @@
 //! What is fuzzed: for each target a law that must hold for every input, and the inputs that the search begins with.
 //!
 //! The targets in `fuzz/` run the laws with coverage feedback for as long as they are told to; `tests/fuzzed.rs` runs them
-//! for a moment in the ordinary tests, with the mutations of [`mutate`]. A law fails by a panic.
+//! for a moment in the ordinary tests, without feedback. A law fails by a panic.
 
 mod changes;
 mod drawing;
