@@ -1,8 +1,8 @@
 //! How long an editor waits for the language server, as a ratio to what usvg alone needs to read the same drawing.
 //!
 //! `cargo bench --bench lsp [-- PARTS…]` opens drawings in a server over real stdio and types 200 characters into a
-//! string: the time from each keystroke to its diagnostics, and of hovers and completions after it. Beside it, in
-//! this process and in turn, usvg reads the text as it is then.
+//! string: the time from each keystroke to its diagnostics, and of hovers and completions after it, one of them of the
+//! parts after `@`. Beside it, in this process and in turn, usvg reads the text as it is then.
 //!
 //! The same 200 edits are made five times over. The second p99 is that of each edit's median time: a slow edit shows
 //! there, a moment in which the machine did something else does not.
@@ -44,9 +44,10 @@ fn measure(parts: usize) {
     let (mut text, _) = drawing::drawing(parts);
     let mut editor = Editor::new();
     editor.opened(URI, &text);
-    let string = text.find("@P").expect("a string with a parent");
-    let string = string + text[string..].find("</text>").expect("its end");
-    let (mut usvg, mut diagnostics, mut hovers, mut completions) = (vec![], vec![], vec![], vec![]);
+    let sign = text.find("@P").expect("a string with a parent");
+    let string = sign + text[sign..].find("</text>").expect("its end");
+    let (mut usvg, mut diagnostics, mut hovers) = (vec![], vec![], vec![]);
+    let (mut completions, mut parents) = (vec![], vec![]);
     let mut typed = 0;
     for version in 2..EDITS * ROUNDS + 2 {
         usvg.push(timed(|| {
@@ -73,12 +74,17 @@ fn measure(parts: usize) {
             editor.change(URI, version, &[change]);
             editor.diagnostics(URI, version);
         }));
-        let here = json!({"textDocument": {"uri": URI}, "position": position(&text, string + typed), "context": {"triggerKind": 1}});
+        let place = |at| json!({"textDocument": {"uri": URI}, "position": position(&text, at), "context": {"triggerKind": 1}});
+        let here = place(string + typed);
         hovers.push(timed(|| {
             editor.ask("textDocument/hover", here.clone());
         }));
         completions.push(timed(|| {
             editor.ask("textDocument/completion", here);
+        }));
+        let behind = place(sign + 1);
+        parents.push(timed(|| {
+            editor.ask("textDocument/completion", behind);
         }));
     }
     let base = at(&usvg, 50);
@@ -87,6 +93,7 @@ fn measure(parts: usize) {
         ("keystroke", diagnostics),
         ("hover", hovers),
         ("completion", completions),
+        ("completion of parts", parents),
     ];
     for (what, times) in rows {
         let (median, p99) = (at(&times, 50), at(&times, 99));

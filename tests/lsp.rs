@@ -429,6 +429,38 @@ fn changed_links_are_analysed_again() {
 }
 
 #[test]
+fn a_long_list_of_parts_is_incomplete() {
+    let part = |index: usize| {
+        let (x, y) = (40 * (index % 50), 40 * (index / 50));
+        format!(
+            "<rect x=\"{x}\" y=\"{y}\" width=\"30\" height=\"30\"/><text x=\"{}\" y=\"{}\">Part{index}@Part0</text>\n",
+            x + 15,
+            y + 15
+        )
+    };
+    let parts: String = (0..600).map(part).collect();
+    let text = format!("<svg xmlns=\"http://www.w3.org/2000/svg\">\n{parts}</svg>");
+    let mut editor = Editor::new();
+    editor.opened(URI, &text);
+    let listed = |editor: &mut Editor, text: &str, at: usize| {
+        let here = json!({"textDocument": {"uri": URI}, "position": position(text, at), "context": {"triggerKind": 1}});
+        let list = editor.ask("textDocument/completion", here);
+        assert_eq!(list["isIncomplete"], true);
+        list["items"].as_array().expect("items").clone()
+    };
+    let sign = text.find("Part599@").expect("the last string") + "Part599@".len();
+    assert_eq!(listed(&mut editor, &text, sign).len(), 500);
+    let end = sign + "Part0".len();
+    let change = json!({"range": range(&text, sign, end), "text": "Part598"});
+    editor.change(URI, 2, &[change]);
+    let text = format!("{}Part598{}", &text[..sign], &text[end..]);
+    let found = listed(&mut editor, &text, sign + "Part598".len());
+    assert_eq!(found.len(), 1);
+    assert_eq!(found[0]["label"], "Part598");
+    assert_eq!(slice(&text, &found[0]["textEdit"]["range"]), "Part598");
+}
+
+#[test]
 fn diagnostics_can_be_requested() {
     let mut editor = Editor::with(json!({
         "textDocument": {"diagnostic": {}},

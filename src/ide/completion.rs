@@ -1,9 +1,12 @@
 //! Completion: what can be written at an offset.
 
+mod choice;
 mod joints;
+mod parents;
 mod snippets;
 #[cfg(test)]
 mod tests;
+mod unfinished;
 
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -11,17 +14,19 @@ use std::ops::Range;
 use super::Analysis;
 use super::at::attributes;
 use super::typed::{Typed, typed_at};
-use crate::bind::{Bindings, PartKind, Place};
+use crate::bind::Place;
 use crate::lang::ast::{Annotation, ArgumentKind, Attribute};
 use crate::lang::keyword::colours::COLOURS;
 use crate::lang::keyword::kinds::{KINDS, Kind};
 use crate::lang::keyword::signature::Takes;
 use crate::lang::keyword::vocabulary::{AXES, FUNCTIONS, STRINGS};
 use crate::lang::keyword::{AttributeString, Keyword, Status};
-use crate::lang::quoting::{NamePlace, quoted_if_needed};
+use crate::lang::quoting::NamePlace;
 use crate::lang::{self, is_name_char, is_word_char, normalize, parameter_at};
 use crate::source::{Span, Text};
+use choice::{Choice, choose};
 use snippets::{example_arguments, filled, kind_arguments, plain};
+use unfinished::{can_end, open_parenthesis, open_quote};
 
 /// The input of a completion.
 pub struct Context<'a> {
@@ -40,6 +45,9 @@ pub struct Completion {
     pub span: Span,
     /// The proposals, the likeliest first.
     pub proposals: Vec<Proposal>,
+    /// Whether there are more parts, joints, variables or files than are listed, so that another letter of the word
+    /// can bring others.
+    pub is_incomplete: bool,
 }
 
 /// A proposal.
@@ -126,6 +134,7 @@ pub fn completion(context: &Context<'_>, offset: usize) -> Option<Completion> {
         true => Some(Completion {
             span: Span::at(offset),
             proposals: cursor.starts(),
+            is_incomplete: false,
         }),
         false => cursor.completion(),
     }
@@ -137,7 +146,7 @@ impl Cursor<'_> {
             let word = self.head.len()..self.head.len();
             let is_empty = self.text.as_str().trim().is_empty();
             let starts = if is_empty { self.starts() } else { vec![] };
-            return Some(self.replacing(word, starts));
+            return Some(self.replacing(word, starts.into()));
         }
         let (annotation, _) = self.parsed(self.head);
         match &annotation {
@@ -147,7 +156,9 @@ impl Cursor<'_> {
             Annotation::Part(part) if !part.signs.is_empty() => {
                 let from = part.signs[0].end;
                 let blank = self.head[from..].len() - self.head[from..].trim_start().len();
-                return Some(self.replacing(from + blank..self.head.len(), self.parents()));
+                let word = from + blank..self.head.len();
+                let parents = self.parents(&self.head[word.clone()], NamePlace::Head);
+                return Some(self.replacing(word, parents));
             }
             _ => return None,
         }
@@ -188,25 +199,26 @@ impl Cursor<'_> {
     fn in_attributes(&self) -> Option<Completion> {
         if let Some(quote) = open_quote(self.head) {
             let (annotation, _) = self.parsed(&self.head[..quote]);
-            let proposals = self.arguments(attributes(&annotation).last()?, true);
+            let word = &self.head[quote..];
+            let proposals = self.arguments(attributes(&annotation).last()?, true, word);
             return Some(self.replacing(quote..self.head.len(), proposals));
         }
         let word = self.word();
-        let before = &self.head[..word.start];
+        let (before, typed) = self.head.split_at(word.start);
         let (annotation, _) = self.parsed(before);
         if open_parenthesis(before) {
-            let mut proposals = self.variables();
-            proposals.extend(self.functions());
+            let mut proposals = self.variables(typed);
+            proposals.extend(self.functions().into());
             return Some(self.replacing(word, proposals));
         }
         let written = attributes(&annotation);
-        let mut proposals = vec![];
+        let mut proposals = Choice::default();
         if let Some(last) = written.last() {
-            proposals.extend(self.flags(last));
-            proposals.extend(self.arguments(last, false));
+            proposals.extend(self.flags(last).into());
+            proposals.extend(self.arguments(last, false, typed));
         }
         if written.last().is_none_or(can_end) {
-            proposals.extend(self.keywords(&annotation));
+            proposals.extend(self.keywords(&annotation).into());
         }
         Some(self.replacing(word, proposals))
     }
@@ -225,43 +237,6 @@ impl Cursor<'_> {
         };
         let (annotation, findings) = lang::parse(&Text::plain(head, 0), place);
         (annotation, findings.len())
-    }
-
-    /// The parts that can be the parent of the string's own part.
-    fn parents(&self) -> Vec<Proposal> {
-        let bindings = self.context.analysis.bindings();
-        let own = match self.string {
-            Some(string) => self.context.analysis.part_of_string(string),
-            None => None,
-        };
-        let typed = own_name_of(self.text, self.in_desc);
-        let carried = own.map_or_else(Vec::new, |own| descendants_of(bindings, own));
-        let parts = bindings.parts.iter().enumerate().filter(|(index, part)| {
-            part.kind == PartKind::Main
-                && !part.name.is_empty()
-                && !part.name.contains('"')
-                && typed.as_deref() != Some(part.name.as_str())
-                && !carried.get(*index).copied().unwrap_or(false)
-        });
-        let mut parts: Vec<_> = parts.collect();
-        // Parts with names that people gave come first.
-        parts.sort_by_key(|(_, part)| part.is_automatic());
-        parts
-            .into_iter()
-            .map(|(_, part)| {
-                let on = part
-                    .parent
-                    .map(|parent| format!("on {}", bindings.parts[parent].name));
-                Proposal {
-                    label: part.name.clone(),
-                    kind: ProposalKind::Part,
-                    detail: on.unwrap_or_else(|| "on the root".to_owned()),
-                    page: None,
-                    text: self.escape(&quoted_if_needed(&part.name, NamePlace::Head)),
-                    snippet: None,
-                }
-            })
-            .collect()
     }
 
     /// The keywords that are allowed here and not given yet.
@@ -327,8 +302,8 @@ impl Cursor<'_> {
             .collect()
     }
 
-    /// The proposals for the next argument of an attribute; in quotes only files and names.
-    fn arguments(&self, attribute: &Attribute, in_quotes: bool) -> Vec<Proposal> {
+    /// The proposals for the next argument of an attribute, of which `word` is typed; in quotes only files and names.
+    fn arguments(&self, attribute: &Attribute, in_quotes: bool, word: &str) -> Choice<Proposal> {
         let next = attribute.arguments.len();
         let is_variable = |name: &str| self.context.analysis.is_variable(name);
         let forms: Vec<&Takes> = match (next, attribute.keyword) {
@@ -342,18 +317,21 @@ impl Cursor<'_> {
                 .into_iter()
                 .collect(),
         };
-        let mut proposals = vec![];
+        let mut proposals = Choice::default();
         for takes in forms {
             let is_quoted = matches!(takes, Takes::File | Takes::Text | Takes::Names);
             if in_quotes && !is_quoted {
                 continue;
             }
-            match takes {
-                Takes::Kind => proposals.extend(KINDS.iter().map(|kind| self.kind(kind))),
-                Takes::Choice(words) => proposals.extend(words.iter().map(|word| Proposal {
-                    page: Some(attribute.keyword.name()),
-                    ..simple(word.name, ProposalKind::Word, word.summary)
-                })),
+            proposals.extend(match takes {
+                Takes::Kind => KINDS.iter().map(|kind| self.kind(kind)).collect(),
+                Takes::Choice(words) => words
+                    .iter()
+                    .map(|word| Proposal {
+                        page: Some(attribute.keyword.name()),
+                        ..simple(word.name, ProposalKind::Word, word.summary)
+                    })
+                    .collect(),
                 Takes::SignedAxis => {
                     let axis = |name: &str| name.trim_start_matches(['+', '-']).to_owned();
                     let given = |name: &str| {
@@ -362,31 +340,23 @@ impl Cursor<'_> {
                         })
                     };
                     let axes = AXES.iter().filter(|axis| !given(axis.name));
-                    proposals.extend(
-                        axes.map(|axis| simple(axis.name, ProposalKind::Word, axis.summary)),
-                    );
+                    axes.map(|axis| simple(axis.name, ProposalKind::Word, axis.summary))
+                        .collect()
                 }
-                Takes::ColourName => {
-                    proposals.extend(
-                        COLOURS
-                            .iter()
-                            .map(|name| simple(name, ProposalKind::Colour, "a colour")),
-                    );
-                }
-                Takes::Number(_) => proposals.extend(self.variables()),
-                Takes::File => proposals.extend(self.files(attribute)),
+                Takes::ColourName => COLOURS
+                    .iter()
+                    .map(|name| simple(name, ProposalKind::Colour, "a colour"))
+                    .collect(),
+                Takes::Number(_) => self.variables(word),
+                Takes::File => self.files(attribute, word),
                 Takes::Names if attribute.keyword == Keyword::Follow => {
-                    let parts = self.parents().into_iter();
-                    proposals.extend(parts.map(|part| Proposal {
-                        text: self.escape(&quoted_if_needed(&part.label, NamePlace::Argument)),
-                        ..part
-                    }));
+                    self.parents(word, NamePlace::Argument)
                 }
                 Takes::Names if attribute.keyword == Keyword::Bone => {
-                    proposals.extend(self.joints(attribute));
+                    choose(self.joints(attribute), |joint| &joint.label, word)
                 }
-                Takes::Names | Takes::Text | Takes::Variable | Takes::Hex => {}
-            }
+                Takes::Names | Takes::Text | Takes::Variable | Takes::Hex => Choice::default(),
+            });
         }
         proposals
     }
@@ -400,15 +370,13 @@ impl Cursor<'_> {
         }
     }
 
-    fn variables(&self) -> Vec<Proposal> {
+    fn variables(&self, word: &str) -> Choice<Proposal> {
         let variables = self.context.analysis.bindings().variables.iter();
-        variables
-            .map(|(name, variable)| {
-                let value = variable.value.map(|value| value.to_string());
-                let value = value.unwrap_or_else(|| "no value".to_owned());
-                simple(name, ProposalKind::Variable, &value)
-            })
-            .collect()
+        choose(variables.collect(), |(name, _)| name, word).map(|(name, variable)| {
+            let value = variable.value.map(|value| value.to_string());
+            let value = value.unwrap_or_else(|| "no value".to_owned());
+            simple(name, ProposalKind::Variable, &value)
+        })
     }
 
     fn functions(&self) -> Vec<Proposal> {
@@ -424,7 +392,7 @@ impl Cursor<'_> {
     }
 
     /// The files in the drawing's folder that the attribute can use.
-    fn files(&self, attribute: &Attribute) -> Vec<Proposal> {
+    fn files(&self, attribute: &Attribute, word: &str) -> Choice<Proposal> {
         let endings: &[&str] = match attribute.keyword {
             Keyword::Texture => &["png", "jpg", "jpeg", "gif", "webp"],
             Keyword::Shape => &["glb", "gltf"],
@@ -438,13 +406,11 @@ impl Cursor<'_> {
             ending.is_some_and(|ending| endings.contains(&ending.as_str()))
         };
         let files = (self.context.files)().into_iter().filter(fits);
-        files
-            .filter(|name| !name.contains('"'))
-            .map(|name| Proposal {
-                text: self.escape(&format!("\"{name}\"")),
-                ..simple(&name, ProposalKind::File, "in the drawing's folder")
-            })
-            .collect()
+        let files = files.filter(|name| !name.contains('"'));
+        choose(files.collect(), String::as_str, word).map(|name| Proposal {
+            text: self.escape(&format!("\"{name}\"")),
+            ..simple(&name, ProposalKind::File, "in the drawing's folder")
+        })
     }
 
     fn escape(&self, text: &str) -> String {
@@ -452,7 +418,11 @@ impl Cursor<'_> {
     }
 
     /// The proposals in place of the word `range` of the decoded string, including its characters after the cursor.
-    fn replacing(&self, range: Range<usize>, proposals: Vec<Proposal>) -> Completion {
+    fn replacing(&self, range: Range<usize>, choice: Choice<Proposal>) -> Completion {
+        let Choice {
+            items: mut proposals,
+            is_cut: is_incomplete,
+        } = choice;
         let text = self.text.as_str();
         let tail = &text[range.end..];
         let rest = match text[range.clone()].chars().next() {
@@ -477,28 +447,13 @@ impl Cursor<'_> {
             false => self.text.span(range.end..range.end),
         };
         let mut seen = BTreeSet::new();
-        let mut proposals = proposals;
         proposals.retain(|proposal| seen.insert((proposal.label.clone(), proposal.kind as u8)));
-        Completion { span, proposals }
-    }
-}
-
-/// For each part whether it is `own` or a descendant of it.
-fn descendants_of(bindings: &Bindings, own: usize) -> Vec<bool> {
-    let mut children: Vec<Vec<usize>> = vec![vec![]; bindings.parts.len()];
-    for (index, part) in bindings.parts.iter().enumerate() {
-        if let Some(parent) = part.parent {
-            children[parent].push(index);
+        Completion {
+            span,
+            proposals,
+            is_incomplete,
         }
     }
-    let mut carried = vec![false; bindings.parts.len()];
-    let mut waiting = vec![own];
-    while let Some(part) = waiting.pop() {
-        if !std::mem::replace(&mut carried[part], true) {
-            waiting.append(&mut children[part]);
-        }
-    }
-    carried
 }
 
 /// A proposal that inserts its label.
@@ -529,49 +484,4 @@ fn own_name_of(text: &Text, in_desc: bool) -> Option<String> {
 
 fn is_sign(text: &str, range: &Range<usize>, sign: char) -> bool {
     normalize(&text[range.clone()]).starts_with(sign)
-}
-
-/// The offset of a quote that is not closed.
-fn open_quote(head: &str) -> Option<usize> {
-    let mut open = None;
-    for (at, c) in head.char_indices() {
-        if matches!(c, '"' | '＂') {
-            open = match open {
-                None => Some(at),
-                Some(_) => None,
-            };
-        }
-    }
-    open
-}
-
-/// Whether there is a parenthesis that is not closed.
-fn open_parenthesis(head: &str) -> bool {
-    let mut depth = 0_usize;
-    for c in normalize(head).chars() {
-        match c {
-            '(' => depth += 1,
-            ')' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-    }
-    depth > 0
-}
-
-/// Whether an attribute is complete, so that another can follow.
-fn can_end(attribute: &Attribute) -> bool {
-    let count = attribute.arguments.len();
-    let kind = match attribute.arguments.first().map(|first| &first.kind) {
-        Some(ArgumentKind::Word(word)) if attribute.keyword == Keyword::Shape => KINDS
-            .iter()
-            .find(|kind| kind.name.eq_ignore_ascii_case(word)),
-        _ => None,
-    };
-    match kind {
-        Some(kind) => kind.form.accepts(count - 1),
-        None => {
-            let forms = attribute.keyword.row().forms;
-            forms.iter().any(|form| form.accepts(count))
-        }
-    }
 }

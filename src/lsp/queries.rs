@@ -52,7 +52,13 @@ impl Backend {
         let proposals = found.proposals.iter().enumerate();
         let items =
             proposals.map(|(index, proposal)| convert::proposal(proposal, index, range, snippets));
-        Ok(Some(CompletionResponse::Array(items.collect())))
+        Ok(Some(match found.is_incomplete {
+            true => CompletionResponse::List(CompletionList {
+                is_incomplete: true,
+                items: items.collect(),
+            }),
+            false => CompletionResponse::Array(items.collect()),
+        }))
     }
 
     pub(super) async fn on_completion_resolve(

@@ -1,4 +1,5 @@
 use super::super::fixtures::{analysis, figure, moving};
+use super::choice::MAX_LISTED;
 use super::snippets::example_arguments;
 use super::*;
 
@@ -197,4 +198,82 @@ fn a_chain_of_joints_leads_downward() {
         labels("Rarm@Body$Bone RightArm RightHand ¦"),
         Vec::<String>::new()
     );
+}
+
+/// A drawing of so many parts in rows; the last one has the string `last`.
+fn parts(count: usize, last: &str) -> String {
+    let part = |index: usize| {
+        let string = if index + 1 == count {
+            last.to_owned()
+        } else {
+            format!("Part{index}")
+        };
+        let (x, y) = (40 * (index % 100), 40 * (index / 100));
+        format!(
+            "<rect x='{x}' y='{y}' width='30' height='20'/><text x='{}' y='{}'>{string}</text>",
+            x + 15,
+            y + 10
+        )
+    };
+    let parts: String = (0..count).map(part).collect();
+    format!("<svg xmlns='http://www.w3.org/2000/svg'>{parts}</svg>")
+}
+
+/// The labels that are listed after `typed` in the last string of a drawing of so many parts, and whether there are more.
+fn listed(count: usize, typed: &[&str]) -> Vec<(Vec<String>, bool)> {
+    let (analysis, _) = analysis(&parts(count, "Last@"));
+    let listed = |typed: &&str| {
+        let source = parts(count, &format!("Last@{typed}¦"));
+        let at = source.find('¦').unwrap();
+        let context = Context {
+            source: &source.replacen('¦', "", 1),
+            analysis: &analysis,
+            files: &Vec::new,
+        };
+        let found = completion(&context, at).unwrap();
+        let labels = found.proposals.into_iter().map(|proposal| proposal.label);
+        (labels.collect(), found.is_incomplete)
+    };
+    typed.iter().map(listed).collect()
+}
+
+#[test]
+fn a_list_of_thousands_of_parts_is_bounded() {
+    let words = [
+        "",
+        "Part4998",
+        "pART4998",
+        "&quot;Part4998",
+        "\"Part4998",
+        "Pt4998",
+        "Part49",
+        "Part4998$Mark red Follow ",
+        "Part4998$Mark red Follow Part4997",
+        "Nobody",
+    ];
+    let found = listed(5000, &words);
+    assert!(found.iter().all(|(_, is_incomplete)| *is_incomplete));
+    let labels: Vec<&[String]> = found.iter().map(|(labels, _)| labels.as_slice()).collect();
+    assert_eq!(labels[0].len(), MAX_LISTED);
+    assert!(!labels[0].contains(&"Part4998".to_owned()));
+    for found in &labels[1..6] {
+        assert_eq!(**found, ["Part4998"]);
+    }
+    // Names that begin with the word come before those that have its letters further apart.
+    let (start, others) = labels[6].split_at(110);
+    assert!(start.iter().all(|name| name.starts_with("Part49")));
+    assert!(others.contains(&"Part409".to_owned()));
+    assert!(labels[7].len() >= MAX_LISTED);
+    assert!(labels[8].contains(&"Part4997".to_owned()));
+    assert!(labels[9].is_empty());
+}
+
+#[test]
+fn a_list_of_some_hundreds_of_parts_is_complete() {
+    for (found, is_incomplete) in listed(MAX_LISTED + 1, &["", "Part1"]) {
+        assert_eq!(found.len(), MAX_LISTED);
+        assert!(!is_incomplete);
+    }
+    let found = listed(MAX_LISTED + 2, &[""]);
+    assert_eq!((found[0].0.len(), found[0].1), (MAX_LISTED, true));
 }
