@@ -359,10 +359,9 @@ fn equal_skins_have_equal_keys() {
     assert!(!one.is_equal(&*one.mirrored()));
 }
 
-/// A pile with what its bodies look like: the surface of each, its front and its back, depths.
+/// A pile with the front and the back of each body, depths.
 struct Made {
     pile: Arc<Pile>,
-    surfaces: Vec<Surface>,
     fronts: Vec<Heights>,
     /// Of the surfaces mirrored in the drawing plane.
     backs: Vec<Heights>,
@@ -387,7 +386,6 @@ impl Made {
                 .map(|surface| Heights::of(&surface.mirrored()))
                 .collect(),
             pile,
-            surfaces,
         }
     }
 
