@@ -17,8 +17,6 @@ const SRGB_GAMMA: u32 = 45_455;
 const BLEED: usize = 16;
 /// The largest width of antialiasing along a sharp border, in pixels to either side.
 const SEAM: i64 = 2;
-/// Pictures with more pixels are compressed less, as compressing them well takes longer than all the rest.
-const LARGE: usize = 1 << 19;
 /// One pixel in this many may be an exception.
 const STRAY_SHARE: usize = 1000;
 
@@ -137,12 +135,8 @@ pub(super) fn encode_png(mut pixels: RgbaImage) -> Option<Picture> {
     let alpha = alpha(&pixels);
     let (width, height) = pixels.dimensions();
     let mut bytes = Vec::new();
-    let compression = if pixels.pixels().len() > LARGE {
-        CompressionType::Fast
-    } else {
-        CompressionType::Default
-    };
-    let encoder = PngEncoder::new_with_quality(&mut bytes, compression, FilterType::Adaptive);
+    let encoder =
+        PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive);
     let written = if alpha == Alpha::Opaque {
         let colors: Vec<u8> = pixels
             .pixels()
