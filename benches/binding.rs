@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
-use okoshi::bind::{bind, in_tile_layers};
+use okoshi::bind::{bind, in_layers_of_pixels};
 use okoshi::compile::{Options, compile};
 use okoshi::export::{GLB, to_memory};
 use okoshi::memo::Memo;
@@ -75,7 +75,7 @@ fn figures(shapes: usize) -> String {
 
 fn measure(kind: &str, text: &str) {
     let resolver = MemoryResolver::default();
-    let read = |text: &str| svg::read(text, 0.001, &resolver, &in_tile_layers).0;
+    let read = |text: &str| svg::read(text, 0.001, &resolver, &in_layers_of_pixels).0;
     let paper = text.replace("</svg>", "<text>%Bind center</text></svg>");
     let (meant, paper) = (read(text), read(&paper));
     let mut times: [Vec<Duration>; 3] = Default::default();

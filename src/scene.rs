@@ -6,6 +6,7 @@
 mod animation;
 mod deferred;
 mod skin;
+mod turn;
 mod world;
 
 use std::borrow::Cow;
@@ -16,6 +17,7 @@ use glam::{DQuat, DVec3};
 pub use animation::{Animation, Interpolation, Timing, Track, Values};
 pub use deferred::SurfaceSource;
 pub use skin::{MAX_JOINTS, RigidTransform, Skin, SkinnedPiece, TooManyJoints};
+pub use turn::{Turn, direction, view_axes};
 pub use world::WorldTransform;
 
 /// A model.
@@ -89,7 +91,7 @@ pub struct Node {
 /// How a node's mesh depends on the viewer; the extension `OKOSHI_view_dependent` in glTF.
 ///
 /// A program that does not know the extension shows the undistorted 3D model.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum ViewDependent {
     /// The node's mesh and all below it are scaled about the node's origin, in its frame (+Y up, ground level), so that
     /// from 45° above and with parallel projection both tops and fronts appear at full size, as in role-playing games.
@@ -101,6 +103,12 @@ pub enum ViewDependent {
     /// Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, 3.2.6, for viewers in front. Equation 3.2 there swaps
     /// its two ranges for negative θ, so that R would jump to 1.83 just below the ground; here it depends on |θ| alone.
     Bend,
+    /// The node's content is a flat character that faces the viewer. Where its regions are, and how far their meshes are morphed,
+    /// follows from where the viewer is among the views in which the character is drawn.
+    Turn(Turn),
+    /// The node is a region of such a character, a child of the node that turns. It is here in each of the views, in the
+    /// character's space, metres.
+    Region(Vec<DVec3>),
 }
 
 /// The source of a node in the drawing; `extras.okoshi` in glTF.
@@ -205,6 +213,9 @@ pub struct Surface {
     pub uvs: Vec<[f32; 2]>,
     /// In a skin, the joint that each corner is bound to with its full weight.
     pub joints: Vec<u16>,
+    /// Morph targets: how far the corners of each are from `positions`, metres. The weights of the mesh say how much of it is
+    /// added.
+    pub targets: Vec<Vec<[f32; 3]>>,
     /// Three corners a triangle, counter-clockwise seen from outside.
     pub triangles: Vec<[u32; 3]>,
 }
@@ -224,6 +235,13 @@ impl Surface {
             self.uvs.resize(self.positions.len(), [0.0; 2]);
         }
         self.joints.extend_from_slice(&other.joints);
+        let targets = self.targets.len().max(other.targets.len());
+        self.targets.resize_with(targets, Vec::new);
+        for (index, target) in self.targets.iter_mut().enumerate() {
+            target.resize(base as usize, [0.0; 3]);
+            target.extend(other.targets.get(index).into_iter().flatten());
+            target.resize(self.positions.len(), [0.0; 3]);
+        }
         self.triangles.extend(
             other
                 .triangles
@@ -241,6 +259,7 @@ impl Surface {
             normals: across(&self.normals),
             uvs: self.uvs.clone(),
             joints: self.joints.clone(),
+            targets: self.targets.iter().map(|target| across(target)).collect(),
             triangles: self
                 .triangles
                 .iter()
@@ -277,6 +296,8 @@ pub struct Material {
     pub alpha_mode: AlphaMode,
     /// Visible from both sides: surfaces without thickness.
     pub double_sided: bool,
+    /// Shows its base colour whatever the light (`KHR_materials_unlit`).
+    pub unlit: bool,
 }
 
 impl Default for Material {
@@ -295,6 +316,7 @@ impl Default for Material {
             emissive_texture: None,
             alpha_mode: AlphaMode::Opaque,
             double_sided: false,
+            unlit: false,
         }
     }
 }
@@ -323,6 +345,17 @@ impl Material {
         ];
         all.into_iter().flatten()
     }
+}
+
+/// A channel of sRGB in linear light (IEC 61966-2-1).
+pub fn linear(channel: f64) -> f32 {
+    let channel = channel.clamp(0.0, 1.0);
+    let linear = if channel <= 0.040_45 {
+        channel / 12.92
+    } else {
+        ((channel + 0.055) / 1.055).powf(2.4)
+    };
+    linear as f32
 }
 
 /// The meaning of a material's alpha.

@@ -369,6 +369,20 @@ fn figure(has_strings: bool, transform: impl Fn(&str) -> String) -> String {
     )
 }
 
+/// The picture of a model as it is drawn, without light.
+fn picture(view: &DrawnView) -> render::Image {
+    let file = okoshi::export::to_memory(&okoshi::export::GLB, &view.scene, None);
+    let bytes = file.expect("written").bytes;
+    let model = render::read(&bytes, &MemoryResolver::default()).expect("a model");
+    let posed = PosedModel::new(&model, &model.rest()).expect("triangles");
+    let options = Options {
+        size: view.size,
+        shading: Shading::Unlit,
+        ..Options::default()
+    };
+    posed.picture_of(&options, &view.sheet).expect("a picture")
+}
+
 /// A figure with one limb turned: how many pixels of the drawing turned in the same way are looked at, how many of them show the
 /// same part, and how many show nothing.
 fn turned(kind: &str, limb: &str, degrees: f64) -> [usize; 3] {
@@ -389,16 +403,7 @@ fn turned(kind: &str, limb: &str, degrees: f64) -> [usize; 3] {
         (world - view.sheet.corner).dot(view.sheet.right) / view.sheet.pixel - 70.0,
         (view.sheet.corner - world).dot(view.sheet.up) / view.sheet.pixel - 60.0,
     ];
-    let file = okoshi::export::to_memory(&okoshi::export::GLB, &view.scene, None);
-    let bytes = file.expect("written").bytes;
-    let model = render::read(&bytes, &MemoryResolver::default()).expect("a model");
-    let posed = PosedModel::new(&model, &model.rest()).expect("triangles");
-    let options = Options {
-        size: view.size,
-        shading: Shading::Unlit,
-        ..Options::default()
-    };
-    let picture = posed.picture_of(&options, &view.sheet).expect("a picture");
+    let picture = picture(&view);
     let reference = figure(false, |name| match name == limb {
         true => format!(r#"transform="rotate({:.4} {x:.4} {y:.4})""#, -degrees),
         false => String::new(),
@@ -477,16 +482,7 @@ fn the_picture_lies_on_the_drawing() {
         assert!(!compiled.has_errors(), "{:?}", compiled.diagnostics);
         let view = DrawnView::new(&compiled, compiled.scene.clone(), 2.0).expect("a page");
         assert_eq!(view.size, [200, 161]);
-        let file = okoshi::export::to_memory(&okoshi::export::GLB, &view.scene, None);
-        let bytes = file.expect("written").bytes;
-        let model = render::read(&bytes, &MemoryResolver::default()).expect("a model");
-        let posed = PosedModel::new(&model, &model.rest()).expect("triangles");
-        let options = Options {
-            size: view.size,
-            shading: Shading::Unlit,
-            ..Options::default()
-        };
-        let picture = posed.picture_of(&options, &view.sheet).expect("a picture");
+        let picture = picture(&view);
         let plain = text.replace("width=\"300mm\"", "width=\"100\" height=\"80.5\"");
         let tree = usvg::Tree::from_str(&plain, &usvg::Options::default()).expect("a drawing");
         let mut drawn = Pixmap::new(200, 161).expect("a pixmap");

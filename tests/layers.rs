@@ -16,6 +16,7 @@ const USES: &[(&str, &[&str])] = &[
     (
         "assemble",
         &[
+            "billboard",
             "bind",
             "diagnostic",
             "figure",
@@ -28,6 +29,18 @@ const USES: &[(&str, &[&str])] = &[
             "terrain",
             "texture",
             "threads",
+        ],
+    ),
+    (
+        "billboard",
+        &[
+            "bind",
+            "diagnostic",
+            "geometry",
+            "lang",
+            "scene",
+            "source",
+            "svg",
         ],
     ),
     (
@@ -47,6 +60,7 @@ const USES: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
+            "billboard",
             "bind",
             "compile",
             "crash",
@@ -70,6 +84,7 @@ const USES: &[(&str, &[&str])] = &[
         "compile",
         &[
             "assemble",
+            "billboard",
             "bind",
             "crash",
             "diagnostic",
@@ -127,6 +142,7 @@ const USES: &[(&str, &[&str])] = &[
         "look",
         &[
             "assemble",
+            "billboard",
             "bind",
             "compile",
             "crash",
@@ -179,7 +195,16 @@ const USES: &[(&str, &[&str])] = &[
     ("render", &["crash", "import", "resolver", "threads"]),
     (
         "report",
-        &["bind", "compile", "figure", "rig", "source", "terrain"],
+        &[
+            "billboard",
+            "bind",
+            "compile",
+            "figure",
+            "rig",
+            "scene",
+            "source",
+            "terrain",
+        ],
     ),
     ("resolver", &[]),
     (

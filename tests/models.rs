@@ -32,6 +32,7 @@ fn pillar() -> Vec<u8> {
             vec![]
         },
         joints: vec![],
+        targets: vec![],
         triangles: match z > 0.0 {
             true => vec![[0, 1, 2], [0, 2, 3]],
             false => vec![[0, 2, 1], [0, 3, 2]],

@@ -8,7 +8,7 @@ use std::process::Output;
 use common::program::Room;
 
 /// The templates, and how many nodes each makes at least: a landscape is one, below the root.
-const TEMPLATES: [(&str, usize); 3] = [("human", 8), ("car", 8), ("island", 2)];
+const TEMPLATES: [(&str, usize); 4] = [("human", 8), ("car", 8), ("island", 2), ("boy", 20)];
 
 fn run(room: &Room, arguments: &[&str]) -> Output {
     room.command(arguments).output().expect("it starts")
@@ -68,7 +68,7 @@ fn help_lists_all_templates() {
         2,
         &[
             "invalid value 'boat'",
-            "[possible values: human, car, island]",
+            "[possible values: human, car, island, boy]",
         ],
     );
     ends(&Room::new(), &["new"], 2, &["<NAME>"]);

@@ -8,7 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::figure::{LinkedModels, PartMaterial};
 use crate::memo::Memo;
 use crate::resolver::Resolver;
-use crate::scene::{AlphaMode, Image, Material, Scene, Texture, TextureUse};
+use crate::scene::{AlphaMode, Image, Material, Scene, Texture, TextureUse, linear};
 use crate::svg::Drawing;
 use crate::terrain::{Layer, Tile, TileMaterial};
 use crate::texture::Alpha;
@@ -234,15 +234,4 @@ fn material(factors: &MaterialFactors, double_sided: bool) -> Material {
         double_sided,
         ..Material::default()
     }
-}
-
-/// A channel of sRGB in linear light (IEC 61966-2-1).
-fn linear(channel: f64) -> f32 {
-    let channel = channel.clamp(0.0, 1.0);
-    let linear = if channel <= 0.040_45 {
-        channel / 12.92
-    } else {
-        ((channel + 0.055) / 1.055).powf(2.4)
-    };
-    linear as f32
 }

@@ -1,4 +1,4 @@
-//! The scene of a drawing: what the systems (figures, landscapes, motion on figures) make, put together.
+//! The scene of a drawing: what the systems (figures, landscapes, characters that turn, motion on figures) make, put together.
 //!
 //! Invariant: this is the only module that knows more than one system. Each gets plain data of the others: rest frames of parts, the
 //! node of each part, materials, the world transform.
@@ -7,6 +7,7 @@ mod materials;
 mod textures;
 mod world;
 
+use crate::billboard::{self, Character};
 use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
 use crate::figure::{FigureNodes, Figures, LinkedModels, NodeDepth, PartMaterial};
@@ -27,6 +28,8 @@ pub struct Assembled {
     pub scene: Scene,
     /// The tile maps.
     pub layers: Vec<Layer>,
+    /// The characters that turn.
+    pub characters: Vec<Character>,
     /// The clips that figures play.
     pub clips: Vec<FigureClip>,
     /// Per part that has a node, how far in front of the drawing plane it lies.
@@ -87,16 +90,30 @@ pub fn assemble(
         frames: &figures.frames,
         parts_of_node: &figures.parts_of_node,
     };
+    let characters = billboard::read(drawing, bindings, diagnostics);
+    let mut colors = billboard::Colors::default();
+    for character in &characters {
+        billboard::add(
+            character,
+            drawing,
+            bindings,
+            &world,
+            &mut colors,
+            &mut scene,
+        );
+    }
     let clips = rig::add_clips(&context, nodes, resolver, memo, &mut scene, diagnostics);
     Assembled {
         scene,
         layers,
+        characters,
         clips,
         depths: figures.depths,
     }
 }
 
-/// Builds the scene of a drawing so that its materials say what each surface is made from.
+/// Builds the scene of a drawing so that its materials say what each surface is made from. Characters that turn are left out: each
+/// of their views shows another drawing.
 pub fn assemble_apart(drawing: &Drawing, bindings: &Bindings, resolver: &dyn Resolver) -> Apart {
     let (memo, sharing) = (Memo::none(), Sharing::Apart);
     let built = build(drawing, bindings, sharing, resolver, &memo, &mut Vec::new());

@@ -36,8 +36,8 @@ pub struct Bindings {
     pub layers: Vec<Layer>,
     /// Whether parts hang on those that they touch, because no string names a part but labels or ids do.
     pub hierarchy_by_contact: bool,
-    /// Per group the innermost tile layer that it is, or is in; empty if there are no layers.
-    pub(super) tile_layer_of_group: Vec<Option<usize>>,
+    /// Per group the innermost tile layer or view that it is, or is in; empty if there are no layers.
+    pub(super) layer_of_group: Vec<Option<usize>>,
 }
 
 /// What holds a string.
@@ -164,6 +164,8 @@ pub enum PartKind {
     Unused,
     /// Drawn in a tile layer: it has no name, no joint and no solid of its own.
     Tile,
+    /// Drawn in a view of a character: one of its regions.
+    Region,
 }
 
 impl PartKind {
@@ -175,6 +177,7 @@ impl PartKind {
             Self::Legend => "legend",
             Self::Unused => "unused",
             Self::Tile => "tile",
+            Self::Region => "region",
         }
     }
 }

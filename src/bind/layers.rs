@@ -15,7 +15,7 @@ use crate::threads::GRAIN;
 pub enum LayerKind {
     /// A map of tiles: shapes in the group are tiles, not parts.
     Tiles,
-    /// A character as seen from one side. No effect yet.
+    /// A character as seen from one side: shapes in the group are its regions, not parts.
     View,
     /// A key pose of a figure. No effect yet.
     Pose,
@@ -47,6 +47,11 @@ pub struct Layer {
 }
 
 impl LayerKind {
+    /// Whether shapes in the group belong to the layer: they are no parts of figures.
+    fn holds_content(self) -> bool {
+        matches!(self, Self::Tiles | Self::View)
+    }
+
     /// The kind of layer that a string makes of its group, if it does.
     pub(super) fn of(annotation: &Annotation) -> Option<Self> {
         let Annotation::Part(part) = annotation else {
@@ -61,11 +66,11 @@ impl LayerKind {
     }
 }
 
-/// Whether each group is a tile layer, or in one.
-pub fn in_tile_layers(drawing: &Drawing) -> Vec<bool> {
+/// Whether each group is a layer whose pictures are read pixel by pixel, or in one.
+pub fn in_layers_of_pixels(drawing: &Drawing) -> Vec<bool> {
     let is_layer = |text, place| {
         let (annotation, _) = lang::parse(text, place);
-        LayerKind::of(&annotation) == Some(LayerKind::Tiles)
+        LayerKind::of(&annotation).is_some_and(LayerKind::holds_content)
     };
     let labels = drawing.labels.par_iter().with_min_len(GRAIN);
     let of_labels = labels.filter_map(|(label, group)| {
@@ -97,6 +102,15 @@ fn spread(drawing: &Drawing, layer: &mut [Option<usize>]) {
     }
 }
 
+/// Index of the group that holds a string.
+fn group_of(drawing: &Drawing, place: Place) -> usize {
+    match place {
+        Place::Label(label) => drawing.labels[label].1,
+        Place::Shape(shape) => drawing.shapes[shape].group,
+        Place::Group(group) => group,
+    }
+}
+
 /// Finds the layers, before anything is bound.
 pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut Vec<Diagnostic>) {
     let mut layer: Vec<Option<usize>> = vec![None; drawing.groups.len()];
@@ -108,16 +122,12 @@ pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut
         let Some(kind) = LayerKind::of(&string.annotation) else {
             continue;
         };
-        let group = match string.place {
-            Place::Label(label) => drawing.labels[label].1,
-            Place::Shape(shape) => drawing.shapes[shape].group,
-            Place::Group(group) => group,
-        };
-        if let Some(first) = layer[group].filter(|_| kind == LayerKind::Tiles) {
+        let group = group_of(drawing, string.place);
+        if let Some(first) = layer[group].filter(|_| kind.holds_content()) {
             let other: &Layer = &layers[first];
             let element = &drawing.groups[group].element;
             let message = format!(
-                "this string and another one make the same group a tile layer, {}",
+                "this string and another one make the same group a layer, {}",
                 drawing.describe_group(group)
             );
             diagnostics.push(
@@ -128,12 +138,12 @@ pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut
                 )
                 .related(element.span, "the group")
                 .help(
-                    "delete one of them, or put each into the group or layer that contains its tiles",
+                    "delete one of them, or put each into the group or layer that contains its shapes",
                 ),
             );
             continue;
         }
-        if kind == LayerKind::Tiles {
+        if kind.holds_content() {
             layer[group] = Some(layers.len());
         }
         let name = annotation.name.as_ref().map(|name| name.text.clone());
@@ -155,7 +165,7 @@ pub(super) fn find(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mut
     }
     if !layers.is_empty() {
         spread(drawing, &mut layer);
-        bindings.tile_layer_of_group = layer;
+        bindings.layer_of_group = layer;
         bindings.layers = layers;
     }
 }
@@ -167,16 +177,38 @@ impl Bindings {
         layers.filter(|(_, layer)| layer.kind == LayerKind::Tiles)
     }
 
-    /// Index of the innermost tile layer that a group is, or is in.
-    pub fn tile_layer_of_group(&self, group: usize) -> Option<usize> {
-        self.tile_layer_of_group.get(group).copied().flatten()
+    /// The views of characters, each with its index among all [`layers`](Self::layers).
+    pub fn views(&self) -> impl Iterator<Item = (usize, &Layer)> {
+        let layers = self.layers.iter().enumerate();
+        layers.filter(|(_, layer)| layer.kind == LayerKind::View)
     }
 
-    /// Whether a shape is a picture in a tile layer, and so no part.
-    pub fn is_picture_of_tiles(&self, drawing: &Drawing, shape: usize) -> bool {
+    /// Index of the innermost tile layer or view that a group is, or is in.
+    pub fn layer_of_group(&self, group: usize) -> Option<usize> {
+        self.layer_of_group.get(group).copied().flatten()
+    }
+
+    /// The same, if that is of a kind.
+    fn layer_of_kind(&self, group: usize, kind: LayerKind) -> Option<usize> {
+        let layer = self.layer_of_group(group);
+        layer.filter(|layer| self.layers[*layer].kind == kind)
+    }
+
+    /// Index of the tile layer that a group is, or is in.
+    pub fn tile_layer_of_group(&self, group: usize) -> Option<usize> {
+        self.layer_of_kind(group, LayerKind::Tiles)
+    }
+
+    /// Index of the view of a character that a group is, or is in.
+    pub fn view_of_group(&self, group: usize) -> Option<usize> {
+        self.layer_of_kind(group, LayerKind::View)
+    }
+
+    /// Whether a shape is a picture in a tile layer or a view, and so no part.
+    pub fn is_picture_of_layer(&self, drawing: &Drawing, shape: usize) -> bool {
         let shape = &drawing.shapes[shape];
         let is_picture = matches!(shape.paint.key, PaintKey::Picture(_));
-        is_picture && self.tile_layer_of_group(shape.group).is_some()
+        is_picture && self.layer_of_group(shape.group).is_some()
     }
 
     /// Whether a string excludes a picture from its tile layer. It cannot be bound, because such pictures are no parts.
@@ -185,17 +217,25 @@ impl Bindings {
         let Place::Shape(shape) = string.place else {
             return false;
         };
-        string.annotation == Annotation::Unused && self.is_picture_of_tiles(drawing, shape)
+        string.annotation == Annotation::Unused && self.is_picture_of_layer(drawing, shape)
     }
 }
 
-/// Makes the parts without a string in tile layers tiles.
+/// Makes the parts without a string in tile layers tiles, and the parts in views regions of their characters.
 pub(super) fn classify(drawing: &Drawing, bindings: &mut Bindings) {
-    if bindings.tile_layers().next().is_none() {
+    if bindings.layers.is_empty() {
         return;
     }
     for index in 0..bindings.parts.len() {
         let Part { shape, main, .. } = bindings.parts[index];
+        let is_left_out = bindings.parts[index].kind == PartKind::Unused;
+        let in_view = bindings
+            .view_of_group(drawing.shapes[shape].group)
+            .is_some();
+        if in_view && !is_left_out {
+            bindings.parts[index].kind = PartKind::Region;
+            continue;
+        }
         let unbound =
             bindings.parts[index].string.is_none() && bindings.parts[main].string.is_none();
         if unbound
@@ -208,8 +248,8 @@ pub(super) fn classify(drawing: &Drawing, bindings: &mut Bindings) {
     }
 }
 
-/// Reports attributes of tile layers in strings that make none.
-pub(super) fn misplaced(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
+/// Reports attributes of tile layers in strings that make none, and attributes of regions outside of views.
+pub(super) fn misplaced(drawing: &Drawing, bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
     let has_tile_layers = bindings.tile_layers().next().is_some();
     for string in &bindings.strings {
         let (attributes, what) = match &string.annotation {
@@ -223,6 +263,22 @@ pub(super) fn misplaced(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) 
             Annotation::Defaults(attributes) => (attributes, "a `%` string"),
             _ => continue,
         };
+        let group = group_of(drawing, string.place);
+        let in_view = bindings.view_of_group(group).is_some();
+        let of_view = attributes.iter().filter(|attribute| {
+            !in_view && matches!(attribute.keyword, Keyword::Depth | Keyword::Hidden)
+        });
+        for attribute in of_view {
+            let name = attribute.keyword.name();
+            let message = format!(
+                "`{name}` has no effect in {what} outside of a view: it applies to regions of a character"
+            );
+            let span = string.text.span(attribute.range.clone());
+            diagnostics.push(
+                Diagnostic::new(Code::NoTileLayer, span, message)
+                    .help("put it into a layer with a string like `Boy$View 0 0`, or delete it"),
+            );
+        }
         let for_all = matches!(string.annotation, Annotation::Defaults(_));
         for attribute in attributes {
             let misplaced = match attribute.keyword {

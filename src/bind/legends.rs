@@ -71,7 +71,7 @@ pub(super) fn merge(drawing: &Drawing, bindings: &mut Bindings, diagnostics: &mu
         }
     }
     let shapes = 0..drawing.shapes.len();
-    let mut pictures = shapes.filter(|shape| bindings.is_picture_of_tiles(drawing, *shape));
+    let mut pictures = shapes.filter(|shape| bindings.is_picture_of_layer(drawing, *shape));
     let has_maps = pictures.next().is_some();
     for legend in &bindings.legends {
         // The colours of pictures are known only when the tile layers are read.

@@ -44,7 +44,7 @@ pub use attributes::{
 };
 pub use bindings::{Binding, Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, Place};
 pub use given_depths::GivenDepth;
-pub use layers::{Layer, LayerKind, in_tile_layers};
+pub use layers::{Layer, LayerKind, in_layers_of_pixels};
 pub use legends::Legend;
 pub use located::locate;
 pub use motions::ClipRequest;
@@ -68,7 +68,7 @@ use node_groups::NodeGroups;
 pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -> Bindings {
     let mut bindings = strings::read(drawing, diagnostics);
     layers::find(drawing, &mut bindings, diagnostics);
-    layers::misplaced(&bindings, diagnostics);
+    layers::misplaced(drawing, &bindings, diagnostics);
     let mut node_groups = NodeGroups::read(drawing, &bindings);
     let leaders = Leaders::find(drawing, &bindings, &node_groups);
     node_groups.find_sources(drawing, &bindings, &leaders, memo);

@@ -47,13 +47,13 @@ pub(super) struct NodeGroups {
     node_group: Vec<Option<usize>>,
     /// Per source: the nearest container around it.
     pub(super) container: Vec<Option<usize>>,
-    /// Per group: the group of the tile layer that it is in.
+    /// Per group: the group of the tile layer or view that it is in.
     layer: Vec<Option<usize>>,
-    /// Per source: whether it is in a tile layer.
+    /// Per source: whether it is in such a layer.
     pub(super) in_layer: Vec<bool>,
     /// Per shape: whether it is a background, unless a string names it.
     pub(super) backgrounds: Vec<bool>,
-    /// Per group: whether it is a tile layer with parts that strings can belong to.
+    /// Per group: whether it is such a layer, with parts that strings can belong to.
     holds_parts: Vec<bool>,
 }
 
@@ -69,7 +69,7 @@ impl NodeGroups {
         }
         let groups = 0..drawing.groups.len();
         let layer =
-            groups.map(|group| Some(bindings.layers[bindings.tile_layer_of_group(group)?].group));
+            groups.map(|group| Some(bindings.layers[bindings.layer_of_group(group)?].group));
         let layer: Vec<Option<usize>> = layer.collect();
         let in_map = |group: usize| layer[group].is_some();
         let wrappers = wrappers::find(drawing, bindings, &strings, in_map);
@@ -111,7 +111,7 @@ impl NodeGroups {
         }
     }
 
-    /// A group and the groups around it, innermost first, up to the tile layer that it is in.
+    /// A group and the groups around it, innermost first, up to the layer that it is in.
     pub(super) fn chain(&self, group: usize) -> impl Iterator<Item = usize> + '_ {
         let mut next = self.parents.get(group).map(|_| group);
         std::iter::from_fn(move || {
@@ -191,10 +191,10 @@ fn sources(
         Strokes::All => (true, true, true),
     };
     let described = described_lines(drawing, bindings);
-    // Strokes in a tile layer are edges.
+    // Strokes in a tile layer are edges; those in a view belong to its regions.
     let is_map = |shape: usize| {
         let group = drawing.shapes[shape].group;
-        bindings.tile_layer_of_group(group).is_some()
+        bindings.layer_of_group(group).is_some()
     };
     let is_leader = |shape: usize| leaders.shapes.binary_search(&shape).is_ok();
     let is_free = |shape: usize| !described[shape] && !is_leader(shape) && !is_map(shape);
@@ -213,7 +213,7 @@ fn sources(
     };
     for (index, shape) in drawing.shapes.iter().enumerate() {
         let converted = converted.contains(shape.element.span.start);
-        if converted || bindings.is_picture_of_tiles(drawing, index) {
+        if converted || bindings.is_picture_of_layer(drawing, index) {
             continue;
         }
         let has_stroke = shape.stroke.is_some();

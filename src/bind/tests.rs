@@ -219,7 +219,7 @@ fn settings_of_the_drawing_have_defaults() {
 }
 
 #[test]
-fn group_strings_make_layers_and_only_maps_hold_tiles() {
+fn group_strings_make_layers_of_tiles_and_regions() {
     let group = |string: &str, x| format!("<g>{}{}</g>", square(x, 20, ""), text(x, 60, string));
     let elements = [
         group("Island$Tiles 20", 20),
@@ -241,19 +241,21 @@ fn group_strings_make_layers_and_only_maps_hold_tiles() {
     assert_eq!(layers, expected);
     let tile_layers: Vec<usize> = bindings.tile_layers().map(|(index, _)| index).collect();
     assert_eq!(tile_layers, [0]);
-    // Squares by number: only the one of the map is a tile, and no group string belongs to a part.
+    // Squares by number: that of the map is a tile, that of the view a region, and no group string belongs to a part.
     let kinds: Vec<PartKind> = bindings.parts.iter().map(|part| part.kind).collect();
     let main = PartKind::Main;
-    assert_eq!(kinds, [PartKind::Tile, main, main, main]);
+    assert_eq!(kinds, [PartKind::Tile, PartKind::Region, main, main]);
     assert!(bindings.layers.iter().all(|layer| {
         let string = &bindings.strings[layer.string];
         string.binding.is_none() && !string.wants_part()
     }));
     let group_of = |shape: usize| compiled.drawing.shapes[shape].group;
-    let in_layers = in_tile_layers(&compiled.drawing);
-    assert!(in_layers[group_of(0)] && !in_layers[group_of(1)]);
+    let in_layers = in_layers_of_pixels(&compiled.drawing);
+    assert!(in_layers[group_of(0)] && in_layers[group_of(1)] && !in_layers[group_of(2)]);
     assert_eq!(bindings.tile_layer_of_group(group_of(0)), Some(0));
     assert_eq!(bindings.tile_layer_of_group(group_of(1)), None);
+    assert_eq!(bindings.view_of_group(group_of(1)), Some(1));
+    assert_eq!(bindings.layer_of_group(group_of(2)), None);
     assert_eq!(
         bindings.layer_attributes(0).tile_size().unwrap().value,
         20.0
@@ -261,13 +263,14 @@ fn group_strings_make_layers_and_only_maps_hold_tiles() {
 }
 
 #[test]
-fn two_strings_cannot_make_tile_layers_of_one_group() {
+fn two_strings_cannot_make_layers_of_one_group() {
     let group = |second: &str| {
         let strings = text(20, 60, "Island$Tiles 20") + &text(20, 80, second);
         drawing(&format!("<g>{}{strings}</g>", square(20, 20, "")))
     };
     assert!(has(&group("Other$Tiles 10"), Code::TwoStrings));
-    assert!(!has(&group("Boy$View 0 0"), Code::TwoStrings));
+    assert!(has(&group("Boy$View 0 0"), Code::TwoStrings));
+    assert!(!has(&group("Boy$Pose 1"), Code::TwoStrings));
 }
 
 #[test]

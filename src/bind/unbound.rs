@@ -153,7 +153,8 @@ impl AllTaken {
         let mut is_part = vec![false; drawing.shapes.len()];
         for part in &bindings.parts {
             is_part[part.shape] = true;
-            let free = part.string.is_none() && part.kind != PartKind::Tile;
+            let of_layer = matches!(part.kind, PartKind::Tile | PartKind::Region);
+            let free = part.string.is_none() && !of_layer;
             if free && !part.is_candidate() {
                 let main = &bindings.parts[part.main];
                 subs[drawing.common_group(part.shape, main.shape)] += 1;

@@ -30,7 +30,10 @@ fn hint(
     string: &DrawingString,
 ) -> Option<Diagnostic> {
     let (binding, rival) = (string.binding?, string.runner_up?);
-    if bindings.parts[rival].kind == PartKind::Tile {
+    if matches!(
+        bindings.parts[rival].kind,
+        PartKind::Tile | PartKind::Region
+    ) {
         return None;
     }
     // By its looks: the name of a part may be what this string, or another uncertain one, says.

@@ -141,6 +141,8 @@ pub(super) enum Template {
     Car,
     /// A landscape, drawn as a map of tiles: a hill, a pond, a house in the sea
     Island,
+    /// A character that turns, drawn from two sides
+    Boy,
 }
 
 /// The formats of models, with their descriptions.

@@ -10,9 +10,13 @@ use super::args::{Common, Inspect};
 use super::loading::{Detail, Loaded, describe, load};
 use super::progress::spinning;
 use super::{Outcome, pretty, print_out, style};
+use crate::billboard::{Character, RegionModel, Track};
 use crate::bind::{self, NamedBy, PartKind, SetBy};
 use crate::lang::keyword::Keyword;
-use crate::report::{self, Clip, Part, Reader, Terrain, own_name, parts, terrain};
+use crate::report::{
+    self, Billboard, Clip, Part, Reader, Terrain, billboards, describe_character, own_name, parts,
+    terrain,
+};
 use crate::terrain::Layer;
 
 /// Prints the hierarchy; findings go to stderr.
@@ -45,7 +49,7 @@ struct Report<'a> {
     drawing: &'a str,
     parts: Vec<Part<'a>>,
     terrain: Vec<Terrain<'a>>,
-    billboards: [(); 0],
+    billboards: Vec<Billboard<'a>>,
     clips: Vec<Clip<'a>>,
 }
 
@@ -54,7 +58,7 @@ fn json(loaded: &Loaded) -> String {
         drawing: &loaded.path,
         parts: parts(&loaded.compiled, &loaded.text),
         terrain: terrain(&loaded.compiled),
-        billboards: [],
+        billboards: billboards(&loaded.compiled),
         clips: report::clips(&loaded.compiled, Reader::Inspect),
     })
 }
@@ -74,6 +78,10 @@ fn tree(loaded: &Loaded) -> String {
     for (index, layer) in loaded.compiled.layers.iter().enumerate() {
         let below = children.entry(layer.parent).or_default();
         below.push(Item::Layer(index));
+    }
+    for index in 0..loaded.compiled.characters.len() {
+        let below = children.entry(None).or_default();
+        below.push(Item::Character(index));
     }
     let mut rows: Vec<[String; 2]> = vec![["Root".to_owned(), String::new()]];
     let mut stack: Vec<(Item, String, bool)> = Vec::new();
@@ -96,12 +104,20 @@ fn tree(loaded: &Loaded) -> String {
                 let layer = &loaded.compiled.layers[layer];
                 [&layer.name, &describe_layer(layer)]
             }
+            Item::Character(index) => {
+                let character = &loaded.compiled.characters[index];
+                [&character.name, &describe_character(character)]
+            }
         };
         rows.push([format!("{indent}{branch}{name}"), what.clone()]);
         if let Item::Layer(layer) = item {
             let listed = contents(&loaded.compiled.layers[layer]);
             let indented = listed.into_iter();
             rows.extend(indented.map(|[name, what]| [format!("{indent}{below}  {name}"), what]));
+        }
+        if let Item::Character(index) = item {
+            let listed = regions(loaded, &loaded.compiled.characters[index]).into_iter();
+            rows.extend(listed.map(|[name, what]| [format!("{indent}{below}  {name}"), what]));
         }
         if let Item::Part(part) = item {
             push(&mut stack, Some(part), &format!("{indent}{below}"));
@@ -137,6 +153,42 @@ enum Item {
     Part(usize),
     /// Index of a tile map.
     Layer(usize),
+    /// Index of a character that turns.
+    Character(usize),
+}
+
+/// The regions of a character, with what each is in the views.
+fn regions(loaded: &Loaded, character: &Character) -> Vec<[String; 2]> {
+    let drawing = &loaded.compiled.drawing;
+    let tracks = character.regions.iter().zip(&character.matching.tracks);
+    let row = |(region, track): (&RegionModel, &Track)| {
+        let members = region.shapes.iter().zip(&track.regions);
+        let members: Vec<String> = members
+            .map(|(shape, number)| match (shape, number) {
+                (Some(shape), Some(number)) => match drawing.shapes[*shape].picture {
+                    Some(_) => format!("region {}", number + 1),
+                    None => drawing.shapes[*shape].element.describe(),
+                },
+                _ => "not drawn".to_owned(),
+            })
+            .collect();
+        [region.name.clone(), members.join(" – ")]
+    };
+    let mut listed: Vec<[String; 2]> = tracks.map(row).collect();
+    shorten(&mut listed);
+    listed
+}
+
+/// Cuts a long list short, and says so.
+fn shorten(listed: &mut Vec<[String; 2]>) {
+    let more = listed.len().checked_sub(MAX_LISTED);
+    if let Some(more) = more.filter(|more| *more > 0) {
+        listed.truncate(MAX_LISTED);
+        listed.push([
+            format!("… and {more} more"),
+            "all of them with --json".to_owned(),
+        ]);
+    }
 }
 
 fn describe_layer(layer: &Layer) -> String {
@@ -148,7 +200,7 @@ fn describe_layer(layer: &Layer) -> String {
     )
 }
 
-/// Most groups and houses of a landscape that are listed one by one.
+/// Most groups and houses of a landscape, or regions of a character, that are listed one by one.
 const MAX_LISTED: usize = 40;
 
 /// The groups of a landscape with their heights, its ponds and houses.
@@ -173,17 +225,7 @@ fn contents(layer: &Layer) -> Vec<[String; 2]> {
     });
     let all = groups.chain(houses);
     let mut listed: Vec<[String; 2]> = all.collect();
-    if let Some(more) = listed
-        .len()
-        .checked_sub(MAX_LISTED)
-        .filter(|more| *more > 0)
-    {
-        listed.truncate(MAX_LISTED);
-        listed.push([
-            format!("… and {more} more"),
-            "all of them with --json".to_owned(),
-        ]);
-    }
+    shorten(&mut listed);
     listed
 }
 

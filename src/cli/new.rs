@@ -13,6 +13,7 @@ impl Template {
             Self::Human => include_str!("templates/human.svg"),
             Self::Car => include_str!("templates/car.svg"),
             Self::Island => include_str!("templates/island.svg"),
+            Self::Boy => include_str!("../../examples/characters/boy.svg"),
         }
     }
 }

@@ -112,5 +112,5 @@ impl Version {
 /// same to be traced.
 fn reads_same_pixels(drawing: &Drawing) -> bool {
     let known = drawing.pixel_groups.as_ref();
-    known.is_none_or(|known| *known == bind::in_tile_layers(drawing))
+    known.is_none_or(|known| *known == bind::in_layers_of_pixels(drawing))
 }

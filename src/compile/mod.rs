@@ -6,6 +6,7 @@ use std::io;
 use std::sync::Arc;
 
 use crate::assemble::{self, Assembled};
+use crate::billboard::Character;
 use crate::bind::{self, Bindings};
 use crate::crash::{self, Crash};
 use crate::diagnostic::{self, Code, Diagnostic, Severity};
@@ -48,6 +49,8 @@ pub struct Compiled {
     pub bindings: Bindings,
     /// The tile maps.
     pub layers: Vec<terrain::Layer>,
+    /// The characters that turn.
+    pub characters: Vec<Character>,
     /// The clips that figures play.
     pub clips: Vec<rig::FigureClip>,
     /// Per part that has a node, how far in front of the drawing plane it lies.
@@ -137,8 +140,12 @@ impl Reading {
         #[cfg(test)]
         assert!(!source.contains(PLANTED_CRASH), "planted");
         let recorder = Recorder::new(resolver);
-        let (drawing, diagnostics) =
-            svg::read(source, options.tolerance, &recorder, &bind::in_tile_layers);
+        let (drawing, diagnostics) = svg::read(
+            source,
+            options.tolerance,
+            &recorder,
+            &bind::in_layers_of_pixels,
+        );
         Self {
             drawing: Arc::new(drawing),
             diagnostics,
@@ -158,6 +165,7 @@ impl Reading {
         let Assembled {
             scene,
             layers,
+            characters,
             clips,
             depths,
         } = assemble::assemble(&drawing, &bindings, &recorder, memo, &mut diagnostics);
@@ -171,6 +179,7 @@ impl Reading {
             scene,
             bindings,
             layers,
+            characters,
             clips,
             depths,
             drawing,

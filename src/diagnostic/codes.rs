@@ -364,7 +364,7 @@ codes! {
     /// This version reads and checks the attribute, or the kind of shape, but does not build it yet.
     ///
     /// ```text
-    /// Boy$View 0 0
+    /// Boy$Pose 1.5
     /// ```
     ///
     /// Leave it in for a later version, or use something else for now.
@@ -399,14 +399,16 @@ codes! {
     ///
     /// Put the string into the group or layer that contains the tiles.
     NoTiles = "W313", "tile layer without tiles";
-    /// `Tiles`, `Bevel` or `Roof` is in a string that does not make a tile layer, so it has no effect.
+    /// `Tiles`, `Bevel` or `Roof` is in a string that does not make a tile layer, or `Depth` or `Hidden` in one outside of a
+    /// character's views, so it has no effect.
     ///
     /// ```text
     /// Hat@Head$Roof 0.5
     /// ```
     ///
-    /// Move it to the string that turns a layer or a group into a map: `Village$Tiles 16 Roof 0.5`.
-    NoTileLayer = "W314", "attribute of a tile layer elsewhere";
+    /// Move it to the string that turns a layer or a group into a map: `Village$Tiles 16 Roof 0.5`; or into a layer with a string like
+    /// `Boy$View 0 0`.
+    NoTileLayer = "W314", "attribute of a layer elsewhere";
     /// The rules of terrain allow more than one reading of this tile map, or none. It is built all the same: a group
     /// without a height lies on the ground, a group with fewer brown tiles than it is high hangs in the air, brown
     /// tiles in the middle of green ones are pits, and a wall or a roof on its own is ground of its colour.
@@ -485,6 +487,40 @@ codes! {
     /// Write this text anywhere on the page to build outlines as ink on their shapes, or `%Strokes none` if the filled
     /// areas are enough.
     OutlinesLeftOut = "W322", "outlines left out";
+    /// A view of a character cannot be used: it is the only one, nothing is drawn in it, more than 1,000 shapes are, or another
+    /// one has the same angles.
+    /// A character turns between two views or more.
+    ///
+    /// ```text
+    /// Boy$View 0 0
+    /// ```
+    ///
+    /// Draw the character from another side, in a layer or group of its own, and write the string with the angles there, for example
+    /// `Boy$View 45 0`.
+    UnusableView = "W323", "view that cannot be used";
+    /// A region of a character was drawn in one of its views, but nothing in the other views looks like the same thing. On the
+    /// way to another view it shrinks to nothing. Often it is hidden there, or its colour differs, or it is far away from where
+    /// it was expected.
+    ///
+    /// ```text
+    /// Boy$View 45 0      and only this layer has a yellow badge
+    /// ```
+    ///
+    /// You need not change anything if the region is hidden in the other view. To say that two regions are the same, write the
+    /// same name beside both. To give the shape that a region has while it is hidden, draw it in the other view, too, and
+    /// mark it with `Hidden`.
+    NoPartner = "W324", "region without a partner";
+    /// Two views of a character do not fit each other: they are almost from the same side, so that a small difference in
+    /// drawing makes a large one in depth; or details end up behind what they are drawn on, which happens if the sign of an
+    /// angle is wrong.
+    ///
+    /// ```text
+    /// Boy$View 0 0    Boy$View -45 0      and the face moves to the left of the picture
+    /// ```
+    ///
+    /// The first number is positive if the viewer walks to the character's left: then its face moves to the left of the picture. The
+    /// second one is positive if the viewer looks from above: then the face moves down.
+    UnlikelyViews = "W325", "views that do not fit";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

@@ -112,21 +112,31 @@ fn check_animation(animation: &Animation, nodes: usize) -> io::Result<()> {
         values,
     } in &animation.tracks
     {
-        let (is_rotation, count, is_valid) = match values {
+        let is_valid = match values {
             // Writing would normalise any other quaternion to an arbitrary rotation.
             Values::Rotations(rotations) => {
                 let unit = |rotation: &glam::DQuat| (rotation.length_squared() - 1.0).abs() < 1e-3;
-                (true, rotations.len(), rotations.iter().all(unit))
+                rotations.iter().all(unit)
             }
             Values::Translations(translations) => {
-                let is_valid = translations.iter().all(|t| t.as_vec3().is_finite());
-                (false, translations.len(), is_valid)
+                translations.iter().all(|t| t.as_vec3().is_finite())
+            }
+            Values::Weights(weights) => {
+                let count = weights.first().map_or(0, Vec::len);
+                let all = weights.iter();
+                let mut all = all.map(|w| w.len() == count && w.iter().all(|w| w.is_finite()));
+                all.all(|is_valid| is_valid)
             }
         };
         if *node >= nodes {
             return wrong("a track of a node out of range");
         }
-        if !animated.insert((*node, is_rotation)) {
+        let kind = match values {
+            Values::Rotations(_) => 0,
+            Values::Translations(_) => 1,
+            Values::Weights(_) => 2,
+        };
+        if !animated.insert((*node, kind)) {
             return wrong("two tracks of one kind for one node");
         }
         let times = &timing.times;
@@ -136,7 +146,7 @@ fn check_animation(animation: &Animation, nodes: usize) -> io::Result<()> {
         if !ascending || !within {
             return wrong("keys out of order in time, or none");
         }
-        if count != times.len() {
+        if values.len() != times.len() {
             return wrong("a different number of keys and times");
         }
         if !is_valid {
@@ -154,7 +164,11 @@ pub(super) fn surface(surface: &Surface, joints: usize) -> io::Result<[[f32; 3];
         surface.uvs.len(),
         surface.joints.len(),
     ];
-    if !lengths.iter().all(|length| [0, vertices].contains(length)) {
+    let is_whole = surface
+        .targets
+        .iter()
+        .all(|target| target.len() == vertices);
+    if !is_whole || !lengths.iter().all(|length| [0, vertices].contains(length)) {
         return Err(invalid(
             "a surface whose lists of vertices differ in length",
         ));
@@ -174,12 +188,22 @@ pub(super) fn surface(surface: &Surface, joints: usize) -> io::Result<[[f32; 3];
     let sum = |rows: &[f32]| rows.iter().map(|number| number * 0.0).sum::<f32>();
     let sums = sum(surface.positions.as_flattened())
         + sum(surface.normals.as_flattened())
-        + sum(surface.uvs.as_flattened());
+        + sum(surface.uvs.as_flattened())
+        + surface
+            .targets
+            .iter()
+            .map(|target| sum(target.as_flattened()))
+            .sum::<f32>();
     if !sums.is_finite() {
         return Err(invalid("a surface with a vertex that is not a number"));
     }
-    let first = [surface.positions[0]; 2];
-    Ok(surface.positions.iter().fold(first, |[min, max], p| {
+    bounds(&surface.positions).ok_or_else(|| invalid("a surface without vertices"))
+}
+
+/// The least and the greatest value of each coordinate; `None` without points.
+pub(super) fn bounds(points: &[[f32; 3]]) -> Option<[[f32; 3]; 2]> {
+    let first = [*points.first()?; 2];
+    Some(points.iter().fold(first, |[min, max], p| {
         [
             [0, 1, 2].map(|i| min[i].min(p[i])),
             [0, 1, 2].map(|i| max[i].max(p[i])),

@@ -206,6 +206,7 @@ mod tests {
             normals: vec![[0.0, 0.0, 1.0]; 3],
             uvs,
             joints: vec![],
+            targets: Vec::new(),
             triangles: vec![[0, 1, 2]],
         };
         Mesh {

@@ -14,7 +14,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::i_float::int::point::IntPoint;
 
 use super::query::{bounds, shoelace};
-use super::tangled::is_tangled;
+use super::tangled::{MAX_CROSSINGS, crossings, pictured};
 use super::touching::{separate, touches};
 use super::{FillRule, Outline, Polygon, Ring, disjoint};
 
@@ -34,8 +34,17 @@ const SLIVER: f64 = 1e-6;
 /// Extents outside of this range are not drawn geometry: their squares would overflow or vanish.
 const VALID_EXTENTS: std::ops::Range<f64> = 1e-60..1e60;
 
-/// The area that rings enclose by a fill rule, as valid polygons; nothing, if they cross too often (see [`is_tangled`]).
-pub fn resolve_overlaps(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
+/// The area that rings enclose by a fill rule, as valid polygons. If they cross more than 20,000 times, it is exact to
+/// within about 1/2,000 of their extent.
+pub fn resolve_overlaps(rings: Vec<Ring>, rule: FillRule) -> Outline {
+    resolve(rings, rule).unwrap_or_else(|tangled| {
+        // What is left crosses where rings touch only, unless it is all dots.
+        resolve(pictured(&tangled, rule), FillRule::EvenOdd).unwrap_or_default()
+    })
+}
+
+/// The area, or the rings without repetitions if they cross too often.
+fn resolve(mut rings: Vec<Ring>, rule: FillRule) -> Result<Outline, Vec<Ring>> {
     for ring in &mut rings {
         if !ring.iter().all(|p| p.is_finite()) {
             ring.retain(|p| p.is_finite());
@@ -43,7 +52,7 @@ pub fn resolve_overlaps(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
     }
     rings.retain(|ring| ring.len() > 2);
     let Some(grid) = Grid::over(rings.iter().flatten(), GRID_STEPS[0]) else {
-        return Outline::default();
+        return Ok(Outline::default());
     };
     let flat = COLLINEAR * grid.extent;
     for ring in &mut rings {
@@ -55,14 +64,15 @@ pub fn resolve_overlaps(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
         rings => disjoint::are_disjoint(rings, MIN_CLEARANCE * grid.extent),
     };
     if !simple {
-        if is_tangled(&rings) {
-            return Outline::default();
+        match crossings(&rings) {
+            0 => simple = is_simple(&rings, &grid),
+            count if count > MAX_CROSSINGS => return Err(rings),
+            _ => {}
         }
-        simple = is_simple(&rings, &grid);
     }
     if simple && rings.len() <= disjoint::MAX_NESTED_RINGS {
         rings.retain(|ring| !is_sliver(ring, grid.extent));
-        return disjoint::nest(rings, rule);
+        return Ok(disjoint::nest(rings, rule));
     }
     let rule = match rule {
         FillRule::NonZero => GridRule::NonZero,
@@ -80,7 +90,7 @@ pub fn resolve_overlaps(mut rings: Vec<Ring>, rule: FillRule) -> Outline {
             break;
         }
     }
-    outline
+    Ok(outline)
 }
 
 fn overlay<'a>(rings: impl Iterator<Item = &'a Ring>, grid: &Grid, rule: GridRule) -> GridShapes {

@@ -12,6 +12,7 @@ mod disjoint;
 mod flatten;
 mod frame;
 mod measure;
+mod pixels;
 mod query;
 mod scanline;
 mod tangled;
@@ -24,10 +25,10 @@ pub(crate) use contact::{Body, connected, touching};
 pub use flatten::flatten;
 pub use frame::{Frame, y_up};
 pub use measure::{Measure, measure, measure_along};
+pub use pixels::pixel_borders;
 pub use query::{area, bounds, contains, distance_squared};
 pub(crate) use query::{crosses, shoelace};
 pub(crate) use scanline::{EdgeRanges, Intervals, LINES, Scanlines};
-pub use tangled::{MAX_CROSSINGS, is_tangled};
 
 use glam::DVec2;
 

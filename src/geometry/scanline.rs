@@ -208,11 +208,8 @@ impl Intervals {
     /// place, and the length that it stands for.
     pub(crate) fn spread(&self, apart: f64, mut each: impl FnMut(usize, f64, f64)) {
         for (index, line) in self.lines.iter().enumerate() {
-            for [from, to] in line {
-                let count = ((to - from) / apart).round().max(1.0);
-                let weight = (to - from) / count;
-                (0..count as usize)
-                    .for_each(|k| each(index, from + weight * (k as f64 + 0.5), weight));
+            for interval in line {
+                spread(*interval, apart, |x, weight| each(index, x, weight));
             }
         }
     }
@@ -224,14 +221,14 @@ impl Intervals {
         interval.is_some_and(|[start, _]| *start <= place)
     }
 
-    /// Calls `each` with the pieces of lines that are in both, and the index of their lines.
-    pub(crate) fn each_common(&self, other: &Self, mut each: impl FnMut(usize, [f64; 2])) {
+    /// The same for the pieces of lines that are in both, without the lengths.
+    pub(crate) fn spread_common(&self, other: &Self, apart: f64, mut each: impl FnMut(usize, f64)) {
         for (index, (line, other)) in self.lines.iter().zip(&other.lines).enumerate() {
             for [start, end] in line {
                 for [from, to] in other {
                     let (from, to) = (from.max(*start), to.min(*end));
                     if from < to {
-                        each(index, [from, to]);
+                        spread([from, to], apart, |x, _| each(index, x));
                     }
                 }
             }
@@ -250,6 +247,13 @@ impl Intervals {
         }
         common
     }
+}
+
+/// Calls `each` with evenly spaced places in an interval, about this far apart and at least one, and the length that each stands for.
+fn spread([from, to]: [f64; 2], apart: f64, mut each: impl FnMut(f64, f64)) {
+    let count = ((to - from) / apart).round().max(1.0);
+    let weight = (to - from) / count;
+    (0..count as usize).for_each(|k| each(from + weight * (k as f64 + 0.5), weight));
 }
 
 #[cfg(test)]

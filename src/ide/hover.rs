@@ -221,6 +221,11 @@ impl Analysis {
                 let name = layer.map_or("", |layer| &bindings.layers[layer].name);
                 format!("**Tiles** of {}", escaped(name))
             }
+            PartKind::Region => {
+                let layer = bindings.view_of_group(self.drawing().shapes[part.shape].group);
+                let name = layer.map_or("", |layer| &bindings.layers[layer].name);
+                format!("**A region** of {}", escaped(name))
+            }
         };
         if part.kind == PartKind::Main {
             let _ = write!(out, "\n\n{}", self.lineage(index));

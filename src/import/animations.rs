@@ -1,4 +1,4 @@
-//! Clips: glTF's animations, read completely and sampled one pose at a time. Morph target weights are ignored.
+//! Clips: glTF's animations, read completely and sampled one pose at a time.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -34,6 +34,8 @@ struct AnimatedNode {
     translation: Option<Curve<3>>,
     rotation: Option<Curve<4>>,
     scale: Option<Curve<3>>,
+    /// For each morph target its weight.
+    weights: Vec<Curve<1>>,
 }
 
 /// Keys of one property.
@@ -66,6 +68,12 @@ impl Clip {
             if let Some(local) = pose.locals.get_mut(animated.node) {
                 *local = DMat4::from_scale_rotation_translation(scale, rotation, translation);
             }
+            if !animated.weights.is_empty()
+                && let Some(weights) = pose.weights.get_mut(animated.node)
+            {
+                let at = |curve: &Curve<1>| curve.at(time, lerp)[0] as f32;
+                *weights = animated.weights.iter().map(at).collect();
+            }
         }
         pose
     }
@@ -79,8 +87,8 @@ fn unit_quaternion(quaternion: DQuat) -> DQuat {
     }
 }
 
-fn lerp(a: [f64; 3], b: [f64; 3], share: f64) -> [f64; 3] {
-    DVec3::from(a).lerp(b.into(), share).to_array()
+fn lerp<const N: usize>(a: [f64; N], b: [f64; N], share: f64) -> [f64; N] {
+    std::array::from_fn(|i| a[i] + (b[i] - a[i]) * share)
 }
 
 /// Spherical interpolation along the shorter arc.
@@ -201,9 +209,6 @@ impl<'a> Reader<'a> {
         let mut seconds = declared_seconds(animation);
         for channel in animation.channels() {
             let target = channel.target();
-            if target.property() == Property::MorphTargetWeights {
-                continue;
-            }
             let times = self.key_times(&channel)?;
             seconds = times
                 .last()
@@ -223,6 +228,7 @@ impl<'a> Reader<'a> {
                     translation: None,
                     rotation: None,
                     scale: None,
+                    weights: Vec::new(),
                 }
             });
             let twice = match target.property() {
@@ -238,7 +244,10 @@ impl<'a> Reader<'a> {
                     let curve = self.curve(&channel, times)?;
                     animated.scale.replace(curve).is_some()
                 }
-                Property::MorphTargetWeights => false,
+                Property::MorphTargetWeights => {
+                    let curves = self.weight_curves(&channel, times)?;
+                    !std::mem::replace(&mut animated.weights, curves).is_empty()
+                }
             };
             if twice {
                 return Err(malformed(format!(
@@ -280,6 +289,31 @@ impl<'a> Reader<'a> {
         let output = channel.sampler().output();
         let rows: Vec<[f32; 3]> = self.buffers.list(&output, &[(F32, VEC3)])?.collect();
         curve(channel, &output, times, rows)
+    }
+
+    /// The keys of the weights of each morph target of the node's mesh.
+    fn weight_curves(
+        &self,
+        channel: &Channel<'a>,
+        times: Arc<[f32]>,
+    ) -> Result<Vec<Curve<1>>, ImportError> {
+        let output = channel.sampler().output();
+        let types = [F32, I8, U8, I16, U16].map(|component| (component, SCALAR));
+        self.buffers.check(&output, &types)?;
+        let reader = channel.reader(|buffer| self.buffers.of(&buffer));
+        let all: Vec<f32> = match reader.read_outputs() {
+            Some(ReadOutputs::MorphTargetWeights(weights)) => weights.into_f32().collect(),
+            _ => Vec::new(),
+        };
+        let mesh = channel.target().node().mesh();
+        let primitives = mesh.and_then(|mesh| mesh.primitives().next());
+        let targets = primitives.map_or(0, |primitive| primitive.morph_targets().count());
+        let of = |target: usize| {
+            let rows = all.iter().skip(target).step_by(targets.max(1));
+            let rows = rows.map(|weight| [*weight]).collect();
+            curve(channel, &output, times.clone(), rows)
+        };
+        (0..targets).map(of).collect()
     }
 
     fn rotation_curve(

@@ -16,7 +16,11 @@ use super::{ImportError, MAX_REPEATED, malformed};
 pub(super) fn check_size(document: &Document, buffers: &Buffers) -> Result<(), ImportError> {
     let mut needed = 0_usize;
     for primitive in document.meshes().flat_map(|mesh| mesh.primitives()) {
-        let attributes = primitive.attributes().map(|(_, accessor)| {
+        let targets = primitive
+            .morph_targets()
+            .filter_map(|target| target.positions());
+        let attributes = primitive.attributes().map(|(_, accessor)| accessor);
+        let attributes = attributes.chain(targets).map(|accessor| {
             let length = accessor.count().saturating_mul(accessor.size());
             // One that is longer than its view is refused when it is read.
             let view = accessor.view();
@@ -75,6 +79,15 @@ fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>
     };
     if !normals.is_empty() {
         same(normals.len(), "normals")?;
+    }
+    let mut targets = Vec::new();
+    for target in source.morph_targets() {
+        let target: Vec<[f32; 3]> = match target.positions() {
+            Some(accessor) => buffers.list(&accessor, &[(F32, VEC3)])?.collect(),
+            None => vec![[0.0; 3]; count],
+        };
+        same(target.len(), "corners in a morph target")?;
+        targets.push(target);
     }
     let reader = source.reader(|buffer| buffers.of(&buffer));
     let check = |accessor: Option<Accessor<'_>>, types: &[_]| {
@@ -150,6 +163,7 @@ fn primitive(source: &Source<'_>, buffers: &Buffers) -> Result<Option<Primitive>
     }
     Ok(Some(Primitive {
         positions,
+        targets,
         normals,
         uvs,
         colours,

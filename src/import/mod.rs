@@ -1,8 +1,8 @@
 //! Reads glTF 2.0 files made by other programs: for pictures of them, and for models that drawings link to.
 //!
 //! It reads the node hierarchy, triangles (lists, strips, fans), normals, one set of texture coordinates, vertex
-//! colours, skins, clips, and which nodes bend with the view; [`StaticModel`] adds materials and images. Morph targets
-//! are ignored.
+//! colours, morph targets of positions, skins, clips, and how nodes follow the viewer; [`StaticModel`] adds materials and
+//! images.
 
 mod animations;
 mod buffers;
@@ -174,7 +174,8 @@ fn nodes(document: &Document) -> Result<Vec<Node>, ImportError> {
                 local: matrix(&node),
                 mesh: node.mesh().map(|mesh| mesh.index()),
                 skin: node.skin().map(|skin| skin.index()),
-                bends: view_dependent::has_bend(&node)?,
+                weights: weights(&node),
+                view_dependent: view_dependent::read(&node)?,
             })
         })
         .collect::<Result<_, ImportError>>()?;
@@ -186,6 +187,13 @@ fn nodes(document: &Document) -> Result<Vec<Node>, ImportError> {
         }
     }
     Ok(nodes)
+}
+
+/// The weights of morph targets at rest: the node's, or those of its mesh.
+fn weights(node: &::gltf::Node<'_>) -> Vec<f32> {
+    let own = node.weights().map(<[f32]>::to_vec);
+    let of_mesh = || Some(node.mesh()?.weights()?.to_vec());
+    own.or_else(of_mesh).unwrap_or_default()
 }
 
 /// All nodes, parents before children.

@@ -2,8 +2,9 @@
 
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3, Vec4};
 
-use super::view_dependent::bend_matrix;
+use super::view_dependent::{bend_matrix, facing};
 use super::{ImportError, MAX_REPEATED, MAX_TRIANGLES};
+use crate::scene::{Turn, ViewDependent};
 
 /// The geometry of a file, not yet posed.
 #[derive(Debug)]
@@ -37,8 +38,10 @@ pub(super) struct Node {
     pub(super) local: DMat4,
     pub(super) mesh: Option<usize>,
     pub(super) skin: Option<usize>,
-    /// Whether it bends with the view.
-    pub(super) bends: bool,
+    /// The weights of the mesh's morph targets, at rest.
+    pub(super) weights: Vec<f32>,
+    /// How it follows the viewer.
+    pub(super) view_dependent: Option<ViewDependent>,
 }
 
 #[derive(Debug)]
@@ -53,6 +56,8 @@ pub(super) struct Skin {
 #[derive(Debug)]
 pub(super) struct Primitive {
     pub(super) positions: Vec<[f32; 3]>,
+    /// Morph targets: displacements of the positions.
+    pub(super) targets: Vec<Vec<[f32; 3]>>,
     pub(super) normals: Vec<[f32; 3]>,
     pub(super) uvs: Vec<Vec2>,
     pub(super) colours: Vec<Vec4>,
@@ -66,17 +71,19 @@ pub(super) struct Primitive {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pose {
     pub(super) locals: Vec<DMat4>,
-    /// Towards the viewer in the world; if `None`, nothing bends.
+    /// Per node the weights of its mesh's morph targets.
+    pub(super) weights: Vec<Vec<f32>>,
+    /// Towards the viewer in the world; if `None`, nothing follows the viewer.
     towards: Option<DVec3>,
 }
 
 impl Pose {
-    /// The same pose, bent for a viewer in the direction `towards`, in the world.
+    /// The same pose for a viewer in the direction `towards`, in the world.
     #[must_use]
     pub(crate) fn seen_from(&self, towards: Option<DVec3>) -> Self {
         Self {
-            locals: self.locals.clone(),
             towards,
+            ..self.clone()
         }
     }
 }
@@ -86,13 +93,46 @@ impl Geometry {
     pub(crate) fn rest(&self) -> Pose {
         Pose {
             locals: self.nodes.iter().map(|node| node.local).collect(),
+            weights: self.nodes.iter().map(|node| node.weights.clone()).collect(),
             towards: None,
         }
     }
 
-    /// Whether any node bends with the view.
+    /// Whether any node follows the viewer.
     pub(crate) fn is_view_dependent(&self) -> bool {
-        self.nodes.iter().any(|node| node.bends)
+        self.nodes.iter().any(|node| node.view_dependent.is_some())
+    }
+
+    /// The pose with each character turned to the viewer: where its regions are, and the weights of their morph targets.
+    fn turned(&self, pose: &Pose, towards: DVec3) -> Pose {
+        let mut pose = pose.clone();
+        let mut globals = vec![DMat4::IDENTITY; self.nodes.len()];
+        // Per node the character that it is a part of, and the weights of the views.
+        let mut characters: Vec<Option<(&Turn, Vec<f64>)>> = vec![None; self.nodes.len()];
+        for index in &self.order {
+            let node = &self.nodes[*index];
+            let above = node.parent.and_then(|parent| characters[parent].clone());
+            let outer = node
+                .parent
+                .map_or(DMat4::IDENTITY, |parent| globals[parent]);
+            match (&node.view_dependent, above) {
+                (Some(ViewDependent::Turn(turn)), None) => {
+                    let local = pose.locals[*index];
+                    let seen = facing(outer * local, towards);
+                    pose.locals[*index] = local * seen.rotation;
+                    characters[*index] = Some((turn, turn.weights(seen.direction)));
+                }
+                (Some(ViewDependent::Region(places)), Some((turn, weights))) => {
+                    let place = turn.place(&weights, places);
+                    pose.locals[*index] = DMat4::from_translation(place);
+                    pose.weights[*index] = weights[1..].iter().map(|w| *w as f32).collect();
+                    characters[*index] = Some((turn, weights));
+                }
+                (_, above) => characters[*index] = above,
+            }
+            globals[*index] = outer * pose.locals[*index];
+        }
+        pose
     }
 
     /// The world transform of each node.
@@ -107,11 +147,12 @@ impl Geometry {
                 Some(parent) => (globals[parent] * local, bends[parent]),
                 None => (local, false),
             };
-            if let Some(towards) = pose.towards.filter(|_| node.bends && !within) {
+            let is_bent = node.view_dependent == Some(ViewDependent::Bend);
+            if let Some(towards) = pose.towards.filter(|_| is_bent && !within) {
                 global *= bend_matrix(global, towards);
             }
             globals[*index] = global;
-            bends[*index] = within || node.bends;
+            bends[*index] = within || is_bent;
         }
         globals
     }
@@ -121,6 +162,8 @@ impl Geometry {
     /// # Errors
     /// No triangles, or too many.
     pub(crate) fn triangles(&self, pose: &Pose) -> Result<TriangleSoup, ImportError> {
+        let turned = pose.towards.map(|towards| self.turned(pose, towards));
+        let pose = turned.as_ref().unwrap_or(pose);
         let globals = self.globals(pose);
         let seen = || {
             let nodes = self
@@ -159,7 +202,13 @@ impl Geometry {
                 .map(|skin| self.joints(&self.skins[skin], &globals));
             for primitive in mesh {
                 let skin = skin.as_deref().filter(|_| !primitive.influences.is_empty());
-                append(primitive, globals[index], skin, &mut out);
+                append(
+                    primitive,
+                    globals[index],
+                    skin,
+                    &pose.weights[index],
+                    &mut out,
+                );
             }
         }
         match out.triangles.is_empty() {
@@ -178,7 +227,18 @@ impl Geometry {
 }
 
 /// Appends a primitive, transformed by its node or its joints.
-fn append(primitive: &Primitive, global: DMat4, skin: Option<&[DMat4]>, out: &mut TriangleSoup) {
+fn append(
+    primitive: &Primitive,
+    global: DMat4,
+    skin: Option<&[DMat4]>,
+    weights: &[f32],
+    out: &mut TriangleSoup,
+) {
+    let morphs = primitive.targets.iter().zip(weights);
+    let morphs: Vec<(&Vec<[f32; 3]>, f64)> = morphs
+        .filter(|(_, weight)| **weight != 0.0)
+        .map(|(target, weight)| (target, f64::from(*weight)))
+        .collect();
     let first = out.positions.len() as u32;
     let material = primitive.material.map(|material| material as u32);
     let blended = skin.map(|joints| {
@@ -190,8 +250,11 @@ fn append(primitive: &Primitive, global: DMat4, skin: Option<&[DMat4]>, out: &mu
     let normals = normal_matrix(global);
     for (corner, position) in primitive.positions.iter().enumerate() {
         let vector = |v: [f32; 3]| Vec3::from(v).as_dvec3();
-        out.positions
-            .push(matrix(corner).transform_point3(vector(*position)));
+        let mut place = vector(*position);
+        for (target, weight) in &morphs {
+            place += *weight * vector(target[corner]);
+        }
+        out.positions.push(matrix(corner).transform_point3(place));
         let normal = primitive.normals.get(corner).map_or(DVec3::ZERO, |normal| {
             let turn = blended
                 .as_ref()

@@ -91,8 +91,8 @@ impl StaticModel {
                 positions: piece.positions.iter().map(place).collect(),
                 normals: piece.normals.iter().map(lean).collect(),
                 uvs: piece.uvs.clone(),
-                joints: Vec::new(),
                 triangles: piece.triangles.clone(),
+                ..Surface::default()
             };
             (piece.material, surface)
         })
@@ -221,6 +221,7 @@ fn material(source: &::gltf::Material<'_>) -> Material {
             material::AlphaMode::Blend => AlphaMode::Blend,
         },
         double_sided: source.double_sided(),
+        unlit: source.unlit(),
     }
 }
 

@@ -1,32 +1,101 @@
-//! The extension `OKOSHI_view_dependent` (docs/view-dependent.md): which nodes bend with the view, and the matrix that
-//! bends them for a viewer.
+//! The extension `OKOSHI_view_dependent` (docs/view-dependent.md): how nodes follow the viewer.
 
 use ::gltf::Node;
 use glam::{DMat3, DMat4, DVec3};
+use serde::Deserialize;
 
 use super::{ImportError, malformed};
+use crate::scene::{Turn, ViewDependent, direction, view_axes};
 
 const EXTENSION: &str = "OKOSHI_view_dependent";
 /// The elevation with the largest stretch, in degrees above the ground.
 const STEEPEST: f64 = 45.0;
 
-/// Whether a node bends with the view.
+/// How a node follows the viewer. Ways that are not known are ignored.
 ///
 /// # Errors
-/// The extension, or its `bend`, is not an object. Other kinds of view dependence are ignored.
-pub(super) fn has_bend(node: &Node<'_>) -> Result<bool, ImportError> {
+/// The extension, or what it says of a way that is known, has the wrong form.
+pub(super) fn read(node: &Node<'_>) -> Result<Option<ViewDependent>, ImportError> {
     let Some(extension) = node.extension_value(EXTENSION) else {
-        return Ok(false);
+        return Ok(None);
     };
-    match extension.as_object().map(|ways| ways.get("bend")) {
-        Some(None) => Ok(false),
-        Some(Some(bend)) if bend.is_object() => Ok(true),
-        _ => {
-            let index = node.index();
-            Err(malformed(format!(
-                "the {EXTENSION} of node {index} should be like {{ \"bend\": {{}} }}"
-            )))
+    let index = node.index();
+    let wrong = |form: &str| {
+        malformed(format!(
+            "the {EXTENSION} of node {index} should be like {form}"
+        ))
+    };
+    let Some(ways) = extension.as_object() else {
+        return Err(wrong(r#"{ "bend": {} }"#));
+    };
+    if let Some(bend) = ways.get("bend") {
+        let known = bend.is_object().then_some(Some(ViewDependent::Bend));
+        return known.ok_or_else(|| wrong(r#"{ "bend": {} }"#));
+    }
+    if let Some(turn) = ways.get("turn") {
+        let form = r#"{ "turn": { "views": [[0, 0], [45, 0]], "between": [[0, 1]] } }"#;
+        let turn = TurnJson::deserialize(turn).map_err(|_| wrong(form))?;
+        let count = turn.views.len();
+        let is_set =
+            |set: &Vec<usize>| (1..=3).contains(&set.len()) && set.iter().all(|view| *view < count);
+        let finite = turn
+            .views
+            .as_flattened()
+            .iter()
+            .all(|angle| angle.is_finite());
+        if count == 0
+            || count > MAX_VIEWS
+            || turn.between.is_empty()
+            || !finite
+            || !turn.between.iter().all(is_set)
+        {
+            return Err(wrong(form));
         }
+        return Ok(Some(ViewDependent::Turn(Turn {
+            views: turn.views,
+            between: turn.between,
+        })));
+    }
+    if let Some(region) = ways.get("region") {
+        let form = r#"{ "region": { "places": [[0, 0, 0], [1, 0, 0]] } }"#;
+        let region = RegionJson::deserialize(region).map_err(|_| wrong(form))?;
+        let places = region.places.into_iter().map(DVec3::from);
+        return Ok(Some(ViewDependent::Region(places.collect())));
+    }
+    Ok(None)
+}
+
+/// The largest number of views of a character.
+const MAX_VIEWS: usize = 256;
+
+#[derive(Deserialize)]
+struct TurnJson {
+    views: Vec<[f64; 2]>,
+    between: Vec<Vec<usize>>,
+}
+
+#[derive(Deserialize)]
+struct RegionJson {
+    places: Vec<[f64; 3]>,
+}
+
+/// How a character is turned to its viewer.
+pub(super) struct Facing {
+    /// The viewer's direction, degrees, in the character's space.
+    pub(super) direction: [f64; 2],
+    /// From the frame of a screen that faces the viewer to the character's space.
+    pub(super) rotation: DMat4,
+}
+
+/// Turns a character to the viewer. `global` takes its frame into the world, `towards` points to the viewer in the world.
+pub(super) fn facing(global: DMat4, towards: DVec3) -> Facing {
+    let into = DMat3::from_mat4(global).inverse();
+    let towards = (into * towards).try_normalize().unwrap_or(DVec3::Z);
+    let direction = direction(towards);
+    let [right, up, towards] = view_axes(direction);
+    Facing {
+        direction,
+        rotation: DMat4::from_mat3(DMat3::from_cols(right, up, towards)),
     }
 }
 

@@ -69,7 +69,7 @@ fn owners_of_parts(compiled: &Compiled) -> Vec<Option<Owner>> {
             is_built.then_some(Owner::Part(index))
         }
         PartKind::Tile => layer_of(compiled, part.shape).map(Owner::Layer),
-        PartKind::Legend | PartKind::Unused => None,
+        PartKind::Legend | PartKind::Unused | PartKind::Region => None,
     };
     bindings.parts.iter().enumerate().map(owner).collect()
 }
@@ -101,7 +101,7 @@ fn left_out(
     for (index, shape) in drawing.shapes.iter().enumerate() {
         let built = elements.entry(shape.element.span.start).or_default();
         // A picture that is a map is no part.
-        built.fill |= bindings.is_picture_of_tiles(drawing, index);
+        built.fill |= bindings.is_picture_of_layer(drawing, index);
         built.has_stroke |= shape.stroke.is_some();
         built.is_clone |= shape.element.tag == "use";
     }

@@ -13,6 +13,7 @@
 //! the drawing are not counted: there the two pictures are antialiased in different ways.
 
 mod borders;
+mod characters;
 mod drawn;
 mod hints;
 mod view;

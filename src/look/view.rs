@@ -2,11 +2,11 @@
 
 use glam::{DQuat, DVec2, DVec3};
 
-use super::LookError;
+use super::{LookError, characters};
 use crate::assemble::world_transform;
 use crate::compile::Compiled;
 use crate::render::{MAX_SIDE, RenderError, Sheet};
-use crate::scene::{Scene, WorldTransform};
+use crate::scene::{Scene, ViewDependent, WorldTransform};
 use crate::terrain::Layer;
 
 /// The elevation from which a landscape looks as drawn, in degrees.
@@ -17,7 +17,8 @@ const ROUNDING: f64 = 1e-6;
 /// A model as it is drawn: what shows it, and what of the world that is.
 ///
 /// Figures are seen from the front. Landscapes are tilted by 45° towards the viewer, each at its place on the page, behind the
-/// figures unless they are drawn after all of them: with their bend, they look as drawn.
+/// figures unless they are drawn after all of them: with their bend, they look as drawn. Characters that turn are shown in each of
+/// their views, where that is drawn.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DrawnView {
     /// The model. Its landscapes are roots.
@@ -46,6 +47,7 @@ impl DrawnView {
         let world = world_transform(&compiled.bindings, &compiled.layers);
         let mut scene = scene;
         tilt_landscapes(compiled, &world, &mut scene);
+        characters::show_views(compiled, &world, &mut scene);
         Ok(Self {
             scene,
             sheet: Sheet {
@@ -63,7 +65,7 @@ impl DrawnView {
 fn tilt_landscapes(compiled: &Compiled, world: &WorldTransform, scene: &mut Scene) {
     let layers = &compiled.layers;
     let nodes = scene.nodes.iter().enumerate();
-    let bent = nodes.filter(|(_, node)| node.view_dependent.is_some());
+    let bent = nodes.filter(|(_, node)| node.view_dependent == Some(ViewDependent::Bend));
     let bent: Vec<usize> = bent.map(|(index, _)| index).collect();
     if layers.is_empty() || bent.len() != layers.len() {
         return;

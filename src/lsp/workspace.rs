@@ -12,7 +12,7 @@ use super::documents::Snapshot;
 use super::positions::{Encoding, Positions};
 use crate::compile::{Options, compile};
 use crate::disk::{FolderResolver, below, decode, is_drawing, read_drawing, stamp};
-use crate::ide::{Analysis, Outline};
+use crate::ide::{Analysis, Outline, has_letters};
 
 /// The most symbols in an answer; a longer query finds the rest.
 const MAX_SYMBOLS: usize = 500;
@@ -147,7 +147,7 @@ fn parts(analysis: &Analysis, positions: &Positions) -> Vec<PartSymbol> {
 }
 
 fn add_matches(parts: &[PartSymbol], query: &str, uri: &Uri, found: &mut Vec<WorkspaceSymbol>) {
-    let matching = parts.iter().filter(|part| matches(&part.name, query));
+    let matching = parts.iter().filter(|part| has_letters(&part.name, query));
     found.extend(matching.map(|part| WorkspaceSymbol {
         name: part.name.clone(),
         kind: convert::symbol_kind(part.is_joint),
@@ -156,28 +156,4 @@ fn add_matches(parts: &[PartSymbol], query: &str, uri: &Uri, found: &mut Vec<Wor
         location: OneOf::Left(Location::new(uri.clone(), part.range)),
         data: None,
     }));
-}
-
-/// Whether `name` contains the letters of `query` in this order, ignoring case.
-fn matches(name: &str, query: &str) -> bool {
-    let mut letters = name.chars().flat_map(char::to_lowercase);
-    let mut wanted = query.chars().flat_map(char::to_lowercase);
-    wanted.all(|wanted| letters.any(|letter| letter == wanted))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn queries_match_letters_in_order() {
-        for (name, query, expected) in [
-            ("Ubody", "", true),
-            ("Ubody", "ubd", true),
-            ("Ubody", "bu", false),
-            ("右腕", "腕", true),
-        ] {
-            assert_eq!(matches(name, query), expected, "{name} {query}");
-        }
-    }
 }

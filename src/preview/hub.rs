@@ -11,7 +11,7 @@ use super::message::{Build, Listed, ToPage, findings};
 use crate::compile::Compiled;
 use crate::export::{self, GLB};
 use crate::render::{self, Options, PosedModel, write_png};
-use crate::report::{Reader, clips, landscapes, parts};
+use crate::report::{Reader, characters, clips, landscapes, parts};
 use crate::resolver::MemoryResolver;
 use crate::watch::BuildTimes;
 
@@ -153,6 +153,7 @@ impl Hub {
         let found = findings(&shown.compiled.diagnostics, shown.text);
         let mut parts = parts(shown.compiled, shown.text);
         parts.extend(landscapes(shown.compiled, shown.text));
+        parts.extend(characters(shown.compiled));
         let clips = to_raw_value(&clips(shown.compiled, Reader::Page)).unwrap_or_default();
         let originals = shown.model.and_then(|_| originals(shown.compiled));
         self.change(|state, now| {

@@ -1,11 +1,15 @@
 //! Reports on a compiled drawing, as data for programs: `inspect --json` and the preview's page.
 
+mod billboards;
 mod clips;
 mod depths;
 mod joints;
 mod parts;
 mod terrain;
 
+pub use billboards::{
+    Billboard, BillboardRegion, Member, billboards, characters, describe_character,
+};
 pub use clips::{Clip, Held, Joint, PageDetails, Reader, clips, cut_frames};
 pub use depths::depth_reason;
 pub use joints::{Driver, drivers, ranges, undriven};

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use glam::DVec2;
 use serde::Serialize;
 
 use super::depths::depth_reason;
@@ -21,7 +22,8 @@ pub struct Part<'a> {
     pub named_by: Option<&'static str>,
     /// The name of its parent; `None` for the root.
     pub parent: Option<&'a str>,
-    /// `main`, `sub`, `legend` or `unused`; `terrain` in [`landscapes`].
+    /// `main`, `sub`, `legend` or `unused`; `terrain` in [`landscapes`], `character` and `region` in
+    /// [`characters`](super::characters).
     pub kind: &'static str,
     /// For ink, the name of the part on which it lies.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -78,13 +80,38 @@ pub struct AttributeReport {
     pub from: &'static str,
 }
 
+impl<'a> Part<'a> {
+    /// A part without anything that only parts of figures have.
+    pub(super) fn plain(name: &'a str, kind: &'static str, center: DVec2) -> Self {
+        let center = center.to_array();
+        Self {
+            name,
+            named_by: None,
+            parent: None,
+            kind,
+            ink_on: None,
+            element: None,
+            string: None,
+            center,
+            ends: [center; 2],
+            origin: center,
+            axis: [1.0, 0.0],
+            depth: None,
+            depth_why: None,
+            attributes: BTreeMap::new(),
+            joint: None,
+            joint_why: None,
+        }
+    }
+}
+
 /// The parts of a drawing, in paint order.
 pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     let bindings = &compiled.bindings;
     let places = LineIndex::new(text);
     let drivers = drivers(compiled);
     let parts = bindings.parts.iter().enumerate();
-    let parts = parts.filter(|(_, part)| part.kind != PartKind::Tile);
+    let parts = parts.filter(|(_, part)| !matches!(part.kind, PartKind::Tile | PartKind::Region));
     let report = |(index, part): (usize, &'a bind::Part)| Part {
         name: own_name(compiled, part),
         named_by: (part.kind == PartKind::Main).then(|| part.named_by.name()),
@@ -116,12 +143,14 @@ pub fn parts<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
     parts.map(report).collect()
 }
 
-/// The number of parts in the model of a drawing, as every command and page counts them: main parts and landscapes. Sub-parts,
-/// which are solids of a main part, and copies do not count.
+/// The number of parts in the model of a drawing, as every command and page counts them: main parts, landscapes and the regions of
+/// characters. Sub-parts, which are solids of a main part, and copies do not count.
 pub fn part_count(compiled: &Compiled) -> usize {
     let parts = compiled.bindings.parts.iter();
     let main = parts.filter(|part| part.kind == PartKind::Main).count();
-    main + compiled.layers.len()
+    let regions = compiled.characters.iter();
+    let regions = regions.map(|character| character.regions.len());
+    main + compiled.layers.len() + regions.sum::<usize>()
 }
 
 /// The landscapes of a drawing as parts of the kind `terrain`, for lists of everything in the model.
@@ -139,22 +168,12 @@ pub fn landscapes<'a>(compiled: &'a Compiled, text: &'a str) -> Vec<Part<'a>> {
             (setting.keyword.name(), report)
         });
         Part {
-            name: &layer.name,
-            named_by: None,
             parent: layer.parent.map(|part| bindings.parts[part].name.as_str()),
-            kind: "terrain",
-            ink_on: None,
             element: compiled.drawing.groups[layer.group].element.id.as_deref(),
             string: Some(string_report(compiled, string, &places)),
-            center: center.to_array(),
             ends: [[low.x, middle], [high.x, middle]],
-            origin: center.to_array(),
-            axis: [1.0, 0.0],
-            depth: None,
-            depth_why: None,
             attributes: settings.collect(),
-            joint: None,
-            joint_why: None,
+            ..Part::plain(&layer.name, "terrain", center)
         }
     };
     compiled.layers.iter().map(report).collect()

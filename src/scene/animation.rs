@@ -15,7 +15,7 @@ pub struct Animation {
     pub tracks: Vec<Track>,
 }
 
-/// The rotations or the translations of a node.
+/// The rotations, the translations or the weights of a node.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
     /// Index of the node.
@@ -51,4 +51,22 @@ pub enum Values {
     Rotations(Vec<DQuat>),
     /// Translations, metres.
     Translations(Vec<DVec3>),
+    /// Per key the weight of each morph target of the node's mesh.
+    Weights(Vec<Vec<f32>>),
+}
+
+impl Values {
+    /// The number of keys.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Rotations(rotations) => rotations.len(),
+            Self::Translations(translations) => translations.len(),
+            Self::Weights(weights) => weights.len(),
+        }
+    }
+
+    /// Whether there are no keys.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
 }

@@ -20,6 +20,8 @@ use crate::geometry::is_convex;
 const SWEEP: usize = 200;
 /// Half the extent of a polygon in steps of the sweep's integer grid.
 const GRID: f64 = (1u32 << 28) as f64;
+/// How far points in the same place are moved apart, in these steps.
+const APART: f64 = 16.0;
 
 /// Triangles of all polygons, counter-clockwise. Their outer edges are the rings' edges.
 pub(super) fn triangles(rings: &Rings) -> Vec<[u32; 3]> {
@@ -83,10 +85,11 @@ fn sweep(points: &[DVec2], polygon: &[Range<usize>], triangles: &mut Vec<[u32; 3
         let p = ((*p - middle) * scale).round();
         IntPoint::new(p.x as i32, p.y as i32)
     };
-    let shape: Vec<Vec<_>> = polygon
+    let mut shape: Vec<Vec<_>> = polygon
         .iter()
         .map(|ring| points[ring.clone()].iter().map(place).collect())
         .collect();
+    let moved = separate(&mut shape);
     let cut: IntTriangulation<i32, u32> =
         SWEEPER.with_borrow_mut(|sweeper| sweeper.triangulate_shape(&shape));
     let count: usize = polygon.iter().map(Range::len).sum();
@@ -114,11 +117,43 @@ fn sweep(points: &[DVec2], polygon: &[Range<usize>], triangles: &mut Vec<[u32; 3
     for corners in cut.indices.chunks_exact(3) {
         triangles.push([corners[0], corners[1], corners[2]].map(|i| ids[i as usize]));
     }
-    let whole = triangles[start..].iter().all(|t| area(points, t) > 0.0);
+    // Points that are not on the grid may be in line, or in the same place.
+    let off = if moved { APART } else { 1.0 } / scale;
+    let is_whole = |t: &[u32; 3]| area(points, t) >= -off * longest(points, t);
+    let whole = triangles[start..].iter().all(is_whole);
     if !whole {
         triangles.truncate(start);
     }
     whole
+}
+
+/// Moves points apart that holes have in common with other rings, into their holes, so that the sweep can tell them apart. Returns
+/// whether there were any.
+fn separate(rings: &mut [Vec<IntPoint<i32>>]) -> bool {
+    let rings_of = rings.iter().enumerate();
+    let all = rings_of.flat_map(|(r, ring)| (0..ring.len()).map(move |i| (ring[i], r, i)));
+    let mut all: Vec<(IntPoint<i32>, usize, usize)> = all.collect();
+    all.sort_unstable();
+    let again = all.windows(2).filter(|pair| pair[0].0 == pair[1].0);
+    let again: Vec<(usize, usize)> = again.map(|pair| (pair[1].1, pair[1].2)).collect();
+    let corners = again.iter().map(|(r, i)| {
+        let ring = &rings[*r];
+        let at = |i: usize| DVec2::new(f64::from(ring[i].x), f64::from(ring[i].y));
+        let (before, after) = (
+            at((i + ring.len() - 1) % ring.len()),
+            at((i + 1) % ring.len()),
+        );
+        let sides = [at(*i) - before, after - at(*i)].map(DVec2::normalize_or_zero);
+        // The filled side is on the left.
+        let inward = -(sides[0] + sides[1]).perp();
+        let place = at(*i) + (APART * inward.normalize_or(-sides[0])).round();
+        IntPoint::new(place.x as i32, place.y as i32)
+    });
+    let corners: Vec<IntPoint<i32>> = corners.collect();
+    for ((r, i), corner) in again.iter().zip(corners) {
+        rings[*r][*i] = corner;
+    }
+    !again.is_empty()
 }
 
 /// Twice the signed area.
@@ -216,4 +251,47 @@ fn turn(
     owner.remove(&[b, a]);
     owner.extend([([a, d], i), ([d, c], i), ([c, a], i)]);
     owner.extend([([d, b], j), ([b, c], j), ([c, d], j)]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of `size` tiles whose holes, diamonds or tilted squares, touch at their corners.
+    fn lattice(size: usize, tilt: f64) -> (Vec<DVec2>, Vec<Range<usize>>) {
+        let n = size as f64;
+        let square = [(0.0, 0.0), (n, 0.0), (n, n), (0.0, n)];
+        let mut points: Vec<DVec2> = square.map(DVec2::from).to_vec();
+        let mut rings: Vec<Range<usize>> = std::iter::once(0..4).collect();
+        for tile in 0..(size - 2) * (size - 2) {
+            let (x, y) = (tile % (size - 2) + 1, tile / (size - 2) + 1);
+            let corner = |x: f64, y: f64| {
+                let bend = tilt * DVec2::new((3.0 * y).sin(), (2.0 * x).cos());
+                DVec2::new(x, y) + bend
+            };
+            let (x, y) = (x as f64, y as f64);
+            let start = points.len();
+            let diamond = [(0.0, 0.5), (0.5, 1.0), (1.0, 0.5), (0.5, 0.0)];
+            points.extend(diamond.map(|(right, up)| corner(x + right, y + up)));
+            rings.push(start..points.len());
+        }
+        (points, rings)
+    }
+
+    #[test]
+    fn holes_that_touch_are_swept() {
+        for (size, tilt) in [(10, 0.0), (10, 0.07), (60, 0.0), (60, 0.03)] {
+            let (points, rings) = lattice(size, tilt);
+            let mut triangles = Vec::new();
+            assert!(sweep(&points, &rings, &mut triangles), "{size} {tilt}");
+            let covered: f64 = triangles.iter().map(|t| area(&points, t) / 2.0).sum();
+            let shoelace = |ring: &Range<usize>| -> f64 {
+                let ring = &points[ring.clone()];
+                let edges = (0..ring.len()).map(|i| ring[i].perp_dot(ring[(i + 1) % ring.len()]));
+                edges.sum::<f64>() / 2.0
+            };
+            let whole: f64 = rings.iter().map(shoelace).sum();
+            assert!((covered / whole - 1.0).abs() < 1e-5, "{covered} of {whole}");
+        }
+    }
 }

@@ -143,6 +143,18 @@ fn expected_volume(outline: &Outline, kind: &Profile, options: &Options) -> Opti
     {
         return None;
     }
+    // A copy is built as a point, too, if some of its points would coincide in `f32`.
+    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let points: Vec<DVec2> = rings.flatten().copied().collect();
+    let gaps = points.iter().enumerate();
+    let gaps = gaps.flat_map(|(i, p)| points[..i].iter().map(|q| p.distance(*q)));
+    let gap = gaps.filter(|gap| *gap > 0.0).fold(f64::INFINITY, f64::min);
+    let smallest = stack.iter().map(|layer| layer.along);
+    let smallest = smallest.filter(|along| *along > 0.0).fold(1.0, f64::min);
+    let reach = half.max_element() + options.placement.translation.abs().max_element();
+    if smallest < 1.0 && gap * smallest < 1e-6 * reach {
+        return None;
+    }
     let frustum = |pair: &[layers::Layer]| {
         let (a, b) = (pair[0].along, pair[1].along);
         (pair[1].z - pair[0].z) * (a * a + a * b + b * b) / 3.0

@@ -48,9 +48,8 @@ fn flat(outline: &Outline, z: f64, options: &Options) -> Surface {
     Surface {
         positions: rings.points.iter().map(transform).collect(),
         normals: vec![[0.0, 0.0, 1.0]; rings.len()],
-        uvs: Vec::new(),
-        joints: Vec::new(),
         triangles: cap::triangles(&rings),
+        ..Surface::default()
     }
 }
 

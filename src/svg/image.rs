@@ -3,18 +3,15 @@
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
-use rustc_hash::FxHashMap;
 
 use super::clip::Clip;
 use crate::diagnostic::Code;
-use crate::geometry::{FillRule, Outline, Ring, resolve_overlaps};
+use crate::geometry::{FillRule, Outline, Ring, pixel_borders, resolve_overlaps};
 use crate::scene::Filter;
 use crate::texture::{self, Decoded, Holes, PaintServer, PictureError, Source};
 
 /// Pixels along the longer side of an SVG picture.
 const SVG_SIDE: u32 = 1024;
-/// How far the outline may deviate from the pixels' edges, in pixels: enough to smooth the steps of slanted borders.
-const BORDER_TOLERANCE: f64 = 0.75;
 
 /// The file of an `<image>`, and its position.
 #[derive(Debug, Clone)]
@@ -37,14 +34,14 @@ enum Contents {
     Drawing(Box<usvg::Tree>),
 }
 
-/// A picture as a part.
+/// The file of a picture as parts show it.
 pub(super) struct Traced {
-    /// Its opaque area.
-    pub(super) outline: Outline,
+    /// The borders of its opaque area, in the unit square, y down.
+    rings: Vec<Ring>,
     /// Its mean colour, sRGB.
     pub(super) color: [u8; 3],
-    /// The paint of the part, if it can be determined.
-    pub(super) server: Option<PaintServer>,
+    /// The image for the model; `None` if there was not enough memory.
+    texture: Option<texture::Picture>,
 }
 
 impl PictureSource {
@@ -120,7 +117,8 @@ impl PictureSource {
         )
     }
 
-    /// The picture as a part. Its area is where alpha exceeds one half, or the whole rectangle if it has no alpha.
+    /// What is the same wherever the file is shown. The area is where alpha exceeds one half, or the whole rectangle if it has
+    /// no alpha.
     ///
     /// # Errors
     ///
@@ -139,35 +137,45 @@ impl PictureSource {
         };
         let rgba = &decoded.pixels;
         let (width, height) = rgba.dimensions();
-        let solid = |x: i64, y: i64| {
-            x >= 0
-                && y >= 0
-                && x < i64::from(width)
-                && y < i64::from(height)
-                && rgba.get_pixel(x as u32, y as u32).0[3] > 127
-        };
+        let is_solid = |x: u32, y: u32| rgba.get_pixel(x, y).0[3] > 127;
         let mut sum = [0_u64; 3];
         let mut count = 0_u64;
         for pixel in rgba.pixels().filter(|pixel| pixel.0[3] > 127) {
             (0..3).for_each(|channel| sum[channel] += u64::from(pixel.0[channel]));
             count += 1;
         }
-        let mut rings = if count == u64::from(width) * u64::from(height) {
-            vec![rectangle(width.into(), height.into())]
+        let rings = if count == u64::from(width) * u64::from(height) {
+            vec![rectangle(1.0, 1.0)]
         } else {
-            border(width.into(), height.into(), solid)
+            let mut rings = pixel_borders(width, height, is_solid);
+            let size = DVec2::new(width.into(), height.into());
+            rings.iter_mut().flatten().for_each(|point| *point /= size);
+            rings
         };
-        let scale = self.size / DVec2::new(width.into(), height.into());
-        rings.iter_mut().flatten().for_each(|point| *point *= scale);
-        let picture = texture::picture(decoded, &bytes, Holes::Outline);
         Ok(Traced {
-            outline: self.outline(rings),
+            rings,
             color: sum.map(|channel| (channel / count.max(1)) as u8),
-            server: picture.map(|picture| PaintServer {
-                source: Source::Picture(picture, self.filter),
-                place: self.place(),
-            }),
+            texture: texture::picture(decoded, &bytes, Holes::Outline),
         })
+    }
+
+    /// The area and the paint of a part that shows a traced picture here.
+    pub(super) fn part(&self, traced: &Traced) -> (Outline, Option<PaintServer>) {
+        let scaled = |ring: &Ring| ring.iter().map(|point| *point * self.size).collect();
+        let outline = self.outline(traced.rings.iter().map(scaled).collect());
+        let server = traced.texture.clone().map(|picture| PaintServer {
+            source: Source::Picture(picture, self.filter),
+            place: self.place(),
+        });
+        (outline, server)
+    }
+
+    /// The file, if it is the same wherever it has the same bytes.
+    pub(super) fn bytes(&self) -> Option<&[u8]> {
+        match &self.file {
+            Contents::Pixels(bytes) => Some(bytes),
+            Contents::Drawing(_) => None,
+        }
     }
 }
 
@@ -188,93 +196,4 @@ fn rectangle(width: f64, height: f64) -> Ring {
     [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
         .map(DVec2::from)
         .to_vec()
-}
-
-/// The rings of pixel edges between opaque and other pixels, with the opaque side on the right, simplified.
-fn border(width: i64, height: i64, solid: impl Fn(i64, i64) -> bool) -> Vec<Ring> {
-    // An edge is identified by its start and direction: 0 right, 1 down, 2 left, 3 up.
-    let step = [(1, 0), (0, 1), (-1, 0), (0, -1)];
-    let has = |x: i64, y: i64, direction: usize| match direction {
-        0 => solid(x, y) && !solid(x, y - 1),
-        1 => solid(x - 1, y) && !solid(x, y),
-        2 => solid(x - 1, y - 1) && !solid(x - 1, y),
-        _ => solid(x, y - 1) && !solid(x - 1, y - 1),
-    };
-    let mut seen: FxHashMap<(i64, i64), u8> = FxHashMap::default();
-    let mut rings = Vec::new();
-    for y in 0..=height {
-        for x in 0..=width {
-            let visited = seen.get(&(x, y)).is_some_and(|bits| bits & 1 != 0);
-            if !has(x, y, 0) || visited {
-                continue;
-            }
-            let mut ring = Vec::new();
-            let (mut at, mut direction) = ((x, y), 0_usize);
-            loop {
-                let bits = seen.entry(at).or_default();
-                if *bits & (1 << direction) != 0 {
-                    break;
-                }
-                *bits |= 1 << direction;
-                ring.push(DVec2::new(at.0 as f64, at.1 as f64));
-                at = (at.0 + step[direction].0, at.1 + step[direction].1);
-                // Turning right first separates pixels that touch only at a corner.
-                let turns = [(direction + 1) % 4, direction, (direction + 3) % 4];
-                match turns.into_iter().find(|turn| has(at.0, at.1, *turn)) {
-                    Some(turn) => direction = turn,
-                    None => break,
-                }
-            }
-            rings.push(simplify(&ring));
-        }
-    }
-    rings.retain(|ring| ring.len() > 2);
-    rings
-}
-
-/// Douglas–Peucker simplification of a ring, split at its first point and the point farthest from it.
-fn simplify(ring: &[DVec2]) -> Ring {
-    let Some(first) = ring.first() else {
-        return Ring::new();
-    };
-    let far = (0..ring.len())
-        .max_by(|a, b| {
-            first
-                .distance_squared(ring[*a])
-                .total_cmp(&first.distance_squared(ring[*b]))
-        })
-        .unwrap_or(0);
-    let mut out = halves(&ring[..=far]);
-    let mut back = ring[far..].to_vec();
-    back.push(*first);
-    out.pop();
-    out.extend(halves(&back));
-    out.pop();
-    out
-}
-
-fn halves(line: &[DVec2]) -> Vec<DVec2> {
-    let mut keep = vec![false; line.len()];
-    let mut stack = vec![(0, line.len() - 1)];
-    keep[0] = true;
-    keep[line.len() - 1] = true;
-    while let Some((from, to)) = stack.pop() {
-        let direction = (line[to] - line[from]).normalize_or_zero();
-        let distance = |p: DVec2| match direction == DVec2::ZERO {
-            true => p.distance(line[from]),
-            false => direction.perp_dot(p - line[from]).abs(),
-        };
-        let farthest =
-            (from + 1..to).max_by(|a, b| distance(line[*a]).total_cmp(&distance(line[*b])));
-        if let Some(middle) = farthest.filter(|index| distance(line[*index]) > BORDER_TOLERANCE) {
-            keep[middle] = true;
-            stack.push((from, middle));
-            stack.push((middle, to));
-        }
-    }
-    line.iter()
-        .zip(keep)
-        .filter(|(_, keep)| *keep)
-        .map(|(p, _)| *p)
-        .collect()
 }

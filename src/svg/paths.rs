@@ -58,6 +58,24 @@ impl StrokeSource {
         });
     }
 
+    /// The middle of a single open line with round ends and no dashes, as of [`middle_line`](Self::middle_line).
+    pub fn open_line(&self, tolerance: f64) -> Option<Vec<DVec2>> {
+        if self.stroke.line_cap != skia::LineCap::Round || self.stroke.dash.is_some() {
+            return None;
+        }
+        let mut points: Vec<DVec2> = Vec::new();
+        let mut is_one = true;
+        self.middle_line(tolerance, |from, to| {
+            is_one &= points.last().is_none_or(|last| *last == from);
+            if points.is_empty() {
+                points.push(from);
+            }
+            points.push(to);
+        });
+        let is_open = points.first() != points.last();
+        (is_one && is_open).then_some(points)
+    }
+
     /// The area that the stroke covers.
     pub fn outline(&self) -> Outline {
         let extent = self

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::image::{PictureSource, Traced};
 use super::{Drawing, Paint, Shape};
@@ -13,11 +14,18 @@ use crate::diagnostic::{Code, Diagnostic};
 /// read is reported and removed from the drawing.
 pub(super) fn trace(drawing: &mut Drawing, left: &[bool], diagnostics: &mut Vec<Diagnostic>) {
     let page = drawing.page;
-    let shapes = drawing.shapes.par_iter_mut();
+    let pictures = drawing.shapes.iter().map(|shape| {
+        let picture = shape.picture.clone();
+        picture.filter(|_| !left[shape.group])
+    });
+    let pictures: Vec<Option<Arc<PictureSource>>> = pictures.collect();
+    let (files, file_of) = files(&pictures);
+    let files: Vec<Result<Traced, (Code, String)>> =
+        files.into_par_iter().map(PictureSource::trace).collect();
+    let shapes = drawing.shapes.par_iter_mut().zip(&pictures).zip(file_of);
     let traced: Vec<(bool, Option<Diagnostic>)> = shapes
-        .map(|shape| match &shape.picture {
-            Some(_) if left[shape.group] => (true, None),
-            Some(picture) => one(&Arc::clone(picture), shape, page),
+        .map(|((shape, picture), file)| match picture {
+            Some(picture) => one(picture, &files[file], shape, page),
             None => (true, None),
         })
         .collect();
@@ -26,23 +34,40 @@ pub(super) fn trace(drawing: &mut Drawing, left: &[bool], diagnostics: &mut Vec<
     diagnostics.extend(traced.into_iter().filter_map(|(_, finding)| finding));
 }
 
+/// A picture of each file, and per picture the number of its file: one that is cloned is traced once.
+fn files(pictures: &[Option<Arc<PictureSource>>]) -> (Vec<&PictureSource>, Vec<usize>) {
+    let mut files = Vec::new();
+    let mut known: FxHashMap<&[u8], usize> = FxHashMap::default();
+    let mut file_of = vec![0; pictures.len()];
+    for (index, picture) in pictures.iter().enumerate() {
+        let Some(picture) = picture else { continue };
+        let new = files.len();
+        file_of[index] = match picture.bytes() {
+            Some(bytes) => *known.entry(bytes).or_insert(new),
+            None => new,
+        };
+        if file_of[index] == new {
+            files.push(&**picture);
+        }
+    }
+    (files, file_of)
+}
+
 /// Turns one picture into a part. Returns whether that is possible, and the diagnostic if there is one.
 fn one(
     picture: &PictureSource,
+    traced: &Result<Traced, (Code, String)>,
     shape: &mut Shape,
     page: (DVec2, DVec2),
 ) -> (bool, Option<Diagnostic>) {
-    let Traced {
-        outline,
-        color,
-        server,
-    } = match picture.trace() {
+    let traced = match traced {
         Ok(traced) => traced,
         Err((code, message)) => {
-            let finding = Diagnostic::new(code, shape.element.span, message);
+            let finding = Diagnostic::new(*code, shape.element.span, message.clone());
             return (false, Some(finding.help(LARGE)));
         }
     };
+    let (outline, server) = picture.part(traced);
     let finding = outline.polygons.is_empty().then(|| {
         let name = shape.describe(page);
         let message = format!("nothing opaque is left of {name}");
@@ -52,7 +77,7 @@ fn one(
     shape.outline = Arc::new(outline);
     shape.paint = Paint {
         key: shape.paint.key.clone(),
-        color,
+        color: traced.color,
         server: server.map(Arc::new),
     };
     shape.picture = None;

@@ -17,7 +17,7 @@ use super::unsolid::Who;
 use super::walk::{Leaf, Task, Walk};
 use super::{Drawing, Element, Paint, PaintKey, PictureSource, Shape, growth, unseen};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
-use crate::geometry::{FillRule, MAX_CROSSINGS, Outline, is_tangled, resolve_overlaps};
+use crate::geometry::{FillRule, Outline, resolve_overlaps};
 use crate::resolver::Resolver;
 use crate::source::Span;
 
@@ -225,11 +225,8 @@ impl Context<'_, '_> {
             }
             Leaf::Path(path) => {
                 let shape = self.path(path, node, task);
-                let loss = shape.as_ref().and_then(|shape| {
-                    let tangled = self.tangled(shape, path).map(Box::new);
-                    let tangled = tangled.map(Loss::LeftOut);
-                    tangled.or_else(|| self.clipped_away(shape, path, task))
-                });
+                let loss = shape.as_ref();
+                let loss = loss.and_then(|shape| self.clipped_away(shape, path, task));
                 (shape, loss)
             }
             Leaf::Image(image) => (Some(self.image(index, image, node, task)), None),
@@ -245,23 +242,6 @@ impl Context<'_, '_> {
         );
         Diagnostic::new(Code::Vanishes, element.span, message)
             .help("make it smaller, move it onto the page, or delete it")
-    }
-
-    /// Reports that a fill is left out because its outline crosses itself too often.
-    fn tangled(&self, shape: &Shape, path: &usvg::Path) -> Option<Diagnostic> {
-        let filled = path.fill().is_some_and(|fill| fill.opacity().get() > 0.0);
-        if !filled || !shape.outline.polygons.is_empty() {
-            return None;
-        }
-        let whole = bez_path(path.data(), self.page * affine(path.abs_transform()));
-        is_tangled(&rings(&whole, self.tolerance)).then(|| {
-            let name = shape.describe_as(&shape.outline, self.page_box);
-            let message = format!(
-                "{name} is left out: its outline crosses itself more than {MAX_CROSSINGS} times"
-            );
-            Diagnostic::new(Code::Vanishes, shape.element.span, message)
-                .help("draw it with fewer points, or in several shapes (in Inkscape, Path → Simplify, or Path → Break Apart)")
-        })
     }
 
     /// A fill that a clip removes completely.

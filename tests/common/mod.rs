@@ -287,6 +287,14 @@ pub(crate) fn clips(glb: &[u8]) -> Result<String, String> {
                 Some(ReadOutputs::Rotations(turns)) => {
                     ("turns", turns.into_f32().map(Vec::from).collect())
                 }
+                Some(ReadOutputs::MorphTargetWeights(weights)) => {
+                    let weights: Vec<f32> = weights.into_f32().collect();
+                    let each = (weights.len() / times.len().max(1)).max(1);
+                    (
+                        "morphs",
+                        weights.chunks(each).map(<[f32]>::to_vec).collect(),
+                    )
+                }
                 _ => return Err("a channel of another kind".to_owned()),
             };
             let (Some(first), Some(last)) = (values.first(), values.last()) else {

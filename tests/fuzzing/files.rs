@@ -48,3 +48,11 @@ pub(super) fn cases() -> Vec<String> {
         .filter(|text| text.len() <= LONGEST)
         .collect()
 }
+
+/// The drawings of the cases, each followed by one of these sequences of bytes in turn.
+pub(super) fn cases_with(sequences: &[&[u8]]) -> Vec<Vec<u8>> {
+    let cases = cases().into_iter().zip(sequences.iter().cycle());
+    cases
+        .map(|(case, sequence)| [case.as_bytes(), sequence].concat())
+        .collect()
+}

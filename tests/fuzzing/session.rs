@@ -280,9 +280,5 @@ pub(super) fn seeds() -> Vec<Vec<u8>> {
         b"\0T\x00\x00aaaaaaaaaaaa\0A\x80\x00aaaa\0a\x80\x00<\0E\x90\x00\0K\x90\x00abc\0F\x00\x00abcdefghi",
         b"\0I\x10\x00aaaaa\0s\x90\x00@Body\0C\x91\x00\0j{\"jsonrpc\":\"2.0\",\"id\":1,\"method\":\"workspace/symbol\",\"params\":{\"query\":\"a\"}}",
     ];
-    let cases = files::cases().into_iter();
-    cases
-        .zip(steps.iter().cycle())
-        .map(|(case, steps)| [case.as_bytes(), steps].concat())
-        .collect()
+    files::cases_with(&steps)
 }

@@ -53,6 +53,8 @@ fn world(scene: &Scene, clip: &Animation, key: usize) -> Vec<Transform> {
         match &track.values {
             Values::Rotations(turns) => local[track.node].rotation = turns[key],
             Values::Translations(places) => local[track.node].position = places[key],
+            // Figures have no morph targets.
+            Values::Weights(_) => {}
         }
     }
     let mut world = local.clone();

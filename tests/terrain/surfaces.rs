@@ -236,38 +236,37 @@ fn surfaces_look_like_their_maps() {
     }
 }
 
+/// Checks a landscape and a scribble for each seed, with these bevels.
+fn for_each_map(seeds: u64, bevels: [f64; 2], check: impl Fn(&Map, f64, f64, &str)) {
+    let [of_landscape, of_scribble] = bevels;
+    for seed in 0..seeds {
+        let drawn = World::random(seed).draw();
+        check(&drawn.map, 0.5, of_landscape, &format!("landscape {seed}"));
+        check(
+            &scribble(seed),
+            0.7,
+            of_scribble,
+            &format!("scribble {seed}"),
+        );
+    }
+}
+
 #[test]
 fn surfaces_are_closed() {
-    for seed in 0..500 {
-        let drawn = World::random(seed).draw();
-        assert_closed(&drawn.map, 0.5, 0.0, &format!("landscape {seed}"));
-        assert_closed(&scribble(seed), 0.7, 0.0, &format!("scribble {seed}"));
-    }
+    for_each_map(500, [0.0; 2], assert_closed);
 }
 
 #[test]
 fn bevelled_surfaces_are_closed() {
-    for seed in 0..200 {
-        let drawn = World::random(seed).draw();
-        assert_closed(&drawn.map, 0.5, 0.25, &format!("landscape {seed}"));
-        assert_closed(&scribble(seed), 0.7, 0.4, &format!("scribble {seed}"));
-    }
+    for_each_map(200, [0.25, 0.4], assert_closed);
 }
 
 #[test]
 fn no_faces_lie_back_to_back() {
-    for seed in 0..300 {
-        let drawn = World::random(seed).draw();
-        assert_no_faces_back_to_back(&drawn.map, 0.5, 0.0, &format!("landscape {seed}"));
-        assert_no_faces_back_to_back(&scribble(seed), 0.7, 0.0, &format!("scribble {seed}"));
-    }
+    for_each_map(300, [0.0; 2], assert_no_faces_back_to_back);
 }
 
 #[test]
 fn no_bevelled_faces_lie_back_to_back() {
-    for seed in 0..100 {
-        let drawn = World::random(seed).draw();
-        assert_no_faces_back_to_back(&drawn.map, 0.5, 0.25, &format!("landscape {seed}"));
-        assert_no_faces_back_to_back(&scribble(seed), 0.7, 0.4, &format!("scribble {seed}"));
-    }
+    for_each_map(100, [0.25, 0.4], assert_no_faces_back_to_back);
 }

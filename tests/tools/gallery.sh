@@ -20,6 +20,10 @@ while IFS= read -r drawing; do
   [ $# = 0 ] || [[ " $* " == *" $name "* ]] || continue
   flat=${name//\//-}
   case $name in
+    # Between the drawn views.
+    characters/cat) view=0,15 ;;
+    characters/bird) view=15,0 ;;
+    characters/*) view=22,8 ;;
     # These lie on the ground.
     shapes/conev | shapes/coneh) view=25,38 ;;
     island* | terrain/*) view=30,30 ;;

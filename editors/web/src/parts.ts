@@ -19,7 +19,7 @@ export class Parts {
       if (!this.byElement.has(part.element)) this.byElement.set(part.element, part);
     }
     this.aside = all.filter(isAside);
-    this.main = all.filter(({ kind }) => kind === "main" || kind === "terrain").length;
+    this.main = all.filter(({ kind }) => ["main", "terrain", "region"].includes(kind)).length;
     this.shapes = all.filter(({ kind }) => kind === "sub").length;
     for (const part of all) {
       if (isAside(part)) continue;

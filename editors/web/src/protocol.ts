@@ -25,7 +25,7 @@ export interface Finding {
   readonly to: number;
 }
 
-export type Kind = "main" | "sub" | "legend" | "unused" | "terrain";
+export type Kind = "main" | "sub" | "legend" | "unused" | "terrain" | "character" | "region";
 export type Source = "own" | "legend" | "default" | "builtin";
 
 export interface StringOfPart {
@@ -215,7 +215,7 @@ function readPart(value: unknown): Part {
   return {
     name: text(raw["name"]),
     parent: textOrNull(raw["parent"]),
-    kind: oneOf<Kind>(raw["kind"], ["main", "sub", "legend", "unused", "terrain"], "main"),
+    kind: oneOf<Kind>(raw["kind"], ["main", "sub", "legend", "unused", "terrain", "character", "region"], "main"),
     element: text(raw["element"]),
     namedBy: textOrNull(raw["named_by"]),
     string: string && {

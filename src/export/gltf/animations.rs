@@ -1,6 +1,6 @@
 //! Animations: their keys in the buffer, and their JSON.
 //!
-//! All times lie together, and so do rotations and translations, a buffer view each; tracks with equal times share one
+//! All times lie together, and so do rotations, translations and weights, a buffer view each; tracks with equal times share one
 //! accessor of them. Keys become bytes a chunk at a time, so that long motions are not in memory a second time.
 
 use std::io;
@@ -46,6 +46,13 @@ pub(super) fn write_keys(scene: &Scene, out: &mut BufferWriter<'_>) -> io::Resul
         if let Values::Translations(translations) = &track.values {
             *values = out.accessor(Kind::Translations, translations.len(), None);
             write_rows(translations, translation, out)?;
+        }
+    }
+    for (track, [_, values]) in tracks.iter().zip(&mut accessors) {
+        if let Values::Weights(weights) = &track.values {
+            let weights: Vec<[f32; 1]> = weights.iter().flatten().map(|weight| [*weight]).collect();
+            *values = out.accessor(Kind::TargetWeights, weights.len(), None);
+            out.write_floats(&weights)?;
         }
     }
     Ok(accessors)
@@ -106,6 +113,7 @@ pub(super) fn animation(animation: &scene::Animation, accessors: &[[usize; 2]]) 
             path: Valid(match track.values {
                 Values::Rotations(_) => Property::Rotation,
                 Values::Translations(_) => Property::Translation,
+                Values::Weights(_) => Property::MorphTargetWeights,
             }),
             extensions: None,
             extras: None,

@@ -12,6 +12,8 @@ use ::gltf::json::{Index, Value};
 pub(super) enum Kind {
     Positions,
     Normals,
+    /// How far the vertices of a morph target are from the positions.
+    Displacements,
     TexCoords,
     JointsU16,
     JointsU8,
@@ -23,13 +25,16 @@ pub(super) enum Kind {
     Times,
     Rotations,
     Translations,
+    /// The weights of morph targets at the keys of a clip.
+    TargetWeights,
 }
 
 impl Kind {
     /// The kinds that primitives have. The order, widest components first, keeps every accessor aligned without padding.
-    pub(super) const OF_PRIMITIVES: [Self; 9] = [
+    pub(super) const OF_PRIMITIVES: [Self; 10] = [
         Self::Positions,
         Self::Normals,
+        Self::Displacements,
         Self::TexCoords,
         Self::JointsU16,
         Self::JointsU8,
@@ -45,7 +50,7 @@ impl Kind {
         const VERTICES: Option<Target> = Some(Target::ArrayBuffer);
         const INDICES: Option<Target> = Some(Target::ElementArrayBuffer);
         match self {
-            Self::Positions | Self::Normals => (F32, Type::Vec3, VERTICES),
+            Self::Positions | Self::Normals | Self::Displacements => (F32, Type::Vec3, VERTICES),
             Self::TexCoords => (F32, Type::Vec2, VERTICES),
             Self::JointsU16 => (U16, Type::Vec4, VERTICES),
             Self::JointsU8 | Self::Weights => (U8, Type::Vec4, VERTICES),
@@ -53,7 +58,7 @@ impl Kind {
             Self::IndicesU16 => (U16, Type::Scalar, INDICES),
             Self::IndicesU8 => (U8, Type::Scalar, INDICES),
             Self::InverseBindMatrices => (F32, Type::Mat4, None),
-            Self::Times => (F32, Type::Scalar, None),
+            Self::Times | Self::TargetWeights => (F32, Type::Scalar, None),
             Self::Rotations => (F32, Type::Vec4, None),
             Self::Translations => (F32, Type::Vec3, None),
         }

@@ -6,7 +6,9 @@ use std::ops::Range;
 use ::gltf::json::accessor::Accessor as JsonAccessor;
 use ::gltf::json::buffer::View as JsonView;
 use ::gltf::json::extensions::scene as node_extensions;
-use ::gltf::json::mesh::{Mesh as JsonMesh, Mode, Primitive as JsonPrimitive, Semantic};
+use ::gltf::json::mesh::{
+    Mesh as JsonMesh, Mode, MorphTarget, Primitive as JsonPrimitive, Semantic,
+};
 use ::gltf::json::scene::UnitQuaternion;
 use ::gltf::json::validation::Checked::Valid;
 use ::gltf::json::{Asset, Index, Node as JsonNode, Root, Scene as JsonScene, Skin as JsonSkin};
@@ -18,7 +20,7 @@ use super::buffer::Kind;
 use super::json::Json;
 use super::primitives::Packed;
 use super::{ROOT, SKINNED, VIEW_DEPENDENT, animations, materials};
-use crate::scene::{self, Scene};
+use crate::scene::{self, Scene, Turn};
 
 /// The JSON up to the buffers, without the closing brace.
 pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
@@ -140,8 +142,10 @@ pub(super) fn estimate_length(scene: &Scene) -> u64 {
 fn extensions(scene: &Scene) -> Vec<String> {
     let mut nodes = scene.nodes.iter();
     let view_dependent = nodes.any(|node| node.view_dependent.is_some());
-    let used = view_dependent.then(|| VIEW_DEPENDENT.to_owned());
-    used.into_iter().collect()
+    let unlit = scene.materials.iter().any(|material| material.unlit);
+    let used = [(unlit, materials::UNLIT), (view_dependent, VIEW_DEPENDENT)].into_iter();
+    let used = used.filter(|(is_used, _)| *is_used);
+    used.map(|(_, name)| name.to_owned()).collect()
 }
 
 /// The index of the first element of each group, for groups that follow one another.
@@ -164,10 +168,18 @@ fn json_node(node: &scene::Node) -> JsonNode {
         children: children(&node.children),
         translation: (translation != [0.0; 3]).then_some(translation),
         rotation: rotated.then_some(UnitQuaternion(rotation)),
-        extensions: node.view_dependent.map(|view_dependent| {
+        extensions: node.view_dependent.as_ref().map(|view_dependent| {
             // One object for each way of following the viewer, so that later ones have keys of their own.
             let extension = match view_dependent {
                 scene::ViewDependent::Bend => json!({ "bend": {} }),
+                scene::ViewDependent::Turn(Turn { views, between }) => {
+                    json!({ "turn": { "views": views, "between": between } })
+                }
+                scene::ViewDependent::Region(places) => {
+                    let places: Vec<[f32; 3]> =
+                        places.iter().map(|p| p.as_vec3().to_array()).collect();
+                    json!({ "region": { "places": places } })
+                }
             };
             node_extensions::Node {
                 others: [(VIEW_DEPENDENT.to_owned(), extension)]
@@ -218,6 +230,14 @@ fn json_primitive(
         let semantic = match packed.layout.accessors[accessor].kind {
             Kind::Positions => Semantic::Positions,
             Kind::Normals => Semantic::Normals,
+            Kind::Displacements => {
+                json.targets.get_or_insert_default().push(MorphTarget {
+                    positions: Some(index(accessor)),
+                    normals: None,
+                    tangents: None,
+                });
+                continue;
+            }
             Kind::TexCoords => Semantic::TexCoords(0),
             Kind::JointsU16 | Kind::JointsU8 => Semantic::Joints(0),
             Kind::Weights => Semantic::Weights(0),

@@ -14,6 +14,9 @@ use super::document::{index, name};
 use super::primitives::Packed;
 use crate::scene::{AlphaMode, Filter, Material, MediaType, Scene, TextureUse, Wrap};
 
+/// The extension of materials that show their colour whatever the light.
+pub(super) const UNLIT: &str = "KHR_materials_unlit";
+
 /// A material as JSON. Members that have the value that the format assumes without them are left out.
 pub(super) fn material(material: &Material) -> Value {
     let plain = |texture: &TextureUse| Info {
@@ -27,7 +30,7 @@ pub(super) fn material(material: &Material) -> Value {
         AlphaMode::Mask { cutoff } => (JsonAlphaMode::Mask, Some(AlphaCutoff(cutoff))),
         AlphaMode::Blend => (JsonAlphaMode::Blend, None),
     };
-    let material = JsonMaterial {
+    let json = JsonMaterial {
         name: name(&material.name),
         pbr_metallic_roughness: PbrMetallicRoughness {
             base_color_factor: PbrBaseColorFactor(material.base_color),
@@ -58,8 +61,11 @@ pub(super) fn material(material: &Material) -> Value {
         double_sided: material.double_sided,
         ..JsonMaterial::default()
     };
-    let mut value = json!(material);
+    let mut value = json!(json);
     remove_defaults(&mut value);
+    if material.unlit {
+        value["extensions"] = json!({ UNLIT: {} });
+    }
     value
 }
 

@@ -252,6 +252,11 @@ impl Batch {
             let normals = self.accessor(Kind::Normals, vertices, None);
             floats(normals, &surface.normals);
         }
+        for target in &surface.targets {
+            let bounds = check::bounds(target);
+            let displacements = self.accessor(Kind::Displacements, vertices, bounds);
+            floats(displacements, target);
+        }
         if !surface.uvs.is_empty() {
             let tex_coords = self.accessor(Kind::TexCoords, vertices, None);
             floats(tex_coords, &surface.uvs);

@@ -96,6 +96,7 @@ fn strip(corners: u32) -> Surface {
         normals: vec![[0.0, 0.0, 1.0]; corners as usize],
         uvs: vec![],
         joints: vec![],
+        targets: Vec::new(),
         triangles: (2..corners).map(|i| [i - 2, i - 1, i]).collect(),
     }
 }

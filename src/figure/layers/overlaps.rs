@@ -91,10 +91,8 @@ impl Scratch {
         let width = a.bounds.1.x.min(b.bounds.1.x) - a.bounds.0.x.max(b.bounds.0.x);
         let apart = width / SAMPLES as f64;
         let mut points = Vec::new();
-        self.own.each_common(&self.other, |line, [from, to]| {
-            let count = ((to - from) / apart).round().max(1.0) as usize;
-            let place = |k: usize| from + (to - from) * (k as f64 + 0.5) / count as f64;
-            points.extend((0..count).map(|k| DVec2::new(place(k), lines.place(line))));
+        self.own.spread_common(&self.other, apart, |line, x| {
+            points.push(DVec2::new(x, lines.place(line)));
         });
         points
     }

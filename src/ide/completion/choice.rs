@@ -1,5 +1,7 @@
 //! Which proposals are listed if there are too many.
 
+use crate::ide::letters::{begins_with, has_letters};
+
 /// How many parts, joints, variables or files are listed. An editor filters and sorts the list at every keystroke, so
 /// thousands are slow to send and to show.
 pub(super) const MAX_LISTED: usize = 500;
@@ -56,13 +58,18 @@ pub(super) fn choose<T>(candidates: Vec<T>, name: impl Fn(&T) -> &str, word: &st
     if candidates.len() <= MAX_LISTED {
         return candidates.into();
     }
-    let word: Vec<char> = lower(word.trim_start_matches(['"', '＂'])).collect();
+    let word = word.trim_start_matches(['"', '＂']);
     let (mut items, mut others) = (vec![], vec![]);
     for candidate in candidates {
-        match fit(name(&candidate), &word) {
-            Some(Fit::Start) if items.len() < MAX_LISTED => items.push(candidate),
-            Some(Fit::Scattered) if others.len() < MAX_LISTED => others.push(candidate),
-            _ => {}
+        let fitting = if begins_with(name(&candidate), word) {
+            &mut items
+        } else if has_letters(name(&candidate), word) {
+            &mut others
+        } else {
+            continue;
+        };
+        if fitting.len() < MAX_LISTED {
+            fitting.push(candidate);
         }
     }
     others.truncate(MAX_LISTED - items.len());
@@ -71,27 +78,4 @@ pub(super) fn choose<T>(candidates: Vec<T>, name: impl Fn(&T) -> &str, word: &st
         items,
         is_cut: true,
     }
-}
-
-/// How a name fits a word.
-enum Fit {
-    /// It begins with the word.
-    Start,
-    /// It has the word's letters in the same order, with others between them.
-    Scattered,
-}
-
-fn fit(name: &str, word: &[char]) -> Option<Fit> {
-    if lower(name).take(word.len()).eq(word.iter().copied()) {
-        return Some(Fit::Start);
-    }
-    let mut letters = lower(name);
-    let has_all = word
-        .iter()
-        .all(|wanted| letters.any(|letter| letter == *wanted));
-    has_all.then_some(Fit::Scattered)
-}
-
-fn lower(text: &str) -> impl Iterator<Item = char> {
-    text.chars().flat_map(char::to_lowercase)
 }

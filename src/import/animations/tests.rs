@@ -195,10 +195,13 @@ fn a_clip_lasts_until_its_last_key_or_its_declared_duration() {
     assert_eq!(length(json!({ "okoshi": { "seconds": 1 } })), 2.0);
     assert_eq!(length(json!({ "okoshi": { "seconds": "long" } })), 2.0);
     assert_eq!(length(json!("other")), 2.0);
-    // Weights are ignored, even invalid ones.
+    // Weights are numbers; those of a mesh without morph targets do nothing.
     let weights = json!([moving(0, "weights", "LINEAR")]);
+    let error = error_of(&gltf(&lists, &weights));
+    assert!(error.contains("a type that is not allowed"), "{error}");
+    let lists = [floats("SCALAR", &[0.0, 2.0]), floats("SCALAR", &[0.0; 2])];
     let (_, clips) = opened(&gltf(&lists, &weights)).unwrap();
-    assert_eq!((clips.len(), clips[0].seconds), (1, 0.0));
+    assert_eq!((clips.len(), clips[0].seconds), (1, 2.0));
 }
 
 #[test]

@@ -19,12 +19,12 @@ static ANGLES: [Parameter; 2] = [
 pub(super) static DEPTH: Row = Row {
     forms: &[Form::new(&DISTANCE, &[1])],
     default: "estimated from the views",
-    summary: "the depth of a billboard's region",
+    summary: "the depth of a character's region",
     long: "In a character that is drawn in two views, the depth of a region follows from how far \
            it moves between them. `Depth` sets it instead, in drawing units towards the viewer of \
            the front view.",
     example: "Nose$Depth 14",
-    ..Row::PLANNED
+    ..Row::ROW
 };
 
 pub(super) static VIEW: Row = Row {
@@ -34,7 +34,7 @@ pub(super) static VIEW: Row = Row {
            name. `theta` is how far the viewer has walked around towards the character's left, \
            `phi` how far up, both in degrees. The front is `0 0`.",
     example: "Boy$View 45 0",
-    ..Row::PLANNED
+    ..Row::ROW
 };
 
 pub(super) static BACKING: Row = Row {
@@ -52,5 +52,5 @@ pub(super) static HIDDEN: Row = Row {
     long: "Draw a region that cannot be seen in this view, and mark it with `Hidden`, to say what \
            shape it has while it is hidden.",
     example: "Ear$Hidden",
-    ..Row::PLANNED
+    ..Row::ROW
 };

@@ -84,10 +84,10 @@ fn w305_zero_thickness() {
 #[test]
 fn w310_not_built_yet() {
     check(
-        "Boy$View 0 0",
+        "Boy$Pose 1.5",
         r#"
-            Boy$View 0 0
-                ^^^^ W310: `View` has no effect in this version (read and checked, but not supported yet)
+            Boy$Pose 1.5
+                ^^^^ W310: `Pose` has no effect in this version (read and checked, but not supported yet)
               help: leave it in for a later version, or delete it
         "#,
     );

@@ -36,7 +36,7 @@ pub(super) fn contents(drawing: &Drawing, bindings: &Bindings) -> Vec<Content> {
     for part in bindings
         .parts
         .iter()
-        .filter(|part| part.kind != PartKind::Tile)
+        .filter(|part| !matches!(part.kind, PartKind::Tile | PartKind::Region))
     {
         is_tile[part.shape] = false;
     }

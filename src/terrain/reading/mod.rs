@@ -132,7 +132,7 @@ pub fn read(
     }
     // Only the pixels of tile layers can use the legends that `bind` left.
     let mut shapes = 0..drawing.shapes.len();
-    if all_read && shapes.any(|shape| bindings.is_picture_of_tiles(drawing, shape)) {
+    if all_read && shapes.any(|shape| bindings.is_picture_of_layer(drawing, shape)) {
         for (legend, _) in bindings.legends.iter().zip(used).filter(|(_, used)| !used) {
             if matches!(legend.paint, PaintKey::Solid(_)) {
                 diagnostics.push(legend.unused(drawing, bindings));

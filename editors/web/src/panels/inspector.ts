@@ -14,7 +14,7 @@ const BOUND: Readonly<Record<string, string>> = {
   none: "bound to no shape",
 };
 const FROM: Readonly<Record<Source, string>> = { own: "its string", legend: "a legend", default: "defaults", builtin: "built in" };
-const KIND: Readonly<Record<Part["kind"], string>> = { main: "part", sub: "shape of a part", legend: "legend", unused: "left out", terrain: "landscape" };
+const KIND: Readonly<Record<Part["kind"], string>> = { main: "part", sub: "shape of a part", legend: "legend", unused: "left out", terrain: "landscape", character: "character", region: "region of a character" };
 
 /** What is said of a part that has no string. */
 function withoutString({ kind, namedBy }: Part): string {

@@ -98,7 +98,7 @@ export class Tree {
   private item({ part, level, open, place, among }: Row): HTMLElement {
     const { name, kind } = part;
     const note =
-      kind === "legend" ? "legend" : kind === "unused" ? "left out" : kind === "sub" ? "shape" : kind === "terrain" ? "landscape" : isAutomatic(part) ? "automatic" : part.string?.mayMean ? "uncertain" : part.joint;
+      kind === "legend" ? "legend" : kind === "unused" ? "left out" : kind === "sub" ? "shape" : kind === "terrain" ? "landscape" : kind === "character" ? "character" : kind === "region" ? "region" : isAutomatic(part) ? "automatic" : part.string?.mayMean ? "uncertain" : part.joint;
     const item = h(
       "div",
       {

@@ -1,8 +1,8 @@
 // Terrain that bends with the view (docs/view-dependent.md): from 45° above, tops and fronts are as large as drawn.
 
 import { Box3, Matrix4, Mesh, SkinnedMesh, Vector3, type BufferGeometry, type Object3D } from "three";
+import { wayOf } from "./extension";
 
-const EXTENSION = "OKOSHI_view_dependent";
 /** The elevation with the largest stretch, in radians. */
 const MOST = Math.PI / 4;
 /** By how much a bounding sphere must grow: three.js underestimates its radius under a shear. */
@@ -50,7 +50,7 @@ export class Bend {
   constructor(root: Object3D) {
     const geometries = new Set<BufferGeometry>();
     const walk = (object: Object3D): void => {
-      if (asks(object)) {
+      if (wayOf(object, "bend")) {
         object.matrixAutoUpdate = false;
         this.bent.push({ node: object, box: new Box3().setFromObject(object), last: new Matrix4() });
         // Child nodes bend with it, once.
@@ -109,14 +109,6 @@ export class Bend {
 
 export function cornersOf({ min, max }: Box3): Vector3[] {
   return [0, 1, 2, 3, 4, 5, 6, 7].map((corner) => new Vector3(corner & 1 ? max.x : min.x, corner & 2 ? max.y : min.y, corner & 4 ? max.z : min.z));
-}
-
-/** Whether a node bends with the view: the loader keeps unknown extensions. */
-function asks(object: Object3D): boolean {
-  const extensions: unknown = object.userData["gltfExtensions"];
-  if (typeof extensions !== "object" || extensions === null || !(EXTENSION in extensions)) return false;
-  const ways: unknown = (extensions as Record<string, unknown>)[EXTENSION];
-  return typeof ways === "object" && ways !== null && "bend" in ways && typeof ways.bend === "object" && ways.bend !== null;
 }
 
 /** The bounds of a mesh in the world, without its children. */

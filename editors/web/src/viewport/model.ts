@@ -3,6 +3,7 @@
 import { Box3, BufferAttribute, DoubleSide, Group, Mesh, MeshStandardMaterial, SkinnedMesh, Texture, TextureLoader, Vector3, type AnimationClip, type BufferGeometry, type InterleavedBufferAttribute, type Material, type Object3D, type TypedArray } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Bend } from "./bend";
+import { Turns } from "./turn";
 
 export type Shading = "smooth" | "flat" | "wire" | "edges";
 
@@ -43,9 +44,11 @@ export class Model {
   private readonly reusedGeometries = new Set<BufferGeometry>();
   readonly box: Box3;
   readonly bend: Bend;
+  readonly turns: Turns;
+  readonly clips: readonly AnimationClip[];
   readonly triangles: number;
 
-  constructor(readonly root: Group, readonly clips: readonly AnimationClip[]) {
+  constructor(readonly root: Group, clips: readonly AnimationClip[]) {
     let triangles = 0;
     root.traverse((object) => {
       const name = nodeName(object);
@@ -74,6 +77,8 @@ export class Model {
     root.updateMatrixWorld(true);
     this.box = new Box3().setFromObject(root);
     this.bend = new Bend(root);
+    this.turns = new Turns(root);
+    this.clips = this.turns.others(clips);
     if (this.box.isEmpty()) this.box.set(new Vector3(-0.5, 0, -0.5), new Vector3(0.5, 1, 0.5));
   }
 

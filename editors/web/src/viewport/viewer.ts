@@ -100,7 +100,7 @@ export class Viewer {
     });
     this.stack = new Stack(this);
     this.renderLoop.beforeFrame((seconds) => this.step(seconds));
-    this.renderLoop.follow = (camera) => this.bend(camera);
+    this.renderLoop.follow = (camera) => this.follow(camera);
     state.on(["current", "build", "link"], () => this.update());
     state.on("selection", () => this.mark("selected"));
     state.on("hover", () => this.mark("hovered"));
@@ -344,11 +344,14 @@ export class Viewer {
     this.renderLoop.invalidate();
   }
 
-  /** Bends view-dependent nodes. */
-  private bend(camera: Camera): void {
+  /** Lets view-dependent nodes follow the viewer. */
+  private follow(camera: Camera): void {
     const { model } = this;
-    if (!model || model.bend.isEmpty) return;
+    if (!model) return;
     const towards = new Vector3(0, 0, 1).applyQuaternion(camera.quaternion);
+    const turned = [model, this.sideBySide.copy].map((one) => one?.turns.follow(towards));
+    if (turned.includes(true)) this.renderLoop.renderer.shadowMap.needsUpdate = true;
+    if (model.bend.isEmpty) return;
     const bends = [model, this.sideBySide.copy].map((one) => one?.bend.follow(towards, this.bent));
     if (!bends.includes(true)) return;
     this.ground.bend(model.bend.inWorld());

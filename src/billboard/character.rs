@@ -1,0 +1,310 @@
+//! Characters: views that belong together, their regions matched, placed and given one mesh each.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::diagnostics;
+use super::drawn::{self, DrawnLine, DrawnView};
+use super::matching::{Matching, Track, match_regions};
+use super::place::{Frame, Placed, frames, place};
+use super::region::{Direction, View};
+use super::shape::{Ends, Morph, line_mesh, match_lines, morph};
+use super::turn::between;
+use crate::bind::Bindings;
+use crate::diagnostic::Diagnostic;
+use crate::geometry::Outline;
+use crate::scene::{Turn, view_axes};
+use crate::svg::Drawing;
+
+/// A character that turns.
+#[derive(Debug)]
+pub struct Character {
+    /// Its name.
+    pub name: String,
+    /// Per view the index of its layer.
+    pub layers: Vec<usize>,
+    /// Its views, and what lies between them.
+    pub turn: Turn,
+    /// Per view its centre and scale.
+    pub frames: Vec<Frame>,
+    /// Its regions, in the order of the first view that shows each.
+    pub regions: Vec<RegionModel>,
+    /// The regions of each view, as they are drawn.
+    pub views: Vec<View>,
+    /// Which regions of the views are the same; its tracks are in the order of `regions`.
+    pub matching: Matching,
+}
+
+/// A region of a character, over all its views.
+#[derive(Debug)]
+pub struct RegionModel {
+    /// Its name; unique in the character.
+    pub name: String,
+    /// Its place in each view, in the character's space, heights.
+    pub places: Vec<DVec3>,
+    /// The area, and the line along its border in front of it.
+    pub pieces: Vec<Piece>,
+    /// Index of the shape that it is in the first view that shows it, or of the picture that it is in.
+    pub shape: usize,
+    /// Index of its string there.
+    pub string: Option<usize>,
+    /// Per view the shape or picture, where the view shows it.
+    pub shapes: Vec<Option<usize>>,
+}
+
+/// A mesh in one colour.
+#[derive(Debug)]
+pub struct Piece {
+    /// Its shape in each view, drawing units.
+    pub morph: Morph,
+    /// sRGB with straight alpha, each 0 to 1.
+    pub color: [f64; 4],
+}
+
+/// Reads the characters of a drawing.
+pub fn read(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Vec<Character> {
+    let mut names: Vec<(&str, Vec<usize>)> = Vec::new();
+    for (index, layer) in bindings.views() {
+        match names.iter_mut().find(|(name, _)| *name == layer.name) {
+            Some((_, layers)) => layers.push(index),
+            None => names.push((&layer.name, vec![index])),
+        }
+    }
+    let characters = names.into_iter().filter_map(|(name, layers)| {
+        let views = views(drawing, bindings, name, &layers, diagnostics)?;
+        Some(character(drawing, bindings, name, views, diagnostics))
+    });
+    characters.collect()
+}
+
+/// The views of a character; `None` if there are too few to turn between.
+fn views(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    name: &str,
+    layers: &[usize],
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<Vec<DrawnView>> {
+    let mut views: Vec<DrawnView> = Vec::new();
+    // What is wrong with a view was reported; then it is not missing.
+    let mut has_broken = false;
+    for layer in layers {
+        let Some(view) = drawn::read(drawing, bindings, *layer, diagnostics) else {
+            has_broken = true;
+            continue;
+        };
+        if view.view.regions.is_empty() {
+            diagnostics.push(diagnostics::empty(drawing, bindings, *layer));
+            continue;
+        }
+        let same = views
+            .iter()
+            .find(|other| other.view.direction == view.view.direction);
+        if let Some(same) = same {
+            diagnostics.push(diagnostics::same_direction(bindings, *layer, same.layer));
+            continue;
+        }
+        views.push(view);
+    }
+    if let [only] = &views[..]
+        && !has_broken
+    {
+        diagnostics.push(diagnostics::alone(bindings, name, only));
+    }
+    drawn::name_by_labels(&mut views);
+    (views.len() > 1).then_some(views)
+}
+
+fn character(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    name: &str,
+    drawn: Vec<DrawnView>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Character {
+    let views: Vec<View> = drawn.iter().map(|drawn| drawn.view.clone()).collect();
+    let frames = frames(&views);
+    let matching = match_regions(&views, &frames);
+    diagnostics::report(drawing, bindings, name, &drawn, &matching, diagnostics);
+    let depths: Vec<Vec<Option<f64>>> = drawn
+        .iter()
+        .map(|view| view.drawn.iter().map(|drawn| drawn.depth).collect())
+        .collect();
+    let placed = place(&views, &frames, &matching.tracks, &depths);
+    let directions: Vec<Direction> = views.iter().map(|view| view.direction).collect();
+    let turn = between(&directions);
+    let tracks: Vec<(&Track, &Placed)> = matching.tracks.iter().zip(&placed).collect();
+    let regions = tracks
+        .into_par_iter()
+        .enumerate()
+        .map(|(index, (track, placed))| {
+            let sources = Sources {
+                drawn: &drawn,
+                frames: &frames,
+                track,
+                placed,
+            };
+            sources.model(drawing, bindings, index)
+        });
+    let mut regions: Vec<RegionModel> = regions.collect();
+    unique_names(&mut regions);
+    Character {
+        name: name.to_owned(),
+        layers: drawn.iter().map(|view| view.layer).collect(),
+        turn,
+        frames,
+        regions,
+        views,
+        matching,
+    }
+}
+
+/// What the model of a region is made from.
+struct Sources<'a> {
+    drawn: &'a [DrawnView],
+    frames: &'a [Frame],
+    track: &'a Track,
+    placed: &'a Placed,
+}
+
+impl Sources<'_> {
+    fn model(&self, drawing: &Drawing, bindings: &Bindings, index: usize) -> RegionModel {
+        let shown = || self.track.regions.iter().enumerate();
+        let shown: Vec<(usize, usize)> = shown()
+            .filter_map(|(view, r)| Some((view, (*r)?)))
+            .collect();
+        let region = |(view, region): &(usize, usize)| &self.drawn[*view].view.regions[*region];
+        let drawn = |(view, region): &(usize, usize)| &self.drawn[*view].drawn[*region];
+        let outlines: Vec<Outline> = (0..self.drawn.len())
+            .map(|view| {
+                let found = shown.iter().find(|(v, _)| *v == view);
+                found.map_or_else(Outline::default, |found| region(found).outline.clone())
+            })
+            .collect();
+        let mut area = match self.open_line(&shown) {
+            Some(line) => line,
+            None => morph(&outlines, &[]),
+        };
+        let lines = shown.iter().filter_map(|at| Some((at.0, drawn(at).line?)));
+        let lines: Vec<(usize, DrawnLine)> = lines.collect();
+        let line = self.line(&area, &lines);
+        self.shrink(&mut area);
+        let first = shown.first();
+        let color = first.map_or([0.0; 4], |first| region(first).color);
+        let mut pieces = vec![Piece { morph: area, color }];
+        pieces.extend(line);
+        let named = shown.iter().find_map(|at| region(at).name.clone());
+        let string = first.and_then(|first| bindings.parts[drawn(first).part?].string);
+        let mut shapes = vec![None; self.drawn.len()];
+        for at in &shown {
+            shapes[at.0] = Some(drawn(at).shape);
+        }
+        RegionModel {
+            name: named.unwrap_or_else(|| {
+                let shape = first.map(|first| &drawing.shapes[drawn(first).shape]);
+                let shape = shape.filter(|shape| shape.picture.is_none());
+                match shape.map(|shape| shape.element.own_name()) {
+                    None | Some("") => format!("Region {}", index + 1),
+                    Some(own) => own.to_owned(),
+                }
+            }),
+            places: self.places(),
+            pieces,
+            shape: first.map_or(0, |first| drawn(first).shape),
+            string,
+            shapes,
+        }
+    }
+
+    /// The places in the views, as deep as the order of painting needs.
+    fn places(&self) -> Vec<DVec3> {
+        let views = self
+            .drawn
+            .iter()
+            .zip(&self.placed.in_views)
+            .zip(&self.placed.depths);
+        let place = |((drawn, place), depth): ((&DrawnView, &DVec3), &f64)| {
+            let towards = drawn.view.direction.axes()[2];
+            *place + towards * (depth - place.dot(towards))
+        };
+        views.map(place).collect()
+    }
+
+    /// The line along the border, as wide as it is drawn in each view.
+    fn line(&self, area: &Morph, lines: &[(usize, DrawnLine)]) -> Option<Piece> {
+        let (_, DrawnLine { color, .. }) = *lines.first()?;
+        // A view that does not show the region has the width of another one.
+        let width = |view: usize| {
+            let own = lines.iter().find(|(v, _)| *v == view);
+            let (from, line) = own.or(lines.first())?;
+            Some(line.width * self.frames[view].height / self.frames[*from].height)
+        };
+        let widths: Option<Vec<f64>> = (0..self.drawn.len()).map(width).collect();
+        let widths = widths?;
+        let mut morph = Morph {
+            points: vec![Vec::new(); self.drawn.len()],
+            ..Morph::default()
+        };
+        for ring in &area.rings {
+            let along = area
+                .points
+                .iter()
+                .map(|points| ring.iter().map(|index| points[*index as usize]).collect());
+            let along: Vec<Vec<DVec2>> = along.collect();
+            let part = line_mesh(&along, &widths, Ends::Joined);
+            let base = morph.points[0].len() as u32;
+            for (all, points) in morph.points.iter_mut().zip(part.points) {
+                all.extend(points);
+            }
+            let triangles = part.triangles.into_iter();
+            morph
+                .triangles
+                .extend(triangles.map(|t| t.map(|corner| corner + base)));
+        }
+        self.shrink(&mut morph);
+        Some(Piece { morph, color })
+    }
+
+    /// A line that is no border, as wide as it is drawn in each view; `None` if a view shows something else.
+    fn open_line(&self, shown: &[(usize, usize)]) -> Option<Morph> {
+        let mut points = vec![Vec::new(); self.drawn.len()];
+        let mut widths = vec![0.0; self.drawn.len()];
+        for (view, region) in shown {
+            let line = self.drawn[*view].drawn[*region].open_line.as_ref()?;
+            points[*view].clone_from(&line.points);
+            widths[*view] = line.width;
+        }
+        let points = match_lines(&points);
+        Some(line_mesh(&points, &widths, Ends::Free))
+    }
+
+    /// Where a view does not show the region, it is a point at its place.
+    fn shrink(&self, morph: &mut Morph) {
+        for (view, points) in morph.points.iter_mut().enumerate() {
+            if self.track.regions[view].is_none() {
+                let Direction { theta, phi } = self.drawn[view].view.direction;
+                let [right, up, _] = view_axes([theta, phi]);
+                let place = self.placed.in_views[view];
+                let at = DVec2::new(place.dot(right), place.dot(up));
+                points.fill(self.frames[view].in_drawing(at));
+            }
+        }
+    }
+}
+
+/// Numbers regions whose names are taken.
+fn unique_names(regions: &mut [RegionModel]) {
+    for index in 1..regions.len() {
+        let (before, rest) = regions.split_at_mut(index);
+        let own = rest[0].name.clone();
+        let mut number = 1;
+        while before.iter().any(|other| other.name == rest[0].name) {
+            number += 1;
+            rest[0].name = format!("{own} {number}");
+        }
+    }
+}

@@ -1,0 +1,316 @@
+//! The views of a character in a drawing: which shapes, or which areas of a picture, are its regions.
+
+use std::collections::BTreeMap;
+
+use glam::{DAffine2, DVec2};
+use rayon::prelude::*;
+
+use super::diagnostics::too_many;
+use super::matching::Place;
+use super::raster;
+use super::region::{Direction, Region, View};
+use crate::bind::{Bindings, PartKind};
+use crate::diagnostic::{Code, Diagnostic};
+use crate::geometry::{Outline, area, bounds, intersect};
+use crate::lang::keyword::Keyword;
+use crate::lang::value::Value;
+use crate::svg::{Drawing, LARGE};
+
+/// Pixels along the longer side of an SVG picture in a view.
+const SVG_SIDE: u32 = 1024;
+/// How far the middle of a line may deviate, in its width.
+const LINE_TOLERANCE: f64 = 0.02;
+/// The largest number of regions of a view: any two of two views are compared.
+pub(super) const MOST_REGIONS: usize = 1000;
+/// The share of a region that another one covers if it contains it.
+const CONTAINED: f64 = 0.9;
+
+/// A view as it is drawn.
+#[derive(Debug)]
+pub(super) struct DrawnView {
+    /// Index of its layer.
+    pub(super) layer: usize,
+    pub(super) view: View,
+    /// Per region of the view, what else the drawing says of it.
+    pub(super) drawn: Vec<Drawn>,
+}
+
+/// What the drawing says of a region, besides its outline.
+#[derive(Debug, Default)]
+pub(super) struct Drawn {
+    /// Index of the shape that it is, or of the picture that shows it.
+    pub(super) shape: usize,
+    /// Index of its part, if it has one.
+    pub(super) part: Option<usize>,
+    /// The line along its border.
+    pub(super) line: Option<DrawnLine>,
+    /// Its middle, if it is an open line with round ends.
+    pub(super) open_line: Option<OpenLine>,
+    /// `Depth`, drawing units.
+    pub(super) depth: Option<f64>,
+    /// The label of its element, a name if another view has the same.
+    pub(super) label: Option<String>,
+    /// Whether the view does not show it (`Hidden`).
+    pub(super) is_hidden: bool,
+}
+
+/// A line along a border.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct DrawnLine {
+    /// Drawing units.
+    pub(super) width: f64,
+    /// sRGB with straight alpha, each 0 to 1.
+    pub(super) color: [f64; 4],
+}
+
+/// An open line with round ends.
+#[derive(Debug, Clone)]
+pub(super) struct OpenLine {
+    /// Drawing units.
+    pub(super) width: f64,
+    /// Its middle from end to end, drawing units, y down.
+    pub(super) points: Vec<DVec2>,
+}
+
+/// A setting of a view's string.
+pub(super) fn setting(bindings: &Bindings, layer: usize, keyword: Keyword) -> Option<&Value> {
+    let settings = &bindings.strings[bindings.layers[layer].string].settings;
+    let mut settings = settings.iter();
+    let found = settings.find(|setting| setting.keyword == keyword);
+    found.map(|setting| &setting.value)
+}
+
+/// The direction of a view's layer.
+fn direction(bindings: &Bindings, layer: usize) -> Option<Direction> {
+    match *setting(bindings, layer, Keyword::View)? {
+        Value::Pair([theta, phi]) => Some(Direction { theta, phi }),
+        _ => None,
+    }
+}
+
+/// Reads the view that a layer is. `None` if its string has no direction, or if it has too many regions, which is reported.
+pub(super) fn read(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    layer: usize,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Option<DrawnView> {
+    let direction = direction(bindings, layer)?;
+    let mut parts = vec![None; drawing.shapes.len()];
+    for (index, part) in bindings.parts.iter().enumerate() {
+        if part.kind == PartKind::Region {
+            parts[part.shape] = Some(index);
+        }
+    }
+    // What the view does not show lies behind all that it shows.
+    let (mut hidden, mut regions) = (Vec::new(), Vec::new());
+    for (index, shape) in drawing.shapes.iter().enumerate() {
+        if bindings.view_of_group(shape.group) != Some(layer) {
+            continue;
+        }
+        if shape.picture.is_some() {
+            match of_picture(drawing, index) {
+                Ok(found) => {
+                    let first = regions.len();
+                    regions.extend(found.into_iter().map(|(mut region, drawn)| {
+                        region.container = region.container.map(|outer| first + outer);
+                        (region, drawn)
+                    }));
+                }
+                Err((code, message)) => {
+                    let finding = Diagnostic::new(code, shape.element.span, message);
+                    diagnostics.push(finding.help(LARGE));
+                }
+            }
+        } else {
+            if let Some((region, drawn)) = of_shape(drawing, bindings, index, parts[index]) {
+                match drawn.is_hidden {
+                    true => hidden.push((region, drawn)),
+                    false => regions.push((region, drawn)),
+                }
+            }
+        }
+    }
+    for (region, _) in &mut regions {
+        region.container = region.container.map(|outer| hidden.len() + outer);
+    }
+    let regions = hidden.into_iter().chain(regions);
+    let (mut all, drawn): (Vec<Region>, Vec<Drawn>) = regions.unzip();
+    if all.len() > MOST_REGIONS {
+        diagnostics.push(too_many(bindings, layer, all.len()));
+        return None;
+    }
+    contain(&mut all);
+    Some(DrawnView {
+        layer,
+        view: View {
+            direction,
+            regions: all,
+        },
+        drawn,
+    })
+}
+
+/// The region that a shape is; a stroke without a fill is one, too.
+fn of_shape(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    index: usize,
+    part: Option<usize>,
+) -> Option<(Region, Drawn)> {
+    let shape = &drawing.shapes[index];
+    let name = part.map(|part| bindings.parts[part].name.clone());
+    let name = name.filter(|name| !name.is_empty());
+    let srgb = |[r, g, b]: [u8; 3], alpha: f64| {
+        let [r, g, b] = [r, g, b].map(|channel| f64::from(channel) / 255.0);
+        [r, g, b, alpha]
+    };
+    let is_filled = !shape.outline.polygons.is_empty();
+    let (outline, line) = match &shape.stroke {
+        Some(stroke) if is_filled => {
+            let line = DrawnLine {
+                width: stroke.width(),
+                color: srgb(stroke.paint.color, shape.opacity),
+            };
+            (Outline::clone(&shape.outline), Some(line))
+        }
+        Some(stroke) => (stroke.outline(), None),
+        None => (Outline::clone(&shape.outline), None),
+    };
+    if outline.polygons.is_empty() {
+        return None;
+    }
+    let settings = part.and_then(|part| bindings.parts[part].string);
+    let settings = settings.map_or(&[][..], |string| &bindings.strings[string].settings);
+    let find = |keyword| settings.iter().find(|setting| setting.keyword == keyword);
+    let depth = find(Keyword::Depth).and_then(|setting| match setting.value {
+        Value::Number(depth) => Some(depth),
+        _ => None,
+    });
+    let color = part.map(|part| bindings.material_factors(drawing, part).color);
+    let region = Region {
+        name,
+        outline,
+        color: color.unwrap_or_else(|| srgb(shape.paint.color, shape.opacity)),
+        container: None,
+    };
+    let drawn = Drawn {
+        shape: index,
+        part,
+        line,
+        open_line: shape
+            .stroke
+            .as_ref()
+            .filter(|_| !is_filled)
+            .and_then(|stroke| {
+                Some(OpenLine {
+                    width: stroke.width(),
+                    points: stroke.open_line(LINE_TOLERANCE * stroke.width())?,
+                })
+            }),
+        depth,
+        label: shape.element.label.clone(),
+        is_hidden: find(Keyword::Hidden).is_some(),
+    };
+    Some((region, drawn))
+}
+
+/// The regions of a picture.
+fn of_picture(drawing: &Drawing, index: usize) -> Result<Vec<(Region, Drawn)>, (Code, String)> {
+    let Some(picture) = &drawing.shapes[index].picture else {
+        return Ok(Vec::new());
+    };
+    let pixels = picture.pixels(SVG_SIDE)?.into_rgba8();
+    let size = DVec2::new(pixels.width().into(), pixels.height().into());
+    let place = picture.place() * DAffine2::from_scale(size.recip());
+    let scale = place.matrix2.determinant().abs().sqrt();
+    let found = raster::regions(&pixels);
+    let moved = |outline: &Outline| {
+        let point = |p: &DVec2| place.transform_point2(*p);
+        outline.map_rings(|ring| ring.iter().map(point).collect())
+    };
+    let regions = found.regions.iter().map(|found| {
+        let line = found.line.map(|line| DrawnLine {
+            width: line.width * scale,
+            color: line.color,
+        });
+        let region = Region {
+            name: None,
+            outline: moved(&found.outline),
+            color: found.color,
+            container: found.container,
+        };
+        (region, line)
+    });
+    let inner = found.lines.iter().map(|line| {
+        let region = Region {
+            name: None,
+            outline: moved(&line.outline),
+            color: line.color,
+            container: line.region,
+        };
+        (region, None)
+    });
+    let drawn = |line| Drawn {
+        shape: index,
+        line,
+        ..Drawn::default()
+    };
+    Ok(regions
+        .chain(inner)
+        .map(|(region, line)| (region, drawn(line)))
+        .collect())
+}
+
+/// Finds the container of each region that has none yet: the smallest one drawn before it that covers nearly all of it.
+fn contain(regions: &mut [Region]) {
+    let areas: Vec<f64> = regions.iter().map(|r| area(&r.outline)).collect();
+    let boxes: Vec<_> = regions.iter().map(|r| bounds(&r.outline)).collect();
+    let containers: Vec<Option<usize>> = (0..regions.len())
+        .into_par_iter()
+        .map(|inner| {
+            if regions[inner].container.is_some() {
+                return regions[inner].container;
+            }
+            let (low, high) = boxes[inner]?;
+            let mut outer: Vec<usize> = (0..inner)
+                .filter(|outer| areas[*outer] > areas[inner])
+                .filter(|outer| {
+                    boxes[*outer].is_some_and(|(l, h)| l.cmple(high).all() && h.cmpge(low).all())
+                })
+                .collect();
+            outer.sort_by(|a, b| areas[*a].total_cmp(&areas[*b]));
+            outer.into_iter().find(|outer| {
+                let common = intersect(&regions[*outer].outline, &regions[inner].outline);
+                area(&common) >= CONTAINED * areas[inner]
+            })
+        })
+        .collect();
+    for (region, container) in regions.iter_mut().zip(containers) {
+        region.container = container;
+    }
+}
+
+/// Names regions by their labels, as far as these are unique in a view and occur in several: copies of a layer keep them.
+pub(super) fn name_by_labels(views: &mut [DrawnView]) {
+    let mut uses: BTreeMap<String, Vec<Place>> = BTreeMap::new();
+    for (view, drawn) in views.iter().enumerate() {
+        let named = drawn.view.regions.iter().zip(&drawn.drawn).enumerate();
+        for (region, (found, said)) in named {
+            if let Some(label) = said.label.as_ref().filter(|_| found.name.is_none()) {
+                uses.entry(label.clone())
+                    .or_default()
+                    .push(Place { view, region });
+            }
+        }
+    }
+    for (label, places) in uses {
+        let in_order = places.windows(2).all(|pair| pair[0].view < pair[1].view);
+        if !in_order || places.len() < 2 {
+            continue;
+        }
+        for Place { view, region } in places {
+            views[view].view.regions[region].name = Some(label.clone());
+        }
+    }
+}

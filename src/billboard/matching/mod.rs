@@ -1,0 +1,316 @@
+//! Which regions of a character's views show the same thing (billboard.md, Matching).
+//!
+//! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, section 4.2.3, for the similarity; the one-to-one assignment
+//! is our own.
+
+mod assignment;
+mod cost;
+mod diagnose;
+mod exchange;
+#[cfg(test)]
+mod tests;
+
+use glam::DVec2;
+
+use assignment::{Gains, assign};
+use cost::{Features, Turn, features, may_match};
+use exchange::{Sides, exchange};
+
+use super::place::{Frame, angle};
+use super::region::View;
+
+/// Regions of all views, matched.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Matching {
+    /// What is one thing in space. Every region of every view is in exactly one track. Those of the first view come first, in its
+    /// order.
+    pub tracks: Vec<Track>,
+    /// The pairs that made the tracks, view by view.
+    pub pairs: Vec<Pair>,
+    /// Regions that are alone in their track.
+    pub unmatched: Vec<Unmatched>,
+    /// What looks wrong.
+    pub warnings: Vec<Warning>,
+}
+
+/// One thing in space.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Track {
+    /// The index of its region in each view; `None` where it is hidden.
+    pub regions: Vec<Option<usize>>,
+}
+
+/// Two regions that show the same thing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pair {
+    /// The region of the view that was matched first.
+    pub first: Place,
+    /// The region of the view that was matched with it.
+    pub second: Place,
+    /// The similarity of equation 4.1, from 0 to 1.
+    pub similarity: f64,
+    /// Our cost: 0 for a perfect pair; pairs above 3.5 are only made by names.
+    pub cost: f64,
+}
+
+/// A region of a view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    /// The view's index.
+    pub view: usize,
+    /// The region's index in the view.
+    pub region: usize,
+}
+
+/// A region without a partner.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unmatched {
+    /// The region.
+    pub place: Place,
+    /// The regions of the view compared with it that fit best, at most three, the best first.
+    pub candidates: Vec<Candidate>,
+}
+
+/// A region that might have been the partner of another.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// The region.
+    pub place: Place,
+    /// The similarity of equation 4.1, from 0 to 1.
+    pub similarity: f64,
+    /// Our cost.
+    pub cost: f64,
+    /// Why the two are not a pair.
+    pub reason: Reason,
+}
+
+/// Why two regions are not a pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Reason {
+    /// Their colours differ by more than 0.3.
+    Color,
+    /// They have different names.
+    Names,
+    /// They are less alike than two regions may be.
+    Cost,
+    /// The candidate fits this region of the other's view better, or the whole does.
+    Taken(Place),
+}
+
+/// Something about the views as a whole that looks wrong.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Warning {
+    /// The directions of two views that were matched are less than 15° apart, so that depths are uncertain.
+    SmallAngle {
+        /// The views.
+        views: [usize; 2],
+        /// The angle between them, degrees.
+        degrees: f64,
+    },
+    /// Most contained regions come to lie behind their containers: the sign of `theta` or `phi` may be wrong.
+    BehindContainers {
+        /// The views.
+        views: [usize; 2],
+        /// Contained regions behind their containers.
+        behind: usize,
+        /// Contained regions that were looked at.
+        of: usize,
+    },
+}
+
+/// Matches the regions of all views one to one.
+///
+/// `frames` are those of the views, in the same order. Views are added one by one, the nearest first, and each is matched with
+/// what is known already, seen from the nearest view that shows it. Regions with the same name are a pair, whatever they look
+/// like, and regions with different names are none.
+pub(super) fn match_regions(views: &[View], frames: &[Frame]) -> Matching {
+    let all = views.iter().zip(frames);
+    let all: Vec<Vec<Features>> = all.map(|(view, frame)| features(view, frame)).collect();
+    let views = &views[..all.len()];
+    let mut matching = Matching::default();
+    let mut placed: Vec<usize> = Vec::new();
+    while let Some((next, nearest)) = next_view(views, &placed) {
+        let tracks = matching.tracks.len();
+        if let Some(nearest) = nearest {
+            Step::new(views, &all, next, &placed, &matching.tracks).run(&mut matching);
+            diagnose::step(views, &all, [nearest, next], &mut matching);
+        }
+        let known = matching.tracks[..tracks].iter();
+        let mut is_new = vec![true; all[next].len()];
+        for region in known.filter_map(|t| t.regions[next]) {
+            is_new[region] = false;
+        }
+        for region in (0..is_new.len()).filter(|r| is_new[*r]) {
+            let mut regions = vec![None; views.len()];
+            regions[next] = Some(region);
+            matching.tracks.push(Track { regions });
+        }
+        placed.push(next);
+    }
+    diagnose::unmatched(views, &all, &mut matching);
+    matching
+}
+
+/// The view to add, and the nearest view that has been added; `None` once all are added.
+fn next_view(views: &[View], placed: &[usize]) -> Option<(usize, Option<usize>)> {
+    if placed.is_empty() {
+        return (!views.is_empty()).then_some((0, None));
+    }
+    let rest = (0..views.len()).filter(|v| !placed.contains(v));
+    let near = rest.filter_map(|v| Some((v, nearest(views, v, placed)?)));
+    near.min_by(|a, b| {
+        let degrees = |(v, n): (usize, usize)| angle(views[v].direction, views[n].direction);
+        degrees(*a).total_cmp(&degrees(*b))
+    })
+    .map(|(v, n)| (v, Some(n)))
+}
+
+/// The view of some that is nearest to a view, the first of equals.
+fn nearest(views: &[View], view: usize, of: &[usize]) -> Option<usize> {
+    let degrees = |v: usize| angle(views[view].direction, views[v].direction);
+    let by_angle = |a: &usize, b: &usize| degrees(*a).total_cmp(&degrees(*b));
+    of.iter().copied().min_by(by_angle)
+}
+
+/// One view that is matched with what is known already.
+struct Step<'a> {
+    views: &'a [View],
+    all: &'a [Vec<Features>],
+    view: usize,
+    /// The track and the region that stands for it.
+    rows: Vec<(usize, Place)>,
+}
+
+impl<'a> Step<'a> {
+    fn new(
+        views: &'a [View],
+        all: &'a [Vec<Features>],
+        view: usize,
+        placed: &[usize],
+        tracks: &[Track],
+    ) -> Self {
+        let row = |(i, track): (usize, &Track)| {
+            let seen = placed.iter().copied();
+            let seen: Vec<_> = seen.filter(|v| track.regions[*v].is_some()).collect();
+            let from = nearest(views, view, &seen)?;
+            let region = track.regions[from]?;
+            Some((i, Place { view: from, region }))
+        };
+        Self {
+            views,
+            all,
+            view,
+            rows: tracks.iter().enumerate().filter_map(row).collect(),
+        }
+    }
+
+    fn run(&self, matching: &mut Matching) {
+        let known = &self.all[self.view];
+        let turn = |v: &View| Turn::new(v.direction, self.views[self.view].direction);
+        let mut turns: Vec<_> = self.views.iter().map(turn).collect();
+        let rough = assign(&self.gains(&self.compared(&turns)));
+        for (view, turn) in turns.iter_mut().enumerate() {
+            let of_view = |(row, _): &(&(usize, Place), _)| row.1.view == view;
+            let pairs = self.rows.iter().zip(&rough).filter(of_view);
+            let pairs = pairs.filter_map(|(row, p)| Some((self.features(row), &known[(*p)?])));
+            turn.shift_by(&pairs.collect::<Vec<_>>());
+        }
+        let compared = self.compared(&turns);
+        let gains = self.gains(&compared);
+        let mut partners = assign(&gains);
+        let at =
+            |row: &(usize, Place)| (row.1.view, turns[row.1.view].predicted(self.features(row)));
+        let sides = Sides {
+            gains: &gains,
+            rows: &self.rows.iter().map(at).collect::<Vec<_>>(),
+            columns: &known.iter().map(|f| f.at).collect::<Vec<DVec2>>(),
+        };
+        exchange(&sides, &mut partners);
+        for (row, partner) in partners.into_iter().enumerate() {
+            let (Some(region), (track, first)) = (partner, self.rows[row]) else {
+                continue;
+            };
+            let compared = &compared[row * known.len() + region];
+            matching.tracks[track].regions[self.view] = Some(region);
+            matching.pairs.push(Pair {
+                first,
+                second: Place {
+                    view: self.view,
+                    region,
+                },
+                similarity: turns[first.view]
+                    .similarity(self.features(&self.rows[row]), &known[region]),
+                cost: compared.cost,
+            });
+        }
+    }
+
+    fn features(&self, row: &(usize, Place)) -> &Features {
+        &self.all[row.1.view][row.1.region]
+    }
+
+    /// All rows with all regions of the view, row by row.
+    fn compared(&self, turns: &[Turn]) -> Vec<Comparison> {
+        let row = |(_, first): &(usize, Place)| {
+            let (first, turn) = (*first, &turns[first.view]);
+            (0..self.all[self.view].len()).map(move |region| {
+                let second = Place {
+                    view: self.view,
+                    region,
+                };
+                compare(self.views, self.all, turn, [first, second])
+            })
+        };
+        self.rows.iter().flat_map(row).collect()
+    }
+
+    fn gains(&self, compared: &[Comparison]) -> Gains {
+        Gains {
+            rows: self.rows.len(),
+            columns: self.all[self.view].len(),
+            values: compared.iter().map(Comparison::gain).collect(),
+        }
+    }
+}
+
+/// Two regions of two views, compared.
+#[derive(Debug, Clone, Copy)]
+struct Comparison {
+    cost: f64,
+    names: Names,
+    /// J of equation 4.2.
+    colors_fit: bool,
+}
+
+/// What the names of two regions say.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Names {
+    Same,
+    Different,
+    /// At least one has none.
+    Nothing,
+}
+
+impl Comparison {
+    fn gain(&self) -> Option<f64> {
+        match self.names {
+            Names::Same => Some(Gains::of_named(self.cost)),
+            Names::Different => None,
+            Names::Nothing => self.colors_fit.then(|| Gains::of(self.cost)),
+        }
+    }
+}
+
+fn compare(views: &[View], all: &[Vec<Features>], turn: &Turn, pair: [Place; 2]) -> Comparison {
+    let [a, b] = pair.map(|p| &all[p.view][p.region]);
+    let [name_a, name_b] = pair.map(|p| &views[p.view].regions[p.region].name);
+    Comparison {
+        cost: turn.cost(a, b),
+        names: match (name_a, name_b) {
+            (Some(a), Some(b)) if a == b => Names::Same,
+            (Some(_), Some(_)) => Names::Different,
+            _ => Names::Nothing,
+        },
+        colors_fit: may_match(a, b),
+    }
+}

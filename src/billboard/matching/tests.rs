@@ -1,0 +1,396 @@
+use glam::DVec2;
+use proptest::prelude::*;
+
+use super::assignment::{Gains, assign};
+use super::exchange::{Sides, exchange};
+use super::*;
+use crate::billboard::generated::{Drawn, character, directions};
+use crate::billboard::place::frames;
+use crate::billboard::region::{Direction, Region};
+use crate::geometry::{Outline, Polygon};
+
+/// How many of the regions that two drawings share got their right partner.
+fn right(drawn: &[Drawn; 2], partners: &[Option<usize>]) -> (usize, usize) {
+    let [a, b] = drawn.each_ref().map(|d| &d.items);
+    let (mut count, mut right) = (0, 0);
+    for (region, item) in a.iter().enumerate() {
+        if let Some(other) = b.iter().position(|i| i == item) {
+            count += 1;
+            right += usize::from(partners[region] == Some(other));
+        }
+    }
+    (right, count)
+}
+
+fn drawn(seed: u64) -> [Drawn; 2] {
+    let character = character(seed);
+    directions(seed).map(|d| character.true_view(d))
+}
+
+fn views<const N: usize>(drawn: &[Drawn; N]) -> Vec<View> {
+    drawn.iter().map(|d| d.view.clone()).collect()
+}
+
+/// The partners of the first view's regions in the second.
+fn partners(matching: &Matching, regions: usize) -> Vec<Option<usize>> {
+    let tracks = matching.tracks.iter();
+    let mut partners = vec![None; regions];
+    for track in tracks {
+        if let Some(region) = track.regions[0] {
+            partners[region] = track.regions[1];
+        }
+    }
+    partners
+}
+
+/// For each region of the first view, the region of the second that is most similar by equations 4.1 and 4.2: the thesis' own
+/// method. Several may get the same; `None` where no color fits.
+fn most_similar(views: [&View; 2], frames: [&Frame; 2]) -> Vec<Option<usize>> {
+    let turn = Turn::new(views[0].direction, views[1].direction);
+    let [first, second] = [0, 1].map(|i| features(views[i], frames[i]));
+    let best = |a: &Features| {
+        let similar = second.iter().map(|b| turn.similarity(a, b)).enumerate();
+        let similar = similar.filter(|(_, s)| *s > 0.0);
+        // The first of equals.
+        similar.reduce(|best, s| if s.1 > best.1 { s } else { best })
+    };
+    first.iter().map(|a| best(a).map(|(i, _)| i)).collect()
+}
+
+fn is_behind(warning: &Warning) -> bool {
+    matches!(warning, Warning::BehindContainers { .. })
+}
+
+#[test]
+fn nearly_all_pairs_of_200_characters_are_right_and_none_has_fewer_than_by_similarity() {
+    let (mut ours, mut thesis, mut all, mut wrong) = (0, 0, 0, 0);
+    for seed in 0..200 {
+        let drawn = drawn(seed);
+        let views = views(&drawn);
+        let frames = frames(&views);
+        let matching = match_regions(&views, &frames);
+        let partners = partners(&matching, views[0].regions.len());
+        let similar = most_similar([&views[0], &views[1]], [&frames[0], &frames[1]]);
+        let (own, count) = right(&drawn, &partners);
+        let (their, _) = right(&drawn, &similar);
+        assert!(
+            own >= their,
+            "seed {seed}: {own} of {count}, by similarity {their}"
+        );
+        ours += own;
+        thesis += their;
+        all += count;
+        let is_wrong =
+            |p: &&Pair| drawn[0].items[p.first.region] != drawn[1].items[p.second.region];
+        wrong += matching.pairs.iter().filter(is_wrong).count();
+        assert!(!matching.warnings.iter().any(is_behind), "seed {seed}");
+    }
+    let share = |n| n as f64 / all as f64;
+    assert!(all > 4000, "{all} pairs");
+    assert!(share(ours) > 0.98, "{ours} of {all}");
+    assert!(share(thesis) < 0.8, "{thesis} of {all}");
+    assert!(share(wrong) < 0.01, "{wrong} of {all}");
+}
+
+#[test]
+fn a_wrong_sign_of_theta_is_noticed() {
+    let noticed = (0..100).filter(|seed| {
+        let mut views = views(&drawn(*seed));
+        for view in &mut views {
+            view.direction.theta *= -1.0;
+            view.direction.phi *= -1.0;
+        }
+        let matching = match_regions(&views, &frames(&views));
+        matching.warnings.iter().any(is_behind)
+    });
+    assert!(noticed.count() > 95);
+}
+
+#[test]
+fn tracks_go_through_three_views() {
+    let (mut right, mut all) = (0, 0);
+    for seed in 0..30 {
+        let character = character(seed);
+        let direction = |theta| Direction { theta, phi: 0.0 };
+        // The second view is nearer to the third than the first is.
+        let drawn = [0.0, 60.0, 30.0].map(|theta| character.true_view(direction(theta)));
+        let views = views(&drawn);
+        let matching = match_regions(&views, &frames(&views));
+        assert_in_one_track(&views, &matching);
+        for track in &matching.tracks {
+            let items = track.regions.iter().zip(&drawn);
+            let items: Vec<_> = items.filter_map(|(r, d)| Some(d.items[(*r)?])).collect();
+            let count = |item| drawn.iter().filter(|d| d.items.contains(item)).count();
+            all += 1;
+            let same = items.iter().all(|i| *i == items[0]);
+            right += usize::from(same && items.len() == count(&items[0]));
+        }
+    }
+    assert!(all > 700, "{all} tracks");
+    assert!(right as f64 > 0.95 * all as f64, "{right} of {all}");
+}
+
+fn assert_in_one_track(views: &[View], matching: &Matching) {
+    for (i, view) in views.iter().enumerate() {
+        for region in 0..view.regions.len() {
+            let tracks = matching.tracks.iter();
+            let with = tracks.filter(|t| t.regions.get(i) == Some(&Some(region)));
+            assert_eq!(with.count(), 1, "region {region} of view {i}");
+        }
+    }
+}
+
+#[test]
+fn a_drawings_place_and_size_do_not_matter() {
+    for seed in (0..60).filter(|s| s % 12 < 10) {
+        let mut views = views(&drawn(seed));
+        let before = match_regions(&views, &frames(&views));
+        for region in &mut views[1].regions {
+            let moved = |p: &DVec2| *p * 3.0 + DVec2::new(900.0, -70.0);
+            region.outline = region
+                .outline
+                .map_rings(|ring| ring.iter().map(moved).collect());
+        }
+        let after = match_regions(&views, &frames(&views));
+        assert_eq!(before.tracks, after.tracks, "seed {seed}");
+    }
+}
+
+#[test]
+fn names_decide() {
+    let mut named = 0;
+    for seed in 0..20 {
+        let drawn = drawn(seed);
+        let mut views = views(&drawn);
+        let last = [0, 1].map(|i| views[i].regions.len() - 1);
+        // Two things that never look alike.
+        let (a, b) = (last[0], 0);
+        for (view, region) in [(0, a), (1, b)] {
+            views[view].regions[region].name = Some("thing".into());
+        }
+        let matching = match_regions(&views, &frames(&views));
+        let pairs = matching.pairs.iter();
+        let pair = pairs.clone().find(|p| p.first.region == a).unwrap();
+        assert_eq!(pair.second.region, b);
+        // Other names keep a good pair apart.
+        let Some(good) = pairs.clone().find(|p| p.cost < 0.3 && p.first.region != a) else {
+            continue;
+        };
+        named += 1;
+        views[0].regions[good.first.region].name = Some("one".into());
+        views[1].regions[good.second.region].name = Some("other".into());
+        let apart = match_regions(&views, &frames(&views));
+        let is_good = |p: &&Pair| (p.first, p.second) == (good.first, good.second);
+        assert!(!apart.pairs.iter().any(|p| is_good(&p)));
+        let unmatched = apart.unmatched.iter().find(|u| u.place == good.first);
+        if let Some(unmatched) = unmatched {
+            let candidate = unmatched.candidates.iter().find(|c| c.place == good.second);
+            assert_eq!(candidate.unwrap().reason, Reason::Names);
+        }
+    }
+    assert!(named > 15);
+}
+
+fn square(at: [f64; 2], half: f64, color: [f64; 3]) -> Region {
+    let corner = |x: f64, y: f64| DVec2::new(at[0] + half * x, at[1] + half * y);
+    let ring = vec![
+        corner(-1.0, -1.0),
+        corner(-1.0, 1.0),
+        corner(1.0, 1.0),
+        corner(1.0, -1.0),
+    ];
+    Region {
+        name: None,
+        outline: Outline {
+            polygons: vec![Polygon { rings: vec![ring] }],
+        },
+        color: [color[0], color[1], color[2], 1.0],
+        container: None,
+    }
+}
+
+fn view(theta: f64, regions: Vec<Region>) -> View {
+    View {
+        direction: Direction { theta, phi: 0.0 },
+        regions,
+    }
+}
+
+const RED: [f64; 3] = [0.9, 0.1, 0.1];
+const BLUE: [f64; 3] = [0.1, 0.1, 0.9];
+
+#[test]
+fn an_unmatched_region_comes_with_its_candidates_and_why_they_are_not_taken() {
+    let body = || square([0.0, 0.0], 50.0, BLUE);
+    let first = vec![
+        body(),
+        square([0.0, -20.0], 4.0, RED),
+        square([3.0, -20.0], 4.0, RED),
+    ];
+    let second = vec![body(), square([1.0, -20.0], 4.0, RED)];
+    let views = [view(0.0, first), view(30.0, second)];
+    let matching = match_regions(&views, &frames(&views));
+    let [unmatched] = &matching.unmatched[..] else {
+        panic!("{:?}", matching.unmatched);
+    };
+    let place = |view, region| Place { view, region };
+    let taken = 3 - unmatched.place.region;
+    let reasons: Vec<_> = unmatched
+        .candidates
+        .iter()
+        .map(|c| (c.place, c.reason))
+        .collect();
+    assert_eq!(
+        reasons,
+        [
+            (place(1, 1), Reason::Taken(place(0, taken))),
+            (place(1, 0), Reason::Color)
+        ]
+    );
+    assert!(unmatched.candidates[0].cost < unmatched.candidates[1].cost);
+}
+
+#[test]
+fn far_apart_is_a_reason_of_its_own() {
+    let body = || square([0.0, 0.0], 50.0, BLUE);
+    let views = [
+        view(0.0, vec![body(), square([0.0, -48.0], 2.0, RED)]),
+        view(30.0, vec![body(), square([0.0, 48.0], 2.0, RED)]),
+    ];
+    let matching = match_regions(&views, &frames(&views));
+    let reasons: Vec<_> = matching
+        .unmatched
+        .iter()
+        .map(|u| u.candidates[0].reason)
+        .collect();
+    assert_eq!(reasons, [Reason::Cost, Reason::Cost]);
+}
+
+#[test]
+fn views_less_than_15_degrees_apart_are_warned_of() {
+    for (theta, count) in [(14.0, 1), (16.0, 0), (-14.0, 1), (359.0, 1)] {
+        let views = [0.0, theta].map(|theta| view(theta, vec![square([0.0, 0.0], 1.0, RED)]));
+        assert_eq!(match_regions(&views, &frames(&views)).warnings.len(), count);
+    }
+}
+
+#[test]
+fn like_neighbours_keep_their_order() {
+    // Each alone would rather be the other one's partner.
+    let gains = Gains {
+        rows: 2,
+        columns: 2,
+        values: [2.6, 2.8, 2.8, 2.6].map(Some).to_vec(),
+    };
+    let mut partners = assign(&gains);
+    assert_eq!(partners, [Some(1), Some(0)]);
+    let at = [DVec2::new(-0.1, 0.0), DVec2::new(0.1, 0.0)];
+    let rows = at.map(|at| (0, at));
+    let sides = Sides {
+        gains: &gains,
+        rows: &rows,
+        columns: &at,
+    };
+    exchange(&sides, &mut partners);
+    assert_eq!(partners, [Some(0), Some(1)]);
+}
+
+fn total(gains: &Gains, partners: &[Option<usize>]) -> f64 {
+    let pairs = partners.iter().enumerate();
+    pairs.filter_map(|(row, p)| gains.get(row, (*p)?)).sum()
+}
+
+/// The best sum of gains by trying everything.
+fn best(gains: &Gains, row: usize, taken: &mut Vec<bool>) -> f64 {
+    if row == gains.rows {
+        return 0.0;
+    }
+    let mut most = best(gains, row + 1, taken);
+    for column in 0..gains.columns {
+        if let (Some(gain), false) = (gains.get(row, column), taken[column]) {
+            taken[column] = true;
+            most = most.max(gain + best(gains, row + 1, taken));
+            taken[column] = false;
+        }
+    }
+    most
+}
+
+fn any_gains(most: usize) -> impl Strategy<Value = Gains> {
+    (0..most, 0..most).prop_flat_map(|(rows, columns)| {
+        let gain = prop::option::weighted(0.7, -2.0..3.0);
+        let values = prop::collection::vec(gain, rows * columns);
+        values.prop_map(move |values| Gains {
+            rows,
+            columns,
+            values,
+        })
+    })
+}
+
+proptest! {
+    #[test]
+    fn no_assignment_gains_more(gains in any_gains(5)) {
+        let partners = assign(&gains);
+        prop_assert_eq!(partners.len(), gains.rows);
+        let most = best(&gains, 0, &mut vec![false; gains.columns]);
+        prop_assert!((total(&gains, &partners) - most).abs() < 1e-5);
+    }
+
+    #[test]
+    fn exchanges_keep_pairs_one_to_one_and_possible_and_never_lose(
+        gains in any_gains(9),
+        places in prop::collection::vec((-0.2..0.2, -0.2..0.2), 18),
+    ) {
+        let mut partners = assign(&gains);
+        let place = |i: usize| DVec2::new(places[i].0, places[i].1);
+        let rows: Vec<_> = (0..gains.rows).map(|i| (i % 2, place(i))).collect();
+        let columns: Vec<_> = (0..gains.columns).map(|i| place(9 + i)).collect();
+        let sides = Sides { gains: &gains, rows: &rows, columns: &columns };
+        let worth = |partners: &[Option<usize>]| {
+            let pairs: Vec<_> = partners.iter().enumerate().filter_map(|(r, c)| Some((r, (*c)?))).collect();
+            let disorder = |i: usize| pairs[..i].iter().map(|p| sides.between(*p, pairs[i])).sum::<f64>();
+            total(&gains, partners) - (0..pairs.len()).map(disorder).sum::<f64>()
+        };
+        let before = worth(&partners);
+        exchange(&sides, &mut partners);
+        prop_assert!(worth(&partners) >= before - 1e-9);
+        let mut taken: Vec<_> = partners.iter().flatten().collect();
+        taken.sort();
+        let count = taken.len();
+        taken.dedup();
+        prop_assert_eq!(taken.len(), count);
+        for (row, column) in partners.iter().enumerate() {
+            prop_assert!(column.is_none_or(|c| gains.get(row, c).is_some()));
+        }
+    }
+
+    #[test]
+    fn any_input_gives_tracks(
+        numbers in prop::collection::vec(prop_oneof![Just(f64::NAN), Just(f64::INFINITY), Just(0.0), Just(1e300), -9.0..9.0], 60),
+        containers in prop::collection::vec(prop::option::of(0usize..8), 12),
+        counts in prop::collection::vec(0usize..5, 0..4),
+    ) {
+        let mut numbers = numbers.into_iter().cycle();
+        let mut containers = containers.into_iter().cycle();
+        let mut next = || numbers.next().unwrap();
+        let mut region = || {
+            let mut region = square([next(), next()], next(), [next(), next(), next()]);
+            region.container = containers.next().unwrap();
+            region
+        };
+        let mut views: Vec<View> = Vec::new();
+        for count in counts {
+            let regions = (0..count).map(|_| region()).collect();
+            views.push(view(f64::from(views.len() as u32) * 20.0, regions));
+        }
+        if let Some(last) = views.last_mut() {
+            last.direction.phi = f64::NAN;
+        }
+        let matching = match_regions(&views, &frames(&views));
+        assert_in_one_track(&views, &matching);
+        for pair in &matching.pairs {
+            prop_assert!(pair.cost.is_finite() && (0.0..=1.0).contains(&pair.similarity));
+        }
+    }
+}

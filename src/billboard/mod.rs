@@ -1,0 +1,23 @@
+//! Characters that turn although they are only drawn from a few sides (billboard.md).
+//!
+//! Invariants: outlines are in drawing units, y down; places are in the character's space, x its left, y up, z its front, in heights
+//! of its first view. At each drawn view the model looks like the drawing.
+//!
+//! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, chapter 4.
+
+mod character;
+mod diagnostics;
+mod drawn;
+#[cfg(test)]
+mod generated;
+mod matching;
+mod nodes;
+mod place;
+mod raster;
+mod region;
+mod shape;
+mod turn;
+
+pub use character::{Character, Piece, RegionModel, read};
+pub use matching::{Matching, Track};
+pub use nodes::{Colors, add};

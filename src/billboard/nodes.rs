@@ -1,0 +1,199 @@
+//! The nodes of characters that turn: one for each region (billboard.md, Result).
+
+use std::sync::Arc;
+
+use glam::{DQuat, DVec2, DVec3};
+use rustc_hash::FxHashMap;
+
+use super::character::{Character, Piece, RegionModel};
+use crate::bind::Bindings;
+use crate::scene::{
+    AlphaMode, Animation, Interpolation, Material, Mesh, NewNode, Node, Primitive, Provenance,
+    Scene, Surface, Timing, Track, Values, ViewDependent, WorldTransform, linear, view_axes,
+};
+use crate::svg::Drawing;
+
+/// Seconds in which a clip turns a character by 45°.
+const SECONDS: f64 = 1.0;
+/// Keys of the clip for 45°, the first not counted.
+const KEYS: f64 = 8.0;
+/// How far the line along a border lies in front of its region, heights. Less than regions are apart.
+const LINE_STEP: f64 = 0.0004;
+
+/// The materials of flat regions, by their colours.
+#[derive(Debug, Default)]
+pub struct Colors(FxHashMap<[u64; 4], usize>);
+
+impl Colors {
+    /// The index of the material of a colour, sRGB with straight alpha, each 0 to 1.
+    fn material(&mut self, color: [f64; 4], scene: &mut Scene) -> usize {
+        *self.0.entry(color.map(f64::to_bits)).or_insert_with(|| {
+            let [r, g, b, alpha] = color;
+            scene.materials.push(Material {
+                base_color: [linear(r), linear(g), linear(b), alpha as f32],
+                alpha_mode: match alpha < 1.0 {
+                    true => AlphaMode::Blend,
+                    false => AlphaMode::Opaque,
+                },
+                double_sided: true,
+                unlit: true,
+                ..Material::default()
+            });
+            scene.materials.len() - 1
+        })
+    }
+}
+
+/// Adds a character's node and those of its regions to a scene, and the clip that turns it.
+pub fn add(
+    character: &Character,
+    drawing: &Drawing,
+    bindings: &Bindings,
+    world: &WorldTransform,
+    colors: &mut Colors,
+    scene: &mut Scene,
+) {
+    let middle = character.frames[0].center;
+    let root = scene.nodes.len();
+    let first = character.layers[0];
+    scene.add(NewNode {
+        node: Node {
+            name: character.name.clone(),
+            translation: world.point(DVec3::new(middle.x, -middle.y, 0.0)),
+            rotation: world.rotation,
+            view_dependent: Some(ViewDependent::Turn(character.turn.clone())),
+            provenance: Some(Provenance {
+                element: drawing.groups[bindings.layers[first].group]
+                    .element
+                    .id
+                    .clone(),
+                string: Some(
+                    bindings.strings[bindings.layers[first].string]
+                        .text
+                        .as_str()
+                        .to_owned(),
+                ),
+            }),
+            ..Node::default()
+        },
+        mesh: None,
+        parent: None,
+    });
+    let scale = character.frames[0].height * world.scale;
+    let at_first = character.turn.weights(character.turn.views[0]);
+    for region in &character.regions {
+        let places: Vec<DVec3> = region.places.iter().map(|place| *place * scale).collect();
+        let translation = character.turn.place(&at_first, &places);
+        let string = region
+            .string
+            .map(|string| bindings.strings[string].text.as_str().to_owned());
+        let mesh = mesh(character, region, scale, colors, scene);
+        scene.add(NewNode {
+            node: Node {
+                name: region.name.clone(),
+                translation,
+                rotation: DQuat::IDENTITY,
+                view_dependent: Some(ViewDependent::Region(places)),
+                provenance: Some(Provenance {
+                    element: drawing.shapes[region.shape].element.id.clone(),
+                    string,
+                }),
+                ..Node::default()
+            },
+            mesh: Some(mesh),
+            parent: Some(root),
+        });
+    }
+    let clip = clip(character, root, scale);
+    scene.animations.push(clip);
+}
+
+/// The mesh of a region, with a morph target for each view but the first.
+fn mesh(
+    character: &Character,
+    region: &RegionModel,
+    scale: f64,
+    colors: &mut Colors,
+    scene: &mut Scene,
+) -> Mesh {
+    let mut primitives: Vec<Primitive> = Vec::new();
+    for (step, piece) in region.pieces.iter().enumerate() {
+        let Piece { morph, color } = piece;
+        let height = step as f64 * LINE_STEP * scale;
+        let placed = |view: usize| {
+            let [right, up, _] = view_axes(character.turn.views[view]);
+            let place = region.places[view];
+            let middle = DVec2::new(place.dot(right), place.dot(up));
+            let frame = &character.frames[view];
+            morph.points[view].iter().map(move |point| {
+                let point = (frame.on_screen(*point) - middle) * scale;
+                point.extend(height).as_vec3()
+            })
+        };
+        let base: Vec<_> = placed(0).collect();
+        let target = |view: usize| {
+            let offsets = placed(view).zip(&base).map(|(point, base)| point - *base);
+            offsets.map(|offset| offset.to_array()).collect()
+        };
+        let surface = Surface {
+            normals: vec![[0.0, 0.0, 1.0]; base.len()],
+            targets: (1..character.frames.len()).map(target).collect(),
+            triangles: morph.triangles.clone(),
+            positions: base.into_iter().map(|point| point.to_array()).collect(),
+            ..Surface::default()
+        };
+        primitives.push(Primitive {
+            pieces: vec![surface.into()],
+            material: colors.material(*color, scene),
+        });
+    }
+    Mesh { primitives }
+}
+
+/// The clip in which a character turns through its views, as a viewer in front of the first one sees it.
+fn clip(character: &Character, root: usize, scale: f64) -> Animation {
+    let views = &character.turn.views;
+    let mut directions = vec![views[0]];
+    let mut times = vec![0.0];
+    for pair in views.windows(2) {
+        let [from, to] = [pair[0], pair[1]].map(DVec2::from);
+        let degrees = (to - from).length();
+        let keys = (degrees / 45.0 * KEYS).ceil().max(1.0);
+        let start = times.last().copied().unwrap_or_default();
+        for key in 1..=keys as usize {
+            let share = key as f64 / keys;
+            directions.push(from.lerp(to, share).to_array());
+            times.push(start + share * degrees / 45.0 * SECONDS);
+        }
+    }
+    let seconds = times.last().copied().unwrap_or_default();
+    let timing = Arc::new(Timing {
+        times: times.into_iter().map(|time| time as f32).collect(),
+        interpolation: Interpolation::Linear,
+    });
+    let weights: Vec<Vec<f64>> = directions
+        .iter()
+        .map(|d| character.turn.weights(*d))
+        .collect();
+    let mut tracks = Vec::new();
+    for (index, region) in character.regions.iter().enumerate() {
+        let place = |weights: &Vec<f64>| character.turn.place(weights, &region.places) * scale;
+        let node = root + 1 + index;
+        tracks.push(Track {
+            node,
+            timing: Arc::clone(&timing),
+            values: Values::Translations(weights.iter().map(place).collect()),
+        });
+        let targets = |weights: &Vec<f64>| weights[1..].iter().map(|w| *w as f32).collect();
+        tracks.push(Track {
+            node,
+            timing: Arc::clone(&timing),
+            values: Values::Weights(weights.iter().map(targets).collect()),
+        });
+    }
+    Animation {
+        name: format!("{} turns", character.name),
+        seconds,
+        tracks,
+    }
+}

@@ -1,0 +1,169 @@
+//! Regions from the pixels of a flat-coloured drawing (billboard.md, Regions from a raster).
+//!
+//! Flat areas are the seeds. Soft edges and dark lines are divided between them, so that neighbours share their borders. A dark line
+//! becomes the stroke of the regions beside it, centred on their borders as in a vector drawing; dark lines that end or branch
+//! inside of a region are filled areas of their own.
+
+mod borders;
+mod canvas;
+mod components;
+mod detail;
+mod fill;
+mod ink;
+mod lines;
+mod nesting;
+mod palette;
+mod seeds;
+mod simplify;
+mod spread;
+#[cfg(test)]
+mod tests;
+
+use image::RgbaImage;
+
+use crate::geometry::{FillRule, Outline, resolve_overlaps};
+use borders::{Borders, Map};
+use canvas::{Canvas, Color, apart, mixture};
+use fill::Areas;
+use ink::Ink;
+use nesting::{Nesting, is_opaque};
+
+/// A dark line along the border of a region.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Line {
+    /// Pixels; the border is its middle.
+    pub width: f64,
+    /// sRGB with straight alpha, each from 0 to 1.
+    pub color: [f64; 4],
+}
+
+/// A closed region of a picture.
+#[derive(Debug, Clone)]
+pub(super) struct RasterRegion {
+    /// Pixels, x right, y down, from the upper left corner of the picture. Holes that opaque regions make are filled. Neighbours
+    /// share the points of their border.
+    pub outline: Outline,
+    /// The mean of its flat pixels, sRGB with straight alpha, each from 0 to 1.
+    pub color: [f64; 4],
+    /// The index of the smallest region that surrounds it.
+    pub container: Option<usize>,
+    /// The line that follows its border.
+    pub line: Option<Line>,
+}
+
+/// A dark line that is not a region's border.
+#[derive(Debug, Clone)]
+pub(super) struct InnerLine {
+    /// The area of the line, pixels, like that of a region.
+    pub outline: Outline,
+    /// sRGB with straight alpha, each from 0 to 1.
+    pub color: [f64; 4],
+    /// The index of the region that most of it lies in; `None` on the background.
+    pub region: Option<usize>,
+}
+
+/// The regions of a picture. It is painted by filling each region and drawing its line, in their order, then filling the
+/// inner lines.
+#[derive(Debug, Clone, Default)]
+pub(super) struct RasterView {
+    /// Back-most first: containers before what they contain.
+    pub regions: Vec<RasterRegion>,
+    /// In front of all regions.
+    pub lines: Vec<InnerLine>,
+}
+
+/// Finds the regions of a drawing in flat colours, with or without dark outlines. The background is no region: transparent
+/// pixels or, in an opaque picture, what joins the picture's border in its commonest colour.
+///
+/// At most 400 regions are found, so that a photograph ends as quickly as a drawing.
+pub(super) fn regions(picture: &RgbaImage) -> RasterView {
+    let canvas = Canvas::new(picture);
+    let palette = palette::palette(&canvas);
+    let (found, ids) = components::components(&palette.classes, canvas.width);
+    let kinds = seeds::kinds(&canvas, &palette, &found, &ids);
+    let ink = ink::ink(&canvas, &palette, &found, &ids, &kinds);
+    let areas = fill::fill(&canvas, &palette, &found, &ids, &kinds, ink.as_ref());
+    let nesting = nesting::nesting(&areas.labels, canvas.width, areas.colors.len());
+    view(&canvas, &areas, &nesting, ink.as_ref())
+}
+
+fn view(canvas: &Canvas, areas: &Areas, nesting: &Nesting, ink: Option<&Ink>) -> RasterView {
+    let mut map = Map::new(&areas.labels, canvas.width, areas.colors.len());
+    let mut order: Vec<u16> = (1..areas.colors.len() as u16)
+        .filter(|label| map.area(*label) > 0)
+        .collect();
+    order.sort_by_key(|label| {
+        let label = usize::from(*label);
+        (
+            nesting.depth[label],
+            usize::MAX - nesting.extent[label],
+            label,
+        )
+    });
+    let crossing = |a: usize, b: usize| crossing(canvas, areas, ink, a, b);
+    let borders: Vec<Borders> = order
+        .iter()
+        .map(|label| {
+            let enclosed = nesting.enclosed[usize::from(*label)].iter().copied();
+            let mut labels = vec![*label];
+            labels.extend(enclosed.filter(|inner| is_opaque(areas.colors[usize::from(*inner)])));
+            map.borders(&labels, &crossing)
+        })
+        .collect();
+    let line = |borders: &Borders| ink.and_then(|ink| lines::line(ink, borders));
+    let lines: Vec<Option<Line>> = borders.iter().map(line).collect();
+    let inner_lines = match ink {
+        Some(ink) => lines::inner_lines(canvas, ink, areas, &order, &borders, &lines),
+        None => Vec::new(),
+    };
+    let mut place = vec![None; areas.colors.len()];
+    for (index, label) in order.iter().enumerate() {
+        place[usize::from(*label)] = Some(index);
+    }
+    let regions = order.iter().zip(borders).zip(lines);
+    let regions = regions.map(|((label, borders), line)| RasterRegion {
+        outline: resolve_overlaps(borders.rings, FillRule::NonZero),
+        color: straight(areas.colors[usize::from(*label)]),
+        container: nesting.container[usize::from(*label)]
+            .and_then(|outer| place[usize::from(outer)]),
+        line,
+    });
+    RasterView {
+        regions: regions.collect(),
+        lines: inner_lines,
+    }
+}
+
+/// How far from one pixel's centre to a neighbour's with another label the border between them runs, from 0 to 1: in a line its
+/// middle, else as the pixels' mixtures of both colours say.
+fn crossing(canvas: &Canvas, areas: &Areas, ink: Option<&Ink>, a: usize, b: usize) -> f64 {
+    let along = match ink.filter(|ink| ink.is_line(a) || ink.is_line(b)) {
+        Some(ink) if ink.is_thick(a) || ink.is_thick(b) => 0.5,
+        Some(ink) => {
+            let reach = |at: usize| match ink.is_line(at) {
+                true => areas.reach.distance(at),
+                false => 0.0,
+            };
+            let by_reach = || (reach(b) - reach(a)) / 2.0;
+            let middle = ink
+                .sides(a, b)
+                .map(|[before, after]| (after - before) / 2.0);
+            0.5 + middle.unwrap_or_else(by_reach)
+        }
+        None => {
+            let [first, second] = [a, b].map(|at| areas.colors[usize::from(areas.labels[at])]);
+            let share = |at: usize| 1.0 - mixture(canvas.color(at), first, second).0;
+            match apart(first, second) > 0.0 {
+                true => share(a) + share(b) - 0.5,
+                false => 0.5,
+            }
+        }
+    };
+    f64::from(along.clamp(0.001, 0.999))
+}
+
+/// A premultiplied colour with straight alpha, each from 0 to 1.
+fn straight([r, g, b, a]: Color) -> [f64; 4] {
+    let by = |c: f32| f64::from((c / a.max(1.0)).clamp(0.0, 1.0));
+    [by(r), by(g), by(b), f64::from(a / 255.0)]
+}

@@ -1,0 +1,56 @@
+//! The closed regions of a character's views.
+
+use glam::{DVec2, DVec3};
+
+use crate::geometry::{Outline, bounds};
+use crate::scene::view_axes;
+
+/// A direction from which a character is drawn, degrees. (0, 0) is the front, where the viewer looks along −z; `theta` takes the
+/// viewer towards the character's left (+x), `phi` above it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Direction {
+    /// Around the upright axis.
+    pub theta: f64,
+    /// Up from the horizontal.
+    pub phi: f64,
+}
+
+impl Direction {
+    /// The screen's right and up, and the direction towards the viewer, as unit vectors of the character's space.
+    pub fn axes(self) -> [DVec3; 3] {
+        view_axes([self.theta, self.phi])
+    }
+}
+
+/// A closed region of one colour in a view.
+#[derive(Debug, Clone)]
+pub struct Region {
+    /// The name that a string gives it.
+    pub name: Option<String>,
+    /// Its area, drawing units, y down. Holes that other regions make are filled.
+    pub outline: Outline,
+    /// Its mean colour, sRGB with straight alpha, each from 0 to 1.
+    pub color: [f64; 4],
+    /// The index of the smallest region of the view in which it lies.
+    pub container: Option<usize>,
+}
+
+/// A drawing of the character from one direction.
+#[derive(Debug, Clone)]
+pub struct View {
+    /// Where from.
+    pub direction: Direction,
+    /// Back-most first.
+    pub regions: Vec<Region>,
+}
+
+impl View {
+    /// The lower and the upper corner of the box around what it shows, drawing units; `None` if that is nothing.
+    pub fn bounds(&self) -> Option<(DVec2, DVec2)> {
+        let boxes = self
+            .regions
+            .iter()
+            .filter_map(|region| bounds(&region.outline));
+        boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+    }
+}

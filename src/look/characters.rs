@@ -1,0 +1,90 @@
+//! Characters as they are drawn: each of their views at its place on the page.
+
+use glam::{DQuat, DVec3};
+
+use crate::billboard::Character;
+use crate::compile::Compiled;
+use crate::scene::{Mesh, Node, Piece, Primitive, Scene, Surface, ViewDependent, WorldTransform};
+
+/// Replaces each character that turns by its views, side by side as on the page.
+pub(super) fn show_views(compiled: &Compiled, world: &WorldTransform, scene: &mut Scene) {
+    let nodes = scene.nodes.iter().enumerate();
+    let turning =
+        nodes.filter(|(_, node)| matches!(node.view_dependent, Some(ViewDependent::Turn(_))));
+    let turning: Vec<usize> = turning.map(|(index, _)| index).collect();
+    for (root, character) in turning.into_iter().zip(&compiled.characters) {
+        let regions = std::mem::take(&mut scene.nodes[root].children);
+        for view in 0..character.frames.len() {
+            add_view(character, view, &regions, world, scene);
+        }
+        for region in regions {
+            scene.nodes[region].mesh = None;
+        }
+    }
+}
+
+/// Adds a view of a character whose regions have these nodes.
+fn add_view(
+    character: &Character,
+    view: usize,
+    regions: &[usize],
+    world: &WorldTransform,
+    scene: &mut Scene,
+) {
+    let weights = character.turn.weights(character.turn.views[view]);
+    let frame = &character.frames[view];
+    let root = scene.nodes.len();
+    let center = DVec3::new(frame.center.x, -frame.center.y, 0.0);
+    scene.nodes.push(Node {
+        name: format!("{} {}", character.name, view + 1),
+        translation: world.point(center),
+        rotation: world.rotation,
+        ..Node::default()
+    });
+    scene.roots.push(root);
+    // Meshes are as large as in the first view.
+    let larger = frame.height / character.frames[0].height;
+    for (region, node) in character.regions.iter().zip(regions) {
+        let Some(mesh) = scene.nodes[*node].mesh else {
+            continue;
+        };
+        let mesh = still(&scene.meshes[mesh], view, larger);
+        let place = character.turn.place(&weights, &region.places);
+        let index = scene.nodes.len();
+        scene.meshes.push(mesh);
+        scene.nodes.push(Node {
+            name: region.name.clone(),
+            translation: place * frame.height * world.scale,
+            rotation: DQuat::IDENTITY,
+            mesh: Some(scene.meshes.len() - 1),
+            ..Node::default()
+        });
+        scene.nodes[root].children.push(index);
+    }
+}
+
+/// A mesh as it is in a view, without morph targets.
+fn still(mesh: &Mesh, view: usize, larger: f64) -> Mesh {
+    let piece = |piece: &Piece| {
+        let surface = piece.surface();
+        let target = view
+            .checked_sub(1)
+            .and_then(|target| surface.targets.get(target));
+        let place = |(corner, at): (usize, &[f32; 3])| {
+            let offset = target.map_or([0.0; 3], |target| target[corner]);
+            [0, 1, 2].map(|axis| ((f64::from(at[axis]) + f64::from(offset[axis])) * larger) as f32)
+        };
+        Piece::from(Surface {
+            positions: surface.positions.iter().enumerate().map(place).collect(),
+            targets: Vec::new(),
+            ..surface.into_owned()
+        })
+    };
+    let primitives = mesh.primitives.iter().map(|primitive| Primitive {
+        pieces: primitive.pieces.iter().map(piece).collect(),
+        material: primitive.material,
+    });
+    Mesh {
+        primitives: primitives.collect(),
+    }
+}

@@ -1,0 +1,130 @@
+//! The characters of a drawing that turn (frontends.md, `inspect --json`).
+
+use serde::Serialize;
+
+use super::parts::Part;
+use crate::billboard::{Character, RegionModel};
+use crate::compile::Compiled;
+use crate::scene::view_axes;
+
+/// A character.
+#[derive(Debug, Clone, Serialize)]
+pub struct Billboard<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// The directions of its views, degrees: around and up.
+    pub views: &'a [[f64; 2]],
+    /// Its regions, back-most first in the first view that shows each.
+    pub regions: Vec<BillboardRegion<'a>>,
+}
+
+/// A region of a character.
+#[derive(Debug, Clone, Serialize)]
+pub struct BillboardRegion<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Per view the `id` of its element, or its number in the view, from 1; `None` where the view does not show it.
+    pub members: Vec<Option<Member<'a>>>,
+    /// The least similarity of its pairs (Kitamura, equation 4.1), 0 to 1; `None` for a region without a partner.
+    pub similarity: Option<f64>,
+    /// Its position in the character's space, heights: its left, up, its front.
+    pub position: [f64; 3],
+}
+
+/// A region in a view.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[serde(untagged)]
+pub enum Member<'a> {
+    /// The `id` of its element.
+    Element(&'a str),
+    /// Its number in the view, from 1.
+    Number(usize),
+}
+
+/// The characters of a drawing.
+pub fn billboards(compiled: &Compiled) -> Vec<Billboard<'_>> {
+    let characters = compiled.characters.iter();
+    characters
+        .map(|character| Billboard {
+            name: &character.name,
+            views: &character.turn.views,
+            regions: (0..character.regions.len())
+                .map(|index| region(compiled, character, index))
+                .collect(),
+        })
+        .collect()
+}
+
+fn region<'a>(
+    compiled: &'a Compiled,
+    character: &'a Character,
+    index: usize,
+) -> BillboardRegion<'a> {
+    let model = &character.regions[index];
+    let track = &character.matching.tracks[index];
+    let members = track.regions.iter().zip(&model.shapes);
+    let members = members.map(|(region, shape)| {
+        let shape = &compiled.drawing.shapes[(*shape)?];
+        let id = shape
+            .element
+            .id
+            .as_deref()
+            .filter(|_| shape.picture.is_none());
+        Some(id.map_or(Member::Number((*region)? + 1), Member::Element))
+    });
+    let pairs = character.matching.pairs.iter();
+    let own = pairs.filter(|pair| track.regions[pair.second.view] == Some(pair.second.region));
+    BillboardRegion {
+        name: &model.name,
+        members: members.collect(),
+        similarity: own.map(|pair| pair.similarity).reduce(f64::min),
+        position: model.places[0].to_array(),
+    }
+}
+
+/// The characters and their regions as parts, for lists of everything in the model.
+pub fn characters<'a>(compiled: &'a Compiled) -> Vec<Part<'a>> {
+    let mut parts = Vec::new();
+    for character in &compiled.characters {
+        let layer = &compiled.bindings.layers[character.layers[0]];
+        let frame = &character.frames[0];
+        parts.push(Part {
+            element: compiled.drawing.groups[layer.group].element.id.as_deref(),
+            ..Part::plain(&character.name, "character", frame.center)
+        });
+        parts.extend(character.regions.iter().map(|region| Part {
+            parent: Some(&character.name),
+            element: compiled.drawing.shapes[region.shape].element.id.as_deref(),
+            ..Part::plain(&region.name, "region", middle(character, region))
+        }));
+    }
+    parts
+}
+
+/// The middle of a region in the first view, drawing units, y down.
+fn middle(character: &Character, region: &RegionModel) -> glam::DVec2 {
+    let [right, up, _] = view_axes(character.turn.views[0]);
+    let place = region.places[0];
+    let at = glam::DVec2::new(place.dot(right), place.dot(up));
+    character.frames[0].in_drawing(at)
+}
+
+/// A character for people.
+pub fn describe_character(character: &Character) -> String {
+    let views: Vec<String> = character
+        .turn
+        .views
+        .iter()
+        .map(|[theta, phi]| format!("{theta} {phi}"))
+        .collect();
+    let alone = character.matching.unmatched.len();
+    let alone = match alone {
+        0 => String::new(),
+        count => format!(", {count} without a partner"),
+    };
+    let count = character.regions.len();
+    format!(
+        "character of {count} regions{alone}, drawn from {}",
+        views.join(" and ")
+    )
+}

@@ -1,0 +1,280 @@
+//! Characters that turn: at each drawn view the model is the drawing, seen on the page and by a viewer in that direction.
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use okoshi::compile::Compiled;
+use okoshi::disk::FolderResolver;
+use okoshi::look::DrawnView;
+use okoshi::render::{self, Options, PosedModel, Shading, Sheet};
+use okoshi::resolver::{MemoryResolver, Resolver as _};
+use okoshi::scene::view_axes;
+use resvg::tiny_skia::{Pixmap, Transform};
+
+/// Pixels a drawing unit.
+const SCALE: f64 = 3.0;
+/// Colours that cover fewer pixels are not compared one by one.
+const FEW: usize = 400;
+
+const EXAMPLES: [&str; 4] = ["bird", "boy", "cat", "robot"];
+
+struct Character {
+    text: String,
+    compiled: Compiled,
+    folder: std::path::PathBuf,
+}
+
+fn character(name: &str) -> Character {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/characters");
+    let text = fs::read_to_string(folder.join(format!("{name}.svg"))).expect("a drawing");
+    let compiled = common::compiled(&text, &FolderResolver::new(&folder));
+    assert!(
+        compiled.diagnostics.is_empty(),
+        "{:?}",
+        compiled.diagnostics
+    );
+    Character {
+        text,
+        compiled,
+        folder,
+    }
+}
+
+/// The pixels of a picture: red, green, blue and alpha, multiplied.
+struct Picture {
+    width: usize,
+    pixels: Vec<[u8; 4]>,
+}
+
+impl Picture {
+    /// The drawing, without its texts: there are no fonts.
+    fn of_drawing(character: &Character) -> Self {
+        let options = usvg::Options {
+            resources_dir: Some(character.folder.clone()),
+            ..usvg::Options::default()
+        };
+        let tree = usvg::Tree::from_str(&character.text, &options).expect("a drawing");
+        let size = character.compiled.drawing.page.1 * SCALE;
+        let [width, height] = size.to_array().map(|side| side.ceil() as u32);
+        let mut pixmap = Pixmap::new(width, height).expect("a size");
+        let scale = Transform::from_scale(SCALE as f32, SCALE as f32);
+        resvg::render(&tree, scale, &mut pixmap.as_mut());
+        let pixels = pixmap.pixels().iter();
+        Self {
+            width: width as usize,
+            pixels: pixels
+                .map(|p| [p.red(), p.green(), p.blue(), p.alpha()])
+                .collect(),
+        }
+    }
+
+    fn of_model(image: &render::Image) -> Self {
+        let pixels = image.pixels().map(|pixel| {
+            let [r, g, b, alpha] = pixel.0;
+            let times = |channel| (u16::from(channel) * u16::from(alpha) / 255) as u8;
+            [times(r), times(g), times(b), alpha]
+        });
+        Self {
+            width: image.width() as usize,
+            pixels: pixels.collect(),
+        }
+    }
+
+    /// A rectangle of it.
+    fn part(&self, [left, top]: [usize; 2], [width, height]: [usize; 2]) -> Self {
+        let rows = (top..top + height).flat_map(|row| {
+            let start = row * self.width + left;
+            self.pixels[start..start + width].iter().copied()
+        });
+        Self {
+            width,
+            pixels: rows.collect(),
+        }
+    }
+
+    /// Per pixel whether all around it, as far as `reach`, have its colour.
+    fn is_even(&self, at: usize, reach: usize) -> bool {
+        let (column, row) = (at % self.width, at / self.width);
+        let height = self.pixels.len() / self.width;
+        let inside =
+            (reach..self.width - reach).contains(&column) && (reach..height - reach).contains(&row);
+        inside
+            && (row - reach..=row + reach).all(|row| {
+                let line = &self.pixels[row * self.width + column - reach..][..2 * reach + 1];
+                line.iter().all(|other| *other == self.pixels[at])
+            })
+    }
+}
+
+fn is_alike(a: [u8; 4], b: [u8; 4]) -> bool {
+    (0..4).all(|channel| a[channel].abs_diff(b[channel]) <= 3)
+}
+
+/// Asserts that a picture of the model shows the drawing: the right colour in nearly all pixels that are two from a border, and for each
+/// colour an intersection over union of at least 0.98. Returns how many colours were compared.
+fn assert_same(drawn: &Picture, model: &Picture, what: &str) -> usize {
+    assert_eq!(drawn.pixels.len(), model.pixels.len(), "{what}");
+    let (mut all, mut right) = (0, 0);
+    for (at, (own, shown)) in drawn.pixels.iter().zip(&model.pixels).enumerate() {
+        if (own[3] > 0 || shown[3] > 0) && drawn.is_even(at, 2) {
+            all += 1;
+            right += usize::from(is_alike(*own, *shown));
+        }
+    }
+    assert!(all > 5000, "{what}: {all} pixels");
+    let share = right as f64 / all as f64;
+    assert!(share > 0.999, "{what}: {right} of {all}");
+
+    // The colours that areas have, and of each the pixels that are nearer to it than to any other.
+    let mut colors: Vec<([u8; 4], usize)> = Vec::new();
+    for (at, own) in drawn.pixels.iter().enumerate() {
+        if own[3] == 255 && drawn.is_even(at, 1) {
+            match colors.iter_mut().find(|(color, _)| is_alike(*color, *own)) {
+                Some((_, count)) => *count += 1,
+                None => colors.push((*own, 1)),
+            }
+        }
+    }
+    colors.retain(|(_, count)| *count >= FEW);
+    let nearest = |pixel: &[u8; 4]| {
+        let apart = |color: &[u8; 4]| -> u32 {
+            let channels = (0..4).map(|c| u32::from(color[c].abs_diff(pixel[c])));
+            channels.map(|difference| difference * difference).sum()
+        };
+        let empty = apart(&[0; 4]);
+        let best = (0..colors.len()).min_by_key(|index| apart(&colors[*index].0));
+        best.filter(|index| apart(&colors[*index].0) < empty)
+    };
+    let mut counts = vec![[0_usize; 2]; colors.len()];
+    for (at, (own, shown)) in drawn.pixels.iter().zip(&model.pixels).enumerate() {
+        // Where both are mixtures, along a border, neither is of any colour.
+        if !drawn.is_even(at, 1) && !model.is_even(at, 1) {
+            continue;
+        }
+        match [nearest(own), nearest(shown)] {
+            [Some(a), Some(b)] if a == b => counts[a] = counts[a].map(|count| count + 1),
+            found => found
+                .iter()
+                .flatten()
+                .for_each(|index| counts[*index][1] += 1),
+        }
+    }
+    for ((color, _), [common, union]) in colors.iter().zip(&counts) {
+        let iou = *common as f64 / *union as f64;
+        assert!(
+            iou > 0.98,
+            "{what}: {color:?} has {common} of {union}, {iou:.4}"
+        );
+    }
+    colors.len()
+}
+
+/// A picture of a model on a sheet, without light.
+fn picture(scene: &okoshi::scene::Scene, sheet: &Sheet, size: [u32; 2]) -> Picture {
+    let file = okoshi::export::to_memory(&okoshi::export::GLB, scene, None);
+    let bytes = file.expect("written").bytes;
+    let model = render::read(&bytes, &MemoryResolver::default()).expect("a model");
+    let posed = PosedModel::new(&model, &model.rest()).expect("triangles");
+    let options = Options {
+        size,
+        shading: Shading::Unlit,
+        ..Options::default()
+    };
+    Picture::of_model(&posed.picture_of(&options, sheet).expect("a picture"))
+}
+
+#[test]
+fn on_the_page_every_view_is_as_drawn() {
+    let mut colors = 0;
+    for name in EXAMPLES {
+        let character = character(name);
+        let scene = character.compiled.scene.clone();
+        let view = DrawnView::new(&character.compiled, scene, SCALE).expect("a page");
+        let model = picture(&view.scene, &view.sheet, view.size);
+        colors += assert_same(&Picture::of_drawing(&character), &model, name);
+    }
+    assert!(colors > 20, "{colors}");
+}
+
+#[test]
+fn a_viewer_in_the_direction_of_a_view_sees_it() {
+    let mut views = 0;
+    for name in EXAMPLES {
+        let character = character(name);
+        let compiled = &character.compiled;
+        let drawing = Picture::of_drawing(&character);
+        let [shown] = &compiled.characters[..] else {
+            panic!("{name} is one character");
+        };
+        let page = compiled.drawing.page.0;
+        let root = &compiled.scene.nodes[compiled.scene.roots[0]];
+        let metres = okoshi::assemble::world_transform(&compiled.bindings, &compiled.layers).scale;
+        for (index, direction) in shown.turn.views.iter().enumerate() {
+            let [right, up, _] = view_axes(*direction);
+            let frame = &shown.frames[index];
+            let boxes = shown.views[index].regions.iter();
+            let boxes = boxes.filter_map(|region| okoshi::geometry::bounds(&region.outline));
+            let (low, high) = boxes
+                .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+                .expect("regions");
+            let corner = ((low - page) * SCALE - 6.0).floor().max(glam::DVec2::ZERO);
+            let end = ((high - page) * SCALE + 6.0).ceil();
+            let size = (end - corner).to_array().map(|side| side as usize);
+            let crop = drawing.part(corner.to_array().map(|at| at as usize), size);
+            // Views are as large as the first one.
+            let unit = metres * shown.frames[0].height / frame.height;
+            let offset = (page + corner / SCALE - frame.center) * unit;
+            let sheet = Sheet {
+                corner: root.translation + right * offset.x - up * offset.y,
+                right,
+                up,
+                pixel: unit / SCALE,
+            };
+            let model = picture(&compiled.scene, &sheet, size.map(|side| side as u32));
+            let compared = assert_same(&crop, &model, &format!("{name} from {direction:?}"));
+            assert!(compared > 2, "{name}: {compared} colours");
+            views += 1;
+        }
+    }
+    assert_eq!(views, 9);
+}
+
+#[test]
+fn the_clip_ends_at_the_last_view() {
+    let character = character("boy");
+    let file = okoshi::export::to_memory(&okoshi::export::GLB, &character.compiled.scene, None);
+    let resolver = MemoryResolver::default();
+    assert!(resolver.read("none").is_err());
+    let model = render::read(&file.expect("written").bytes, &resolver).expect("a model");
+    let [clip] = model.clips() else {
+        panic!("one clip");
+    };
+    assert_eq!((clip.name.as_str(), clip.seconds), ("Boy turns", 1.0));
+    let view = DrawnView::new(&character.compiled, character.compiled.scene.clone(), SCALE);
+    let view = view.expect("a page");
+    // The last view as the page shows it, and what the clip shows in the place of the first.
+    let options = Options {
+        size: view.size,
+        shading: Shading::Unlit,
+        bend: false,
+        ..Options::default()
+    };
+    let pose = model.pose_at(clip, clip.seconds);
+    let posed = PosedModel::new(&model, &pose).expect("triangles");
+    let shown = Picture::of_model(&posed.picture_of(&options, &view.sheet).expect("a picture"));
+    let drawing = Picture::of_drawing(&character);
+    let frames = &character.compiled.characters[0].frames;
+    let moved = (frames[1].center - frames[0].center) * SCALE;
+    assert!((moved.y).abs() < 1.0, "{moved}");
+    let half = drawing.width / 2;
+    let height = drawing.pixels.len() / drawing.width;
+    let left = moved.x.round() as usize;
+    let last = drawing.part([left, 0], [half, height]);
+    assert_same(
+        &last,
+        &shown.part([0, 0], [half, height]),
+        "the end of the clip",
+    );
+}
