@@ -12,7 +12,7 @@ mod world;
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use glam::{DQuat, DVec3};
+use glam::{DAffine2, DQuat, DVec3};
 
 pub use animation::{Animation, Interpolation, Timing, Track, Values};
 pub use deferred::SurfaceSource;
@@ -268,6 +268,10 @@ impl Surface {
         }
     }
 }
+
+/// The material of a part and, if it has a texture, the map from the drawing to texture coordinates; `None` for a part that has no
+/// material of its own.
+pub type PartMaterial = Option<(usize, Option<DAffine2>)>;
 
 /// A glTF metallic-roughness material. Factors are multiplied with their textures.
 #[derive(Debug, Clone, PartialEq)]

@@ -27,8 +27,14 @@ struct Character {
 }
 
 fn character(name: &str) -> Character {
+    edited(name, str::to_owned)
+}
+
+/// An example whose text was changed.
+fn edited(name: &str, edit: impl Fn(&str) -> String) -> Character {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/characters");
     let text = fs::read_to_string(folder.join(format!("{name}.svg"))).expect("a drawing");
+    let text = edit(&text);
     let compiled = common::compiled(&text, &FolderResolver::new(&folder));
     assert!(
         compiled.diagnostics.is_empty(),
@@ -277,4 +283,101 @@ fn the_clip_ends_at_the_last_view() {
         &shown.part([0, 0], [half, height]),
         "the end of the clip",
     );
+}
+
+#[test]
+fn backing_fills_gaps_and_changes_nothing_else() {
+    let mut filled = 0;
+    for name in EXAMPLES {
+        let plain = character(name);
+        let backed = edited(name, |text| {
+            text.replace("$View 0 0<", "$View 0 0 Backing<")
+        });
+        let drawn = Picture::of_drawing(&plain);
+        let scene = backed.compiled.scene.clone();
+        let view = DrawnView::new(&backed.compiled, scene, SCALE).expect("a page");
+        let model = picture(&view.scene, &view.sheet, view.size);
+        assert_same(&drawn, &model, name);
+
+        // Half way to the second view.
+        let shown = &plain.compiled.characters[0];
+        let [from, to] = [shown.turn.views[0], shown.turn.views[1]];
+        let [right, up, _] = view_axes([(from[0] + to[0]) / 2.0, (from[1] + to[1]) / 2.0]);
+        let metres =
+            okoshi::assemble::world_transform(&plain.compiled.bindings, &plain.compiled.layers)
+                .scale;
+        let size = (shown.frames[0].height * 1.5 * SCALE) as u32;
+        let half = f64::from(size) / 2.0 * metres / SCALE;
+        let halfway = |character: &Character| {
+            let scene = &character.compiled.scene;
+            let sheet = Sheet {
+                corner: scene.nodes[scene.roots[0]].translation + (up - right) * half,
+                right,
+                up,
+                pixel: metres / SCALE,
+            };
+            picture(scene, &sheet, [size; 2])
+        };
+        let [plain, backed] = [halfway(&plain), halfway(&backed)];
+        let mut covered = 0;
+        for (at, (before, after)) in plain.pixels.iter().zip(&backed.pixels).enumerate() {
+            // Along borders, more edges in a pixel mean more samples.
+            if before[3] == 255 && plain.is_even(at, 1) {
+                covered += 1;
+                assert_eq!(before, after, "{name}");
+            }
+            filled += usize::from(after[3] > before[3]);
+        }
+        assert!(covered > 5000, "{name}: {covered}");
+    }
+    assert!(filled > 1000, "{filled} pixels");
+}
+
+#[test]
+fn feature_points_tie_places_of_outlines_together() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/view-feature-points");
+    let text = fs::read_to_string(folder.join("drawing.svg")).expect("a drawing");
+    let goes_to = |text: &str, from: [f64; 2]| {
+        let compiled = common::compiled(text, &MemoryResolver::default());
+        let mut regions = compiled.characters[0].regions.iter();
+        let region = regions.find(|region| region.name == "card");
+        let region = region.expect("a region");
+        let points = &region.pieces[0].morph.points;
+        let from = glam::DVec2::from(from);
+        let mut corners = points[0].iter();
+        let corner = corners.position(|point| point.distance(from) < 0.1);
+        points[1][corner.expect("a corner")]
+    };
+    // The square turns by a quarter.
+    for (from, to) in [([20.0, 20.0], [178.0, 20.0]), ([80.0, 20.0], [178.0, 80.0])] {
+        let found = goes_to(&text, from);
+        assert!(found.distance(glam::DVec2::from(to)) < 0.1, "{found}");
+    }
+    let without = text.replace("^a", "#a").replace("^b", "#b");
+    let found = goes_to(&without, [20.0, 20.0]);
+    assert!(
+        found.distance(glam::DVec2::new(122.0, 20.0)) < 0.1,
+        "{found}"
+    );
+}
+
+#[test]
+fn what_a_set_depth_hides_is_found() {
+    let resolver = MemoryResolver::default();
+    let look = |character: &Character| {
+        okoshi::look::compare(&character.compiled, &character.text, &resolver, 400).expect("a look")
+    };
+    let boy = look(&character("boy"));
+    assert!(boy.right > 0.998 && boy.parts.len() > 30, "{}", boy.right);
+    let hidden = edited("boy", |text| {
+        let nose = text.find("id=\"nose-0\"").expect("a nose");
+        let end = nose + text[nose..].find("/>").expect("an end");
+        let string = "><desc>Nose$Depth -300</desc></path>";
+        format!("{}{string}{}", &text[..end], &text[end + 2..])
+    });
+    let found = okoshi::look::hints(&hidden.compiled, &look(&hidden));
+    let [hint] = &found[..] else {
+        panic!("{found:?}");
+    };
+    assert!(hint.message.contains("#head-0"), "{}", hint.message);
 }

@@ -93,6 +93,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::UnusableView, "view-alone"),
     (Code::NoPartner, "view-no-partner"),
     (Code::UnlikelyViews, "view-wrong-sign"),
+    (Code::UnusedFeature, "view-feature-points-unused"),
     (Code::Uncertain, "bind-meant-uncertain"),
     (Code::AutomaticName, "bind-automatic-names"),
     (Code::AxisGuess, "shape-axis-guess"),

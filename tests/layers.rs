@@ -38,6 +38,7 @@ const USES: &[(&str, &[&str])] = &[
             "diagnostic",
             "geometry",
             "lang",
+            "memo",
             "scene",
             "source",
             "svg",

@@ -2,13 +2,13 @@
 
 use rustc_hash::FxHashMap;
 
-use super::textures::Textures;
+use super::textures::{Textured, Textures};
 use crate::bind::{Bindings, MaterialFactors, PartKind};
 use crate::diagnostic::Diagnostic;
-use crate::figure::{LinkedModels, PartMaterial};
+use crate::figure::LinkedModels;
 use crate::memo::Memo;
 use crate::resolver::Resolver;
-use crate::scene::{AlphaMode, Image, Material, Scene, Texture, TextureUse, linear};
+use crate::scene::{AlphaMode, Image, Material, PartMaterial, Scene, Texture, TextureUse, linear};
 use crate::svg::Drawing;
 use crate::terrain::{Layer, Tile, TileMaterial};
 use crate::texture::Alpha;
@@ -56,18 +56,7 @@ impl Shared {
         let key = key(factors, double_sided, texture, owner);
         let known = self.known.entry(key);
         *known.or_insert_with(|| {
-            let mut material = material(factors, double_sided);
-            if let Some(texture) = texture {
-                let (name, alpha) = textures.about(texture);
-                name.clone_into(&mut material.name);
-                material.base_color_texture = Some(TextureUse::new(texture));
-                material.alpha_mode = match (material.alpha_mode, alpha) {
-                    (AlphaMode::Opaque, Alpha::Opaque) => AlphaMode::Opaque,
-                    (AlphaMode::Opaque, Alpha::Holes) => AlphaMode::Mask { cutoff: CUTOFF },
-                    _ => AlphaMode::Blend,
-                };
-            }
-            list.push(material);
+            list.push(textured(factors, double_sided, texture, textures));
             list.len() - 1
         })
     }
@@ -92,6 +81,7 @@ impl Materials {
         bindings: &Bindings,
         models: &LinkedModels,
         layers: &[Layer],
+        regions: &[usize],
         sharing: Sharing,
         resolver: &dyn Resolver,
         memo: &Memo,
@@ -102,15 +92,27 @@ impl Materials {
             bindings,
             models,
             layers,
+            regions,
             resolver,
             memo,
             diagnostics,
         );
         let mut shared = Shared::default();
         let owned_by = |owner: usize| (sharing == Sharing::Apart).then_some(owner);
+        let look = |part: usize| {
+            let mut factors = bindings.material_factors(drawing, part);
+            let textured = textures.of(part);
+            if let Some(textured) = textured {
+                // What a file shows is tinted by `Color`, but by nothing else.
+                let tinted = textured.is_file && bindings.attributes(part).color().is_some();
+                if !tinted {
+                    factors.color[..3].fill(1.0);
+                }
+            }
+            (factors, textured)
+        };
         let mut of_part = Vec::with_capacity(bindings.parts.len());
         for (index, part) in bindings.parts.iter().enumerate() {
-            let attributes = bindings.attributes(index);
             let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
             // Models bring their own materials.
             let own = built && !models.has(index);
@@ -118,19 +120,20 @@ impl Materials {
                 of_part.push(None);
                 continue;
             };
-            let mut factors = bindings.material_factors(drawing, index);
-            let textured = textures.of(index);
-            if let Some(textured) = textured {
-                // What a file shows is tinted by `Color`, but by nothing else.
-                let tinted = textured.is_file && attributes.color().is_some();
-                if !tinted {
-                    factors.color[..3].fill(1.0);
-                }
-            }
+            let (factors, textured) = look(index);
             let double_sided = profile.is_open();
             let texture = textured.map(|textured| textured.texture);
             let slot = shared.slot(owned_by(index), &factors, double_sided, texture, &textures);
             of_part.push(Some((slot, textured.map(|textured| textured.map))));
+        }
+        for region in regions {
+            let (factors, Some(Textured { texture, map, .. })) = look(*region) else {
+                continue;
+            };
+            let mut material = textured(&factors, true, Some(texture), &textures);
+            material.unlit = true;
+            shared.list.push(material);
+            of_part[*region] = Some((shared.list.len() - 1, Some(map)));
         }
         let mut of_look = |layer: usize, number: usize, found: &TileMaterial| {
             let mut factors = found.factors.clone();
@@ -211,6 +214,27 @@ fn key(
         texture,
         owner,
     }
+}
+
+/// A material, with a texture if it has one.
+fn textured(
+    factors: &MaterialFactors,
+    double_sided: bool,
+    texture: Option<usize>,
+    textures: &Textures,
+) -> Material {
+    let mut material = material(factors, double_sided);
+    if let Some(texture) = texture {
+        let (name, alpha) = textures.about(texture);
+        name.clone_into(&mut material.name);
+        material.base_color_texture = Some(TextureUse::new(texture));
+        material.alpha_mode = match (material.alpha_mode, alpha) {
+            (AlphaMode::Opaque, Alpha::Opaque) => AlphaMode::Opaque,
+            (AlphaMode::Opaque, Alpha::Holes) => AlphaMode::Mask { cutoff: CUTOFF },
+            _ => AlphaMode::Blend,
+        };
+    }
+    material
 }
 
 fn material(factors: &MaterialFactors, double_sided: bool) -> Material {

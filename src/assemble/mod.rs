@@ -7,14 +7,16 @@ mod materials;
 mod textures;
 mod world;
 
-use crate::billboard::{self, Character};
+use rustc_hash::FxHashMap;
+
+use crate::billboard::{self, Character, RegionMaterials};
 use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
-use crate::figure::{FigureNodes, Figures, LinkedModels, NodeDepth, PartMaterial};
+use crate::figure::{FigureNodes, Figures, LinkedModels, NodeDepth};
 use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::rig::{self, FigureClip, RestNode};
-use crate::scene::{Scene, WorldTransform};
+use crate::scene::{PartMaterial, Scene, WorldTransform};
 use crate::svg::Drawing;
 use crate::terrain::{self, Layer};
 use materials::{LookMaterials, Materials, Sharing};
@@ -51,7 +53,7 @@ pub enum Owner {
 pub struct Apart {
     /// The model.
     pub scene: Scene,
-    /// Per material of the scene what it belongs to; `None` for the materials of linked models.
+    /// Per material of the scene what it belongs to; `None` for the materials of linked models and of regions of pictures.
     pub owners: Vec<Option<Owner>>,
 }
 
@@ -63,15 +65,18 @@ pub fn assemble(
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Assembled {
+    let characters = billboard::read(drawing, bindings, memo, diagnostics);
     let Built {
         mut scene,
         layers,
         world,
         figures,
+        of_part,
         ..
     } = build(
         drawing,
         bindings,
+        &parts_of(&characters),
         Sharing::Alike,
         resolver,
         memo,
@@ -90,15 +95,18 @@ pub fn assemble(
         frames: &figures.frames,
         parts_of_node: &figures.parts_of_node,
     };
-    let characters = billboard::read(drawing, bindings, diagnostics);
-    let mut colors = billboard::Colors::default();
+    let mut materials = RegionMaterials {
+        textured: &of_part,
+        flat: FxHashMap::default(),
+        are_apart: false,
+    };
     for character in &characters {
         billboard::add(
             character,
             drawing,
             bindings,
             &world,
-            &mut colors,
+            &mut materials,
             &mut scene,
         );
     }
@@ -112,12 +120,48 @@ pub fn assemble(
     }
 }
 
-/// Builds the scene of a drawing so that its materials say what each surface is made from. Characters that turn are left out: each
-/// of their views shows another drawing.
-pub fn assemble_apart(drawing: &Drawing, bindings: &Bindings, resolver: &dyn Resolver) -> Apart {
-    let (memo, sharing) = (Memo::none(), Sharing::Apart);
-    let built = build(drawing, bindings, sharing, resolver, &memo, &mut Vec::new());
+/// The parts that say what the regions of characters look like.
+fn parts_of(characters: &[Character]) -> Vec<usize> {
+    let regions = characters.iter().flat_map(|character| &character.regions);
+    regions.filter_map(|region| region.part).collect()
+}
+
+/// Builds the scene of a drawing so that its materials say what each surface is made from: a region of a character from its part in
+/// the first view that shows it. `characters` are those of the drawing.
+pub fn assemble_apart(
+    drawing: &Drawing,
+    bindings: &Bindings,
+    characters: &[Character],
+    resolver: &dyn Resolver,
+) -> Apart {
+    let mut built = build(
+        drawing,
+        bindings,
+        &parts_of(characters),
+        Sharing::Apart,
+        resolver,
+        &Memo::none(),
+        &mut Vec::new(),
+    );
+    let mut materials = RegionMaterials {
+        textured: &built.of_part,
+        flat: FxHashMap::default(),
+        are_apart: true,
+    };
+    for character in characters {
+        billboard::add(
+            character,
+            drawing,
+            bindings,
+            &built.world,
+            &mut materials,
+            &mut built.scene,
+        );
+    }
     let mut owners = vec![None; built.scene.materials.len()];
+    for ((part, _), material) in materials.flat {
+        owners[material] = part.map(Owner::Part);
+    }
     for (part, material) in built.of_part.iter().enumerate() {
         if let Some((material, _)) = material {
             owners[*material] = Some(Owner::Part(part));
@@ -145,10 +189,11 @@ struct Built {
     of_looks: LookMaterials,
 }
 
-/// Builds the figures and landscapes of a drawing.
+/// Builds the figures and landscapes of a drawing, and the materials of some parts that are regions of characters.
 fn build(
     drawing: &Drawing,
     bindings: &Bindings,
+    regions: &[usize],
     sharing: Sharing,
     resolver: &dyn Resolver,
     memo: &Memo,
@@ -166,6 +211,7 @@ fn build(
                 bindings,
                 &models,
                 &layers,
+                regions,
                 sharing,
                 resolver,
                 memo,

@@ -50,11 +50,13 @@ struct TexturedPart {
 }
 
 impl Textures {
+    /// `regions` are the parts that are regions of characters, and decide what these look like.
     pub(super) fn collect<'a>(
         drawing: &'a Drawing,
         bindings: &'a Bindings,
         models: &LinkedModels,
         layers: &'a [Layer],
+        regions: &[usize],
         resolver: &dyn Resolver,
         memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
@@ -76,9 +78,13 @@ impl Textures {
             reported: FxHashSet::default(),
         };
         for part in 0..bindings.parts.len() {
-            if !models.has(part) {
+            let built = matches!(bindings.parts[part].kind, PartKind::Main | PartKind::Sub);
+            if built && !models.has(part) && bindings.profile(drawing, part).is_some() {
                 collector.part(part, diagnostics);
             }
+        }
+        for region in regions {
+            collector.part(*region, diagnostics);
         }
         for (index, layer) in layers.iter().enumerate() {
             collector.layer(index, layer, diagnostics);
@@ -128,10 +134,6 @@ impl<'a> Collector<'a> {
         let (drawing, bindings) = (self.drawing, self.bindings);
         let part = &bindings.parts[index];
         let attributes = bindings.attributes(index);
-        let built = matches!(part.kind, PartKind::Main | PartKind::Sub);
-        if !built || bindings.profile(drawing, index).is_none() {
-            return;
-        }
         let file = attributes.texture().and_then(|texture| {
             let span = bindings.span_of(&texture.source);
             let string = texture.source.string;

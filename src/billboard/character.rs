@@ -2,9 +2,12 @@
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use rustc_hash::FxHashSet;
 
+use super::backing::backings;
 use super::diagnostics;
 use super::drawn::{self, DrawnLine, DrawnView};
+use super::features::{self, OfRegion};
 use super::matching::{Matching, Track, match_regions};
 use super::place::{Frame, Placed, frames, place};
 use super::region::{Direction, View};
@@ -13,8 +16,15 @@ use super::turn::between;
 use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
 use crate::geometry::Outline;
+use crate::lang::keyword::Keyword;
+use crate::memo::Memo;
 use crate::scene::{Turn, view_axes};
 use crate::svg::Drawing;
+
+/// How far the line along a border lies in front of its region, heights. Less than regions are apart.
+const LINE_STEP: f64 = 0.0004;
+/// How far backings lie behind the back-most region, heights.
+const BEHIND: f64 = 0.002;
 
 /// A character that turns.
 #[derive(Debug)]
@@ -40,14 +50,20 @@ pub struct Character {
 pub struct RegionModel {
     /// Its name; unique in the character.
     pub name: String,
+    /// Its colour, the mean one of a gradient: sRGB with straight alpha, each 0 to 1.
+    pub color: [f64; 4],
     /// Its place in each view, in the character's space, heights.
     pub places: Vec<DVec3>,
-    /// The area, and the line along its border in front of it.
+    /// The area, the line along its border in front of it, and its backing behind the whole character.
     pub pieces: Vec<Piece>,
     /// Index of the shape that it is in the first view that shows it, or of the picture that it is in.
     pub shape: usize,
-    /// Index of its string there.
-    pub string: Option<usize>,
+    /// Index of its part there, if it has one: regions of pictures have none.
+    pub part: Option<usize>,
+    /// The first view that shows it.
+    pub first_view: usize,
+    /// Per view whether it is hidden there (`Hidden`).
+    pub is_hidden: Vec<bool>,
     /// Per view the shape or picture, where the view shows it.
     pub shapes: Vec<Option<usize>>,
 }
@@ -57,16 +73,29 @@ pub struct RegionModel {
 pub struct Piece {
     /// Its shape in each view, drawing units.
     pub morph: Morph,
+    /// What it is filled with.
+    pub fill: Fill,
+    /// How far in front of the region's place it is, heights.
+    pub lift: f64,
+}
+
+/// What a mesh of a region is filled with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Fill {
+    /// What the region is filled with, a gradient included.
+    Region,
     /// sRGB with straight alpha, each 0 to 1.
-    pub color: [f64; 4],
+    Color([f64; 4]),
 }
 
 /// Reads the characters of a drawing.
 pub fn read(
     drawing: &Drawing,
     bindings: &Bindings,
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Character> {
+    features::report_others(drawing, bindings, diagnostics);
     let mut names: Vec<(&str, Vec<usize>)> = Vec::new();
     for (index, layer) in bindings.views() {
         match names.iter_mut().find(|(name, _)| *name == layer.name) {
@@ -75,7 +104,7 @@ pub fn read(
         }
     }
     let characters = names.into_iter().filter_map(|(name, layers)| {
-        let views = views(drawing, bindings, name, &layers, diagnostics)?;
+        let views = views(drawing, bindings, name, &layers, memo, diagnostics)?;
         Some(character(drawing, bindings, name, views, diagnostics))
     });
     characters.collect()
@@ -87,13 +116,14 @@ fn views(
     bindings: &Bindings,
     name: &str,
     layers: &[usize],
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Vec<DrawnView>> {
     let mut views: Vec<DrawnView> = Vec::new();
     // What is wrong with a view was reported; then it is not missing.
     let mut has_broken = false;
     for layer in layers {
-        let Some(view) = drawn::read(drawing, bindings, *layer, diagnostics) else {
+        let Some(view) = drawn::read(drawing, bindings, *layer, memo, diagnostics) else {
             has_broken = true;
             continue;
         };
@@ -137,21 +167,30 @@ fn character(
     let placed = place(&views, &frames, &matching.tracks, &depths);
     let directions: Vec<Direction> = views.iter().map(|view| view.direction).collect();
     let turn = between(&directions);
-    let tracks: Vec<(&Track, &Placed)> = matching.tracks.iter().zip(&placed).collect();
-    let regions = tracks
-        .into_par_iter()
-        .enumerate()
-        .map(|(index, (track, placed))| {
-            let sources = Sources {
-                drawn: &drawn,
-                frames: &frames,
-                track,
-                placed,
-            };
-            sources.model(drawing, bindings, index)
-        });
+    let tracks = &matching.tracks;
+    let features = features::assign(bindings, &drawn, &frames, tracks, diagnostics);
+    let has_backing = drawn
+        .iter()
+        .any(|view| drawn::setting(bindings, view.layer, Keyword::Backing).is_some());
+    let backings = match has_backing {
+        true => backings(&drawn, &frames, tracks, &placed),
+        false => vec![None; tracks.len()],
+    };
+    let behind = behind_all(&placed);
+    let regions = (0..tracks.len()).into_par_iter().map(|index| {
+        let sources = Sources {
+            drawn: &drawn,
+            frames: &frames,
+            track: &tracks[index],
+            placed: &placed[index],
+            features: &features[index],
+            backing: backings[index].as_deref(),
+            behind,
+        };
+        sources.model(drawing, index)
+    });
     let mut regions: Vec<RegionModel> = regions.collect();
-    unique_names(&mut regions);
+    unique_names(name, &mut regions);
     Character {
         name: name.to_owned(),
         layers: drawn.iter().map(|view| view.layer).collect(),
@@ -169,10 +208,29 @@ struct Sources<'a> {
     frames: &'a [Frame],
     track: &'a Track,
     placed: &'a Placed,
+    features: &'a OfRegion,
+    /// The outlines of its backing.
+    backing: Option<&'a [Outline]>,
+    /// How far back the backings of the character are, heights.
+    behind: f64,
+}
+
+/// A distance, heights, by which something has to be moved back to lie behind all of a character at every view.
+fn behind_all(placed: &[Placed]) -> f64 {
+    let depths = || {
+        placed
+            .iter()
+            .flat_map(|placed| placed.depths.iter().copied())
+    };
+    let (least, greatest) = (
+        depths().fold(f64::INFINITY, f64::min),
+        depths().fold(f64::NEG_INFINITY, f64::max),
+    );
+    Turn::FLATNESS * (greatest - least).max(0.0) + BEHIND
 }
 
 impl Sources<'_> {
-    fn model(&self, drawing: &Drawing, bindings: &Bindings, index: usize) -> RegionModel {
+    fn model(&self, drawing: &Drawing, index: usize) -> RegionModel {
         let shown = || self.track.regions.iter().enumerate();
         let shown: Vec<(usize, usize)> = shown()
             .filter_map(|(view, r)| Some((view, (*r)?)))
@@ -187,21 +245,34 @@ impl Sources<'_> {
             .collect();
         let mut area = match self.open_line(&shown) {
             Some(line) => line,
-            None => morph(&outlines, &[]),
+            None => morph(&outlines, self.features),
         };
         let lines = shown.iter().filter_map(|at| Some((at.0, drawn(at).line?)));
         let lines: Vec<(usize, DrawnLine)> = lines.collect();
         let line = self.line(&area, &lines);
         self.shrink(&mut area);
         let first = shown.first();
-        let color = first.map_or([0.0; 4], |first| region(first).color);
-        let mut pieces = vec![Piece { morph: area, color }];
-        pieces.extend(line);
+        let backing = self.backing.map(|outlines| {
+            let mut morph = morph(outlines, self.features);
+            self.shrink(&mut morph);
+            Piece {
+                morph,
+                fill: Fill::Region,
+                lift: -self.behind,
+            }
+        });
+        let area = Piece {
+            morph: area,
+            fill: Fill::Region,
+            lift: 0.0,
+        };
+        let pieces = [Some(area), line, backing].into_iter().flatten().collect();
         let named = shown.iter().find_map(|at| region(at).name.clone());
-        let string = first.and_then(|first| bindings.parts[drawn(first).part?].string);
         let mut shapes = vec![None; self.drawn.len()];
+        let mut is_hidden = vec![false; self.drawn.len()];
         for at in &shown {
             shapes[at.0] = Some(drawn(at).shape);
+            is_hidden[at.0] = drawn(at).is_hidden;
         }
         RegionModel {
             name: named.unwrap_or_else(|| {
@@ -212,10 +283,13 @@ impl Sources<'_> {
                     Some(own) => own.to_owned(),
                 }
             }),
+            color: first.map_or([0.0; 4], |first| region(first).color),
             places: self.places(),
             pieces,
             shape: first.map_or(0, |first| drawn(first).shape),
-            string,
+            part: first.and_then(|first| drawn(first).part),
+            first_view: first.map_or(0, |first| first.0),
+            is_hidden,
             shapes,
         }
     }
@@ -266,7 +340,11 @@ impl Sources<'_> {
                 .extend(triangles.map(|t| t.map(|corner| corner + base)));
         }
         self.shrink(&mut morph);
-        Some(Piece { morph, color })
+        Some(Piece {
+            morph,
+            fill: Fill::Color(color),
+            lift: LINE_STEP,
+        })
     }
 
     /// A line that is no border, as wide as it is drawn in each view; `None` if a view shows something else.
@@ -296,15 +374,15 @@ impl Sources<'_> {
     }
 }
 
-/// Numbers regions whose names are taken.
-fn unique_names(regions: &mut [RegionModel]) {
-    for index in 1..regions.len() {
-        let (before, rest) = regions.split_at_mut(index);
-        let own = rest[0].name.clone();
+/// Numbers regions whose names are taken, by the character or by one before.
+fn unique_names(character: &str, regions: &mut [RegionModel]) {
+    let mut taken = FxHashSet::from_iter([character.to_owned()]);
+    for region in regions {
+        let own = region.name.clone();
         let mut number = 1;
-        while before.iter().any(|other| other.name == rest[0].name) {
+        while !taken.insert(region.name.clone()) {
             number += 1;
-            rest[0].name = format!("{own} {number}");
+            region.name = format!("{own} {number}");
         }
     }
 }

@@ -1,20 +1,24 @@
 //! The views of a character in a drawing: which shapes, or which areas of a picture, are its regions.
 
 use std::collections::BTreeMap;
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 
 use super::diagnostics::too_many;
+use super::features::{self, FeaturePoint};
 use super::matching::Place;
-use super::raster;
+use super::raster::{self, RasterView};
 use super::region::{Direction, Region, View};
 use crate::bind::{Bindings, PartKind};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Outline, area, bounds, intersect};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
-use crate::svg::{Drawing, LARGE};
+use crate::memo::Memo;
+use crate::svg::{Drawing, LARGE, PictureSource};
 
 /// Pixels along the longer side of an SVG picture in a view.
 const SVG_SIDE: u32 = 1024;
@@ -33,6 +37,8 @@ pub(super) struct DrawnView {
     pub(super) view: View,
     /// Per region of the view, what else the drawing says of it.
     pub(super) drawn: Vec<Drawn>,
+    /// Its feature points.
+    pub(super) features: Vec<FeaturePoint>,
 }
 
 /// What the drawing says of a region, besides its outline.
@@ -93,6 +99,7 @@ pub(super) fn read(
     drawing: &Drawing,
     bindings: &Bindings,
     layer: usize,
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<DrawnView> {
     let direction = direction(bindings, layer)?;
@@ -105,11 +112,11 @@ pub(super) fn read(
     // What the view does not show lies behind all that it shows.
     let (mut hidden, mut regions) = (Vec::new(), Vec::new());
     for (index, shape) in drawing.shapes.iter().enumerate() {
-        if bindings.view_of_group(shape.group) != Some(layer) {
+        if bindings.view_of_group(shape.group) != Some(layer) || bindings.is_leader(index) {
             continue;
         }
         if shape.picture.is_some() {
-            match of_picture(drawing, index) {
+            match of_picture(drawing, index, memo) {
                 Ok(found) => {
                     let first = regions.len();
                     regions.extend(found.into_iter().map(|(mut region, drawn)| {
@@ -148,6 +155,7 @@ pub(super) fn read(
             regions: all,
         },
         drawn,
+        features: features::of_view(drawing, bindings, layer, diagnostics),
     })
 }
 
@@ -215,16 +223,43 @@ fn of_shape(
     Some((region, drawn))
 }
 
+/// The file of a picture, as the key of its regions.
+#[derive(PartialEq, Eq)]
+struct PictureFile(Arc<Vec<u8>>);
+
+impl Hash for PictureFile {
+    // A drawing has few pictures, and comparing two takes less time than hashing.
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.0.len().hash(state);
+    }
+}
+
+/// The width and height of a picture, pixels, and its regions.
+type Segmented = Result<(DVec2, RasterView), (Code, String)>;
+
+fn segmented(picture: &PictureSource) -> Segmented {
+    let pixels = picture.pixels(SVG_SIDE)?.into_rgba8();
+    let size = DVec2::new(pixels.width().into(), pixels.height().into());
+    Ok((size, raster::regions(&pixels)))
+}
+
 /// The regions of a picture.
-fn of_picture(drawing: &Drawing, index: usize) -> Result<Vec<(Region, Drawn)>, (Code, String)> {
+fn of_picture(
+    drawing: &Drawing,
+    index: usize,
+    memo: &Memo,
+) -> Result<Vec<(Region, Drawn)>, (Code, String)> {
     let Some(picture) = &drawing.shapes[index].picture else {
         return Ok(Vec::new());
     };
-    let pixels = picture.pixels(SVG_SIDE)?.into_rgba8();
-    let size = DVec2::new(pixels.width().into(), pixels.height().into());
+    let read = || Arc::new(segmented(picture));
+    let found = match picture.bytes() {
+        Some(bytes) => memo.get(PictureFile(Arc::clone(bytes)), |_| read()),
+        None => read(),
+    };
+    let (size, found) = (*found).as_ref().map_err(Clone::clone)?;
     let place = picture.place() * DAffine2::from_scale(size.recip());
     let scale = place.matrix2.determinant().abs().sqrt();
-    let found = raster::regions(&pixels);
     let moved = |outline: &Outline| {
         let point = |p: &DVec2| place.transform_point2(*p);
         outline.map_rings(|ring| ring.iter().map(point).collect())

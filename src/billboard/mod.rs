@@ -5,9 +5,11 @@
 //!
 //! Source: Kitamura, *Modeling and Animation of Pseudo-3D Objects*, chapter 4.
 
+mod backing;
 mod character;
 mod diagnostics;
 mod drawn;
+mod features;
 #[cfg(test)]
 mod generated;
 mod matching;
@@ -18,6 +20,6 @@ mod region;
 mod shape;
 mod turn;
 
-pub use character::{Character, Piece, RegionModel, read};
+pub use character::{Character, Fill, Piece, RegionModel, read};
 pub use matching::{Matching, Track};
-pub use nodes::{Colors, add};
+pub use nodes::{FlatMaterial, RegionMaterials, add};

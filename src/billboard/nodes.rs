@@ -5,11 +5,12 @@ use std::sync::Arc;
 use glam::{DQuat, DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
-use super::character::{Character, Piece, RegionModel};
+use super::character::{Character, Fill, Piece, RegionModel};
 use crate::bind::Bindings;
 use crate::scene::{
-    AlphaMode, Animation, Interpolation, Material, Mesh, NewNode, Node, Primitive, Provenance,
-    Scene, Surface, Timing, Track, Values, ViewDependent, WorldTransform, linear, view_axes,
+    AlphaMode, Animation, Interpolation, Material, Mesh, NewNode, Node, PartMaterial, Primitive,
+    Provenance, Scene, Surface, Timing, Track, Values, ViewDependent, WorldTransform, linear,
+    view_axes,
 };
 use crate::svg::Drawing;
 
@@ -17,17 +18,26 @@ use crate::svg::Drawing;
 const SECONDS: f64 = 1.0;
 /// Keys of the clip for 45°, the first not counted.
 const KEYS: f64 = 8.0;
-/// How far the line along a border lies in front of its region, heights. Less than regions are apart.
-const LINE_STEP: f64 = 0.0004;
 
-/// The materials of flat regions, by their colours.
-#[derive(Debug, Default)]
-pub struct Colors(FxHashMap<[u64; 4], usize>);
+/// The materials of regions.
+pub struct RegionMaterials<'a> {
+    /// Per part the material with its texture, and the map from the drawing to texture coordinates, if it has one.
+    pub textured: &'a [PartMaterial],
+    /// Those without a texture, by the part to which they belong and their colours.
+    pub flat: FxHashMap<FlatMaterial, usize>,
+    /// Whether no two parts have a material in common.
+    pub are_apart: bool,
+}
 
-impl Colors {
-    /// The index of the material of a colour, sRGB with straight alpha, each 0 to 1.
-    fn material(&mut self, color: [f64; 4], scene: &mut Scene) -> usize {
-        *self.0.entry(color.map(f64::to_bits)).or_insert_with(|| {
+/// What tells materials without a texture apart: a part, if they are not shared, and sRGB with straight alpha as bits.
+pub type FlatMaterial = (Option<usize>, [u64; 4]);
+
+impl RegionMaterials<'_> {
+    /// The index of the material of a part in a colour, sRGB with straight alpha, each 0 to 1.
+    fn material(&mut self, part: Option<usize>, color: [f64; 4], scene: &mut Scene) -> usize {
+        let owner = part.filter(|_| self.are_apart);
+        let key = (owner, color.map(f64::to_bits));
+        *self.flat.entry(key).or_insert_with(|| {
             let [r, g, b, alpha] = color;
             scene.materials.push(Material {
                 base_color: [linear(r), linear(g), linear(b), alpha as f32],
@@ -50,7 +60,7 @@ pub fn add(
     drawing: &Drawing,
     bindings: &Bindings,
     world: &WorldTransform,
-    colors: &mut Colors,
+    materials: &mut RegionMaterials<'_>,
     scene: &mut Scene,
 ) {
     let middle = character.frames[0].center;
@@ -85,9 +95,10 @@ pub fn add(
         let places: Vec<DVec3> = region.places.iter().map(|place| *place * scale).collect();
         let translation = character.turn.place(&at_first, &places);
         let string = region
-            .string
+            .part
+            .and_then(|part| bindings.parts[part].string)
             .map(|string| bindings.strings[string].text.as_str().to_owned());
-        let mesh = mesh(character, region, scale, colors, scene);
+        let mesh = mesh(character, region, scale, materials, scene);
         scene.add(NewNode {
             node: Node {
                 name: region.name.clone(),
@@ -113,13 +124,14 @@ fn mesh(
     character: &Character,
     region: &RegionModel,
     scale: f64,
-    colors: &mut Colors,
+    materials: &mut RegionMaterials<'_>,
     scene: &mut Scene,
 ) -> Mesh {
+    let textured = region.part.and_then(|part| materials.textured[part]);
     let mut primitives: Vec<Primitive> = Vec::new();
-    for (step, piece) in region.pieces.iter().enumerate() {
-        let Piece { morph, color } = piece;
-        let height = step as f64 * LINE_STEP * scale;
+    for piece in &region.pieces {
+        let Piece { morph, fill, lift } = piece;
+        let height = lift * scale;
         let placed = |view: usize| {
             let [right, up, _] = view_axes(character.turn.views[view]);
             let place = region.places[view];
@@ -135,16 +147,25 @@ fn mesh(
             let offsets = placed(view).zip(&base).map(|(point, base)| point - *base);
             offsets.map(|offset| offset.to_array()).collect()
         };
-        let surface = Surface {
+        let mut surface = Surface {
             normals: vec![[0.0, 0.0, 1.0]; base.len()],
             targets: (1..character.frames.len()).map(target).collect(),
             triangles: morph.triangles.clone(),
             positions: base.into_iter().map(|point| point.to_array()).collect(),
             ..Surface::default()
         };
+        let (material, map) = match (fill, textured) {
+            (Fill::Region, Some((material, Some(map)))) => (material, Some(map)),
+            (Fill::Region, _) => (materials.material(region.part, region.color, scene), None),
+            (Fill::Color(color), _) => (materials.material(region.part, *color, scene), None),
+        };
+        if let Some(map) = map {
+            let uv = |point: &DVec2| map.transform_point2(*point).as_vec2().to_array();
+            surface.uvs = morph.points[region.first_view].iter().map(uv).collect();
+        }
         primitives.push(Primitive {
             pieces: vec![surface.into()],
-            material: colors.material(*color, scene),
+            material,
         });
     }
     Mesh { primitives }

@@ -11,6 +11,7 @@ use crate::source::Text;
 use crate::svg::{Drawing, Element, Paint};
 
 use super::layers::{Layer, LayerKind};
+use super::leaders::Leaders;
 use super::legends::Legend;
 use super::node_groups::PartSource;
 use super::settings::DrawingSettings;
@@ -38,6 +39,8 @@ pub struct Bindings {
     pub hierarchy_by_contact: bool,
     /// Per group the innermost tile layer or view that it is, or is in; empty if there are no layers.
     pub(super) layer_of_group: Vec<Option<usize>>,
+    /// The lines that lead from strings to what they mean.
+    pub(super) leaders: Leaders,
 }
 
 /// What holds a string.
@@ -136,6 +139,11 @@ pub struct DrawingString {
 }
 
 impl DrawingString {
+    /// Whether the string says something about a place in the drawing, to which a leader may lead from it.
+    pub(super) fn means_a_place(&self) -> bool {
+        self.wants_part() || matches!(self.annotation, Annotation::Feature(_))
+    }
+
     /// Whether the string belongs to a part, rather than to a group or to the whole drawing.
     pub fn wants_part(&self) -> bool {
         match &self.annotation {

@@ -204,6 +204,11 @@ impl Bindings {
         self.layer_of_kind(group, LayerKind::View)
     }
 
+    /// Index of the view that a string is in.
+    pub fn view_of_string(&self, drawing: &Drawing, string: usize) -> Option<usize> {
+        self.view_of_group(group_of(drawing, self.strings[string].place))
+    }
+
     /// Whether a shape is a picture in a tile layer or a view, and so no part.
     pub fn is_picture_of_layer(&self, drawing: &Drawing, shape: usize) -> bool {
         let shape = &drawing.shapes[shape];

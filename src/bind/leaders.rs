@@ -83,6 +83,23 @@ impl Leaders {
     }
 }
 
+impl Bindings {
+    /// Whether a shape is a line that leads from a string to what it means.
+    pub fn is_leader(&self, shape: usize) -> bool {
+        self.leaders.shapes.binary_search(&shape).is_ok()
+    }
+
+    /// The points on the page, user units, of which one is meant by a string's place: the end of its leader, or the beginning, the
+    /// middle and the end of its text. `None` for a string that is no text.
+    pub fn points_of_string(&self, drawing: &Drawing, string: usize) -> Option<[DVec2; 3]> {
+        let Place::Label(label) = self.strings[string].place else {
+            return None;
+        };
+        let led_to = self.leaders.points.get(&string).map(|point| [*point; 3]);
+        Some(led_to.unwrap_or(drawing.labels[label].0.position.points))
+    }
+}
+
 /// Whether a line is thin and long enough for a leader, and lies on no shape for long enough.
 fn leads(shape: &Shape, em: f64, fills: &Fills<'_>) -> bool {
     let Some(stroke) = &shape.stroke else {
@@ -128,7 +145,7 @@ impl<'a> Strings<'a> {
         let mut boxes = Vec::new();
         for (index, string) in bindings.strings.iter().enumerate() {
             if let Place::Label(label) = string.place
-                && string.wants_part()
+                && string.means_a_place()
             {
                 let label = &drawing.labels[label].0;
                 reach = reach.max(REACH * label.font_size);
@@ -175,7 +192,7 @@ impl<'a> Strings<'a> {
             let mut strings = self.bindings.strings.iter();
             strings.position(|string| match string.place {
                 Place::Label(label) => {
-                    string.wants_part() && self.drawing.labels[label].0.id.as_deref() == Some(id)
+                    string.means_a_place() && self.drawing.labels[label].0.id.as_deref() == Some(id)
                 }
                 _ => false,
             })

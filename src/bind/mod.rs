@@ -86,6 +86,7 @@ pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -
     bindings.parts = ink::attach(parts);
     let binder = Binder::new(drawing, &mut node_groups, &mut bindings, memo, diagnostics);
     let stacking = binder.apply_rules(&leaders);
+    bindings.leaders = leaders;
     unbound::report(drawing, &bindings, diagnostics);
     classify(drawing, &mut bindings, &node_groups.backgrounds);
     wrappers::report(drawing, &bindings, &node_groups.backgrounds, diagnostics);

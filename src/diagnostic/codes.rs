@@ -521,6 +521,15 @@ codes! {
     /// The first number is positive if the viewer walks to the character's left: then its face moves to the left of the picture. The
     /// second one is positive if the viewer looks from above: then the face moves down.
     UnlikelyViews = "W325", "views that do not fit";
+    /// A feature point has no effect: it is outside of a character's views, its view has another one of that name, or another view
+    /// that shows its region has none.
+    ///
+    /// ```text
+    /// ^tip beside an ear in one view, and none in the other
+    /// ```
+    ///
+    /// Write the same name beside the same place of the outline in every view that shows the region.
+    UnusedFeature = "W326", "feature point without effect";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

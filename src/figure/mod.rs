@@ -21,7 +21,7 @@ use crate::diagnostic::Diagnostic;
 use crate::geometry::Frame;
 use crate::memo::Memo;
 use crate::resolver::Resolver;
-use crate::scene::{Mesh, Piece, Primitive, Scene, WorldTransform};
+use crate::scene::{Mesh, PartMaterial, Piece, Primitive, Scene, WorldTransform};
 use crate::solid::{self, LaidSolid, Placement, Profile, Sides, Solid};
 use crate::svg::Drawing;
 use crate::threads::GRAIN;
@@ -83,10 +83,6 @@ pub struct FigureNodes {
     /// Per part that has a node, how far in front of the drawing plane it lies.
     pub depths: Vec<Option<NodeDepth>>,
 }
-
-/// The material of a part and, if it has a texture, the map from the drawing to texture coordinates; `None` for a part without a
-/// solid.
-pub type PartMaterial = Option<(usize, Option<DAffine2>)>;
 
 impl<'a> Figures<'a> {
     /// Lays out the figures of a drawing.

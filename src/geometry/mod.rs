@@ -12,6 +12,7 @@ mod disjoint;
 mod flatten;
 mod frame;
 mod measure;
+mod offset;
 mod pixels;
 mod query;
 mod scanline;
@@ -25,8 +26,9 @@ pub(crate) use contact::{Body, connected, touching};
 pub use flatten::flatten;
 pub use frame::{Frame, y_up};
 pub use measure::{Measure, measure, measure_along};
+pub use offset::offset;
 pub use pixels::pixel_borders;
-pub use query::{area, bounds, contains, distance_squared};
+pub use query::{area, border_distance_squared, bounds, contains, distance_squared};
 pub(crate) use query::{crosses, shoelace};
 pub(crate) use scanline::{EdgeRanges, Intervals, LINES, Scanlines};
 

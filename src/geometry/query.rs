@@ -43,9 +43,14 @@ pub(crate) fn crosses([a, b]: [DVec2; 2], point: DVec2) -> bool {
 
 /// The square of the distance from a point to the filled area: 0 inside, infinite if there is no area.
 pub fn distance_squared(outline: &Outline, point: DVec2) -> f64 {
-    if contains(outline, point) {
-        return 0.0;
+    match contains(outline, point) {
+        true => 0.0,
+        false => border_distance_squared(outline, point),
     }
+}
+
+/// The square of the distance from a point to the nearest border; infinite if there is none.
+pub fn border_distance_squared(outline: &Outline, point: DVec2) -> f64 {
     edges(outline).fold(f64::INFINITY, |nearest, [a, b]| {
         let (edge, to) = (b - a, point - a);
         let along = (to.dot(edge) / edge.length_squared()).clamp(0.0, 1.0);

@@ -56,6 +56,8 @@ fn widened(marked: &[bool], width: usize) -> Vec<bool> {
 
 #[cfg(test)]
 mod tests {
+    use rustc_hash::FxHashMap;
+
     use super::*;
     use crate::assemble::Owner;
 
@@ -68,6 +70,7 @@ mod tests {
             colours: vec![[0; 4]; 16],
             owners: [row, row].concat(),
             models: vec![false],
+            regions: FxHashMap::default(),
         };
         let borders = Borders::find(&drawn);
         let near: Vec<bool> = (0..8).map(|at| borders.is_near(at)).collect();

@@ -24,6 +24,8 @@ pub(super) struct Drawn {
     pub(super) owners: Vec<Option<Owner>>,
     /// Per part whether a linked model is in its place.
     pub(super) models: Vec<bool>,
+    /// The parts that are regions of characters, each with the part of the same region in the first view.
+    pub(super) regions: FxHashMap<usize, usize>,
 }
 
 impl Drawn {
@@ -38,7 +40,8 @@ impl Drawn {
         let Compiled {
             bindings, drawing, ..
         } = compiled;
-        let owners = owners_of_parts(compiled);
+        let regions = regions(compiled);
+        let owners = owners_of_parts(compiled, &regions);
         let left_out = left_out(drawing, bindings, &owners);
         let raster = svg::raster(text, resolver, &left_out, size, scale);
         let raster = raster.ok_or(LookError::Drawing)?;
@@ -49,7 +52,16 @@ impl Drawn {
             colours: raster.pixels,
             owners: last_drawn(drawing, bindings, &owners, size, scale)?,
             models: models.map(is_model).collect(),
+            regions,
         })
+    }
+
+    /// What a model shows in the place of what was drawn.
+    pub(super) fn built(&self, owner: Owner) -> Owner {
+        match owner {
+            Owner::Part(part) => Owner::Part(self.regions.get(&part).copied().unwrap_or(part)),
+            Owner::Layer(_) => owner,
+        }
     }
 
     /// Whether a linked model is built in the place of what was drawn.
@@ -58,8 +70,24 @@ impl Drawn {
     }
 }
 
+/// The parts that views of characters show, each with the part of the same region in the first view.
+fn regions(compiled: &Compiled) -> FxHashMap<usize, usize> {
+    let mut first_of_shape = FxHashMap::default();
+    for region in compiled.characters.iter().flat_map(|c| &c.regions) {
+        let Some(first) = region.part else { continue };
+        let shown = region.shapes.iter().zip(&region.is_hidden);
+        let shapes = shown.filter_map(|(shape, is_hidden)| shape.filter(|_| !is_hidden));
+        first_of_shape.extend(shapes.map(|shape| (shape, first)));
+    }
+    let parts = compiled.bindings.parts.iter().enumerate();
+    let regions = parts.filter(|(_, part)| part.kind == PartKind::Region);
+    regions
+        .filter_map(|(index, part)| Some((index, *first_of_shape.get(&part.shape)?)))
+        .collect()
+}
+
 /// Per part what it is in the model; `None` for what is not built.
-fn owners_of_parts(compiled: &Compiled) -> Vec<Option<Owner>> {
+fn owners_of_parts(compiled: &Compiled, regions: &FxHashMap<usize, usize>) -> Vec<Option<Owner>> {
     let Compiled {
         bindings, drawing, ..
     } = compiled;
@@ -69,7 +97,8 @@ fn owners_of_parts(compiled: &Compiled) -> Vec<Option<Owner>> {
             is_built.then_some(Owner::Part(index))
         }
         PartKind::Tile => layer_of(compiled, part.shape).map(Owner::Layer),
-        PartKind::Legend | PartKind::Unused | PartKind::Region => None,
+        PartKind::Region => regions.contains_key(&index).then_some(Owner::Part(index)),
+        PartKind::Legend | PartKind::Unused => None,
     };
     bindings.parts.iter().enumerate().map(owner).collect()
 }

@@ -1,6 +1,7 @@
 //! What looks different from the drawing, in words.
 
 use super::{Instead, Look, PartLook};
+use crate::bind::PartKind;
 use crate::compile::Compiled;
 use crate::diagnostic::{Code, Diagnostic};
 
@@ -43,6 +44,10 @@ fn hint(compiled: &Compiled, look: &PartLook, instead: Instead) -> Option<Diagno
                 compiled.layers.get(layer)?.name
             ),
             "move one of the two on the page".to_owned(),
+        ),
+        Instead::Part(other) if bindings.parts[other].kind == PartKind::Region => (
+            format!("{} is seen there", name(other)),
+            "draw what is in front last, or set its depth with `Depth`".to_owned(),
         ),
         Instead::Part(other) => {
             let seen = name(other);

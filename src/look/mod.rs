@@ -109,8 +109,8 @@ enum Shown {
     #[default]
     Nothing,
     Owner(Owner),
-    /// A linked model, which looks as its file says.
-    LinkedModel,
+    /// A linked model, or a region of a picture: what looks as its file says.
+    File,
 }
 
 /// Compares the model of a drawing with the drawing, seen from the front as [`DrawnView`] describes it, in pictures whose
@@ -133,7 +133,12 @@ pub fn compare(
     }
     threads::run(|| {
         let scale = f64::from(side) / longest;
-        let apart = assemble_apart(&compiled.drawing, &compiled.bindings, resolver);
+        let apart = assemble_apart(
+            &compiled.drawing,
+            &compiled.bindings,
+            &compiled.characters,
+            resolver,
+        );
         let view = DrawnView::new(compiled, apart.scene, scale)?;
         let drawn = Drawn::new(compiled, text, resolver, view.size, scale)?;
         let shown = shown(&view, &apart.owners, resolver)?;
@@ -167,7 +172,7 @@ fn shown(
         let owner = surface
             .material
             .and_then(|material| owners.get(material).copied().flatten());
-        let what = owner.map_or(Shown::LinkedModel, Shown::Owner);
+        let what = owner.map_or(Shown::File, Shown::Owner);
         let byte = |value: f32| (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8;
         (what, surface.blended.map(byte))
     };
@@ -184,11 +189,11 @@ fn count(compiled: &Compiled, drawn: &Drawn, shown: &[(Shown, [u8; 4])]) -> Look
     for (at, (shown, colour)) in shown.iter().enumerate() {
         let (owner, drawn_colour) = (drawn.owners[at], drawn.colours[at]);
         let is_empty = drawn_colour[3] == 0 && colour[3] == 0;
-        if is_empty || borders.is_near(at) || *shown == Shown::LinkedModel || drawn.is_model(owner)
-        {
+        if is_empty || borders.is_near(at) || *shown == Shown::File || drawn.is_model(owner) {
             continue;
         }
-        let is_same = owner.map_or(Shown::Nothing, Shown::Owner) == *shown;
+        let built = owner.map(|owner| drawn.built(owner));
+        let is_same = built.map_or(Shown::Nothing, Shown::Owner) == *shown;
         let is_excused = is_same && owner.is_some_and(|owner| recoloured.contains(owner));
         let is_right = is_excused || is_alike(drawn_colour, *colour);
         pixels += 1;
@@ -209,7 +214,7 @@ fn count(compiled: &Compiled, drawn: &Drawn, shown: &[(Shown, [u8; 4])]) -> Look
                 _ if is_same => Instead::OtherColour,
                 Shown::Owner(Owner::Part(other)) => Instead::Part(other),
                 Shown::Owner(Owner::Layer(layer)) => Instead::Landscape(layer),
-                Shown::Nothing | Shown::LinkedModel => Instead::Nothing,
+                Shown::Nothing | Shown::File => Instead::Nothing,
             };
             *instead.entry((part, what)).or_default() += 1;
         }

@@ -13,10 +13,6 @@ pub struct Turn {
     pub between: Vec<Vec<usize>>,
 }
 
-/// What depths towards the viewer are multiplied by. Depths only decide what is in front: as they are, perspective would move the
-/// regions of a drawing apart.
-const FLATNESS: f64 = 0.25;
-
 /// The axes of a viewer in a direction, degrees: the screen's right and up, and towards the viewer, as unit vectors of the
 /// character's space (x its left, y up, z its front).
 pub fn view_axes([theta, phi]: [f64; 2]) -> [DVec3; 3] {
@@ -36,6 +32,10 @@ pub fn direction(towards: DVec3) -> [f64; 2] {
 }
 
 impl Turn {
+    /// What depths towards the viewer are multiplied by. Depths only decide what is in front: as they are, perspective would move
+    /// the regions of a drawing apart.
+    pub const FLATNESS: f64 = 0.25;
+
     /// The weight of each view from a direction, degrees; they add up to 1.
     pub fn weights(&self, [theta, phi]: [f64; 2]) -> Vec<f64> {
         let mut best = (f64::INFINITY, vec![0.0; self.views.len()]);
@@ -77,7 +77,7 @@ impl Turn {
             depth += weight * place.dot(towards);
         }
         let [right, up, _] = view_axes(direction);
-        DVec3::new(point.dot(right), point.dot(up), FLATNESS * depth)
+        DVec3::new(point.dot(right), point.dot(up), Self::FLATNESS * depth)
     }
 
     /// The views of a set in the plane of angles, the short way around from the first; `None` if one is missing.
@@ -186,7 +186,7 @@ mod tests {
             let seen = DVec3::new(
                 place.dot(right),
                 place.dot(up),
-                FLATNESS * place.dot(towards),
+                Turn::FLATNESS * place.dot(towards),
             );
             assert!(found.distance(seen) < 1e-12, "{found} {seen}");
             let back = direction(towards);

@@ -171,7 +171,7 @@ impl PictureSource {
     }
 
     /// The file, if it is the same wherever it has the same bytes.
-    pub(super) fn bytes(&self) -> Option<&[u8]> {
+    pub fn bytes(&self) -> Option<&Arc<Vec<u8>>> {
         match &self.file {
             Contents::Pixels(bytes) => Some(bytes),
             Contents::Drawing(_) => None,

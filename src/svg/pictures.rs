@@ -43,7 +43,7 @@ fn files(pictures: &[Option<Arc<PictureSource>>]) -> (Vec<&PictureSource>, Vec<u
         let Some(picture) = picture else { continue };
         let new = files.len();
         file_of[index] = match picture.bytes() {
-            Some(bytes) => *known.entry(bytes).or_insert(new),
+            Some(bytes) => *known.entry(bytes.as_slice()).or_insert(new),
             None => new,
         };
         if file_of[index] == new {

@@ -3,7 +3,7 @@
     blender -b --factory-startup --python-exit-code 1 --python blender_clips.py -- FILE.glb...
 
 Every channel of every clip must be there: a curve for each component with the same keys, CONSTANT for step interpolation and LINEAR
-otherwise. A file without clips must have none in Blender.
+otherwise. The weights of morph targets are a curve for each shape key. A file without clips must have none in Blender.
 """
 
 import json
@@ -19,6 +19,8 @@ if "bool" not in vars(numpy):
     numpy.bool = bool
 
 CURVES = {"rotation": ("rotation_quaternion", 4), "translation": ("location", 3)}
+# The weights of morph targets, by the name of the shape key.
+WEIGHT = re.compile(r'key_blocks\["(.*)"\]\.value')
 # The nodes of a skinned model become bones of one armature.
 BONE = re.compile(r'pose\.bones\["(.*)"\]\.(\w+)')
 INTERPOLATION = {"STEP": "CONSTANT", "LINEAR": "LINEAR"}
@@ -34,12 +36,26 @@ def clips_of_file(file):
         for channel in clip["channels"]:
             sampler = clip["samplers"][channel["sampler"]]
             target = channel["target"]
-            curve, numbers = CURVES[target["path"]]
+            node = model["nodes"][target["node"]]
             keys = model["accessors"][sampler["input"]]["count"]
             way = INTERPOLATION[sampler.get("interpolation", "LINEAR")]
+            if target["path"] == "weights":
+                for name in model["meshes"][node["mesh"]]["extras"]["targetNames"]:
+                    found[clip["name"], node["name"], name, 0] = (keys, way)
+                continue
+            curve, numbers = CURVES[target["path"]]
             for index in range(numbers):
-                found[clip["name"], model["nodes"][target["node"]]["name"], curve, index] = (keys, way)
+                found[clip["name"], node["name"], curve, index] = (keys, way)
     return found
+
+
+def strips(data):
+    """Each clip that moves some of Blender's data, with its curves."""
+    for track in data.animation_data.nla_tracks if data.animation_data else []:
+        for strip in track.strips:
+            for curve in strip.action.fcurves:
+                ways = sorted({point.interpolation for point in curve.keyframe_points})
+                yield track.name, curve, (len(curve.keyframe_points), " ".join(ways))
 
 
 def clips_of_blender(file):
@@ -48,14 +64,13 @@ def clips_of_blender(file):
     bpy.ops.import_scene.gltf(filepath=file)
     found = {}
     for thing in bpy.data.objects:
-        for track in thing.animation_data.nla_tracks if thing.animation_data else []:
-            for strip in track.strips:
-                for curve in strip.action.fcurves:
-                    ways = sorted({point.interpolation for point in curve.keyframe_points})
-                    bone = BONE.fullmatch(curve.data_path)
-                    node, path = bone.groups() if bone else (thing.name, curve.data_path)
-                    key = (track.name, node, path, curve.array_index)
-                    found[key] = (len(curve.keyframe_points), " ".join(ways))
+        for clip, curve, keys in strips(thing):
+            bone = BONE.fullmatch(curve.data_path)
+            node, path = bone.groups() if bone else (thing.name, curve.data_path)
+            found[clip, node, path, curve.array_index] = keys
+        shape_keys = thing.data.shape_keys if thing.type == "MESH" else None
+        for clip, curve, keys in strips(shape_keys) if shape_keys else []:
+            found[clip, thing.name, WEIGHT.fullmatch(curve.data_path)[1], 0] = keys
     return found
 
 

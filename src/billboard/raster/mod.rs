@@ -162,8 +162,15 @@ fn crossing(canvas: &Canvas, areas: &Areas, ink: Option<&Ink>, a: usize, b: usiz
     f64::from(along.clamp(0.001, 0.999))
 }
 
-/// A premultiplied colour with straight alpha, each from 0 to 1.
-fn straight([r, g, b, a]: Color) -> [f64; 4] {
-    let by = |c: f32| f64::from((c / a.max(1.0)).clamp(0.0, 1.0));
-    [by(r), by(g), by(b), f64::from(a / 255.0)]
+/// A premultiplied colour with straight alpha, each from 0 to 1, in whole steps of 1/255. What is as good as opaque is opaque: other
+/// programs sort whatever is not, and get the order of regions wrong.
+fn straight(color: Color) -> [f64; 4] {
+    let [r, g, b, a] = color;
+    let step = |share: f32| f64::from((share * 255.0).round().clamp(0.0, 255.0) / 255.0);
+    let by = |c: f32| step(c / a.max(1.0));
+    let alpha = match is_opaque(color) {
+        true => 1.0,
+        false => step(a / 255.0),
+    };
+    [by(r), by(g), by(b), alpha]
 }

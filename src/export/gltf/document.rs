@@ -12,6 +12,7 @@ use ::gltf::json::mesh::{
 use ::gltf::json::scene::UnitQuaternion;
 use ::gltf::json::validation::Checked::Valid;
 use ::gltf::json::{Asset, Index, Node as JsonNode, Root, Scene as JsonScene, Skin as JsonSkin};
+use rustc_hash::FxHashMap;
 use serde::Serialize;
 use serde_json::json;
 use serde_json::value::to_raw_value;
@@ -20,7 +21,7 @@ use super::buffer::Kind;
 use super::json::Json;
 use super::primitives::Packed;
 use super::{ROOT, SKINNED, VIEW_DEPENDENT, animations, materials};
-use crate::scene::{self, Scene, Turn};
+use crate::scene::{self, Scene, Turn, ViewDependent};
 
 /// The JSON up to the buffers, without the closing brace.
 pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
@@ -92,6 +93,7 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
             names[mesh] = &node.name;
         }
     }
+    let targets = target_names(scene);
     json.list("meshes", scene.meshes.len(), |mesh| {
         let primitives = scene.meshes[mesh].primitives.iter().zip(primitives(mesh));
         let primitives = primitives.filter(|(_, accessors)| !accessors.is_empty());
@@ -103,7 +105,9 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
             primitives,
             weights: None,
             extensions: None,
-            extras: None,
+            extras: targets
+                .get(&mesh)
+                .and_then(|target_names| to_raw_value(&TargetNames { target_names }).ok()),
         })
     })?;
     json.list("materials", scene.materials.len(), |number| {
@@ -202,6 +206,31 @@ fn json_node(node: &scene::Node) -> JsonNode {
 #[derive(Serialize)]
 struct Extras<'a> {
     okoshi: Provenance<'a>,
+}
+
+/// The names of a mesh's morph targets, where many programs look for them.
+#[derive(Serialize)]
+#[serde(rename_all = "camelCase")]
+struct TargetNames<'a> {
+    target_names: &'a [String],
+}
+
+/// The names of the morph targets of the regions of characters, by mesh: the views that they belong to.
+fn target_names(scene: &Scene) -> FxHashMap<usize, Vec<String>> {
+    let mut names = FxHashMap::default();
+    for node in &scene.nodes {
+        let Some(ViewDependent::Turn(turn)) = &node.view_dependent else {
+            continue;
+        };
+        let name = |[theta, phi]: &[f64; 2]| format!("View {theta} {phi}");
+        let views: Vec<String> = turn.views.iter().skip(1).map(name).collect();
+        let meshes = node
+            .children
+            .iter()
+            .filter_map(|child| scene.nodes[*child].mesh);
+        names.extend(meshes.map(|mesh| (mesh, views.clone())));
+    }
+    names
 }
 
 #[derive(Serialize)]

@@ -41,9 +41,11 @@ pub(super) static BACKING: Row = Row {
     default: "off",
     summary: "closes the gaps between a character's regions",
     long: "Between two views, small gaps can open where a region slides away from its neighbour. \
-           `Backing` puts a slightly larger copy behind each region.",
+           `Backing` lets each region go on a little under those in front of it, behind the whole \
+           character, so that the gaps are filled with its colour. At the drawn views nothing of it \
+           can be seen. One view's string is enough.",
     example: "Boy$View 0 0 Backing",
-    ..Row::PLANNED
+    ..Row::ROW
 };
 
 pub(super) static HIDDEN: Row = Row {

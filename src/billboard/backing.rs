@@ -1,0 +1,63 @@
+//! What closes the gaps between regions (billboard.md, Result: Backing).
+
+use rayon::prelude::*;
+
+use super::drawn::DrawnView;
+use super::matching::Track;
+use super::place::{Frame, Placed};
+use crate::geometry::{Outline, area, bounds, intersect, offset, union};
+
+/// How far a region goes on under those in front of it, heights.
+const GROWTH: f64 = 0.03;
+/// How far it stays away from the character's border, heights: at a drawn view nothing of it may show.
+const MARGIN: f64 = 0.01;
+/// Regions with a smaller alpha hide nothing.
+const OPAQUE: f64 = 0.98;
+/// What grows by a smaller share of its area has nothing to close.
+const LEAST_GROWTH: f64 = 1e-3;
+
+/// For each track its backing in each view, drawing units: the region and what it would be under its neighbours in front, without
+/// anything that shows at that view. `None` where nothing lies in front.
+pub(super) fn backings(
+    views: &[DrawnView],
+    frames: &[Frame],
+    tracks: &[Track],
+    placed: &[Placed],
+) -> Vec<Option<Vec<Outline>>> {
+    let covers = |view: usize, track: usize| {
+        let region = &views[view].view.regions[tracks[track].regions[view]?];
+        (region.color[3] >= OPAQUE).then_some(&region.outline)
+    };
+    let backing = |track: usize| {
+        let mut grows = false;
+        let of_view = |view: usize| {
+            let Some(region) = tracks[track].regions[view] else {
+                return Outline::default();
+            };
+            let own = &views[view].view.regions[region].outline;
+            let height = frames[view].height;
+            let grown = offset(own, GROWTH * height);
+            let depth = placed[track].depths[view];
+            let in_front = (0..tracks.len()).filter(|other| placed[*other].depths[view] > depth);
+            let neighbours = in_front
+                .filter_map(|other| covers(view, other))
+                .filter(|other| overlap(&grown, other));
+            let all: Vec<Outline> = [own].into_iter().chain(neighbours).cloned().collect();
+            let hidden = offset(&union(&all), -MARGIN * height);
+            let backing = intersect(&grown, &hidden);
+            // The margin makes it smaller where nothing is in front.
+            let inner = intersect(&backing, own);
+            grows |= area(&backing) - area(&inner) > LEAST_GROWTH * area(own);
+            backing
+        };
+        let outlines: Vec<Outline> = (0..views.len()).map(of_view).collect();
+        grows.then_some(outlines)
+    };
+    (0..tracks.len()).into_par_iter().map(backing).collect()
+}
+
+/// Whether the boxes around two outlines overlap.
+fn overlap(a: &Outline, b: &Outline) -> bool {
+    let boxes = bounds(a).zip(bounds(b));
+    boxes.is_some_and(|((low, high), (from, to))| low.max(from).cmplt(high.min(to)).all())
+}

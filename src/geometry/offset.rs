@@ -1,0 +1,65 @@
+//! Outlines that are wider or narrower by the same distance everywhere.
+
+use i_overlay::mesh::float::outline::offset::OutlineOffset;
+use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
+
+use super::{FillRule, Outline, Polygon, Ring, resolve_overlaps};
+
+/// The angle between two points of a round corner, radians.
+const ROUND: f64 = 0.3;
+
+/// The outline moved outwards by a distance, user units, or inwards if that is negative. Corners that move apart become round.
+pub fn offset(outline: &Outline, distance: f64) -> Outline {
+    // The library's borders run the other way round than ours.
+    let backwards = |ring: &Ring| ring.iter().rev().map(|p| p.to_array()).collect();
+    let polygon = |polygon: &Polygon| polygon.rings.iter().map(backwards).collect();
+    let shapes: Vec<Vec<Vec<[f64; 2]>>> = outline.polygons.iter().map(polygon).collect();
+    let style = OutlineStyle::new(distance).line_join(LineJoin::Round(ROUND));
+    let moved = shapes.outline_as::<i64>(&style);
+    let rings = moved.into_iter().flatten();
+    let forwards = rings.map(|ring| ring.into_iter().rev().map(Into::into).collect());
+    resolve_overlaps(forwards.collect(), FillRule::NonZero)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use glam::DVec2;
+
+    use super::*;
+    use crate::geometry::{area, bounds, contains};
+
+    /// A square of side 10 with a hole of side 4 in its middle.
+    fn frame() -> Outline {
+        let square = |half: f64| -> Ring {
+            [[-1.0, -1.0], [-1.0, 1.0], [1.0, 1.0], [1.0, -1.0]]
+                .map(|corner| DVec2::from(corner) * half)
+                .to_vec()
+        };
+        let hole = square(2.0).into_iter().rev().collect();
+        resolve_overlaps(vec![square(5.0), hole], FillRule::NonZero)
+    }
+
+    #[test]
+    fn both_borders_move() {
+        let frame = frame();
+        assert_eq!(area(&frame), 84.0);
+        let wider = offset(&frame, 1.0);
+        // Round corners outside, sharp ones in the hole.
+        let expected = 100.0 + 40.0 + PI - 4.0;
+        assert!((area(&wider) - expected).abs() < 0.1, "{}", area(&wider));
+        assert_eq!(bounds(&wider).unwrap().1.round(), DVec2::splat(6.0));
+        let narrower = offset(&frame, -1.0);
+        let expected = 64.0 - (16.0 + 16.0 + PI);
+        let found = area(&narrower);
+        assert!((found - expected).abs() < 0.1, "{found}");
+        assert!(contains(&narrower, DVec2::new(3.5, 0.0)));
+    }
+
+    #[test]
+    fn what_is_too_narrow_vanishes() {
+        assert!(offset(&frame(), -1.6).polygons.is_empty());
+        assert!(offset(&Outline::default(), 1.0).polygons.is_empty());
+    }
+}
