@@ -122,9 +122,12 @@ pub fn describe_character(character: &Character) -> String {
         0 => String::new(),
         count => format!(", {count} without a partner"),
     };
-    let count = character.regions.len();
+    let regions = match character.regions.len() {
+        1 => "1 region".to_owned(),
+        count => format!("{count} regions"),
+    };
     format!(
-        "character of {count} regions{alone}, drawn from {}",
+        "character of {regions}{alone}, drawn from {}",
         views.join(" and ")
     )
 }

@@ -2,7 +2,7 @@
 
     blender -b --factory-startup --python-exit-code 1 --python blender_skin.py -- PLAIN.glb SKINNED.glb [NODE]
 
-Imports both, compares all corners at rest and after NODE (the first one with a parent and a mesh) was turned by 40
+Imports both, compares all corners at rest and after NODE (the largest one with a parent and a mesh) was turned by 40
 degrees about its joint. Ends with 1 if a corner is off by more than a thousandth of the model's size.
 """
 
@@ -68,8 +68,8 @@ def main():
     """Compares the two files."""
     plain, skinned, *names = sys.argv[sys.argv.index("--") + 1 :]
     load(plain)
-    jointed = [thing.name for thing in bpy.data.objects if thing.type == "MESH" and thing.parent]
-    name = names[0] if names else min(jointed)
+    jointed = [thing for thing in bpy.data.objects if thing.type == "MESH" and thing.parent]
+    name = names[0] if names else max(jointed, key=lambda thing: (thing.dimensions.length, thing.name)).name
     states = {}
     for file in (plain, skinned):
         load(file)
