@@ -38,6 +38,7 @@ const USES: &[(&str, &[&str])] = &[
             "diagnostic",
             "geometry",
             "lang",
+            "memo",
             "scene",
             "source",
             "svg",
@@ -123,6 +124,7 @@ const USES: &[(&str, &[&str])] = &[
     (
         "ide",
         &[
+            "billboard",
             "bind",
             "compile",
             "diagnostic",
@@ -200,6 +202,7 @@ const USES: &[(&str, &[&str])] = &[
             "bind",
             "compile",
             "figure",
+            "geometry",
             "rig",
             "scene",
             "source",

@@ -90,7 +90,7 @@ pub fn assemble(
         frames: &figures.frames,
         parts_of_node: &figures.parts_of_node,
     };
-    let characters = billboard::read(drawing, bindings, diagnostics);
+    let characters = billboard::read(drawing, bindings, memo, diagnostics);
     let mut colors = billboard::Colors::default();
     for character in &characters {
         billboard::add(

@@ -5,14 +5,16 @@ use rayon::prelude::*;
 
 use super::diagnostics;
 use super::drawn::{self, DrawnLine, DrawnView};
-use super::matching::{Matching, Track, match_regions};
+use super::keys;
+use super::matching::{Matching, Track};
 use super::place::{Frame, Placed, frames, place};
 use super::region::{Direction, View};
-use super::shape::{Ends, Morph, line_mesh, match_lines, morph};
+use super::shape::{Ends, Morph, line_mesh, match_lines};
 use super::turn::between;
 use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
 use crate::geometry::Outline;
+use crate::memo::Memo;
 use crate::scene::{Turn, view_axes};
 use crate::svg::Drawing;
 
@@ -65,6 +67,7 @@ pub struct Piece {
 pub fn read(
     drawing: &Drawing,
     bindings: &Bindings,
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Vec<Character> {
     let mut names: Vec<(&str, Vec<usize>)> = Vec::new();
@@ -75,8 +78,14 @@ pub fn read(
         }
     }
     let characters = names.into_iter().filter_map(|(name, layers)| {
-        let views = views(drawing, bindings, name, &layers, diagnostics)?;
-        Some(character(drawing, bindings, name, views, diagnostics))
+        let views = views(drawing, bindings, (name, &layers), memo, diagnostics)?;
+        Some(character(
+            drawing,
+            bindings,
+            (name, views),
+            memo,
+            diagnostics,
+        ))
     });
     characters.collect()
 }
@@ -85,15 +94,15 @@ pub fn read(
 fn views(
     drawing: &Drawing,
     bindings: &Bindings,
-    name: &str,
-    layers: &[usize],
+    (name, layers): (&str, &[usize]),
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Vec<DrawnView>> {
     let mut views: Vec<DrawnView> = Vec::new();
     // What is wrong with a view was reported; then it is not missing.
     let mut has_broken = false;
     for layer in layers {
-        let Some(view) = drawn::read(drawing, bindings, *layer, diagnostics) else {
+        let Some(view) = drawn::read(drawing, bindings, *layer, memo, diagnostics) else {
             has_broken = true;
             continue;
         };
@@ -122,13 +131,13 @@ fn views(
 fn character(
     drawing: &Drawing,
     bindings: &Bindings,
-    name: &str,
-    drawn: Vec<DrawnView>,
+    (name, drawn): (&str, Vec<DrawnView>),
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Character {
     let views: Vec<View> = drawn.iter().map(|drawn| drawn.view.clone()).collect();
     let frames = frames(&views);
-    let matching = match_regions(&views, &frames);
+    let matching = keys::matched(&views, &frames, memo);
     diagnostics::report(drawing, bindings, name, &drawn, &matching, diagnostics);
     let depths: Vec<Vec<Option<f64>>> = drawn
         .iter()
@@ -147,6 +156,7 @@ fn character(
                 frames: &frames,
                 track,
                 placed,
+                memo,
             };
             sources.model(drawing, bindings, index)
         });
@@ -169,6 +179,7 @@ struct Sources<'a> {
     frames: &'a [Frame],
     track: &'a Track,
     placed: &'a Placed,
+    memo: &'a Memo,
 }
 
 impl Sources<'_> {
@@ -187,7 +198,7 @@ impl Sources<'_> {
             .collect();
         let mut area = match self.open_line(&shown) {
             Some(line) => line,
-            None => morph(&outlines, &[]),
+            None => keys::morphed(&outlines, self.memo),
         };
         let lines = shown.iter().filter_map(|at| Some((at.0, drawn(at).line?)));
         let lines: Vec<(usize, DrawnLine)> = lines.collect();

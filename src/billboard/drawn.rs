@@ -6,6 +6,7 @@ use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 
 use super::diagnostics::too_many;
+use super::keys;
 use super::matching::Place;
 use super::raster;
 use super::region::{Direction, Region, View};
@@ -14,7 +15,8 @@ use crate::diagnostic::{Code, Diagnostic};
 use crate::geometry::{Outline, area, bounds, intersect};
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
-use crate::svg::{Drawing, LARGE};
+use crate::memo::Memo;
+use crate::svg::{Drawing, LARGE, PictureSource};
 
 /// Pixels along the longer side of an SVG picture in a view.
 const SVG_SIDE: u32 = 1024;
@@ -93,6 +95,7 @@ pub(super) fn read(
     drawing: &Drawing,
     bindings: &Bindings,
     layer: usize,
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<DrawnView> {
     let direction = direction(bindings, layer)?;
@@ -109,7 +112,7 @@ pub(super) fn read(
             continue;
         }
         if shape.picture.is_some() {
-            match of_picture(drawing, index) {
+            match of_picture(drawing, index, memo) {
                 Ok(found) => {
                     let first = regions.len();
                     regions.extend(found.into_iter().map(|(mut region, drawn)| {
@@ -140,7 +143,12 @@ pub(super) fn read(
         diagnostics.push(too_many(bindings, layer, all.len()));
         return None;
     }
-    contain(&mut all);
+    for (region, container) in keys::contained(&all, memo, containers)
+        .into_iter()
+        .enumerate()
+    {
+        all[region].container = container;
+    }
     Some(DrawnView {
         layer,
         view: View {
@@ -216,10 +224,28 @@ fn of_shape(
 }
 
 /// The regions of a picture.
-fn of_picture(drawing: &Drawing, index: usize) -> Result<Vec<(Region, Drawn)>, (Code, String)> {
+fn of_picture(
+    drawing: &Drawing,
+    index: usize,
+    memo: &Memo,
+) -> Result<Vec<(Region, Drawn)>, (Code, String)> {
     let Some(picture) = &drawing.shapes[index].picture else {
         return Ok(Vec::new());
     };
+    let found = keys::traced(picture, memo, trace);
+    let drawn = |line| Drawn {
+        shape: index,
+        line,
+        ..Drawn::default()
+    };
+    let found = found.as_ref().as_ref().map_err(Clone::clone)?.iter();
+    Ok(found
+        .map(|(region, line)| (region.clone(), drawn(*line)))
+        .collect())
+}
+
+/// The regions that are found in a picture, and the lines along their borders.
+fn trace(picture: &PictureSource) -> Result<Vec<(Region, Option<DrawnLine>)>, (Code, String)> {
     let pixels = picture.pixels(SVG_SIDE)?.into_rgba8();
     let size = DVec2::new(pixels.width().into(), pixels.height().into());
     let place = picture.place() * DAffine2::from_scale(size.recip());
@@ -251,22 +277,14 @@ fn of_picture(drawing: &Drawing, index: usize) -> Result<Vec<(Region, Drawn)>, (
         };
         (region, None)
     });
-    let drawn = |line| Drawn {
-        shape: index,
-        line,
-        ..Drawn::default()
-    };
-    Ok(regions
-        .chain(inner)
-        .map(|(region, line)| (region, drawn(line)))
-        .collect())
+    Ok(regions.chain(inner).collect())
 }
 
-/// Finds the container of each region that has none yet: the smallest one drawn before it that covers nearly all of it.
-fn contain(regions: &mut [Region]) {
+/// The container of each region; of those that have none yet, the smallest one drawn before it that covers nearly all of it.
+fn containers(regions: &[Region]) -> Vec<Option<usize>> {
     let areas: Vec<f64> = regions.iter().map(|r| area(&r.outline)).collect();
     let boxes: Vec<_> = regions.iter().map(|r| bounds(&r.outline)).collect();
-    let containers: Vec<Option<usize>> = (0..regions.len())
+    (0..regions.len())
         .into_par_iter()
         .map(|inner| {
             if regions[inner].container.is_some() {
@@ -285,10 +303,7 @@ fn contain(regions: &mut [Region]) {
                 area(&common) >= CONTAINED * areas[inner]
             })
         })
-        .collect();
-    for (region, container) in regions.iter_mut().zip(containers) {
-        region.container = container;
-    }
+        .collect()
 }
 
 /// Names regions by their labels, as far as these are unique in a view and occur in several: copies of a layer keep them.

@@ -10,6 +10,7 @@ mod diagnostics;
 mod drawn;
 #[cfg(test)]
 mod generated;
+mod keys;
 mod matching;
 mod nodes;
 mod place;
@@ -19,5 +20,6 @@ mod shape;
 mod turn;
 
 pub use character::{Character, Piece, RegionModel, read};
-pub use matching::{Matching, Track};
+pub use matching::{Candidate, Matching, Pair, Place, Reason, Track, Unmatched};
 pub use nodes::{Colors, add};
+pub use region::{Direction, Region, View};

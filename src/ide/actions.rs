@@ -50,11 +50,17 @@ impl Analysis {
             }));
         }
         match self.at(window.start) {
-            Some(At::Tag {
-                part: Some(part), ..
-            }) => actions.extend(self.give_a_string(part)),
-            Some(At::String { string, .. }) => actions.extend(self.move_to_legend(string)),
-            _ => {}
+            Some(At::Tag { shape, part }) => {
+                actions.extend(part.map_or(vec![], |part| self.give_a_string(part)));
+                actions.extend(self.name_both(shape));
+            }
+            Some(At::String { string, .. }) => {
+                actions.extend(self.move_to_legend(string));
+                if let Some(part) = self.part_of_string(string) {
+                    actions.extend(self.name_both(self.bindings().parts[part].shape));
+                }
+            }
+            None => {}
         }
         actions
     }
