@@ -244,8 +244,11 @@ fn of_picture(
         .collect())
 }
 
-/// The regions that are found in a picture, and the lines along their borders.
-fn trace(picture: &PictureSource) -> Result<Vec<(Region, Option<DrawnLine>)>, (Code, String)> {
+/// A region of a picture, and the line along its border.
+type Traced = (Region, Option<DrawnLine>);
+
+/// The regions that are found in a picture.
+fn trace(picture: &PictureSource) -> Result<Vec<Traced>, (Code, String)> {
     let pixels = picture.pixels(SVG_SIDE)?.into_rgba8();
     let size = DVec2::new(pixels.width().into(), pixels.height().into());
     let place = picture.place() * DAffine2::from_scale(size.recip());

@@ -112,10 +112,10 @@ impl Analysis {
         if let Some(unmatched) = region.unmatched() {
             return Some(self.alone_card(*region, unmatched));
         }
-        let mut out = "The same in other views:\n".to_owned();
+        let mut out = "The same in other views:\n\n".to_owned();
         for partner in region.partners() {
             let (angles, what) = (partner.angles(), self.partner(*region, partner));
-            let _ = writeln!(out, "\n- in {angles}: {what}");
+            let _ = writeln!(out, "- in {angles}: {what}");
         }
         let _ = write!(out, "\n{SCORES}");
         Some(out)
@@ -130,13 +130,13 @@ impl Analysis {
         if unmatched.candidates.is_empty() {
             return out;
         }
-        out.push_str(" What fits it best:\n");
+        out.push_str(" What fits it best:\n\n");
         for candidate in &unmatched.candidates {
             let place = candidate.place;
             let other = Region { place, ..region };
             let _ = writeln!(
                 out,
-                "\n- in {}: {}, {}; {}",
+                "- in {}: {}, {}; {}",
                 other.angles(),
                 self.describe_region(other),
                 scores(candidate.similarity, candidate.cost),
@@ -254,16 +254,16 @@ impl Analysis {
             .partition(|region| region.unmatched().is_some());
         let count = regions.len();
         let mut out = match alone.len() {
-            0 => format!("Regions: {count}, all with a partner in another view\n"),
+            0 => format!("Regions: {count}, all with a partner in another view\n\n"),
             alone => {
-                format!("Regions: {count}, {alone} of them without a partner in another view\n")
+                format!("Regions: {count}, {alone} of them without a partner in another view\n\n")
             }
         };
         for region in alone.iter().chain(&matched).take(MAX_LISTED) {
             let what = self.describe_region(*region);
             let mut partners = region.partners();
             let _ = match (partners.next(), partners.count()) {
-                (None, _) => writeln!(out, "\n- {what} has no partner"),
+                (None, _) => writeln!(out, "- {what} has no partner"),
                 (Some(first), more) => {
                     let partner = self.partner(*region, first);
                     let more = match more {
@@ -271,12 +271,12 @@ impl Analysis {
                         1 => ", and in 1 more view".to_owned(),
                         more => format!(", and in {more} more views"),
                     };
-                    writeln!(out, "\n- {what} – {partner}{more}")
+                    writeln!(out, "- {what} – {partner}{more}")
                 }
             };
         }
         if let Some(more) = count.checked_sub(MAX_LISTED).filter(|more| *more > 0) {
-            let _ = writeln!(out, "\n- … and {more} more");
+            let _ = writeln!(out, "- … and {more} more");
         }
         let _ = write!(out, "\n{SCORES}");
         out

@@ -11,7 +11,7 @@ const WIDTH: f32 = 4.0;
 /// The width of the lines, columns of the grid.
 const LINE: f32 = 0.85;
 /// How far the light border of digits reaches beyond them, columns of the grid.
-const HALO: f32 = 1.1;
+const HALO: f32 = 0.7;
 
 /// The lines of a character on the grid, y down.
 fn lines(character: char) -> &'static [(f32, f32)] {
@@ -152,7 +152,7 @@ pub(super) fn write(pixmap: &mut Pixmap, text: &str, [x, y]: [f32; 2], height: f
         ..Stroke::default()
     };
     for (color, line) in [
-        (Color::from_rgba8(255, 255, 255, 170), LINE + 2.0 * HALO),
+        (Color::from_rgba8(255, 255, 255, 140), LINE + 2.0 * HALO),
         (Color::from_rgba8(20, 20, 24, 255), LINE),
     ] {
         paint.set_color(color);

@@ -8,7 +8,7 @@ use super::digits;
 const DIGITS: f32 = 13.0;
 const LEAST_DIGITS: f32 = 8.5;
 /// Room around a number, pixels.
-const ROOM: f32 = 2.0;
+const ROOM: f32 = 2.5;
 /// Distances at which a number beside its region is tried, pixels.
 const DISTANCES: [f32; 8] = [8.0, 14.0, 20.0, 28.0, 38.0, 50.0, 64.0, 80.0];
 /// Directions in which it is tried.
@@ -96,9 +96,10 @@ impl Labels {
             let Some(at) = self.free_place(&text, middle, &placed) else {
                 continue;
             };
-            lead(pixmap, middle.at, at);
+            let own = Placed::new(&text, at, LEAST_DIGITS);
+            lead(pixmap, middle.at, own.side_towards(middle.at));
             digits::write(pixmap, &text, at, LEAST_DIGITS);
-            placed.push(Placed::new(&text, at, LEAST_DIGITS));
+            placed.push(own);
         }
     }
 
@@ -196,6 +197,14 @@ impl Placed {
     fn new(text: &str, middle: [f32; 2], height: f32) -> Self {
         let half = [digits::width(text, height), height].map(|side| side / 2.0 + ROOM);
         Self { middle, half }
+    }
+
+    /// The point of its box that is on the way to a point outside of it.
+    fn side_towards(&self, point: [f32; 2]) -> [f32; 2] {
+        let way = [0, 1].map(|axis| point[axis] - self.middle[axis]);
+        let shares = [0, 1].map(|axis| self.half[axis] / way[axis].abs());
+        let share = shares[0].min(shares[1]).min(1.0);
+        [0, 1].map(|axis| self.middle[axis] + share * way[axis])
     }
 
     fn overlaps(&self, other: &Self) -> bool {
