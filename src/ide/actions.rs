@@ -335,6 +335,17 @@ mod tests {
     }
 
     #[test]
+    fn a_view_from_the_wrong_side_is_turned() {
+        let source = include_str!("../../tests/cases/view-wrong-sign/drawing.svg");
+        let after = after(
+            &source.replace("View -45", "Vi¦ew -45"),
+            "Change `-45` to `45`",
+        );
+        assert!(after.source().contains("Boy$View 45 0"));
+        assert_eq!(after.diagnostics(), []);
+    }
+
+    #[test]
     fn a_shape_is_given_a_string() {
         let source = figure(["Body", "Rarm@Body", "", "", ""])
             .replace("<rect id=\"left\"", "<¦rect id=\"left\"");

@@ -8,6 +8,7 @@ use super::{Analysis, Symbol};
 use crate::billboard::{Candidate, Place, Reason};
 use crate::bind::{PartKind, Place as StringPlace, written_by_a_person};
 use crate::diagnostic::{Code, Edit};
+use crate::geometry::bounds;
 use crate::lang::ast::Annotation;
 use crate::lang::quoting::{NamePlace, quoted_if_needed};
 
@@ -87,7 +88,7 @@ impl Analysis {
                 region: index,
             } = region.place;
             let outline = &region.character.views[view].regions[index].outline;
-            let (low, high) = crate::geometry::bounds(outline)?;
+            let (low, high) = bounds(outline)?;
             Some(region.character.frames[view].on_screen(low.midpoint(high)))
         };
         let own = middle(&region)?;
@@ -115,18 +116,18 @@ impl Analysis {
         let mut found = self.diagnostics().iter();
         let diagnostic =
             found.position(|found| found.code == Code::NoPartner && found.span == span);
-        let shown = self.describe_region(choice.region);
+        let shown = self.title_of_region(choice.region);
         let title = match choice.from {
             None => format!("Name both `{name}`: this region and {shown}"),
             Some(from) => {
-                let from = self.describe_region(from);
+                let from = self.title_of_region(from);
                 format!(
                     "Name both `{name}`: this region and {shown}, which leaves {from} without a partner"
                 )
             }
         };
         Some(Action {
-            title: title.replace("**", ""),
+            title,
             edits,
             diagnostic,
             is_preferred: choice.is_best && choice.from.is_none(),
@@ -284,13 +285,13 @@ mod tests {
         let source = DRAWING.replace("fill=\"#333333\"/>", star);
         let text = paired(
             &source,
-            "Name both `Gold star`: this region and Gold star (`#star`)",
+            "Name both `Gold star`: this region and `Gold star` (`#star`)",
         );
         assert!(text.contains("<desc>\"Gold star\"$</desc>"), "{text}");
         let badge = "fill=\"#ffcc00\"><desc>Badge</desc></circle>";
         let text = paired(
             &source.replace("fill=\"#ffcc00\"/>", badge),
-            "Name both `Badge`: this region and Gold star (`#star`)",
+            "Name both `Badge`: this region and `Gold star` (`#star`)",
         );
         assert!(text.contains("<desc>Badge$Depth 30</desc>"), "{text}");
     }
@@ -306,7 +307,10 @@ mod tests {
                 "<text x=\"110\"",
                 "<text x=\"138\" y=\"40.5\" font-size=\"2\" text-anchor=\"middle\">Star</text><text x=\"110\"",
             );
-        let text = paired(&source, "Name both `Badge`: this region and Star (`#star`)");
+        let text = paired(
+            &source,
+            "Name both `Badge`: this region and `Star` (`#star`)",
+        );
         assert_eq!(text.matches(">Badge</text>").count(), 2, "{text}");
     }
 

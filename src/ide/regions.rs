@@ -175,8 +175,25 @@ impl Analysis {
         out
     }
 
-    /// A region for people: its name and its element, or its number and colour in a picture.
-    pub(super) fn describe_region(&self, region: Region<'_>) -> String {
+    /// A region in Markdown: its name, and its element or its number and colour in a picture.
+    fn describe_region(&self, region: Region<'_>) -> String {
+        let element = self.element_of_region(region);
+        match region.name() {
+            Some(name) => format!("**{}** ({element})", escaped(name)),
+            None => element,
+        }
+    }
+
+    /// The same for the title of an action.
+    pub(super) fn title_of_region(&self, region: Region<'_>) -> String {
+        let element = self.element_of_region(region);
+        match region.name() {
+            Some(name) => format!("`{name}` ({element})"),
+            None => element,
+        }
+    }
+
+    fn element_of_region(&self, region: Region<'_>) -> String {
         let Place {
             view,
             region: index,
@@ -184,7 +201,7 @@ impl Analysis {
         let shape = region
             .shape()
             .map(|shape| (shape, &self.drawing().shapes[shape]));
-        let element = match shape {
+        match shape {
             Some((shape, found)) if found.picture.is_none() => {
                 let element = &found.element;
                 match element.label.is_some() || element.id.is_some() {
@@ -197,10 +214,6 @@ impl Analysis {
                 let [r, g, b] = [0, 1, 2].map(|i| (color[i] * 255.0).round() as u8);
                 format!("region {} in `#{r:02x}{g:02x}{b:02x}`", index + 1)
             }
-        };
-        match region.name() {
-            Some(name) => format!("**{}** ({element})", escaped(name)),
-            None => element,
         }
     }
 

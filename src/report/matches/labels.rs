@@ -10,7 +10,7 @@ const LEAST_DIGITS: f32 = 8.5;
 /// Room around a number, pixels.
 const ROOM: f32 = 2.5;
 /// Distances at which a number beside its region is tried, pixels.
-const DISTANCES: [f32; 8] = [8.0, 14.0, 20.0, 28.0, 38.0, 50.0, 64.0, 80.0];
+const DISTANCES: [f32; 6] = [8.0, 14.0, 20.0, 28.0, 38.0, 50.0];
 /// Directions in which it is tried.
 const DIRECTIONS: usize = 24;
 /// A pixel that shows no region.
@@ -41,7 +41,7 @@ struct Placed {
 }
 
 impl Labels {
-    /// Of a view with nothing in it, in pixels.
+    /// Of a view with nothing in it, in pixels. What lies below this height gets no numbers.
     pub(super) fn new(width: u32, height: u32) -> Option<Self> {
         let size = [width as usize, height as usize];
         Some(Self {

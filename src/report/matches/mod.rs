@@ -155,7 +155,8 @@ impl Cell<'_> {
         let corner = DVec2::new(f64::from(width), height + 2.0 * MARGIN) - self.size * scale;
         let place = |point: DVec2| (point - self.low) * scale + corner / 2.0;
         let stripes = stripes()?;
-        let mut labels = labels::Labels::new(width, full)?;
+        // No number lies on the angles.
+        let mut labels = labels::Labels::new(width, full - CAPTION as u32)?;
         let mut mask = Mask::new(width, full)?;
         let tracks = self.tracks();
         let regions = &self.character.views[self.view].regions;
