@@ -124,6 +124,7 @@ const USES: &[(&str, &[&str])] = &[
     (
         "ide",
         &[
+            "billboard",
             "bind",
             "compile",
             "diagnostic",
@@ -201,6 +202,7 @@ const USES: &[(&str, &[&str])] = &[
             "bind",
             "compile",
             "figure",
+            "geometry",
             "rig",
             "scene",
             "source",

@@ -134,6 +134,80 @@ fn hovers_describe_tiles() {
     assert!(editor.shut_down().success());
 }
 
+/// A box from two sides with a badge whose colour differs so much that its two drawings are no pair.
+const TURNING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 200 100">
+  <g id="front">
+    <rect id="body" x="30" y="20" width="40" height="50" fill="#3366cc"/>
+    <circle id="badge" cx="40" cy="40" r="5" fill="#ffcc00"/>
+    <text x="10" y="90" font-size="8">Box$View 0 0</text>
+  </g>
+  <g id="side">
+    <rect id="body-2" x="130" y="20" width="42" height="50" fill="#3366cc"/>
+    <ellipse id="star" cx="138" cy="40" rx="4" ry="5" fill="#333333"/>
+    <text x="110" y="90" font-size="8">Box$View 45 0</text>
+  </g>
+</svg>
+"##;
+
+#[test]
+fn regions_of_characters_have_partners() {
+    let mut editor = Editor::new();
+    let found = editor.opened(URI, TURNING);
+    assert_eq!(codes(&found), ["W324", "W324"]);
+    let marked = found.iter().map(|found| slice(TURNING, &found["range"]));
+    assert_eq!(marked.collect::<Vec<_>>(), ["<circle", "<ellipse"]);
+    for (word, told) in [
+        ("rect id=\"body\"", "- in `45 0`: `#body-2`, similarity 0."),
+        ("circle id", "- in `45 0`: `#star`, similarity 0.00, cost "),
+        ("Box$View 45", "- `#star` has no partner"),
+    ] {
+        let hover = editor.ask("textDocument/hover", place(TURNING, word));
+        let markdown = hover["contents"]["value"].as_str().expect("text");
+        assert!(markdown.contains(told), "{word}: {markdown}");
+    }
+    let body = editor.ask(
+        "textDocument/definition",
+        place(TURNING, "rect id=\"body\""),
+    );
+    assert_eq!(
+        body[0]["range"]["start"],
+        position(
+            TURNING,
+            TURNING.find("<rect id=\"body-2\"").expect("a shape")
+        )
+    );
+
+    let at = place(TURNING, "circle id")["position"].clone();
+    let asked = json!({
+        "textDocument": {"uri": URI},
+        "range": {"start": at, "end": at},
+        "context": {"diagnostics": [found[0].clone()]},
+    });
+    let actions = editor.ask("textDocument/codeAction", asked);
+    let actions = actions.as_array().expect("actions");
+    let naming = actions.iter().find(|action| {
+        let title = action["title"].as_str().expect("a title");
+        title == "Name both `badge`: this region and `#star`"
+    });
+    let naming = naming.unwrap_or_else(|| panic!("{actions:#?}"));
+    assert_eq!(naming["kind"], "quickfix");
+    assert_eq!(naming["diagnostics"][0]["code"], "W324");
+    let text = edited(TURNING, &naming["edit"]["changes"][URI]);
+    editor.change(URI, 2, &[json!({"text": text})]);
+    assert_eq!(editor.diagnostics(URI, 2), Vec::<Value>::new(), "{text}");
+    let named = editor.ask("textDocument/hover", place(&text, "badge</desc></circle>"));
+    let markdown = named["contents"]["value"].as_str().expect("text");
+    assert!(markdown.contains("**badge** (`#star`)"), "{markdown}");
+    // From one name to the other.
+    let other = editor.ask(
+        "textDocument/definition",
+        place(&text, "badge</desc></circle>"),
+    );
+    let second = text.rfind("badge</desc>").expect("a name");
+    assert_eq!(other[0]["range"]["start"], position(&text, second));
+    assert!(editor.shut_down().success());
+}
+
 #[test]
 fn every_request_is_answered() {
     let mut editor = Editor::new();

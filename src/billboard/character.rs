@@ -8,10 +8,11 @@ use super::backing::backings;
 use super::diagnostics;
 use super::drawn::{self, DrawnLine, DrawnView};
 use super::features::{self, OfRegion};
-use super::matching::{Matching, Track, match_regions};
+use super::keys;
+use super::matching::{Matching, Track};
 use super::place::{Frame, Placed, frames, place};
 use super::region::{Direction, View};
-use super::shape::{Ends, Morph, line_mesh, match_lines, morph};
+use super::shape::{Ends, Morph, line_mesh, match_lines};
 use super::turn::between;
 use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
@@ -104,8 +105,9 @@ pub fn read(
         }
     }
     let characters = names.into_iter().filter_map(|(name, layers)| {
-        let views = views(drawing, bindings, name, &layers, memo, diagnostics)?;
-        Some(character(drawing, bindings, name, views, diagnostics))
+        let views = views(drawing, bindings, (name, &layers), memo, diagnostics)?;
+        let drawn = (name, views);
+        Some(character(drawing, bindings, drawn, memo, diagnostics))
     });
     characters.collect()
 }
@@ -114,8 +116,7 @@ pub fn read(
 fn views(
     drawing: &Drawing,
     bindings: &Bindings,
-    name: &str,
-    layers: &[usize],
+    (name, layers): (&str, &[usize]),
     memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Option<Vec<DrawnView>> {
@@ -152,13 +153,13 @@ fn views(
 fn character(
     drawing: &Drawing,
     bindings: &Bindings,
-    name: &str,
-    drawn: Vec<DrawnView>,
+    (name, drawn): (&str, Vec<DrawnView>),
+    memo: &Memo,
     diagnostics: &mut Vec<Diagnostic>,
 ) -> Character {
     let views: Vec<View> = drawn.iter().map(|drawn| drawn.view.clone()).collect();
     let frames = frames(&views);
-    let matching = match_regions(&views, &frames);
+    let matching = keys::matched(&views, &frames, memo);
     diagnostics::report(drawing, bindings, name, &drawn, &matching, diagnostics);
     let depths: Vec<Vec<Option<f64>>> = drawn
         .iter()
@@ -183,6 +184,7 @@ fn character(
             frames: &frames,
             track: &tracks[index],
             placed: &placed[index],
+            memo,
             features: &features[index],
             backing: backings[index].as_deref(),
             behind,
@@ -208,6 +210,7 @@ struct Sources<'a> {
     frames: &'a [Frame],
     track: &'a Track,
     placed: &'a Placed,
+    memo: &'a Memo,
     features: &'a OfRegion,
     /// The outlines of its backing.
     backing: Option<&'a [Outline]>,
@@ -245,7 +248,7 @@ impl Sources<'_> {
             .collect();
         let mut area = match self.open_line(&shown) {
             Some(line) => line,
-            None => morph(&outlines, self.features),
+            None => keys::morphed(&outlines, self.features, self.memo),
         };
         let lines = shown.iter().filter_map(|at| Some((at.0, drawn(at).line?)));
         let lines: Vec<(usize, DrawnLine)> = lines.collect();
@@ -253,7 +256,7 @@ impl Sources<'_> {
         self.shrink(&mut area);
         let first = shown.first();
         let backing = self.backing.map(|outlines| {
-            let mut morph = morph(outlines, self.features);
+            let mut morph = keys::morphed(outlines, self.features, self.memo);
             self.shrink(&mut morph);
             Piece {
                 morph,

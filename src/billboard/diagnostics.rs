@@ -5,6 +5,8 @@ use super::matching::{Candidate, Matching, Place, Reason, Unmatched, Warning};
 use crate::bind::Bindings;
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
 use crate::geometry::bounds;
+use crate::lang::ast::{Annotation, ArgumentKind};
+use crate::lang::keyword::Keyword;
 use crate::source::Span;
 use crate::svg::Drawing;
 
@@ -60,25 +62,35 @@ pub(super) fn report(
     diagnostics: &mut Vec<Diagnostic>,
 ) {
     for warning in &matching.warnings {
-        let (of, message, help) = match warning {
-            Warning::SmallAngle { views, degrees } => (
-                views,
+        let (Warning::SmallAngle { views: pair, .. }
+        | Warning::BehindContainers { views: pair, .. }) = warning;
+        let angle = angle_between(views, *pair);
+        let (message, help) = match warning {
+            Warning::SmallAngle { degrees, .. } => (
                 format!("two views of `{name}` are only {degrees:.0}° apart, so the depths of its regions are uncertain"),
                 "draw them at least 15° apart, or set depths with `Depth`".to_owned(),
             ),
-            Warning::BehindContainers { views, behind, of } => (
-                views,
+            Warning::BehindContainers { behind, of, .. } => (
                 format!("in `{name}`, {behind} of {of} details come to lie behind what they are drawn on, as if it turned the other way"),
-                "change the sign of `View`'s first number: it is positive if the viewer walks to the character's left, so that its face moves to the left of the picture".to_owned(),
+                match angle {
+                    Angle::Around => "change the sign of `View`'s first number: it is positive if the viewer walks to the character's left, so that its face moves to the left of the picture".to_owned(),
+                    Angle::Up => "change the sign of `View`'s second number: it is positive if the viewer looks from above, so that the face moves down".to_owned(),
+                },
             ),
         };
-        let place = span(bindings, views[of[1]].layer);
-        let other = span(bindings, views[of[0]].layer);
-        diagnostics.push(
-            Diagnostic::new(Code::UnlikelyViews, place, message)
-                .related(other, "the view that it was compared with")
-                .help(help),
-        );
+        let [other, own] = pair.map(|view| views[view].layer);
+        let mut finding = Diagnostic::new(Code::UnlikelyViews, span(bindings, own), message)
+            .related(span(bindings, other), "the view that it was compared with")
+            .help(help);
+        if matches!(warning, Warning::BehindContainers { .. }) {
+            let fix = [own, other]
+                .into_iter()
+                .find_map(|layer| with_other_sign(bindings, layer, angle));
+            if let Some((number, span, new)) = fix {
+                finding = finding.fix(format!("Change `{number}` to `{new}`"), span, new);
+            }
+        }
+        diagnostics.push(finding);
     }
     let describe = |place: Place| describe(drawing, views, place);
     let finding = |unmatched: &Unmatched| {
@@ -114,6 +126,45 @@ pub(super) fn report(
         },
         diagnostics,
     );
+}
+
+/// One of the two angles of a view.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Angle {
+    Around,
+    Up,
+}
+
+/// The angle by which two views differ; if by both, the one around.
+fn angle_between(views: &[DrawnView], of: [usize; 2]) -> Angle {
+    let [a, b] = of.map(|view| views[view].view.direction.theta);
+    if a == b { Angle::Up } else { Angle::Around }
+}
+
+/// An angle as the string of a view gives it, the place where it does, and the angle with the other sign; `None` for an angle that
+/// is 0 or no plain number.
+fn with_other_sign(
+    bindings: &Bindings,
+    layer: usize,
+    angle: Angle,
+) -> Option<(String, Span, String)> {
+    let string = &bindings.strings[bindings.layers[layer].string];
+    let Annotation::Part(part) = &string.annotation else {
+        return None;
+    };
+    let mut attributes = part.attributes.iter();
+    let view = attributes.find(|attribute| attribute.keyword == Keyword::View)?;
+    let argument = view.arguments.get(angle as usize)?;
+    if !matches!(argument.kind, ArgumentKind::Number(number) if number != 0.0) {
+        return None;
+    }
+    let number = &string.text.as_str()[argument.range.clone()];
+    let new = match number.strip_prefix('-') {
+        Some(positive) => positive.to_owned(),
+        None => format!("-{number}"),
+    };
+    let span = string.text.span(argument.range.clone());
+    Some((number.to_owned(), span, new))
 }
 
 fn why_not(candidate: &Candidate, describe: &dyn Fn(Place) -> String) -> String {

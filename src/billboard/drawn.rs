@@ -1,14 +1,13 @@
 //! The views of a character in a drawing: which shapes, or which areas of a picture, are its regions.
 
 use std::collections::BTreeMap;
-use std::hash::{Hash, Hasher};
-use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 
 use super::diagnostics::too_many;
 use super::features::{self, FeaturePoint};
+use super::keys;
 use super::matching::Place;
 use super::raster::{self, RasterView};
 use super::region::{Direction, Region, View};
@@ -147,7 +146,12 @@ pub(super) fn read(
         diagnostics.push(too_many(bindings, layer, all.len()));
         return None;
     }
-    contain(&mut all);
+    for (region, container) in keys::contained(&all, memo, containers)
+        .into_iter()
+        .enumerate()
+    {
+        all[region].container = container;
+    }
     Some(DrawnView {
         layer,
         view: View {
@@ -223,17 +227,6 @@ fn of_shape(
     Some((region, drawn))
 }
 
-/// The file of a picture, as the key of its regions.
-#[derive(PartialEq, Eq)]
-struct PictureFile(Arc<Vec<u8>>);
-
-impl Hash for PictureFile {
-    // A drawing has few pictures, and comparing two takes less time than hashing.
-    fn hash<H: Hasher>(&self, state: &mut H) {
-        self.0.len().hash(state);
-    }
-}
-
 /// The width and height of a picture, pixels, and its regions.
 type Segmented = Result<(DVec2, RasterView), (Code, String)>;
 
@@ -252,11 +245,7 @@ fn of_picture(
     let Some(picture) = &drawing.shapes[index].picture else {
         return Ok(Vec::new());
     };
-    let read = || Arc::new(segmented(picture));
-    let found = match picture.bytes() {
-        Some(bytes) => memo.get(PictureFile(Arc::clone(bytes)), |_| read()),
-        None => read(),
-    };
+    let found = keys::segmented(picture, memo, segmented);
     let (size, found) = (*found).as_ref().map_err(Clone::clone)?;
     let place = picture.place() * DAffine2::from_scale(size.recip());
     let scale = place.matrix2.determinant().abs().sqrt();
@@ -297,11 +286,11 @@ fn of_picture(
         .collect())
 }
 
-/// Finds the container of each region that has none yet: the smallest one drawn before it that covers nearly all of it.
-fn contain(regions: &mut [Region]) {
+/// The container of each region; of those that have none yet, the smallest one drawn before it that covers nearly all of it.
+fn containers(regions: &[Region]) -> Vec<Option<usize>> {
     let areas: Vec<f64> = regions.iter().map(|r| area(&r.outline)).collect();
     let boxes: Vec<_> = regions.iter().map(|r| bounds(&r.outline)).collect();
-    let containers: Vec<Option<usize>> = (0..regions.len())
+    (0..regions.len())
         .into_par_iter()
         .map(|inner| {
             if regions[inner].container.is_some() {
@@ -320,10 +309,7 @@ fn contain(regions: &mut [Region]) {
                 area(&common) >= CONTAINED * areas[inner]
             })
         })
-        .collect();
-    for (region, container) in regions.iter_mut().zip(containers) {
-        region.container = container;
-    }
+        .collect()
 }
 
 /// Names regions by their labels, as far as these are unique in a view and occur in several: copies of a layer keep them.

@@ -12,6 +12,7 @@ mod drawn;
 mod features;
 #[cfg(test)]
 mod generated;
+mod keys;
 mod matching;
 mod nodes;
 mod place;
@@ -21,5 +22,6 @@ mod shape;
 mod turn;
 
 pub use character::{Character, Fill, Piece, RegionModel, read};
-pub use matching::{Matching, Track};
+pub use matching::{Candidate, Matching, Pair, Place, Reason, Track, Unmatched};
 pub use nodes::{FlatMaterial, RegionMaterials, add};
+pub use region::{Direction, Region, View};

@@ -389,7 +389,18 @@ pub(super) enum Format {
     Sarif,
 }
 
+const INSPECT_EXAMPLES: &str = "\
+Examples:
+  okoshi inspect human.svg                     lists the parts, and why each has its string
+  okoshi inspect --json human.svg              everything about them, for programs
+  okoshi inspect boy.svg --matches pairs.png   draws which regions of a character's views belong together
+
+In the picture of --matches, regions that okoshi takes for the same thing have the same colour and number in all views, and
+regions without a partner are grey with stripes. The list of parts shows the same numbers. If two regions should be a pair
+and are not, give both the same name.";
+
 #[derive(Debug, Args)]
+#[command(after_help = INSPECT_EXAMPLES)]
 pub(super) struct Inspect {
     /// The drawing, an SVG file; `-` is stdin
     #[arg(value_name = "DRAWING")]
@@ -397,6 +408,10 @@ pub(super) struct Inspect {
     /// Print JSON, for programs
     #[arg(long)]
     pub(super) json: bool,
+    /// Also draw the views of characters side by side, with one colour for what is the same in all of them: a .png file, or `-`
+    /// for stdout, which then shows nothing else
+    #[arg(long, value_name = "OUT.png")]
+    pub(super) matches: Option<PathBuf>,
     #[command(flatten)]
     pub(super) reading: Reading,
 }

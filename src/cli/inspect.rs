@@ -1,17 +1,20 @@
 //! `okoshi inspect`: the hierarchy, who is bound to what, and why.
 
 mod clips;
+mod matches;
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use serde::Serialize;
 
 use super::args::{Common, Inspect};
 use super::loading::{Detail, Loaded, describe, load};
 use super::progress::spinning;
-use super::{Outcome, pretty, print_out, style};
+use super::{Outcome, fail, pretty, print_out, style};
 use crate::billboard::{Character, RegionModel, Track};
 use crate::bind::{self, NamedBy, PartKind, SetBy};
+use crate::disk::is_standard_stream;
 use crate::lang::keyword::Keyword;
 use crate::report::{
     self, Billboard, Clip, Part, Reader, Terrain, billboards, describe_character, own_name, parts,
@@ -19,8 +22,17 @@ use crate::report::{
 };
 use crate::terrain::Layer;
 
-/// Prints the hierarchy; findings go to stderr.
+/// Prints the hierarchy, and draws the matching if that is asked for; findings go to stderr.
 pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
+    let picture = match arguments
+        .matches
+        .as_deref()
+        .map(|path| checked(path, arguments))
+    {
+        Some(Err(message)) => return fail(&message),
+        Some(Ok(path)) => Some(path),
+        None => None,
+    };
     let loaded = match spinning("inspecting", || {
         load(&arguments.drawing, &arguments.reading)
     }) {
@@ -36,12 +48,50 @@ pub(super) fn run(arguments: &Inspect, common: Common) -> Outcome {
             style(common, &std::io::stderr())
         )
     );
+    let drawn = match picture {
+        Some(path) => matches::draw(&loaded, path, arguments, common),
+        None => Outcome::Done,
+    };
+    if picture.is_some_and(is_standard_stream) || drawn == Outcome::Failed {
+        return loaded.outcome().max(drawn);
+    }
     let text = if arguments.json {
         json(&loaded)
     } else {
-        tree(&loaded)
+        let numbers = match picture {
+            Some(_) => Numbers::AsInPicture,
+            None => Numbers::None,
+        };
+        tree(&loaded, numbers)
     };
-    loaded.outcome().max(print_out(&text))
+    loaded.outcome().max(drawn).max(print_out(&text))
+}
+
+/// The path of the picture, unless the command cannot write it whatever is in the drawing.
+fn checked<'a>(path: &'a Path, arguments: &Inspect) -> Result<&'a Path, String> {
+    if is_standard_stream(path) {
+        return match arguments.json {
+            true => Err(
+                "--json and --matches would both be written to stdout: name a file, for example --matches pairs.png"
+                    .to_owned(),
+            ),
+            false => Ok(path),
+        };
+    }
+    match path.extension() {
+        Some(ending) if ending.eq_ignore_ascii_case("png") => Ok(path),
+        _ => Err(format!(
+            "the picture `{}` of --matches must end in .png",
+            path.display()
+        )),
+    }
+}
+
+/// Whether the list of a character's regions shows their numbers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Numbers {
+    None,
+    AsInPicture,
 }
 
 #[derive(Serialize)]
@@ -63,7 +113,7 @@ fn json(loaded: &Loaded) -> String {
     })
 }
 
-fn tree(loaded: &Loaded) -> String {
+fn tree(loaded: &Loaded, numbers: Numbers) -> String {
     let bindings = &loaded.compiled.bindings;
     let mut children: BTreeMap<Option<usize>, Vec<Item>> = BTreeMap::new();
     for (index, part) in bindings
@@ -116,7 +166,8 @@ fn tree(loaded: &Loaded) -> String {
             rows.extend(indented.map(|[name, what]| [format!("{indent}{below}  {name}"), what]));
         }
         if let Item::Character(index) = item {
-            let listed = regions(loaded, &loaded.compiled.characters[index]).into_iter();
+            let character = &loaded.compiled.characters[index];
+            let listed = regions(loaded, character, numbers).into_iter();
             rows.extend(listed.map(|[name, what]| [format!("{indent}{below}  {name}"), what]));
         }
         if let Item::Part(part) = item {
@@ -158,10 +209,10 @@ enum Item {
 }
 
 /// The regions of a character, with what each is in the views.
-fn regions(loaded: &Loaded, character: &Character) -> Vec<[String; 2]> {
+fn regions(loaded: &Loaded, character: &Character, numbers: Numbers) -> Vec<[String; 2]> {
     let drawing = &loaded.compiled.drawing;
     let tracks = character.regions.iter().zip(&character.matching.tracks);
-    let row = |(region, track): (&RegionModel, &Track)| {
+    let row = |(index, (region, track)): (usize, (&RegionModel, &Track))| {
         let members = region.shapes.iter().zip(&track.regions);
         let members: Vec<String> = members
             .map(|(shape, number)| match (shape, number) {
@@ -172,9 +223,13 @@ fn regions(loaded: &Loaded, character: &Character) -> Vec<[String; 2]> {
                 _ => "not drawn".to_owned(),
             })
             .collect();
-        [region.name.clone(), members.join(" – ")]
+        let name = match numbers {
+            Numbers::None => region.name.clone(),
+            Numbers::AsInPicture => format!("{} {}", index + 1, region.name),
+        };
+        [name, members.join(" – ")]
     };
-    let mut listed: Vec<[String; 2]> = tracks.map(row).collect();
+    let mut listed: Vec<[String; 2]> = tracks.enumerate().map(row).collect();
     shorten(&mut listed);
     listed
 }

@@ -50,11 +50,17 @@ impl Analysis {
             }));
         }
         match self.at(window.start) {
-            Some(At::Tag {
-                part: Some(part), ..
-            }) => actions.extend(self.give_a_string(part)),
-            Some(At::String { string, .. }) => actions.extend(self.move_to_legend(string)),
-            _ => {}
+            Some(At::Tag { shape, part }) => {
+                actions.extend(part.map_or(vec![], |part| self.give_a_string(part)));
+                actions.extend(self.name_both(shape));
+            }
+            Some(At::String { string, .. }) => {
+                actions.extend(self.move_to_legend(string));
+                if let Some(part) = self.part_of_string(string) {
+                    actions.extend(self.name_both(self.bindings().parts[part].shape));
+                }
+            }
+            None => {}
         }
         actions
     }
@@ -326,6 +332,17 @@ mod tests {
         assert!(after.source().contains("<desc>Eye@Body$Color red</desc>"));
         let is_hidden = |found: &Diagnostic| found.code == Code::Buried;
         assert!(!after.diagnostics().iter().any(is_hidden));
+    }
+
+    #[test]
+    fn a_view_from_the_wrong_side_is_turned() {
+        let source = include_str!("../../tests/cases/view-wrong-sign/drawing.svg");
+        let after = after(
+            &source.replace("View -45", "Vi¦ew -45"),
+            "Change `-45` to `45`",
+        );
+        assert!(after.source().contains("Boy$View 45 0"));
+        assert_eq!(after.diagnostics(), []);
     }
 
     #[test]

@@ -24,23 +24,30 @@ pub enum Target {
 impl Analysis {
     /// The span at byte `offset` and its definitions: a parent leads to its string, a part's name to its shape, a shape's tag to
     /// its string, a variable to its `Let`, a keyword to the legend or default that it overrides, a file's
-    /// name to the file.
+    /// name to the file. The name of a region leads to its partners in the other views of the character, and so does the tag
+    /// of a region without a string; the string of a view leads to those of the other views.
     pub fn definition(&self, offset: usize) -> Option<(Span, Vec<Target>)> {
         match self.at(offset)? {
             At::Tag { shape, part } => {
-                let part = &self.bindings().parts[part?];
-                let string = part.string.or(self.bindings().parts[part.main].string)?;
+                let parts = &self.bindings().parts;
+                let string =
+                    part.and_then(|part| parts[part].string.or(parts[parts[part].main].string));
                 let from = self.drawing().shapes[shape].element.span;
-                Some((from, vec![Target::Here(self.place_of_string(string))]))
+                let to = match string {
+                    Some(string) => vec![self.place_of_string(string)],
+                    None => self.partners_of_shape(shape),
+                };
+                let to: Vec<Target> = to.into_iter().map(Target::Here).collect();
+                (!to.is_empty()).then_some((from, to))
             }
             At::String { string, token, .. } => {
                 let text = &self.bindings().strings[string].text;
                 let Some(token) = token else {
-                    return Some((text.whole(), self.shape_of(string)?));
+                    return Some((text.whole(), self.named_by(string)?));
                 };
                 let from = text.span(token.range.clone());
                 let to = match token.item {
-                    Item::Name | Item::Sign | Item::Remark => self.shape_of(string)?,
+                    Item::Name | Item::Sign | Item::Remark => self.named_by(string)?,
                     Item::Keyword(index) => self.overruled(string, index)?,
                     Item::Flag(..) => return None,
                     Item::Parent | Item::Feature | Item::Argument(..) => {
@@ -99,7 +106,11 @@ impl Analysis {
         (!to.is_empty()).then_some((from, to))
     }
 
-    fn shape_of(&self, string: usize) -> Option<Vec<Target>> {
+    /// What a string names: in the other views of a character, or else its own shape.
+    fn named_by(&self, string: usize) -> Option<Vec<Target>> {
+        if let Some(others) = self.in_other_views(string) {
+            return Some(others);
+        }
         let part = &self.bindings().parts[self.part_of_string(string)?];
         let element = &self.drawing().shapes[part.shape].element;
         Some(vec![Target::Here(element.span)])
@@ -128,17 +139,35 @@ impl Analysis {
         file_named(attribute, argument).map(|name| Target::File(name.to_owned()))
     }
 
-    /// All references to the item at byte `offset`: the uses of a part or a variable; for a legend
-    /// or a default the strings and shapes of the parts that inherit from it.
+    /// All references to the item at byte `offset`: the uses of a part or a variable; for a region also what shows it in the other
+    /// views; for a legend or a default the strings and shapes of the parts that inherit from it.
     pub fn references(&self, offset: usize, with_definition: bool) -> Vec<Span> {
-        if let Some((symbol, _)) = self.symbol_at(offset) {
+        if let Some((symbol, found)) = self.symbol_at(offset) {
             let uses = self.uses(&symbol);
             let wanted = uses
                 .iter()
                 .filter(|found| with_definition || !found.defines);
-            return wanted.map(|found| self.span_of(found)).collect();
+            let mut spans: Vec<Span> = wanted.map(|found| self.span_of(found)).collect();
+            let part = self.part_of_string(found.string).filter(|_| found.defines);
+            let shape = part.map(|part| self.bindings().parts[part].shape);
+            let partners = shape.map_or(vec![], |shape| self.partners_of_shape(shape));
+            // A partner with a string of the same name is a use of it, and so a definition.
+            let is_use = |span: &Span| uses.iter().any(|found| self.span_of(found) == *span);
+            spans.extend(partners.into_iter().filter(|span| !is_use(span)));
+            return spans;
         }
         let part_name = match self.at(offset) {
+            Some(At::Tag { shape, .. }) if !self.regions_of_shape(shape).is_empty() => {
+                let own = match self.part_of_shape(shape) {
+                    Some(part) => self.place_of_part(part),
+                    None => self.drawing().shapes[shape].element.span,
+                };
+                let own = Some(own).filter(|_| with_definition);
+                return own
+                    .into_iter()
+                    .chain(self.partners_of_shape(shape))
+                    .collect();
+            }
             Some(At::Tag {
                 part: Some(part), ..
             }) => self.bindings().parts[part].name.clone(),

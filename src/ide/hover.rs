@@ -32,7 +32,7 @@ impl Analysis {
         let (span, markdown) = match self.at(offset)? {
             At::Tag { shape, part } => (
                 self.drawing().shapes[shape].element.span,
-                match self.tiles_card(shape) {
+                match self.tiles_card(shape).or_else(|| self.picture_card(shape)) {
                     Some(card) => card,
                     None => self.part_card(part?),
                 },
@@ -72,8 +72,13 @@ impl Analysis {
             }
             Item::Feature => Some("A point on the outline of a billboard's region.".to_owned()),
             Item::Keyword(index) => {
-                let manual = explain::keyword(attribute(index).keyword);
-                Some(match self.motion_card(string, index) {
+                let keyword = attribute(index).keyword;
+                let manual = explain::keyword(keyword);
+                let card = match keyword {
+                    Keyword::View => self.view_card(string),
+                    _ => self.motion_card(string, index),
+                };
+                Some(match card {
                     Some(card) => format!("{card}\n{manual}"),
                     None => manual,
                 })
@@ -191,6 +196,7 @@ impl Analysis {
                 Some(part) => Some(self.part_card(part)),
                 None => self
                     .landscape_card(string)
+                    .or_else(|| self.view_card(string))
                     .or_else(|| Some("This string is not bound to a part.".to_owned())),
             },
             Annotation::Empty
@@ -200,7 +206,7 @@ impl Analysis {
         }
     }
 
-    /// A part: its ancestors, its element and why it is bound to that, and the source of each attribute.
+    /// A part: its ancestors, its element and why it is bound to that, and the source of each attribute; the partners of a region.
     pub(super) fn part_card(&self, index: usize) -> String {
         let bindings = self.bindings();
         let part = &bindings.parts[index];
@@ -267,6 +273,11 @@ impl Analysis {
                     false => writeln!(out, "- {name} `{value}`, from {from}"),
                 };
             }
+        }
+        if part.kind == PartKind::Region
+            && let Some(partners) = self.region_card(part.shape)
+        {
+            let _ = write!(out, "\n\n{partners}");
         }
         if let Some(driven) = self.driven_card(index) {
             let _ = write!(out, "\n{driven}");

@@ -17,6 +17,8 @@ mod hover;
 mod inlay;
 mod letters;
 mod motion;
+mod pairing;
+mod regions;
 mod rename;
 mod selection;
 mod signature;

@@ -143,18 +143,7 @@ impl Analysis {
         if written_by_a_person(name).as_deref() != Some(name) {
             return Err(RenameError::NoLabel(name.to_owned()));
         }
-        let text = escape_attribute(name);
-        if let Some(span) = label_of(&self.source, element.span) {
-            return Ok(Some(Edit { span, text }));
-        }
-        let attribute = match self.source.contains(INKSCAPE) {
-            true => "inkscape:label",
-            false => "data-name",
-        };
-        Ok(Some(Edit {
-            span: Span::at(element.span.end),
-            text: format!(" {attribute}=\"{text}\""),
-        }))
+        Ok(Some(label_edit(&self.source, element.span, name)))
     }
 
     /// A description without a name inherits that of its element: the new name is inserted at its start.
@@ -174,6 +163,22 @@ impl Analysis {
 
 /// Declares the prefix under which Inkscape keeps labels.
 const INKSCAPE: &str = "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"";
+
+/// The edit that changes the label of the element whose tag begins at `tag`, or gives it one.
+pub(super) fn label_edit(source: &str, tag: Span, name: &str) -> Edit {
+    let text = escape_attribute(name);
+    if let Some(span) = label_of(source, tag) {
+        return Edit { span, text };
+    }
+    let attribute = match source.contains(INKSCAPE) {
+        true => "inkscape:label",
+        false => "data-name",
+    };
+    Edit {
+        span: Span::at(tag.end),
+        text: format!(" {attribute}=\"{text}\""),
+    }
+}
 
 /// The span of the value of an element's label, between its quotes; `tag` is the start of its tag.
 fn label_of(source: &str, tag: Span) -> Option<Span> {

@@ -1,9 +1,10 @@
-//! Reports on a compiled drawing, as data for programs: `inspect --json` and the preview's page.
+//! Reports on a compiled drawing: as data for programs (`inspect --json` and the preview's page), and as a picture (`inspect --matches`).
 
 mod billboards;
 mod clips;
 mod depths;
 mod joints;
+mod matches;
 mod parts;
 mod terrain;
 
@@ -13,5 +14,6 @@ pub use billboards::{
 pub use clips::{Clip, Held, Joint, PageDetails, Reader, clips, cut_frames};
 pub use depths::depth_reason;
 pub use joints::{Driver, drivers, ranges, undriven};
+pub use matches::picture_of_matches;
 pub use parts::{AttributeReport, Part, StringReport, landscapes, own_name, part_count, parts};
 pub use terrain::{Group, House, Terrain, terrain};

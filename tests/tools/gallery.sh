@@ -3,7 +3,8 @@
 #
 # NAME is a drawing in examples/ without extension: human, shapes/cone. Each drawing gets gallery/NAME-drawing.png and
 # gallery/NAME-model.png in docs/; human, clockwork-dragon and island-textured also get NAME.png there, with both side by side, and
-# island gets terrain-on.png and terrain-off.png, its drawn look and true 3D. Requires Inkscape for the drawings, okoshi for the
+# island gets terrain-on.png and terrain-off.png, its drawn look and true 3D, and characters/boy gets characters-matches.png, which of
+# its regions are pairs. Requires Inkscape for the drawings, okoshi for the
 # models, and Python's Pillow. OKOSHI is a binary to use instead of building one, OUT a folder to use instead of docs/.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -38,6 +39,10 @@ while IFS= read -r drawing; do
   case $name in
     human | clockwork-dragon | island-textured)
       python3 tests/tools/side_by_side.py "$room/$flat-drawing.png" "$room/$flat-model.png" "$out/$flat.png" ;;
+    characters/boy)
+      "$okoshi" inspect --quiet "$drawing" --matches "$room/matches.png" > "$room/list.txt"
+      python3 -c 'import sys; from PIL import Image; Image.open(sys.argv[1]).convert("RGB").quantize(128).save(sys.argv[2], optimize=True)' \
+        "$room/matches.png" "$out/characters-matches.png" ;;
     island)
       for bend in on off; do
         "$okoshi" render --quiet "$drawing" -o "$room/bend-$bend.png" --size 1000x1000 --view 0,45 \

@@ -222,8 +222,9 @@ export class View {
     const centre = this.box.getCenter(new Vector3());
     const away = this.camera.position.distanceTo(centre);
     this.camera.far = away + reach * 10;
-    // The parallel camera also shows what is behind it: it may be inside a wide model.
-    this.camera.near = this.isParallel ? -reach * 10 : Math.max((away - reach * 10) / 2, this.camera.far / 20_000);
+    // The parallel camera also shows what is behind it: it may be inside a wide model. The other one's near plane is as far away as the
+    // least distance from the target allows: depth is the coarser the nearer it is, and the regions of characters are close together.
+    this.camera.near = this.isParallel ? -reach * 10 : Math.max((away - reach * 10) / 2, this.camera.far / 2_000);
     this.controls.minDistance = reach * 0.01;
     this.controls.maxDistance = reach * 50;
     this.camera.updateProjectionMatrix();

@@ -1,0 +1,494 @@
+//! Regions of characters: which regions of the other views show the same thing (billboard.md, Matching).
+
+use std::fmt::Write as _;
+
+use super::hover::escaped;
+use super::{Analysis, Target};
+use crate::billboard::{Candidate, Character, Pair, Place, Reason, Unmatched};
+use crate::bind::LayerKind;
+use crate::source::Span;
+
+/// The most regions of a view that are listed; the rest is only counted.
+const MAX_LISTED: usize = 12;
+/// Costs above this are not given as numbers: such regions have nothing in common.
+const MOST_COST: f64 = 100.0;
+/// What the two numbers of a pair mean.
+const SCORES: &str = "*Two equal regions have similarity 1 and cost 0. Pairs are chosen by cost.*";
+
+/// A region of a view of a character.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Region<'a> {
+    pub(super) character: &'a Character,
+    pub(super) place: Place,
+}
+
+impl<'a> Region<'a> {
+    /// Index of its shape, or of the picture that shows it.
+    pub(super) fn shape(self) -> Option<usize> {
+        self.character.regions[self.track()?].shapes[self.place.view]
+    }
+
+    /// Index of its track in the character's matching.
+    fn track(self) -> Option<usize> {
+        let Place { view, region } = self.place;
+        let mut tracks = self.character.matching.tracks.iter();
+        tracks.position(|track| track.regions[view] == Some(region))
+    }
+
+    /// What shows the same thing, in the order of the views.
+    pub(super) fn partners(self) -> impl Iterator<Item = Region<'a>> {
+        let track = self
+            .track()
+            .map(|track| &self.character.matching.tracks[track]);
+        let regions = track
+            .into_iter()
+            .flat_map(|track| track.regions.iter().enumerate());
+        regions.filter_map(move |(view, region)| {
+            let place = Place {
+                view,
+                region: (*region)?,
+            };
+            (view != self.place.view).then_some(Self { place, ..self })
+        })
+    }
+
+    /// Why it has no partner; `None` if it has one.
+    pub(super) fn unmatched(self) -> Option<&'a Unmatched> {
+        let mut unmatched = self.character.matching.unmatched.iter();
+        unmatched.find(|unmatched| unmatched.place == self.place)
+    }
+
+    /// The name that a string or a label gives it.
+    pub(super) fn name(self) -> Option<&'a str> {
+        let Place { view, region } = self.place;
+        self.character.views[view].regions[region].name.as_deref()
+    }
+
+    /// The comparison with a region that it was matched with directly.
+    fn pair_with(self, other: Place) -> Option<&'a Pair> {
+        let mut pairs = self.character.matching.pairs.iter();
+        pairs.find(|pair| {
+            [pair.first, pair.second] == [self.place, other]
+                || [pair.second, pair.first] == [self.place, other]
+        })
+    }
+
+    /// `45 0`: the angles of its view as a string gives them.
+    fn angles(self) -> String {
+        angles(self.character, self.place.view)
+    }
+}
+
+fn angles(character: &Character, view: usize) -> String {
+    let [theta, phi] = character.turn.views[view];
+    format!("`{theta} {phi}`")
+}
+
+impl Analysis {
+    /// The regions that a shape is, or shows if it is a picture. None for shapes outside of characters.
+    pub(super) fn regions_of_shape(&self, shape: usize) -> Vec<Region<'_>> {
+        let mut found = Vec::new();
+        for character in &self.compiled.characters {
+            let tracks = character.regions.iter().zip(&character.matching.tracks);
+            for (model, track) in tracks {
+                for (view, own) in model.shapes.iter().enumerate() {
+                    if let Some(region) = track.regions[view].filter(|_| *own == Some(shape)) {
+                        let place = Place { view, region };
+                        found.push(Region { character, place });
+                    }
+                }
+            }
+        }
+        found.sort_by_key(|found| found.place.region);
+        found
+    }
+
+    /// The partners of a region that is a shape, with how well they fit, or why it has none.
+    pub(super) fn region_card(&self, shape: usize) -> Option<String> {
+        let regions = self.regions_of_shape(shape);
+        let [region] = regions.as_slice() else {
+            return None;
+        };
+        if let Some(unmatched) = region.unmatched() {
+            return Some(self.alone_card(*region, unmatched));
+        }
+        let mut out = "The same in other views:\n\n".to_owned();
+        for partner in region.partners() {
+            let (angles, what) = (partner.angles(), self.partner(*region, partner));
+            let _ = writeln!(out, "- in {angles}: {what}");
+        }
+        let _ = write!(out, "\n{SCORES}");
+        Some(out)
+    }
+
+    /// Why a region has no partner, and what fits it best.
+    fn alone_card(&self, region: Region<'_>, unmatched: &Unmatched) -> String {
+        let name = escaped(&region.character.name);
+        let mut out = format!(
+            "No other view of {name} has a partner for it: it shrinks to nothing on the way there."
+        );
+        if unmatched.candidates.is_empty() {
+            return out;
+        }
+        out.push_str(" What fits it best:\n\n");
+        for candidate in &unmatched.candidates {
+            let place = candidate.place;
+            let other = Region { place, ..region };
+            let _ = writeln!(
+                out,
+                "- in {}: {}, {}; {}",
+                other.angles(),
+                self.describe_region(other),
+                scores(candidate.similarity, candidate.cost),
+                self.why_not(region, candidate)
+            );
+        }
+        let _ = write!(out, "\n{SCORES}");
+        out
+    }
+
+    /// Why a candidate is no partner.
+    fn why_not(&self, region: Region<'_>, candidate: &Candidate) -> String {
+        match candidate.reason {
+            Reason::Color => "its colour differs too much".to_owned(),
+            Reason::Names => "it has another name".to_owned(),
+            Reason::Cost => "it is too far away, or too different in size".to_owned(),
+            Reason::Taken(place) => {
+                let by = self.describe_region(Region { place, ..region });
+                format!("it belongs to {by}")
+            }
+        }
+    }
+
+    /// A partner of a region, and how well it fits.
+    fn partner(&self, region: Region<'_>, partner: Region<'_>) -> String {
+        let mut out = self.describe_region(partner);
+        match region.pair_with(partner.place) {
+            Some(pair) => {
+                let _ = write!(out, ", {}", scores(pair.similarity, pair.cost));
+            }
+            None => out.push_str(", because both belong to a region of a third view"),
+        }
+        if region.name().is_some() && region.name() == partner.name() {
+            out.push_str("; they have the same name");
+        }
+        out
+    }
+
+    /// A region in Markdown: its name, and its element or its number and colour in a picture.
+    fn describe_region(&self, region: Region<'_>) -> String {
+        let element = self.element_of_region(region);
+        match region.name() {
+            Some(name) => format!("**{}** ({element})", escaped(name)),
+            None => element,
+        }
+    }
+
+    /// The same for the title of an action.
+    pub(super) fn title_of_region(&self, region: Region<'_>) -> String {
+        let element = self.element_of_region(region);
+        match region.name() {
+            Some(name) => format!("`{name}` ({element})"),
+            None => element,
+        }
+    }
+
+    fn element_of_region(&self, region: Region<'_>) -> String {
+        let Place {
+            view,
+            region: index,
+        } = region.place;
+        let shape = region
+            .shape()
+            .map(|shape| (shape, &self.drawing().shapes[shape]));
+        match shape {
+            Some((shape, found)) if found.picture.is_none() => {
+                let element = &found.element;
+                match element.label.is_some() || element.id.is_some() {
+                    true => element.describe(),
+                    false => self.drawing().describe(shape),
+                }
+            }
+            _ => {
+                let color = region.character.views[view].regions[index].color;
+                let [r, g, b] = [0, 1, 2].map(|i| (color[i] * 255.0).round() as u8);
+                format!("region {} in `#{r:02x}{g:02x}{b:02x}`", index + 1)
+            }
+        }
+    }
+
+    /// Describes the view that a string makes of its layer: its regions and their partners. `None` for other strings.
+    pub(super) fn view_card(&self, string: usize) -> Option<String> {
+        let bindings = self.bindings();
+        let mut layers = bindings.layers.iter();
+        let index = layers.position(|layer| layer.string == string)?;
+        let layer = &bindings.layers[index];
+        if layer.kind != LayerKind::View {
+            return None;
+        }
+        let name = escaped(&layer.name);
+        let group = self.drawing().describe_group(layer.group);
+        let found = self.compiled.characters.iter().find_map(|character| {
+            let mut layers = character.layers.iter();
+            Some((character, layers.position(|layer| *layer == index)?))
+        });
+        let Some((character, view)) = found else {
+            return Some(format!(
+                "**{name}**, {group}\n\nThis view is not built: a character needs two views from different sides, with shapes in both."
+            ));
+        };
+        let regions = 0..character.views[view].regions.len();
+        let regions = regions.map(|region| Region {
+            character,
+            place: Place { view, region },
+        });
+        let angles = angles(character, view);
+        let head = format!("**{name}**, seen from {angles}: {group}");
+        Some(format!(
+            "{head}\n\n{}",
+            self.pairs_card(&regions.collect::<Vec<_>>())
+        ))
+    }
+
+    /// Describes the regions of a picture in a view, and their partners. `None` for what is no such picture.
+    pub(super) fn picture_card(&self, shape: usize) -> Option<String> {
+        self.drawing().shapes[shape].picture.as_ref()?;
+        let regions = self.regions_of_shape(shape);
+        let first = *regions.first()?;
+        let name = escaped(&first.character.name);
+        let head = format!("**A picture** of {name}, seen from {}", first.angles());
+        Some(format!("{head}\n\n{}", self.pairs_card(&regions)))
+    }
+
+    /// How many regions have a partner, and which; those without one first.
+    fn pairs_card(&self, regions: &[Region<'_>]) -> String {
+        let (alone, matched): (Vec<Region<'_>>, Vec<Region<'_>>) = regions
+            .iter()
+            .partition(|region| region.unmatched().is_some());
+        let count = regions.len();
+        let mut out = match alone.len() {
+            0 => format!("Regions: {count}, all with a partner in another view\n\n"),
+            alone => {
+                format!("Regions: {count}, {alone} of them without a partner in another view\n\n")
+            }
+        };
+        for region in alone.iter().chain(&matched).take(MAX_LISTED) {
+            let what = self.describe_region(*region);
+            let mut partners = region.partners();
+            let _ = match (partners.next(), partners.count()) {
+                (None, _) => writeln!(out, "- {what} has no partner"),
+                (Some(first), more) => {
+                    let partner = self.partner(*region, first);
+                    let more = match more {
+                        0 => String::new(),
+                        1 => ", and in 1 more view".to_owned(),
+                        more => format!(", and in {more} more views"),
+                    };
+                    writeln!(out, "- {what} – {partner}{more}")
+                }
+            };
+        }
+        if let Some(more) = count.checked_sub(MAX_LISTED).filter(|more| *more > 0) {
+            let _ = writeln!(out, "- … and {more} more");
+        }
+        let _ = write!(out, "\n{SCORES}");
+        out
+    }
+
+    /// Where the partners of a shape's regions are: their strings, or the tags of their shapes.
+    pub(super) fn partners_of_shape(&self, shape: usize) -> Vec<Span> {
+        let regions = self.regions_of_shape(shape).into_iter();
+        let partners = regions.flat_map(Region::partners);
+        let mut found: Vec<Span> = Vec::new();
+        for span in partners.filter_map(|partner| self.place_of_region(partner)) {
+            // All regions of a picture are in one place.
+            if !found.contains(&span) {
+                found.push(span);
+            }
+        }
+        found
+    }
+
+    /// The span that names a region, or the tag of its shape.
+    fn place_of_region(&self, region: Region<'_>) -> Option<Span> {
+        let shape = region.shape()?;
+        Some(match self.part_of_shape(shape) {
+            Some(part) => self.place_of_part(part),
+            None => self.drawing().shapes[shape].element.span,
+        })
+    }
+
+    /// Where what a string names is in the other views of a character: the partners of its region, or the strings of the other
+    /// views. `None` if there are none.
+    pub(super) fn in_other_views(&self, string: usize) -> Option<Vec<Target>> {
+        let spans = match self.part_of_string(string) {
+            Some(part) => self.partners_of_shape(self.bindings().parts[part].shape),
+            None => self.other_views(string),
+        };
+        (!spans.is_empty()).then(|| spans.into_iter().map(Target::Here).collect())
+    }
+
+    /// The strings of the other views of the character whose view a string makes.
+    fn other_views(&self, string: usize) -> Vec<Span> {
+        let layers = &self.bindings().layers;
+        let strings = |character: &Character| -> Vec<usize> {
+            let views = character.layers.iter();
+            views.map(|layer| layers[*layer].string).collect()
+        };
+        let mut characters = self.compiled.characters.iter().map(strings);
+        let found = characters.find(|strings| strings.contains(&string));
+        let others = found.into_iter().flatten().filter(|other| *other != string);
+        others.map(|other| self.place_of_string(other)).collect()
+    }
+}
+
+/// How well two regions fit each other.
+fn scores(similarity: f64, cost: f64) -> String {
+    match cost < MOST_COST {
+        true => format!("similarity {similarity:.2}, cost {cost:.2}"),
+        false => format!("similarity {similarity:.2}, cost above {MOST_COST}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::analysis;
+    use super::super::{Analysis, Target};
+
+    /// A box from two sides: `front` and `side` are the contents of the views besides its body.
+    fn box_with(front: &str, side: &str) -> String {
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"200\" height=\"100\">\n\
+             <g id=\"front\"><rect id=\"body\" x=\"30\" y=\"20\" width=\"40\" height=\"50\" fill=\"#3366cc\"/>\n{front}\n\
+             <text x=\"10\" y=\"90\" font-size=\"8\">Box$View 0 0</text></g>\n\
+             <g id=\"side\"><rect id=\"body-2\" x=\"130\" y=\"20\" width=\"42\" height=\"50\" fill=\"#3366cc\"/>\n{side}\n\
+             <text x=\"110\" y=\"90\" font-size=\"8\">Box$View 45 0</text></g>\n</svg>\n"
+        )
+    }
+
+    const BADGE: &str = "<circle id=\"badge\" cx=\"40\" cy=\"40\" r=\"5\" fill=\"#ffcc00\"/>";
+    const OTHER_BADGE: &str =
+        "<circle id=\"badge-2\" cx=\"138\" cy=\"40\" r=\"5\" fill=\"#ffcc00\"/>";
+
+    fn card(source: &str) -> String {
+        let (analysis, at) = analysis(source);
+        analysis
+            .hover(at)
+            .map_or(String::new(), |hover| hover.markdown)
+    }
+
+    #[track_caller]
+    fn assert_has(card: &str, parts: &[&str]) {
+        for part in parts {
+            assert!(card.contains(part), "{part} is not in:\n{card}");
+        }
+    }
+
+    #[test]
+    fn hovers_of_regions_tell_their_partners() {
+        let badge = BADGE.replace("<circle", "<cir¦cle");
+        let found = card(&box_with(&badge, OTHER_BADGE));
+        assert_has(
+            &found,
+            &[
+                "**A region** of Box",
+                "- in `45 0`: `#badge-2`, similarity 0.",
+                ", cost 0.",
+            ],
+        );
+        let named = |circle: &str, name: &str| {
+            let named = format!("><desc>{name}</desc></circle>");
+            circle.replace("/>", &named)
+        };
+        let found = card(&box_with(
+            &named(BADGE, "St¦ar"),
+            &named(OTHER_BADGE, "Star"),
+        ));
+        assert_has(
+            &found,
+            &["**Star** (`#badge-2`)", "they have the same name"],
+        );
+    }
+
+    #[test]
+    fn hovers_of_regions_without_a_partner_tell_the_candidates() {
+        let found = card(&box_with(&BADGE.replace("<circle", "<cir¦cle"), ""));
+        assert_has(
+            &found,
+            &[
+                "No other view of Box has a partner for it",
+                "- in `45 0`: `#body-2`, similarity 0.00, cost ",
+                "; its colour differs too much",
+            ],
+        );
+    }
+
+    #[test]
+    fn hovers_of_views_list_their_regions() {
+        let source = box_with(BADGE, "").replacen("Box$View 0 0", "B¦ox$View 0 0", 1);
+        let found = card(&source);
+        assert_has(
+            &found,
+            &[
+                "**Box**, seen from `0 0`: ",
+                "Regions: 2, 1 of them without a partner",
+                "- `#badge` has no partner",
+                "- `#body` – `#body-2`, similarity 0.",
+            ],
+        );
+        let keyword = card(&source.replace('¦', "").replacen("View", "Vi¦ew", 1));
+        assert_has(&keyword, &["Regions: 2", "# View\n"]);
+        let alone = card(&source.replace("View 45 0", "View 0 0"));
+        assert_has(&alone, &["**Box**", "This view is not built"]);
+    }
+
+    fn leads(source: &str) -> Vec<String> {
+        let (analysis, at) = analysis(source);
+        let targets = analysis
+            .definition(at)
+            .map_or(vec![], |(_, targets)| targets);
+        let text = |target: &Target| match target {
+            Target::Here(span) => analysis.source()[span.start..].chars().take(18).collect(),
+            Target::File(name) => name.clone(),
+        };
+        targets.iter().map(text).collect()
+    }
+
+    #[test]
+    fn definitions_lead_to_the_partner() {
+        let star = BADGE.replace("/>", "><desc>Sta¦r</desc></circle>");
+        // To its shape, its string, its own shape if there is none.
+        assert_eq!(
+            leads(&box_with(&star, OTHER_BADGE)),
+            ["<circle id=\"badge-"]
+        );
+        let other = OTHER_BADGE.replace("/>", "><desc>Star$Depth 2</desc></circle>");
+        assert_eq!(leads(&box_with(&star, &other)), ["Star$Depth 2</desc"]);
+        assert_eq!(leads(&box_with(&star, "")), ["<circle id=\"badge\""]);
+        let tag = BADGE.replace("<circle", "<cir¦cle");
+        assert_eq!(leads(&box_with(&tag, &other)), ["Star$Depth 2</desc"]);
+        let views = box_with(BADGE, "").replacen("Box$View 0", "B¦ox$View 0", 1);
+        assert_eq!(leads(&views), ["Box$View 45 0</tex"]);
+    }
+
+    #[test]
+    fn references_are_in_all_views() {
+        let star = BADGE.replace("/>", "><desc>Sta¦r</desc></circle>");
+        let other = OTHER_BADGE.replace("/>", "><desc>Star</desc></circle>");
+        let places = |side: &str| {
+            let (analysis, at) = analysis(&box_with(&star, side));
+            let texts =
+                |span: &crate::source::Span| analysis.source()[span.start..span.end].to_owned();
+            let found = analysis.references(at, true);
+            found.iter().map(texts).collect::<Vec<_>>()
+        };
+        assert_eq!(places(&other), ["Star", "Star"]);
+        assert_eq!(places(OTHER_BADGE), ["Star", "<circle"]);
+        let of_tag = |analysis: &Analysis, at| analysis.references(at, true).len();
+        let (analysis, at) = analysis(&box_with(
+            &BADGE.replace("<circle", "<cir¦cle"),
+            OTHER_BADGE,
+        ));
+        assert_eq!(of_tag(&analysis, at), 2);
+    }
+}
