@@ -335,9 +335,10 @@ impl<'a> Attributes<'a> {
         self.number(Keyword::Axis).map(|axis| axis.value)
     }
 
-    /// `Segments`: layers per half turn.
-    pub fn segments(&self) -> u32 {
-        self.value_or(Keyword::Segments, 16.0) as u32
+    /// `Segments`, if it is set: layers per half turn.
+    pub fn segments(&self) -> Option<u32> {
+        let segments = self.number(Keyword::Segments)?;
+        Some(segments.value as u32)
     }
 
     /// `Smooth`: the angle between faces from which on an edge is sharp, degrees.

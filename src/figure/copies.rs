@@ -43,7 +43,7 @@ fn depths(context: &FigureContext<'_>, part: usize) -> Option<[f64; 2]> {
     let profile = context.profile(part).filter(|_| built)?;
     let measure = &context.bindings.parts[part].measure;
     let half = DVec2::new(measure.half_across, measure.half_along);
-    let [low, high] = profile.depths(half, &context.options(part))?;
+    let [low, high] = profile.depths(half, &context.options(part, &profile))?;
     let offset = context.offset(part);
     Some([low + offset, high + offset])
 }

@@ -13,7 +13,7 @@ mod tree;
 
 use std::sync::Arc;
 
-use glam::DAffine2;
+use glam::{DAffine2, DVec2};
 use rayon::prelude::*;
 
 use crate::bind::{Bindings, PartKind, SetBy};
@@ -67,6 +67,9 @@ pub struct Figures<'a> {
     tree: Vec<FigureNode>,
 }
 
+/// A deviation that nobody sees, as a share of the larger extent of all parts: a twentieth of a pixel in a picture a thousand
+/// pixels wide.
+const INVISIBLE: f64 = 5e-5;
 /// How far ink comes out at most, as a share of its stroke's width.
 const MAX_INK_STEP: f64 = 0.5;
 
@@ -93,7 +96,7 @@ impl<'a> Figures<'a> {
         memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Self {
-        let context = FigureContext { drawing, bindings };
+        let context = FigureContext::new(drawing, bindings);
         let parts = bindings.parts.par_iter().with_min_len(GRAIN);
         let frames: Vec<Frame> = parts
             .map(|part| Frame::new(&part.measure, part.origin))
@@ -223,9 +226,22 @@ fn parts_of_node(bindings: &Bindings) -> Vec<Vec<usize>> {
 struct FigureContext<'a> {
     drawing: &'a Drawing,
     bindings: &'a Bindings,
+    /// How far the surface of a solid may be from a rounding without anybody seeing it, drawing units.
+    invisible: f64,
 }
 
 impl<'a> FigureContext<'a> {
+    fn new(drawing: &'a Drawing, bindings: &'a Bindings) -> Self {
+        let bounds = bindings.parts.iter().map(|part| part.measure.bounds);
+        let bounds = bounds.reduce(|(low, high), (a, b)| (low.min(a), high.max(b)));
+        let extent = bounds.map_or(0.0, |(low, high)| (high - low).max_element());
+        Self {
+            drawing,
+            bindings,
+            invisible: INVISIBLE * extent,
+        }
+    }
+
     /// How far a part's solid, or its node, is moved along the viewer axis, drawing units.
     fn offset(&self, part: usize) -> f64 {
         let is_main = self.bindings.parts[part].main == part;
@@ -250,11 +266,15 @@ impl<'a> FigureContext<'a> {
         self.bindings.profile(self.drawing, part)
     }
 
-    fn options(&self, part: usize) -> solid::Options {
+    fn options(&self, part: usize, profile: &Profile) -> solid::Options {
         let attributes = self.bindings.attributes(self.bindings.form(part));
+        let measure = &self.bindings.parts[part].measure;
+        let half = DVec2::new(measure.half_across, measure.half_along);
+        let crease = attributes.crease();
+        let segments = attributes.segments();
         solid::Options {
-            segments: attributes.segments(),
-            crease: attributes.crease(),
+            segments: segments.unwrap_or_else(|| profile.segments(half, crease, self.invisible)),
+            crease,
             placement: Placement::default(),
         }
     }
@@ -268,7 +288,7 @@ impl<'a> FigureContext<'a> {
         profile: Profile,
     ) -> Solid {
         let (own, node) = (&frames[part], &frames[main]);
-        let mut options = self.options(part);
+        let mut options = self.options(part, &profile);
         options.placement = Placement {
             rotation: own.angle - node.angle,
             translation: node.to_local(own.center).extend(0.0),

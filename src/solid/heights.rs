@@ -39,22 +39,17 @@ enum Border {
 
 impl Heights {
     /// The heights of a surface.
+    #[cfg(test)]
     pub(super) fn of(surface: &Surface) -> Self {
-        let position = |corner: u32| surface.positions[corner as usize];
-        // The sum maps -0.0 to 0.0.
-        let at = |corner: u32| Vec3::from(position(corner).map(|x| x + 0.0));
-        let triangles = surface.triangles.iter();
-        Self::over(triangles.map(|triangle| triangle.map(at)), false)
+        Self::over(Facet::of(surface), false)
     }
 
-    /// The heights of triangles whose projections do not overlap.
+    /// The heights of triangles whose projections do not overlap. Their corners have the same coordinates where they share edges.
     pub(super) fn of_field(triangles: impl Iterator<Item = [Vec3; 3]>) -> Self {
-        Self::over(triangles, true)
+        Self::over(triangles.filter_map(Facet::new).collect(), true)
     }
 
-    /// The heights of those triangles that face the viewer. Their corners have the same coordinates where they share edges.
-    fn over(triangles: impl Iterator<Item = [Vec3; 3]>, is_field: bool) -> Self {
-        let facets: Vec<Facet> = triangles.filter_map(Facet::new).collect();
+    fn over(facets: Vec<Facet>, is_field: bool) -> Self {
         let corners = facets.iter().flat_map(|facet| facet.corners);
         let largest = corners.fold(0.0_f32, |most, corner| most.max(corner.abs().max_element()));
         Self {
@@ -150,7 +145,7 @@ impl Heights {
 }
 
 /// A triangle that faces the viewer.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 struct Facet {
     corners: [Vec3; 3],
     /// How much higher it is per unit, across and up.
@@ -158,6 +153,16 @@ struct Facet {
 }
 
 impl Facet {
+    /// The triangles of a surface that face the viewer.
+    fn of(surface: &Surface) -> Vec<Self> {
+        let position = |corner: u32| surface.positions[corner as usize];
+        // The sum maps -0.0 to 0.0.
+        let at = |corner: u32| Vec3::from(position(corner).map(|x| x + 0.0));
+        let triangles = surface.triangles.iter();
+        let facets = triangles.map(|triangle| Self::new(triangle.map(at)));
+        facets.flatten().collect()
+    }
+
     /// A triangle, if it faces the viewer.
     fn new(corners: [Vec3; 3]) -> Option<Self> {
         let [a, b, c] = corners.map(|corner| corner.as_dvec3());
@@ -392,7 +397,7 @@ pub(super) struct BothHeights {
 }
 
 /// Heights that are made when they are first needed.
-type LazyHeights = LazyLock<Heights, Box<dyn FnOnce() -> Heights + Send + Sync>>;
+type LazyHeights = LazyLock<Arc<Heights>, Box<dyn FnOnce() -> Arc<Heights> + Send + Sync>>;
 
 impl BothHeights {
     /// The heights of a front, and of a back, which few need: those of the solid mirrored in its plane.
@@ -402,13 +407,24 @@ impl BothHeights {
     ) -> Self {
         Self {
             front: Arc::new(front),
-            back: Arc::new(LazyLock::new(Box::new(back))),
+            back: Arc::new(LazyLock::new(Box::new(|| Arc::new(back())))),
         }
     }
 
+    /// The heights of both sides of a surface.
     pub(super) fn of(surface: &Surface) -> Self {
-        let back = Heights::of(&surface.mirrored());
-        Self::new(Heights::of(surface), move || back)
+        let [front, back] = [Facet::of(surface), Facet::of(&surface.mirrored())];
+        // Most solids are their own mirror images.
+        let is_symmetric = front == back;
+        let front = Arc::new(Heights::over(front, false));
+        let back = match is_symmetric {
+            true => Arc::clone(&front),
+            false => Arc::new(Heights::over(back, false)),
+        };
+        Self {
+            front,
+            back: Arc::new(LazyLock::new(Box::new(|| back))),
+        }
     }
 
     /// The heights of the solid mirrored in its plane.

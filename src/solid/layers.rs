@@ -14,6 +14,9 @@ const OVERFLOW: f64 = 1e-3;
 /// Layers per 180°: from the fewest that enclose a volume to more than are visible.
 const SEGMENTS: std::ops::RangeInclusive<u32> = 2..=512;
 
+/// Layers per 180° where nobody says how many.
+pub(super) const DEFAULT_SEGMENTS: u32 = 16;
+
 /// The number of steps per half turn, clamped.
 pub(super) fn steps_per_half_turn(options: &Options) -> u32 {
     options.segments.clamp(*SEGMENTS.start(), *SEGMENTS.end())

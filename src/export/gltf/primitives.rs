@@ -270,11 +270,11 @@ impl Batch {
             }
             0x100..=0xFFFF => {
                 let out = self.accessor(Kind::IndicesU16, indices.len(), None);
-                out.extend(indices.iter().flat_map(|i| (*i as u16).to_le_bytes()));
+                append(out, indices, |index| (index as u16).to_le_bytes());
             }
             _ => {
                 let out = self.accessor(Kind::IndicesU32, indices.len(), None);
-                out.extend(indices.iter().flat_map(|index| index.to_le_bytes()));
+                append(out, indices, u32::to_le_bytes);
             }
         }
         if !surface.joints.is_empty() {
@@ -312,5 +312,15 @@ impl Batch {
             bounds,
         });
         data
+    }
+}
+
+/// Appends the bytes of each index.
+fn append<const N: usize>(out: &mut Vec<u8>, indices: &[u32], bytes: impl Fn(u32) -> [u8; N]) {
+    let start = out.len();
+    out.resize(start + N * indices.len(), 0);
+    let (places, _) = out[start..].as_chunks_mut::<N>();
+    for (place, index) in places.iter_mut().zip(indices) {
+        *place = bytes(*index);
     }
 }

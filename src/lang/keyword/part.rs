@@ -147,7 +147,9 @@ pub(super) static SEGMENTS: Row = Row {
     default: "16",
     summary: "how finely a rounding is divided",
     long: "The number of steps in half a turn of a rounding. 16 looks round; 4 gives the \
-           eight-sided look of old games; more than 32 is seldom worth the extra triangles.",
+           eight-sided look of old games; more than 32 is seldom worth the extra triangles. \
+           Without it, `inflate` divides shapes that are very small beside the rest of the \
+           drawing more coarsely, down to 8.",
     example: "%Segments 8",
     ..Row::ROW
 };

@@ -21,7 +21,7 @@ const LEAST_DIAGONAL: f64 = 0.05;
 /// The lower triangle of a symmetric sparse matrix, in compressed rows.
 struct Lower {
     starts: Vec<u32>,
-    /// Columns with their values, in order.
+    /// Columns with their values, in any order.
     entries: Vec<(u32, f64)>,
     diagonal: Vec<f64>,
 }
@@ -55,12 +55,13 @@ fn assemble(
         entries: Vec::new(),
         diagonal: vec![0.0; count],
     };
-    // Places for both triangles of each edge, in the rows of its ends with the greater number.
+    // Each inner edge has two triangles, which have it in opposite directions: one of them makes its place, in the row of its
+    // end with the greater number.
     for triangle in triangles {
         let own = triangle.map(|i| unknown[i as usize]);
         for [a, b] in [[own[0], own[1]], [own[1], own[2]], [own[2], own[0]]] {
-            if a != u32::MAX && b != u32::MAX {
-                matrix.starts[a.max(b) as usize + 1] += 1;
+            if a < b && b != u32::MAX {
+                matrix.starts[b as usize + 1] += 1;
             }
         }
     }
@@ -85,45 +86,27 @@ fn assemble(
                 }
             }
             if a != u32::MAX && b != u32::MAX {
-                let end = &mut ends[a.max(b) as usize];
-                matrix.entries[*end as usize] = (a.min(b), -weight);
-                *end += 1;
+                let (row, column) = (a.max(b) as usize, a.min(b));
+                let places = matrix.starts[row] as usize..ends[row] as usize;
+                let mut known = matrix.entries[places].iter_mut();
+                if let Some((_, value)) = known.find(|(known, _)| *known == column) {
+                    *value -= weight;
+                } else {
+                    matrix.entries[ends[row] as usize] = (column, -weight);
+                    ends[row] += 1;
+                }
             }
             if own[i] != u32::MAX {
                 load[own[i] as usize] += twice / 6.0;
             }
         }
     }
-    matrix.merge();
     (matrix, load)
 }
 
 impl Lower {
     fn row(&self, i: usize) -> &[(u32, f64)] {
         &self.entries[self.starts[i] as usize..self.starts[i + 1] as usize]
-    }
-
-    /// Sorts the entries of each row and adds up those of the same column.
-    fn merge(&mut self) {
-        let mut count = 0;
-        let mut start = 0;
-        for end in &mut self.starts[1..] {
-            let row = &mut self.entries[start..*end as usize];
-            row.sort_unstable_by_key(|(column, _)| *column);
-            start = *end as usize;
-            let first = count;
-            for i in start - row.len()..start {
-                let (column, value) = self.entries[i];
-                if count > first && self.entries[count - 1].0 == column {
-                    self.entries[count - 1].1 += value;
-                } else {
-                    self.entries[count] = (column, value);
-                    count += 1;
-                }
-            }
-            *end = count as u32;
-        }
-        self.entries.truncate(count);
     }
 
     /// The diagonal of the factor: what is left of that of the matrix without the products of entries above it. Products outside

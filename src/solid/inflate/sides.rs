@@ -141,23 +141,18 @@ struct Face {
 
 impl Face {
     fn of([a, b, c]: [DVec3; 3]) -> Self {
-        // Sides are normalised first, or their product could underflow.
-        let ab = (b - a).normalize_or_zero();
-        let bc = (c - b).normalize_or_zero();
-        let ca = (a - c).normalize_or_zero();
-        let cosines = [-ca.dot(ab), -ab.dot(bc), -bc.dot(ca)];
-        let [at_a, at_b, at_c] = cosines;
-        // The sides that are closest to a right angle give the most precise normal.
-        let normal = if at_a.abs() <= at_b.abs().min(at_c.abs()) {
-            ca.cross(ab)
-        } else if at_b.abs() <= at_c.abs() {
-            ab.cross(bc)
-        } else {
-            bc.cross(ca)
-        };
+        // Products of three lengths of `f32` positions neither underflow nor overflow in `f64`.
+        let (ab, bc, ca) = (b - a, c - b, a - c);
+        let lengths = [ab.length(), bc.length(), ca.length()];
+        let inverse = (lengths[0] * lengths[1] * lengths[2]).recip();
+        let cosines = [
+            -ca.dot(ab) * lengths[1] * inverse,
+            -ab.dot(bc) * lengths[2] * inverse,
+            -bc.dot(ca) * lengths[0] * inverse,
+        ];
         Self {
-            normal: normal.normalize_or(DVec3::Z),
-            angles: [angle(at_a), angle(at_b), angle(at_c)],
+            normal: ca.cross(ab).normalize_or(DVec3::Z),
+            angles: cosines.map(angle),
         }
     }
 }

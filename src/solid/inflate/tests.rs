@@ -263,3 +263,21 @@ fn borders_are_kept() {
         );
     }
 }
+
+/// In a drawing 1000 wide, where nobody sees deviations of less than 0.05.
+#[test]
+fn outlines_that_are_small_beside_the_drawing_have_fewer_layers() {
+    let segments = |radius: f64, given: Option<f64>, crease: f64| {
+        let profile = profile("inflate", given.as_slice());
+        profile.segments(DVec2::new(radius, 2.0 * radius), crease, 0.05)
+    };
+    let of_radii = [100.0, 10.0, 6.0, 3.0, 0.0].map(|radius| segments(radius, None, 30.0));
+    assert_eq!(of_radii, [16, 16, 12, 8, 8]);
+    assert_eq!(segments(3.0, Some(50.0), 30.0), 16, "it is high");
+    let of_creases = [0.0, 10.0, 15.0, 180.0, f64::NAN].map(|crease| segments(3.0, None, crease));
+    assert_eq!(of_creases, [16, 16, 13, 8, 8], "no edges show");
+    assert_eq!(
+        profile("round", &[-90.0, 90.0]).segments(DVec2::ONE, 30.0, 0.05),
+        16
+    );
+}

@@ -1,5 +1,7 @@
 //! `inflate`: blown up like a balloon.
 
+use std::f64::consts::FRAC_PI_2;
+
 use glam::DVec2;
 
 use super::Kind;
@@ -7,6 +9,12 @@ use crate::geometry::Outline;
 use crate::scene::Surface;
 use crate::solid::Options;
 use crate::solid::inflate::{height, inflate};
+use crate::solid::layers::DEFAULT_SEGMENTS;
+
+/// Layers per half turn of the smallest outlines: seen from near by they are still round.
+const LEAST_SEGMENTS: u32 = 8;
+/// In what steps there are more.
+const STEP: f64 = 4.0;
 
 /// A height field to both sides.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,5 +40,16 @@ impl Kind for Inflate {
     fn depths(&self, half: DVec2, _: &Options) -> Option<[f64; 2]> {
         let height = height(self.height, half);
         Some([-height, height])
+    }
+
+    fn segments(&self, half: DVec2, crease: f64, invisible: f64) -> u32 {
+        // Chords of a circle of radius r with n steps per half turn are off by r(π / 2n)² / 2.
+        let radius = height(self.height, half).max(half.min_element());
+        let enough = FRAC_PI_2 * (radius / (2.0 * invisible)).sqrt();
+        // In coarse steps: when the drawing grows, most solids stay as they are.
+        let enough = (STEP * (enough / STEP).round()) as u32;
+        // With more degrees between the layers than the crease has, their edges would show.
+        let smooth = ((180.0 / crease) as u32).saturating_add(1);
+        enough.max(smooth).clamp(LEAST_SEGMENTS, DEFAULT_SEGMENTS)
     }
 }

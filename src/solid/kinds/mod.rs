@@ -13,7 +13,7 @@ use std::ops::{Deref, DerefMut};
 use glam::DVec2;
 
 use super::Options;
-use super::layers::{Layer, with_thickness};
+use super::layers::{DEFAULT_SEGMENTS, Layer, with_thickness};
 use super::stack;
 use crate::geometry::Outline;
 use crate::scene::Surface;
@@ -105,6 +105,12 @@ pub trait Kind {
     fn depths(&self, half: DVec2, options: &Options) -> Option<[f64; 2]> {
         let layers = with_thickness(self.layers(half, options), half);
         Some([layers.first()?.z, layers.last()?.z])
+    }
+
+    /// How many layers per half turn of a rounding it has if nobody says how many. Edges with a smaller angle than `crease`,
+    /// degrees, are smooth; a surface may be off by `invisible`, drawing units.
+    fn segments(&self, _half: DVec2, _crease: f64, _invisible: f64) -> u32 {
+        DEFAULT_SEGMENTS
     }
 
     /// The solid's plane faces parallel to the drawing, if it has any.

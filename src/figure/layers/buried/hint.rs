@@ -39,7 +39,9 @@ fn hint(
     floats: bool,
     found: &[&Buried],
 ) -> Option<Diagnostic> {
-    let FigureContext { drawing, bindings } = context;
+    let FigureContext {
+        drawing, bindings, ..
+    } = context;
     let given = bindings.given_depth(found.first()?.given)?;
     let name = |part: usize| match bindings.parts[part].is_automatic() {
         // Nobody knows an automatic name.

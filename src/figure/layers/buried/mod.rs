@@ -258,7 +258,9 @@ impl Search<'_> {
     }
 
     fn is_opaque(&self, shape: usize) -> bool {
-        let FigureContext { drawing, bindings } = self.arrangement.context;
+        let FigureContext {
+            drawing, bindings, ..
+        } = self.arrangement.context;
         let factors = bindings.material_factors(drawing, self.arrangement.shapes[shape].part);
         factors.color[3] >= 1.0
     }
