@@ -11,6 +11,8 @@ mod drawn;
 #[cfg(test)]
 mod generated;
 mod matching;
+#[cfg(test)]
+mod measured;
 mod nodes;
 mod place;
 mod raster;

@@ -1,0 +1,4 @@
+//! How well characters turn, measured on drawings whose answers are known.
+
+mod between;
+mod labels;
