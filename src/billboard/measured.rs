@@ -1,4 +1,5 @@
-//! How well characters turn, measured on drawings whose answers are known.
+//! How well characters turn, measured on drawings whose answers are known: generated ones, the examples, and pictures by others.
 
 mod between;
 mod labels;
+mod pairs;
