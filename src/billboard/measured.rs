@@ -3,3 +3,4 @@
 mod between;
 mod labels;
 mod pairs;
+mod traced;
