@@ -4,7 +4,9 @@ mod common;
 
 use std::fs;
 use std::path::Path;
+use std::sync::LazyLock;
 
+use glam::DVec2;
 use okoshi::compile::Compiled;
 use okoshi::disk::FolderResolver;
 use okoshi::look::DrawnView;
@@ -17,6 +19,11 @@ use resvg::tiny_skia::{Pixmap, Transform};
 const SCALE: f64 = 3.0;
 /// Colours that cover fewer pixels are not compared one by one.
 const FEW: usize = 400;
+
+/// Pixels between the places at which the colours across a line are looked at.
+const STEP: f64 = 0.05;
+/// A line's width is measured in at least so many places.
+const FEWEST_PLACES: usize = 8;
 
 const EXAMPLES: [&str; 4] = ["bird", "boy", "cat", "robot"];
 
@@ -204,47 +211,174 @@ fn on_the_page_every_view_is_as_drawn() {
     assert!(colors > 20, "{colors}");
 }
 
+/// A drawn view, and what a viewer in its direction sees of the model.
+struct Seen {
+    drawn: Picture,
+    model: Picture,
+    /// The upper left corner of both, pixels from that of the page.
+    corner: DVec2,
+    direction: [f64; 2],
+}
+
+/// The examples with their views: pictures take long.
+static SEEN: LazyLock<Vec<(&str, Character, Vec<Seen>)>> = LazyLock::new(|| {
+    let example = |name: &'static str| {
+        let character = character(name);
+        let views = seen(&character);
+        (name, character, views)
+    };
+    EXAMPLES.map(example).into()
+});
+
+/// All views of a character.
+fn seen(character: &Character) -> Vec<Seen> {
+    let compiled = &character.compiled;
+    let drawing = Picture::of_drawing(character);
+    let [shown] = &compiled.characters[..] else {
+        panic!("one character");
+    };
+    let page = compiled.drawing.page.0;
+    let root = &compiled.scene.nodes[compiled.scene.roots[0]];
+    let metres = okoshi::assemble::world_transform(&compiled.bindings, &compiled.layers).scale;
+    let view = |(index, direction): (usize, &[f64; 2])| {
+        let [right, up, _] = view_axes(*direction);
+        let frame = &shown.frames[index];
+        let boxes = shown.views[index].regions.iter();
+        let boxes = boxes.filter_map(|region| okoshi::geometry::bounds(&region.outline));
+        let (low, high) = boxes
+            .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+            .expect("regions");
+        let corner = ((low - page) * SCALE - 6.0).floor().max(DVec2::ZERO);
+        let end = ((high - page) * SCALE + 6.0).ceil();
+        let size = (end - corner).to_array().map(|side| side as usize);
+        let drawn = drawing.part(corner.to_array().map(|at| at as usize), size);
+        // Views are as large as the first one.
+        let unit = metres * shown.frames[0].height / frame.height;
+        let offset = (page + corner / SCALE - frame.center) * unit;
+        let sheet = Sheet {
+            corner: root.translation + right * offset.x - up * offset.y,
+            right,
+            up,
+            pixel: unit / SCALE,
+        };
+        let model = picture(&compiled.scene, &sheet, size.map(|side| side as u32));
+        Seen {
+            drawn,
+            model,
+            corner,
+            direction: *direction,
+        }
+    };
+    shown.turn.views.iter().enumerate().map(view).collect()
+}
+
 #[test]
 fn a_viewer_in_the_direction_of_a_view_sees_it() {
     let mut views = 0;
-    for name in EXAMPLES {
-        let character = character(name);
-        let compiled = &character.compiled;
-        let drawing = Picture::of_drawing(&character);
-        let [shown] = &compiled.characters[..] else {
-            panic!("{name} is one character");
-        };
-        let page = compiled.drawing.page.0;
-        let root = &compiled.scene.nodes[compiled.scene.roots[0]];
-        let metres = okoshi::assemble::world_transform(&compiled.bindings, &compiled.layers).scale;
-        for (index, direction) in shown.turn.views.iter().enumerate() {
-            let [right, up, _] = view_axes(*direction);
-            let frame = &shown.frames[index];
-            let boxes = shown.views[index].regions.iter();
-            let boxes = boxes.filter_map(|region| okoshi::geometry::bounds(&region.outline));
-            let (low, high) = boxes
-                .reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
-                .expect("regions");
-            let corner = ((low - page) * SCALE - 6.0).floor().max(glam::DVec2::ZERO);
-            let end = ((high - page) * SCALE + 6.0).ceil();
-            let size = (end - corner).to_array().map(|side| side as usize);
-            let crop = drawing.part(corner.to_array().map(|at| at as usize), size);
-            // Views are as large as the first one.
-            let unit = metres * shown.frames[0].height / frame.height;
-            let offset = (page + corner / SCALE - frame.center) * unit;
-            let sheet = Sheet {
-                corner: root.translation + right * offset.x - up * offset.y,
-                right,
-                up,
-                pixel: unit / SCALE,
-            };
-            let model = picture(&compiled.scene, &sheet, size.map(|side| side as u32));
-            let compared = assert_same(&crop, &model, &format!("{name} from {direction:?}"));
-            assert!(compared > 2, "{name}: {compared} colours");
+    for (name, _, drawn_views) in SEEN.iter() {
+        for seen in drawn_views {
+            let what = format!("{name} from {:?}", seen.direction);
+            let compared = assert_same(&seen.drawn, &seen.model, &what);
+            assert!(compared > 2, "{what}: {compared} colours");
             views += 1;
         }
     }
     assert_eq!(views, 9);
+}
+
+/// A place on a border with a line.
+struct Across {
+    /// Pixels.
+    at: DVec2,
+    /// Across the border, of length 1.
+    normal: DVec2,
+    /// The line's width, pixels.
+    width: f64,
+    color: [u8; 4],
+}
+
+impl Across {
+    /// How wide the line is in a picture there, pixels; `None` if it cannot be told from what is beside it.
+    fn measured(&self, picture: &Picture) -> Option<f64> {
+        let pixel = |along: f64| {
+            let at = (self.at + self.normal * along).floor();
+            let [column, row] = at.to_array().map(|at| at as usize);
+            let is_inside = at.cmpge(DVec2::ZERO).all() && column < picture.width;
+            let pixel = picture.pixels.get(row * picture.width + column);
+            pixel.filter(|_| is_inside).copied()
+        };
+        let apart = |a: [u8; 4], b: [u8; 4]| -> u32 {
+            let channels = (0..4).map(|c| u32::from(a[c].abs_diff(b[c])));
+            channels.map(|difference| difference.pow(2)).sum()
+        };
+        let reach = self.width / 2.0 + 2.0;
+        let beside = [pixel(-reach)?, pixel(reach)?];
+        if beside
+            .iter()
+            .any(|side| apart(*side, self.color) < 60_u32.pow(2))
+        {
+            return None;
+        }
+        let steps = (2.0 * reach / STEP) as u32;
+        let mut width = 0.0;
+        for step in 0..steps {
+            let own = pixel((f64::from(step) + 0.5) * STEP - reach)?;
+            let other = beside.map(|side| apart(own, side));
+            if apart(own, self.color) < other[0].min(other[1]) {
+                width += STEP;
+            }
+        }
+        Some(width)
+    }
+}
+
+#[test]
+fn lines_are_as_wide_as_drawn() {
+    let mut lines = 0;
+    for (name, character, drawn_views) in SEEN.iter() {
+        let compiled = &character.compiled;
+        let page = compiled.drawing.page.0;
+        for (view, seen) in drawn_views.iter().enumerate() {
+            for region in &compiled.characters[0].regions {
+                let Some(shape) = region.shapes[view] else {
+                    continue;
+                };
+                let shape = &compiled.drawing.shapes[shape];
+                let Some(stroke) = &shape.stroke else {
+                    continue;
+                };
+                let [r, g, b] = stroke.paint.color;
+                let rings = shape.outline.polygons.iter().flat_map(|p| &p.rings);
+                let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+                let places = edges.filter_map(|(from, to)| {
+                    let across = Across {
+                        at: ((*from + *to) / 2.0 - page) * SCALE - seen.corner,
+                        normal: (*to - *from).perp().try_normalize()?,
+                        width: stroke.width() * SCALE,
+                        color: [r, g, b, 255],
+                    };
+                    // Where nothing else hides the line or joins it.
+                    let drawn = across.measured(&seen.drawn)?;
+                    let is_clear = (drawn - across.width).abs() < 1.5;
+                    is_clear.then(|| across.measured(&seen.model))?
+                });
+                let widths: Vec<f64> = places.collect();
+                if widths.len() < FEWEST_PLACES {
+                    continue;
+                }
+                let mean = widths.iter().sum::<f64>() / widths.len() as f64;
+                let drawn = stroke.width() * SCALE;
+                assert!(
+                    (mean - drawn).abs() < 0.5,
+                    "{name} from {:?}, {}: {mean:.2} instead of {drawn:.2} pixels",
+                    seen.direction,
+                    region.name
+                );
+                lines += 1;
+            }
+        }
+    }
+    assert!(lines > 80, "{lines}");
 }
 
 #[test]

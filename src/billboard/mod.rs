@@ -14,6 +14,8 @@ mod features;
 mod generated;
 mod keys;
 mod matching;
+#[cfg(test)]
+mod measured;
 mod nodes;
 mod place;
 mod raster;

@@ -4,6 +4,8 @@
 //! is our own.
 
 mod assignment;
+#[cfg(test)]
+pub(super) mod by_similarity;
 mod cost;
 mod diagnose;
 mod exchange;
