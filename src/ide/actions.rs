@@ -16,6 +16,12 @@ const CHARACTER: f64 = 0.6;
 /// How small a text becomes to fit into a shape, as a share of the usual font size.
 const SMALLEST: f64 = 0.25;
 
+/// A string as a description. One that ends with a name in quotes, or has no letters, takes a `$` to be read as a string.
+pub(super) fn as_description(string: String) -> String {
+    let is_read = !string.ends_with('"') && string.contains(char::is_alphabetic);
+    if is_read { string } else { string + "$" }
+}
+
 /// A code action.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Action {
@@ -85,6 +91,7 @@ impl Analysis {
                 vec![edit],
             ));
         }
+        let string = as_description(string);
         if let Some(edits) = self.described(part, &string) {
             actions.push(action(
                 format!("Give this shape the description `{string}`"),
@@ -358,6 +365,18 @@ mod tests {
             assert_eq!(binding.by, by);
             assert_eq!(part.parent, after.part_named("Body"));
         }
+    }
+
+    #[test]
+    fn a_description_that_needs_quotes_is_a_string() {
+        let source = "<svg xmlns='http://www.w3.org/2000/svg' width='100' height='100' \
+            xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape'>\
+            <text x='80' y='90'>Body</text><text x='5' y='95'>%Shape round</text>\
+            <rect width='100' height='100'/>\
+            <¦circle cx='50' cy='50' r='20' inkscape:label='Gold $ star'/></svg>";
+        let after = after(source, "Give this shape the description `\"Gold $ star\"");
+        let part = after.part_named("Gold $ star").expect("a part");
+        assert!(after.bindings().parts[part].string.is_some());
     }
 
     #[test]

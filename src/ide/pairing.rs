@@ -1,6 +1,6 @@
 //! Code actions that give two regions of a character the same name, so that they are a pair.
 
-use super::actions::Action;
+use super::actions::{Action, as_description};
 use super::regions::Region;
 use super::rename::label_edit;
 use super::uses::own_name;
@@ -188,10 +188,7 @@ impl Analysis {
         let mut parts = self.bindings().parts.iter();
         let part = parts.find(|part| part.shape == shape && part.kind == PartKind::Region);
         let Some(string) = part.and_then(|part| part.string) else {
-            // A description that is only a name is read as a string if the name needs no quotes.
-            let is_plain = new == name && name.contains(char::is_alphabetic);
-            let sign = if is_plain { "" } else { "$" };
-            return Some(vec![element.with_description(&format!("{new}{sign}"))?]);
+            return Some(vec![element.with_description(&as_description(new))?]);
         };
         let string = &self.bindings().strings[string];
         let Annotation::Part(annotation) = &string.annotation else {
