@@ -11,7 +11,9 @@
     dead_code,
     unreachable_pub,
     unused_imports,
-    reason = "the stages are private modules, of which only some functions are called"
+    clippy::unwrap_used,
+    clippy::wrong_self_convention,
+    reason = "the stages are private modules with their unit tests, of which only some functions are called"
 )]
 
 #[path = "../src/geometry/mod.rs"]
