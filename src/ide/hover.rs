@@ -15,6 +15,8 @@ use crate::source::Span;
 const MAX_NAMED: usize = 8;
 /// The most generations of ancestors that are named.
 const MAX_ANCESTORS: usize = 12;
+/// What a feature point is.
+const FEATURE: &str = "A feature point: between the views of a character, this place of a region's outline goes to the one with the same name.";
 
 /// A hover.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -70,7 +72,7 @@ impl Analysis {
                     None => Some(format!("There is no part named `{name}`.")),
                 }
             }
-            Item::Feature => Some("A point on the outline of a billboard's region.".to_owned()),
+            Item::Feature => Some(FEATURE.to_owned()),
             Item::Keyword(index) => {
                 let keyword = attribute(index).keyword;
                 let manual = explain::keyword(keyword);
