@@ -235,7 +235,7 @@ pub static STRINGS: [StringRow; 6] = [
         sign: "^",
         name: "feature point",
         bound: "an outline",
-        summary: "marks a point on the outline of a billboard's region",
+        summary: "marks a point on the outline of a region of a character that turns",
         long: "The same name in two views marks the same point on a region's outline. The outlines \
                in between keep that point.",
         example: "^ nose",
