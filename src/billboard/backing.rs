@@ -11,13 +11,13 @@ use crate::geometry::{Outline, area, bounds, intersect, offset, union};
 const GROWTH: f64 = 0.03;
 /// How far it stays away from the character's border, heights: at a drawn view nothing of it may show.
 const MARGIN: f64 = 0.01;
-/// Regions with a smaller alpha hide nothing.
+/// Regions with a smaller alpha hide nothing, and have no backing.
 const OPAQUE: f64 = 0.98;
 /// What grows by a smaller share of its area has nothing to close.
 const LEAST_GROWTH: f64 = 1e-3;
 
 /// For each track its backing in each view, drawing units: the region and what it would be under its neighbours in front, without
-/// anything that shows at that view. `None` where nothing lies in front.
+/// anything that shows at that view. `None` where nothing lies in front, and for what is not opaque.
 pub(super) fn backings(
     views: &[DrawnView],
     frames: &[Frame],
@@ -29,6 +29,11 @@ pub(super) fn backings(
         (region.color[3] >= OPAQUE).then_some(&region.outline)
     };
     let backing = |track: usize| {
+        let mut shown = (0..views.len()).filter(|view| tracks[track].regions[*view].is_some());
+        if shown.any(|view| covers(view, track).is_none()) {
+            // It would show through itself.
+            return None;
+        }
         let mut grows = false;
         let of_view = |view: usize| {
             let Some(region) = tracks[track].regions[view] else {
