@@ -513,5 +513,9 @@ fn what_a_set_depth_hides_is_found() {
     let [hint] = &found[..] else {
         panic!("{found:?}");
     };
-    assert!(hint.message.contains("#head-0"), "{}", hint.message);
+    assert!(
+        hint.message.contains("`Head` is seen there"),
+        "{}",
+        hint.message
+    );
 }
