@@ -148,7 +148,7 @@ gallery() {
   need python3
   python3 -c 'import PIL' 2> /dev/null || skip "Python has no Pillow, which puts the pictures together"
   cargo build --locked --release
-  OKOSHI=target/release/okoshi OUT="$target/gallery" bash $tools/gallery.sh
+  OKOSHI=$(realpath "$target/release/okoshi") OUT="$target/gallery" bash $tools/gallery.sh
 }
 
 readme() {

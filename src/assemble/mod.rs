@@ -159,9 +159,9 @@ pub fn assemble_apart(
         );
     }
     let mut owners = vec![None; built.scene.materials.len()];
-    for ((part, _), material) in materials.flat {
-        owners[material] = part.map(Owner::Part);
-    }
+    // Each material has one owner: their order does not matter.
+    let flat = materials.flat.iter();
+    flat.for_each(|((part, _), material)| owners[*material] = part.map(Owner::Part));
     for (part, material) in built.of_part.iter().enumerate() {
         if let Some((material, _)) = material {
             owners[*material] = Some(Owner::Part(part));

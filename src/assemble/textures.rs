@@ -51,6 +51,10 @@ struct TexturedPart {
 
 impl Textures {
     /// `regions` are the parts that are regions of characters, and decide what these look like.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "it is called once, with all that is known"
+    )]
     pub(super) fn collect<'a>(
         drawing: &'a Drawing,
         bindings: &'a Bindings,

@@ -133,6 +133,14 @@ pub fn intersect(a: &Outline, b: &Outline) -> Outline {
     combine(&[a], &[b], OverlayRule::Intersect)
 }
 
+/// The area that the first of two outlines covers, and the second does not.
+pub fn subtract(a: &Outline, b: &Outline) -> Outline {
+    if a.polygons.is_empty() || b.polygons.is_empty() {
+        return a.clone();
+    }
+    combine(&[a], &[b], OverlayRule::Difference)
+}
+
 /// The area that at least one of some outlines covers.
 pub fn union(outlines: &[Outline]) -> Outline {
     let filled: Vec<_> = outlines.iter().filter(|o| !o.polygons.is_empty()).collect();

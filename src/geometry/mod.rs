@@ -19,7 +19,7 @@ mod scanline;
 mod tangled;
 mod touching;
 
-pub use boolean::{intersect, resolve_overlaps, union};
+pub use boolean::{intersect, resolve_overlaps, subtract, union};
 pub(crate) use boolean::{is_convex, remove_collinear};
 pub(crate) use boxes::{BoxTree, OrderedBoxes, area_around, indexed_box};
 pub(crate) use contact::{Body, connected, touching};

@@ -1,24 +1,27 @@
 //! Outlines that are wider or narrower by the same distance everywhere.
 
-use i_overlay::mesh::float::outline::offset::OutlineOffset;
-use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
+use i_overlay::mesh::float::stroke::offset::StrokeOffset;
+use i_overlay::mesh::float::style::{LineJoin, StrokeStyle};
 
-use super::{FillRule, Outline, Polygon, Ring, resolve_overlaps};
+use super::{FillRule, Outline, resolve_overlaps, subtract, union};
 
 /// The angle between two points of a round corner, radians.
 const ROUND: f64 = 0.3;
 
 /// The outline moved outwards by a distance, user units, or inwards if that is negative. Corners that move apart become round.
 pub fn offset(outline: &Outline, distance: f64) -> Outline {
-    // The library's borders run the other way round than ours.
-    let backwards = |ring: &Ring| ring.iter().rev().map(|p| p.to_array()).collect();
-    let polygon = |polygon: &Polygon| polygon.rings.iter().map(backwards).collect();
-    let shapes: Vec<Vec<Vec<[f64; 2]>>> = outline.polygons.iter().map(polygon).collect();
-    let style = OutlineStyle::new(distance).line_join(LineJoin::Round(ROUND));
-    let moved = shapes.outline_as::<i64>(&style);
-    let rings = moved.into_iter().flatten();
-    let forwards = rings.map(|ring| ring.into_iter().rev().map(Into::into).collect());
-    resolve_overlaps(forwards.collect(), FillRule::NonZero)
+    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let rings = rings.map(|ring| ring.iter().map(|p| p.to_array()).collect());
+    let rings: Vec<Vec<[f64; 2]>> = rings.collect();
+    let style = StrokeStyle::new(2.0 * distance.abs()).line_join(LineJoin::Round(ROUND));
+    let band = rings.stroke_as::<i64>(style, true);
+    let band = band.into_iter().flatten();
+    let band = band.map(|ring| ring.into_iter().map(Into::into).collect());
+    let band = resolve_overlaps(band.collect(), FillRule::NonZero);
+    match distance < 0.0 {
+        true => subtract(outline, &band),
+        false => union(&[outline.clone(), band]),
+    }
 }
 
 #[cfg(test)]
@@ -28,7 +31,7 @@ mod tests {
     use glam::DVec2;
 
     use super::*;
-    use crate::geometry::{area, bounds, contains};
+    use crate::geometry::{Ring, area, bounds, contains};
 
     /// A square of side 10 with a hole of side 4 in its middle.
     fn frame() -> Outline {

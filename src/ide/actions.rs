@@ -371,9 +371,9 @@ mod tests {
     fn a_description_that_needs_quotes_is_a_string() {
         let source = "<svg xmlns='http://www.w3.org/2000/svg' width='100' height='100' \
             xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape'>\
-            <text x='80' y='90'>Body</text><text x='5' y='95'>%Shape round</text>\
-            <rect width='100' height='100'/>\
-            <¦circle cx='50' cy='50' r='20' inkscape:label='Gold $ star'/></svg>";
+            <rect x='5' y='40' width='60' height='40'/><circle cx='80' cy='20' r='10'/>\
+            <text x='10' y='60'>Body</text>\
+            <¦circle cx='80' cy='85' r='12' inkscape:label='Gold $ star'/></svg>";
         let after = after(source, "Give this shape the description `\"Gold $ star\"");
         let part = after.part_named("Gold $ star").expect("a part");
         assert!(after.bindings().parts[part].string.is_some());
