@@ -62,7 +62,7 @@ mod tests {
 
     #[test]
     fn what_is_too_narrow_vanishes() {
-        assert!(offset(&frame(), -1.6).polygons.is_empty());
+        assert!(offset(&frame(), -2.2).polygons.is_empty());
         assert!(offset(&Outline::default(), 1.0).polygons.is_empty());
     }
 }

@@ -372,7 +372,7 @@ mod tests {
         let source = "<svg xmlns='http://www.w3.org/2000/svg' width='100' height='100' \
             xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape'>\
             <rect x='5' y='40' width='60' height='40'/><circle cx='80' cy='20' r='10'/>\
-            <text x='10' y='60'>Body</text>\
+            <text x='10' y='60'>Body$Shape round</text>\
             <¦circle cx='80' cy='85' r='12' inkscape:label='Gold $ star'/></svg>";
         let after = after(source, "Give this shape the description `\"Gold $ star\"");
         let part = after.part_named("Gold $ star").expect("a part");
