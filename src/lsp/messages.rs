@@ -103,6 +103,12 @@ fn readable(body: Vec<u8>) -> Result<Option<String>, Error> {
         return Ok(None);
     }
     let text = without_lone_surrogates(text);
+    // The framework would read a list as the fields of a request, in their order.
+    if text.trim_start().starts_with('[') {
+        return Err(invalid(
+            "the protocol has no batches: send the messages one by one",
+        ));
+    }
     let syntax = |error: serde_json::Error| match error.is_data() {
         true => None,
         false => Some(parse_error(error)),
@@ -110,13 +116,10 @@ fn readable(body: Vec<u8>) -> Result<Option<String>, Error> {
     let Err(error) = serde_json::from_str::<Request>(&text) else {
         return Ok(Some(text));
     };
-    match (syntax(error), text.trim_start().starts_with('[')) {
-        (_, true) => Err(invalid(
-            "the protocol has no batches: send the messages one by one",
-        )),
-        (Some(error), _) => Err(error),
-        (None, _) if serde_json::from_str::<Response>(&text).is_ok() => Ok(Some(text)),
-        (None, _) => Err(invalid(
+    match syntax(error) {
+        Some(error) => Err(error),
+        None if serde_json::from_str::<Response>(&text).is_ok() => Ok(Some(text)),
+        None => Err(invalid(
             "it is neither a request nor a notification nor a response",
         )),
     }
@@ -234,6 +237,7 @@ mod tests {
             (framed(r#"{"jsonrpc":"2.0","method":7}"#), -32600),
             (framed(r#"{"jsonrpc":"2.0","method":"a","id":[]}"#), -32600),
             (framed(&format!("[{GOOD},{GOOD}]")), -32600),
+            (framed(r#"["2.0","shutdown",1]"#), -32600),
             (b"Content-Length: many\r\n\r\n".to_vec(), -32600),
             (b"Content-Length: -1\r\n\r\n".to_vec(), -32600),
         ] {
