@@ -7,8 +7,6 @@ mod materials;
 mod textures;
 mod world;
 
-use rustc_hash::FxHashMap;
-
 use crate::billboard::{self, Character, RegionMaterials};
 use crate::bind::Bindings;
 use crate::diagnostic::Diagnostic;
@@ -95,21 +93,15 @@ pub fn assemble(
         frames: &figures.frames,
         parts_of_node: &figures.parts_of_node,
     };
-    let mut materials = RegionMaterials {
-        textured: &of_part,
-        flat: FxHashMap::default(),
-        are_apart: false,
-    };
-    for character in &characters {
-        billboard::add(
-            character,
-            drawing,
-            bindings,
-            &world,
-            &mut materials,
-            &mut scene,
-        );
-    }
+    let mut materials = RegionMaterials::new(&of_part, false);
+    billboard::add(
+        &characters,
+        drawing,
+        bindings,
+        &world,
+        &mut materials,
+        &mut scene,
+    );
     let clips = rig::add_clips(&context, nodes, resolver, memo, &mut scene, diagnostics);
     Assembled {
         scene,
@@ -143,21 +135,15 @@ pub fn assemble_apart(
         &Memo::none(),
         &mut Vec::new(),
     );
-    let mut materials = RegionMaterials {
-        textured: &built.of_part,
-        flat: FxHashMap::default(),
-        are_apart: true,
-    };
-    for character in characters {
-        billboard::add(
-            character,
-            drawing,
-            bindings,
-            &built.world,
-            &mut materials,
-            &mut built.scene,
-        );
-    }
+    let mut materials = RegionMaterials::new(&built.of_part, true);
+    billboard::add(
+        characters,
+        drawing,
+        bindings,
+        &built.world,
+        &mut materials,
+        &mut built.scene,
+    );
     let mut owners = vec![None; built.scene.materials.len()];
     // Each material has one owner: their order does not matter.
     let flat = materials.flat.iter();

@@ -253,28 +253,21 @@ fn of_picture(
         let point = |p: &DVec2| place.transform_point2(*p);
         outline.map_rings(|ring| ring.iter().map(point).collect())
     };
+    let region = |outline: &Outline, color, container| Region {
+        name: None,
+        outline: moved(outline),
+        color,
+        container,
+    };
     let regions = found.regions.iter().map(|found| {
         let line = found.line.map(|line| DrawnLine {
             width: line.width * scale,
             color: line.color,
         });
-        let region = Region {
-            name: None,
-            outline: moved(&found.outline),
-            color: found.color,
-            container: found.container,
-        };
-        (region, line)
+        (region(&found.outline, found.color, found.container), line)
     });
-    let inner = found.lines.iter().map(|line| {
-        let region = Region {
-            name: None,
-            outline: moved(&line.outline),
-            color: line.color,
-            container: line.region,
-        };
-        (region, None)
-    });
+    let inner = found.lines.iter();
+    let inner = inner.map(|line| (region(&line.outline, line.color, line.region), None));
     let drawn = |line| Drawn {
         shape: index,
         line,

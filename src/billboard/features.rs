@@ -97,20 +97,14 @@ pub(super) fn assign(
     let mut assigned = vec![vec![Vec::new(); views.len()]; tracks.len()];
     for (view, drawn) in views.iter().enumerate() {
         for feature in &drawn.features {
-            let namesake = |view: &DrawnView| {
+            let namesakes = views.iter().map(|view| {
                 let mut features = view.features.iter();
-                features.position(|other| other.name == feature.name)
-            };
-            if views[..view]
-                .iter()
-                .any(|before| namesake(before).is_some())
-            {
+                features.find(|other| other.name == feature.name)
+            });
+            let each: Vec<Option<&FeaturePoint>> = namesakes.collect();
+            if each[..view].iter().any(Option::is_some) {
                 continue;
             }
-            let each: Vec<Option<&FeaturePoint>> = views
-                .iter()
-                .map(|view| namesake(view).map(|index| &view.features[index]))
-                .collect();
             let problem = match nearest(&each, views, frames, tracks) {
                 None if each.iter().flatten().count() < 2 => "no other view has it",
                 None => "in the views that have it, it is beside regions that are no partners",

@@ -32,7 +32,16 @@ pub struct RegionMaterials<'a> {
 /// What tells materials without a texture apart: a part, if they are not shared, and sRGB with straight alpha as bits.
 pub type FlatMaterial = (Option<usize>, [u64; 4]);
 
-impl RegionMaterials<'_> {
+impl<'a> RegionMaterials<'a> {
+    /// No materials but those with textures.
+    pub fn new(textured: &'a [PartMaterial], are_apart: bool) -> Self {
+        Self {
+            textured,
+            flat: FxHashMap::default(),
+            are_apart,
+        }
+    }
+
     /// The index of the material of a part in a colour, sRGB with straight alpha, each 0 to 1.
     fn material(&mut self, part: Option<usize>, color: [f64; 4], scene: &mut Scene) -> usize {
         let owner = part.filter(|_| self.are_apart);
@@ -54,8 +63,21 @@ impl RegionMaterials<'_> {
     }
 }
 
-/// Adds a character's node and those of its regions to a scene, and the clip that turns it.
+/// Adds the nodes of characters and of their regions to a scene, and the clips that turn them.
 pub fn add(
+    characters: &[Character],
+    drawing: &Drawing,
+    bindings: &Bindings,
+    world: &WorldTransform,
+    materials: &mut RegionMaterials<'_>,
+    scene: &mut Scene,
+) {
+    for character in characters {
+        add_one(character, drawing, bindings, world, materials, scene);
+    }
+}
+
+fn add_one(
     character: &Character,
     drawing: &Drawing,
     bindings: &Bindings,
