@@ -336,28 +336,31 @@ fn bent() -> Vec<u8> {
     upright(node, Vec::new())
 }
 
-/// A clip that turns the model about z by so many degrees a key.
-fn turning(name: &str, seconds: f64, times: &[f32], interpolation: Interpolation) -> Animation {
-    let turn = |key| DQuat::from_rotation_z(f64::from(key) * 0.4);
+/// A clip that turns the model about z a bit further at each key. The last key of held drawings repeats the one before.
+fn turning(name: &str, times: &[f32], interpolation: Interpolation) -> Animation {
+    let drawings = match interpolation {
+        Interpolation::Step => times.len() - 1,
+        Interpolation::Linear => times.len(),
+    };
+    let turn = |key: usize| DQuat::from_rotation_z(key.min(drawings - 1) as f64 * 0.4);
     Animation {
         name: name.to_owned(),
-        seconds,
         tracks: vec![Track {
             node: 0,
             timing: Arc::new(Timing {
                 times: times.to_vec(),
                 interpolation,
             }),
-            values: Values::Rotations((0..times.len() as u32).map(turn).collect()),
+            values: Values::Rotations((0..times.len()).map(turn).collect()),
         }],
     }
 }
 
 /// A folder with a model of two clips and one of a single clip of three held drawings.
 fn moving_room() -> Room {
-    let held = [0.0, 1.0 / 3.0, 5.0 / 6.0];
-    let held = turning("held", 1.0, &held, Interpolation::Step);
-    let smooth = turning("wave hand", 0.5, &[0.0, 0.5], Interpolation::Linear);
+    let held = [0.0, 1.0 / 3.0, 5.0 / 6.0, 1.0];
+    let held = turning("held", &held, Interpolation::Step);
+    let smooth = turning("wave hand", &[0.0, 0.5], Interpolation::Linear);
     let room = room();
     let both = vec![smooth, held.clone()];
     room.write("two.glb", upright(Node::default(), both));

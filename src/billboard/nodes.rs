@@ -209,7 +209,6 @@ fn clip(character: &Character, root: usize, scale: f64) -> Animation {
             times.push(start + share * degrees / 45.0 * SECONDS);
         }
     }
-    let seconds = times.last().copied().unwrap_or_default();
     let timing = Arc::new(Timing {
         times: times.into_iter().map(|time| time as f32).collect(),
         interpolation: Interpolation::Linear,
@@ -236,7 +235,6 @@ fn clip(character: &Character, root: usize, scale: f64) -> Animation {
     }
     Animation {
         name: format!("{} turns", character.name),
-        seconds,
         tracks,
     }
 }

@@ -102,9 +102,6 @@ fn check_materials(scene: &Scene) -> io::Result<()> {
 fn check_animation(animation: &Animation, nodes: usize) -> io::Result<()> {
     let name = &animation.name;
     let wrong = |what: &str| Err(invalid(format!("animation `{name}` has {what}")));
-    if !(0.0..f64::INFINITY).contains(&animation.seconds) {
-        return wrong("a length that is not a duration");
-    }
     let mut animated = BTreeSet::new();
     for Track {
         node,

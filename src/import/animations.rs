@@ -21,7 +21,7 @@ pub const MAX_KEYS: usize = 32 << 20;
 pub struct Clip {
     /// Its name, empty if it has none.
     pub name: String,
-    /// Its length: up to its last key, or longer if the file says so in `extras.okoshi.seconds`.
+    /// Its length: up to its last key.
     pub seconds: f64,
     animated: Vec<AnimatedNode>,
 }
@@ -206,7 +206,7 @@ struct Reader<'a> {
 impl<'a> Reader<'a> {
     fn clip(&mut self, animation: &Animation<'a>) -> Result<Clip, ImportError> {
         let mut animated: BTreeMap<usize, AnimatedNode> = BTreeMap::new();
-        let mut seconds = declared_seconds(animation);
+        let mut seconds = 0.0_f64;
         for channel in animation.channels() {
             let target = channel.target();
             let times = self.key_times(&channel)?;
@@ -361,16 +361,6 @@ fn curve<const N: usize>(
             "accessor {list} of animation {clip} has a key that is not a number"
         ))),
     }
-}
-
-/// The length in `extras.okoshi.seconds`, 0 if there is none.
-fn declared_seconds(animation: &Animation<'_>) -> f64 {
-    let said = animation.extras().as_ref().and_then(|extras| {
-        let extras: serde_json::Value = serde_json::from_str(extras.get()).ok()?;
-        extras.get("okoshi")?.get("seconds")?.as_f64()
-    });
-    said.filter(|seconds| seconds.is_finite())
-        .map_or(0.0, |seconds| seconds.max(0.0))
 }
 
 #[cfg(test)]

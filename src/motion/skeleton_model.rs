@@ -96,22 +96,20 @@ fn animation(
     scale: f64,
 ) -> Animation {
     let step = clip.frame_time;
-    let (keys, seconds): (Vec<[usize; 2]>, f64) = match exposure {
-        Some(sheet) => (
-            sheet
-                .drawings()
+    let keys: Vec<[usize; 2]> = match exposure {
+        Some(sheet) => {
+            let drawings = sheet.drawings();
+            let mut keys: Vec<[usize; 2]> = drawings
                 .map(|drawing| [drawing.start, drawing.source as usize])
-                .collect(),
-            sheet.len() as f64 * step,
-        ),
-        None => (
-            (0..clip.frames()).map(|frame| [frame; 2]).collect(),
-            clip.frames().saturating_sub(1) as f64 * step,
-        ),
+                .collect();
+            // Readers take the last key for the end of the clip.
+            keys.extend(keys.last().map(|[_, source]| [sheet.len(), *source]));
+            keys
+        }
+        None => (0..clip.frames()).map(|frame| [frame; 2]).collect(),
     };
     let mut animation = Animation {
         name: name.to_owned(),
-        seconds,
         tracks: Vec::new(),
     };
     if keys.is_empty() {

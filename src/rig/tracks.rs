@@ -16,7 +16,6 @@ pub(super) struct KeyTimes {
     timing: Arc<Timing>,
     /// Per key the frame of the clip.
     frames: Vec<usize>,
-    seconds: f64,
 }
 
 impl KeyTimes {
@@ -30,27 +29,27 @@ impl KeyTimes {
                 interpolation: Interpolation::Linear,
             }),
             frames: (0..frames).collect(),
-            seconds: frames.saturating_sub(1) as f64 * frame_time,
         }
     }
 
-    /// A key for every drawing of an exposure sheet, held until the next one.
+    /// A key for every drawing of an exposure sheet, held until the next one, and a closing key that ends the last one: readers
+    /// take the last key for the end of the clip.
     pub(super) fn stepped(exposure: &Exposure, frame_time: f64) -> Self {
         let drawings = exposure.drawings();
-        let keys = drawings.map(|drawing| {
-            (
-                (drawing.start as f64 * frame_time) as f32,
-                drawing.source as usize,
-            )
-        });
-        let (times, frames) = keys.unzip();
+        let keys = drawings.map(|drawing| (drawing.start, drawing.source as usize));
+        let mut keys: Vec<(usize, usize)> = keys.collect();
+        keys.extend(keys.last().map(|(_, source)| (exposure.len(), *source)));
+        let time = |frame: usize| (frame as f64 * frame_time) as f32;
+        let (times, frames) = keys
+            .into_iter()
+            .map(|(frame, source)| (time(frame), source))
+            .unzip();
         Self {
             timing: Arc::new(Timing {
                 times,
                 interpolation: Interpolation::Step,
             }),
             frames,
-            seconds: exposure.len() as f64 * frame_time,
         }
     }
 }
@@ -112,7 +111,6 @@ impl AnimatedNodes {
         }
         Animation {
             name: name.to_owned(),
-            seconds: keys.seconds,
             tracks,
         }
     }
@@ -132,10 +130,7 @@ pub(super) fn add(animations: &mut Vec<Animation>, animation: Animation) {
         .iter_mut()
         .find(|other| other.name == animation.name)
     {
-        Some(other) => {
-            other.seconds = other.seconds.max(animation.seconds);
-            other.tracks.extend(animation.tracks);
-        }
+        Some(other) => other.tracks.extend(animation.tracks),
         None => animations.push(animation),
     }
 }

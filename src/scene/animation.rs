@@ -9,10 +9,19 @@ use glam::{DQuat, DVec3};
 pub struct Animation {
     /// Its name.
     pub name: String,
-    /// Its duration. The last key may be earlier; its values then hold until the end.
-    pub seconds: f64,
     /// Its tracks; a node has at most one of each kind.
     pub tracks: Vec<Track>,
+}
+
+impl Animation {
+    /// Its duration in seconds: the time of its last key, because readers of glTF files know no other.
+    pub fn seconds(&self) -> f64 {
+        let ends = self
+            .tracks
+            .iter()
+            .filter_map(|track| track.timing.times.last());
+        ends.copied().fold(0.0, f32::max).into()
+    }
 }
 
 /// The rotations, the translations or the weights of a node.

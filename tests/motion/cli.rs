@@ -171,8 +171,10 @@ fn a_model_has_a_key_for_each_drawing() {
         .exposure
         .drawings()
         .map(|drawing| (drawing.start as f64 * full.frame_time) as f32);
-    let starts: Vec<f32> = starts.collect();
+    let mut starts: Vec<f32> = starts.collect();
     assert!(starts.len() < FRAMES);
+    // The closing key repeats the last drawing.
+    starts.push((cut.exposure.len() as f64 * full.frame_time) as f32);
     let mut turning = 0;
     for channel in clips[0].channels() {
         assert_eq!(channel.sampler().interpolation(), Interpolation::Step);

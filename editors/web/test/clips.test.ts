@@ -41,7 +41,7 @@ browse("a limited clip counts drawings and frames over its full duration, with i
   assert.equal(await page.locator(".clip-choice").locator("option").allInnerTexts().then((all) => all.join("|")), `kick · 2.5 s · ${DRAWINGS} drawings|slowly · 2.5 s`);
   assert.equal(await readout(page), `drawing 1 of ${DRAWINGS} · frame 1 of 60 · 0.00 s`);
   assert.equal(await page.locator(".ticks").getAttribute("data-keys"), String(DRAWINGS));
-  assert.equal(await page.locator(".slider").getAttribute("max"), String(SECONDS));
+  assert.equal(await page.locator(".slider").getAttribute("max"), String(Math.fround(SECONDS)));
   const [, stands] = EXPOSURE.at(-1)!;
   assert.ok(stands > 1, "the last drawing is held");
   const path = (await page.locator(".ticks .held").getAttribute("d"))!;

@@ -122,7 +122,6 @@ function clip(numbers: Numbers, name: string, keys: readonly (readonly [at: numb
   const interpolation = held ? "STEP" : "LINEAR";
   return {
     name,
-    extras: { okoshi: { seconds: SECONDS } },
     samplers: [{ input, output: turns, interpolation }, { input, output: places, interpolation }],
     channels: [{ sampler: 0, target: { node: 1, path: "rotation" } }, { sampler: 1, target: { node: 0, path: "translation" } }],
   };
@@ -130,7 +129,9 @@ function clip(numbers: Numbers, name: string, keys: readonly (readonly [at: numb
 
 const linear = (byte: number): number => (byte / 255) ** 2.2;
 const full = Array.from({ length: FRAMES }, (_, frame) => [frame, frame] as const);
-const limited = EXPOSURE.map(([source], at) => [EXPOSURE.slice(0, at).reduce((sum, [, frames]) => sum + frames, 0), source] as const);
+const drawings = EXPOSURE.map(([source], at) => [EXPOSURE.slice(0, at).reduce((sum, [, frames]) => sum + frames, 0), source] as const);
+/** The closing key repeats the last drawing at the end of the clip. */
+const limited = [...drawings, [FRAMES, drawings.at(-1)![1]] as const];
 
 /** Meshes have the names of their nodes, so that three.js renames one of the two; the file of the originals has no meshes. */
 function file(withMeshes: boolean, clips: (numbers: Numbers) => object[], change: (colour: Vector) => Vector = (colour) => colour): Buffer {

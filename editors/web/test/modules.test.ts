@@ -89,9 +89,10 @@ test("clips with only held keys are counted in drawings", () => {
     if (held) made.setInterpolation(InterpolateDiscrete);
     return made;
   };
-  const held = keysOf({ tracks: [track([0, 0.5], true), track([0, 0.25, 1], true)] });
+  const held = keysOf({ duration: 2, tracks: [track([0, 0.5], true), track([0, 0.25, 1, 2], true)] });
   assert.deepEqual(held, { times: [0, 0.25, 0.5, 1], held: true });
-  assert.equal(keysOf({ tracks: [track([0, 1], true), track([0, 1], false)] }).held, false);
+  assert.equal(keysOf({ duration: 1, tracks: [track([0, 1], true), track([0, 1], false)] }).held, false);
+  assert.deepEqual(keysOf({ duration: 0, tracks: [track([0], true)] }).times, [0]);
   assert.deepEqual([-1, 0, 0.24, 0.25, 0.9, 1, 5].map((time) => drawingAt(held, time)), [1, 1, 1, 2, 3, 4, 4]);
   assert.equal(drawingAt({ times: [0, Math.fround(0.1)], held: true }, 0.1), 2);
 });

@@ -12,8 +12,6 @@ use ::gltf::json::animation::{
 use ::gltf::json::validation::Checked::Valid;
 use glam::{DQuat, DVec3};
 use rustc_hash::FxHashMap;
-use serde_json::json;
-use serde_json::value::to_raw_value;
 
 use super::buffer::{BufferWriter, Kind};
 use super::document::{index, name};
@@ -132,12 +130,11 @@ pub(super) fn animation(animation: &scene::Animation, accessors: &[[usize; 2]]) 
         extras: None,
     };
     let tracks = &animation.tracks;
-    let length = json!({ "okoshi": { "seconds": animation.seconds } });
     Animation {
         name: name(&animation.name),
         channels: tracks.iter().enumerate().map(channel).collect(),
         samplers: tracks.iter().zip(accessors).map(sampler).collect(),
         extensions: None,
-        extras: to_raw_value(&length).ok(),
+        extras: None,
     }
 }

@@ -7,10 +7,10 @@ fn walker(interpolation: &str) -> Vec<u8> {
     moving(shape, "translation", places, interpolation)
 }
 
-/// A shape with three keys, a second apart, in a clip of three seconds.
+/// A shape with three keys, a second apart, and a closing key that repeats the last a second later.
 fn moving(shape: Shape, path: &str, rows: [Vec3; 3], interpolation: &str) -> Vec<u8> {
-    let rows = rows.iter().flat_map(|row| row.to_array());
-    let keys = bytes([0.0, 1.0, 2.0].into_iter().chain(rows));
+    let rows = rows.iter().chain(&rows[2..]).flat_map(|row| row.to_array());
+    let keys = bytes([0.0, 1.0, 2.0, 3.0].into_iter().chain(rows));
     let mut root: Value = serde_json::from_slice(&file(&[shape], &json!({}))).unwrap();
     let uri = base64::engine::general_purpose::STANDARD.encode(&keys);
     let of = |name: &str| root[name].as_array().unwrap().len();
@@ -22,25 +22,24 @@ fn moving(shape: Shape, path: &str, rows: [Vec3; 3], interpolation: &str) -> Vec
     append("buffers", json!({ "byteLength": keys.len(), "uri": uri }));
     append(
         "bufferViews",
-        json!({ "buffer": buffer, "byteOffset": 0, "byteLength": 12 }),
+        json!({ "buffer": buffer, "byteOffset": 0, "byteLength": 16 }),
     );
     append(
         "bufferViews",
-        json!({ "buffer": buffer, "byteOffset": 12, "byteLength": 36 }),
+        json!({ "buffer": buffer, "byteOffset": 16, "byteLength": 48 }),
     );
     let times = json!({
-        "bufferView": view, "componentType": 5126, "count": 3, "type": "SCALAR", "min": [0], "max": [2],
+        "bufferView": view, "componentType": 5126, "count": 4, "type": "SCALAR", "min": [0], "max": [3],
     });
     append("accessors", times);
     append(
         "accessors",
-        json!({ "bufferView": view + 1, "componentType": 5126, "count": 3, "type": "VEC3" }),
+        json!({ "bufferView": view + 1, "componentType": 5126, "count": 4, "type": "VEC3" }),
     );
     root["animations"] = json!([{
         "name": "walk",
         "channels": [{ "sampler": 0, "target": { "node": 0, "path": path } }],
         "samplers": [{ "input": accessor, "output": accessor + 1, "interpolation": interpolation }],
-        "extras": { "okoshi": { "seconds": 3.0 } },
     }]);
     serde_json::to_vec(&root).unwrap()
 }

@@ -10,12 +10,14 @@ export interface Keys {
   readonly held: boolean;
 }
 
-/** The keys of a clip. */
-export function keysOf(clip: Pick<AnimationClip, "tracks">): Keys {
+/** The keys of a clip. A key at the end of a clip of held drawings only ends the last one. */
+export function keysOf(clip: Pick<AnimationClip, "tracks" | "duration">): Keys {
   const times = new Set<number>();
   for (const track of clip.tracks) for (const time of track.times) times.add(time);
   const held = clip.tracks.length > 0 && clip.tracks.every((track) => track.getInterpolation() === InterpolateDiscrete);
-  return { times: [...times].sort((a, b) => a - b), held };
+  const sorted = [...times].sort((a, b) => a - b);
+  if (held && sorted.length > 1 && sorted.at(-1)! >= clip.duration) sorted.pop();
+  return { times: sorted, held };
 }
 
 /** The number of the held drawing at a time, from 1. */

@@ -22,15 +22,7 @@ export async function readFile(bytes: ArrayBuffer): Promise<{ readonly scene: Gr
     return { name: "okoshi-images" };
   });
   const { scene, animations } = await loader.parseAsync(bytes, "");
-  for (const clip of animations) clip.duration = Math.max(clip.duration, secondsOf(clip));
   return { scene, animations };
-}
-
-/** The declared duration of a clip: its last drawing is held until then. 0 if none is declared. */
-function secondsOf(clip: AnimationClip): number {
-  const okoshi: unknown = (clip.userData as Readonly<Record<string, unknown>>)["okoshi"];
-  const seconds = typeof okoshi === "object" && okoshi !== null && "seconds" in okoshi ? okoshi.seconds : 0;
-  return typeof seconds === "number" && Number.isFinite(seconds) ? seconds : 0;
 }
 
 export class Model {
