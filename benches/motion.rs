@@ -18,10 +18,11 @@ use std::time::{Duration, Instant};
 use glam::DVec3;
 use okoshi::motion::bvh;
 use okoshi::motion::edit::{ExposureMethod, edit};
-use okoshi::motion::limited::{Length, Options, compare, drawings, limit};
+use okoshi::motion::limited::{Length, Options, Poses, compare, drawings, limit};
+use okoshi::motion::measured::PointChoice;
 use okoshi::motion::prepare;
 use okoshi::motion::skeleton::{Axis, Channel, Clip, Joint, Skeleton};
-use plain_limited::plain;
+use plain_limited::{plain, repeats};
 
 /// Joints of the figure.
 const JOINTS: usize = 30;
@@ -106,7 +107,13 @@ fn whole(frames: usize) {
         times[0].push(begun.elapsed());
         let begun = Instant::now();
         out.clear();
-        let edited = edit(read(&text), &prepare::Options::default(), method, None);
+        let edited = edit(
+            read(&text),
+            &prepare::Options::default(),
+            method,
+            PointChoice::Seen,
+            None,
+        );
         let written = edited.map(|edited| edited.write_bvh(&mut out).is_ok());
         assert_eq!(written, Ok(true));
         times[1].push(begun.elapsed());
@@ -155,7 +162,7 @@ fn measure(frames: usize) {
     let positions = motion(frames);
     let usual = Options::recommended(frames);
     let fast = median(ROUNDS, || {
-        drop(black_box(limit(&positions, JOINTS, &usual)))
+        drop(black_box(limit(Poses::new(&positions, JOINTS), &usual)))
     });
     let holds = usual.hold.min(MAX_SPEEDS / JOINTS / frames.max(1));
     let few = Options {
@@ -167,9 +174,19 @@ fn measure(frames: usize) {
     let mut shown = Vec::new();
     let rounds = if frames > 1000 { 1 } else { ROUNDS };
     let slow = median(rounds, || {
-        shown = plain(&positions, JOINTS, [few.omit, few.hold], true).shown;
+        shown = plain(
+            &positions,
+            JOINTS,
+            &repeats(&positions, JOINTS),
+            [few.omit, few.hold],
+            true,
+        )
+        .shown;
     });
-    let equal = limit(&positions, JOINTS, &few).exposure.sources() == shown;
+    let equal = limit(Poses::new(&positions, JOINTS), &few)
+        .exposure
+        .sources()
+        == shown;
     assert!(equal, "{frames} frames: not what the plain algorithm makes");
     println!(
         "{frames} frames: {fast:.3} ms for {} steps; plain {slow:.1} ms for {}{}: {:.0} × as long",
@@ -183,11 +200,11 @@ fn measure(frames: usize) {
         slow / steps(&few) / (fast / steps(&usual)),
     );
 
-    let cut = limit(&positions, JOINTS, &usual).exposure;
+    let cut = limit(Poses::new(&positions, JOINTS), &usual).exposure;
     let count = cut.drawings().count();
     let mut best = None;
     let time = median(ROUNDS, || {
-        best = Some(drawings(&positions, JOINTS, count, 8))
+        best = Some(drawings(Poses::new(&positions, JOINTS), count, 8))
     });
     if let Some(best) = best {
         let over = 100.0 * (best.cost - best.bound) / best.bound.max(f64::MIN_POSITIVE);
@@ -195,7 +212,7 @@ fn measure(frames: usize) {
             "  the best {count} drawings: {time:.1} ms, at most {over:.1e} % over the least cost"
         );
     }
-    for (method, error) in compare(&positions, JOINTS, 2.0, &cut) {
+    for (method, error) in compare(Poses::new(&positions, JOINTS), 2.0, &cut) {
         let percent = error.percent.unwrap_or_default();
         println!(
             "  {method:?}: {} drawings, RMS {percent:.2} % of the height",

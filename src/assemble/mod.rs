@@ -92,6 +92,7 @@ pub fn assemble(
         world: &world,
         frames: &figures.frames,
         parts_of_node: &figures.parts_of_node,
+        thicknesses: &figures.thicknesses,
     };
     let mut materials = RegionMaterials::new(&of_part, false);
     billboard::add(

@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::export::{EXPORTERS, extensions};
 use crate::motion::limited::Camera;
+use crate::motion::measured::PointChoice;
 use crate::motion::resample::{Range, parse_range};
 
 mod render;
@@ -298,6 +299,11 @@ pub(super) struct Motion {
     /// Keep the T-pose at the beginning
     #[arg(long)]
     pub(super) keep_rest: bool,
+    /// Where speed is measured: at the joints that are seen and the ends of head, hands and feet, or at all joints, as in the
+    /// thesis
+    #[arg(long, value_name = "POINTS", value_parser = points, default_value = "seen")]
+    pub(super) points: PointChoice,
+
     /// Measure speed as seen by a camera: degrees to the body's left, degrees up and, for perspective, the distance
     /// in the file's unit
     #[arg(long, value_name = "YAW,PITCH[,DISTANCE]", value_parser = camera, allow_hyphen_values = true)]
@@ -318,6 +324,14 @@ fn plot(text: &str) -> Result<PathBuf, String> {
     match text.to_lowercase().ends_with(".svg") {
         true => Ok(PathBuf::from(text)),
         false => Err("the name of the chart must end in .svg".to_owned()),
+    }
+}
+
+fn points(text: &str) -> Result<PointChoice, String> {
+    match text {
+        "seen" => Ok(PointChoice::Seen),
+        "all" => Ok(PointChoice::All),
+        _ => Err("expected `seen` or `all`".to_owned()),
     }
 }
 

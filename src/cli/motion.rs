@@ -90,7 +90,13 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
     };
     let method = exposure_method(arguments);
     let edited = spinning("cutting", || {
-        edit(reading.clip, &options, method, arguments.camera)
+        edit(
+            reading.clip,
+            &options,
+            method,
+            arguments.points,
+            arguments.camera,
+        )
     });
     let edited = match edited {
         Ok(edited) => edited,

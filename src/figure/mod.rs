@@ -18,7 +18,7 @@ use rayon::prelude::*;
 
 use crate::bind::{Bindings, PartKind, SetBy};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::Frame;
+use crate::geometry::{Frame, Thickness};
 use crate::memo::Memo;
 use crate::resolver::Resolver;
 use crate::scene::{Mesh, PartMaterial, Piece, Primitive, Scene, WorldTransform};
@@ -85,6 +85,8 @@ pub struct FigureNodes {
     pub node_of_part: Vec<Option<usize>>,
     /// Per part that has a node, how far in front of the drawing plane it lies.
     pub depths: Vec<Option<NodeDepth>>,
+    /// Per part the thickness of its solid, `None` without one; empty if the drawing has no motion.
+    pub thicknesses: Vec<Option<Thickness>>,
 }
 
 impl<'a> Figures<'a> {
@@ -130,7 +132,15 @@ impl<'a> Figures<'a> {
             .map(|(main, parts)| self.mesh(main, parts, &models.0, materials, world))
             .collect();
         let (nodes, node_of_part) = nodes::add(&self.context, self.tree, meshes, world, scene);
+        let bindings = self.context.bindings;
+        let thicknesses = match bindings.clip_requests().is_empty() {
+            true => Vec::new(),
+            false => (0..bindings.parts.len())
+                .map(|part| self.context.thickness(part, self.layers.offset(part)))
+                .collect(),
+        };
         FigureNodes {
+            thicknesses,
             frames: self.frames,
             parts_of_node: self.parts_of_node,
             nodes,
@@ -264,6 +274,18 @@ impl<'a> FigureContext<'a> {
     /// How a part's outline gets its thickness.
     fn profile(&self, part: usize) -> Option<Profile> {
         self.bindings.profile(self.drawing, part)
+    }
+
+    /// The thickness of a part's solid that is moved by an offset; `None` without one.
+    fn thickness(&self, part: usize, offset: f64) -> Option<Thickness> {
+        let profile = self.profile(part)?;
+        let measure = &self.bindings.parts[part].measure;
+        let half = DVec2::new(measure.half_across, measure.half_along);
+        let depths = profile.depths(half, &self.options(part, &profile))?;
+        Some(Thickness {
+            depths: depths.map(|depth| depth + offset),
+            is_soft: profile.is_soft(),
+        })
     }
 
     fn options(&self, part: usize, profile: &Profile) -> solid::Options {

@@ -33,6 +33,15 @@ pub struct Measure {
     pub certain: bool,
 }
 
+/// How far a solid reaches to the back and to the front.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Thickness {
+    /// Its least and its greatest depth in the frame of its node, drawing units.
+    pub depths: [f64; 2],
+    /// Whether it is thinner towards its outline.
+    pub is_soft: bool,
+}
+
 /// The measure of an outline along its principal axis; `None` if it has no area.
 pub fn measure(outline: &Outline) -> Option<Measure> {
     let (low, high) = query::bounds(outline)?;

@@ -25,7 +25,7 @@ pub(crate) use boxes::{BoxTree, OrderedBoxes, area_around, indexed_box};
 pub(crate) use contact::{Body, connected, touching};
 pub use flatten::flatten;
 pub use frame::{Frame, y_up};
-pub use measure::{Measure, measure, measure_along};
+pub use measure::{Measure, Thickness, measure, measure_along};
 pub use offset::offset;
 pub use pixels::pixel_borders;
 pub use query::{area, border_distance_squared, bounds, contains, distance_squared};

@@ -5,7 +5,8 @@ use glam::{DQuat, DVec3};
 use super::bvh::{self, Decimals};
 use super::chart::{Chart, chart};
 use super::labels::Anatomy;
-use super::limited::{self, BestDrawings, Camera, Cut, Error, Exposure, Length, Method};
+use super::limited::{self, BestDrawings, Camera, Cut, Error, Exposure, Length, Method, Poses};
+use super::measured::{Measured, PointChoice};
 use super::prepare::{self, PreparedClip};
 use super::resample;
 use super::retarget::{self, Landmarks};
@@ -49,10 +50,12 @@ pub struct EditedClip {
     /// Rotates the clip's world so that it stands upright and faces +z.
     pub to_model: DQuat,
     is_resampled: bool,
-    /// Joint positions: frames × joints, in the file's unit; upright if there is a camera.
-    positions: Vec<DVec3>,
-    /// The same positions in the camera's picture, where speed is measured then.
+    /// Where speed is measured, in the file's unit; upright if there is a camera.
+    measured: Measured,
+    /// The same points in the camera's picture, where speed is measured then.
     projected: Option<Vec<DVec3>>,
+    /// The height of the body in the first frame, in the file's unit.
+    height: f64,
 }
 
 /// Prepares a clip and thins it out. With a camera, speed is measured in its picture.
@@ -63,24 +66,27 @@ pub fn edit(
     clip: Clip,
     options: &prepare::Options,
     method: ExposureMethod,
+    points: PointChoice,
     camera: Option<Camera>,
 ) -> Result<EditedClip, resample::Error> {
     let PreparedClip {
         clip,
-        mut positions,
+        positions,
         is_resampled,
         anatomy,
         notes,
         ..
     } = prepare::prepare(clip, options)?;
     let to_model = retarget::to_drawing(&clip, &Landmarks::of(&anatomy));
+    let first = positions.iter().take(clip.skeleton.joints.len());
+    let height = height(first.map(|position| to_model * *position));
+    let mut measured = Measured::of_clip(&clip, &positions, &anatomy, points);
     if camera.is_some() {
-        // A rotation does not change sums of squares, so only a camera needs upright positions.
-        positions
-            .iter_mut()
-            .for_each(|position| *position = to_model * *position);
+        // A rotation does not change sums of squares, so only a camera needs upright points.
+        let points = measured.points.iter_mut();
+        points.for_each(|point| *point = to_model * *point);
     }
-    let projected = camera.map(|camera| camera.project(&positions));
+    let projected = camera.map(|camera| camera.project(&measured.points));
     let mut edited = EditedClip {
         exposure: None,
         cut: None,
@@ -90,8 +96,9 @@ pub fn edit(
         notes,
         to_model,
         is_resampled,
-        positions,
+        measured,
         projected,
+        height,
     };
     edited.expose(method);
     Ok(edited)
@@ -100,7 +107,6 @@ pub fn edit(
 impl EditedClip {
     fn expose(&mut self, method: ExposureMethod) {
         let frames = self.clip.frames();
-        let joints = self.clip.skeleton.joints.len();
         self.exposure = match method {
             ExposureMethod::Full => None,
             ExposureMethod::Limited { omit, hold, length } => {
@@ -110,15 +116,14 @@ impl EditedClip {
                     hold: hold.unwrap_or(usual.hold),
                     length,
                 };
-                let cut = limited::limit(self.measured(), joints, &options);
+                let cut = limited::limit(self.seen(), &options);
                 let exposure = cut.exposure.clone();
                 self.cut = Some(cut);
                 Some(exposure)
             }
             ExposureMethod::Every(n) => Some(limited::every(frames as u32, n)),
             ExposureMethod::Drawings(count) => {
-                let best_drawings =
-                    limited::drawings(self.measured(), joints, count, limited::MAX_HOLD);
+                let best_drawings = limited::drawings(self.seen(), count, limited::MAX_HOLD);
                 let exposure = best_drawings.exposure.clone();
                 self.best_drawings = Some(best_drawings);
                 Some(exposure)
@@ -126,48 +131,27 @@ impl EditedClip {
         };
     }
 
-    /// The positions by which speed is measured.
-    fn measured(&self) -> &[DVec3] {
-        self.projected.as_deref().unwrap_or(&self.positions)
+    /// The poses by which speed is measured.
+    fn seen(&self) -> Poses<'_> {
+        let points = self.projected.as_ref().unwrap_or(&self.measured.points);
+        Poses::new(points, self.measured.per_frame).repeating(&self.measured.repeats)
     }
 
     /// The error of what is shown against the source, and those of other ways to thin it out.
     pub fn compared(&self) -> Option<[(Method, Error); 4]> {
-        let joints = self.clip.skeleton.joints.len();
         let exposure = self.exposure.as_ref()?;
-        Some(limited::compare(
-            &self.positions,
-            joints,
-            self.height(),
-            exposure,
-        ))
+        let poses = self.measured.poses();
+        Some(limited::compare(poses, self.height, exposure))
     }
 
     /// The error of what is shown against the source.
     pub fn error(&self) -> Option<Error> {
-        let joints = self.clip.skeleton.joints.len();
         let exposure = self.exposure.as_ref()?;
-        Some(limited::error(
-            &self.positions,
-            joints,
-            self.height(),
-            exposure,
-        ))
-    }
-
-    /// The height of the body in the first frame, in the file's unit.
-    fn height(&self) -> f64 {
-        let joints = self.clip.skeleton.joints.len();
-        let upright = |position: &DVec3| match self.projected {
-            Some(_) => *position,
-            None => self.to_model * *position,
-        };
-        height(self.positions.iter().take(joints).map(upright))
+        Some(limited::error(self.measured.poses(), self.height, exposure))
     }
 
     /// A chart of the motion's speed, and of what was omitted and held.
     pub fn chart(&self, title: &str) -> String {
-        let joints = self.clip.skeleton.joints.len();
         let full;
         let exposure = match &self.exposure {
             Some(exposure) => exposure,
@@ -184,7 +168,7 @@ impl EditedClip {
         chart(&Chart {
             title,
             fps: resample::rate(self.clip.frame_time),
-            speeds: &limited::speeds(self.measured(), joints),
+            speeds: &self.seen().speeds(),
             omitted: cut.map_or(&[], |cut| &cut.omitted),
             duplicated: cut.map_or(&[], |cut| &cut.duplicated),
             held: &held,

@@ -11,6 +11,7 @@ pub mod labels;
 pub mod lead_in;
 pub mod limited;
 pub mod matching;
+pub mod measured;
 pub mod prepare;
 pub mod resample;
 pub mod retarget;

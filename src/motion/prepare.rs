@@ -1,12 +1,10 @@
 //! Prepares a clip for everything else: removes the lead-in, resamples to an even rate, cuts out a range.
 
-use std::sync::OnceLock;
-
 use glam::DVec3;
 
 use super::labels::{Anatomy, Class, Side, label_clip};
 use super::lead_in::{LeadInKind, find_lead_in};
-use super::limited::{self, Cut};
+
 use super::resample::{self, Error, Range};
 use super::skeleton::Clip;
 
@@ -57,22 +55,6 @@ pub struct PreparedClip {
     pub anatomy: Anatomy,
     /// What was done to it, for people to read.
     pub notes: Vec<String>,
-    speeds: OnceLock<Vec<f64>>,
-}
-
-impl PreparedClip {
-    /// The speed of every frame, see [`limited::speeds`]; computed when it is first needed.
-    pub fn speeds(&self) -> &[f64] {
-        let joints = self.clip.skeleton.joints.len();
-        let speeds = || limited::speeds(&self.positions, joints);
-        self.speeds.get_or_init(speeds)
-    }
-
-    /// The clip as limited animation.
-    pub fn limit(&self, options: &limited::Options) -> Cut {
-        let joints = self.clip.skeleton.joints.len();
-        limited::limit(&self.positions, joints, options)
-    }
 }
 
 /// Prepares a clip.
@@ -111,7 +93,6 @@ pub fn prepare(clip: Clip, options: &Options) -> Result<PreparedClip, Error> {
         is_resampled,
         anatomy,
         notes,
-        speeds: OnceLock::new(),
     })
 }
 

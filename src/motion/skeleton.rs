@@ -109,6 +109,18 @@ pub struct Transform {
     pub position: DVec3,
 }
 
+impl Transform {
+    /// A point of the local frame in the outer one.
+    pub(crate) fn apply(&self, point: DVec3) -> DVec3 {
+        self.rotation * point + self.position
+    }
+
+    /// A point of the outer frame in the local one.
+    pub(crate) fn to_local(&self, point: DVec3) -> DVec3 {
+        self.rotation.inverse() * (point - self.position)
+    }
+}
+
 /// The extent of points along y; 0 without points.
 pub(super) fn height(points: impl Iterator<Item = DVec3>) -> f64 {
     let none = (f64::INFINITY, f64::NEG_INFINITY);

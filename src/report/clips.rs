@@ -114,7 +114,7 @@ fn report<'a>(compiled: &'a Compiled, clip: &'a FigureClip, reader: Reader) -> C
         omitted.iter_mut().for_each(|frame| *frame -= 1);
         let unmatched = clip.parts.iter().filter(|drive| drive.joint.is_none());
         let drawings = clip.cut.iter().flat_map(|cut| cut.exposure.drawings());
-        let speeds = clip.motion.speeds();
+        let speeds = clip.speeds();
         let step = speeds.len().div_ceil(MAX_SPEEDS).max(1);
         let fastest = |speeds: &[f64]| speeds.iter().copied().fold(0.0, f64::max);
         PageDetails {

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::motion::labels::Label;
 use crate::motion::limited::Cut;
 use crate::motion::matching::{Matching, joints_named};
+use crate::motion::measured::Measured;
 use crate::motion::prepare::PreparedClip;
 use crate::motion::retarget::RetargetedClip;
 use crate::motion::skeleton::Skeleton;
@@ -35,6 +36,7 @@ pub struct FigureClip {
     /// The parts in the order of `retargeted`.
     pub(super) order: Vec<usize>,
     pub(super) retargeted: Arc<RetargetedClip>,
+    pub(super) measured: Arc<Measured>,
     pub(super) animated: Arc<AnimatedNodes>,
 }
 
@@ -87,6 +89,11 @@ impl FigureClip {
             Some(cut) => cut.exposure.len() as f64 * self.frame_time(),
             None => self.source_frames().saturating_sub(1) as f64 * self.frame_time(),
         }
+    }
+
+    /// The speed of every frame of the motion: the SSD of the points by which it is limited, in the square of drawing units.
+    pub fn speeds(&self) -> Vec<f64> {
+        self.measured.poses().speeds()
     }
 
     /// What drives a part of the figure, or why nothing does; `None` for parts of other figures.

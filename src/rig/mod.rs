@@ -8,18 +8,20 @@ mod figure_clip;
 mod figures;
 mod motion_files;
 mod rigging;
+mod surface;
 mod tracks;
 
 use std::sync::Arc;
 
 use crate::bind::{Bindings, ClipRequest};
 use crate::diagnostic::Diagnostic;
-use crate::geometry::Frame;
+use crate::geometry::{Frame, Thickness};
 use crate::memo::{Memo, Same};
 use crate::motion::figure::Figure;
 use crate::motion::labels::Class;
 use crate::motion::limited::{self, Cut, Length};
 use crate::motion::matching::{Matching, match_figure};
+use crate::motion::measured::Measured;
 use crate::motion::prepare::PreparedClip;
 use crate::motion::retarget::{Landmarks, RetargetedClip, retarget};
 use crate::resolver::Resolver;
@@ -41,9 +43,13 @@ const MAX_KEYS: usize = 1 << 24;
 /// How often a figure is matched with a motion at most.
 const MAX_MATCHES: usize = 1 << 18;
 
-/// A motion and the numbers of drawings to omit and frames to hold, as the key of a cached [`Cut`].
+/// A figure's motion, as the key of its cached [`Measured`] points.
 #[derive(PartialEq, Eq, Hash)]
-struct CutKey(Same<PreparedClip>, [usize; 2]);
+struct MeasuredKey(Same<RetargetedClip>);
+
+/// A figure's motion and the numbers of drawings to omit and frames to hold, as the key of a cached [`Cut`].
+#[derive(PartialEq, Eq, Hash)]
+struct CutKey(Same<Measured>, [usize; 2]);
 
 /// The drawing whose figures are animated.
 pub struct Context<'a> {
@@ -57,6 +63,8 @@ pub struct Context<'a> {
     pub frames: &'a [Frame],
     /// Per main part the parts whose solids are in its node.
     pub parts_of_node: &'a [Vec<usize>],
+    /// Per part the thickness of its solid, `None` without one.
+    pub thicknesses: &'a [Option<Thickness>],
 }
 
 /// A figure matched with a clip.
@@ -186,10 +194,10 @@ impl ClipBuilder<'_> {
         diagnostics: &mut Vec<Diagnostic>,
     ) {
         let group = &matched.group;
-        let retargeted = self.retargeted(matched, motion);
+        let (retargeted, measured) = self.retargeted(matched, motion);
         let limits = self.limits(group);
         let cut = limits.map(|(amounts, span)| {
-            let cut = self.cut(amounts, motion);
+            let cut = self.cut(amounts, &measured);
             diagnostics::too_limited(&cut, motion.clip.frames(), span, diagnostics);
             cut
         });
@@ -207,6 +215,7 @@ impl ClipBuilder<'_> {
             limited_at: limits.map(|(_, span)| span),
             order: group.parts.clone(),
             retargeted,
+            measured,
             animated: Arc::clone(&self.animated),
         };
         let keys = match &clip.cut {
@@ -221,22 +230,28 @@ impl ClipBuilder<'_> {
         &self,
         matched: &MatchedFigure,
         motion: &Arc<PreparedClip>,
-    ) -> Arc<RetargetedClip> {
+    ) -> (Arc<RetargetedClip>, Arc<Measured>) {
         let rig = rigging::rig(
+            self.context,
             &matched.figure,
             &matched.group,
             &matched.matching,
             self.rest,
         );
         let key = RetargetKey::new(&rig, motion);
-        self.memo.get(key, |_| {
+        let retargeted = self.memo.get(key, |_| {
             let landmarks = Landmarks::of(&motion.anatomy);
             Arc::new(retarget(&motion.clip, &rig, &landmarks))
-        })
+        });
+        let key = MeasuredKey(Same(Arc::clone(&retargeted)));
+        let measured = self
+            .memo
+            .get(key, |_| Arc::new(Measured::of_figure(&rig, &retargeted)));
+        (retargeted, measured)
     }
 
-    fn cut(&self, amounts: [usize; 2], motion: &Arc<PreparedClip>) -> Arc<Cut> {
-        let key = CutKey(Same(Arc::clone(motion)), amounts);
+    fn cut(&self, amounts: [usize; 2], measured: &Arc<Measured>) -> Arc<Cut> {
+        let key = CutKey(Same(Arc::clone(measured)), amounts);
         self.memo.get(key, |_| {
             let [omit, hold] = amounts;
             let options = limited::Options {
@@ -244,7 +259,7 @@ impl ClipBuilder<'_> {
                 hold,
                 length: Length::Kept,
             };
-            Arc::new(motion.limit(&options))
+            Arc::new(limited::limit(measured.poses(), &options))
         })
     }
 

@@ -6,11 +6,12 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::Context;
 use super::figures::FigureGroup;
+use super::surface;
 use crate::geometry::{Frame, y_up};
 use crate::memo::{Bits, Same};
 use crate::motion::figure::{Figure, FigurePart};
 use crate::motion::labels::{Class, Facing};
-use crate::motion::matching::{Drive, Follow, Matching};
+use crate::motion::matching::{Drive, Matching};
 use crate::motion::prepare::PreparedClip;
 use crate::motion::retarget::{Rig, RigPart};
 use crate::motion::skeleton::Transform;
@@ -66,6 +67,7 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
 
 /// The rig of a matched figure, its parts in the order of the group.
 pub(super) fn rig(
+    context: &Context<'_>,
     figure: &Figure,
     group: &FigureGroup,
     matching: &Matching,
@@ -73,9 +75,9 @@ pub(super) fn rig(
 ) -> Rig {
     let is_leg = |part: usize| {
         let matched = &matching.parts[part];
-        let follows = matched.drive.map(|drive| drive.follow);
+        let is_chain = matched.drive.is_some_and(|drive| drive.tip.is_some());
         let class = matched.label.as_ref().map(|label| label.class);
-        (follows, class) == (Some(Follow::Direction), Some(Class::Leg))
+        is_chain && class == Some(Class::Leg)
     };
     let mut continues = vec![false; group.parts.len()];
     for (index, part) in figure.parts.iter().enumerate() {
@@ -83,14 +85,21 @@ pub(super) fn rig(
             continues[parent] = true;
         }
     }
-    // A shoe without a drive follows its leg, and is what the leg stands on.
-    let around = |index: usize| {
-        let parts = figure.parts.iter().zip(&matching.parts);
-        let worn =
-            parts.filter(|(part, matched)| part.parent == Some(index) && matched.drive.is_none());
-        worn.fold(figure.parts[index].bounds, |[low, high], (part, _)| {
-            [low.min(part.bounds[0]), high.max(part.bounds[1])]
-        })
+    // What has no drive moves with what it hangs on: a shoe is what its leg stands on.
+    let mut carried: Vec<Vec<usize>> = vec![Vec::new(); group.parts.len()];
+    for index in 0..group.parts.len() {
+        let above = |part: &usize| figure.parts[*part].parent;
+        let mut ways = std::iter::successors(Some(index), above).take(group.parts.len());
+        if let Some(carrier) = ways.find(|part| matching.parts[*part].drive.is_some()) {
+            carried[carrier].push(index);
+        }
+    }
+    let surface_of = |index: usize| {
+        let nodes = carried[index].iter().map(|part| {
+            let part = group.parts[*part];
+            (part, nodes.of(part).0.position.z)
+        });
+        surface::outermost(context, nodes)
     };
     let part = |(index, part): (usize, &FigurePart)| {
         let (node, is_rooted) = nodes.of(group.parts[index]);
@@ -111,10 +120,8 @@ pub(super) fn rig(
             node,
             joint,
             tip: joint + way,
-            sole: match stands {
-                true => sole(part, around(index), depth),
-                false => Vec::new(),
-            },
+            surface: surface_of(index),
+            stands,
             drive: matching.parts[index].drive,
             is_leg: is_leg(index),
         }
@@ -122,16 +129,6 @@ pub(super) fn rig(
     Rig {
         parts: figure.parts.iter().enumerate().map(part).collect(),
         facing: matching.facing,
-    }
-}
-
-/// The points where the last part of a leg touches the ground, on the lower edge of the bounding box around it and what is attached
-/// to it: below its tip, or, if it is wider than high like a foot, at both ends.
-fn sole(part: &FigurePart, [low, high]: [DVec2; 2], depth: f64) -> Vec<DVec3> {
-    let size = part.bounds[1] - part.bounds[0];
-    match size.x > size.y {
-        true => vec![low.extend(depth), DVec3::new(high.x, low.y, depth)],
-        false => vec![DVec3::new(part.tip.x, low.y, depth)],
     }
 }
 
@@ -195,7 +192,8 @@ struct PartKey {
     is_leg: bool,
     drive: Option<Drive>,
     rotation: Bits<[f64; 4]>,
-    /// The positions of node, joint and tip, and the points of the sole.
+    stands: bool,
+    /// The positions of node, joint and tip, and the points of the surface.
     points: Vec<Bits<[f64; 3]>>,
 }
 
@@ -205,11 +203,12 @@ impl RetargetKey {
             parent: part.parent,
             is_rooted: part.is_rooted,
             is_leg: part.is_leg,
+            stands: part.stands,
             drive: part.drive,
             rotation: Bits(part.node.rotation.to_array()),
             points: [part.node.position, part.joint, part.tip]
                 .iter()
-                .chain(&part.sole)
+                .chain(&part.surface)
                 .map(|point| Bits(point.to_array()))
                 .collect(),
         };

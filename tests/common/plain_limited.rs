@@ -24,10 +24,19 @@ struct Motion<'a> {
     shown: Vec<u32>,
 }
 
-/// Omits and holds; `positions` are frames × joints.
+/// Per frame whether all its positions are those of the frame before.
+pub(crate) fn repeats(positions: &[DVec3], joints: usize) -> Vec<bool> {
+    let frames = positions.len().checked_div(joints).unwrap_or(0);
+    let pose = |frame: usize| &positions[frame * joints..][..joints];
+    let repeat = |frame: usize| frame > 0 && pose(frame) == pose(frame - 1);
+    (0..frames).map(repeat).collect()
+}
+
+/// Omits and holds; `positions` are frames × joints, `repeats` says which frames are equal to the one before.
 pub(crate) fn plain(
     positions: &[DVec3],
     joints: usize,
+    repeats: &[bool],
     [omit, hold]: [usize; 2],
     kept: bool,
 ) -> Plain {
@@ -38,8 +47,8 @@ pub(crate) fn plain(
         shown: (0..frames as u32).collect(),
     };
     // Equal neighbours are one pose: its first frame stands for all.
-    for (frame, speed) in motion.speeds().iter().enumerate() {
-        if frame > 0 && *speed == 0.0 {
+    for (frame, repeats) in repeats.iter().enumerate().take(frames) {
+        if *repeats {
             motion.shown[frame] = motion.shown[frame - 1];
         }
     }

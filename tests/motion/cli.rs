@@ -6,6 +6,7 @@ use gltf::animation::Interpolation;
 use gltf::animation::util::ReadOutputs;
 use okoshi::motion::bvh::read_bytes;
 use okoshi::motion::limited::{Cut, Options, limit};
+use okoshi::motion::measured::{Measured, PointChoice};
 use okoshi::motion::skeleton::Clip;
 
 use crate::common::program::{Room, Run};
@@ -35,12 +36,14 @@ fn drawings(clip: &Clip) -> usize {
 /// How the library limits the kick by default.
 fn usual() -> (Clip, Cut) {
     let prepared = clip("examples/motion/kick.bvh");
-    let joints = prepared.clip.skeleton.joints.len();
-    let cut = limit(
+    let measured = Measured::of_clip(
+        &prepared.clip,
         &prepared.positions,
-        joints,
-        &Options::recommended(prepared.clip.frames()),
+        &prepared.anatomy,
+        PointChoice::Seen,
     );
+    let usual = Options::recommended(prepared.clip.frames());
+    let cut = limit(measured.poses(), &usual);
     (prepared.clip, cut)
 }
 

@@ -5,17 +5,22 @@ mod plain_limited;
 
 use std::fs::File;
 use std::path::Path;
+use std::sync::Arc;
 
+use crate::retarget::clips::clip;
 use fastrand::Rng;
 use glam::{DVec3, dvec3};
 use okoshi::motion::bvh;
 use okoshi::motion::edit::{ExposureMethod, edit};
+use okoshi::motion::labels::label_clip;
 use okoshi::motion::limited::{
-    Camera, Cut, Drawing, Exposure, Length, MAX_OMITTED_RUN, Method, Options, compare, error,
-    every, limit, speeds, ssd,
+    Camera, Cut, Drawing, Exposure, Length, MAX_OMITTED_RUN, Method, Options, Poses, compare,
+    error, every, limit, ssd,
 };
+use okoshi::motion::measured::{Measured, PointChoice};
 use okoshi::motion::prepare;
-use plain_limited::{Plain, plain};
+use okoshi::motion::skeleton::{Axis, Channel, Clip, Joint, Skeleton};
+use plain_limited::{Plain, plain, repeats};
 
 /// A random point of a grid with `places` places in each direction.
 fn place(random: &mut Rng, places: u64) -> DVec3 {
@@ -57,19 +62,39 @@ fn motion(random: &mut Rng, kind: u64, frames: usize, joints: usize) -> Vec<DVec
     out
 }
 
-fn cut(positions: &[DVec3], joints: usize, [omit, hold]: [usize; 2], kept: bool) -> Cut {
+fn cut(poses: Poses<'_>, [omit, hold]: [usize; 2], kept: bool) -> Cut {
     let length = if kept {
         Length::Kept
     } else {
         Length::Shortened
     };
-    limit(positions, joints, &Options { omit, hold, length })
+    limit(poses, &Options { omit, hold, length })
 }
 
 /// Compares frame by frame with the plain algorithm, and checks what the definition promises.
 fn check(positions: &[DVec3], joints: usize, steps: [usize; 2], kept: bool) -> Cut {
+    let repeats = repeats(positions, joints);
+    let poses = Poses::new(positions, joints);
+    let cut = check_repeating(positions, joints, &repeats, steps, kept);
+    assert_eq!(
+        cut,
+        self::cut(poses, steps, kept),
+        "equal positions are equal poses"
+    );
+    cut
+}
+
+/// The same for frames of which these equal the one before.
+fn check_repeating(
+    positions: &[DVec3],
+    joints: usize,
+    repeats: &[bool],
+    steps: [usize; 2],
+    kept: bool,
+) -> Cut {
     let frames = positions.len() / joints.max(1);
-    let cut = cut(positions, joints, steps, kept);
+    let poses = Poses::new(positions, joints).repeating(repeats);
+    let cut = cut(poses, steps, kept);
     let held = cut.held.iter().map(|held| (held.covered, held.by));
     let fast = Plain {
         shown: cut.exposure.sources().to_vec(),
@@ -79,11 +104,11 @@ fn check(positions: &[DVec3], joints: usize, steps: [usize; 2], kept: bool) -> C
     };
     assert_eq!(
         fast,
-        plain(positions, joints, steps, kept),
+        plain(positions, joints, repeats, steps, kept),
         "{positions:?} {steps:?} {kept}"
     );
 
-    let whole = self::cut(positions, joints, [0; 2], kept).exposure;
+    let whole = self::cut(poses, [0; 2], kept).exposure;
     let [omitted, held] = [cut.omitted.len(), cut.held.len()];
     let drawings: Vec<Drawing> = cut.exposure.drawings().collect();
     assert_eq!(
@@ -154,16 +179,98 @@ fn real_motions_are_cut_as_the_plain_code_does() {
         let clip = bvh::read(File::open(path).expect("a file"))
             .expect("a motion")
             .clip;
-        let joints = clip.skeleton.joints.len();
         let positions = clip.positions();
+        let anatomy = label_clip(&clip);
         let third = clip.frames() / 3;
-        for steps in [[4, third], [0, third], [12, 5], [6, usize::MAX]] {
-            for kept in [true, false] {
-                let cut = check(&positions, joints, steps, kept);
-                assert!(cut.exposure.len() <= clip.frames(), "{file}");
+        for choice in [PointChoice::Seen, PointChoice::All] {
+            let Measured {
+                points,
+                per_frame,
+                repeats,
+            } = Measured::of_clip(&clip, &positions, &anatomy, choice);
+            for steps in [[4, third], [0, third], [12, 5], [6, usize::MAX]] {
+                for kept in [true, false] {
+                    let cut = check_repeating(&points, per_frame, &repeats, steps, kept);
+                    assert!(cut.exposure.len() <= clip.frames(), "{file}");
+                }
             }
         }
     }
+}
+
+/// A body of which only the head turns, about the axis through its end.
+fn nodding(end: Vec<DVec3>, axis: Axis) -> Clip {
+    let joint = |name: &str, parent, offset, channels, ends| Joint {
+        name: name.to_owned(),
+        parent,
+        offset,
+        channels,
+        ends,
+    };
+    let joints = vec![
+        joint("Hips", None, DVec3::ZERO, Vec::new(), Vec::new()),
+        joint("Spine", Some(0), DVec3::Y, Vec::new(), Vec::new()),
+        joint(
+            "Head",
+            Some(1),
+            DVec3::Y,
+            vec![Channel::Rotation(axis)],
+            end,
+        ),
+    ];
+    let turns = (0..24).map(|frame| 20.0 * (f64::from(frame) * 0.26).sin());
+    Clip::new(Arc::new(Skeleton { joints }), 1.0 / 24.0, turns.collect())
+}
+
+#[test]
+fn a_nod_keeps_its_drawings() {
+    for (end, axis) in [
+        (vec![DVec3::Y], Axis::X),
+        (vec![DVec3::Y], Axis::Y),
+        (Vec::new(), Axis::X),
+    ] {
+        let moves = !end.is_empty() && axis == Axis::X;
+        let clip = nodding(end, axis);
+        let measured = Measured::of_clip(
+            &clip,
+            &clip.positions(),
+            &label_clip(&clip),
+            PointChoice::Seen,
+        );
+        assert_eq!(
+            measured.poses().speeds().iter().any(|speed| *speed > 0.0),
+            moves
+        );
+        let whole = cut(measured.poses(), [0; 2], true);
+        assert_eq!(whole.exposure.drawings().count(), 24);
+        let held = cut(measured.poses(), [0, 8], true);
+        assert_eq!((held.holds.done, held.exposure.drawings().count()), (8, 16));
+    }
+}
+
+/// Fingers do not outweigh the body.
+#[test]
+fn speed_is_measured_where_it_is_seen() {
+    let prepared = clip("tests/motion/data/mixed_orders.bvh");
+    let joints = prepared.clip.skeleton.joints.len();
+    let of = |choice| {
+        Measured::of_clip(
+            &prepared.clip,
+            &prepared.positions,
+            &prepared.anatomy,
+            choice,
+        )
+    };
+    let (seen, all) = (of(PointChoice::Seen), of(PointChoice::All));
+    assert_eq!((all.per_frame, &all.points), (joints, &prepared.positions));
+    assert!(seen.per_frame < joints, "{} of {joints}", seen.per_frame);
+    let hands = prepared
+        .anatomy
+        .limbs
+        .iter()
+        .filter(|limb| limb.tip.is_some());
+    assert_eq!(hands.count(), 4);
+    assert_eq!(seen.repeats, all.repeats);
 }
 
 #[test]
@@ -177,7 +284,14 @@ fn frames_that_are_shown_keep_their_numbers() {
         hold: Some(8),
         length: Length::Kept,
     };
-    let edited = edit(clip.clone(), &prepare::Options::default(), how, None).expect("a rate");
+    let edited = edit(
+        clip.clone(),
+        &prepare::Options::default(),
+        how,
+        PointChoice::All,
+        None,
+    )
+    .expect("a rate");
     let mut text = Vec::new();
     edited
         .write_bvh(&mut text)
@@ -217,8 +331,11 @@ fn the_shortest_motions_are_cut() {
 #[test]
 fn incomplete_frames_are_ignored() {
     let positions = [0.0, 1.0, 2.0, 3.0, 4.0].map(DVec3::splat);
-    assert_eq!(cut(&positions, 2, [0; 2], true).exposure.len(), 2);
-    assert_eq!(speeds(&positions, 2), [0.0, 24.0]);
+    assert_eq!(
+        cut(Poses::new(&positions, 2), [0; 2], true).exposure.len(),
+        2
+    );
+    assert_eq!(Poses::new(&positions, 2).speeds(), [0.0, 24.0]);
 }
 
 #[test]
@@ -296,8 +413,13 @@ fn recommended_options_are_those_of_the_thesis() {
 fn holds_end_near_half_of_the_frames() {
     let mut random = Rng::with_seed(9);
     let positions = motion(&mut random, 4, 3000, 2);
-    let frames = cut(&positions, 2, [0; 2], true).exposure.drawings().count();
-    let done = cut(&positions, 2, [0, usize::MAX], true).holds.done;
+    let frames = cut(Poses::new(&positions, 2), [0; 2], true)
+        .exposure
+        .drawings()
+        .count();
+    let done = cut(Poses::new(&positions, 2), [0, usize::MAX], true)
+        .holds
+        .done;
     let share = done as f64 / frames as f64;
     assert!(
         (0.4..0.6).contains(&share),
@@ -339,7 +461,10 @@ fn the_distance_of_two_poses_is_symmetric_and_bitwise_stable() {
         assert_eq!(ssd(&a, &b).to_bits(), ssd(&b, &a).to_bits());
         assert_eq!(ssd(&a, &a), 0.0);
         let both = [a.clone(), b.clone()].concat();
-        assert_eq!(speeds(&both, 30)[1].to_bits(), ssd(&a, &b).to_bits());
+        assert_eq!(
+            Poses::new(&both, 30).speeds()[1].to_bits(),
+            ssd(&a, &b).to_bits()
+        );
     }
     assert_eq!(
         ssd(
@@ -353,16 +478,22 @@ fn the_distance_of_two_poses_is_symmetric_and_bitwise_stable() {
 #[test]
 fn errors_are_measured_against_the_source_at_the_same_time() {
     let walk: Vec<DVec3> = (0..6).map(|frame| DVec3::X * frame as f64).collect();
-    let twos = error(&walk, 1, 10.0, &every(6, 2));
+    let twos = error(Poses::new(&walk, 1), 10.0, &every(6, 2));
     assert_eq!(twos.drawings, 3);
     assert!((twos.rms - 0.5_f64.sqrt()).abs() < 1e-15);
     assert_eq!(twos.percent, Some(10.0 * twos.rms));
-    assert_eq!(error(&walk, 1, 0.0, &every(6, 2)).percent, None);
-    assert_eq!(error(&walk, 1, f64::NAN, &every(6, 1)).rms, 0.0);
+    assert_eq!(error(Poses::new(&walk, 1), 0.0, &every(6, 2)).percent, None);
+    assert_eq!(error(Poses::new(&walk, 1), f64::NAN, &every(6, 1)).rms, 0.0);
     // Beyond the source there is nothing to compare with.
-    assert_eq!(error(&walk, 1, 1.0, &Exposure::new(vec![0, 99])).rms, 0.0);
-    assert_eq!(error(&[], 0, 1.0, &Exposure::default()).rms, 0.0);
-    let all = compare(&walk, 1, 1.0, &every(6, 2));
+    assert_eq!(
+        error(Poses::new(&walk, 1), 1.0, &Exposure::new(vec![0, 99])).rms,
+        0.0
+    );
+    assert_eq!(
+        error(Poses::new(&[], 0), 1.0, &Exposure::default()).rms,
+        0.0
+    );
+    let all = compare(Poses::new(&walk, 1), 1.0, &every(6, 2));
     assert_eq!(
         all.map(|(method, _)| method),
         [Method::Asked, Method::Twos, Method::Threes, Method::Best]
@@ -380,7 +511,8 @@ fn the_best_drawings_are_never_worse_than_others_of_the_same_number() {
         let positions = motion(&mut random, round % 5, frames, 2);
         let asked = check(&positions, 2, [3, frames / 3], true).exposure;
         for exposure in [asked, every(frames as u32, 2), every(frames as u32, 3)] {
-            let [asked, .., best] = compare(&positions, 2, 1.0, &exposure).map(|(_, error)| error);
+            let [asked, .., best] =
+                compare(Poses::new(&positions, 2), 1.0, &exposure).map(|(_, error)| error);
             // Other methods may draw equal neighbours twice, which the best drawings never do.
             if best.drawings == asked.drawings {
                 compared += 1;
@@ -429,14 +561,14 @@ fn motion_along_the_view_is_no_motion_to_a_camera() {
     let far: Vec<DVec3> = (0..9).map(|frame| DVec3::Z * f64::from(frame)).collect();
     let seen = Camera::default().project(&far);
     assert_eq!(
-        limit(&seen, 1, &Options::recommended(9))
+        limit(Poses::new(&seen, 1), &Options::recommended(9))
             .exposure
             .drawings()
             .count(),
         1
     );
     assert!(
-        limit(&far, 1, &Options::recommended(9))
+        limit(Poses::new(&far, 1), &Options::recommended(9))
             .exposure
             .drawings()
             .count()

@@ -13,7 +13,7 @@ use okoshi::motion::retarget::{Landmarks, RestSource, RetargetedClip, Rig, retar
 use okoshi::motion::skeleton::{Clip, Transform};
 
 use clips::{FILES, clip};
-use rigs::{Limbs, biped, dog};
+use rigs::{Limbs, biped, dog, stout};
 
 /// Tolerance of directions, degrees.
 const OFF: f64 = 0.05;
@@ -28,12 +28,17 @@ pub(crate) struct Body {
 impl Body {
     pub(crate) fn of(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> Self {
         let poses = (0..clip.frames()).map(|frame| clip.pose(frame));
-        let rise = |pose: Vec<Transform>| {
-            let [left, right] = landmarks.feet.expect("feet");
-            let head = landmarks.head.expect("a head");
-            pose[head].position - (pose[left].position + pose[right].position) / 2.0
-        };
-        let rise: DVec3 = poses.map(rise).sum();
+        let rise: DVec3 = poses.map(|pose| rise(landmarks, &pose)).sum();
+        Self::from_rise(landmarks, facing, rise)
+    }
+
+    /// The same for the skeleton's offset pose, which may have been made in other axes.
+    fn of_offsets(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> Self {
+        let pose = clip.skeleton.offset_pose();
+        Self::from_rise(landmarks, facing, rise(landmarks, &pose))
+    }
+
+    fn from_rise(landmarks: &Landmarks, facing: Facing, rise: DVec3) -> Self {
         let axis = rise.abs().max_position();
         Self {
             landmarks: landmarks.clone(),
@@ -70,6 +75,13 @@ impl Body {
         let columns = DVec3::AXES.map(|axis| self.drawn(pose, axis));
         DQuat::from_mat3(&glam::DMat3::from_cols(columns[0], columns[1], columns[2]))
     }
+}
+
+/// From feet to head.
+fn rise(landmarks: &Landmarks, pose: &[Transform]) -> DVec3 {
+    let [left, right] = landmarks.feet.expect("feet");
+    let head = landmarks.head.expect("a head");
+    pose[head].position - (pose[left].position + pose[right].position) / 2.0
 }
 
 /// The far end of a chain.
@@ -165,9 +177,12 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
     let retargeted = retarget(clip, rig, landmarks);
     let body = Body::of(clip, landmarks, rig.facing);
     let first = clip.pose(0);
-    let rest = match retargeted.rest {
-        RestSource::Offsets => clip.skeleton.offset_pose(),
-        RestSource::Frame(frame) => clip.pose(frame),
+    let (rest, at_rest) = match retargeted.rest {
+        RestSource::Offsets => (
+            clip.skeleton.offset_pose(),
+            Body::of_offsets(clip, landmarks, rig.facing),
+        ),
+        RestSource::Frame(frame) => (clip.pose(frame), Body::of(clip, landmarks, rig.facing)),
     };
     let size = rig.parts.iter().map(|part| part.tip.y).fold(0.0, f64::max);
     let mut worst = Worst::default();
@@ -196,12 +211,23 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
                     worst.limbs = worst.limbs.max(off);
                 }
                 (Follow::Direction, None) => worst.checked -= 1,
+                (Follow::Trunk { hips, shoulders }, _) => {
+                    let lean = |pose: &[Transform]| {
+                        let joints = [hips, shoulders[0], shoulders[1]];
+                        let [hips, left, right] = joints.map(|joint| pose[joint].position);
+                        (left + right) / 2.0 - hips
+                    };
+                    let turned = placed[index].rotation * part.node.rotation.inverse();
+                    let drawn = at_rest.drawn(&rest, lean(&rest));
+                    let off = angle(turned * drawn, body.drawn(&first, lean(&pose)));
+                    worst.limbs = worst.limbs.max(off);
+                }
                 (Follow::Change, _) => {
                     // C₀ᵀ R(k) R(r)ᵀ C_r · D
                     let change = pose[drive.joint].rotation * rest[drive.joint].rotation.inverse();
                     let due = body.turn(&first)
                         * change
-                        * body.turn(&rest).inverse()
+                        * at_rest.turn(&rest).inverse()
                         * part.node.rotation;
                     worst.bodies = worst.bodies.max(apart(placed[index].rotation, due));
                 }
@@ -224,6 +250,10 @@ fn parts_point_where_bones_do() {
                 rigs.push((
                     format!("{limbs:?} {pieces}"),
                     biped(&prepared.anatomy, limbs, pieces),
+                ));
+                rigs.push((
+                    format!("stout, {limbs:?} {pieces}"),
+                    stout(&prepared.anatomy, limbs, pieces),
                 ));
             }
         }

@@ -1,11 +1,9 @@
 //! The best drawings of a given number (ours, not in the thesis).
 
-use glam::DVec3;
-
 use super::exact;
 use super::exposure::Exposure;
+use super::poses::Poses;
 use super::segments::{self, Segments};
-use super::ssd::Frames;
 
 /// For how many frames a drawing is held at most, by default.
 pub const MAX_HOLD: usize = 8;
@@ -33,14 +31,12 @@ pub struct BestDrawings {
 }
 
 /// The `count` drawings that approximate the motion best: those with the least Σ ‖p(t) − p(drawing)‖² over all frames t.
-/// `positions` are `frames × joints`, frame by frame.
 ///
 /// A drawing is one of the frames of the segment for which it is held; of equally good ones the first. A segment is at most
 /// `max_hold` frames long (1 to 64), but equal neighbours may be held for any time. If `count` is below what that allows, or
 /// above the number of poses, the nearest possible number is used. The same motion always gives the same drawings; of equally
 /// good choices, any one.
-pub fn drawings(positions: &[DVec3], joints: usize, count: usize, max_hold: usize) -> BestDrawings {
-    let frames = Frames::new(positions, joints);
+pub fn drawings(frames: Poses<'_>, count: usize, max_hold: usize) -> BestDrawings {
     let max_hold = max_hold.clamp(1, MAX_HOLD_LIMIT);
     let segments = Segments::new(frames, max_hold);
     let (found, fewest) = exact::find(&segments, count);

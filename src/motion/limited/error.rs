@@ -1,11 +1,10 @@
 //! The error of a thinned-out motion against its source.
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::drawings::{MAX_HOLD, drawings};
 use super::exposure::{Exposure, every};
-use super::ssd::Frames;
+use super::poses::Poses;
 
 /// Frames that are summed separately, so that the sum does not depend on the number of threads.
 const GRAIN: usize = 1024;
@@ -28,17 +27,16 @@ pub enum Method {
 pub struct Error {
     /// The number of drawings.
     pub drawings: usize,
-    /// The root mean square of the joints' distances, over all joints and frames, in the positions' unit.
+    /// The root mean square of the points' distances, over all points and frames, in the positions' unit.
     pub rms: f64,
     /// The same in percent of the figure's height; `None` if that is not a positive number.
     pub percent: Option<f64>,
 }
 
 /// The error of what is shown against the source at the same time: each shown frame is compared with the source frame of the
-/// same number. `positions` are `frames × joints`. Of a shortened clip only its own frames are compared; source frames that do
+/// same number. Of a shortened clip only its own frames are compared; source frames that do
 /// not exist are skipped. `height` is the figure's, in the positions' unit.
-pub fn error(positions: &[DVec3], joints: usize, height: f64, exposure: &Exposure) -> Error {
-    let frames = Frames::new(positions, joints);
+pub fn error(frames: Poses<'_>, height: f64, exposure: &Exposure) -> Error {
     let shown = exposure.sources();
     let shown = &shown[..shown.len().min(frames.count())];
     let sums: Vec<[f64; 2]> = shown
@@ -62,7 +60,7 @@ pub fn error(positions: &[DVec3], joints: usize, height: f64, exposure: &Exposur
         [sum + more, count + frames]
     });
     let rms = match count > 0.0 {
-        true => (sum / (count * frames.joints() as f64)).sqrt(),
+        true => (sum / (count * frames.per_frame() as f64)).sqrt(),
         false => 0.0,
     };
     Error {
@@ -74,19 +72,14 @@ pub fn error(positions: &[DVec3], joints: usize, height: f64, exposure: &Exposur
 
 /// The error of an exposure sheet next to those of other ways: on twos, on threes, and the best drawings of the same number (or
 /// the nearest possible), each held for at most [`MAX_HOLD`] frames.
-pub fn compare(
-    positions: &[DVec3],
-    joints: usize,
-    height: f64,
-    asked: &Exposure,
-) -> [(Method, Error); 4] {
-    let frames = Frames::new(positions, joints).count() as u32;
-    let best = drawings(positions, joints, asked.drawings().count(), MAX_HOLD);
+pub fn compare(poses: Poses<'_>, height: f64, asked: &Exposure) -> [(Method, Error); 4] {
+    let frames = poses.count() as u32;
+    let best = drawings(poses, asked.drawings().count(), MAX_HOLD);
     [
         (Method::Asked, asked),
         (Method::Twos, &every(frames, 2)),
         (Method::Threes, &every(frames, 3)),
         (Method::Best, &best.exposure),
     ]
-    .map(|(method, exposure)| (method, error(positions, joints, height, exposure)))
+    .map(|(method, exposure)| (method, error(poses, height, exposure)))
 }

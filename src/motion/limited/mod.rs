@@ -1,6 +1,6 @@
 //! Limited animation: thins a motion out as if it were drawn by hand (Kitamura, chapter 5).
 //!
-//! The input is nothing but joint positions, frame by frame; the output is an exposure sheet that gives the source frame of
+//! The input is nothing but points in space, frame by frame; the output is an exposure sheet that gives the source frame of
 //! each shown frame.
 
 mod camera;
@@ -11,22 +11,20 @@ mod exposure;
 mod hold;
 mod omit;
 mod pose_list;
+mod poses;
 mod queue;
 mod segments;
-mod ssd;
+
 #[cfg(test)]
 mod tests;
-
-use glam::DVec3;
 
 pub use camera::Camera;
 pub use drawings::{BestDrawings, MAX_HOLD, drawings};
 pub use error::{Error, Method, compare, error};
 pub use exposure::{Drawing, Exposure, every};
-pub use ssd::{speeds, ssd};
+pub use poses::{Poses, ssd};
 
 use pose_list::PoseList;
-use ssd::Frames;
 
 /// For how many frames a copied pose may be shown (5.2.2, 5.2.3).
 pub const MAX_COPIED_FRAMES: u32 = 3;
@@ -113,10 +111,10 @@ impl Steps {
     }
 }
 
-/// Omits the fastest poses, then holds the slowest (5.2, Algorithms 2 and 3). `positions` are `frames × joints`, frame by
-/// frame, in any unit; an incomplete last frame is ignored, and so are frames beyond 2³² − 2.
-/// A frame's identity is its source frame. Neighbouring source frames whose [`ssd`] is 0 are one pose from the start; its
-/// source frame is the first of them, and it may be shown for any time. Frames that become neighbours later remain two poses.
+/// Omits the fastest poses, then holds the slowest (5.2, Algorithms 2 and 3).
+/// A frame's identity is its source frame. Neighbouring source frames that are equal are one pose from the start; its source
+/// frame is the first of them, and it may be shown for any time. Frames that become neighbours later remain two poses, and so do
+/// frames whose [`ssd`] is 0 although something moves that has no point.
 /// The speed of a pose is its [`ssd`] to the pose shown before it. Only poses that are shown for a single frame are omitted or
 /// covered, and never the first one.
 ///
@@ -129,9 +127,9 @@ impl Steps {
 ///
 /// All searches resolve ties to the lowest source frame. Steps that are not possible are reported as shortfall.
 ///
-/// Each step costs O(log frames), after O(frames · joints) for the setup.
-pub fn limit(positions: &[DVec3], joints: usize, options: &Options) -> Cut {
-    let mut list = PoseList::new(Frames::new(positions, joints));
+/// Each step costs O(log frames), after O(frames · points) for the setup.
+pub fn limit(poses: Poses<'_>, options: &Options) -> Cut {
+    let mut list = PoseList::new(poses);
     let omit::Omitted {
         omitted,
         duplicated,

@@ -1,14 +1,14 @@
 //! The poses of a motion in order, each shown for some frames, while some are being removed.
 
 use super::exposure::Exposure;
-use super::ssd::Frames;
+use super::poses::Poses;
 
 /// The absence of a pose.
 const NONE: u32 = u32::MAX;
 
 /// A linked list of poses from which some are removed. Poses are numbered in the order of the source.
 pub(super) struct PoseList<'a> {
-    frames: Frames<'a>,
+    frames: Poses<'a>,
     /// Per pose its first source frame.
     source: Vec<u32>,
     /// Per pose for how many frames it is shown; 0 for a removed one.
@@ -20,23 +20,19 @@ pub(super) struct PoseList<'a> {
 }
 
 impl<'a> PoseList<'a> {
-    pub(super) fn new(frames: Frames<'a>) -> Self {
-        let mut speed = frames.speeds();
-        let mut source: Vec<u32> = Vec::with_capacity(speed.len());
-        let mut shown: Vec<u32> = Vec::with_capacity(speed.len());
-        for (frame, speed) in speed.iter().enumerate() {
+    pub(super) fn new(frames: Poses<'a>) -> Self {
+        let mut source: Vec<u32> = Vec::with_capacity(frames.count());
+        let mut shown: Vec<u32> = Vec::with_capacity(frames.count());
+        for frame in 0..frames.count() {
             match shown.last_mut() {
-                Some(shown) if *speed == 0.0 => *shown += 1,
+                Some(shown) if frames.is_repeat(frame) => *shown += 1,
                 _ => {
                     source.push(frame as u32);
                     shown.push(1);
                 }
             }
         }
-        if source.len() < speed.len() {
-            // Frames of one pose may still differ by what squaring loses, so a pose is measured at its first frame.
-            speed = frames.speeds_of(source.len(), |pose| source[pose] as usize);
-        }
+        let speed = frames.speeds_of(source.len(), |pose| source[pose] as usize);
         let count = source.len() as u32;
         Self {
             frames,

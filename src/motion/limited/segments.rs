@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::ssd::Frames;
+use super::poses::Poses;
 
 /// Frames that a thread processes at once.
 const GRAIN: usize = 256;
@@ -49,7 +49,7 @@ pub(super) struct Remainder {
 impl Segments {
     const NONE: u32 = u32::MAX;
 
-    pub(super) fn new(frames: Frames<'_>, max_hold: usize) -> Self {
+    pub(super) fn new(frames: Poses<'_>, max_hold: usize) -> Self {
         let count = frames.count();
         let mut costs = vec![0.0; count * max_hold];
         costs
@@ -79,17 +79,17 @@ impl Segments {
             ends: vec![Self::NONE; count + 1],
             poses: 0,
         };
-        segments.find_still(&frames.speeds());
+        segments.find_still(frames);
         segments
     }
 
     /// A segment of equal frames costs nothing, however long it is. A segment of more than `max_hold` frames only needs to
     /// begin at one of the first two frames of a still run and to end at one of its last two boundaries: a neighbouring segment
     /// that shares more of the run could give up all of it but one frame at no extra cost.
-    fn find_still(&mut self, speeds: &[f64]) {
+    fn find_still(&mut self, frames: Poses<'_>) {
         let mut start = 0;
         // The last frame has no equal successor.
-        let moved = speeds.iter().skip(1).map(|speed| *speed != 0.0);
+        let moved = (1..self.frames).map(|frame| !frames.is_repeat(frame));
         let moved = moved.chain((self.frames > 0).then_some(true));
         for end in moved
             .zip(1..)
@@ -176,7 +176,7 @@ impl Segments {
 }
 
 /// The SSDs between frames that can share a segment: for each of `start..end` to the frames before it, by distance.
-fn nearby_ssds(frames: Frames<'_>, start: usize, end: usize, max_hold: usize) -> Vec<f64> {
+fn nearby_ssds(frames: Poses<'_>, start: usize, end: usize, max_hold: usize) -> Vec<f64> {
     let mut near = vec![0.0; (end - start) * max_hold];
     for (row, near) in near.chunks_mut(max_hold).enumerate() {
         for (back, near) in near.iter_mut().enumerate().take(row + 1) {
@@ -210,7 +210,7 @@ fn accumulate_costs(
 }
 
 /// The frame of a segment that is its best drawing; of equal ones the first.
-pub(super) fn drawing(frames: Frames<'_>, start: usize, end: usize, max_hold: usize) -> usize {
+pub(super) fn drawing(frames: Poses<'_>, start: usize, end: usize, max_hold: usize) -> usize {
     // Longer segments are still.
     let end = end.min(start + max_hold);
     let cost = |drawing: usize| -> f64 {

@@ -1,9 +1,9 @@
 use fastrand::Rng;
 use glam::DVec3;
 
+use super::poses::Poses;
 use super::queue::{Queue, ascending, descending};
 use super::segments::{Segments, drawing};
-use super::ssd::Frames;
 use super::{drawings, every, exact};
 
 /// A motion of one joint, of `frames` frames; some stand still.
@@ -116,7 +116,7 @@ fn the_best_drawings_are_optimal() {
         let fewest = least.iter().position(|cost| cost.is_finite()).unwrap_or(0);
         let poses = motion.chunk_by(|a, b| a == b).count();
         for asked in 0..frames + 3 {
-            let drawn = drawings(&motion, 1, asked, max_hold);
+            let drawn = drawings(Poses::new(&motion, 1), asked, max_hold);
             let count = asked.clamp(fewest, poses);
             assert_eq!([drawn.fewest, drawn.most], [fewest, poses]);
             assert_eq!([drawn.asked, drawn.drawings], [asked, count]);
@@ -148,14 +148,14 @@ fn the_best_drawings_are_optimal() {
 fn counts_that_no_penalty_yields_are_found() {
     // Two drawings are no better than one here, so no penalty yields two.
     let motion = [0.0, 1.0, 0.0].map(DVec3::splat);
-    let costs = [1, 2, 3].map(|count| drawings(&motion, 1, count, 8).cost);
+    let costs = [1, 2, 3].map(|count| drawings(Poses::new(&motion, 1), count, 8).cost);
     assert_eq!(costs, [3.0, 3.0, 0.0]);
     // The table has to find what splitting alone does not.
     let mut random = Rng::with_seed(5);
     let mut tables = 0;
     for _ in 0..200 {
         let motion = self::motion(&mut random, 24, 1000);
-        let frames = Frames::new(&motion, 1);
+        let frames = Poses::new(&motion, 1);
         let segments = Segments::new(frames, 5);
         let best: Vec<f64> = (5..20)
             .map(|count| exact::find(&segments, count).0.segmentation.cost)
@@ -168,22 +168,29 @@ fn counts_that_no_penalty_yields_are_found() {
 
 #[test]
 fn degenerate_motions_have_drawings() {
-    assert!(drawings(&[], 0, 3, 8).exposure.is_empty());
-    assert!(drawings(&[DVec3::ONE], 2, 3, 8).exposure.is_empty());
+    assert!(drawings(Poses::new(&[], 0), 3, 8).exposure.is_empty());
+    assert!(
+        drawings(Poses::new(&[DVec3::ONE], 2), 3, 8)
+            .exposure
+            .is_empty()
+    );
     let odd = [f64::NAN, f64::INFINITY, 1e300, -1e300, 0.0, f64::NAN, 2.0].map(DVec3::splat);
     for (count, max_hold) in [(0, 0), (1, 3), (4, 8), (usize::MAX, usize::MAX)] {
-        let drawn = drawings(&odd, 1, count, max_hold);
+        let drawn = drawings(Poses::new(&odd, 1), count, max_hold);
         assert_eq!(drawn.exposure.len(), odd.len());
         assert!(drawn.cost.is_finite());
     }
     let still = vec![DVec3::ONE; 100];
-    assert_eq!(drawings(&still, 1, 7, 8).exposure.sources(), vec![0; 100]);
+    assert_eq!(
+        drawings(Poses::new(&still, 1), 7, 8).exposure.sources(),
+        vec![0; 100]
+    );
 }
 
 #[test]
 fn of_equally_good_drawings_the_first_is_taken() {
     let motion = [0.0, 1.0].map(DVec3::splat);
-    assert_eq!(drawing(Frames::new(&motion, 1), 0, 2, 8), 0);
+    assert_eq!(drawing(Poses::new(&motion, 1), 0, 2, 8), 0);
 }
 
 #[test]
@@ -200,11 +207,11 @@ fn the_bound_holds_where_many_choices_are_equally_good() {
     let motion: Vec<DVec3> = (0..100_000)
         .map(|frame| DVec3::X * f64::from(frame % 2))
         .collect();
-    let drawn = drawings(&motion, 1, 50_001, 8);
+    let drawn = drawings(Poses::new(&motion, 1), 50_001, 8);
     assert_eq!(drawn.exposure.drawings().count(), 50_001);
     assert_eq!([drawn.cost, drawn.bound], [25_000.0, 24_999.5]);
     // An even number is found by a penalty at once.
-    let drawn = drawings(&motion, 1, 50_000, 8);
+    let drawn = drawings(Poses::new(&motion, 1), 50_000, 8);
     assert_eq!([drawn.cost, drawn.bound], [25_000.0; 2]);
 }
 
@@ -214,7 +221,7 @@ fn segments_are_the_same_from_either_end() {
     for _ in 0..100 {
         let motion = self::motion(&mut random, 40, 9);
         let max_hold = 1 + random.u64(..5) as usize;
-        let segments = Segments::new(Frames::new(&motion, 1), max_hold);
+        let segments = Segments::new(Poses::new(&motion, 1), max_hold);
         let starting = (0..40).flat_map(|start| {
             let ends = segments.starting(start);
             ends.map(move |(end, cost)| (start, end, cost.to_bits()))

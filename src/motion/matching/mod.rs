@@ -6,9 +6,11 @@ mod tests;
 
 use std::collections::BTreeSet;
 
+use glam::DVec3;
+
 use super::figure::Figure;
 use super::labels::{Anatomy, Class, Facing, Label, Limb, Piece, Side, Tip, label_facing};
-use super::skeleton::Skeleton;
+use super::skeleton::{Skeleton, Transform};
 use names::Names;
 
 /// A figure matched with a skeleton.
@@ -49,8 +51,33 @@ pub struct Drive {
 pub enum Follow {
     /// Its axis points like the bone or chain, from the joint to the tip: limbs.
     Direction,
-    /// It turns by as much as the joint has turned from its rest, starting from the drawn pose: trunk, neck, head.
+    /// It turns by as much as the joint has turned from its rest, starting from the drawn pose: trunk, neck, head. If there is a
+    /// tip, it leans by as much as the chain from the joint to the tip.
     Change,
+    /// Like a change, but it leans by as much as the line from the hips to the middle of the shoulders: a trunk of one piece.
+    Trunk {
+        /// The joint of the hips.
+        hips: usize,
+        /// The joints where the arms begin.
+        shoulders: [usize; 2],
+    },
+}
+
+impl Drive {
+    /// The direction of the chain that the part follows in a pose; `None` if there is none, or where it has no length.
+    pub(crate) fn direction(&self, skeleton: &Skeleton, pose: &[Transform]) -> Option<DVec3> {
+        let place = |joint: usize| pose[joint].position;
+        let chain = match self.follow {
+            Follow::Trunk {
+                hips,
+                shoulders: [left, right],
+            } => (place(left) + place(right)) / 2.0 - place(hips),
+            Follow::Direction | Follow::Change => {
+                self.tip?.place(skeleton, pose) - place(self.joint)
+            }
+        };
+        chain.try_normalize()
+    }
 }
 
 /// A problem that was found while matching.
@@ -199,13 +226,25 @@ impl<'a> Matcher<'a> {
         };
         let name = label.class.name();
         let joint = joint.ok_or_else(|| format!("{}; the motion has no {name}", label.why))?;
-        let why = format!("{}; it turns with `{}`", label.why, self.name(joint));
+        let mut why = format!("{}; it turns with `{}`", label.why, self.name(joint));
+        let mut follow = Follow::Change;
+        if let (Class::Body, 1, Some(hips), Some(shoulders)) =
+            (label.class, body, anatomy.hips, self.shoulders())
+        {
+            why += " and leans with the line from the hips to the shoulders";
+            follow = Follow::Trunk { hips, shoulders };
+        }
         let drive = Drive {
             joint,
             tip: None,
-            follow: Follow::Change,
+            follow,
         };
         Ok((drive, why))
+    }
+
+    fn shoulders(&self) -> Option<[usize; 2]> {
+        let [left, right] = Side::BOTH.map(|side| self.anatomy.limb(Class::Arm, side));
+        Some([left?.upper, right?.upper])
     }
 
     fn limb(

@@ -1,9 +1,9 @@
-//! ExposureMethod a body is oriented in its clip.
+//! How a body is oriented in its clip.
 
 use glam::{DMat3, DQuat, DVec3};
 
-use super::PoseBuffer;
-use crate::motion::labels::{Anatomy, Class, Facing, Limb, Side};
+use super::{PoseBuffer, ground};
+use crate::motion::labels::{Anatomy, Class, Facing, Limb, Side, Tip};
 use crate::motion::skeleton::{Clip, Transform};
 
 /// The joints that define how a body is oriented. Pairs are left and right from the body's own point of view.
@@ -21,26 +21,36 @@ pub struct Landmarks {
     pub knees: Option<[usize; 2]>,
     /// Where the feet begin, or the legs end: the ankles.
     pub feet: Option<[usize; 2]>,
+    /// Where the toes begin.
+    pub toes: Option<[usize; 2]>,
+    /// The far ends of the feet.
+    pub foot_tips: Option<[Tip; 2]>,
+    /// Where the hands begin, or the arms end: the wrists.
+    pub hands: Option<[usize; 2]>,
 }
 
 impl Landmarks {
     /// The landmarks of a labelled skeleton; if it has no hips, its first joint is used.
     pub fn of(anatomy: &Anatomy) -> Self {
-        let limb = |class, side| anatomy.limb(class, side);
-        let both = |class, of: fn(&Limb) -> Option<usize>| {
-            let [left, right] = Side::BOTH.map(|side| limb(class, side).and_then(of));
+        fn both<T>(limbs: [Option<&Limb>; 2], of: fn(&Limb) -> Option<T>) -> Option<[T; 2]> {
+            let [left, right] = limbs.map(|limb| limb.and_then(of));
             Some([left?, right?])
-        };
+        }
+        let [arms, legs] =
+            [Class::Arm, Class::Leg].map(|class| Side::BOTH.map(|side| anatomy.limb(class, side)));
         Self {
             hips: anatomy.hips.unwrap_or(0),
             head: anatomy
                 .head
                 .or(anatomy.neck.last().copied())
                 .or(anatomy.chest()),
-            shoulders: both(Class::Arm, |arm| Some(arm.upper)),
-            thighs: both(Class::Leg, |leg| Some(leg.upper)),
-            knees: both(Class::Leg, |leg| leg.end.and(leg.lower)),
-            feet: both(Class::Leg, |leg| leg.end.or(leg.lower)),
+            shoulders: both(arms, |arm| Some(arm.upper)),
+            thighs: both(legs, |leg| Some(leg.upper)),
+            knees: both(legs, |leg| leg.end.and(leg.lower)),
+            feet: both(legs, |leg| leg.end.or(leg.lower)),
+            toes: both(legs, |leg| leg.toe),
+            foot_tips: both(legs, |leg| leg.end.and(leg.tip)),
+            hands: both(arms, |arm| arm.end.or(arm.lower)),
         }
     }
 }
@@ -58,7 +68,7 @@ pub(super) struct Axes {
 impl Axes {
     pub(super) fn of(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> Self {
         let mut axes = Self {
-            up: up(clip, landmarks),
+            up: ground::up(clip, landmarks),
             first: DQuat::IDENTITY,
             facing: facing.turn(),
         };
@@ -70,61 +80,34 @@ impl Axes {
     }
 
     /// From the drawing's axes to the clip's world, by the body's axes in a pose.
+    pub(super) fn at(&self, landmarks: &Landmarks, pose: &[Transform]) -> DQuat {
+        self.at_upright(landmarks, pose, self.up)
+    }
+
+    /// From the drawing's axes to the axes of a pose in which another axis points up.
     ///
     /// A body's left is the mean of the lines through hips and shoulders, projected to the ground; its front is left × up.
-    pub(super) fn at(&self, landmarks: &Landmarks, pose: &[Transform]) -> DQuat {
+    pub(super) fn at_upright(&self, landmarks: &Landmarks, pose: &[Transform], up: DVec3) -> DQuat {
         let line = |pair: Option<[usize; 2]>| {
             let [left, right] = pair?;
             (pose[left].position - pose[right].position).try_normalize()
         };
         let lines = [line(landmarks.thighs), line(landmarks.shoulders)];
         let sum: DVec3 = lines.into_iter().flatten().sum();
-        let level = |line: DVec3| line.reject_from(self.up).try_normalize();
+        let level = |line: DVec3| line.reject_from(up).try_normalize();
         // Hips and shoulders can be missing, vertical, or opposite to each other.
         let left = level(sum)
             .or_else(|| lines.into_iter().flatten().find_map(level))
-            .unwrap_or_else(|| self.any_left());
-        let body = DMat3::from_cols(left, self.up, left.cross(self.up));
+            .unwrap_or_else(|| any_left(up));
+        let body = DMat3::from_cols(left, up, left.cross(up));
         (DQuat::from_mat3(&body) * self.facing.inverse()).normalize()
-    }
-
-    /// A left for bodies without sides: x, or z if x is up.
-    fn any_left(&self) -> DVec3 {
-        match self.up.x == 0.0 {
-            true => DVec3::X,
-            false => DVec3::Z,
-        }
     }
 }
 
-/// The axis of the clip's world that is nearest to the mean direction from feet to head.
-fn up(clip: &Clip, landmarks: &Landmarks) -> DVec3 {
-    /// A sample of the poses is enough.
-    const MAX_POSES: usize = 1000;
-
-    let mut poses = PoseBuffer::new(clip);
-    let rise = |pose: &[Transform]| {
-        let low = match landmarks.feet {
-            Some([left, right]) => (pose[left].position + pose[right].position) / 2.0,
-            None => pose[landmarks.hips].position,
-        };
-        landmarks
-            .head
-            .map_or(DVec3::ZERO, |head| pose[head].position - low)
-    };
-    let step = clip.frames().div_ceil(MAX_POSES).max(1);
-    let frames = (0..clip.frames()).step_by(step);
-    let sum: DVec3 = frames.map(|frame| rise(poses.at(frame))).sum();
-    let sum = match sum == DVec3::ZERO {
-        true => rise(&clip.skeleton.offset_pose()),
-        false => sum,
-    };
-    // Up is +Y in most files, so +Y wins ties.
-    let mut best = DVec3::Y;
-    for axis in [DVec3::Z, DVec3::X, DVec3::NEG_Y, DVec3::NEG_Z, DVec3::NEG_X] {
-        if axis.dot(sum) > best.dot(sum) {
-            best = axis;
-        }
+/// A left for bodies without sides: x, or z if x is up.
+fn any_left(up: DVec3) -> DVec3 {
+    match up.x == 0.0 {
+        true => DVec3::X,
+        false => DVec3::Z,
     }
-    best
 }

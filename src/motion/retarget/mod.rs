@@ -4,6 +4,8 @@
 //! axes of the clip's first frame are mapped to them, so the figure starts in the direction in which it is drawn.
 
 mod axes;
+mod contacts;
+mod ground;
 mod rest_pose;
 mod root_motion;
 mod rotations;
@@ -26,6 +28,27 @@ pub struct Rig {
     pub facing: Facing,
 }
 
+impl Rig {
+    /// The parts, parents before children; those in cycles are missing.
+    pub(crate) fn order(&self) -> Vec<usize> {
+        let count = self.parts.len();
+        let mut children = vec![Vec::new(); count];
+        let mut order: Vec<usize> = Vec::with_capacity(count);
+        for (index, part) in self.parts.iter().enumerate() {
+            match part.parent {
+                Some(parent) => children[parent].push(index),
+                None => order.push(index),
+            }
+        }
+        let mut next = 0;
+        while let Some(part) = order.get(next) {
+            order.extend_from_slice(&children[*part]);
+            next += 1;
+        }
+        order
+    }
+}
+
 /// A part of a rig.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RigPart {
@@ -40,11 +63,13 @@ pub struct RigPart {
     pub joint: DVec3,
     /// Its far end.
     pub tip: DVec3,
-    /// The points of its lower edge that touch the ground, if it is the end of a leg; else empty.
-    pub sole: Vec<DVec3>,
+    /// Points around its surface and around what moves with it, which the ground holds up.
+    pub surface: Vec<DVec3>,
+    /// Whether it is the end of a leg, on which the figure stands.
+    pub stands: bool,
     /// The joint that drives it.
     pub drive: Option<Drive>,
-    /// Whether it belongs to a leg and follows the direction of a bone.
+    /// Whether it belongs to a leg and follows a bone or chain.
     pub is_leg: bool,
 }
 
@@ -62,11 +87,42 @@ pub struct RetargetedClip {
     pub rest: RestSource,
 }
 
+impl RetargetedClip {
+    /// The node of a part in a frame, in the drawing's axes, given that of its parent in `placed`.
+    pub(crate) fn node(
+        &self,
+        rig: &Rig,
+        part: usize,
+        frame: usize,
+        placed: &[Transform],
+    ) -> Transform {
+        let own = &rig.parts[part];
+        let turn = self.rotations[part].as_ref().map(|turns| turns[frame]);
+        match own.parent.filter(|_| !own.is_rooted) {
+            Some(parent) => {
+                let (above, rest) = (placed[parent], &rig.parts[parent].node);
+                let drawn = || rest.rotation.inverse() * own.node.rotation;
+                Transform {
+                    rotation: above.rotation * turn.unwrap_or_else(drawn),
+                    position: above.apply(rest.to_local(own.node.position)),
+                }
+            }
+            None => {
+                let place = self.translations[part].as_ref().map(|places| places[frame]);
+                Transform {
+                    rotation: turn.unwrap_or(own.node.rotation),
+                    position: place.unwrap_or(own.node.position),
+                }
+            }
+        }
+    }
+}
+
 /// Retargets a clip to a rig. Every index in `rig` and `landmarks` must be valid. Nothing moves if no part is driven; parts
 /// whose parents form a cycle stay in place.
 pub fn retarget(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> RetargetedClip {
     let count = rig.parts.len();
-    let order = order(rig);
+    let order = rig.order();
     if rig.parts.iter().all(|part| part.drive.is_none()) || order.is_empty() {
         return RetargetedClip {
             rotations: vec![None; count],
@@ -126,25 +182,6 @@ pub(crate) fn continuous(mut turns: Vec<DQuat>) -> Vec<DQuat> {
         }
     }
     turns
-}
-
-/// The parts, parents before children; those in cycles are missing.
-fn order(rig: &Rig) -> Vec<usize> {
-    let count = rig.parts.len();
-    let mut children = vec![Vec::new(); count];
-    let mut order: Vec<usize> = Vec::with_capacity(count);
-    for (index, part) in rig.parts.iter().enumerate() {
-        match part.parent {
-            Some(parent) => children[parent].push(index),
-            None => order.push(index),
-        }
-    }
-    let mut next = 0;
-    while let Some(part) = order.get(next) {
-        order.extend_from_slice(&children[*part]);
-        next += 1;
-    }
-    order
 }
 
 /// The poses of a clip, of which the one that was used last is stored.

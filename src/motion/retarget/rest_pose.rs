@@ -3,7 +3,7 @@
 use glam::{DQuat, DVec3};
 
 use super::axes::{Axes, Landmarks};
-use super::{PoseBuffer, Rig};
+use super::{PoseBuffer, Rig, ground};
 use crate::motion::matching::Follow;
 use crate::motion::skeleton::{Clip, Transform};
 
@@ -40,16 +40,19 @@ pub(super) fn choose(
     poses: &mut PoseBuffer<'_>,
 ) -> RestPose {
     let offsets = clip.skeleton.offset_pose();
-    let source = match clip.frames() == 0 || stands(&offsets, landmarks, axes.up) {
-        true => RestSource::Offsets,
-        false => RestSource::Frame(nearest(clip, rig, landmarks, axes, poses)),
-    };
-    let pose = match source {
-        RestSource::Offsets => offsets,
-        RestSource::Frame(frame) => poses.at(frame).to_vec(),
-    };
+    // The skeleton may have been made in other axes than the motion.
+    let up = ground::upright(&offsets, landmarks);
+    if clip.frames() == 0 || stands(&offsets, landmarks, up) {
+        return RestPose {
+            source: RestSource::Offsets,
+            axes: axes.at_upright(landmarks, &offsets, up),
+            pose: offsets,
+        };
+    }
+    let frame = nearest(clip, rig, landmarks, axes, poses);
+    let pose = poses.at(frame).to_vec();
     RestPose {
-        source,
+        source: RestSource::Frame(frame),
         axes: axes.at(landmarks, &pose),
         pose,
     }

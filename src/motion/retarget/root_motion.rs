@@ -3,17 +3,14 @@
 use glam::{DQuat, DVec3};
 
 use super::axes::{Axes, Landmarks};
+use super::contacts::{CONTACT_HEIGHT, Walk};
 use super::rotations::Rotations;
 use super::{PoseBuffer, Rig};
 use crate::motion::matching::Drive;
 use crate::motion::skeleton::{Clip, Transform};
 
-/// A foot is in contact if it is lower than this above its lowest height, in leg lengths …
-const CONTACT_HEIGHT: f64 = 0.08;
-/// … and slower than this, in leg lengths per second.
-const CONTACT_SPEED: f64 = 0.6;
-/// The lowest height of a foot is this quantile of its heights, because single frames may be wrong.
-const LOWEST: f64 = 0.02;
+/// A foot rolls over the points of its sole that are about this high above the lowest one, in leg lengths.
+const ROLLING: f64 = 0.01;
 
 /// The motion of nodes that have no parent node.
 pub(super) struct RootMotion {
@@ -46,9 +43,10 @@ pub(super) fn root_motion(
         false => 0.0,
     };
     let start = rig.parts[main].node.position;
-    let floor = walk.feet.iter().flat_map(|foot| &foot.soles);
-    let floor = floor.flat_map(|part| &rig.parts[*part].sole);
-    let floor = floor.map(|point| point.y).reduce(f64::min);
+    let standing = walk.feet.iter().flat_map(|foot| &foot.parts);
+    let soles = standing.flat_map(|part| &rig.parts[*part].surface);
+    let floor = soles.map(|point| point.y).reduce(f64::min);
+    let surfaces = Surfaces::of(rig, order, floor);
     let is_moving = |part: &usize| *part == main || rig.parts[*part].is_rooted;
     let moving: Vec<usize> = order.iter().copied().filter(is_moving).collect();
     for part in &moving {
@@ -57,20 +55,26 @@ pub(super) fn root_motion(
     let mut kinematics = ForwardKinematics::new(rig);
     let mut position = start;
     let mut planted: Option<usize> = None;
-    let mut before: Vec<DVec3> = Vec::new();
+    // Per foot of the clip, and per part that stands on it, the points of the part's surface.
+    let mut before: Vec<Vec<Vec<DVec3>>> = Vec::new();
     for frame in 0..clip.frames() {
         kinematics.pose(rig, rotations, order, frame);
-        let feet: Vec<DVec3> = walk
+        let feet: Vec<Vec<Vec<DVec3>>> = walk
             .feet
             .iter()
-            .map(|foot| foot.reference(rig, &kinematics))
+            .map(|foot| {
+                let parts = foot.parts.iter();
+                parts
+                    .map(|part| kinematics.surface(rig, *part).collect())
+                    .collect()
+            })
             .collect();
         planted = walk.planted(frame, planted);
         motion.grounded[frame] = planted.is_some();
         if frame > 0 {
             let step = match planted {
                 // Foot locking: the foot stays in place, so the root moves by the opposite of its step.
-                Some(foot) => before[foot] - feet[foot],
+                Some(foot) => -rolled(&before[foot], &feet[foot], ROLLING * legs[1]),
                 None => (walk.hips[frame] - walk.hips[frame - 1]) * scale,
             };
             position += DVec3::new(step.x, 0.0, step.z);
@@ -79,8 +83,10 @@ pub(super) fn root_motion(
             Some(floor) => {
                 let clearance = walk.feet.iter().map(|foot| foot.clearance[frame].max(0.0));
                 let clearance = clearance.fold(f64::INFINITY, f64::min);
-                let soles = walk.feet.iter().map(|foot| foot.lowest(rig, &kinematics));
-                floor + lifted(clearance, legs[0]) * scale - soles.fold(f64::INFINITY, f64::min)
+                let lifted = floor + lifted(clearance, legs[0]) * scale;
+                let lowest = feet.iter().flatten().flatten().map(|point| point.y);
+                (lifted - lowest.fold(f64::INFINITY, f64::min))
+                    .max(floor - surfaces.lowest(rig, &kinematics))
             }
             None => start.y + (walk.hips[frame].y - walk.hips[0].y) * scale,
         };
@@ -92,6 +98,64 @@ pub(super) fn root_motion(
         }
     }
     motion
+}
+
+/// How far a foot moves from one pose to the next where it touches the ground: the mean over the points of its lowest part, of which
+/// those count most that are lowest in both poses.
+fn rolled(before: &[Vec<DVec3>], now: &[Vec<DVec3>], height: f64) -> DVec3 {
+    let height_of = |(a, b): (&DVec3, &DVec3)| (a.y + b.y) / 2.0;
+    let lowest_of = |(before, now): (&[DVec3], &[DVec3])| {
+        let heights = before.iter().zip(now).map(height_of);
+        heights.fold(f64::INFINITY, f64::min)
+    };
+    let parts = before.iter().zip(now).map(|(a, b)| (&a[..], &b[..]));
+    let parts = parts.min_by(|a, b| lowest_of(*a).total_cmp(&lowest_of(*b)));
+    let Some((before, now)) = parts else {
+        return DVec3::ZERO;
+    };
+    let lowest = lowest_of((before, now));
+    let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
+    for (before, now) in before.iter().zip(now) {
+        let at = height_of((before, now));
+        let weight = match at > lowest {
+            true => (-(at - lowest) / height).exp(),
+            false => 1.0,
+        };
+        sum += (*now - *before) * weight;
+        weights += weight;
+    }
+    match weights > 0.0 {
+        true => sum / weights,
+        false => DVec3::ZERO,
+    }
+}
+
+/// The surfaces of the parts that the ground holds up, besides the feet: hands and knees of a figure that crawls.
+struct Surfaces {
+    /// Per part how far it may be below the ground, because it is drawn there.
+    parts: Vec<(usize, f64)>,
+}
+
+impl Surfaces {
+    fn of(rig: &Rig, order: &[usize], floor: Option<f64>) -> Self {
+        let part = |part: &usize| {
+            let surface = rig.parts[*part].surface.iter().map(|point| point.y);
+            let lowest = surface.reduce(f64::min)?;
+            Some((*part, (floor? - lowest).max(0.0)))
+        };
+        Self {
+            parts: order.iter().filter_map(part).collect(),
+        }
+    }
+
+    /// The height of the lowest point.
+    fn lowest(&self, rig: &Rig, kinematics: &ForwardKinematics) -> f64 {
+        let parts = self.parts.iter().map(|(part, below)| {
+            let surface = kinematics.surface(rig, *part).map(|point| point.y);
+            surface.fold(f64::INFINITY, f64::min) + below
+        });
+        parts.fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// The height at which a foot is shown that has this clearance in the clip. Up to the contact height it is on the ground,
@@ -113,8 +177,8 @@ impl ForwardKinematics {
         let joints = rig.parts.iter().map(|part| {
             let above = part
                 .parent
-                .map(|parent| to_local(&rig.parts[parent].node, part.joint));
-            [above.unwrap_or_default(), to_local(&part.node, part.joint)]
+                .map(|parent| rig.parts[parent].node.to_local(part.joint));
+            [above.unwrap_or_default(), part.node.to_local(part.joint)]
         });
         let identity = Transform {
             rotation: DQuat::IDENTITY,
@@ -140,101 +204,13 @@ impl ForwardKinematics {
             self.transforms[part] = Transform { rotation, position };
         }
     }
-}
 
-/// A point in the frame of a node at rest.
-fn to_local(node: &Transform, point: DVec3) -> DVec3 {
-    node.rotation.inverse() * (point - node.position)
-}
-
-/// The walk of a clip, in the drawing's axes and the clip's unit.
-struct Walk {
-    hips: Vec<DVec3>,
-    feet: Vec<Foot>,
-}
-
-/// A foot of the clip, and the parts of the figure that follow it.
-struct Foot {
-    drive: Drive,
-    soles: Vec<usize>,
-    /// Per frame its height above its lowest height.
-    clearance: Vec<f64>,
-    /// Per frame whether it was in contact since the frame before.
-    contact: Vec<bool>,
-    /// Per frame the length of its step from the frame before, in the clip's unit.
-    speed: Vec<f64>,
-}
-
-impl Walk {
-    fn of(
-        clip: &Clip,
-        rig: &Rig,
-        landmarks: &Landmarks,
-        axes: &Axes,
-        leg: f64,
-        poses: &mut PoseBuffer<'_>,
-    ) -> Self {
-        let mut feet: Vec<Foot> = Vec::new();
-        for (index, part) in rig.parts.iter().enumerate() {
-            let Some(drive) = part.drive.filter(|_| part.is_leg) else {
-                continue;
-            };
-            if part.sole.is_empty() {
-                continue;
-            }
-            match feet
-                .iter_mut()
-                .find(|foot| (foot.drive.joint, foot.drive.tip) == (drive.joint, drive.tip))
-            {
-                Some(foot) => foot.soles.push(index),
-                None => feet.push(Foot {
-                    drive,
-                    soles: vec![index],
-                    clearance: Vec::new(),
-                    contact: Vec::new(),
-                    speed: Vec::new(),
-                }),
-            }
-        }
-        let to_drawing = axes.first.inverse();
-        let mut hips = Vec::with_capacity(clip.frames());
-        let mut paths: Vec<Vec<DVec3>> = vec![Vec::with_capacity(clip.frames()); feet.len()];
-        for frame in 0..clip.frames() {
-            let pose = poses.at(frame);
-            hips.push(to_drawing * pose[landmarks.hips].position);
-            for (foot, path) in feet.iter().zip(&mut paths) {
-                path.push(to_drawing * foot_point(clip, pose, landmarks, &foot.drive));
-            }
-        }
-        for (foot, path) in feet.iter_mut().zip(&paths) {
-            foot.measure(path, clip.frame_time, leg);
-        }
-        Self { hips, feet }
-    }
-
-    /// The foot that is locked on the way to a frame: the same as before while it is in contact, else the slowest one in
-    /// contact.
-    fn planted(&self, frame: usize, before: Option<usize>) -> Option<usize> {
-        let stays = before.filter(|foot| self.feet[*foot].contact[frame]);
-        let standing = self
-            .feet
-            .iter()
-            .enumerate()
-            .filter(|(_, foot)| foot.contact[frame]);
-        let slowest = standing.min_by(|(_, a), (_, b)| a.speed[frame].total_cmp(&b.speed[frame]));
-        stays.or(slowest.map(|(index, _)| index))
-    }
-}
-
-/// The point of a clip's foot that touches the ground: the middle of a foot, the end of a leg without one.
-fn foot_point(clip: &Clip, pose: &[Transform], landmarks: &Landmarks, drive: &Drive) -> DVec3 {
-    let joint = pose[drive.joint].position;
-    let tip = drive
-        .tip
-        .map_or(joint, |tip| tip.place(&clip.skeleton, pose));
-    match is_foot(landmarks, drive) {
-        true => (joint + tip) / 2.0,
-        false => tip,
+    /// The points of a part's surface.
+    fn surface<'a>(&self, rig: &'a Rig, part: usize) -> impl Iterator<Item = DVec3> + use<'a> {
+        let own = &rig.parts[part];
+        let placed = self.transforms[part];
+        let surface = own.surface.iter();
+        surface.map(move |point| placed.apply(own.node.to_local(*point)))
     }
 }
 
@@ -243,50 +219,6 @@ fn is_foot(landmarks: &Landmarks, drive: &Drive) -> bool {
     landmarks
         .feet
         .is_some_and(|feet| feet.contains(&drive.joint))
-}
-
-impl Foot {
-    fn measure(&mut self, path: &[DVec3], frame_time: f64, leg: f64) {
-        let mut heights: Vec<f64> = path.iter().map(|point| point.y).collect();
-        heights.sort_by(f64::total_cmp);
-        let lowest = match heights.len() {
-            0 => 0.0,
-            count => heights[((count - 1) as f64 * LOWEST) as usize],
-        };
-        self.clearance = path.iter().map(|point| point.y - lowest).collect();
-        let steps = path.windows(2).map(|step| (step[1] - step[0]).length());
-        self.speed = std::iter::once(0.0).chain(steps).take(path.len()).collect();
-        let low = |frame: usize| self.clearance[frame] < CONTACT_HEIGHT * leg;
-        let contact = (0..path.len()).map(|frame| {
-            let slow = self.speed[frame] < CONTACT_SPEED * leg * frame_time;
-            low(frame) && low(frame.saturating_sub(1)) && slow
-        });
-        self.contact = contact.collect();
-    }
-
-    /// The mean of its soles' points.
-    fn reference(&self, rig: &Rig, kinematics: &ForwardKinematics) -> DVec3 {
-        let points: Vec<DVec3> = self.points(rig, kinematics).collect();
-        points.iter().sum::<DVec3>() / points.len().max(1) as f64
-    }
-
-    /// The height of the lowest point of its soles.
-    fn lowest(&self, rig: &Rig, kinematics: &ForwardKinematics) -> f64 {
-        self.points(rig, kinematics)
-            .map(|point| point.y)
-            .fold(f64::INFINITY, f64::min)
-    }
-
-    fn points(&self, rig: &Rig, kinematics: &ForwardKinematics) -> impl Iterator<Item = DVec3> {
-        self.soles.iter().flat_map(|part| {
-            let placed = kinematics.transforms[*part];
-            let own = &rig.parts[*part];
-            let point = move |point: &DVec3| {
-                placed.rotation * to_local(&own.node, *point) + placed.position
-            };
-            own.sole.iter().map(point)
-        })
-    }
 }
 
 /// The leg lengths of the clip and of the figure, feet excluded; if one of them has no legs, their sizes.
@@ -316,7 +248,7 @@ fn leg_lengths(
         .parts
         .iter()
         .enumerate()
-        .filter(|(_, part)| !part.sole.is_empty());
+        .filter(|(_, part)| part.is_leg && part.stands);
     let rig_legs = stand_on
         .map(|(index, _)| leg_length(rig, landmarks, index))
         .collect();

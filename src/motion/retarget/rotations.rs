@@ -78,7 +78,7 @@ struct PartRotation {
     to_drawing: DQuat,
     /// The rotation that the joint's change is applied to: Cᵣ · A · D for limbs, Cᵣ · D for bodies.
     drawn: DQuat,
-    /// For limbs the direction of the chain at rest, in the clip's world.
+    /// The direction of the chain at rest, if the part follows one, in the clip's world.
     direction: Option<DVec3>,
     /// The viewer's axis in the clip's world.
     viewer: DVec3,
@@ -88,13 +88,12 @@ impl PartRotation {
     fn new(clip: &Clip, rig: &Rig, part: usize, axes: &Axes, rest: &RestPose) -> Option<Self> {
         let part = &rig.parts[part];
         let drive = part.drive?;
+        let direction = drive.direction(&clip.skeleton, &rest.pose);
         let axis = (part.tip - part.joint).try_normalize();
-        let direction = match drive.follow {
-            Follow::Direction => direction(clip, &drive, &rest.pose).filter(|_| axis.is_some()),
-            Follow::Change => None,
-        };
-        let align = match (axis, direction) {
-            (Some(axis), Some(direction)) => arc(axis, rest.axes.inverse() * direction, DVec3::Z),
+        let align = match (drive.follow, axis, direction) {
+            (Follow::Direction, Some(axis), Some(direction)) => {
+                arc(axis, rest.axes.inverse() * direction, DVec3::Z)
+            }
             _ => DQuat::IDENTITY,
         };
         Some(Self {
@@ -106,22 +105,18 @@ impl PartRotation {
         })
     }
 
-    /// G(k) · D with G(k) = C₀ᵀ · S(k) · Rⱼ(k) · Rⱼ(r)ᵀ · Cᵣ · A; A and S are the identity for bodies.
+    /// G(k) · D with G(k) = C₀ᵀ · S(k) · Rⱼ(k) · Rⱼ(r)ᵀ · Cᵣ · A; A is the identity for parts that keep the drawn pose, S for those
+    /// that follow no chain.
     fn at(&self, clip: &Clip, pose: &[Transform], rest: &RestPose) -> DQuat {
         let joint = self.drive.joint;
         let change = pose[joint].rotation * rest.pose[joint].rotation.inverse();
-        let straighten = match (self.direction, direction(clip, &self.drive, pose)) {
+        let now = self.drive.direction(&clip.skeleton, pose);
+        let straighten = match (self.direction, now) {
             (Some(rest), Some(now)) => arc(change * rest, now, self.viewer),
             _ => DQuat::IDENTITY,
         };
         (self.to_drawing * straighten * change * self.drawn).normalize()
     }
-}
-
-/// The direction of a chain in a pose; `None` where it has no length.
-fn direction(clip: &Clip, drive: &Drive, pose: &[Transform]) -> Option<DVec3> {
-    let tip = drive.tip?.place(&clip.skeleton, pose);
-    (tip - pose[drive.joint].position).try_normalize()
 }
 
 /// The shortest rotation from one direction to another, both unit vectors; a half turn goes about `about`.

@@ -128,7 +128,8 @@ fn rig(clip: &Clip, (parts, facing): (Vec<PartSpec>, Facing)) -> Rig {
             },
             joint,
             tip,
-            sole: if stands { vec![tip] } else { vec![] },
+            surface: if is_rooted { vec![] } else { vec![tip, joint] },
+            stands,
             drive,
             is_leg: stands,
         }

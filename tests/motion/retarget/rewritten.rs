@@ -135,21 +135,24 @@ fn the_up_axis_does_not_matter() {
     }
 }
 
-/// A skeleton whose offsets do not stand, in a world with another up axis.
+/// A skeleton in a world with another up axis: one whose offsets stand, and one whose offsets do not.
 #[test]
 fn the_up_axis_of_the_motion_alone_does_not_matter() {
+    let mut standing = 0;
     for file in FILES {
         let clip = clip(file).clip;
         let joints = clip.skeleton.joints.len();
-        let fallen = |seed| Moving::of(&clip).reoriented(&random_turns(joints, seed));
-        let turn = DQuat::from_rotation_x(std::f64::consts::FRAC_PI_2);
-        same(
-            file,
-            "up alone",
-            &fallen(3).written(0),
-            &fallen(3).turned(turn).written(0),
-        );
+        standing += usize::from(play(&clip, 2).1.rest == RestSource::Offsets);
+        let fallen = || Moving::of(&clip).reoriented(&random_turns(joints, 3));
+        for turn in [DQuat::from_rotation_x, DQuat::from_rotation_z] {
+            let turn = turn(std::f64::consts::FRAC_PI_2);
+            let turned = Moving::of(&clip).turned(turn).written(0);
+            same(file, "up alone", &clip, &turned);
+            let turned = fallen().turned(turn).written(0);
+            same(file, "up alone, fallen", &fallen().written(0), &turned);
+        }
     }
+    assert!(standing >= 4, "the offsets of only {standing} files stand");
 }
 
 /// Another rest pose in the file: the joints' frames are rotated by constants, and the motion compensates for that.

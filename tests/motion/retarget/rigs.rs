@@ -58,7 +58,8 @@ impl Builder {
             },
             joint,
             tip,
-            sole: Vec::new(),
+            surface: Vec::new(),
+            stands: false,
             drive: None,
             is_leg: false,
         });
@@ -95,7 +96,8 @@ impl Builder {
             });
             own.is_leg = is_leg && tip.is_some();
             if is_leg && index + 1 == bones.len() {
-                own.sole = match pieces {
+                own.stands = true;
+                own.surface = match pieces {
                     3 => vec![
                         dvec3(ends[0].x.min(ends[1].x) - 3.0, ends[1].y - 2.0, 0.0),
                         dvec3(ends[0].x.max(ends[1].x) + 3.0, ends[1].y - 2.0, 0.0),
@@ -112,25 +114,57 @@ fn limb(anatomy: &Anatomy, class: Class, side: Side) -> &Limb {
     anatomy.limb(class, side).expect("two arms and two legs")
 }
 
-/// A figure that faces the viewer, with hips, two pieces of trunk, a head with a hat that has no drive, and limbs.
+/// How many pieces a trunk has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Trunk {
+    /// One, from the hips to the shoulders.
+    One,
+    /// Hips and two more.
+    Three,
+}
+
+/// A figure that faces the viewer, with a trunk of hips and two more pieces, a head with a hat that has no drive, and limbs.
 pub(crate) fn biped(anatomy: &Anatomy, limbs: Limbs, pieces: usize) -> Rig {
+    figure(anatomy, limbs, pieces, Trunk::Three)
+}
+
+/// The same with a trunk of one piece.
+pub(crate) fn stout(anatomy: &Anatomy, limbs: Limbs, pieces: usize) -> Rig {
+    figure(anatomy, limbs, pieces, Trunk::One)
+}
+
+fn figure(anatomy: &Anatomy, limbs: Limbs, pieces: usize, trunk: Trunk) -> Rig {
     let mut figure = Builder {
         rig: Rig::default(),
         limbs,
     };
     let at = |x: f64, y: f64| dvec3(x, y, 0.0);
     let spine = &anatomy.spine;
-    let hips = figure.trunk(None, [at(0.0, 100.0), at(2.0, 112.0)], anatomy.hips);
-    let waist = figure.trunk(
-        Some(hips),
-        [at(2.0, 112.0), at(0.0, 130.0)],
-        spine.first().copied(),
-    );
-    let chest = figure.trunk(
-        Some(waist),
-        [at(0.0, 130.0), at(-4.0, 160.0)],
-        spine.last().copied(),
-    );
+    let [hips, chest] = match trunk {
+        Trunk::One => {
+            let ends = [at(0.0, 100.0), at(-4.0, 160.0)];
+            let trunk = figure.trunk(None, ends, anatomy.chest());
+            let shoulders = Side::BOTH.map(|side| limb(anatomy, Class::Arm, side).upper);
+            let hips = anatomy.hips.expect("hips");
+            let drive = figure.rig.parts[trunk].drive.as_mut().expect("a chest");
+            drive.follow = Follow::Trunk { hips, shoulders };
+            [trunk; 2]
+        }
+        Trunk::Three => {
+            let hips = figure.trunk(None, [at(0.0, 100.0), at(2.0, 112.0)], anatomy.hips);
+            let waist = figure.trunk(
+                Some(hips),
+                [at(2.0, 112.0), at(0.0, 130.0)],
+                spine.first().copied(),
+            );
+            let chest = figure.trunk(
+                Some(waist),
+                [at(0.0, 130.0), at(-4.0, 160.0)],
+                spine.last().copied(),
+            );
+            [hips, chest]
+        }
+    };
     let head = figure.trunk(Some(chest), [at(-4.0, 160.0), at(4.0, 190.0)], anatomy.head);
     figure.trunk(Some(head), [at(4.0, 190.0), at(14.0, 200.0)], None);
     for side in Side::BOTH {

@@ -64,11 +64,11 @@ fn thighs_face_forward_in_walks() {
     }
 }
 
-/// The feet of a rig: per foot of the clip the parts with soles that follow it.
+/// The feet of a rig: per foot of the clip the parts that stand on it.
 fn feet(rig: &Rig) -> Vec<Vec<usize>> {
     let mut feet: Vec<(usize, Vec<usize>)> = Vec::new();
     for (index, part) in rig.parts.iter().enumerate() {
-        let Some(drive) = part.drive.filter(|_| !part.sole.is_empty()) else {
+        let Some(drive) = part.drive.filter(|_| part.stands) else {
             continue;
         };
         match feet.iter_mut().find(|(joint, _)| *joint == drive.joint) {
@@ -79,11 +79,11 @@ fn feet(rig: &Rig) -> Vec<Vec<usize>> {
     feet.into_iter().map(|(_, parts)| parts).collect()
 }
 
-/// Where the points of a foot's soles are.
+/// Where the points of a foot are.
 fn soles(rig: &Rig, placed: &[Transform], foot: &[usize]) -> Vec<DVec3> {
     let points = foot.iter().flat_map(|part| {
-        let soles = rig.parts[*part].sole.iter();
-        soles.map(move |point| moved_point(rig, placed, *part, *point))
+        let surface = rig.parts[*part].surface.iter();
+        surface.map(move |point| moved_point(rig, placed, *part, *point))
     });
     points.collect()
 }
@@ -99,8 +99,8 @@ fn leg(clip: &Clip, landmarks: &Landmarks) -> f64 {
     (legs[0] + legs[1]) / 2.0
 }
 
-/// The worst of all grounded frames: how far the locked foot slides, and how far the lowest sole is off the ground, drawing units;
-/// and the number of steps between frames that were checked.
+/// The worst of all grounded frames: how much faster the locked foot slides where it touches the ground than the foot of the actor, in
+/// leg lengths a second; how far the lowest point is off the ground, drawing units; and the number of steps that were checked.
 fn standing(
     clip: &Clip,
     rig: &Rig,
@@ -109,12 +109,8 @@ fn standing(
 ) -> ([f64; 2], usize) {
     let leg = leg(clip, landmarks);
     let feet = feet(rig);
-    let mean = |points: Vec<DVec3>| points.iter().sum::<DVec3>() / points.len() as f64;
-    let ground = rig
-        .parts
-        .iter()
-        .flat_map(|part| &part.sole)
-        .map(|point| point.y);
+    let standing = rig.parts.iter().filter(|part| part.stands);
+    let ground = standing.flat_map(|part| &part.surface).map(|point| point.y);
     let ground = ground.fold(f64::INFINITY, f64::min);
     let mut worst = [0.0_f64; 2];
     let mut checked = 0;
@@ -133,35 +129,38 @@ fn standing(
         }
         checked += 1;
         let before = placed(rig, retargeted, frame - 1);
+        let level = |way: DVec3| (way * dvec3(1.0, 0.0, 1.0)).length();
+        // A foot rolls: the point counts that is lowest in both poses.
         let slides = feet.iter().map(|foot| {
-            let [from, to] = [&before, &now].map(|placed| mean(soles(rig, placed, foot)));
-            ((to - from) * dvec3(1.0, 0.0, 1.0)).length()
+            let [from, to] = [&before, &now].map(|placed| soles(rig, placed, foot));
+            let points = from.into_iter().zip(to);
+            let (from, to) = points
+                .min_by(|a, b| (a.0.y + a.1.y).total_cmp(&(b.0.y + b.1.y)))
+                .expect("a sole");
+            level(to - from) / LEG / clip.frame_time
         });
-        let slides: Vec<f64> = slides.collect();
-        let (still, slide) =
-            slides
-                .iter()
-                .copied()
-                .enumerate()
-                .fold((0, f64::INFINITY), |best, next| {
-                    if next.1 < best.1 { next } else { best }
-                });
-        worst[0] = worst[0].max(slide);
-        // The locked foot is slow in the clip, too.
-        let drive = rig.parts[feet[still][0]].drive.expect("a foot is driven");
-        let point = |frame: usize| {
-            let pose = clip.pose(frame);
-            let far = end(clip, &pose, drive.tip.expect("it points"));
-            match landmarks.feet.expect("feet").contains(&drive.joint) {
-                true => (far + pose[drive.joint].position) / 2.0,
-                false => far,
-            }
-        };
-        let speed = point(frame).distance(point(frame - 1)) / clip.frame_time / leg;
+        let actor = (0..2).map(|side| {
+            let ends = |pose: &[Transform]| {
+                let ankle = pose[landmarks.feet.expect("feet")[side]].position;
+                [
+                    Some(ankle),
+                    landmarks.foot_tips.map(|tips| end(clip, pose, tips[side])),
+                ]
+            };
+            let [from, to] = [frame - 1, frame].map(|frame| ends(&clip.pose(frame)));
+            let steps = from
+                .into_iter()
+                .zip(to)
+                .filter_map(|(from, to)| Some(from?.distance(to?)));
+            steps.fold(f64::INFINITY, f64::min) / leg / clip.frame_time
+        });
+        let slowest = actor.fold(f64::INFINITY, f64::min);
         assert!(
-            speed < 0.6,
-            "frame {frame}: the locked foot moves at {speed} legs a second"
+            slowest < 0.6,
+            "frame {frame}: the actor's feet move at {slowest} legs a second"
         );
+        let slide = slides.fold(f64::INFINITY, f64::min);
+        worst[0] = worst[0].max(slide - slowest);
     }
     (worst, checked)
 }
@@ -185,14 +184,11 @@ fn locked_feet_do_not_slide() {
                 .count();
             let ([slide, height], checked) = standing(&prepared.clip, rig, &landmarks, &retargeted);
             eprintln!(
-                "{file} {number}: {grounded} of {} grounded, slides {slide:.1e}, {:.2} % of the leg off the ground",
+                "{file} {number}: {grounded} of {} grounded, slides {slide:.3} leg lengths a second, {:.2} % of the leg off the ground",
                 prepared.clip.frames(),
                 height / LEG * 100.0
             );
-            assert!(
-                slide < 1e-9 * LEG,
-                "{file}, figure {number}: slides {slide}"
-            );
+            assert!(slide < 0.1, "{file}, figure {number}: slides {slide}");
             assert!(height < 1e-9 * LEG, "{file}, figure {number}: {height}");
             // The zombie stumbles; everyone else has a foot on the ground most of the time.
             let quarters = if file.contains("zombie") { 1 } else { 3 };
