@@ -383,6 +383,15 @@ impl<'a> Attributes<'a> {
         typed!(self, Keyword::Bone, Value::Names(names) => names.as_slice())
     }
 
+    /// `Swing`: how stiff a part is that swings, `None` for one that does not.
+    pub fn swing(&self) -> Option<f64> {
+        let stiffness = self.get(Keyword::Swing, |value| match value {
+            Value::Number(stiffness) => Some(*stiffness),
+            _ => Some(1.0),
+        });
+        stiffness.map(|stiffness| stiffness.value)
+    }
+
     /// `Limited`: how many drawings of a clip are omitted, and how many frames are held.
     pub fn limited(&self) -> Option<Attribute<'a, [usize; 2]>> {
         typed!(self, Keyword::Limited, Value::Pair(amounts) => amounts.map(|amount| amount as usize))

@@ -45,12 +45,12 @@ impl Bindings {
     }
 }
 
-/// Reports `Limited` and `Bone`, each once, in a drawing without a motion.
+/// Reports `Limited`, `Bone` and `Swing`, each once, in a drawing without a motion.
 pub(super) fn without_motion(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
     if !bindings.clip_requests().is_empty() {
         return;
     }
-    for keyword in [Keyword::Limited, Keyword::Bone] {
+    for keyword in [Keyword::Limited, Keyword::Bone, Keyword::Swing] {
         let found = bindings.strings.iter().find_map(|string| {
             let counts = !matches!(string.annotation, Annotation::Legend(_));
             let mut settings = string.settings.iter().filter(|_| counts);

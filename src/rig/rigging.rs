@@ -124,6 +124,7 @@ pub(super) fn rig(
             stands,
             drive: matching.parts[index].drive,
             is_leg: is_leg(index),
+            swing: context.bindings.attributes(group.parts[index]).swing(),
         }
     };
     Rig {
@@ -193,6 +194,7 @@ struct PartKey {
     drive: Option<Drive>,
     rotation: Bits<[f64; 4]>,
     stands: bool,
+    swing: Option<Bits<f64>>,
     /// The positions of node, joint and tip, and the points of the surface.
     points: Vec<Bits<[f64; 3]>>,
 }
@@ -204,6 +206,7 @@ impl RetargetKey {
             is_rooted: part.is_rooted,
             is_leg: part.is_leg,
             stands: part.stands,
+            swing: part.swing.map(Bits),
             drive: part.drive,
             rotation: Bits(part.node.rotation.to_array()),
             points: [part.node.position, part.joint, part.tip]

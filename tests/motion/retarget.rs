@@ -4,6 +4,7 @@ pub(crate) mod clips;
 mod random;
 mod rewritten;
 mod rigs;
+mod swing;
 mod walks;
 
 use glam::{DQuat, DVec3};

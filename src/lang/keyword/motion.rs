@@ -21,6 +21,11 @@ static FRAMES: [Parameter; 2] = [
     number("omit", Bounds::COUNT, "drawings to leave out"),
     number("hold", Bounds::COUNT, "frames to hold"),
 ];
+static STIFFNESS: [Parameter; 1] = [number(
+    "stiffness",
+    Bounds::POSITIVE,
+    "1 is like hair, 4 swings twice as fast",
+)];
 static FACTOR: [Parameter; 1] = [number("factor", Bounds::POSITIVE, "1 is the size as drawn")];
 static SPEED: [Parameter; 1] = [number(
     "speed",
@@ -41,6 +46,18 @@ pub(super) static BONE: Row = Row {
            position. Where a match is wrong, name the joint here. A name with spaces or \
            punctuation needs quotes.",
     example: "Rarm@Ubody$Bone RightArm RightForeArm",
+    ..Row::ROW
+};
+
+pub(super) static SWING: Row = Row {
+    forms: &[Form::new(&STIFFNESS, &[0, 1])],
+    default: "off",
+    summary: "the part swings while the figure moves: hair, a tail, a cape",
+    long: "The part lags behind what it hangs on and overshoots, like a weight on a spring, but it \
+           never turns by more than 60 degrees. As it is drawn it is at rest. `stiffness` is 1 for \
+           hair; with 4 the part swings twice as fast and half as far, with 0.25 it is slow and \
+           heavy. Strands of several parts swing each on its own if each has `Swing`.",
+    example: "Tail@Body$Swing 2",
     ..Row::ROW
 };
 

@@ -6,9 +6,11 @@
 mod axes;
 mod contacts;
 mod ground;
+mod kinematics;
 mod rest_pose;
 mod root_motion;
 mod rotations;
+mod swing;
 
 use glam::{DQuat, DVec3};
 
@@ -71,6 +73,8 @@ pub struct RigPart {
     pub drive: Option<Drive>,
     /// Whether it belongs to a leg and follows a bone or chain.
     pub is_leg: bool,
+    /// Whether it swings, and how stiff it is: 1 is like hair, 4 returns twice as fast.
+    pub swing: Option<f64>,
 }
 
 /// A clip retargeted to a rig, frame by frame.
@@ -134,9 +138,16 @@ pub fn retarget(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> RetargetedClip
     let mut poses = PoseBuffer::new(clip);
     let axes = axes::Axes::of(clip, landmarks, rig.facing);
     let rest = rest_pose::choose(clip, rig, landmarks, &axes, &mut poses);
-    let rotations = rotations::rotations(clip, rig, &axes, &rest, &mut poses, &order);
+    let mut rotations = rotations::rotations(clip, rig, &axes, &rest, &mut poses, &order);
     let root_motion =
         root_motion::root_motion(clip, rig, landmarks, &axes, &rotations, &order, &mut poses);
+    swing::swing(
+        rig,
+        &order,
+        &root_motion.path,
+        clip.frame_time,
+        &mut rotations,
+    );
     let frames = 0..clip.frames();
     let mut local = vec![None; count];
     for part in &order {
@@ -160,10 +171,38 @@ pub fn retarget(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> RetargetedClip
     }
     RetargetedClip {
         rotations: local,
-        translations: root_motion.positions,
+        translations: translations(rig, &order, &rotations, &root_motion.path),
         grounded: root_motion.grounded,
         rest: rest.source,
     }
+}
+
+/// Per part the positions of its node, for the root part and for nodes that are children of the model's root.
+fn translations(
+    rig: &Rig,
+    order: &[usize],
+    rotations: &rotations::Rotations,
+    path: &[DVec3],
+) -> Vec<Option<Vec<DVec3>>> {
+    let mut translations = vec![None; rig.parts.len()];
+    let is_moving = |part: &usize| Some(part) == order.first() || rig.parts[*part].is_rooted;
+    let moving: Vec<usize> = order.iter().copied().filter(is_moving).collect();
+    for part in &moving {
+        translations[*part] = Some(Vec::with_capacity(path.len()));
+    }
+    let mut kinematics = kinematics::ForwardKinematics::new(rig);
+    for (frame, root) in path.iter().enumerate() {
+        // The root part itself is at the origin.
+        if moving.len() > 1 {
+            kinematics.pose(rig, rotations, order, frame);
+        }
+        for part in &moving {
+            if let Some(places) = &mut translations[*part] {
+                places.push(*root + kinematics.transforms[*part].position);
+            }
+        }
+    }
+    translations
 }
 
 /// From a clip's world to the axes of a drawing whose figure faces the viewer: y up, and z to the front of the body in the

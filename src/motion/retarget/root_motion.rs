@@ -1,21 +1,22 @@
 //! Root motion and foot locking: travel is scaled by leg length, and feet in contact with the ground do not slide.
 
-use glam::{DQuat, DVec3};
+use glam::DVec3;
 
 use super::axes::{Axes, Landmarks};
 use super::contacts::{CONTACT_HEIGHT, Walk};
+use super::kinematics::ForwardKinematics;
 use super::rotations::Rotations;
 use super::{PoseBuffer, Rig};
 use crate::motion::matching::Drive;
-use crate::motion::skeleton::{Clip, Transform};
+use crate::motion::skeleton::Clip;
 
 /// A foot rolls over the points of its sole that are about this high above the lowest one, in leg lengths.
 const ROLLING: f64 = 0.01;
 
-/// The motion of nodes that have no parent node.
+/// The motion of the root part.
 pub(super) struct RootMotion {
-    /// Per part the positions of its node; `None` if it keeps its place.
-    pub(super) positions: Vec<Option<Vec<DVec3>>>,
+    /// Per frame the position of its node.
+    pub(super) path: Vec<DVec3>,
     /// Per frame whether a foot is in contact with the ground.
     pub(super) grounded: Vec<bool>,
 }
@@ -30,7 +31,7 @@ pub(super) fn root_motion(
     poses: &mut PoseBuffer<'_>,
 ) -> RootMotion {
     let mut motion = RootMotion {
-        positions: vec![None; rig.parts.len()],
+        path: Vec::with_capacity(clip.frames()),
         grounded: vec![false; clip.frames()],
     };
     let Some(&main) = order.first() else {
@@ -47,11 +48,6 @@ pub(super) fn root_motion(
     let soles = standing.flat_map(|part| &rig.parts[*part].surface);
     let floor = soles.map(|point| point.y).reduce(f64::min);
     let surfaces = Surfaces::of(rig, order, floor);
-    let is_moving = |part: &usize| *part == main || rig.parts[*part].is_rooted;
-    let moving: Vec<usize> = order.iter().copied().filter(is_moving).collect();
-    for part in &moving {
-        motion.positions[*part] = Some(Vec::with_capacity(clip.frames()));
-    }
     let mut kinematics = ForwardKinematics::new(rig);
     let mut position = start;
     let mut planted: Option<usize> = None;
@@ -91,11 +87,7 @@ pub(super) fn root_motion(
             None => start.y + (walk.hips[frame].y - walk.hips[0].y) * scale,
         };
         before = feet;
-        for part in &moving {
-            if let Some(places) = &mut motion.positions[*part] {
-                places.push(position + kinematics.transforms[*part].position);
-            }
-        }
+        motion.path.push(position);
     }
     motion
 }
@@ -163,55 +155,6 @@ impl Surfaces {
 fn lifted(clearance: f64, leg: f64) -> f64 {
     let low = CONTACT_HEIGHT * leg;
     (2.0 * (clearance - low)).max(0.0).min(clearance)
-}
-
-/// Forward kinematics: the parts' positions, with the root part's node at the origin.
-struct ForwardKinematics {
-    transforms: Vec<Transform>,
-    /// Per part the position of its joint, in its parent's frame and in its own.
-    joints: Vec<[DVec3; 2]>,
-}
-
-impl ForwardKinematics {
-    fn new(rig: &Rig) -> Self {
-        let joints = rig.parts.iter().map(|part| {
-            let above = part
-                .parent
-                .map(|parent| rig.parts[parent].node.to_local(part.joint));
-            [above.unwrap_or_default(), part.node.to_local(part.joint)]
-        });
-        let identity = Transform {
-            rotation: DQuat::IDENTITY,
-            position: DVec3::ZERO,
-        };
-        Self {
-            transforms: vec![identity; rig.parts.len()],
-            joints: joints.collect(),
-        }
-    }
-
-    fn pose(&mut self, rig: &Rig, rotations: &Rotations, order: &[usize], frame: usize) {
-        for part in order.iter().copied() {
-            let rotation = rotations.at(part, frame);
-            let [above, own] = self.joints[part];
-            let position = match rig.parts[part].parent {
-                Some(parent) => {
-                    let parent = self.transforms[parent];
-                    parent.rotation * above + parent.position - rotation * own
-                }
-                None => DVec3::ZERO,
-            };
-            self.transforms[part] = Transform { rotation, position };
-        }
-    }
-
-    /// The points of a part's surface.
-    fn surface<'a>(&self, rig: &'a Rig, part: usize) -> impl Iterator<Item = DVec3> + use<'a> {
-        let own = &rig.parts[part];
-        let placed = self.transforms[part];
-        let surface = own.surface.iter();
-        surface.map(move |point| placed.apply(own.node.to_local(*point)))
-    }
 }
 
 /// Whether a drive is that of a foot, rather than that of a whole leg or its lower half.

@@ -22,6 +22,32 @@ impl Rotations {
         self.own[part].is_some()
     }
 
+    /// The rotations of all parts that turn on their own.
+    pub(super) fn all(&self) -> impl Iterator<Item = &[DQuat]> {
+        self.own.iter().flatten().map(Vec::as_slice)
+    }
+
+    /// Lets a part turn on its own, and what hangs on it with it.
+    pub(super) fn set(&mut self, rig: &Rig, order: &[usize], part: usize, turns: Vec<DQuat>) {
+        self.own[part] = Some(turns);
+        self.carry(rig, order);
+    }
+
+    fn carry(&mut self, rig: &Rig, order: &[usize]) {
+        for part in order {
+            let drawn = rig.parts[*part].node.rotation;
+            self.carrier[*part] = match (self.is_own(*part), rig.parts[*part].parent) {
+                (true, _) => (Some(*part), DQuat::IDENTITY),
+                (false, None) => (None, drawn),
+                (false, Some(parent)) => {
+                    let (carrier, inner) = self.carrier[parent];
+                    let above = rig.parts[parent].node.rotation;
+                    (carrier, inner * above.inverse() * drawn)
+                }
+            };
+        }
+    }
+
     /// The rotation of any part in a frame.
     pub(super) fn at(&self, part: usize, frame: usize) -> DQuat {
         let (carrier, inner) = self.carrier[part];
@@ -55,20 +81,12 @@ pub(super) fn rotations(
             }
         }
     }
-    let mut carrier = vec![(None, DQuat::IDENTITY); count];
-    for part in order {
-        let drawn = rig.parts[*part].node.rotation;
-        carrier[*part] = match (own[*part].is_some(), rig.parts[*part].parent) {
-            (true, _) => (Some(*part), DQuat::IDENTITY),
-            (false, None) => (None, drawn),
-            (false, Some(parent)) => {
-                let (carrier, inner) = carrier[parent];
-                let above = rig.parts[parent].node.rotation;
-                (carrier, inner * above.inverse() * drawn)
-            }
-        };
-    }
-    Rotations { own, carrier }
+    let mut rotations = Rotations {
+        own,
+        carrier: vec![(None, DQuat::IDENTITY); count],
+    };
+    rotations.carry(rig, order);
+    rotations
 }
 
 /// Computes the rotations of one part.
@@ -120,7 +138,7 @@ impl PartRotation {
 }
 
 /// The shortest rotation from one direction to another, both unit vectors; a half turn goes about `about`.
-fn arc(from: DVec3, to: DVec3, about: DVec3) -> DQuat {
+pub(super) fn arc(from: DVec3, to: DVec3, about: DVec3) -> DQuat {
     /// Below this cosine the axis of the shortest rotation is undefined.
     const HALF_TURN: f64 = -1.0 + 1e-12;
 

@@ -132,6 +132,7 @@ fn rig(clip: &Clip, (parts, facing): (Vec<PartSpec>, Facing)) -> Rig {
             stands,
             drive,
             is_leg: stands,
+            swing: (turn > 3.0).then_some(turn),
         }
     };
     Rig {

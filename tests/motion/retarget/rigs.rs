@@ -62,6 +62,7 @@ impl Builder {
             stands: false,
             drive: None,
             is_leg: false,
+            swing: None,
         });
         self.rig.parts.len() - 1
     }
