@@ -20,6 +20,9 @@ pub(super) const CHANNELS: [(&str, Channel); 6] = [
     ("Zrotation", Channel::Rotation(Axis::Z)),
 ];
 
+/// The words that can follow the channels of a joint.
+const FIELDS: [&str; 4] = ["JOINT", "End", "OFFSET", "ROOT"];
+
 impl HierarchyParser {
     pub(super) fn offset(
         &mut self,
@@ -87,8 +90,15 @@ impl HierarchyParser {
             .peek()
             .filter(|word| !matches!(word.text, b"{" | b"}"))
         {
-            tokens.next();
             let known = CHANNELS.iter().find(|(name, _)| word.is(name));
+            // Line breaks are spaces to some programs: the next field may be on the same line.
+            if known.is_none()
+                && channels.len() == stated
+                && FIELDS.iter().any(|name| word.is(name))
+            {
+                break;
+            }
+            tokens.next();
             let Some((_, channel)) = known else {
                 let message = format!("{} is not a channel", quoted(word.text));
                 let help = "the channels are Xposition, Yposition, Zposition, Xrotation, Yrotation and Zrotation";

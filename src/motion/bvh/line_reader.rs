@@ -102,9 +102,11 @@ impl<R: Read> LineReader<R> {
         Ok(Some((number, &self.buffer[self.last..self.last + long])))
     }
 
-    /// Un-reads the line that was returned last.
-    pub(super) fn back(&mut self) {
+    /// Un-reads the line that was returned last, with spaces in place of the bytes before `from`.
+    pub(super) fn back(&mut self, from: usize) {
         if self.last < self.start {
+            let read = self.last..(self.last + from).min(self.start);
+            self.buffer[read].fill(b' ');
             self.start = self.last;
             self.line -= 1;
         }

@@ -24,8 +24,8 @@ pub(super) struct MotionHeader {
 pub(super) enum Next {
     /// Another line of the header.
     Head,
-    /// The frames, beginning with this very line.
-    Frames,
+    /// The frames, beginning at this byte of the line.
+    Frames(usize),
 }
 
 impl MotionHeader {
@@ -38,8 +38,11 @@ impl MotionHeader {
         notes: &mut Notes,
     ) -> Result<Next, Error> {
         let mut tokens = Tokens::of_motion(text, from);
-        let mut first = from == 0;
+        let mut begins = from == 0;
         while let Some(word) = tokens.next() {
+            // Behind the frame time a number is a mistake, unless line breaks are spaces to the program that wrote the file.
+            let is_one_line = from > 0 && self.frame_time.is_some();
+            let begins_frames = std::mem::take(&mut begins) || is_one_line;
             if word.is("frames") {
                 self.frames(number, tokens.next(), notes);
             } else if word.is("frametime") {
@@ -54,14 +57,13 @@ impl MotionHeader {
                 }
             } else if word.is("motion") {
                 notes.add(number, "a second MOTION: ignored");
-            } else if first && begins_frame(word) {
-                return Ok(Next::Frames);
+            } else if begins_frames && begins_frame(word) {
+                return Ok(Next::Frames(word.at));
             } else {
                 let message = format!("{} is not expected here", quoted(word.text));
                 let help = "after MOTION come `Frames:`, `Frame Time:`, and then the frames, each on a line of its own";
                 return Err(Error::at(number, text, word.at, message, help));
             }
-            first = false;
         }
         Ok(Next::Head)
     }

@@ -43,16 +43,17 @@ pub fn read(input: impl Read) -> Result<Reading, Error> {
     let mut notes = Notes::default();
     let mut last = [1, 1];
 
-    let (skeleton, mut header) = hierarchy(&mut source, &mut notes, &mut last)?;
+    let (skeleton, mut header, mut next) = hierarchy(&mut source, &mut notes, &mut last)?;
     let begins = loop {
+        if let Next::Frames(from) = next {
+            source.back(from);
+            break Some(last[0]);
+        }
         let Some((number, text)) = source.line()? else {
             break None;
         };
         remember(&mut last, number, text);
-        if header.line(number, text, 0, &mut notes)? == Next::Frames {
-            source.back();
-            break Some(number);
-        }
+        next = header.line(number, text, 0, &mut notes)?;
     };
     header.finish(begins.unwrap_or(last[0]), &mut notes);
 
@@ -100,14 +101,14 @@ fn hierarchy<R: Read>(
     source: &mut LineReader<R>,
     notes: &mut Notes,
     last: &mut [usize; 2],
-) -> Result<(Skeleton, MotionHeader), Error> {
+) -> Result<(Skeleton, MotionHeader, Next), Error> {
     let mut parser = HierarchyParser::default();
     while let Some((number, text)) = source.line()? {
         remember(last, number, text);
         if let Some(behind) = parser.line(number, text, notes)? {
             let mut header = MotionHeader::default();
-            header.line(number, text, behind, notes)?;
-            return Ok((parser.skeleton(), header));
+            let next = header.line(number, text, behind, notes)?;
+            return Ok((parser.skeleton(), header, next));
         }
     }
     Err(Error {

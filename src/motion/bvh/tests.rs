@@ -399,3 +399,32 @@ fn deep_hierarchies_are_read_and_written() {
     let error = read_bytes(format!("{text}JOINT b{{\n}}{ends}\nMOTION\n").as_bytes()).unwrap_err();
     assert!(error.message.contains("more than 65536 joints"), "{error}");
 }
+
+/// A file that was written without line breaks is the same file.
+#[test]
+fn a_file_on_one_line_is_read() {
+    for name in [
+        "tests/motion/data/mixed_orders.bvh",
+        "examples/motion/walk.bvh",
+    ] {
+        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
+        let text = std::fs::read_to_string(path).unwrap();
+        let whole = read_bytes(text.as_bytes()).unwrap();
+        let line = text.split_ascii_whitespace().collect::<Vec<_>>().join(" ");
+        let read = read_bytes(line.as_bytes()).unwrap();
+        assert_eq!(read.clip, whole.clip, "{name}");
+        let notes: Vec<String> = read.notes.iter().map(ToString::to_string).collect();
+        assert_eq!(
+            notes,
+            ["line 1: several frames on one line: read one after the other"]
+        );
+    }
+}
+
+/// An error in a line that also has the header points to the right place.
+#[test]
+fn errors_behind_the_header_have_their_column() {
+    let text = "HIERARCHY ROOT A { OFFSET 0 0 0 CHANNELS 1 Xrotation End Site { OFFSET 0 1 0 } } MOTION Frames: 2 Frame Time: 0.1 1 x";
+    let error = read_bytes(text.as_bytes()).unwrap_err();
+    assert_eq!((error.line, error.column), (1, text.len()));
+}
