@@ -7,6 +7,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::export::{EXPORTERS, extensions};
 use crate::motion::limited::Camera;
 use crate::motion::resample::{Range, parse_range};
+use crate::motion::up::UpAxis;
 
 mod render;
 
@@ -298,6 +299,9 @@ pub(super) struct Motion {
     /// Keep the T-pose at the beginning
     #[arg(long)]
     pub(super) keep_rest: bool,
+    /// The axis of the motion that points up: +x, -x, +y, -y, +z or -z
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    pub(super) up: Option<UpAxis>,
     /// Measure speed as seen by a camera: degrees to the body's left, degrees up and, for perspective, the distance
     /// in the file's unit
     #[arg(long, value_name = "YAW,PITCH[,DISTANCE]", value_parser = camera, allow_hyphen_values = true)]

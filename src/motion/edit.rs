@@ -70,10 +70,15 @@ pub fn edit(
         mut positions,
         is_resampled,
         anatomy,
+        up,
         notes,
         ..
     } = prepare::prepare(clip, options)?;
-    let to_model = retarget::to_drawing(&clip, &Landmarks::of(&anatomy));
+    let landmarks = Landmarks {
+        up,
+        ..Landmarks::of(&anatomy)
+    };
+    let to_model = retarget::to_drawing(&clip, &landmarks);
     if camera.is_some() {
         // A rotation does not change sums of squares, so only a camera needs upright positions.
         positions

@@ -5,6 +5,7 @@ use glam::{DMat3, DQuat, DVec3};
 use super::PoseBuffer;
 use crate::motion::labels::{Anatomy, Class, Facing, Limb, Side};
 use crate::motion::skeleton::{Clip, Transform};
+use crate::motion::up::UpAxis;
 
 /// The joints that define how a body is oriented. Pairs are left and right from the body's own point of view.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -21,6 +22,8 @@ pub struct Landmarks {
     pub knees: Option<[usize; 2]>,
     /// Where the feet begin, or the legs end: the ankles.
     pub feet: Option<[usize; 2]>,
+    /// The axis of the clip's world that points up; `None` to find it.
+    pub up: Option<UpAxis>,
 }
 
 impl Landmarks {
@@ -41,6 +44,7 @@ impl Landmarks {
             thighs: both(Class::Leg, |leg| Some(leg.upper)),
             knees: both(Class::Leg, |leg| leg.end.and(leg.lower)),
             feet: both(Class::Leg, |leg| leg.end.or(leg.lower)),
+            up: None,
         }
     }
 }
@@ -102,6 +106,9 @@ fn up(clip: &Clip, landmarks: &Landmarks) -> DVec3 {
     /// A sample of the poses is enough.
     const MAX_POSES: usize = 1000;
 
+    if let Some(up) = landmarks.up {
+        return up.direction();
+    }
     let mut poses = PoseBuffer::new(clip);
     let rise = |pose: &[Transform]| {
         let low = match landmarks.feet {
