@@ -16,6 +16,13 @@ pub trait Resolver: Sync {
     /// # Errors
     /// If the link leads out of the drawing's folder, or its file cannot be read.
     fn read(&self, link: &str) -> Result<Arc<[u8]>, LinkError>;
+
+    /// The links to all files in the folder of `link` that have its ending, sorted, whether it is there or not: what could be meant
+    /// by a link to nothing. Empty where files cannot be listed.
+    fn siblings(&self, link: &str) -> Vec<String> {
+        let _ = link;
+        Vec::new()
+    }
 }
 
 /// Why a link cannot be followed. Messages go behind the link's name: ``link `a.png` `` …
@@ -182,6 +189,10 @@ impl Resolver for Recorder<'_> {
         first.or_insert_with(|| content.clone());
         content
     }
+
+    fn siblings(&self, link: &str) -> Vec<String> {
+        self.inner.siblings(link)
+    }
 }
 
 /// Files held in memory: for tests, and for drawings that come without a folder (then it is empty).
@@ -205,6 +216,22 @@ impl Resolver for MemoryResolver {
             self.files.get(path).cloned().ok_or(LinkError::Missing)
         })
     }
+
+    fn siblings(&self, link: &str) -> Vec<String> {
+        let Ok(path) = inside(link) else {
+            return Vec::new();
+        };
+        let (folder, ending) = folder_and_ending(&path);
+        let files = self.files.keys();
+        let siblings = files.filter(|file| folder_and_ending(file) == (folder, ending));
+        siblings.cloned().collect()
+    }
+}
+
+/// The folder of a path, with its slash, and the ending of its name, with its dot; each may be empty.
+pub(crate) fn folder_and_ending(path: &str) -> (&str, &str) {
+    let (folder, name) = path.split_at(path.rfind('/').map_or(0, |slash| slash + 1));
+    (folder, name.rfind('.').map_or("", |dot| &name[dot..]))
 }
 
 #[cfg(test)]
@@ -255,6 +282,24 @@ mod tests {
             assert_eq!(relative(link), expected.map(str::to_owned), "{link}");
         }
         assert_eq!(inside(".."), Err(LinkError::Outside));
+    }
+
+    #[test]
+    fn siblings_are_in_the_same_folder_and_of_the_same_kind() {
+        let files = MemoryResolver::default()
+            .with("b.bvh", *b"")
+            .with("a.bvh", *b"")
+            .with("a.png", *b"")
+            .with("in/c.bvh", *b"")
+            .with("bvh", *b"");
+        for (link, expected) in [
+            ("x.bvh", &["a.bvh", "b.bvh"][..]),
+            ("./in/x.bvh", &["in/c.bvh"]),
+            ("x", &["bvh"]),
+            ("../x.bvh", &[]),
+        ] {
+            assert_eq!(files.siblings(link), expected, "{link}");
+        }
     }
 
     #[test]

@@ -392,11 +392,6 @@ impl<'a> Attributes<'a> {
         stiffness.map(|stiffness| stiffness.value)
     }
 
-    /// `Limited`: how many drawings of a clip are omitted, and how many frames are held.
-    pub fn limited(&self) -> Option<Attribute<'a, [usize; 2]>> {
-        typed!(self, Keyword::Limited, Value::Pair(amounts) => amounts.map(|amount| amount as usize))
-    }
-
     /// `Tile`: the word for what tiles of the paint are, from the legend.
     pub fn tile(&self) -> Option<&'a str> {
         let word = self.word(Keyword::Tile);

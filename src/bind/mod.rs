@@ -47,7 +47,7 @@ pub use given_depths::GivenDepth;
 pub use layers::{Layer, LayerKind, in_layers_of_pixels};
 pub use legends::Legend;
 pub use located::locate;
-pub use motions::ClipRequest;
+pub use motions::{ClipLimits, ClipRequest, MotionSource, SignedAxis};
 pub use names::written_by_a_person;
 pub use nearest::DistanceMode;
 pub use settings::{BindRule, DrawingSettings, Strokes};

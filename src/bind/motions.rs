@@ -1,23 +1,75 @@
 //! The motions that strings ask for with `Motion`.
 
+use std::ops::Range;
+
+use super::attributes::SetBy;
 use super::bindings::Bindings;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::Value;
-use crate::source::Span;
+use crate::source::{Span, Text};
+
+pub use crate::lang::value::{MotionSource, SignedAxis};
 
 /// A clip that a string asks for with `Motion`.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct ClipRequest<'a> {
     /// Index of the main part of the string; `None` for a string that applies to all figures.
     pub part: Option<usize>,
-    /// The link to the motion file.
-    pub file: &'a str,
+    /// The link to a motion file, or the word for a clip that comes along.
+    pub source: &'a MotionSource,
+    /// The string.
+    text: &'a Text,
+    /// The range of the file or the word in it.
+    source_range: Range<usize>,
     /// The name of the clip, if the string gives one.
     pub name: Option<&'a str>,
+    /// The axis that points up in the file, if the string says so.
+    pub up: Option<SignedAxis>,
+    /// Whether the figure stays in place.
+    pub is_in_place: bool,
+    /// Whether it is made a loop.
+    pub is_loop: bool,
+    /// The `Limited` of this clip.
+    pub limits: Option<ClipLimits>,
     /// The place of the setting.
     pub span: Span,
+}
+
+/// Limited animation, as a string asks for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ClipLimits {
+    /// How many drawings to omit.
+    pub omit: usize,
+    /// How many frames to hold.
+    pub hold: usize,
+    /// The place of the setting.
+    pub span: Span,
+}
+
+impl ClipRequest<'_> {
+    /// The place of the file or the word.
+    pub fn source_span(&self) -> Span {
+        self.text.span(self.source_range.clone())
+    }
+
+    /// The name of a file as it is written in the place of this one, in quotes and escaped for XML.
+    pub fn written(&self, file: &str) -> String {
+        let quoted = format!("\"{file}\"");
+        self.text.escape_at(self.source_range.start, &quoted)
+    }
+}
+
+impl ClipLimits {
+    /// The table allows whole numbers only.
+    fn new([omit, hold]: [f64; 2], span: Span) -> Self {
+        Self {
+            omit: omit as usize,
+            hold: hold as usize,
+            span,
+        }
+    }
 }
 
 impl Bindings {
@@ -32,16 +84,36 @@ impl Bindings {
             };
             let settings = string.settings.iter();
             settings.filter_map(move |setting| match &setting.value {
-                Value::Motion { file, clip } => Some(ClipRequest {
+                Value::Motion(motion) => Some(ClipRequest {
                     part: part?,
-                    file,
-                    name: clip.as_deref(),
+                    source: &motion.source,
+                    text: &string.text,
+                    source_range: motion.source_range.clone(),
+                    name: motion.clip.as_deref(),
+                    up: motion.up,
+                    is_in_place: motion.is_in_place,
+                    is_loop: motion.is_loop,
+                    limits: motion.limited.as_ref().map(|limited| {
+                        ClipLimits::new(limited.amounts, string.text.span(limited.range.clone()))
+                    }),
                     span: string.text.span(setting.range.clone()),
                 }),
                 _ => None,
             })
         });
         requests.collect()
+    }
+
+    /// The `Limited` that applies to all clips of a part's figure, from the part's own string, the legend of its paint or a `%`
+    /// string, and which of these it is.
+    pub fn limits_of_clips(&self, part: usize) -> Option<(SetBy, ClipLimits)> {
+        let source = self.setting(part, Keyword::Limited)?;
+        match source.setting.value {
+            Value::Pair(amounts) => {
+                Some((source.from, ClipLimits::new(amounts, self.span_of(&source))))
+            }
+            _ => None,
+        }
     }
 }
 
@@ -60,7 +132,7 @@ pub(super) fn without_motion(bindings: &Bindings, diagnostics: &mut Vec<Diagnost
         if let Some(span) = found {
             let name = keyword.name();
             let message = format!("`{name}` has no effect: the drawing has no motion");
-            let help = "write `Motion \"file.bvh\"` in a `%` string, or in the string of a figure's root part";
+            let help = "write `Motion walk` or `Motion \"file.bvh\"` in a `%` string, or in the string of a figure's root part";
             diagnostics.push(Diagnostic::new(Code::IdleMotion, span, message).help(help));
         }
     }

@@ -350,7 +350,12 @@ fn clips_are_requested_for_a_part_or_for_all() {
     let requests = compiled.bindings.clip_requests();
     let mut requests: Vec<_> = requests
         .iter()
-        .map(|request| (request.file, request.name, request.part))
+        .map(|request| {
+            let MotionSource::File(file) = request.source else {
+                panic!("{request:?}");
+            };
+            (file.as_str(), request.name, request.part)
+        })
         .collect();
     requests.sort_unstable();
     let b = Some(part(&compiled, "B"));
@@ -358,4 +363,40 @@ fn clips_are_requested_for_a_part_or_for_all() {
         requests,
         [("all.bvh", None, None), ("b.bvh", Some("wave"), b)]
     );
+}
+
+#[test]
+fn a_request_says_how_its_clip_is_played() {
+    let elements = [
+        square(20, 20, "A$Limited 9 9 Motion -il walk Limited 1 2"),
+        text(
+            150,
+            150,
+            "%Motion \"all.bvh\" all -z Limited 3 4 Motion -L \"b.bvh\" +x",
+        ),
+    ];
+    let compiled = drawing(&elements.concat());
+    let requests = compiled.bindings.clip_requests();
+    let found: Vec<_> = requests
+        .iter()
+        .map(|request| {
+            let limits = request.limits.map(|limits| [limits.omit, limits.hold]);
+            let up = request.up.map(|up| (up.axis, up.negative));
+            (up, request.is_in_place, request.is_loop, limits)
+        })
+        .collect();
+    assert_eq!(
+        found,
+        [
+            (None, true, true, Some([1, 2])),
+            (Some((2, true)), false, false, Some([3, 4])),
+            (Some((0, false)), false, true, None),
+        ]
+    );
+    assert_eq!(
+        *requests[0].source,
+        MotionSource::BuiltIn("walk".to_owned())
+    );
+    let (from, limits) = compiled.bindings.limits_of_clips(0).unwrap();
+    assert_eq!((from, limits.omit), (SetBy::Own, 9));
 }

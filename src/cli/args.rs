@@ -8,6 +8,7 @@ use crate::export::{EXPORTERS, extensions};
 use crate::motion::limited::Camera;
 use crate::motion::measured::PointChoice;
 use crate::motion::resample::{Range, parse_range};
+use crate::motion::up::UpAxis;
 
 mod render;
 
@@ -303,6 +304,10 @@ pub(super) struct Motion {
     /// thesis
     #[arg(long, value_name = "POINTS", value_parser = points, default_value = "seen")]
     pub(super) points: PointChoice,
+
+    /// The axis of the motion that points up: +x, -x, +y, -y, +z or -z
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
+    pub(super) up: Option<UpAxis>,
 
     /// Measure speed as seen by a camera: degrees to the body's left, degrees up and, for perspective, the distance
     /// in the file's unit

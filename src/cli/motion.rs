@@ -87,6 +87,7 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
             LeadInPolicy::Drop
         },
         range: arguments.range,
+        up: arguments.up,
     };
     let method = exposure_method(arguments);
     let edited = spinning("cutting", || {

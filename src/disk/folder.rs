@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::read::read_limited;
-use crate::resolver::{LinkError, Resolver, first_spelling, inside, relative};
+use super::search::files;
+use crate::resolver::{LinkError, Resolver, first_spelling, folder_and_ending, inside, relative};
 
 /// The largest linked file that is read, in bytes.
 pub const LINK_LIMIT: u64 = 256 << 20;
@@ -126,6 +127,24 @@ impl Resolver for FolderResolver {
         let place = first_spelling(link, self.rule(), |path| self.locate(path))?;
         read_file(&place, LINK_LIMIT)
     }
+
+    fn siblings(&self, link: &str) -> Vec<String> {
+        let Ok(path) = self.rule()(link) else {
+            return Vec::new();
+        };
+        let (folder, ending) = folder_and_ending(&path);
+        // The base itself has no name in a link.
+        let named = if folder.is_empty() { "." } else { folder };
+        let Ok(place) = self.locate(named) else {
+            return Vec::new();
+        };
+        let names = files(&place, |_| true).into_iter();
+        let names = names.filter_map(|file| Some(file.file_name()?.to_str()?.to_owned()));
+        names
+            .filter(|name| folder_and_ending(name).1 == ending)
+            .map(|name| format!("{folder}{name}"))
+            .collect()
+    }
 }
 
 fn read_file(place: &Path, limit: u64) -> Result<Arc<[u8]>, LinkError> {
@@ -160,6 +179,21 @@ fn failure(error: io::Error) -> LinkError {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn siblings_are_listed_below_the_folder_only() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("base")).unwrap();
+        for name in ["out.bvh", "base/b.bvh", "base/a.bvh", "base/a.png"] {
+            fs::write(folder.path().join(name), "").unwrap();
+        }
+        let files = FolderResolver::new(folder.path().join("base"));
+        assert_eq!(files.siblings("none.bvh"), ["a.bvh", "b.bvh"]);
+        assert!(files.siblings("../none.bvh").is_empty());
+        assert!(files.siblings("none/none.bvh").is_empty());
+        let files = FolderResolver::new(folder.path());
+        assert_eq!(files.siblings("base/x.png"), ["base/a.png"]);
+    }
 
     #[test]
     fn files_below_the_folder_are_read() {

@@ -250,12 +250,15 @@ impl Cursor<'_> {
             let string = &self.context.analysis.bindings().strings[string];
             attributes(&string.annotation)
         });
-        let given: BTreeSet<Keyword> = whole
-            .unwrap_or(attributes(annotation))
-            .iter()
-            .map(|attribute| attribute.keyword)
-            .filter(|keyword| !matches!(keyword, Keyword::Let | Keyword::Motion))
-            .collect();
+        let mut given = BTreeSet::new();
+        for attribute in whole.unwrap_or(attributes(annotation)) {
+            match attribute.keyword {
+                Keyword::Let => {}
+                // Each motion can have its own `Limited`.
+                Keyword::Motion => drop(given.remove(&Keyword::Limited)),
+                keyword => drop(given.insert(keyword)),
+            }
+        }
         // Keywords that are built come first; the others have no effect yet, and their detail says so.
         let mut keywords: Vec<Keyword> = Keyword::ALL.to_vec();
         keywords

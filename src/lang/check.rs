@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use super::ast::{Annotation, ArgumentKind, Attribute};
 use super::keyword::signature::Takes;
 use super::keyword::{AttributeString, Keyword, Status};
-use super::value::Setting;
+use super::value::{MotionLimits, Setting, Value};
 use super::variables::Variables;
 use crate::diagnostic::Diagnostic;
 use crate::source::Text;
@@ -75,6 +75,10 @@ impl Checker<'_> {
                     None
                 }
             };
+            if attribute.keyword == Keyword::Motion {
+                // A `Limited` behind it is another one than those before it.
+                given.remove(&Keyword::Limited);
+            }
             if !matches!(attribute.keyword, Keyword::Let | Keyword::Motion) {
                 let earlier = given.insert(attribute.keyword, (settings.len(), attribute));
                 if let Some((index, earlier)) = earlier {
@@ -87,6 +91,7 @@ impl Checker<'_> {
             settings.push(setting);
             before = Some(attribute);
         }
+        give_limits_to_motions(attributes, &mut settings);
         if in_second_string {
             self.keep_last(&mut settings);
         }
@@ -182,6 +187,33 @@ impl Checker<'_> {
         between.is_some_and(|between| {
             between.contains(['$', '@', '%', '＄', '＠', '％', '*', '＊', '^', '＾'])
         })
+    }
+}
+
+/// Moves each `Limited` into the `Motion` before it, which it belongs to. One behind a `Motion` with an error is dropped like that.
+fn give_limits_to_motions(attributes: &[Attribute], settings: &mut [Option<Setting>]) {
+    let mut motion = None;
+    for (index, attribute) in attributes.iter().enumerate() {
+        match attribute.keyword {
+            Keyword::Motion => motion = Some(index),
+            Keyword::Limited => {
+                let Some(motion) = motion else { continue };
+                let limits = settings[index].take();
+                if let Some(Setting {
+                    value: Value::Motion(motion),
+                    ..
+                }) = &mut settings[motion]
+                    && let Some(limits) = limits
+                    && let Value::Pair(amounts) = limits.value
+                {
+                    motion.limited = Some(MotionLimits {
+                        amounts,
+                        range: limits.range,
+                    });
+                }
+            }
+            _ => {}
+        }
     }
 }
 

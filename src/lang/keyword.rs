@@ -282,8 +282,9 @@ mod tests {
     }
 
     #[test]
-    fn no_word_of_the_language_is_a_keyword() {
-        for word in vocabulary::all() {
+    fn no_other_word_of_the_language_is_a_keyword() {
+        // The parser reads `walk` directly after `Motion` as the clip.
+        for word in vocabulary::all().filter(|word| *word != "walk") {
             assert_eq!(Keyword::from_name(word), None, "{word}");
         }
     }
@@ -299,7 +300,13 @@ mod tests {
             Keyword::Origin.usages(),
             ["Origin center|start|end", "Origin x y"]
         );
-        assert_eq!(Keyword::Motion.usages(), ["Motion \"file\" [clip]"]);
+        assert_eq!(
+            Keyword::Motion.usages()[..2],
+            [
+                "Motion [-il] \"file\" [up]",
+                "Motion [-il] \"file\" clip [up]"
+            ]
+        );
         assert_eq!(Keyword::Follow.usages(), ["Follow name…"]);
         assert_eq!(Keyword::Hidden.usages(), ["Hidden"]);
     }

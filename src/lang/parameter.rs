@@ -72,12 +72,24 @@ pub(super) fn form_by_first_argument(
             .iter()
             .any(|choice| choice.name.eq_ignore_ascii_case(word)),
         (Some(Takes::ColourName), ArgumentKind::Word(word)) => colours::is_colour(word),
+        (Some(Takes::File), ArgumentKind::Quoted(_)) => fits_second(form, attribute),
         _ => false,
     };
     // Words of the language have precedence over variables with the same name.
     let takes_words = |form: &&'static Form| !matches!(takes(form), Some(Takes::Number(_)));
     let found = forms.iter().filter(takes_words).find(fits);
     found.or_else(|| forms.iter().find(fits))
+}
+
+/// Whether the second argument can be that of a form whose second parameter is an axis or a text: an axis has a sign.
+fn fits_second(form: &Form, attribute: &Attribute) -> bool {
+    let second = attribute.arguments.get(1).map(|argument| &argument.kind);
+    let is_axis = matches!(second, Some(ArgumentKind::Word(word)) if word.starts_with(['+', '-']));
+    match form.parameters.get(1).map(|parameter| &parameter.takes) {
+        Some(Takes::SignedAxis) => is_axis || second.is_none(),
+        Some(Takes::Text) => !is_axis,
+        _ => true,
+    }
 }
 
 /// The index of the parameter that argument `index` is for: the last parameter of a list takes all further arguments.
@@ -120,6 +132,13 @@ mod tests {
             ("$Origin center", 1, None),
             ("$Follow a b c", 7, Some(("Follow", "name"))),
             ("$Hidden", 0, None),
+            ("$Motion \"a.bvh\"", 1, Some(("Motion", "up"))),
+            ("$Motion \"a.bvh\" +z", 1, Some(("Motion", "up"))),
+            ("$Motion \"a.bvh\" +z", 2, None),
+            ("$Motion \"a.bvh\" kick", 1, Some(("Motion", "clip"))),
+            ("$Motion \"a.bvh\" kick", 2, Some(("Motion", "up"))),
+            ("$Motion walk", 0, Some(("Motion", "clip"))),
+            ("$Motion walk", 1, None),
         ] {
             assert_eq!(name(string, index), expected, "{string} {index}");
         }

@@ -45,13 +45,8 @@ pub enum Value {
     Axes([SignedAxis; 3]),
     /// `Ground`
     Ground(Ground),
-    /// `Motion`: file and clip name.
-    Motion {
-        /// The BVH file, as written.
-        file: String,
-        /// The clip's name, if given.
-        clip: Option<String>,
-    },
+    /// `Motion`
+    Motion(Motion),
     /// `Let`: name and value.
     Let(String, f64),
     /// No arguments, such as `Hidden`.
@@ -100,6 +95,43 @@ impl Shape {
             KindArguments::Numbers(_) => None,
         }
     }
+}
+
+/// `Motion [-il] "file" [clip] [up]`, `Motion [-il] walk`
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// The motion.
+    pub source: MotionSource,
+    /// The range of the file or the word in the decoded string.
+    pub source_range: Range<usize>,
+    /// The clip's name, if given.
+    pub clip: Option<String>,
+    /// The axis that points up in the file, if given.
+    pub up: Option<SignedAxis>,
+    /// `-i`: without travel over the ground.
+    pub is_in_place: bool,
+    /// `-l`: a loop.
+    pub is_loop: bool,
+    /// The `Limited` that belongs to it.
+    pub limited: Option<MotionLimits>,
+}
+
+/// Where a motion comes from.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum MotionSource {
+    /// A BVH file, as written.
+    File(String),
+    /// A clip that comes along, by its word in the table.
+    BuiltIn(String),
+}
+
+/// `Limited` behind a `Motion`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionLimits {
+    /// How many drawings to omit, and how many frames to hold.
+    pub amounts: [f64; 2],
+    /// The range of the setting in the decoded string, keyword included.
+    pub range: Range<usize>,
 }
 
 /// `Origin center | start | end | x y`

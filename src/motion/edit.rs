@@ -74,10 +74,15 @@ pub fn edit(
         positions,
         is_resampled,
         anatomy,
+        up,
         notes,
         ..
     } = prepare::prepare(clip, options)?;
-    let to_model = retarget::to_drawing(&clip, &Landmarks::of(&anatomy));
+    let landmarks = Landmarks {
+        up,
+        ..Landmarks::of(&anatomy)
+    };
+    let to_model = retarget::to_drawing(&clip, &landmarks);
     let first = positions.iter().take(clip.skeleton.joints.len());
     let height = height(first.map(|position| to_model * *position));
     let mut measured = Measured::of_clip(&clip, &positions, &anatomy, points);

@@ -17,3 +17,4 @@ pub mod resample;
 pub mod retarget;
 pub mod skeleton;
 pub mod skeleton_model;
+pub mod up;

@@ -7,6 +7,7 @@ use super::lead_in::{LeadInKind, find_lead_in};
 
 use super::resample::{self, Error, Range};
 use super::skeleton::Clip;
+use super::up::UpAxis;
 
 /// Frames per second of hand-drawn animation.
 pub const FPS: f64 = 24.0;
@@ -30,6 +31,8 @@ pub struct Options {
     pub lead_in: LeadInPolicy,
     /// Which frames to keep, counted at the new rate and after the lead-in was removed.
     pub range: Option<Range>,
+    /// The axis of the clip's world that points up; `None` to find it.
+    pub up: Option<UpAxis>,
 }
 
 impl Default for Options {
@@ -38,6 +41,7 @@ impl Default for Options {
             fps: FPS,
             lead_in: LeadInPolicy::Drop,
             range: None,
+            up: None,
         }
     }
 }
@@ -53,6 +57,8 @@ pub struct PreparedClip {
     pub is_resampled: bool,
     /// What its joints are.
     pub anatomy: Anatomy,
+    /// The axis of the clip's world that points up, if a person names it.
+    pub up: Option<UpAxis>,
     /// What was done to it, for people to read.
     pub notes: Vec<String>,
 }
@@ -92,6 +98,7 @@ pub fn prepare(clip: Clip, options: &Options) -> Result<PreparedClip, Error> {
         positions,
         is_resampled,
         anatomy,
+        up: options.up,
         notes,
     })
 }

@@ -37,7 +37,7 @@ pub enum Channel {
 }
 
 /// An axis of a joint's frame.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Axis {
     /// The first one.
     X,

@@ -61,7 +61,11 @@ pub(super) fn idle_motion(span: Span, link: &str) -> Diagnostic {
 /// Omissions and holds that were not possible, and too many omissions in a row.
 pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mut Vec<Diagnostic>) {
     let mut report = |message: String, help: String| {
-        diagnostics.push(Diagnostic::new(Code::TooLimited, span, message).help(help));
+        let diagnostic = Diagnostic::new(Code::TooLimited, span, message).help(help);
+        // All figures that play the clip have the same problem.
+        if !diagnostics.contains(&diagnostic) {
+            diagnostics.push(diagnostic);
+        }
     };
     let (omit, hold) = (cut.omissions, cut.holds);
     // Numbers that look right in most motions, and are possible in all but the shortest.

@@ -13,7 +13,7 @@ mod tracks;
 
 use std::sync::Arc;
 
-use crate::bind::{Bindings, ClipRequest};
+use crate::bind::{Bindings, ClipLimits, ClipRequest, MotionSource};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness};
 use crate::memo::{Memo, Same};
@@ -26,7 +26,6 @@ use crate::motion::prepare::PreparedClip;
 use crate::motion::retarget::{Landmarks, RetargetedClip, retarget};
 use crate::resolver::Resolver;
 use crate::scene::{Scene, WorldTransform};
-use crate::source::Span;
 use crate::svg::Drawing;
 
 use diagnostics::MatchProblems;
@@ -105,8 +104,10 @@ pub fn add_clips(
     let mut files = MotionFiles::default();
     let (mut keys, mut matches) = (0_usize, 0_usize);
     for request in &requests {
-        let Some(motion) = files.get(request.file, request.span, resolver, memo, diagnostics)
-        else {
+        let MotionSource::File(link) = request.source else {
+            continue;
+        };
+        let Some(motion) = files.get(link, request, resolver, memo, diagnostics) else {
             continue;
         };
         let mut is_played = false;
@@ -129,10 +130,10 @@ pub fn add_clips(
                 diagnostics.push(diagnostics::too_many_keys(request.span));
                 break;
             }
-            builder.add_clip(request, &matched, &motion, scene, diagnostics);
+            builder.add_clip(request, link, &matched, &motion, scene, diagnostics);
         }
         if !is_played {
-            diagnostics.push(diagnostics::idle_motion(request.span, request.file));
+            diagnostics.push(diagnostics::idle_motion(request.span, link));
         }
     }
     let skeleton = builder.clips.last().map(|clip| clip.skeleton());
@@ -188,6 +189,7 @@ impl ClipBuilder<'_> {
     fn add_clip(
         &mut self,
         request: &ClipRequest<'_>,
+        link: &str,
         matched: &MatchedFigure,
         motion: &Arc<PreparedClip>,
         scene: &mut Scene,
@@ -195,24 +197,22 @@ impl ClipBuilder<'_> {
     ) {
         let group = &matched.group;
         let (retargeted, measured) = self.retargeted(matched, motion);
-        let limits = self.limits(group);
-        let cut = limits.map(|(amounts, span)| {
-            let cut = self.cut(amounts, &measured);
-            diagnostics::too_limited(&cut, motion.clip.frames(), span, diagnostics);
+        let limits = request.limits.or_else(|| self.limits(group));
+        let cut = limits.map(|limits| {
+            let cut = self.cut([limits.omit, limits.hold], &measured);
+            diagnostics::too_limited(&cut, motion.clip.frames(), limits.span, diagnostics);
             cut
         });
-        let wanted = request
-            .name
-            .unwrap_or_else(|| figure_clip::stem(request.file));
+        let wanted = request.name.unwrap_or_else(|| figure_clip::stem(link));
         let clip = FigureClip {
             name: figure_clip::free_name(&self.clips, group.root, wanted),
-            file: request.file.to_owned(),
+            file: link.to_owned(),
             requested_at: request.span,
             root: group.root,
             parts: figure_clip::part_drives(&group.parts, &matched.matching),
             motion: Arc::clone(motion),
             cut,
-            limited_at: limits.map(|(_, span)| span),
+            limited_at: limits.map(|limits| limits.span),
             order: group.parts.clone(),
             retargeted,
             measured,
@@ -240,7 +240,10 @@ impl ClipBuilder<'_> {
         );
         let key = RetargetKey::new(&rig, motion);
         let retargeted = self.memo.get(key, |_| {
-            let landmarks = Landmarks::of(&motion.anatomy);
+            let landmarks = Landmarks {
+                up: motion.up,
+                ..Landmarks::of(&motion.anatomy)
+            };
             Arc::new(retarget(&motion.clip, &rig, &landmarks))
         });
         let key = MeasuredKey(Same(Arc::clone(&retargeted)));
@@ -263,15 +266,13 @@ impl ClipBuilder<'_> {
         })
     }
 
-    /// How many drawings of a figure's clips to omit and how many frames to hold, and where `Limited` says so.
-    fn limits(&self, group: &FigureGroup) -> Option<([usize; 2], Span)> {
+    /// The limits of all clips of a figure that have none of their own.
+    fn limits(&self, group: &FigureGroup) -> Option<ClipLimits> {
         let bindings = self.context.bindings;
-        let limits_of = |part: &usize| bindings.attributes(*part).limited();
         // The string of any part of the figure takes precedence over a string for all figures.
         let all = std::iter::once(&group.root).chain(&group.parts);
-        let limits = all
-            .filter_map(limits_of)
-            .min_by_key(|limits| limits.source.from)?;
-        Some((limits.value, bindings.span_of(&limits.source)))
+        let limits = all.filter_map(|part| bindings.limits_of_clips(*part));
+        let (_, limits) = limits.min_by_key(|(from, _)| *from)?;
+        Some(limits)
     }
 }

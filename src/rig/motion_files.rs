@@ -3,20 +3,24 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::diagnostic::Diagnostic;
+use crate::bind::{ClipRequest, SignedAxis};
+use crate::diagnostic::{Diagnostic, nearest_word};
 use crate::memo::Memo;
 use crate::motion::bvh;
 use crate::motion::prepare::{self, PreparedClip, prepare};
-use crate::motion::skeleton::Clip;
+use crate::motion::skeleton::{Axis, Clip};
+use crate::motion::up::UpAxis;
 use crate::resolver::{LinkError, Resolver};
-use crate::source::Span;
 use crate::svg::broken_link;
 
-use super::diagnostics;
+use super::{diagnostics, figure_clip};
 
-/// A link to a motion file, as the key of a cached [`MotionFile`].
-#[derive(PartialEq, Eq, Hash)]
-struct MotionLink(String);
+/// A link to a motion file and what is done with it, as the key of a cached [`MotionFile`].
+#[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+struct MotionKey {
+    link: String,
+    up: Option<UpAxis>,
+}
 
 /// A file that was read.
 #[derive(Debug)]
@@ -27,35 +31,39 @@ struct MotionFile {
     notes: Vec<String>,
 }
 
-/// The motion files of a drawing, by link.
+/// The motion files of a drawing.
 #[derive(Default)]
-pub(super) struct MotionFiles(BTreeMap<String, Result<Arc<MotionFile>, LinkError>>);
+pub(super) struct MotionFiles(BTreeMap<MotionKey, Result<Arc<MotionFile>, LinkError>>);
 
 impl MotionFiles {
-    /// The clip of a file. Problems of the file are reported for every string that links to it, because each of these has to be fixed.
+    /// The clip of the file that a string requests. Problems of the file are reported for every string that links to it, because
+    /// each of these has to be fixed.
     pub(super) fn get(
         &mut self,
         link: &str,
-        span: Span,
+        request: &ClipRequest<'_>,
         resolver: &dyn Resolver,
         memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
     ) -> Option<Arc<PreparedClip>> {
-        let first = !self.0.contains_key(link);
-        if first {
-            let key = MotionLink(link.to_owned());
-            let file = memo.get_reading(key, resolver, |key, resolver| {
-                let bytes = resolver.read(&key.0)?;
-                Ok(Arc::new(MotionFile::read(&bytes)))
-            });
-            self.0.insert(link.to_owned(), file);
-        }
-        match self.0.get(link)? {
+        let key = MotionKey {
+            link: link.to_owned(),
+            up: request.up.and_then(up_axis),
+        };
+        let first = !self.0.keys().any(|known| known.link == link);
+        let file = self.0.entry(key.clone()).or_insert_with(|| {
+            memo.get_reading(key, resolver, |key, resolver| {
+                let bytes = resolver.read(&key.link)?;
+                Ok(Arc::new(MotionFile::read(&bytes, key)))
+            })
+        });
+        match file {
             Err(error) => {
-                diagnostics.push(broken_link(link, error, span));
+                diagnostics.push(missing_file(link, error, request, resolver));
                 None
             }
             Ok(file) => {
+                let span = request.span;
                 if let Some((error, frames)) = &file.error {
                     diagnostics.push(diagnostics::broken_file(link, error, *frames, span));
                 }
@@ -69,8 +77,46 @@ impl MotionFiles {
     }
 }
 
+/// The axis that a string names; the language's axes are numbered like those of skeletons.
+fn up_axis(axis: SignedAxis) -> Option<UpAxis> {
+    let found = *[Axis::X, Axis::Y, Axis::Z].get(axis.axis)?;
+    Some(UpAxis {
+        axis: found,
+        is_negative: axis.negative,
+    })
+}
+
+/// A link that leads to no file that can be read; of the files beside it, the one that could be meant is offered.
+fn missing_file(
+    link: &str,
+    error: &LinkError,
+    request: &ClipRequest<'_>,
+    resolver: &dyn Resolver,
+) -> Diagnostic {
+    let span = request.source_span();
+    let diagnostic = broken_link(link, error, span);
+    if *error != LinkError::Missing {
+        return diagnostic;
+    }
+    let siblings = resolver.siblings(link);
+    let stems = siblings.iter().map(|sibling| figure_clip::stem(sibling));
+    let nearest = nearest_word(figure_clip::stem(link), stems);
+    let mut siblings = siblings.iter();
+    // A name with a quotation mark cannot be written in a string.
+    let found = siblings
+        .find(|sibling| Some(figure_clip::stem(sibling)) == nearest && !sibling.contains('"'));
+    match found {
+        Some(found) => diagnostic.label(format!("did you mean `{found}`?")).fix(
+            format!("Write `{found}`"),
+            span,
+            request.written(found),
+        ),
+        None => diagnostic,
+    }
+}
+
 impl MotionFile {
-    fn read(bytes: &[u8]) -> Self {
+    fn read(bytes: &[u8], key: &MotionKey) -> Self {
         let (clip, mut notes, error) = match bvh::read_bytes(bytes) {
             Ok(reading) => (Some(reading.clip), reading.notes, None),
             Err(mut error) => {
@@ -82,7 +128,11 @@ impl MotionFile {
         let notes = notes.drain(..).map(|note| note.to_string());
         let mut notes: Vec<String> = notes.collect();
         let clip = clip.filter(|clip| clip.frames() > 0).and_then(|clip| {
-            match prepare(clip, &prepare::Options::default()) {
+            let options = prepare::Options {
+                up: key.up,
+                ..prepare::Options::default()
+            };
+            match prepare(clip, &options) {
                 Ok(prepared) => {
                     notes.extend(prepared.notes.iter().cloned());
                     Some(Arc::new(prepared))

@@ -312,6 +312,7 @@ impl Checker<'_> {
             return true;
         };
         if let ArgumentKind::Word(word) = &first.kind
+            && !word.starts_with(['+', '-'])
             && self.variables.lookup(word) == Lookup::Undefined
         {
             self.unknown_keywords(excess);

@@ -9,7 +9,9 @@ use crate::lang::keyword::kinds::{Kind, Rule};
 use crate::lang::keyword::signature::{Form, Takes};
 use crate::lang::keyword::{Keyword, kinds};
 use crate::lang::parameter::form_by_first_argument;
-use crate::lang::value::{Ground, KindArguments, Origin, Shape, SignedAxis, Value};
+use crate::lang::value::{
+    Ground, KindArguments, Motion, MotionSource, Origin, Shape, SignedAxis, Value,
+};
 
 impl Checker<'_> {
     /// The value of an attribute, and its arguments as text.
@@ -34,7 +36,16 @@ impl Checker<'_> {
         }
         let form = self.form(callee, attribute)?;
         let values = self.match_arguments(callee, form, &attribute.arguments)?;
-        let value = value_of(attribute.keyword, &values)?;
+        let value = match attribute.keyword {
+            Keyword::Motion => {
+                let motion = motion(attribute, &values)?;
+                if matches!(motion.source, MotionSource::BuiltIn(_)) {
+                    self.not_built("Motion", motion.source_range.clone());
+                }
+                Value::Motion(motion)
+            }
+            keyword => value_of(keyword, &values)?,
+        };
         if let Value::Axes(axes) = &value {
             self.check_axes(axes, attribute)?;
         }
@@ -185,10 +196,7 @@ impl Checker<'_> {
             let parameters = &parameters[..values.len().min(parameters.len())];
             self.check_thickness(kind, numbers, attribute, parameters);
         }
-        let has = |letter: char| {
-            let mut flags = attribute.flags.iter();
-            flags.any(|(flag, _)| flag.eq_ignore_ascii_case(&letter))
-        };
+        let has = |letter: char| has_flag(attribute, letter);
         let shape = Shape {
             kind: kind.name,
             arguments,
@@ -307,11 +315,39 @@ fn value_of(keyword: Keyword, values: &[ArgumentValue]) -> Option<Value> {
             signed_axis(&word(2)?)?,
         ]),
         Keyword::Let => Value::Let(word(0)?, number(1)?),
-        Keyword::Motion => Value::Motion {
-            file: word(0)?,
-            clip: word(1),
-        },
         _ => return plain_value(values),
+    })
+}
+
+fn has_flag(attribute: &Attribute, letter: char) -> bool {
+    let mut flags = attribute.flags.iter();
+    flags.any(|(flag, _)| flag.eq_ignore_ascii_case(&letter))
+}
+
+/// The value of `Motion`, without the `Limited` that may follow it.
+fn motion(attribute: &Attribute, values: &[ArgumentValue]) -> Option<Motion> {
+    let (first, others) = values.split_first()?;
+    let source = match first {
+        ArgumentValue::Text(file) => MotionSource::File(file.clone()),
+        ArgumentValue::Word(word) => MotionSource::BuiltIn(word.clone()),
+        _ => return None,
+    };
+    let clip = others.iter().find_map(|value| match value {
+        ArgumentValue::Text(clip) => Some(clip.clone()),
+        _ => None,
+    });
+    let up = others.iter().find_map(|value| match value {
+        ArgumentValue::Word(axis) => signed_axis(axis),
+        _ => None,
+    });
+    Some(Motion {
+        source,
+        source_range: attribute.arguments.first()?.range.clone(),
+        clip,
+        up,
+        is_in_place: has_flag(attribute, 'i'),
+        is_loop: has_flag(attribute, 'l'),
+        limited: None,
     })
 }
 

@@ -3,20 +3,33 @@
 use super::signature::{
     Bounds, COLOUR_NAME, FILE, Form, HEX, NAMES, POINT, Parameter, Takes, number,
 };
-use super::{Allowed, Row};
+use super::{Allowed, Flag, Row, vocabulary};
 
-static CLIP: [Parameter; 2] = [
-    Parameter {
-        name: "file",
-        summary: "a file in the drawing's folder",
-        takes: Takes::File,
-    },
+const BVH: Parameter = Parameter {
+    name: "file",
+    summary: "a file in the drawing's folder",
+    takes: Takes::File,
+};
+const UP: Parameter = Parameter {
+    name: "up",
+    summary: "the axis of the file that points up, where okoshi does not find it",
+    takes: Takes::SignedAxis,
+};
+static FILE_CLIP: [Parameter; 2] = [BVH, UP];
+static NAMED_CLIP: [Parameter; 3] = [
+    BVH,
     Parameter {
         name: "clip",
         summary: "the name of the clip",
         takes: Takes::Text,
     },
+    UP,
 ];
+static BUILT_IN_CLIP: [Parameter; 1] = [Parameter {
+    name: "clip",
+    summary: "a clip that comes along",
+    takes: Takes::Choice(&vocabulary::CLIPS),
+}];
 static FRAMES: [Parameter; 2] = [
     number("omit", Bounds::COUNT, "drawings to leave out"),
     number("hold", Bounds::COUNT, "frames to hold"),
@@ -81,13 +94,30 @@ pub(super) static FOLLOW: Row = Row {
 };
 
 pub(super) static MOTION: Row = Row {
-    forms: &[Form::new(&CLIP, &[1, 2])],
+    forms: &[
+        Form::new(&FILE_CLIP, &[1, 2]),
+        Form::new(&NAMED_CLIP, &[2, 3]),
+        Form::new(&BUILT_IN_CLIP, &[1]),
+    ],
+    flags: &[
+        Flag {
+            letter: 'i',
+            summary: "in place: the figure does not travel over the ground",
+        },
+        Flag {
+            letter: 'l',
+            summary: "a loop: the best cycle of the motion, with its ends blended",
+        },
+    ],
     allowed: Allowed::PartAndDrawing,
     summary: "a motion for the figure",
-    long: "The figure plays a motion-capture file (BVH); the file's joints are matched with the \
+    long: "The figure plays a motion-capture file (BVH), or one of the clips that come along: \
+           `walk`, `run` and so on, without quotes. The motion's joints are matched with the \
            parts. In the string of a figure's root part, `Motion` applies to that figure; in a `%` \
-           string, to all figures. Several `Motion` give several clips; the second argument names \
-           the clip.",
+           string, to all figures. Several `Motion` give several clips; a word behind the file \
+           names the clip. An axis at the end says which way is up in the file: \
+           `Motion \"crawl.bvh\" crawl +z`.\n\n\
+           `-i` keeps the figure in place, `-l` makes a loop of the motion: `Motion -il walk`.",
     example: "Lbody$Motion \"kick.bvh\" kick",
     ..Row::ROW
 };
@@ -99,7 +129,10 @@ pub(super) static LIMITED: Row = Row {
     summary: "limited animation, as in hand-drawn films",
     long: "`omit` is the number of in-between drawings to leave out where the motion is fastest, \
            `hold` the number of frames to hold where it is slowest. The motion snaps and rests \
-           like a hand-drawn one.",
+           like a hand-drawn one.\n\n\
+           Behind a `Motion`, `Limited` belongs to that clip: `Motion walk Limited 2 8`. \
+           Elsewhere it applies to all clips of the figure, or of the drawing in a `%` string, \
+           that have no `Limited` of their own.",
     example: "%Limited 4 30",
     ..Row::ROW
 };

@@ -78,6 +78,25 @@ pub static AXES: [Word; 6] = [
     word("-z", "against the world's z"),
 ];
 
+/// The clips of `Motion` that come along.
+pub static CLIPS: [Word; 9] = [
+    word(
+        "walk",
+        "a walk; on four legs each hind foot is followed by the fore foot of its side",
+    ),
+    word("run", "a run; a gallop on four legs"),
+    word("trot", "a trot of diagonal pairs; a jog on two legs"),
+    word("sneak", "a slow walk on bent legs"),
+    word("jump", "one jump on the spot"),
+    word("idle", "standing and breathing"),
+    word("wave", "a wave with the right hand, or with a fore leg"),
+    word("dance", "a dance on the spot"),
+    word(
+        "punch",
+        "a jab with the left hand and a punch with the right one",
+    ),
+];
+
 /// A function of expressions, as the reference describes it.
 #[derive(Debug)]
 pub struct FunctionRow {
@@ -260,6 +279,7 @@ fn choices() -> impl Iterator<Item = &'static Word> {
         .chain(&STROKES)
         .chain(&TILE)
         .chain(&AXES)
+        .chain(&CLIPS)
 }
 
 /// Whether `word` has a meaning in any attribute, colour names included.

@@ -34,7 +34,7 @@ impl Parser<'_> {
         let keyword_range = self.range(start..self.at);
         let mut end = self.at;
         let mut flags = vec![];
-        if !takes_axes(keyword) {
+        if !starts_with_axis(keyword) {
             loop {
                 self.skip_blank();
                 let Ok((rest, letters)) = lexical::flags(self.rest()) else {
@@ -52,7 +52,9 @@ impl Parser<'_> {
         loop {
             self.skip_blank();
             let rest = self.rest();
-            if rest.is_empty() || starts_sign(rest) || keyword_at(rest).is_some() {
+            let is_word = arguments.is_empty() && starts_with_word_of(keyword, rest);
+            let ends = starts_sign(rest) || keyword_at(rest).is_some_and(|_| !is_word);
+            if rest.is_empty() || ends {
                 break;
             }
             let argument = self.argument(keyword, &flags, &arguments);
@@ -209,7 +211,24 @@ fn starts_sign(rest: &str) -> bool {
     }
 }
 
-fn takes_axes(keyword: Keyword) -> bool {
-    let mut parameters = keyword.row().forms.iter().flat_map(|form| form.parameters);
-    parameters.any(|parameter| matches!(parameter.takes, Takes::SignedAxis))
+/// What the first argument of a keyword may be.
+fn first_takes(keyword: Keyword) -> impl Iterator<Item = &'static Takes> {
+    let forms = keyword.row().forms.iter();
+    let first = forms.filter_map(|form| form.parameters.first());
+    first.map(|parameter| &parameter.takes)
+}
+
+/// Whether what follows a keyword, `-x` for example, is an axis and not a flag.
+fn starts_with_axis(keyword: Keyword) -> bool {
+    first_takes(keyword).any(|takes| matches!(takes, Takes::SignedAxis))
+}
+
+/// Whether `rest` begins with one of the words that a keyword takes as its first argument: in `Motion walk`, the word is not the
+/// keyword `Walk`.
+fn starts_with_word_of(keyword: Keyword, rest: &str) -> bool {
+    let run = &rest[..lexical::run(rest)];
+    first_takes(keyword).any(|takes| match takes {
+        Takes::Choice(words) => words.iter().any(|word| word.name.eq_ignore_ascii_case(run)),
+        _ => false,
+    })
 }

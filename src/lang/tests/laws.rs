@@ -48,6 +48,8 @@ fn piece() -> impl Strategy<Value = String> {
             "+x",
             "-y",
             "Motion",
+            "walk",
+            "-il",
             "kick.bvh",
             "Follow",
             "-cd",

@@ -5,6 +5,7 @@ use glam::{DMat3, DQuat, DVec3};
 use super::{PoseBuffer, ground};
 use crate::motion::labels::{Anatomy, Class, Facing, Limb, Side, Tip};
 use crate::motion::skeleton::{Clip, Transform};
+use crate::motion::up::UpAxis;
 
 /// The joints that define how a body is oriented. Pairs are left and right from the body's own point of view.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -27,6 +28,8 @@ pub struct Landmarks {
     pub foot_tips: Option<[Tip; 2]>,
     /// Where the hands begin, or the arms end: the wrists.
     pub hands: Option<[usize; 2]>,
+    /// The axis of the clip's world that points up; `None` to find it.
+    pub up: Option<UpAxis>,
 }
 
 impl Landmarks {
@@ -51,6 +54,7 @@ impl Landmarks {
             toes: both(legs, |leg| leg.toe),
             foot_tips: both(legs, |leg| leg.end.and(leg.tip)),
             hands: both(arms, |arm| arm.end.or(arm.lower)),
+            up: None,
         }
     }
 }
@@ -68,7 +72,9 @@ pub(super) struct Axes {
 impl Axes {
     pub(super) fn of(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> Self {
         let mut axes = Self {
-            up: ground::up(clip, landmarks),
+            up: landmarks
+                .up
+                .map_or_else(|| ground::up(clip, landmarks), UpAxis::direction),
             first: DQuat::IDENTITY,
             facing: facing.turn(),
         };
