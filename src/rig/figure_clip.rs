@@ -91,6 +91,11 @@ impl FigureClip {
         }
     }
 
+    /// Per frame of the motion whether a foot is in contact with the ground.
+    pub fn grounded(&self) -> &[bool] {
+        &self.retargeted.grounded
+    }
+
     /// The speed of every frame of the motion: the SSD of the points by which it is limited, in the square of drawing units.
     pub fn speeds(&self) -> Vec<f64> {
         self.measured.poses().speeds()

@@ -287,3 +287,66 @@ fn a_key_for_each_drawing() {
     }
     assert!(limited >= 2, "only {limited} limited clips");
 }
+
+/// The corners of all nodes' meshes, each in its node's frame.
+fn corners(scene: &Scene) -> Vec<(usize, Vec<DVec3>)> {
+    let nodes = scene.nodes.iter().enumerate();
+    let corners = nodes.filter_map(|(index, node)| {
+        let pieces = scene.meshes[node.mesh?].primitives.iter();
+        let pieces = pieces.flat_map(|primitive| &primitive.pieces);
+        let corners = pieces.flat_map(|piece| {
+            let surface = piece.surface();
+            let corners = surface.positions.iter();
+            let corners = corners.map(|corner| DVec3::from(corner.map(f64::from)));
+            corners.collect::<Vec<DVec3>>()
+        });
+        Some((index, corners.collect()))
+    });
+    corners.collect()
+}
+
+/// Soles stand on the ground, and nothing else is below it.
+#[test]
+fn nothing_sinks_into_the_ground() {
+    let mut grounded = 0;
+    for (name, _) in DRAWINGS {
+        let compiled = compiled(&text(name));
+        let corners = corners(&compiled.scene);
+        let extent = |nodes: &[Transform]| {
+            let heights = corners.iter().flat_map(|(node, corners)| {
+                let placed = nodes[*node];
+                let height = move |corner: &DVec3| (placed.rotation * *corner + placed.position).y;
+                corners.iter().map(height)
+            });
+            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| {
+                (low.min(y), high.max(y))
+            })
+        };
+        let (ground, top) = extent(&world(&compiled.scene, &Animation::default(), 0));
+        let height = top - ground;
+        for clip in &compiled.clips {
+            let full = clip.full_animation();
+            let mut worst = [0.0_f64; 2];
+            for frame in 0..clip.source_frames() {
+                let (low, _) = extent(&world(&compiled.scene, &full, frame));
+                worst[0] = worst[0].max((ground - low) / height);
+                if clip.grounded()[frame] {
+                    grounded += 1;
+                    worst[1] = worst[1].max((low - ground).abs() / height);
+                }
+            }
+            eprintln!(
+                "{name}, {}: {:.2} % below the ground, {:.2} % off it",
+                clip.name,
+                worst[0] * 100.0,
+                worst[1] * 100.0
+            );
+            assert!(
+                worst[0] < 0.01 && worst[1] < 0.01,
+                "{name}, {}: {worst:?}",
+                clip.name
+            );
+        }
+    }
+    assert!(grounded > 200, "only {grounded} frames on the ground");
+}
