@@ -270,7 +270,7 @@ browse("the drawings of one of several figures are counted; without facts keys a
   const { model, ...rest } = build(FIGURE);
   host.built("kick.svg", { ...rest, model: animate(model!, "Arm", "wave", SPIN) });
   await shown(page, 2);
-  assert.equal(await page.locator(".clip-choice").locator("option").first().innerText(), "wave · 1.0 s · 5 drawings");
+  assert.equal(await page.locator(".clip-choice").locator("option").first().innerText(), "wave · 1.0 s · 4 drawings");
   for (const name of ["Chart", "Full and limited side by side"]) assert.equal(await page.getByRole("button", { name }).isVisible(), false);
   await page.keyboard.press("c");
   assert.equal(await page.locator(".chart").isVisible(), false);
