@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::motion::labels::Label;
+use crate::motion::labels::{Label, Tip};
 use crate::motion::limited::Cut;
 use crate::motion::matching::{Matching, joints_named};
 use crate::motion::prepare::PreparedClip;
@@ -45,6 +45,8 @@ pub struct PartDrive {
     pub part: usize,
     /// Index of the joint; `None` for a part that follows its parent.
     pub joint: Option<usize>,
+    /// The far end of the bone or chain that it points along; `None` for a part that turns with its joint.
+    pub tip: Option<Tip>,
     /// Why, for people to read.
     pub why: String,
 }
@@ -150,6 +152,7 @@ pub(super) fn part_drives(parts: &[usize], matching: &Matching) -> Vec<PartDrive
     let drives = drives.map(|(part, matched)| PartDrive {
         part: *part,
         joint: matched.drive.map(|drive| drive.joint),
+        tip: matched.drive.and_then(|drive| drive.tip),
         why: matched.why.clone(),
     });
     let mut drives: Vec<PartDrive> = drives.collect();
