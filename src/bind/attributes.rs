@@ -69,6 +69,15 @@ pub struct Attribute<'a, T> {
     pub source: Source<'a>,
 }
 
+/// The word of `Carry`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Carry {
+    /// The limb points where the actor's does.
+    Direction,
+    /// It turns by as much as the actor's does, from the pose in which it is drawn.
+    Change,
+}
+
 /// An attribute of a part, for people.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Resolved {
@@ -381,6 +390,15 @@ impl<'a> Attributes<'a> {
     /// `Bone`: the names of the joints that drive the part.
     pub fn bones(&self) -> Option<Attribute<'a, &'a [String]>> {
         typed!(self, Keyword::Bone, Value::Names(names) => names.as_slice())
+    }
+
+    /// `Carry`: what a limb takes over from the joint that drives it.
+    pub fn carry(&self) -> Option<Carry> {
+        match self.word(Keyword::Carry)?.value {
+            "direction" => Some(Carry::Direction),
+            "change" => Some(Carry::Change),
+            _ => None,
+        }
     }
 
     /// `Limited`: how many drawings of a clip are omitted, and how many frames are held.

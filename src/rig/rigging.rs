@@ -6,6 +6,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::Context;
 use super::figures::FigureGroup;
+use crate::bind::Carry;
 use crate::geometry::{Frame, y_up};
 use crate::memo::{Bits, Same};
 use crate::motion::figure::{Figure, FigurePart};
@@ -57,10 +58,18 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
             bounds,
             drawing_order: part.shape,
             bones,
+            carry: bindings.attributes(index).carry().map(follow),
         }
     };
     Figure {
         parts: group.parts.iter().enumerate().map(part).collect(),
+    }
+}
+
+fn follow(carry: Carry) -> Follow {
+    match carry {
+        Carry::Direction => Follow::Direction,
+        Carry::Change => Follow::Change,
     }
 }
 

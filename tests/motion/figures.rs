@@ -237,13 +237,19 @@ fn found(compiled: &Compiled, id: &str) -> (Found, String) {
         return (None, "a detail of another part".to_owned());
     };
     match compiled.clips.iter().find_map(|clip| clip.part_drive(part)) {
-        Some(drive) => (drive.joint.map(|joint| (joint, drive.tip)), drive.why.clone()),
+        Some(drive) => (
+            drive.joint.map(|joint| (joint, drive.tip)),
+            drive.why.clone(),
+        ),
         None => (None, "in no figure that moves".to_owned()),
     }
 }
 
 fn is_whole(parts: &[(String, Vec<Choice>)], choice: Choice) -> bool {
-    let Choice::Limb { class, side, pair, .. } = choice else {
+    let Choice::Limb {
+        class, side, pair, ..
+    } = choice
+    else {
         return false;
     };
     parts.iter().flat_map(|(_, choices)| choices).any(|other| {
@@ -274,7 +280,7 @@ fn count(
                 if choices.iter().any(fits) {
                     right += 1;
                 } else {
-                    let part = format!("{} {id} {choices:?}", figure.name);
+                    let part = format!("{} {id}", figure.name);
                     let entry = wrong.entry(part).or_default();
                     entry.push(format!("{}: {found:?}, {why}", motion.name));
                 }
@@ -294,7 +300,11 @@ fn measured(figures: &[DrawnFigure], motions: &[Motion]) -> [f64; 2] {
         let mut wrong = BTreeMap::new();
         let counts = count(figures, motions, names, &mut wrong);
         let which = ["names of their own", "names that say nothing"][names];
-        eprintln!("{:.2} % of {} right with {which}", percent(counts), counts[1]);
+        eprintln!(
+            "{:.2} % of {} right with {which}",
+            percent(counts),
+            counts[1]
+        );
         for (part, motions) in wrong {
             eprintln!("  {part}: {} of the motions; {}", motions.len(), motions[0]);
         }

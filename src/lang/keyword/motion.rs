@@ -3,7 +3,7 @@
 use super::signature::{
     Bounds, COLOUR_NAME, FILE, Form, HEX, NAMES, POINT, Parameter, Takes, number,
 };
-use super::{Allowed, Row};
+use super::{Allowed, Row, vocabulary};
 
 static CLIP: [Parameter; 2] = [
     Parameter {
@@ -21,6 +21,11 @@ static FRAMES: [Parameter; 2] = [
     number("omit", Bounds::COUNT, "drawings to leave out"),
     number("hold", Bounds::COUNT, "frames to hold"),
 ];
+static CARRY_WORD: [Parameter; 1] = [Parameter {
+    name: "what",
+    summary: "what the limb takes over",
+    takes: Takes::Choice(&vocabulary::CARRY),
+}];
 static FACTOR: [Parameter; 1] = [number("factor", Bounds::POSITIVE, "1 is the size as drawn")];
 static SPEED: [Parameter; 1] = [number(
     "speed",
@@ -41,6 +46,17 @@ pub(super) static BONE: Row = Row {
            position. Where a match is wrong, name the joint here. A name with spaces or \
            punctuation needs quotes.",
     example: "Rarm@Ubody$Bone RightArm RightForeArm",
+    ..Row::ROW
+};
+
+pub(super) static CARRY: Row = Row {
+    forms: &[Form::new(&CARRY_WORD, &[1])],
+    default: "direction; change for wings, tentacles, and three or more pairs of legs",
+    summary: "what a limb takes over from the motion",
+    long: "`direction`: the arm or leg points where the actor's does, however it is drawn. `change`: \
+           it keeps the pose in which it is drawn, and turns by as much as the actor's does. A \
+           bird's wings stay spread, and a spider's legs do not hang down.",
+    example: "Wing@Body$Carry change",
     ..Row::ROW
 };
 
