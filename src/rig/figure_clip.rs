@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::motion::labels::{Label, Tip};
 use crate::motion::limited::Cut;
-use crate::motion::matching::{Matching, joints_named};
+use crate::motion::matching::{Follow, Matching, joints_named};
 use crate::motion::prepare::PreparedClip;
 use crate::motion::retarget::RetargetedClip;
 use crate::motion::skeleton::Skeleton;
@@ -152,7 +152,10 @@ pub(super) fn part_drives(parts: &[usize], matching: &Matching) -> Vec<PartDrive
     let drives = drives.map(|(part, matched)| PartDrive {
         part: *part,
         joint: matched.drive.map(|drive| drive.joint),
-        tip: matched.drive.and_then(|drive| drive.tip),
+        tip: matched.drive.and_then(|drive| match drive.follow {
+            Follow::Direction => drive.tip,
+            Follow::Change => None,
+        }),
         why: matched.why.clone(),
     });
     let mut drives: Vec<PartDrive> = drives.collect();

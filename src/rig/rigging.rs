@@ -82,9 +82,9 @@ pub(super) fn rig(
 ) -> Rig {
     let is_leg = |part: usize| {
         let matched = &matching.parts[part];
-        let follows = matched.drive.map(|drive| drive.follow);
+        let is_bone = matched.drive.is_some_and(|drive| drive.tip.is_some());
         let class = matched.label.as_ref().map(|label| label.class);
-        (follows, class) == (Some(Follow::Direction), Some(Class::Leg))
+        (is_bone, class) == (true, Some(Class::Leg))
     };
     let mut continues = vec![false; group.parts.len()];
     for (index, part) in figure.parts.iter().enumerate() {

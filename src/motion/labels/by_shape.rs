@@ -269,7 +269,7 @@ pub(super) fn limbs(tree: &PartTree<'_>, drafts: &mut [PartDraft]) {
     many_legs(tree, drafts, trunk);
 }
 
-/// Whether a part is drawn on the trunk, like a button or a chest panel.
+/// Whether a part is drawn on the trunk, like a button or a chest panel, or around it, like a belt.
 fn is_over_trunk(
     tree: &PartTree<'_>,
     drafts: &[PartDraft],
@@ -278,7 +278,10 @@ fn is_over_trunk(
 ) -> bool {
     let below = tree.parents[part].filter(|above| is_trunk(drafts[*above].class));
     let drawn = |part: usize| tree.parts[part].drawing_order;
-    below.is_some_and(|below| drawn(part) > drawn(below)) && tree.is_over(part, trunk, OVER)
+    let [low, high] = tree.around(std::iter::once(part));
+    let is_around = low.x <= trunk[0].x && high.x >= trunk[1].x;
+    let is_later = below.is_some_and(|below| drawn(part) > drawn(below));
+    is_later && (is_around || tree.is_over(part, trunk, OVER))
 }
 
 /// Whether a part hangs from the lower half of the trunk to below it.

@@ -174,7 +174,6 @@ pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> 
 /// What a limb takes over from its joint: what `Carry` says, else the change if it is splayed; and why, for people to read.
 fn carried(drive: Drive, carry: Option<Follow>, splayed: bool) -> (Drive, &'static str) {
     let change = Drive {
-        tip: None,
         follow: Follow::Change,
         ..drive
     };

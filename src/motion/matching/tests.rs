@@ -17,9 +17,10 @@ fn drives(figure: &Figure, clip: &Clip) -> (Vec<String>, Vec<Problem>) {
     let short = |part: &MatchedPart| match part.drive {
         None => "-".to_owned(),
         Some(drive) => {
-            assert_eq!(drive.tip.is_some(), drive.follow == Follow::Direction);
+            assert!(drive.tip.is_some() || drive.follow == Follow::Change);
             let name = |joint: usize| skeleton.joints[joint].name.clone();
-            match drive.tip {
+            let tip = drive.tip.filter(|_| drive.follow == Follow::Direction);
+            match tip {
                 None => name(drive.joint),
                 Some(Tip::Joint(tip)) => format!("{} > {}", name(drive.joint), name(tip)),
                 Some(Tip::End { joint, .. }) => {
