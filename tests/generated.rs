@@ -106,6 +106,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::FarAway, "mistake-huge-offset"),
     (Code::LooksDifferent, "depth-buries"),
     (Code::Buried, "depth-buries"),
+    (Code::BentArm, "motion-bent-arm"),
 ];
 
 /// What okoshi prints for a diagnostic of a drawing.

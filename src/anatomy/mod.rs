@@ -2,10 +2,12 @@
 //!
 //! One set of tables for all who read names: [`terms`] gives the meanings of a name's words.
 
+mod clothes;
 pub(crate) mod name_words;
 mod role;
 mod vocabulary;
 
+pub(crate) use clothes::dress;
 pub(crate) use role::{Role, sides};
 pub(crate) use vocabulary::{Term, terms};
 
@@ -26,13 +28,7 @@ pub(crate) fn is_hinged(terms: &[Term]) -> bool {
         Term::Tail,
         Term::Neck,
     ];
-    let at_its_end = [
-        Term::Hand,
-        Term::Foot,
-        Term::Toe,
-        Term::Detail,
-        Term::Helper,
-    ];
+    let at_its_end = [Term::Hand, Term::Foot, Term::Toe, Term::Detail];
     says(&limb) && !says(&at_its_end)
 }
 

@@ -31,8 +31,8 @@ impl Role {
     pub(crate) fn of(terms: &[Term]) -> Option<Self> {
         use Term as T;
         let says = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
-        if says(&[T::Detail, T::Helper]) {
-            return says(&[T::OfHead]).then_some(Self::OfHead);
+        if says(&[T::Detail]) {
+            return says(&[T::OfHead, T::HeadWear]).then_some(Self::OfHead);
         }
         let lower = says(&[T::Lower, T::Fore]);
         Some(match () {
@@ -52,6 +52,7 @@ impl Role {
             () if says(&[T::Body]) => Self::Body,
             () if says(&[T::Chest]) => Self::Chest,
             () if says(&[T::Belly]) => Self::Belly,
+            () if says(&[T::HeadWear]) => Self::OfHead,
             () => return None,
         })
     }

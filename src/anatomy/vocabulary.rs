@@ -43,7 +43,16 @@ pub(crate) enum Term {
     Neck,
     Head,
     Tail,
-    Skirt,
+    /// Of arms: a wing, a tentacle, which a figure spreads.
+    Wing,
+    /// Clothes of the body, such as armour and shirts.
+    BodyWear,
+    /// Clothes of the head, such as helmets.
+    HeadWear,
+    /// Clothes of the hips, such as skirts and trousers.
+    HipWear,
+    /// Of hands and feet: clothes of them, such as gloves and shoes.
+    Worn,
     /// A face: a feature of a head, or a head.
     Face,
     /// A leg, or a foot if it is attached to a leg: 足.
@@ -54,14 +63,14 @@ pub(crate) enum Term {
     OfHead,
     /// An ear.
     Ear,
-    /// Only in skeletons: twist, share, finger and end joints, controls.
+    /// Only in skeletons: twist, share and end joints, controls.
     Helper,
 }
 
 use Term::{
-    Arm, Back, Belly, Body, Chest, Collar, Detail, Ear, Face, Foot, Fore, Hand, Head, Helper, Hind,
-    Hip, Hips, Left, Leg, LegOrFoot, Lower, LowerArm, Middle, Neck, OfHead, Right, Shin, Shoulder,
-    Skirt, Tail, Thigh, Toe, Upper, UpperArm, Waist,
+    Arm, Back, Belly, Body, BodyWear, Chest, Collar, Detail, Ear, Face, Foot, Fore, Hand, Head,
+    HeadWear, Helper, Hind, Hip, HipWear, Hips, Left, Leg, LegOrFoot, Lower, LowerArm, Middle,
+    Neck, OfHead, Right, Shin, Shoulder, Tail, Thigh, Toe, Upper, UpperArm, Waist, Wing, Worn,
 };
 
 /// Words, and what they mean.
@@ -85,15 +94,18 @@ const ENGLISH: Table = &[
     (&[Back], "back"),
     (&[Collar], "collar clavicle clav clavicula"),
     (&[Shoulder], "shoulder shldr shoulders"),
-    (&[Arm], "arm wing fin flipper pincer"),
+    (&[Arm], "arm flipper pincer"),
+    (&[Arm, Wing], "wing fin tentacle"),
     (&[UpperArm], "uparm humerus"),
     (&[LowerArm], "forearm loarm elbow radius ulna"),
-    (&[Hand], "hand wrist fist"),
+    (&[Hand], "hand wrist fist claw"),
+    (&[Hand, Worn], "glove gauntlet mitten"),
     (&[Hip], "hip buttock"),
     (&[Leg], "leg"),
     (&[Thigh], "thigh upleg femur"),
     (&[Shin], "shin calf knee tibia loleg"),
-    (&[Foot], "foot feet ankle paw hoof boot shoe"),
+    (&[Foot], "foot feet ankle paw hoof hooves"),
+    (&[Foot, Worn], "boot shoe sandal slipper sneaker"),
     (&[Toe], "toe toes ball"),
     (&[Hips], "hips pelvis lbody"),
     (&[Waist], "waist"),
@@ -103,23 +115,30 @@ const ENGLISH: Table = &[
     (&[Neck], "neck"),
     (&[Head], "head skull"),
     (&[Tail], "tail"),
-    (&[Skirt], "skirt"),
+    (
+        &[BodyWear],
+        "armor armour breastplate cuirass tunic shirt jacket coat vest waistcoat blouse sweater cardigan hoodie dress gown robe kimono \
+         uniform suit jumpsuit spacesuit leotard",
+    ),
+    (&[HeadWear], "helmet hat cap hood"),
+    (&[HipWear], "skirt kilt trousers pants pant shorts jeans"),
     (&[Face], "face"),
     (&[Detail, OfHead, Ear], "ear"),
     (
         &[Detail, OfHead],
-        "earring hat cap helmet crown hair bangs fringe ponytail braid bun eye eyes brow eyebrow eyelid lid eyelash pupil nose mouth lip \
+        "earring crown hair bangs fringe ponytail braid bun eye eyes brow eyebrow eyelid lid eyelash pupil nose mouth lip \
          lips teeth tooth tongue jaw chin cheek forehead beard moustache mustache glasses antenna antennae feeler horn beak mask",
     ),
     (
         &[Detail],
-        "breast bust boob bag sword shield stick staff gun bow ribbon scarf tie belt button pocket buckle strap band \
-         sleeve cuff armor armour cape cloak shadow logo badge watch ring",
+        "breast bust boob bag backpack rucksack satchel pack pouch tank sword shield stick staff spear axe gun bow weapon prop ribbon \
+         scarf tie belt sash button pocket buckle strap band sleeve cuff sock stocking apron pauldron plume visor panel screen dial hose \
+         patch cape cloak shadow logo badge medal necklace watch ring mane saddle bridle rein harness finger thumb index pinky little \
+         metacarpal carpal palm knuckle heel",
     ),
     (
         &[Helper],
-        "twist roll share finger thumb index pinky little metacarpal carpal palm knuckle heel end nub tip site ik pole target \
-         ctrl control effector helper dummy socket weapon prop",
+        "twist roll share end nub tip site ik pole target ctrl control effector helper dummy socket",
     ),
 ];
 
@@ -144,10 +163,12 @@ const JAPANESE: Table = &[
     (&[Head], "頭 あたま 頭部 へっど"),
     (&[Tail], "尾 しっぽ 尻尾"),
     (&[Shoulder], "肩 かた"),
-    (&[Arm], "腕 うで あーむ 翼 つばさ 羽 羽根 はね ひれ"),
+    (&[Arm], "腕 うで あーむ ひれ"),
+    (&[Arm, Wing], "翼 つばさ 羽 羽根 はね 触手"),
     (&[UpperArm], "上腕 二の腕"),
     (&[LowerArm], "前腕 下腕 ひじ 肘"),
     (&[Hand], "手 て 手首 てくび はんど 手先"),
+    (&[Hand, Worn], "手袋 てぶくろ ぐろーぶ 籠手 こて"),
     (&[Leg], "脚 れっぐ"),
     (&[Leg, LegOrFoot], "足 あし"),
     (&[Face], "顔 かお"),
@@ -155,21 +176,31 @@ const JAPANESE: Table = &[
     (&[Hind, Leg], "後足 後脚 後ろ足 後ろ脚 うしろあし"),
     (&[Thigh], "腿 太腿 もも 太もも ふともも 大腿"),
     (&[Shin], "膝 ひざ 脛 すね"),
-    (&[Foot], "足首 あしくび 足先"),
+    (&[Foot], "足首 あしくび 足先 蹄 ひづめ"),
+    (&[Foot, Worn], "靴 くつ ぶーつ 長靴 ながぐつ 草履 さんだる"),
     (&[Toe], "つま先 つまさき 爪先"),
-    (&[Skirt], "すかーと"),
+    (
+        &[BodyWear],
+        "鎧 よろい 服 ふく 洋服 制服 上着 うわぎ しゃつ じゃけっと こーと べすと せーたー ぱーかー どれす わんぴーす 着物 きもの れおたーど",
+    ),
+    (&[HeadWear], "兜 かぶと へるめっと 帽子 ぼうし ふーど"),
+    (
+        &[HipWear],
+        "すかーと ずぼん ぱんつ じーんず 短ぱん 袴 はかま",
+    ),
     (&[Detail, OfHead, Ear], "耳 みみ"),
     (
         &[Detail, OfHead],
-        "帽子 ぼうし 髪 かみ 前髪 後髪 後ろ髪 目 眼 め 鼻 はな 口 くち 顎 あご 舌 角 つの 触角 触覚 眉 眼鏡 めがね 髭 ひげ",
+        "髪 かみ 前髪 後髪 後ろ髪 目 眼 め 鼻 はな 口 くち 顎 あご 舌 角 つの 触角 触覚 眉 眼鏡 めがね 髭 ひげ",
     ),
     (
         &[Detail],
-        "首輪 手袋 袖 剣 盾 鞄 かばん 影 ねくたい まふらー りぼん べると",
+        "首輪 袖 剣 盾 槍 斧 杖 武器 鞄 かばん りゅっく りゅっくさっく らんどせる 影 ねくたい まふらー りぼん べると ぼたん ぽけっと まんと 靴下 \
+         くつした 首飾り 鞍 くら 手綱 たてがみ 親指 人指 人差指 中指 薬指 小指 指 ゆび",
     ),
     (
         &[Helper],
-        "捩 捩れ 親指 人指 人差指 中指 薬指 小指 指 ゆび だみー 全ての親 せんたー ぐるーぶ きゃんせる 補助 先",
+        "捩 捩れ だみー 全ての親 せんたー ぐるーぶ きゃんせる 補助 先",
     ),
 ];
 

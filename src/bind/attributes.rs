@@ -69,6 +69,15 @@ pub struct Attribute<'a, T> {
     pub source: Source<'a>,
 }
 
+/// The word of `Carry`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Carry {
+    /// The limb points where the actor's does.
+    Direction,
+    /// It turns by as much as the actor's does, from the pose in which it is drawn.
+    Change,
+}
+
 /// An attribute of a part, for people.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Resolved {
@@ -390,6 +399,15 @@ impl<'a> Attributes<'a> {
             _ => Some(1.0),
         });
         stiffness.map(|stiffness| stiffness.value)
+    }
+
+    /// `Carry`: what a limb takes over from the joint that drives it.
+    pub fn carry(&self) -> Option<Carry> {
+        match self.word(Keyword::Carry)?.value {
+            "direction" => Some(Carry::Direction),
+            "change" => Some(Carry::Change),
+            _ => None,
+        }
     }
 
     /// `Tile`: the word for what tiles of the paint are, from the legend.

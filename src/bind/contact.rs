@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 
 use super::bindings::{Bindings, NamedBy, Part, PartKind};
 use super::names;
-use crate::anatomy::{self, Role, sides};
+use crate::anatomy::{self, Role, Term, sides};
 use crate::geometry::{self, Body, Outline, area, intersect};
 use crate::lang::ast::Annotation;
 use crate::svg::Drawing;
@@ -70,18 +70,13 @@ impl NamedBody {
     fn read(bindings: &Bindings, part: usize, places: &FxHashMap<&str, usize>) -> Self {
         let part = &bindings.parts[part];
         let named = is_named(part);
-        let terms = if named {
-            anatomy::terms(&part.name)
-        } else {
-            vec![]
-        };
         let annotation = part
             .string
             .map(|string| &bindings.strings[string].annotation);
         Self {
             named,
-            role: Role::of(&terms),
-            sides: sides(&terms),
+            role: None,
+            sides: [false; 2],
             area: area(&part.outline),
             attached: match annotation {
                 Some(Annotation::Part(part)) => part
@@ -123,7 +118,7 @@ impl NamedBodies {
         let parts: Vec<usize> = mains(bindings).collect();
         let names = parts.iter().map(|part| bindings.parts[*part].name.as_str());
         let places: FxHashMap<&str, usize> = names.zip(0..).collect();
-        let bodies: Vec<NamedBody> = parts
+        let mut bodies: Vec<NamedBody> = parts
             .iter()
             .map(|part| NamedBody::read(bindings, *part, &places))
             .collect();
@@ -164,6 +159,9 @@ impl NamedBodies {
             })
             .collect();
         let touching = geometry::touching(&areas);
+        for figure in geometry::connected(&touching) {
+            read_names(bindings, &parts, figure, &mut bodies);
+        }
         let shared = shared(&areas, &touching);
         Self {
             parts,
@@ -276,6 +274,23 @@ impl NamedBodies {
                 from,
             }));
         }
+    }
+}
+
+/// Reads what the names of one figure's parts say. Clothes name what wears them if nothing else does.
+fn read_names(
+    bindings: &Bindings,
+    parts: &[usize],
+    mut figure: Vec<usize>,
+    bodies: &mut [NamedBody],
+) {
+    figure.retain(|place| bodies[*place].named);
+    let name = |place: &usize| anatomy::terms(&bindings.parts[parts[*place]].name);
+    let mut names: Vec<Vec<Term>> = figure.iter().map(name).collect();
+    anatomy::dress(&mut names);
+    for (place, terms) in figure.into_iter().zip(names) {
+        bodies[place].role = Role::of(&terms);
+        bodies[place].sides = sides(&terms);
     }
 }
 

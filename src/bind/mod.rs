@@ -40,7 +40,7 @@ mod words;
 mod wrappers;
 
 pub use attributes::{
-    Attribute, Attributes, MaterialFactors, Resolved, SetBy, SetColor, Source, plate_depth,
+    Attribute, Attributes, Carry, MaterialFactors, Resolved, SetBy, SetColor, Source, plate_depth,
 };
 pub use bindings::{Binding, Bindings, BoundBy, DrawingString, NamedBy, Part, PartKind, Place};
 pub use given_depths::GivenDepth;

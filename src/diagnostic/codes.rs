@@ -615,6 +615,16 @@ codes! {
     /// `%Shape default -20 20`. If the part is meant to be hidden, leave it as it is. The fix is not offered for copies
     /// (`-s`, `-d`), which need their depths.
     Buried = "H412", "depth hides or detaches a part";
+    /// An arm is drawn in one piece, so it is always stretched, while the motion bends the elbow most of the time. In half of its
+    /// frames, the hand is more than a quarter of the arm's length away from where it should be.
+    ///
+    /// ```text
+    /// Rarm@Ubody
+    /// ```
+    ///
+    /// Split the arm into two shapes at the elbow, the second attached to the first: `Rarm@Ubody` and `Rforearm@Rarm`. Or leave
+    /// it as it is.
+    BentArm = "H413", "arm in one piece where the motion bends the elbow";
 }
 
 impl Code {

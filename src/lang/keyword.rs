@@ -56,6 +56,7 @@ keywords! {
     Texture = part::TEXTURE;
     Depth = views::DEPTH;
     Bone = motion::BONE;
+    Carry = motion::CARRY;
     Swing = motion::SWING;
     Mark = motion::MARK;
     Follow = motion::FOLLOW;

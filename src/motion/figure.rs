@@ -2,6 +2,8 @@
 
 use glam::DVec2;
 
+use super::matching::Follow;
+
 /// A figure: connected parts.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Figure {
@@ -27,4 +29,6 @@ pub struct FigurePart {
     pub drawing_order: usize,
     /// The joints that its string names with `Bone`; empty if it names none.
     pub bones: Vec<String>,
+    /// What its string says with `Carry`, if it is a limb; `None` if it says nothing.
+    pub carry: Option<Follow>,
 }

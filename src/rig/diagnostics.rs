@@ -123,7 +123,9 @@ impl MatchProblems {
                 | Problem::AmbiguousBone { part, name, .. } => {
                     vec![(group.parts[*part], name.clone())]
                 }
-                Problem::NotAChain { part, .. } | Problem::TooManyBones { part } => {
+                Problem::NotAChain { part, .. }
+                | Problem::TooManyBones { part }
+                | Problem::BentArm { part, .. } => {
                     vec![(group.parts[*part], String::new())]
                 }
                 Problem::NoSuchLimb { parts, .. } => parts
@@ -197,6 +199,14 @@ fn match_problem(
         Problem::NoSuchLimb { class, side, .. } => {
             let message = format!("the motion has no {} {} for {name}, so it moves along with its parent", side.name(), class.name());
             Diagnostic::new(Code::NoJoint, element, message).help("use `Bone` to say which joint drives the part")
+        }
+        Problem::BentArm { error, .. } => {
+            let message = format!(
+                "{name} is drawn in one piece, and the motion bends the elbow: the hand is {:.0} % of the arm's length away from where it should be",
+                error * 100.0
+            );
+            Diagnostic::new(Code::BentArm, element, message)
+                .help("split the arm into two shapes at the elbow to show the motion better")
         }
         Problem::NothingMatched => unclear("no joint drives any part".to_owned()),
     }

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use crate::motion::labels::Label;
+use crate::motion::labels::{Label, Tip};
 use crate::motion::limited::Cut;
-use crate::motion::matching::{Matching, joints_named};
+use crate::motion::matching::{Follow, Matching, joints_named};
 use crate::motion::measured::Measured;
 use crate::motion::prepare::PreparedClip;
 use crate::motion::retarget::RetargetedClip;
@@ -47,6 +47,8 @@ pub struct PartDrive {
     pub part: usize,
     /// Index of the joint; `None` for a part that follows its parent.
     pub joint: Option<usize>,
+    /// The far end of the bone or chain that it points along; `None` for a part that turns with its joint.
+    pub tip: Option<Tip>,
     /// Why, for people to read.
     pub why: String,
 }
@@ -162,6 +164,10 @@ pub(super) fn part_drives(parts: &[usize], matching: &Matching) -> Vec<PartDrive
     let drives = drives.map(|(part, matched)| PartDrive {
         part: *part,
         joint: matched.drive.map(|drive| drive.joint),
+        tip: matched.drive.and_then(|drive| match drive.follow {
+            Follow::Direction => drive.tip,
+            Follow::Change | Follow::Trunk { .. } => None,
+        }),
         why: matched.why.clone(),
     });
     let mut drives: Vec<PartDrive> = drives.collect();

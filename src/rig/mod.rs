@@ -20,7 +20,7 @@ use crate::memo::{Memo, Same};
 use crate::motion::figure::Figure;
 use crate::motion::labels::Class;
 use crate::motion::limited::{self, Cut, Length};
-use crate::motion::matching::{Matching, match_figure};
+use crate::motion::matching::{Matching, bent_arms, match_figure};
 use crate::motion::measured::Measured;
 use crate::motion::prepare::PreparedClip;
 use crate::motion::retarget::{Landmarks, RetargetedClip, retarget};
@@ -182,6 +182,8 @@ impl ClipBuilder<'_> {
         if parts.all(|part| part.drive.is_none()) {
             return None;
         }
+        let bent = bent_arms(&found.matching, &motion.clip, &motion.anatomy);
+        found.matching.problems.extend(bent);
         self.problems.add(&found.group, &found.matching);
         Some(found)
     }

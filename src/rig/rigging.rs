@@ -7,11 +7,12 @@ use glam::{DQuat, DVec2, DVec3};
 use super::Context;
 use super::figures::FigureGroup;
 use super::surface;
+use crate::bind::Carry;
 use crate::geometry::{Frame, y_up};
 use crate::memo::{Bits, Same};
 use crate::motion::figure::{Figure, FigurePart};
 use crate::motion::labels::{Class, Facing};
-use crate::motion::matching::{Drive, Matching};
+use crate::motion::matching::{Drive, Follow, Matching};
 use crate::motion::prepare::PreparedClip;
 use crate::motion::retarget::{Rig, RigPart};
 use crate::motion::skeleton::Transform;
@@ -58,10 +59,18 @@ pub(super) fn drawn_figure(context: &Context<'_>, group: &FigureGroup) -> Figure
             bounds,
             drawing_order: part.shape,
             bones,
+            carry: bindings.attributes(index).carry().map(follow),
         }
     };
     Figure {
         parts: group.parts.iter().enumerate().map(part).collect(),
+    }
+}
+
+fn follow(carry: Carry) -> Follow {
+    match carry {
+        Carry::Direction => Follow::Direction,
+        Carry::Change => Follow::Change,
     }
 }
 

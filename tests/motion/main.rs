@@ -7,6 +7,7 @@
 mod common;
 
 mod cli;
+mod figures;
 mod limited;
 mod model;
 mod retarget;

@@ -84,6 +84,7 @@ fn joint(clip: &Clip, name: &str) -> usize {
 fn chain(clip: &Clip, pose: &[Transform], why: &str) -> Option<DVec3> {
     let (_, way) = why.split_once("it points from `")?;
     let (from, to) = way.split_once("` to ")?;
+    let to = to.split_once(';').map_or(to, |(to, _)| to);
     let from = pose[joint(clip, from)].position;
     let to = match to.strip_prefix("the end of `") {
         Some(of) => {
@@ -132,7 +133,8 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
         world(&compiled.scene, &still, 0)
     };
     let mut worst = 0.0_f64;
-    let mut looked_at = 0;
+    let at_rest = Body::of_offsets(clip, &Landmarks::of(&prepared.anatomy), facing);
+    let (mut looked_at, mut splayed) = (0, 0);
     for frame in 0..clip.frames() {
         let pose = clip.pose(frame);
         let now = world(&compiled.scene, full, frame);
@@ -142,8 +144,17 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
                 continue;
             };
             let node = names[name];
-            // The axis in the node's own frame, from the node's rest pose.
-            let own = rest[node].rotation.inverse() * (turn * axis(compiled, drive.part));
+            // What points like the chain: the part's axis, or if it keeps its drawn pose the chain at rest; in the node's own frame.
+            let points = match drive.why.contains("keeps its drawn pose") {
+                true => {
+                    splayed += 1;
+                    let offsets = clip.skeleton.offset_pose();
+                    let way = chain(clip, &offsets, &drive.why).expect("a chain");
+                    at_rest.drawn(&offsets, way)
+                }
+                false => axis(compiled, drive.part),
+            };
+            let own = rest[node].rotation.inverse() * (turn * points);
             worst = worst.max(angle(
                 now[node].rotation * own,
                 turn * body.drawn(&first, way),
@@ -158,7 +169,7 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
                 let frame = now[above].rotation;
                 let mirrored =
                     frame.inverse() * (now[node].rotation * own) * DVec3::new(1.0, 1.0, -1.0);
-                let own = rest[*copy].rotation.inverse() * (turn * axis(compiled, drive.part));
+                let own = rest[*copy].rotation.inverse() * (turn * points);
                 worst = worst.max(angle(now[*copy].rotation * own, frame * mirrored));
             }
         }
@@ -166,6 +177,18 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
     assert!(
         looked_at >= 4 * clip.frames(),
         "only {looked_at} directions"
+    );
+    let is_beetle = compiled
+        .bindings
+        .parts
+        .iter()
+        .filter(|part| part.name.contains("eg"))
+        .count()
+        >= 6;
+    assert_eq!(
+        splayed > 0,
+        is_beetle,
+        "{splayed} directions of splayed limbs"
     );
     worst
 }

@@ -34,7 +34,7 @@ impl Body {
     }
 
     /// The same for the skeleton's offset pose, which may have been made in other axes.
-    fn of_offsets(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> Self {
+    pub(crate) fn of_offsets(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> Self {
         let pose = clip.skeleton.offset_pose();
         Self::from_rise(landmarks, facing, rise(landmarks, &pose))
     }
@@ -223,7 +223,17 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
                     let off = angle(turned * drawn, body.drawn(&first, lean(&pose)));
                     worst.limbs = worst.limbs.max(off);
                 }
-                (Follow::Change, _) => {
+                // A limb that keeps its drawn pose turns by as much as its chain does.
+                (Follow::Change, Some(way)) => {
+                    let turned = placed[index].rotation * part.node.rotation.inverse();
+                    let before = direction(clip, &rest, drive).expect("a chain");
+                    let off = angle(
+                        turned * at_rest.drawn(&rest, before),
+                        body.drawn(&first, way),
+                    );
+                    worst.limbs = worst.limbs.max(off);
+                }
+                (Follow::Change, None) => {
                     // C₀ᵀ R(k) R(r)ᵀ C_r · D
                     let change = pose[drive.joint].rotation * rest[drive.joint].rotation.inverse();
                     let due = body.turn(&first)
@@ -260,6 +270,12 @@ fn parts_point_where_bones_do() {
         }
         for facing in [Facing::Left, Facing::Right] {
             rigs.push((format!("dog {facing:?}"), dog(&prepared.anatomy, facing)));
+            let mut splayed = dog(&prepared.anatomy, facing);
+            for part in splayed.parts.iter_mut().filter(|part| part.is_leg) {
+                let drive = part.drive.as_mut().expect("a leg is driven");
+                drive.follow = Follow::Change;
+            }
+            rigs.push((format!("splayed dog {facing:?}"), splayed));
         }
         for (name, rig) in rigs {
             let worst = check(clip, &rig, &landmarks);

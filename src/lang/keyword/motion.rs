@@ -39,6 +39,11 @@ static STIFFNESS: [Parameter; 1] = [number(
     Bounds::POSITIVE,
     "1 is like hair, 4 swings twice as fast",
 )];
+static CARRY_WORD: [Parameter; 1] = [Parameter {
+    name: "what",
+    summary: "what the limb takes over",
+    takes: Takes::Choice(&vocabulary::CARRY),
+}];
 static FACTOR: [Parameter; 1] = [number("factor", Bounds::POSITIVE, "1 is the size as drawn")];
 static SPEED: [Parameter; 1] = [number(
     "speed",
@@ -71,6 +76,17 @@ pub(super) static SWING: Row = Row {
            hair; with 4 the part swings twice as fast and half as far, with 0.25 it is slow and \
            heavy. Strands of several parts swing each on its own if each has `Swing`.",
     example: "Tail@Body$Swing 2",
+    ..Row::ROW
+};
+
+pub(super) static CARRY: Row = Row {
+    forms: &[Form::new(&CARRY_WORD, &[1])],
+    default: "direction; change for wings, tentacles, and three or more pairs of legs",
+    summary: "what a limb takes over from the motion",
+    long: "`direction`: the arm or leg points where the actor's does, however it is drawn. `change`: \
+           it keeps the pose in which it is drawn, and turns by as much as the actor's does. A \
+           bird's wings stay spread, and a spider's legs do not hang down.",
+    example: "Wing@Body$Carry change",
     ..Row::ROW
 };
 

@@ -68,6 +68,15 @@ pub static TILE: [Word; 6] = [
     word("none", "not a tile"),
 ];
 
+/// The words of `Carry`.
+pub static CARRY: [Word; 2] = [
+    word("direction", "the limb points where the actor's does"),
+    word(
+        "change",
+        "the limb turns by as much as the actor's does, from the pose in which it is drawn",
+    ),
+];
+
 /// The signed axes of `Axes`.
 pub static AXES: [Word; 6] = [
     word("+x", "along the world's x"),
@@ -278,6 +287,7 @@ fn choices() -> impl Iterator<Item = &'static Word> {
         .chain(&BIND)
         .chain(&STROKES)
         .chain(&TILE)
+        .chain(&CARRY)
         .chain(&AXES)
         .chain(&CLIPS)
 }

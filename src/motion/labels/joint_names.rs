@@ -64,7 +64,8 @@ fn name(name: &str) -> Option<JointName> {
     let has = |term: Term| terms.contains(&term);
     let any = |wanted: &[Term]| terms.iter().any(|term| wanted.contains(term));
     let finger = has(T::Middle) && !any(&[T::Body, T::Chest, T::Belly, T::Back, T::Neck]);
-    if any(&[T::Helper, T::Detail, T::Face, T::Skirt]) || finger {
+    let worn = any(&[T::BodyWear, T::HeadWear, T::HipWear]);
+    if any(&[T::Helper, T::Detail, T::Face]) || worn || finger {
         return Some(JointName::Helper);
     }
     let side = match (has(T::Left), has(T::Right)) {

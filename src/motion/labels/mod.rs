@@ -3,6 +3,7 @@
 //! Both are labelled by name first, and by shape where names say nothing: [`label_skeleton`] and [`label_figure`]. A label
 //! keeps the reason for it. All tables of words are in `anatomy`.
 
+mod by_shape;
 mod figure;
 mod joint_names;
 mod joint_tree;
@@ -21,8 +22,8 @@ use glam::DVec3;
 
 use super::skeleton::{Skeleton, Transform};
 
-pub(crate) use figure::label_facing;
 pub use figure::label_figure;
+pub(crate) use figure::{LabelledFigure, label_drawn};
 pub use skeleton::{Anatomy, Limb, label_clip, label_skeleton};
 
 pub(crate) use joint_tree::JointTree;

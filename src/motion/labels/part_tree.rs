@@ -1,11 +1,18 @@
 //! A figure as a tree of bounding boxes: parents, children, and what stands on the ground.
 
 use glam::DVec2;
+use rustc_hash::FxHashSet;
 
 use crate::motion::figure::{Figure, FigurePart};
 
 /// Parts whose lowest point is at most this share of the figure's height above the ground stand on it (motion.md).
 const GROUND: f64 = 0.12;
+
+/// Centres that differ by at most about this share of the figure's height mirror each other.
+const MIRRORED: f64 = 0.06;
+/// The least share of the parts beside the axis that a symmetric figure mirrors, and the least number of them.
+const SYMMETRIC: f64 = 0.9;
+const FEWEST_MIRRORED: usize = 4;
 
 /// The parts of a figure as a tree.
 #[derive(Debug)]
@@ -73,6 +80,77 @@ impl<'a> PartTree<'a> {
     /// Whether a part or one of its descendants stands on the figure's ground.
     pub(super) fn stands(&self, part: usize) -> bool {
         self.lowest[part] <= self.ground + GROUND * self.height
+    }
+
+    /// The height of a point above the ground by a share of the figure's height.
+    pub(super) fn above_ground(&self, share: f64) -> f64 {
+        self.ground + share * self.height
+    }
+
+    /// A part's name.
+    pub(super) fn name(&self, part: usize) -> &'a str {
+        &self.parts[part].name
+    }
+
+    /// Width and height of a part's bounding box.
+    pub(super) fn size(&self, part: usize) -> DVec2 {
+        let [low, high] = corners(&self.parts[part]);
+        high - low
+    }
+
+    /// Whether at least this share of a part's bounding box lies within another box. A box without area lies there with its
+    /// centre.
+    pub(super) fn is_over(&self, part: usize, [low, high]: [DVec2; 2], share: f64) -> bool {
+        let own = corners(&self.parts[part]);
+        let shared = (own[1].min(high) - own[0].max(low)).max(DVec2::ZERO);
+        let middle = self.middle(part);
+        match self.size(part).element_product() {
+            area if area > 0.0 => shared.element_product() >= share * area,
+            _ => middle.cmpge(low).all() && middle.cmple(high).all(),
+        }
+    }
+
+    /// Whether a part can be the head that wears a hat: their boxes touch, and the head is no detail of the hat.
+    pub(super) fn may_wear(&self, part: usize, hat: usize) -> bool {
+        let [own, hats] = [part, hat].map(|part| corners(&self.parts[part]));
+        let touches = own[0].cmple(hats[1]).all() && hats[0].cmple(own[1]).all();
+        touches && self.size(part).element_product() * 2.0 >= self.size(hat).element_product()
+    }
+
+    /// Per part the length of the longest chain of parts that begins with it.
+    pub(super) fn reaches(&self) -> Vec<f64> {
+        let own = |part: usize| self.joint(part).distance(self.tip(part));
+        let mut reaches: Vec<f64> = (0..self.parts.len()).map(own).collect();
+        for part in self.order.iter().rev() {
+            let longest = self.children[*part].iter().map(|child| reaches[*child]);
+            reaches[*part] += longest.fold(0.0, f64::max);
+        }
+        reaches
+    }
+
+    /// Whether most parts beside an upright axis have another part as their mirror image.
+    pub(super) fn is_symmetric(&self, axis: f64) -> bool {
+        let cell = (MIRRORED * self.height).max(f64::MIN_POSITIVE);
+        let cells = |part: usize| {
+            let middle = self.middle(part);
+            [
+                ((middle.x - axis) / cell).round() as i64,
+                (middle.y / cell).round() as i64,
+            ]
+        };
+        let beside: Vec<[i64; 2]> = (0..self.parts.len())
+            .map(cells)
+            .filter(|[x, _]| x.unsigned_abs() > 1)
+            .collect();
+        let all: FxHashSet<[i64; 2]> = beside.iter().copied().collect();
+        let near = |at: i64| [at.saturating_sub(1), at, at.saturating_add(1)];
+        let is_mirrored = |[x, y]: &&[i64; 2]| {
+            let xs = near(x.saturating_neg()).into_iter();
+            let mut cells = xs.flat_map(|x| near(*y).map(|y| [x, y]));
+            cells.any(|cell| all.contains(&cell))
+        };
+        let mirrored = beside.iter().filter(is_mirrored).count();
+        mirrored >= FEWEST_MIRRORED && mirrored as f64 >= SYMMETRIC * beside.len() as f64
     }
 
     /// The bounding box of some parts; an empty box at the origin if there are none.

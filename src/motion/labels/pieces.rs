@@ -51,6 +51,27 @@ pub(super) fn limbs(tree: &PartTree<'_>, drafts: &[PartDraft]) -> Vec<Limb> {
     limbs
 }
 
+/// Per part whether it belongs to a limb that the figure spreads: a wing, a tentacle, a leg where there are three pairs or more.
+pub(super) fn splayed(limbs: &[Limb], drafts: &[PartDraft]) -> Vec<bool> {
+    /// The index of the third pair.
+    const THIRD: usize = 2;
+    let mut splayed = vec![false; drafts.len()];
+    let legs = limbs.iter().filter(|limb| limb.class == Class::Leg);
+    let many_legs = legs.into_iter().any(|leg| drafts[leg.root()].pair >= THIRD);
+    for limb in limbs {
+        let wing = limb
+            .parts
+            .iter()
+            .any(|(part, _)| drafts[*part].says(&[Term::Wing]));
+        if wing || many_legs && limb.class == Class::Leg {
+            for (part, _) in &limb.parts {
+                splayed[*part] = true;
+            }
+        }
+    }
+    splayed
+}
+
 /// Sets which piece of its limb each part is. Parts that are hands or feet by name stay so: an arm with a hand is a whole arm
 /// and a hand, not an upper arm and a forearm. A shoulder that carries an arm is the collar bone.
 pub(super) fn name(tree: &PartTree<'_>, limbs: &[Limb], drafts: &mut [PartDraft]) {

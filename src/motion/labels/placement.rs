@@ -8,6 +8,11 @@ use super::pieces::Limb;
 use super::{Class, Facing, Side};
 use crate::anatomy::Term;
 
+/// A head at most this share of the trunk's width beside its middle is on the figure's upright axis.
+const ON_AXIS: f64 = 0.1;
+/// Two legs in profile whose joints are at most this share of the trunk's width apart are a pair.
+const SAME_PAIR: f64 = 0.25;
+
 /// The direction that a figure faces, and the middle of its trunk.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum Front {
@@ -15,11 +20,15 @@ pub(super) enum Front {
     Viewer {
         /// The middle of its trunk.
         axis: DVec2,
+        /// −1 if its head is drawn below the trunk, as that of a spider that hangs, else 1.
+        up: f64,
     },
-    /// To one side of the drawing: the head lies more beside the trunk than above it.
+    /// To one side of the drawing: the head lies more beside the trunk than above or below it.
     Beside {
         /// The middle of its trunk.
         axis: DVec2,
+        /// The width of its trunk.
+        length: f64,
         /// −1 for the drawing's left, 1 for its right.
         toward: f64,
     },
@@ -41,27 +50,36 @@ impl Front {
                 .iter()
                 .copied()
                 .filter(|part| wanted(&drafts[*part]));
-            let [low, high] = tree.around(parts);
-            low.midpoint(high)
+            tree.around(parts)
         };
-        let axis = all(&|draft| is_trunk(draft.class));
+        let [low, high] = all(&|draft| is_trunk(draft.class));
+        let axis = low.midpoint(high);
         let head = |draft: &PartDraft| draft.class == Some(Class::Head);
         let trunk = drafts.iter().any(|draft| is_trunk(draft.class));
-        let off = all(&head) - axis;
-        if trunk && drafts.iter().any(head) && off.x.abs() > off.y {
+        let known = trunk && drafts.iter().any(head);
+        let [low_head, high_head] = all(&head);
+        let off = low_head.midpoint(high_head) - axis;
+        let length = high.x - low.x;
+        let on_axis = off.x.abs() <= ON_AXIS * length;
+        if known && off.x.abs() > off.y.abs() && !on_axis && !tree.is_symmetric(axis.x) {
             Self::Beside {
                 axis,
+                length,
                 toward: off.x.signum(),
             }
         } else {
-            Self::Viewer { axis }
+            let is_below = known && high_head.y < axis.y;
+            Self::Viewer {
+                axis,
+                up: if is_below { -1.0 } else { 1.0 },
+            }
         }
     }
 
     /// The position of a limb along the way from the figure's hind end to its head.
     fn place_of(self, tree: &PartTree<'_>, part: usize) -> f64 {
         match self {
-            Self::Viewer { .. } => tree.joint(part).y,
+            Self::Viewer { up, .. } => tree.joint(part).y * up,
             Self::Beside { toward, .. } => tree.joint(part).x * toward,
         }
     }
@@ -129,8 +147,10 @@ pub(super) fn sides(tree: &PartTree<'_>, facing: &Front, limbs: &[Limb], drafts:
                     ),
                 );
             }
-            (_, _, Front::Viewer { axis }) => from_front(tree, axis.x, &open, drafts),
-            (_, _, Front::Beside { toward, .. }) => from_side(tree, facing, *toward, &open, drafts),
+            (_, _, Front::Viewer { axis, .. }) => from_front(tree, axis.x, &open, drafts),
+            (_, _, Front::Beside { toward, length, .. }) => {
+                from_side(tree, facing, [*toward, *length], &open, drafts);
+            }
         }
     }
 }
@@ -165,11 +185,11 @@ fn from_front(tree: &PartTree<'_>, axis: f64, open: &[&Limb], drafts: &mut [Part
 
 /// In profile, neighbours counted from the hind end are pairs, and the limb drawn later is on the near side: the left one if
 /// the figure faces the drawing's left. An odd number of limbs without words for fore and hind is taken as the legs of one
-/// side.
+/// side. Of two that are close to each other, as a bird's legs are, such words say which is nearer.
 fn from_side(
     tree: &PartTree<'_>,
     facing: &Front,
-    toward: f64,
+    [toward, length]: [f64; 2],
     open: &[&Limb],
     drafts: &mut [PartDraft],
 ) {
@@ -181,7 +201,15 @@ fn from_side(
     let way = if toward < 0.0 { "left" } else { "right" };
     let mut roots: Vec<usize> = open.iter().map(|limb| limb.root()).collect();
     sorted_from_hind(tree, facing, drafts, &mut roots);
-    let ranks: Vec<u8> = roots.iter().map(|root| rank(&drafts[*root])).collect();
+    let is_one_pair = match roots.as_slice() {
+        [a, b] => (tree.joint(*a).x - tree.joint(*b).x).abs() <= SAME_PAIR * length,
+        _ => false,
+    };
+    let rank = |root: &usize| match is_one_pair {
+        true => 1,
+        false => rank(&drafts[*root]),
+    };
+    let ranks: Vec<u8> = roots.iter().map(rank).collect();
     let ranked = ranks.iter().any(|rank| *rank != 1);
     let pair = if ranked || roots.len().is_multiple_of(2) {
         2

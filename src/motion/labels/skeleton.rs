@@ -189,7 +189,8 @@ fn sides_of_pairs(
     pairs: [Option<[usize; 2]>; 2],
     poses: &[Vec<Transform>],
 ) -> [Option<[LimbJoints; 2]>; 2] {
-    let found = pairs.map(|pair| pair.map(|pair| pair.map(|start| topology::pieces(tree, start))));
+    let found =
+        pairs.map(|pair| pair.map(|pair| pair.map(|start| topology::pieces(tree, start, poses))));
     let [arms, legs] = found.map(|pair| pair.map_or(Vec::new(), Vec::from));
     let branch = |limbs: Option<[usize; 2]>| limbs.and_then(|[start, _]| tree.parents[start]);
     let low = branch(pairs[1]).unwrap_or(0);
@@ -236,7 +237,7 @@ fn completed(
                     .last();
             }
             None => {
-                let pieces = topology::pieces(tree, upper);
+                let pieces = topology::pieces(tree, upper, &[]);
                 if pieces.upper == Some(upper) {
                     lower = pieces.lower.filter(useful);
                     end = pieces.end.filter(|end| useful(end) && lower.is_some());

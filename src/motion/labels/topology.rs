@@ -2,6 +2,7 @@
 
 use super::joint_names::LimbJoints;
 use super::joint_tree::JointTree;
+use crate::motion::skeleton::Transform;
 
 /// Two chains are mirrored if the lengths of their bones differ by at most this share of the chain, summed up.
 const MIRRORED: f64 = 0.1;
@@ -14,6 +15,12 @@ const NEIGHBOURS: usize = 8;
 const MAX_CHAIN: usize = 64;
 /// Bones shorter than this share of their chain are only offsets.
 const SHORT: f64 = 0.02;
+/// Two bones whose angle is never greater than this many degrees are one.
+const STRAIGHT: f64 = 1.0;
+/// So many poses tell where a chain bends: the offset pose alone may be stretched.
+const FEWEST_POSES: usize = 3;
+/// Upper bone, lower bone, and hand or foot.
+const FEWEST_BONES: usize = 3;
 /// A single pair that branches off at most this many joints below the root is the legs.
 const LEGS_DEPTH: usize = 1;
 
@@ -168,12 +175,45 @@ fn bones(tree: &JointTree, start: usize) -> Option<Vec<Bone>> {
     Some(bones)
 }
 
+/// Joins bones between which no pose bends, as long as an upper bone, a lower bone and an end are left. Few poses say nothing.
+fn joined(tree: &JointTree, mut bones: Vec<Bone>, poses: &[Vec<Transform>]) -> Vec<Bone> {
+    if poses.len() < FEWEST_POSES {
+        return bones;
+    }
+    let mut index = 1;
+    while index < bones.len() && bones.len() > FEWEST_BONES {
+        let [before, own] = [bones[index - 1].joint, bones[index].joint];
+        let bends = match tree.chain(own).nth(1) {
+            Some(next) => poses
+                .iter()
+                .any(|pose| bend(pose, [before, own, next]) > STRAIGHT),
+            None => true,
+        };
+        if bends {
+            index += 1;
+        } else {
+            bones[index - 1].length += bones[index].length;
+            bones.remove(index);
+        }
+    }
+    bones
+}
+
+/// The angle between the bones from one joint to the next and from there to the third, degrees; 0 without length.
+fn bend(pose: &[Transform], joints: [usize; 3]) -> f64 {
+    let [a, b, c] = joints.map(|joint| pose[joint].position);
+    let angle = (b - a).angle_between(c - b).to_degrees();
+    if angle.is_finite() { angle } else { 0.0 }
+}
+
 /// Assigns the bones of the chain that begins at a joint: upper and lower are the two neighbours with the greatest total
-/// length. A bone before them is a collar bone.
-pub(super) fn pieces(tree: &JointTree, start: usize) -> LimbJoints {
+/// length. A bone before them is a collar bone. Bones between which no pose bends count as one, so elbows and knees are where
+/// the motion bends, whatever joints for twists there are.
+pub(super) fn pieces(tree: &JointTree, start: usize, poses: &[Vec<Transform>]) -> LimbJoints {
     let Some(bones) = bones(tree, start) else {
         return LimbJoints::default();
     };
+    let bones = joined(tree, bones, poses);
     let upper = (1..bones.len())
         .max_by(|a, b| {
             let sum = |index: usize| bones[index - 1].length + bones[index].length;

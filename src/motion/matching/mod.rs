@@ -1,5 +1,6 @@
 //! Which joint of a skeleton drives which part of a figure (motion.md, "Which joint drives which part").
 
+mod elbows;
 mod names;
 #[cfg(test)]
 mod tests;
@@ -9,8 +10,11 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 
 use super::figure::Figure;
-use super::labels::{Anatomy, Class, Facing, Label, Limb, Piece, Side, Tip, label_facing};
+use super::labels::{
+    Anatomy, Class, Facing, Label, LabelledFigure, Limb, Piece, Side, Tip, label_drawn,
+};
 use super::skeleton::{Skeleton, Transform};
+pub use elbows::bent_arms;
 use names::Names;
 
 /// A figure matched with a skeleton.
@@ -29,6 +33,8 @@ pub struct Matching {
 pub struct MatchedPart {
     /// What the part is; `None` if neither its name nor its place tells.
     pub label: Option<Label>,
+    /// Whether it belongs to a limb that the figure spreads: a wing, a tentacle, a leg where there are three pairs or more.
+    pub splayed: bool,
     /// What drives it; a part without a drive follows its parent.
     pub drive: Option<Drive>,
     /// Why that drive, or why none, for people to read.
@@ -81,7 +87,7 @@ impl Drive {
 }
 
 /// A problem that was found while matching.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Problem {
     /// A part's string names a joint that the skeleton does not have. The part is matched as if it named none.
     UnknownBone {
@@ -125,6 +131,13 @@ pub enum Problem {
         /// The parts that it would drive.
         parts: Vec<usize>,
     },
+    /// An arm is drawn in one piece, and the motion bends its elbow so much that the arm's end is far from where it should be.
+    BentArm {
+        /// The part.
+        part: usize,
+        /// How far, in the median, as a share of the arm's length.
+        error: f64,
+    },
     /// No joint drives any part.
     NothingMatched,
 }
@@ -134,16 +147,20 @@ pub enum Problem {
 /// A limb of one piece follows the whole chain, shoulder to wrist or hip to ankle, and takes a hand or foot along. Of two
 /// pieces one follows the upper and one the lower bone; a third is the hand or foot. Every second pair of legs, counted from
 /// the hind end, follows the other side's leg; arms never swap sides. A trunk of one piece follows the chest, to which head and
-/// arms are attached; several pieces are spread over the spine, the topmost on the chest. Hips follow the hips. `anatomy`
-/// belongs to the skeleton.
+/// arms are attached; several pieces are spread over the spine, the topmost on the chest. Hips follow the hips. Splayed limbs
+/// keep their drawn pose and follow only the change, unless `Carry` says otherwise. `anatomy` belongs to the skeleton.
 pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> Matching {
-    let (labels, facing) = label_facing(figure);
+    let LabelledFigure {
+        labels,
+        splayed,
+        facing,
+    } = label_drawn(figure);
     let mut problems = Vec::new();
     let names = Names::new(skeleton);
     let mut parts = Vec::with_capacity(labels.len());
     let mut lacking = Vec::new();
     let matcher = Matcher::new(skeleton, anatomy, &labels);
-    for (part, label) in labels.into_iter().enumerate() {
+    for ((part, label), splayed) in labels.into_iter().enumerate().zip(splayed) {
         let bones = &figure.parts[part].bones;
         let class = label.as_ref().map(|label| label.class);
         let found = match names.bones(part, bones, class, anatomy, &mut problems) {
@@ -154,10 +171,20 @@ pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> 
             },
         };
         let (drive, why) = match found {
-            Ok((drive, why)) => (Some(drive), why),
+            Ok((drive, why)) => {
+                let own = class.filter(|class| class.is_limb());
+                let carry = figure.parts[part].carry.filter(|_| own.is_some());
+                let (drive, way) = carried(drive, carry, splayed);
+                (Some(drive), why + way)
+            }
             Err(why) => (None, why),
         };
-        parts.push(MatchedPart { label, drive, why });
+        parts.push(MatchedPart {
+            label,
+            splayed,
+            drive,
+            why,
+        });
     }
     problems.append(&mut lacking);
     if parts.iter().all(|part| part.drive.is_none()) {
@@ -167,6 +194,26 @@ pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> 
         parts,
         facing,
         problems,
+    }
+}
+
+/// What a limb takes over from its joint: what `Carry` says, else the change if it is splayed; and why, for people to read.
+fn carried(drive: Drive, carry: Option<Follow>, splayed: bool) -> (Drive, &'static str) {
+    let change = Drive {
+        follow: Follow::Change,
+        ..drive
+    };
+    match (carry, splayed) {
+        (Some(Follow::Direction), _) => (drive, "; its string says `Carry direction`"),
+        (Some(Follow::Change | Follow::Trunk { .. }), _) => (
+            change,
+            "; its string says `Carry change`, so it keeps its drawn pose and takes over the change only",
+        ),
+        (None, true) => (
+            change,
+            "; it is splayed, so it keeps its drawn pose and takes over the change only",
+        ),
+        (None, false) => (drive, ""),
     }
 }
 

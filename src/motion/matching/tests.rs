@@ -1,4 +1,4 @@
-use super::{Follow, MatchedPart, Problem, match_figure};
+use super::{Follow, MatchedPart, Problem, bent_arms, match_figure};
 use crate::motion::bvh;
 use crate::motion::figure::Figure;
 use crate::motion::labels::tests::figures::{ANT, DOG, figure};
@@ -17,9 +17,10 @@ fn drives(figure: &Figure, clip: &Clip) -> (Vec<String>, Vec<Problem>) {
     let short = |part: &MatchedPart| match part.drive {
         None => "-".to_owned(),
         Some(drive) => {
-            assert_eq!(drive.tip.is_some(), drive.follow == Follow::Direction);
+            assert!(drive.tip.is_some() || drive.follow == Follow::Change);
             let name = |joint: usize| skeleton.joints[joint].name.clone();
-            match drive.tip {
+            let tip = drive.tip.filter(|_| drive.follow == Follow::Direction);
+            match tip {
                 None => name(drive.joint),
                 Some(Tip::Joint(tip)) => format!("{} > {}", name(drive.joint), name(tip)),
                 Some(Tip::End { joint, .. }) => {
@@ -136,6 +137,49 @@ fn a_dog_trots() {
         "LeftKnee > LeftAnkle",
     ];
     check(&figure(&DOG), &boxing(), &expected);
+}
+
+#[test]
+fn splayed_limbs_follow_the_change() {
+    let bird = |carry: Option<Follow>| {
+        let mut bird = figure(&[
+            ("body", "", [0.0, 20.0], [0.0, 60.0], 15.0),
+            ("left wing", "body", [15.0, 50.0], [60.0, 70.0], 6.0),
+            ("left leg", "body", [8.0, 20.0], [8.0, 0.0], 2.0),
+        ]);
+        for part in &mut bird.parts {
+            part.carry = carry;
+        }
+        drives(&bird, &boxing()).0
+    };
+    let leg = "LeftHip > LeftAnkle";
+    assert_eq!(bird(None), ["Chest", "LeftShoulder", leg]);
+    let direction = bird(Some(Follow::Direction));
+    assert_eq!(direction, ["Chest", "LeftShoulder > LeftWrist", leg]);
+    let change = bird(Some(Follow::Change));
+    assert_eq!(change, ["Chest", "LeftShoulder", "LeftHip"]);
+}
+
+#[test]
+fn stretched_arms_on_a_boxer() {
+    let human = figure(&[
+        ("Body", "", [50.0, 50.0], [50.0, 85.0], 10.0),
+        ("Rarm", "Body", [40.0, 82.0], [30.0, 50.0], 3.0),
+        ("Larm", "Body", [60.0, 82.0], [66.0, 66.0], 3.0),
+        ("Lforearm", "Larm", [66.0, 66.0], [70.0, 50.0], 3.0),
+        ("Rleg", "Body", [45.0, 50.0], [45.0, 0.0], 3.0),
+    ]);
+    let bent = |clip: &Clip| {
+        let anatomy = label_clip(clip);
+        let matching = match_figure(&human, &clip.skeleton, &anatomy);
+        bent_arms(&matching, clip, &anatomy)
+    };
+    match bent(&boxing()).as_slice() {
+        [Problem::BentArm { part: 1, error }] => assert!((0.25..1.0).contains(error), "{error}"),
+        other => panic!("{other:?}"),
+    }
+    let zombie = include_bytes!("../../../examples/motion/zombie-walk.bvh");
+    assert_eq!(bent(&bvh::read_bytes(zombie).unwrap().clip), []);
 }
 
 fn with_bones(bones: &[&str]) -> Figure {

@@ -6,7 +6,7 @@ use crate::motion::figure::{Figure, FigurePart};
 use crate::motion::labels::{Class, Label, Piece, Side, label_figure};
 
 /// A part: its name, what it hangs on, its joint, its tip, and half its width.
-type Row<'a> = (&'a str, &'a str, [f64; 2], [f64; 2], f64);
+pub(super) type Row<'a> = (&'a str, &'a str, [f64; 2], [f64; 2], f64);
 
 /// A figure of rods that were drawn in this order.
 pub(crate) fn figure(rows: &[Row<'_>]) -> Figure {
@@ -24,6 +24,7 @@ pub(crate) fn figure(rows: &[Row<'_>]) -> Figure {
                 bounds: [joint.min(tip) - across, joint.max(tip) + across],
                 drawing_order: drawn,
                 bones: Vec::new(),
+                carry: None,
             }
         });
     Figure {
@@ -54,7 +55,7 @@ pub(crate) fn short(label: &Option<Label>) -> String {
     text
 }
 
-fn check(rows: &[Row<'_>], expected: &[&str]) {
+pub(super) fn check(rows: &[Row<'_>], expected: &[&str]) {
     let figure = figure(rows);
     let labels = label_figure(&figure);
     let found: Vec<String> = labels.iter().map(short).collect();

@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use super::limbs;
 use crate::motion::bvh;
-use crate::motion::labels::{Anatomy, Class, Side, Tip, label_clip, label_skeleton};
-use crate::motion::skeleton::{Axis, Channel, Clip, Skeleton};
+use crate::motion::labels::{Anatomy, Class, Limb, Side, Tip, label_clip, label_skeleton};
+use crate::motion::skeleton::{Axis, Channel, Clip, Joint, Skeleton};
 
 const FILES: [(&str, &[u8], [&str; 4]); 4] = [
     (
@@ -247,5 +247,47 @@ fn a_hand_points_to_its_middle_finger() {
             _ => "end of RightWrist",
         };
         assert_eq!(tip, expected, "{name}");
+    }
+}
+
+/// The clip with a joint that only twists in the middle of each bone of the limbs, and the places of the old joints.
+fn with_twist_joints(clip: &Clip, anatomy: &Anatomy) -> (Clip, Vec<usize>) {
+    let of_limb = |limb: &Limb| [limb.lower, limb.end];
+    let split: Vec<usize> = anatomy.limbs.iter().flat_map(of_limb).flatten().collect();
+    let mut joints: Vec<Joint> = Vec::new();
+    let mut places = Vec::new();
+    let mut new = Vec::new();
+    for (index, joint) in clip.skeleton.joints.iter().enumerate() {
+        let mut joint = joint.clone();
+        joint.parent = joint.parent.map(|parent: usize| places[parent]);
+        if split.contains(&index) {
+            joint.offset /= 2.0;
+            new.push(joints.len());
+            joints.push(Joint {
+                channels: Vec::new(),
+                ends: Vec::new(),
+                ..joint.clone()
+            });
+            joint.parent = Some(joints.len() - 1);
+        }
+        places.push(joints.len());
+        joints.push(joint);
+    }
+    let skeleton = Arc::new(Skeleton { joints });
+    let clip = Clip::new(skeleton, clip.frame_time, clip.values().to_vec());
+    (clip, places)
+}
+
+#[test]
+fn elbows_and_knees_are_where_the_motion_bends() {
+    for (name, clip) in clips() {
+        let known = label_clip(&clip);
+        let (split, places) = with_twist_joints(&blank(&clip), &known);
+        let to = |joint: Option<usize>| joint.map(|joint| places[joint]);
+        let (limbs, _) = bones(&known);
+        let found = bones(&label_clip(&split)).0;
+        for (limb, found) in limbs.iter().zip(found) {
+            assert_eq!(found[..2], [to(limb[0]), to(limb[1])], "{name}");
+        }
     }
 }

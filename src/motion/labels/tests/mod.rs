@@ -1,6 +1,7 @@
 //! Labels of skeletons and figures.
 
 mod conventions;
+mod drawings;
 pub(crate) mod figures;
 mod files;
 mod programs;

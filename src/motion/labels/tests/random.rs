@@ -88,6 +88,7 @@ fn figure() -> impl Strategy<Value = Figure> {
                 bounds,
                 drawing_order: drawn / 2,
                 bones,
+                carry: None,
             },
         );
         Figure {
