@@ -158,8 +158,12 @@ pub fn originals(scene: &Scene, clips: &[FigureClip]) -> Option<Scene> {
     })
 }
 
-/// What drives these parts of the drawing, which are those of the matched figure, in the same order.
-pub(super) fn part_drives(parts: &[usize], matching: &Matching) -> Vec<PartDrive> {
+/// What drives these parts of the drawing, which are those of the matched figure, in the same order; and which of them swing.
+pub(super) fn part_drives(
+    parts: &[usize],
+    matching: &Matching,
+    swings: impl Fn(usize) -> bool,
+) -> Vec<PartDrive> {
     let drives = parts.iter().zip(&matching.parts);
     let drives = drives.map(|(part, matched)| PartDrive {
         part: *part,
@@ -168,7 +172,10 @@ pub(super) fn part_drives(parts: &[usize], matching: &Matching) -> Vec<PartDrive
             Follow::Direction => drive.tip,
             Follow::Change | Follow::Trunk { .. } => None,
         }),
-        why: matched.why.clone(),
+        why: match swings(*part) {
+            true => format!("{}; it swings", matched.why),
+            false => matched.why.clone(),
+        },
     });
     let mut drives: Vec<PartDrive> = drives.collect();
     drives.sort_by_key(|drive| drive.part);

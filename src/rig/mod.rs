@@ -211,7 +211,9 @@ impl ClipBuilder<'_> {
             file: link.to_owned(),
             requested_at: request.span,
             root: group.root,
-            parts: figure_clip::part_drives(&group.parts, &matched.matching),
+            parts: figure_clip::part_drives(&group.parts, &matched.matching, |part| {
+                self.context.bindings.attributes(part).swing().is_some()
+            }),
             motion: Arc::clone(motion),
             cut,
             limited_at: limits.map(|limits| limits.span),
