@@ -6,9 +6,10 @@ use super::bvh::{self, Decimals};
 use super::chart::{Chart, chart};
 use super::labels::Anatomy;
 use super::limited::{self, BestDrawings, Camera, Cut, Error, Exposure, Length, Method};
-use super::prepare::{self, PreparedClip};
+use super::looping::Cycle;
+use super::prepare::PreparedClip;
 use super::resample;
-use super::retarget::{self, Landmarks};
+use super::retarget;
 use super::skeleton::{Clip, height};
 
 /// How a motion is thinned out.
@@ -48,37 +49,27 @@ pub struct EditedClip {
     pub best_drawings: Option<BestDrawings>,
     /// Rotates the clip's world so that it stands upright and faces +z.
     pub to_model: DQuat,
-    is_resampled: bool,
+    /// The cycle that was made a loop.
+    pub cycle: Option<Cycle>,
+    is_changed: bool,
     /// Joint positions: frames × joints, in the file's unit; upright if there is a camera.
     positions: Vec<DVec3>,
     /// The same positions in the camera's picture, where speed is measured then.
     projected: Option<Vec<DVec3>>,
 }
 
-/// Prepares a clip and thins it out. With a camera, speed is measured in its picture.
-///
-/// # Errors
-/// Returns an error for a frame rate or a range that is not possible for the clip.
-pub fn edit(
-    clip: Clip,
-    options: &prepare::Options,
-    method: ExposureMethod,
-    camera: Option<Camera>,
-) -> Result<EditedClip, resample::Error> {
+/// Thins a prepared clip out. With a camera, speed is measured in its picture.
+pub fn edit(prepared: PreparedClip, method: ExposureMethod, camera: Option<Camera>) -> EditedClip {
+    let to_model = retarget::to_drawing(&prepared.clip, &prepared.landmarks());
     let PreparedClip {
         clip,
         mut positions,
-        is_resampled,
+        is_changed,
         anatomy,
-        up,
         notes,
+        cycle,
         ..
-    } = prepare::prepare(clip, options)?;
-    let landmarks = Landmarks {
-        up,
-        ..Landmarks::of(&anatomy)
-    };
-    let to_model = retarget::to_drawing(&clip, &landmarks);
+    } = prepared;
     if camera.is_some() {
         // A rotation does not change sums of squares, so only a camera needs upright positions.
         positions
@@ -94,12 +85,13 @@ pub fn edit(
         anatomy,
         notes,
         to_model,
-        is_resampled,
+        is_changed,
+        cycle,
         positions,
         projected,
     };
     edited.expose(method);
-    Ok(edited)
+    edited
 }
 
 impl EditedClip {
@@ -197,7 +189,7 @@ impl EditedClip {
         })
     }
 
-    /// Writes what is shown as BVH. Frames that were not resampled keep the very numbers that were read.
+    /// Writes what is shown as BVH. Frames that were not changed keep the very numbers that were read.
     ///
     /// # Errors
     /// Those of the output.
@@ -205,7 +197,7 @@ impl EditedClip {
         &self,
         out: &mut (impl std::io::Write + Send + ?Sized),
     ) -> std::io::Result<()> {
-        let decimals = match self.is_resampled {
+        let decimals = match self.is_changed {
             true => Decimals::Six,
             false => Decimals::All,
         };

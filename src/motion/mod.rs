@@ -5,15 +5,18 @@
 
 pub mod bvh;
 pub mod chart;
+pub mod clips;
 pub mod edit;
 pub mod figure;
 pub mod labels;
 pub mod lead_in;
 pub mod limited;
+pub mod looping;
 pub mod matching;
 pub mod prepare;
 pub mod resample;
 pub mod retarget;
 pub mod skeleton;
 pub mod skeleton_model;
+pub mod travel;
 pub mod up;

@@ -12,16 +12,20 @@ mod tracks;
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::bind::{Bindings, ClipLimits, ClipRequest, MotionSource};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::Frame;
 use crate::memo::{Memo, Same};
+use crate::motion::clips::{BuiltIn, Legs};
 use crate::motion::figure::Figure;
 use crate::motion::labels::Class;
 use crate::motion::limited::{self, Cut, Length};
 use crate::motion::matching::{Matching, match_figure};
-use crate::motion::prepare::PreparedClip;
-use crate::motion::retarget::{Landmarks, RetargetedClip, retarget};
+use crate::motion::prepare::{self, PreparedClip};
+use crate::motion::retarget::{RetargetedClip, retarget};
+use crate::motion::travel::travel;
 use crate::resolver::Resolver;
 use crate::scene::{Scene, WorldTransform};
 use crate::svg::Drawing;
@@ -56,6 +60,18 @@ pub struct Context<'a> {
     pub frames: &'a [Frame],
     /// Per main part the parts whose solids are in its node.
     pub parts_of_node: &'a [Vec<usize>],
+}
+
+/// A clip that comes along, as the key of a cached [`PreparedClip`].
+#[derive(PartialEq, Eq, Hash)]
+struct BuiltInKey(BuiltIn, Legs);
+
+/// A motion that a string asks for.
+enum Motion {
+    /// That of a file.
+    File(Arc<PreparedClip>),
+    /// One that comes along: which clip it is depends on the figure.
+    BuiltIn(BuiltIn),
 }
 
 /// A figure matched with a clip.
@@ -96,10 +112,14 @@ pub fn add_clips(
     let mut files = MotionFiles::default();
     let (mut keys, mut matches) = (0_usize, 0_usize);
     for request in &requests {
-        let MotionSource::File(link) = request.source else {
-            continue;
+        let (link, motion) = match request.source {
+            MotionSource::File(link) => {
+                let motion = files.get(link, request, resolver, memo, diagnostics);
+                (link, motion.map(Motion::File))
+            }
+            MotionSource::BuiltIn(word) => (word, BuiltIn::from_name(word).map(Motion::BuiltIn)),
         };
-        let Some(motion) = files.get(link, request, resolver, memo, diagnostics) else {
+        let Some(motion) = motion else {
             continue;
         };
         let mut is_played = false;
@@ -113,6 +133,10 @@ pub fn add_clips(
                 is_played = true;
                 break;
             }
+            let motion = match &motion {
+                Motion::File(motion) => Arc::clone(motion),
+                Motion::BuiltIn(which) => builder.built_in(*which, group),
+            };
             let Some(matched) = builder.match_figure(group, &motion) else {
                 continue;
             };
@@ -144,6 +168,15 @@ struct ClipBuilder<'a> {
 }
 
 impl ClipBuilder<'_> {
+    /// A clip that comes along, for as many legs as a figure has.
+    fn built_in(&self, which: BuiltIn, group: &FigureGroup) -> Arc<PreparedClip> {
+        let figure = rigging::drawn_figure(self.context, group);
+        let legs = Legs::of(&figure);
+        self.memo.get(BuiltInKey(which, legs), |key| {
+            Arc::new(prepare::built_in(key.0, key.1))
+        })
+    }
+
     /// Matches a figure with a motion; `None` if no joint drives any part.
     fn match_figure(
         &mut self,
@@ -189,6 +222,13 @@ impl ClipBuilder<'_> {
     ) {
         let group = &matched.group;
         let retargeted = self.retargeted(matched, motion);
+        let retargeted = match request.is_in_place {
+            true => {
+                let root = group.parts.iter().position(|part| *part == group.root);
+                Arc::new(in_place(&retargeted, root.unwrap_or(0), motion))
+            }
+            false => retargeted,
+        };
         let limits = request.limits.or_else(|| self.limits(group));
         let cut = limits.map(|limits| {
             let cut = self.cut([limits.omit, limits.hold], motion);
@@ -230,11 +270,7 @@ impl ClipBuilder<'_> {
         );
         let key = RetargetKey::new(&rig, motion);
         self.memo.get(key, |_| {
-            let landmarks = Landmarks {
-                up: motion.up,
-                ..Landmarks::of(&motion.anatomy)
-            };
-            Arc::new(retarget(&motion.clip, &rig, &landmarks))
+            Arc::new(retarget(&motion.clip, &rig, &motion.landmarks()))
         })
     }
 
@@ -259,5 +295,52 @@ impl ClipBuilder<'_> {
         let limits = all.filter_map(|part| bindings.limits_of_clips(*part));
         let (_, limits) = limits.min_by_key(|(from, _)| *from)?;
         Some(limits)
+    }
+}
+
+/// The clip without the travel of the figure's root over the ground.
+fn in_place(clip: &RetargetedClip, root: usize, motion: &PreparedClip) -> RetargetedClip {
+    let mut clip = clip.clone();
+    let fps = 1.0 / motion.clip.frame_time;
+    let travel = match clip.translations.get(root) {
+        Some(Some(path)) => travel(path, DVec3::Y, fps, motion.ending),
+        _ => Vec::new(),
+    };
+    for path in clip.translations.iter_mut().flatten() {
+        for (place, travel) in path.iter_mut().zip(&travel) {
+            *place -= *travel;
+        }
+    }
+    clip
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lang::keyword::vocabulary::CLIPS;
+
+    #[test]
+    fn every_word_is_a_clip() {
+        let words: Vec<&str> = CLIPS.iter().map(|word| word.name).collect();
+        assert_eq!(words, BuiltIn::ALL.map(BuiltIn::name));
+    }
+
+    #[test]
+    fn in_place_all_nodes_lose_the_travel_of_the_root() {
+        let motion = prepare::built_in(BuiltIn::Walk, Legs::Two);
+        let path = |x: f64| {
+            (0..25)
+                .map(|t| DVec3::new(x, 1.0, 2.0 * f64::from(t)))
+                .collect()
+        };
+        let clip = RetargetedClip {
+            translations: vec![Some(path(0.0)), None, Some(path(5.0))],
+            ..RetargetedClip::default()
+        };
+        let still = in_place(&clip, 0, &motion);
+        for (path, x) in still.translations.iter().flatten().zip([0.0, 5.0]) {
+            let place = DVec3::new(x, 1.0, 0.0);
+            assert!(path.iter().all(|at| at.distance(place) < 1e-9));
+        }
     }
 }
