@@ -107,13 +107,8 @@ fn whole(frames: usize) {
         times[0].push(begun.elapsed());
         let begun = Instant::now();
         out.clear();
-        let edited = edit(
-            read(&text),
-            &prepare::Options::default(),
-            method,
-            PointChoice::Seen,
-            None,
-        );
+        let prepared = prepare::prepare(read(&text), &prepare::Options::default());
+        let edited = prepared.map(|prepared| edit(prepared, method, PointChoice::Seen, None));
         let written = edited.map(|edited| edited.write_bvh(&mut out).is_ok());
         assert_eq!(written, Ok(true));
         times[1].push(begun.elapsed());

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::export::{EXPORTERS, extensions};
+use crate::motion::clips::Legs;
 use crate::motion::limited::Camera;
 use crate::motion::measured::PointChoice;
 use crate::motion::resample::{Range, parse_range};
@@ -265,9 +266,12 @@ to 24 frames a second, and then reduced. Frames count from 1. A drawing links to
 #[derive(Debug, Args)]
 #[command(after_help = MOTION_EXAMPLES)]
 pub(super) struct Motion {
-    /// The motion, a BVH file; `-` is stdin
-    #[arg(value_name = "IN.bvh")]
+    /// The motion, a BVH file (`-` is stdin), or a clip that comes along: walk, run, trot, sneak, jump, idle, wave, dance, punch
+    #[arg(value_name = "IN.bvh|WORD")]
     pub(super) motion: PathBuf,
+    /// The legs of a clip that comes along
+    #[arg(long, value_name = "N", default_value = "2", value_parser = legs)]
+    pub(super) legs: Legs,
     #[arg(short, long, value_name = "OUT", help = motion_output_help())]
     pub(super) output: Option<PathBuf>,
     /// Drawings to omit where the motion is fastest [default: 4]
@@ -309,6 +313,12 @@ pub(super) struct Motion {
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
     pub(super) up: Option<UpAxis>,
 
+    /// Remove the travel over the ground
+    #[arg(short, long)]
+    pub(super) in_place: bool,
+    /// Make a loop of the best cycle of the motion
+    #[arg(short = 'l', long = "loop")]
+    pub(super) is_loop: bool,
     /// Measure speed as seen by a camera: degrees to the body's left, degrees up and, for perspective, the distance
     /// in the file's unit
     #[arg(long, value_name = "YAW,PITCH[,DISTANCE]", value_parser = camera, allow_hyphen_values = true)]
@@ -319,6 +329,13 @@ pub(super) struct Motion {
     /// Continue with the frames before a damaged one
     #[arg(long)]
     pub(super) keep_going: bool,
+}
+
+fn legs(text: &str) -> Result<Legs, String> {
+    let found = Legs::ALL
+        .into_iter()
+        .find(|legs| legs.count().to_string() == text);
+    found.ok_or_else(|| "expected 2, 4 or 6".to_owned())
 }
 
 fn range(text: &str) -> Result<Range, String> {

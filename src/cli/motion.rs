@@ -9,6 +9,7 @@ use super::{Outcome, fail, print_out};
 use crate::disk::{Inputs, Naming, Target, WriteError, open_stream};
 use crate::export::{self, Exporter};
 use crate::motion::bvh::{self, Reading};
+use crate::motion::clips::BuiltIn;
 use crate::motion::edit::{EditedClip, ExposureMethod, edit};
 use crate::motion::labels::{Anatomy, Label};
 use crate::motion::limited::{self, Error, Length, Method};
@@ -45,40 +46,7 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
         inputs = inputs.writing(output);
     }
     let name = arguments.motion.display().to_string();
-    let stream = match open_stream(&arguments.motion) {
-        Ok(stream) => stream,
-        Err(error) => return fail(&error.to_string()),
-    };
-    let reading = match spinning("reading", || bvh::read(stream)) {
-        Ok(reading) => reading,
-        Err(mut error) => {
-            let rescued = error.partial.take().filter(|clip| clip.frames() > 0);
-            fail(&format!("{name}: {error}"));
-            eprintln!("  help: {}", error.help);
-            match rescued {
-                Some(clip) if arguments.keep_going => {
-                    eprintln!("  continuing with the {} before it", frames(clip.frames()));
-                    Reading {
-                        clip: *clip,
-                        notes: Vec::new(),
-                    }
-                }
-                Some(clip) => {
-                    eprintln!(
-                        "  help: --keep-going continues with the {} before it",
-                        frames(clip.frames())
-                    );
-                    return Outcome::Failed;
-                }
-                None => return Outcome::Failed,
-            }
-        }
-    };
     let mut messages = String::new();
-    for note in &reading.notes {
-        let _ = writeln!(messages, "  {note}");
-    }
-    let opening = describe(&reading.clip);
     let options = prepare::Options {
         fps: arguments.fps,
         lead_in: if arguments.keep_rest {
@@ -88,23 +56,40 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
         },
         range: arguments.range,
         up: arguments.up,
+        is_loop: arguments.is_loop,
+        is_in_place: arguments.in_place,
+    };
+    let (opening, prepared) = match built_in(arguments) {
+        Some(which) => {
+            let clip = prepare::built_in(which, arguments.legs);
+            (describe(&clip.clip), clip.change(&options))
+        }
+        None => match read(arguments, &name) {
+            Ok(reading) => {
+                for note in &reading.notes {
+                    let _ = writeln!(messages, "  {note}");
+                }
+                let opening = describe(&reading.clip);
+                let prepared = spinning("cutting", || prepare::prepare(reading.clip, &options));
+                (opening, prepared)
+            }
+            Err(outcome) => return outcome,
+        },
+    };
+    let prepared = match prepared {
+        Ok(prepared) => prepared,
+        Err(error) => return fail(&format!("`{name}`: {error}")),
     };
     let method = exposure_method(arguments);
     let edited = spinning("cutting", || {
-        edit(
-            reading.clip,
-            &options,
-            method,
-            arguments.points,
-            arguments.camera,
-        )
+        edit(prepared, method, arguments.points, arguments.camera)
     });
-    let edited = match edited {
-        Ok(edited) => edited,
-        Err(error) => return fail(&format!("`{name}`: {error}")),
-    };
     for note in &edited.notes {
         let _ = writeln!(messages, "  {note}");
+    }
+    if let Some(cycle) = edited.cycle {
+        let (first, last) = (cycle.first + 1, cycle.last + 1);
+        let _ = writeln!(messages, "  a loop of the frames {first} to {last}");
     }
     let mut wrote = String::new();
     let mut count = 0;
@@ -134,6 +119,36 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
     }
 }
 
+/// The clip that comes along that the argument names; a file of that name is `./walk`.
+fn built_in(arguments: &Motion) -> Option<BuiltIn> {
+    arguments.motion.to_str().and_then(BuiltIn::from_name)
+}
+
+/// Reads the motion file; failures are reported.
+fn read(arguments: &Motion, name: &str) -> Result<Reading, Outcome> {
+    let stream = open_stream(&arguments.motion).map_err(|error| fail(&error.to_string()))?;
+    let mut error = match spinning("reading", || bvh::read(stream)) {
+        Ok(reading) => return Ok(reading),
+        Err(error) => error,
+    };
+    let rescued = error.partial.take().filter(|clip| clip.frames() > 0);
+    let outcome = fail(&format!("{name}: {error}"));
+    eprintln!("  help: {}", error.help);
+    let Some(clip) = rescued else {
+        return Err(outcome);
+    };
+    let before = frames(clip.frames());
+    if !arguments.keep_going {
+        eprintln!("  help: --keep-going continues with the {before} before it");
+        return Err(outcome);
+    }
+    eprintln!("  continuing with the {before} before it");
+    Ok(Reading {
+        clip: *clip,
+        notes: Vec::new(),
+    })
+}
+
 /// What to write, by the ending of the output's name.
 fn kind(output: &Path) -> Result<Kind, String> {
     let ending = output
@@ -156,8 +171,11 @@ fn kind(output: &Path) -> Result<Kind, String> {
 
 /// How to thin out the motion, by the arguments.
 fn exposure_method(arguments: &Motion) -> ExposureMethod {
+    let is_limited = arguments.omit.is_some() || arguments.hold.is_some() || arguments.shorten;
     match (arguments.every, arguments.drawings) {
         _ if arguments.full => ExposureMethod::Full,
+        // Clips that come along are even motions, from which nothing is omitted unasked.
+        (None, None) if built_in(arguments).is_some() && !is_limited => ExposureMethod::Full,
         (Some(every), _) => ExposureMethod::Every(every),
         (None, Some(drawings)) => ExposureMethod::Drawings(drawings),
         (None, None) => ExposureMethod::Limited {

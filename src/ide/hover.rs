@@ -433,6 +433,8 @@ mod tests {
             ),
             ("Rarm@Body$Shape -¦d round", "`-d`: a second, mirrored copy"),
             ("Rarm@Body$Origin st¦art", "`start`: the end point nearer"),
+            ("Rarm@Body$Motion wa¦lk", "`walk`: a walk; on four legs"),
+            ("Rarm@Body$Motion -¦i run", "`-i`: in place"),
             ("Rarm@Body$Offset ¦w", "`w` is 12, by `%Let w 12`"),
             ("Rarm@Body$Offset (w * ¦2)", "Its value here is 24."),
             ("Rarm@Bo¦dy", "**Body**"),

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::keyword::kinds::{KINDS, Kind};
-use super::keyword::signature::{Form, Takes};
+use super::keyword::signature::{Form, Parameter, Takes};
 use super::keyword::vocabulary::{FUNCTIONS, STRINGS};
 use super::keyword::{Keyword, Status};
 use crate::diagnostic::Code;
@@ -131,7 +131,14 @@ pub fn overview() -> String {
 /// A list of the parameters of some forms; empty if the printed forms say everything.
 pub(super) fn parameters(forms: &[Form]) -> String {
     let mut out = String::new();
-    for parameter in forms.iter().flat_map(|form| form.parameters) {
+    let all: Vec<&Parameter> = forms.iter().flat_map(|form| form.parameters).collect();
+    for (index, parameter) in all.iter().enumerate() {
+        let same =
+            |other: &&Parameter| (other.name, other.summary) == (parameter.name, parameter.summary);
+        // Several forms can have it.
+        if all[..index].iter().any(same) {
+            continue;
+        }
         match &parameter.takes {
             Takes::Choice(words) => {
                 for word in *words {

@@ -73,6 +73,10 @@ pub(super) fn form_by_first_argument(
             .any(|choice| choice.name.eq_ignore_ascii_case(word)),
         (Some(Takes::ColourName), ArgumentKind::Word(word)) => colours::is_colour(word),
         (Some(Takes::File), ArgumentKind::Quoted(_)) => fits_second(form, attribute),
+        // A file name with an ending is read without quotes.
+        (Some(Takes::File), ArgumentKind::Word(word)) if word.contains('.') => {
+            fits_second(form, attribute)
+        }
         _ => false,
     };
     // Words of the language have precedence over variables with the same name.

@@ -6,10 +6,11 @@ use super::bvh::{self, Decimals};
 use super::chart::{Chart, chart};
 use super::labels::Anatomy;
 use super::limited::{self, BestDrawings, Camera, Cut, Error, Exposure, Length, Method, Poses};
+use super::looping::Cycle;
 use super::measured::{Measured, PointChoice};
-use super::prepare::{self, PreparedClip};
+use super::prepare::PreparedClip;
 use super::resample;
-use super::retarget::{self, Landmarks};
+use super::retarget;
 use super::skeleton::{Clip, height};
 
 /// How a motion is thinned out.
@@ -49,7 +50,9 @@ pub struct EditedClip {
     pub best_drawings: Option<BestDrawings>,
     /// Rotates the clip's world so that it stands upright and faces +z.
     pub to_model: DQuat,
-    is_resampled: bool,
+    /// The cycle that was made a loop.
+    pub cycle: Option<Cycle>,
+    is_changed: bool,
     /// Where speed is measured, in the file's unit; upright if there is a camera.
     measured: Measured,
     /// The same points in the camera's picture, where speed is measured then.
@@ -58,31 +61,23 @@ pub struct EditedClip {
     height: f64,
 }
 
-/// Prepares a clip and thins it out. With a camera, speed is measured in its picture.
-///
-/// # Errors
-/// Returns an error for a frame rate or a range that is not possible for the clip.
+/// Thins a prepared clip out. With a camera, speed is measured in its picture.
 pub fn edit(
-    clip: Clip,
-    options: &prepare::Options,
+    prepared: PreparedClip,
     method: ExposureMethod,
     points: PointChoice,
     camera: Option<Camera>,
-) -> Result<EditedClip, resample::Error> {
+) -> EditedClip {
+    let to_model = retarget::to_drawing(&prepared.clip, &prepared.landmarks());
     let PreparedClip {
         clip,
         positions,
-        is_resampled,
+        is_changed,
         anatomy,
-        up,
         notes,
+        cycle,
         ..
-    } = prepare::prepare(clip, options)?;
-    let landmarks = Landmarks {
-        up,
-        ..Landmarks::of(&anatomy)
-    };
-    let to_model = retarget::to_drawing(&clip, &landmarks);
+    } = prepared;
     let first = positions.iter().take(clip.skeleton.joints.len());
     let height = height(first.map(|position| to_model * *position));
     let mut measured = Measured::of_clip(&clip, &positions, &anatomy, points);
@@ -100,13 +95,14 @@ pub fn edit(
         anatomy,
         notes,
         to_model,
-        is_resampled,
+        is_changed,
+        cycle,
         measured,
         projected,
         height,
     };
     edited.expose(method);
-    Ok(edited)
+    edited
 }
 
 impl EditedClip {
@@ -181,7 +177,7 @@ impl EditedClip {
         })
     }
 
-    /// Writes what is shown as BVH. Frames that were not resampled keep the very numbers that were read.
+    /// Writes what is shown as BVH. Frames that were not changed keep the very numbers that were read.
     ///
     /// # Errors
     /// Those of the output.
@@ -189,7 +185,7 @@ impl EditedClip {
         &self,
         out: &mut (impl std::io::Write + Send + ?Sized),
     ) -> std::io::Result<()> {
-        let decimals = match self.is_resampled {
+        let decimals = match self.is_changed {
             true => Decimals::Six,
             false => Decimals::All,
         };

@@ -5,11 +5,13 @@
 
 pub mod bvh;
 pub mod chart;
+pub mod clips;
 pub mod edit;
 pub mod figure;
 pub mod labels;
 pub mod lead_in;
 pub mod limited;
+pub mod looping;
 pub mod matching;
 pub mod measured;
 pub mod prepare;
@@ -17,4 +19,5 @@ pub mod resample;
 pub mod retarget;
 pub mod skeleton;
 pub mod skeleton_model;
+pub mod travel;
 pub mod up;

@@ -2,11 +2,14 @@
 
 use glam::DVec3;
 
+use super::clips::{self, BuiltIn, Legs};
 use super::labels::{Anatomy, Class, Side, label_clip};
 use super::lead_in::{LeadInKind, find_lead_in};
-
+use super::looping::{self, Cycle};
 use super::resample::{self, Error, Range};
-use super::skeleton::Clip;
+use super::retarget::{self, Landmarks};
+use super::skeleton::{Axis, Clip};
+use super::travel::{self, Ending};
 use super::up::UpAxis;
 
 /// Frames per second of hand-drawn animation.
@@ -33,6 +36,10 @@ pub struct Options {
     pub range: Option<Range>,
     /// The axis of the clip's world that points up; `None` to find it.
     pub up: Option<UpAxis>,
+    /// Whether the best cycle is made a loop.
+    pub is_loop: bool,
+    /// Whether the body stays in place.
+    pub is_in_place: bool,
 }
 
 impl Default for Options {
@@ -42,6 +49,8 @@ impl Default for Options {
             lead_in: LeadInPolicy::Drop,
             range: None,
             up: None,
+            is_loop: false,
+            is_in_place: false,
         }
     }
 }
@@ -53,14 +62,36 @@ pub struct PreparedClip {
     pub clip: Clip,
     /// Joint positions: frames × joints, in the file's unit.
     pub positions: Vec<DVec3>,
-    /// Whether its numbers differ from those in the file because it was resampled.
-    pub is_resampled: bool,
+    /// Whether its numbers differ from those in the file, because it was resampled, made a loop or put in place.
+    pub is_changed: bool,
     /// What its joints are.
     pub anatomy: Anatomy,
     /// The axis of the clip's world that points up, if a person names it.
     pub up: Option<UpAxis>,
+    /// Whether it ends in the pose in which it begins.
+    pub ending: Ending,
+    /// The cycle that was made a loop, its frames counted from 0 before the others were removed.
+    pub cycle: Option<Cycle>,
     /// What was done to it, for people to read.
     pub notes: Vec<String>,
+}
+
+/// A clip that comes along. It has 24 frames a second, no lead-in, and is a loop.
+pub fn built_in(which: BuiltIn, legs: Legs) -> PreparedClip {
+    let (clip, anatomy) = clips::clip(which, legs);
+    PreparedClip {
+        positions: clip.positions(),
+        clip,
+        is_changed: false,
+        anatomy,
+        up: Some(UpAxis {
+            axis: Axis::Y,
+            is_negative: false,
+        }),
+        ending: Ending::Loop,
+        cycle: None,
+        notes: Vec::new(),
+    }
 }
 
 /// Prepares a clip.
@@ -70,37 +101,89 @@ pub struct PreparedClip {
 pub fn prepare(clip: Clip, options: &Options) -> Result<PreparedClip, Error> {
     let anatomy = label_clip(&clip);
     let joints = clip.skeleton.joints.len();
-    let mut positions = clip.positions();
+    let positions = clip.positions();
     let mut notes = Vec::new();
     let first = match options.lead_in {
         LeadInPolicy::Drop => lead_in_frames(&clip, &positions, &anatomy, &mut notes),
         LeadInPolicy::Keep => 0,
     };
-    let clip = match first {
-        0 => clip,
-        first => clip.select_frames(first..clip.frames()),
-    };
-    positions.drain(..first * joints);
-    let (frames, step) = (clip.frames(), clip.frame_time);
-    let mut clip = resample::resample(clip, options.fps)?;
-    let is_resampled = (clip.frames(), clip.frame_time) != (frames, step);
-    // A clip that was not resampled keeps its positions.
-    if is_resampled {
-        positions = clip.positions();
-    }
-    if let Some(range) = options.range {
-        clip = resample::range(&clip, range)?;
-        positions.drain(..(range.first - 1) * joints);
-        positions.truncate(clip.frames() * joints);
-    }
-    Ok(PreparedClip {
+    let mut prepared = PreparedClip {
         clip,
         positions,
-        is_resampled,
+        is_changed: false,
         anatomy,
         up: options.up,
+        ending: Ending::Open,
+        cycle: None,
         notes,
-    })
+    };
+    if first > 0 {
+        let frames = first..prepared.clip.frames();
+        prepared.clip = prepared.clip.select_frames(frames);
+        prepared.positions.drain(..first * joints);
+    }
+    prepared.change(options)
+}
+
+impl PreparedClip {
+    /// The same clip at another rate, of a range of its frames, as a loop, in place, as far as the options ask for it.
+    ///
+    /// # Errors
+    /// Returns an error for a frame rate or a range that is not possible for the clip.
+    pub fn change(mut self, options: &Options) -> Result<Self, Error> {
+        let joints = self.clip.skeleton.joints.len();
+        let (frames, step) = (self.clip.frames(), self.clip.frame_time);
+        self.clip = resample::resample(self.clip, options.fps)?;
+        // A clip that was not resampled keeps its positions.
+        if (self.clip.frames(), self.clip.frame_time) != (frames, step) {
+            self.is_changed = true;
+            self.positions = self.clip.positions();
+        }
+        if let Some(range) = options.range {
+            self.clip = resample::range(&self.clip, range)?;
+            self.positions.drain(..(range.first - 1) * joints);
+            self.positions.truncate(self.clip.frames() * joints);
+            self.ending = Ending::Open;
+        }
+        if options.is_loop && self.ending == Ending::Open {
+            match looping::looped(&self.clip, &self.anatomy, self.up_direction()) {
+                Some((clip, cycle)) => {
+                    self.replace(clip);
+                    self.ending = Ending::Loop;
+                    self.cycle = Some(cycle);
+                }
+                None => self.notes.push(
+                    "it is too short to be made a loop, which takes half a second: it is left as it is"
+                        .to_owned(),
+                ),
+            }
+        }
+        if options.is_in_place {
+            let hips = self.anatomy.hips.unwrap_or(0);
+            let up = self.up_direction();
+            self.replace(travel::in_place(&self.clip, hips, up, self.ending));
+        }
+        Ok(self)
+    }
+
+    fn replace(&mut self, clip: Clip) {
+        self.positions = clip.positions();
+        self.clip = clip;
+        self.is_changed = true;
+    }
+
+    /// What defines how the body is oriented.
+    pub fn landmarks(&self) -> Landmarks {
+        Landmarks {
+            up: self.up,
+            ..Landmarks::of(&self.anatomy)
+        }
+    }
+
+    /// The axis of the clip's world that points up.
+    fn up_direction(&self) -> DVec3 {
+        retarget::to_drawing(&self.clip, &self.landmarks()).inverse() * DVec3::Y
+    }
 }
 
 /// The number of frames before the motion begins.

@@ -13,17 +13,21 @@ mod tracks;
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use crate::bind::{Bindings, ClipLimits, ClipRequest, MotionSource};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness};
 use crate::memo::{Memo, Same};
+use crate::motion::clips::{BuiltIn, Legs};
 use crate::motion::figure::Figure;
 use crate::motion::labels::Class;
 use crate::motion::limited::{self, Cut, Length};
 use crate::motion::matching::{Matching, bent_arms, match_figure};
 use crate::motion::measured::Measured;
-use crate::motion::prepare::PreparedClip;
-use crate::motion::retarget::{Landmarks, RetargetedClip, retarget};
+use crate::motion::prepare::{self, PreparedClip};
+use crate::motion::retarget::{RetargetedClip, retarget};
+use crate::motion::travel::travel;
 use crate::resolver::Resolver;
 use crate::scene::{Scene, WorldTransform};
 use crate::svg::Drawing;
@@ -41,6 +45,10 @@ const MAX_KEYS: usize = 1 << 24;
 
 /// How often a figure is matched with a motion at most.
 const MAX_MATCHES: usize = 1 << 18;
+
+/// A figure's motion, as the key of the cached one in place.
+#[derive(PartialEq, Eq, Hash)]
+struct InPlaceKey(Same<RetargetedClip>);
 
 /// A figure's motion, as the key of its cached [`Measured`] points.
 #[derive(PartialEq, Eq, Hash)]
@@ -64,6 +72,18 @@ pub struct Context<'a> {
     pub parts_of_node: &'a [Vec<usize>],
     /// Per part the thickness of its solid, `None` without one.
     pub thicknesses: &'a [Option<Thickness>],
+}
+
+/// A clip that comes along, as the key of a cached [`PreparedClip`].
+#[derive(PartialEq, Eq, Hash)]
+struct BuiltInKey(BuiltIn, Legs);
+
+/// A motion that a string asks for.
+enum Motion {
+    /// That of a file.
+    File(Arc<PreparedClip>),
+    /// One that comes along: which clip it is depends on the figure.
+    BuiltIn(BuiltIn),
 }
 
 /// A figure matched with a clip.
@@ -104,10 +124,14 @@ pub fn add_clips(
     let mut files = MotionFiles::default();
     let (mut keys, mut matches) = (0_usize, 0_usize);
     for request in &requests {
-        let MotionSource::File(link) = request.source else {
-            continue;
+        let (link, motion) = match request.source {
+            MotionSource::File(link) => {
+                let motion = files.get(link, request, resolver, memo, diagnostics);
+                (link, motion.map(Motion::File))
+            }
+            MotionSource::BuiltIn(word) => (word, BuiltIn::from_name(word).map(Motion::BuiltIn)),
         };
-        let Some(motion) = files.get(link, request, resolver, memo, diagnostics) else {
+        let Some(motion) = motion else {
             continue;
         };
         let mut is_played = false;
@@ -121,6 +145,10 @@ pub fn add_clips(
                 is_played = true;
                 break;
             }
+            let motion = match &motion {
+                Motion::File(motion) => Arc::clone(motion),
+                Motion::BuiltIn(which) => builder.built_in(*which, group),
+            };
             let Some(matched) = builder.match_figure(group, &motion) else {
                 continue;
             };
@@ -152,6 +180,15 @@ struct ClipBuilder<'a> {
 }
 
 impl ClipBuilder<'_> {
+    /// A clip that comes along, for as many legs as a figure has.
+    fn built_in(&self, which: BuiltIn, group: &FigureGroup) -> Arc<PreparedClip> {
+        let figure = rigging::drawn_figure(self.context, group);
+        let legs = Legs::of(&figure);
+        self.memo.get(BuiltInKey(which, legs), |key| {
+            Arc::new(prepare::built_in(key.0, key.1))
+        })
+    }
+
     /// Matches a figure with a motion; `None` if no joint drives any part.
     fn match_figure(
         &mut self,
@@ -198,7 +235,7 @@ impl ClipBuilder<'_> {
         diagnostics: &mut Vec<Diagnostic>,
     ) {
         let group = &matched.group;
-        let (retargeted, measured) = self.retargeted(matched, motion);
+        let (retargeted, measured) = self.retargeted(request, matched, motion);
         let limits = request.limits.or_else(|| self.limits(group));
         let cut = limits.map(|limits| {
             let cut = self.cut([limits.omit, limits.hold], &measured);
@@ -232,6 +269,7 @@ impl ClipBuilder<'_> {
 
     fn retargeted(
         &self,
+        request: &ClipRequest<'_>,
         matched: &MatchedFigure,
         motion: &Arc<PreparedClip>,
     ) -> (Arc<RetargetedClip>, Arc<Measured>) {
@@ -243,13 +281,17 @@ impl ClipBuilder<'_> {
             self.rest,
         );
         let key = RetargetKey::new(&rig, motion);
-        let retargeted = self.memo.get(key, |_| {
-            let landmarks = Landmarks {
-                up: motion.up,
-                ..Landmarks::of(&motion.anatomy)
-            };
-            Arc::new(retarget(&motion.clip, &rig, &landmarks))
+        let mut retargeted = self.memo.get(key, |_| {
+            Arc::new(retarget(&motion.clip, &rig, &motion.landmarks()))
         });
+        if request.is_in_place {
+            let group = &matched.group;
+            let root = group.parts.iter().position(|part| *part == group.root);
+            let key = InPlaceKey(Same(Arc::clone(&retargeted)));
+            retargeted = self.memo.get(key, |_| {
+                Arc::new(in_place(&retargeted, root.unwrap_or(0), motion))
+            });
+        }
         let key = MeasuredKey(Same(Arc::clone(&retargeted)));
         let measured = self
             .memo
@@ -278,5 +320,52 @@ impl ClipBuilder<'_> {
         let limits = all.filter_map(|part| bindings.limits_of_clips(*part));
         let (_, limits) = limits.min_by_key(|(from, _)| *from)?;
         Some(limits)
+    }
+}
+
+/// The clip without the travel of the figure's root over the ground.
+fn in_place(clip: &RetargetedClip, root: usize, motion: &PreparedClip) -> RetargetedClip {
+    let mut clip = clip.clone();
+    let fps = 1.0 / motion.clip.frame_time;
+    let travel = match clip.translations.get(root) {
+        Some(Some(path)) => travel(path, DVec3::Y, fps, motion.ending),
+        _ => Vec::new(),
+    };
+    for path in clip.translations.iter_mut().flatten() {
+        for (place, travel) in path.iter_mut().zip(&travel) {
+            *place -= *travel;
+        }
+    }
+    clip
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lang::keyword::vocabulary::CLIPS;
+
+    #[test]
+    fn every_word_is_a_clip() {
+        let words: Vec<&str> = CLIPS.iter().map(|word| word.name).collect();
+        assert_eq!(words, BuiltIn::ALL.map(BuiltIn::name));
+    }
+
+    #[test]
+    fn in_place_all_nodes_lose_the_travel_of_the_root() {
+        let motion = prepare::built_in(BuiltIn::Walk, Legs::Two);
+        let path = |x: f64| {
+            (0..25)
+                .map(|t| DVec3::new(x, 1.0, 2.0 * f64::from(t)))
+                .collect()
+        };
+        let clip = RetargetedClip {
+            translations: vec![Some(path(0.0)), None, Some(path(5.0))],
+            ..RetargetedClip::default()
+        };
+        let still = in_place(&clip, 0, &motion);
+        for (path, x) in still.translations.iter().flatten().zip([0.0, 5.0]) {
+            let place = DVec3::new(x, 1.0, 0.0);
+            assert!(path.iter().all(|at| at.distance(place) < 1e-9));
+        }
     }
 }

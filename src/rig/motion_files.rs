@@ -20,6 +20,7 @@ use super::{diagnostics, figure_clip};
 struct MotionKey {
     link: String,
     up: Option<UpAxis>,
+    is_loop: bool,
 }
 
 /// A file that was read.
@@ -49,6 +50,7 @@ impl MotionFiles {
         let key = MotionKey {
             link: link.to_owned(),
             up: request.up.and_then(up_axis),
+            is_loop: request.is_loop,
         };
         let first = !self.0.keys().any(|known| known.link == link);
         let file = self.0.entry(key.clone()).or_insert_with(|| {
@@ -130,6 +132,7 @@ impl MotionFile {
         let clip = clip.filter(|clip| clip.frames() > 0).and_then(|clip| {
             let options = prepare::Options {
                 up: key.up,
+                is_loop: key.is_loop,
                 ..prepare::Options::default()
             };
             match prepare(clip, &options) {

@@ -284,14 +284,8 @@ fn frames_that_are_shown_keep_their_numbers() {
         hold: Some(8),
         length: Length::Kept,
     };
-    let edited = edit(
-        clip.clone(),
-        &prepare::Options::default(),
-        how,
-        PointChoice::All,
-        None,
-    )
-    .expect("a rate");
+    let prepared = prepare::prepare(clip.clone(), &prepare::Options::default()).expect("a rate");
+    let edited = edit(prepared, how, PointChoice::All, None);
     let mut text = Vec::new();
     edited
         .write_bvh(&mut text)

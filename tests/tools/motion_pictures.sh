@@ -2,7 +2,7 @@
 # Makes the pictures of docs/motion.md from the drawings in examples/motion/: bash tests/tools/motion_pictures.sh [NAME…]
 #
 # NAME is a drawing there, without extension. The film strips show the limited clip (NAME-limited.png) and the full one
-# (NAME-full.png); drawings with only one of them get NAME.png. Requires okoshi and Python's Pillow. OKOSHI is a binary to use instead
+# (NAME-full.png); drawings with only one of them get NAME.png, and those that play a clip that comes along NAME-WORD.png. Requires okoshi and Python's Pillow. OKOSHI is a binary to use instead
 # of building one.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
@@ -36,6 +36,18 @@ single() {
   want "$1" || return 0
   strip "$room/$1.svg" "docs/motion/$2.png" "${@:3}"
 }
+# clip DRAWING WORD VIEW SIZE CELLS: the drawing plays a clip that comes along, in place.
+clip() {
+  want "$(basename "$1" .svg)" || return 0
+  local name
+  name=$(basename "$1" .svg)-$2
+  sed -E "s/Motion( -[il]+)?( \"[^\"]*\"( \"[^\"]*\")?| [a-z]+)/Motion -i $2/; s/ ?Limited [0-9]+ [0-9]+//" "$1" > "$room/$name.svg"
+  "$okoshi" render --quiet "$room/$name.svg" -o "docs/motion/$name.png" --clip 1 --view="$3" --size "$4" --strip "$5" --background '#ffffff'
+  python3 -c "
+import sys
+from PIL import Image
+Image.open(sys.argv[1]).convert('RGB').quantize(96).save(sys.argv[1], optimize=True)" "docs/motion/$name.png"
+}
 # A walk has no fast part from which in-betweens could be omitted.
 sed -i 's/Motion "walk.bvh" "walk"/& Limited 0 24/' "$room/dog.svg"
 pair kick -75,8 1.01 1.594 200x240 8
@@ -45,6 +57,15 @@ pair dog 8,8 0 1.25 220x160 8
 single beetle beetle 8,12 0 1.25 200x130 8
 single robot-ja robot 40,8 2.0 2.35 200x240 8
 single stick stick -75,8 1.01 1.594 200x240 8
+clip src/cli/templates/human.svg walk -75,8 130x170 10
+clip src/cli/templates/human.svg run -75,8 130x170 10
+clip src/cli/templates/human.svg dance 0,8 130x170 10
+clip examples/motion/dog.svg walk 8,8 160x120 8
+clip examples/motion/dog.svg run 8,8 160x120 8
+clip examples/motion/beetle.svg walk 8,12 160x120 8
+clip examples/motion/ant.svg dance 0,8 130x170 10
+clip examples/motion/bird.svg walk 8,8 160x130 8
+clip examples/motion/spider.svg walk 20,14 160x120 8
 if want kick; then
   "$okoshi" render --quiet "$room/kick.svg" -o docs/motion/kick.gif --clip kick --view=-60,8 --size 260x240 --background '#ffffff'
   "$okoshi" motion --quiet "$room/kick.bvh" -o docs/motion/kick.svg

@@ -23,12 +23,12 @@ impl Cursor<'_> {
             .string
             .and_then(|string| analysis.part_of_string(string));
         let mut proposals = vec![];
-        let mut files: Vec<&str> = vec![];
+        let mut skeletons = vec![];
         for clip in analysis.clips_for(own.or_else(typed)) {
-            if files.contains(&clip.file.as_str()) {
+            if skeletons.contains(&clip.skeleton()) {
                 continue;
             }
-            files.push(&clip.file);
+            skeletons.push(clip.skeleton());
             let below = match first {
                 None => vec![true; clip.skeleton().joints.len()],
                 Some(name) => match clip.joint_named(name) {

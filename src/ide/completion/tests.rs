@@ -55,8 +55,20 @@ fn keywords_are_proposed_where_allowed() {
 }
 
 #[test]
+fn every_motion_can_have_its_limits() {
+    let has = |string: &str| labels(string).1.contains(&"Limited".to_owned());
+    assert!(has("%Motion walk Limited 0 2 Motion run ¦"));
+    assert!(!has("%Motion walk Limited 0 2 ¦"));
+}
+
+#[test]
 fn arguments_fit_their_parameter() {
     for (string, expected) in [
+        ("Rarm@Body$Motion ¦", "walk"),
+        ("Rarm@Body$Motion ¦", "-l"),
+        ("Rarm@Body$Motion -l wa¦", "walk"),
+        ("Rarm@Body$Motion \"a.bvh\" ¦", "+z"),
+        ("Rarm@Body$Motion \"a.bvh\" crawl ¦", "-x"),
         ("Rarm@Body$Shape ¦", "inflate"),
         ("Rarm@Body$Shape ¦", "-d"),
         ("Rarm@Body$Shape -¦", "-s"),

@@ -37,13 +37,7 @@ impl Checker<'_> {
         let form = self.form(callee, attribute)?;
         let values = self.match_arguments(callee, form, &attribute.arguments)?;
         let value = match attribute.keyword {
-            Keyword::Motion => {
-                let motion = motion(attribute, &values)?;
-                if matches!(motion.source, MotionSource::BuiltIn(_)) {
-                    self.not_built("Motion", motion.source_range.clone());
-                }
-                Value::Motion(motion)
-            }
+            Keyword::Motion => Value::Motion(motion(attribute, &values)?),
             keyword => value_of(keyword, &values)?,
         };
         if let Value::Axes(axes) = &value {

@@ -38,11 +38,21 @@ impl Anatomy {
         self.spine.last().copied().or(self.hips)
     }
 
-    /// The limb of a class and a side.
+    /// The limb of a class and a side; of several the rearmost one.
     pub fn limb(&self, class: Class, side: Side) -> Option<&Limb> {
-        self.limbs
-            .iter()
-            .find(|limb| limb.class == class && limb.side == side)
+        self.limb_of_pair(class, side, 0)
+    }
+
+    /// The limb of a class, a side and a pair.
+    pub fn limb_of_pair(&self, class: Class, side: Side, pair: usize) -> Option<&Limb> {
+        let mut limbs = self.limbs.iter();
+        limbs.find(|limb| (limb.class, limb.side, limb.pair) == (class, side, pair))
+    }
+
+    /// How many pairs of legs it has.
+    pub fn leg_pairs(&self) -> usize {
+        let legs = self.limbs.iter().filter(|limb| limb.class == Class::Leg);
+        legs.map(|leg| leg.pair + 1).max().unwrap_or(0)
     }
 }
 
@@ -53,6 +63,8 @@ pub struct Limb {
     pub class: Class,
     /// Its side.
     pub side: Side,
+    /// Which limb of its class and side: 0 is the rearmost. A skeleton from a file has one of each.
+    pub pair: usize,
     /// Where the collar bone begins, or the bone that carries the thigh.
     pub collar: Option<usize>,
     /// The shoulder or hip: where upper arm or thigh begins.
@@ -254,6 +266,7 @@ fn completed(
     Some(Limb {
         class,
         side,
+        pair: 0,
         collar: found.collar,
         upper,
         lower,

@@ -145,10 +145,12 @@ pub enum Problem {
 /// Matches a figure with a skeleton: parts and joints with equal labels belong together; `Bone` overrides.
 ///
 /// A limb of one piece follows the whole chain, shoulder to wrist or hip to ankle, and takes a hand or foot along. Of two
-/// pieces one follows the upper and one the lower bone; a third is the hand or foot. Every second pair of legs, counted from
-/// the hind end, follows the other side's leg; arms never swap sides. A trunk of one piece follows the chest, to which head and
-/// arms are attached; several pieces are spread over the spine, the topmost on the chest. Hips follow the hips. Splayed limbs
-/// keep their drawn pose and follow only the change, unless `Carry` says otherwise. `anatomy` belongs to the skeleton.
+/// pieces one follows the upper and one the lower bone; a third is the hand or foot. Pairs of legs are counted from the hind end.
+/// If the skeleton has one pair, every second pair follows the other side's leg; if it has more, each pair follows its own, and
+/// those beyond follow the other side's legs, beginning with the hind ones again. Arms never swap sides. A trunk of one piece
+/// turns with the chest, to which head and arms are attached, and leans with the line from the hips to the shoulders; several
+/// pieces are spread over the spine, the topmost on the chest. Hips follow the hips. Splayed limbs keep their drawn pose and
+/// follow only the change, unless `Carry` says otherwise. `anatomy` belongs to the skeleton.
 pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> Matching {
     let LabelledFigure {
         labels,
@@ -306,9 +308,14 @@ impl<'a> Matcher<'a> {
         if is_last && self.whole.contains(&(label.class, label.side, label.pair)) {
             return Err(format!("{why}; it follows a limb of one piece"));
         }
-        let crossed = label.class == Class::Leg && label.pair % 2 == 1;
+        // The pairs of the skeleton from the hind end on, and again and again for further pairs, with their sides swapped.
+        let pairs = self.anatomy.leg_pairs().max(1);
+        let (pair, crossed) = match label.class {
+            Class::Leg => (label.pair % pairs, label.pair / pairs % 2 == 1),
+            _ => (0, false),
+        };
         let side = if crossed { own.other() } else { own };
-        let Some(limb) = self.anatomy.limb(label.class, side) else {
+        let Some(limb) = self.anatomy.limb_of_pair(label.class, side, pair) else {
             lacks(lacking, label.class, side, part);
             return Err(format!(
                 "{why}; the motion has no {} {}",
@@ -320,7 +327,10 @@ impl<'a> Matcher<'a> {
             .ok_or_else(|| format!("{why}; the motion has no {}", label.piece.name(label.class)))?;
         let mut why = why.clone();
         if crossed {
-            why += "; every second pair of legs follows the other side's leg";
+            why += match pairs {
+                1 => "; every second pair of legs follows the other side's leg",
+                _ => "; the motion has fewer pairs of legs, so it follows a leg of the other side",
+            };
         }
         let (follow, way) = match tip {
             Some(tip) => (

@@ -122,41 +122,46 @@ pub fn resample(clip: Clip, fps: f64) -> Result<Clip, Error> {
     if wanted > most as f64 {
         return Err(Error::Frames { wanted, most });
     }
-    let samples = Samples {
-        count: wanted as usize,
-        last,
-        own,
-        fps,
+    let place = |sample: usize| {
+        let place = sample as f64 * own / fps;
+        let frame = (place as usize).min(last);
+        let t = if frame == last {
+            0.0
+        } else {
+            place - frame as f64
+        };
+        Mix {
+            from: frame,
+            to: (frame + 1).min(last),
+            t,
+        }
     };
     Ok(Clip::new(
         Arc::clone(&clip.skeleton),
         1.0 / fps,
-        values(&clip, &samples),
+        values(&clip, wanted as usize, &place),
     ))
 }
 
-/// The positions of the new frames among the old ones.
-struct Samples {
-    count: usize,
-    last: usize,
-    own: f64,
-    fps: f64,
+/// A pose between those of two frames.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Mix {
+    /// The first frame.
+    pub from: usize,
+    /// The second frame.
+    pub to: usize,
+    /// How far it is on the way from the first to the second, 0 to 1.
+    pub t: f64,
 }
 
-impl Samples {
-    /// The old frame before a sample, and the fraction of the way to the next one, below 1.
-    fn place(&self, sample: usize) -> (usize, f64) {
-        let place = sample as f64 * self.own / self.fps;
-        let frame = (place as usize).min(self.last);
-        (
-            frame,
-            if frame == self.last {
-                0.0
-            } else {
-                place - frame as f64
-            },
-        )
-    }
+/// The clip that consists of these poses, at the same rate. The first one must be a frame of the clip (its `t` is 0). Positions and
+/// rotations are interpolated as by [`resample`].
+pub(super) fn mixed(clip: &Clip, mixes: &[Mix]) -> Clip {
+    Clip::new(
+        Arc::clone(&clip.skeleton),
+        clip.frame_time,
+        values(clip, mixes.len(), &|sample| mixes[sample]),
+    )
 }
 
 /// The channels of a joint, and their numbers in some of the new frames.
@@ -170,30 +175,34 @@ struct JointChannels {
 
 /// The numbers of the new frames. Processed in blocks of frames, and joint by joint within a block, because each angle depends
 /// on the one before.
-fn values(clip: &Clip, samples: &Samples) -> Vec<f64> {
+fn values(clip: &Clip, count: usize, place: &(dyn Fn(usize) -> Mix + Sync)) -> Vec<f64> {
     /// New frames per block: they and the old ones stay in the processor's cache while all joints are processed.
     const GRAIN: usize = 512;
 
+    let width = clip.skeleton.channel_count();
+    if count == 0 || width == 0 {
+        return Vec::new();
+    }
+    let first = clip.row(place(0).from);
     let mut columns = Vec::with_capacity(clip.skeleton.joints.len());
     let mut start = 0;
     for joint in &clip.skeleton.joints {
         let count = joint.channels.len();
         columns.push(JointChannels {
-            track: RotationTrack::new(&joint.channels, &clip.row(0)[start..start + count]),
+            track: RotationTrack::new(&joint.channels, &first[start..start + count]),
             start,
             count,
             numbers: Vec::new(),
         });
         start += count;
     }
-    let width = clip.skeleton.channel_count();
-    let mut values = vec![0.0; samples.count * width];
+    let mut values = vec![0.0; count * width];
     for (chunk, rows) in values.chunks_mut(GRAIN * width).enumerate() {
         let first = chunk * GRAIN;
         let part = first..first + rows.len() / width;
         columns
             .par_iter_mut()
-            .for_each(|column| column.fill(clip, samples, part.clone()));
+            .for_each(|column| column.fill(clip, place, part.clone()));
         for (sample, row) in rows.chunks_mut(width).enumerate() {
             for column in &columns {
                 let JointChannels {
@@ -211,22 +220,30 @@ fn values(clip: &Clip, samples: &Samples) -> Vec<f64> {
 
 impl JointChannels {
     /// Computes the numbers of some samples, which continue those before.
-    fn fill(&mut self, clip: &Clip, samples: &Samples, part: std::ops::Range<usize>) {
+    fn fill(
+        &mut self,
+        clip: &Clip,
+        place: &(dyn Fn(usize) -> Mix + Sync),
+        part: std::ops::Range<usize>,
+    ) {
         let columns = self.start..self.start + self.count;
         self.numbers.clear();
         for sample in part {
-            let (frame, t) = samples.place(sample);
-            let next = (frame + 1).min(samples.last);
+            let Mix {
+                from: frame,
+                to: next,
+                t,
+            } = place(sample);
             let (from, to) = (
                 &clip.row(frame)[columns.clone()],
                 &clip.row(next)[columns.clone()],
             );
-            let place = self.numbers.len();
+            let start = self.numbers.len();
             self.numbers
                 .extend(from.iter().zip(to).map(|(from, to)| from + (to - from) * t));
             if sample > 0 {
                 self.track
-                    .rotations([(frame, from), (next, to)], t, &mut self.numbers[place..]);
+                    .rotations([(frame, from), (next, to)], t, &mut self.numbers[start..]);
             }
         }
     }
