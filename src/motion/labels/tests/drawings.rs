@@ -234,3 +234,17 @@ fn only_wings_are_splayed_where_there_are_four_legs_or_fewer() {
     let splayed = label_drawn(&bird).splayed;
     assert_eq!(splayed, [false, false, true, true, false, false, false]);
 }
+
+#[test]
+fn a_penguin_has_hanging_wings_and_feet_without_legs() {
+    let penguin = figure(&[
+        ("body", "", [0.0, 5.0], [0.0, 60.0], 20.0),
+        ("head", "body", [0.0, 60.0], [0.0, 80.0], 12.0),
+        ("right wing", "body", [-18.0, 55.0], [-26.0, 20.0], 4.0),
+        ("left wing", "body", [18.0, 55.0], [26.0, 20.0], 4.0),
+        ("right foot", "body", [-6.0, 3.0], [-20.0, 3.0], 3.0),
+        ("left foot", "body", [6.0, 3.0], [20.0, 3.0], 3.0),
+    ]);
+    let splayed = label_drawn(&penguin).splayed;
+    assert_eq!(splayed, [false, false, false, false, true, true]);
+}
