@@ -31,6 +31,20 @@ fn what_lies_on_the_trunk_stays_there() {
 }
 
 #[test]
+fn what_lies_around_the_trunk_is_no_arm() {
+    check(
+        &[
+            ("a", "", [50.0, 50.0], [50.0, 90.0], 6.0),
+            ("b", "a", [50.0, 90.0], [50.0, 110.0], 10.0),
+            ("tutu", "a", [20.0, 56.0], [90.0, 56.0], 4.0),
+            ("c", "a", [50.0, 52.0], [44.0, 0.0], 2.0),
+            ("d", "a", [50.0, 52.0], [58.0, 0.0], 2.0),
+        ],
+        &["body", "head", "-", "right leg", "left leg"],
+    );
+}
+
+#[test]
 fn a_belly_on_a_body_is_no_piece_of_the_trunk() {
     check(
         &[
