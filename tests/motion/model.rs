@@ -82,7 +82,8 @@ fn joint(clip: &Clip, name: &str) -> usize {
 
 /// The direction of the chain that a part follows, parsed from the reported reason.
 fn chain(clip: &Clip, pose: &[Transform], why: &str) -> Option<DVec3> {
-    let (_, way) = why.split_once("it points from `")?;
+    let ways = ["it points from `", "it turns like the line from `"];
+    let (_, way) = ways.iter().find_map(|way| why.split_once(way))?;
     let (from, to) = way.split_once("` to ")?;
     let to = to.split_once(';').map_or(to, |(to, _)| to);
     let from = pose[joint(clip, from)].position;

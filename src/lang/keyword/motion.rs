@@ -81,7 +81,7 @@ pub(super) static SWING: Row = Row {
 
 pub(super) static CARRY: Row = Row {
     forms: &[Form::new(&CARRY_WORD, &[1])],
-    default: "direction; change for wings, tentacles, and three or more pairs of legs",
+    default: "direction; change for spread wings, and three or more pairs of legs",
     summary: "what a limb takes over from the motion",
     long: "`direction`: the arm or leg points where the actor's does, however it is drawn. `change`: \
            it keeps the pose in which it is drawn, and turns by as much as the actor's does. A \

@@ -279,7 +279,8 @@ fn is_over_trunk(
     let below = tree.parents[part].filter(|above| is_trunk(drafts[*above].class));
     let drawn = |part: usize| tree.parts[part].drawing_order;
     let [low, high] = tree.around(std::iter::once(part));
-    let is_around = low.x <= trunk[0].x && high.x >= trunk[1].x;
+    let beyond = OUTWARD * tree.height;
+    let is_around = low.x <= trunk[0].x - beyond && high.x >= trunk[1].x + beyond;
     let is_later = below.is_some_and(|below| drawn(part) > drawn(below));
     is_later && (is_around || tree.is_over(part, trunk, OVER))
 }

@@ -49,7 +49,8 @@ pub fn label_figure(figure: &Figure) -> Vec<Option<Label>> {
 pub(crate) struct LabelledFigure {
     /// Per part its label; `None` for a part that follows its parent.
     pub(crate) labels: Vec<Option<Label>>,
-    /// Per part whether it belongs to a limb that the figure spreads: a wing, a tentacle, a leg where there are three pairs.
+    /// Per part whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where
+    /// there are three pairs or more, or a foot that is attached to the trunk.
     pub(crate) splayed: Vec<bool>,
     /// The direction that the figure faces.
     pub(crate) facing: Facing,
@@ -70,7 +71,7 @@ pub(crate) fn label_drawn(figure: &Figure) -> LabelledFigure {
     placement::sides(&tree, &facing, &limbs, &mut drafts);
     placement::pairs(&tree, &facing, &limbs, &mut drafts);
     pieces::name(&tree, &limbs, &mut drafts);
-    let splayed = pieces::splayed(&limbs, &drafts);
+    let splayed = pieces::splayed(&tree, &limbs, &drafts);
     let label = |draft: PartDraft| {
         let class = draft.class?;
         let [class_why, side_why] = draft.why;

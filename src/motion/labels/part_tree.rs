@@ -153,6 +153,13 @@ impl<'a> PartTree<'a> {
         mirrored >= FEWEST_MIRRORED && mirrored as f64 >= SYMMETRIC * beside.len() as f64
     }
 
+    /// Whether a part lies on the ground and is wider than high, as a penguin's foot is.
+    pub(super) fn is_foot_on_ground(&self, part: usize) -> bool {
+        let size = self.size(part);
+        let top = corners(&self.parts[part])[1].y;
+        size.x > size.y && top <= self.above_ground(GROUND)
+    }
+
     /// The bounding box of some parts; an empty box at the origin if there are none.
     pub(super) fn around(&self, parts: impl Iterator<Item = usize>) -> [DVec2; 2] {
         parts

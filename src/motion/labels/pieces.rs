@@ -51,19 +51,24 @@ pub(super) fn limbs(tree: &PartTree<'_>, drafts: &[PartDraft]) -> Vec<Limb> {
     limbs
 }
 
-/// Per part whether it belongs to a limb that the figure spreads: a wing, a tentacle, a leg where there are three pairs or more.
-pub(super) fn splayed(limbs: &[Limb], drafts: &[PartDraft]) -> Vec<bool> {
+/// Per part whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where
+/// there are three pairs or more, or a foot that is attached to the trunk.
+pub(super) fn splayed(tree: &PartTree<'_>, limbs: &[Limb], drafts: &[PartDraft]) -> Vec<bool> {
     /// The index of the third pair.
     const THIRD: usize = 2;
     let mut splayed = vec![false; drafts.len()];
-    let legs = limbs.iter().filter(|limb| limb.class == Class::Leg);
-    let many_legs = legs.into_iter().any(|leg| drafts[leg.root()].pair >= THIRD);
+    let mut legs = limbs.iter().filter(|limb| limb.class == Class::Leg);
+    let many_legs = legs.any(|leg| drafts[leg.root()].pair >= THIRD);
     for limb in limbs {
-        let wing = limb
-            .parts
-            .iter()
-            .any(|(part, _)| drafts[*part].says(&[Term::Wing]));
-        if wing || many_legs && limb.class == Class::Leg {
+        let root = limb.root();
+        let way = tree.tip(root) - tree.joint(root);
+        let hangs = -way.y > way.x.abs();
+        let mut parts = limb.parts.iter().map(|(part, _)| *part);
+        let is_spread = match limb.class {
+            Class::Leg => many_legs || limb.parts.len() == 1 && tree.is_foot_on_ground(root),
+            _ => !hangs && parts.any(|part| drafts[part].says(&[Term::Wing])),
+        };
+        if is_spread {
             for (part, _) in &limb.parts {
                 splayed[*part] = true;
             }

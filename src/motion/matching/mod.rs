@@ -33,7 +33,8 @@ pub struct Matching {
 pub struct MatchedPart {
     /// What the part is; `None` if neither its name nor its place tells.
     pub label: Option<Label>,
-    /// Whether it belongs to a limb that the figure spreads: a wing, a tentacle, a leg where there are three pairs or more.
+    /// Whether it belongs to a limb that the figure spreads: a wing or a tentacle that does not hang down, a leg where there are
+    /// three pairs or more, or a foot that is attached to the trunk.
     pub splayed: bool,
     /// What drives it; a part without a drive follows its parent.
     pub drive: Option<Drive>,
@@ -165,7 +166,9 @@ pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> 
     for ((part, label), splayed) in labels.into_iter().enumerate().zip(splayed) {
         let bones = &figure.parts[part].bones;
         let class = label.as_ref().map(|label| label.class);
-        let found = match names.bones(part, bones, class, anatomy, &mut problems) {
+        let by_bone = names.bones(part, bones, class, anatomy, &mut problems);
+        let is_bone = by_bone.is_some();
+        let found = match by_bone {
             Some(drive) => Ok(drive),
             None => match &label {
                 Some(label) => matcher.drive(part, label, &mut lacking),
@@ -173,11 +176,14 @@ pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> 
             },
         };
         let (drive, why) = match found {
-            Ok((drive, why)) => {
-                let own = class.filter(|class| class.is_limb());
-                let carry = figure.parts[part].carry.filter(|_| own.is_some());
-                let (drive, way) = carried(drive, carry, splayed);
-                (Some(drive), why + way)
+            Ok((drive, mut why)) => {
+                let carry = figure.parts[part].carry;
+                let (drive, how) = carried(drive, carry, splayed);
+                why += how;
+                if !is_bone {
+                    why += &matcher.way(&drive);
+                }
+                (Some(drive), why)
             }
             Err(why) => (None, why),
         };
@@ -199,23 +205,23 @@ pub fn match_figure(figure: &Figure, skeleton: &Skeleton, anatomy: &Anatomy) -> 
     }
 }
 
-/// What a limb takes over from its joint: what `Carry` says, else the change if it is splayed; and why, for people to read.
+/// The drive of a part with what it takes over from its joint, and the reason if that is unusual. Only what points along a bone
+/// has a choice: it does what `Carry` says, else it takes over the change if it is splayed.
 fn carried(drive: Drive, carry: Option<Follow>, splayed: bool) -> (Drive, &'static str) {
     let change = Drive {
         follow: Follow::Change,
         ..drive
     };
-    match (carry, splayed) {
-        (Some(Follow::Direction), _) => (drive, "; its string says `Carry direction`"),
-        (Some(Follow::Change | Follow::Trunk { .. }), _) => (
+    match (drive.follow, carry, splayed) {
+        (Follow::Direction, Some(Follow::Change), _) => (
             change,
-            "; its string says `Carry change`, so it keeps its drawn pose and takes over the change only",
+            "; its string says `Carry change`, so it keeps its drawn pose",
         ),
-        (None, true) => (
-            change,
-            "; it is splayed, so it keeps its drawn pose and takes over the change only",
-        ),
-        (None, false) => (drive, ""),
+        (Follow::Direction, None, true) => (change, "; it is splayed, so it keeps its drawn pose"),
+        (Follow::Direction, Some(Follow::Direction), true) => {
+            (drive, "; its string says `Carry direction`")
+        }
+        _ => (drive, ""),
     }
 }
 
@@ -275,20 +281,16 @@ impl<'a> Matcher<'a> {
         };
         let name = label.class.name();
         let joint = joint.ok_or_else(|| format!("{}; the motion has no {name}", label.why))?;
-        let mut why = format!("{}; it turns with `{}`", label.why, self.name(joint));
-        let mut follow = Follow::Change;
-        if let (Class::Body, 1, Some(hips), Some(shoulders)) =
-            (label.class, body, anatomy.hips, self.shoulders())
-        {
-            why += " and leans with the line from the hips to the shoulders";
-            follow = Follow::Trunk { hips, shoulders };
-        }
+        let follow = match (label.class, body, anatomy.hips, self.shoulders()) {
+            (Class::Body, 1, Some(hips), Some(shoulders)) => Follow::Trunk { hips, shoulders },
+            _ => Follow::Change,
+        };
         let drive = Drive {
             joint,
             tip: None,
             follow,
         };
-        Ok((drive, why))
+        Ok((drive, label.why.clone()))
     }
 
     fn shoulders(&self) -> Option<[usize; 2]> {
@@ -332,22 +334,31 @@ impl<'a> Matcher<'a> {
                 _ => "; the motion has fewer pairs of legs, so it follows a leg of the other side",
             };
         }
-        let (follow, way) = match tip {
-            Some(tip) => (
-                Follow::Direction,
-                format!(
-                    "; it points from `{}` to {}",
-                    self.name(joint),
-                    self.tip(tip)
-                ),
-            ),
-            None => (
-                Follow::Change,
-                format!("; it turns with `{}`", self.name(joint)),
-            ),
+        let follow = match tip {
+            Some(_) => Follow::Direction,
+            None => Follow::Change,
         };
-        let drive = Drive { joint, tip, follow };
-        Ok((drive, why + &way))
+        Ok((Drive { joint, tip, follow }, why))
+    }
+
+    /// How a joint drives a part, for people to read.
+    fn way(&self, drive: &Drive) -> String {
+        let name = self.name(drive.joint);
+        match (drive.follow, drive.tip) {
+            (Follow::Direction, Some(tip)) => {
+                format!("; it points from `{name}` to {}", self.tip(tip))
+            }
+            (Follow::Change, Some(tip)) => {
+                format!(
+                    "; it turns like the line from `{name}` to {}",
+                    self.tip(tip)
+                )
+            }
+            (Follow::Trunk { .. }, _) => format!(
+                "; it turns with `{name}` and leans with the line from the hips to the shoulders"
+            ),
+            _ => format!("; it turns with `{name}`"),
+        }
     }
 
     fn name(&self, joint: usize) -> &str {

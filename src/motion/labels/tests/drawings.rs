@@ -31,6 +31,20 @@ fn what_lies_on_the_trunk_stays_there() {
 }
 
 #[test]
+fn what_lies_around_the_trunk_is_no_arm() {
+    check(
+        &[
+            ("a", "", [50.0, 50.0], [50.0, 90.0], 6.0),
+            ("b", "a", [50.0, 90.0], [50.0, 110.0], 10.0),
+            ("tutu", "a", [20.0, 56.0], [90.0, 56.0], 4.0),
+            ("c", "a", [50.0, 52.0], [44.0, 0.0], 2.0),
+            ("d", "a", [50.0, 52.0], [58.0, 0.0], 2.0),
+        ],
+        &["body", "head", "-", "right leg", "left leg"],
+    );
+}
+
+#[test]
 fn a_belly_on_a_body_is_no_piece_of_the_trunk() {
     check(
         &[
@@ -233,4 +247,18 @@ fn only_wings_are_splayed_where_there_are_four_legs_or_fewer() {
     ]);
     let splayed = label_drawn(&bird).splayed;
     assert_eq!(splayed, [false, false, true, true, false, false, false]);
+}
+
+#[test]
+fn a_penguin_has_hanging_wings_and_feet_without_legs() {
+    let penguin = figure(&[
+        ("body", "", [0.0, 5.0], [0.0, 60.0], 20.0),
+        ("head", "body", [0.0, 60.0], [0.0, 80.0], 12.0),
+        ("right wing", "body", [-18.0, 55.0], [-26.0, 20.0], 4.0),
+        ("left wing", "body", [18.0, 55.0], [26.0, 20.0], 4.0),
+        ("right foot", "body", [-6.0, 3.0], [-20.0, 3.0], 3.0),
+        ("left foot", "body", [6.0, 3.0], [20.0, 3.0], 3.0),
+    ]);
+    let splayed = label_drawn(&penguin).splayed;
+    assert_eq!(splayed, [false, false, false, false, true, true]);
 }
