@@ -57,7 +57,7 @@ pub(super) fn backdrops(
         }
     }
     for (shape, later) in found.iter().enumerate() {
-        let highest = later.iter().map(|later| shapes[*later].height);
+        let highest = later.iter().map(|later| shapes[*later].height());
         if let Some(highest) = highest.reduce(f64::max) {
             shapes[shape].flatten(THIN * highest);
         }
@@ -184,7 +184,7 @@ impl Figure<'_> {
                 let unit = &mut units[unit_of[node]];
                 unit.area += shape.area;
                 if unit_of[node] == node {
-                    unit.height = unit.height.max(shape.height);
+                    unit.height = unit.height.max(shape.height());
                 }
             }
         }
@@ -192,7 +192,7 @@ impl Figure<'_> {
             if let Some(shape) = nodes.shape[node].filter(|_| unit.area == 0.0) {
                 *unit = Unit {
                     area: self.shapes[shape].area,
-                    height: self.shapes[shape].height,
+                    height: self.shapes[shape].height(),
                 };
             }
         }
@@ -353,7 +353,7 @@ impl Figure<'_> {
                             self.stands_out(second, parent, unit_of)
                         }
                     });
-                    if by >= NEAR * b.height {
+                    if by >= NEAR * b.height() {
                         pairs.push((distance, far, near));
                     }
                 }
@@ -407,7 +407,7 @@ impl Figure<'_> {
         }
         fronts.sort_unstable_by(f64::total_cmp);
         let median = fronts.get(fronts.len() / 2).copied().unwrap_or(0.0);
-        median.min(FARTHEST * self.shapes[shape].height)
+        median.min(FARTHEST * self.shapes[shape].height())
     }
 }
 
