@@ -159,10 +159,11 @@ impl Layers {
                 reasons: vec![Reason::Plane; nodes.len()],
             }
         } else {
-            // On all cores, before they are asked for one by one.
-            let volumes = shapes.par_iter().zip(&covers);
-            let volumes = volumes.filter(|(_, cover)| !cover.is_detail);
-            volumes.for_each(|(shape, _)| {
+            // On all cores, before they are asked for one by one: what hangs on something may be moved by its height.
+            let hangs = |shape: usize| nodes.parent[nodes.of_shape[shape]].is_some();
+            let volumes = shapes.par_iter().zip(&covers).enumerate();
+            let volumes = volumes.filter(|(index, (_, cover))| !cover.is_detail && hangs(*index));
+            volumes.for_each(|(_, (shape, _))| {
                 shape.height();
             });
             let behind = backdrops(&mut shapes, &nodes, &overlaps);

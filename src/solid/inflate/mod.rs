@@ -83,12 +83,7 @@ pub(super) fn front(
 }
 
 /// The front of the surface of [`inflate`] as heights.
-fn field(
-    outline: &Outline,
-    given: Option<f64>,
-    half: DVec2,
-    options: &Options,
-) -> Field {
+fn field(outline: &Outline, given: Option<f64>, half: DVec2, options: &Options) -> Field {
     let transform = PlacementTransform::new(options);
     let points = points(outline, steps_per_half_turn(options));
     let mesh = mesh(&points, &transform);

@@ -125,11 +125,13 @@ impl<'a> Cover<'a> {
     fn at(&self, point: DVec2) -> Level {
         let reach = self.target.reach(point);
         let over_mesh = || self.interpolated(point, |level| level.reach).unwrap_or(0.0);
-        self.target.at(point, reach.unwrap_or_else(|| [over_mesh(); 2]))
+        self.target
+            .at(point, reach.unwrap_or_else(|| [over_mesh(); 2]))
     }
 
     /// What the mesh has over a place, if it is there, by what it has at its points.
     fn interpolated(&self, place: DVec2, of_level: impl Fn(&Level) -> f64) -> Option<f64> {
+        // In the plane none of the triangles is a wall, so their numbers are those of the mesh.
         let plane = self.plane.get_or_init(|| heights_over(&self.mesh, |_| 0.0));
         let (_, triangle) = plane.find(place)?;
         let triangle = self.mesh.triangles.get(triangle as usize)?;
@@ -186,7 +188,10 @@ impl<'a> Cover<'a> {
                 let reach = reach[0] * share_a + reach[1] * share_b + reach[2] * share_c;
                 match target.lifted(point, target.rim(point), reach) {
                     Some((below, lifted)) => (below.front - own.z, (lifted - own.z).abs()),
-                    None => (f64::NEG_INFINITY, (target.at(point, [reach; 2]).front - own.z).abs()),
+                    None => (
+                        f64::NEG_INFINITY,
+                        (target.at(point, [reach; 2]).front - own.z).abs(),
+                    ),
                 }
             };
             *missing = below + (1.0 - LIFTED) * step;

@@ -81,13 +81,14 @@ impl Field {
         });
         let mut cover = Cover::new(mesh_of(&all, &in_place), target, tolerance);
         let most = (MAX_GROWTH + 1) * all.points.len() + target.more_points;
-        let mut refine = |cover: &mut Cover<'_>, wanted: &dyn Fn(&Cover<'_>, usize) -> Vec<DVec2>| {
-            let wanted = wanted(cover, most.saturating_sub(all.points.len()));
-            if !wanted.is_empty() {
-                all.points.extend(wanted);
-                cover.refine(mesh_of(&all, &in_place));
-            }
-        };
+        let mut refine =
+            |cover: &mut Cover<'_>, wanted: &dyn Fn(&Cover<'_>, usize) -> Vec<DVec2>| {
+                let wanted = wanted(cover, most.saturating_sub(all.points.len()));
+                if !wanted.is_empty() {
+                    all.points.extend(wanted);
+                    cover.refine(mesh_of(&all, &in_place));
+                }
+            };
         // Half of the points are left for what the corners do not tell.
         refine(&mut cover, &|cover, room| cover.corners(room / 2));
         refine(&mut cover, &|cover, room| cover.deviations(room));

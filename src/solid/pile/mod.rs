@@ -219,7 +219,9 @@ impl Pile {
         };
         long_hash(|hasher| {
             place(hasher, body);
-            let Some(lay) = &self.bodies[body].lay else { return };
+            let Some(lay) = &self.bodies[body].lay else {
+                return;
+            };
             hasher.write_u64(lay.step.to_bits());
             hasher.write_u64(lay.tolerance().to_bits());
             hasher.write_u64(lay.bulge.to_bits());
