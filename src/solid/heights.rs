@@ -6,7 +6,8 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use rustc_hash::FxHashSet;
 
-use crate::scene::Surface;
+use super::Solid;
+use crate::scene::{Surface, SurfaceSource};
 
 /// Triangles that are steeper than this, as the cosine of their slope, are walls, which nothing lies on.
 const WALL: f64 = 1e-6;
@@ -64,13 +65,20 @@ impl Heights {
 
     /// The height over a point of the drawing plane, if the surface is there.
     pub(super) fn at(&self, point: DVec2) -> Option<f64> {
+        self.find(point).map(|(height, _)| height)
+    }
+
+    /// The height over a point of the drawing plane, if the surface is there, and the number of the triangle.
+    pub(super) fn find(&self, point: DVec2) -> Option<(f64, u32)> {
         let near = self.grid.at(point).iter();
-        let mut heights =
-            near.filter_map(|facet| self.facets[*facet as usize].height(point, self.slack));
+        let mut found = near.filter_map(|index| {
+            let height = self.facets[*index as usize].height(point, self.slack);
+            Some((height?, *index))
+        });
         if self.is_field {
-            heights.next()
+            found.next()
         } else {
-            heights.reduce(f64::max)
+            found.reduce(|one, other| if other.0 > one.0 { other } else { one })
         }
     }
 
@@ -393,11 +401,12 @@ impl Grid {
 #[derive(Debug, Clone)]
 pub(super) struct BothHeights {
     pub(super) front: Arc<Heights>,
-    back: Arc<LazyHeights>,
+    /// `None` where it equals the front.
+    back: Option<Arc<LazyHeights>>,
 }
 
 /// Heights that are made when they are first needed.
-type LazyHeights = LazyLock<Arc<Heights>, Box<dyn FnOnce() -> Arc<Heights> + Send + Sync>>;
+type LazyHeights = LazyLock<Heights, Box<dyn FnOnce() -> Heights + Send + Sync>>;
 
 impl BothHeights {
     /// The heights of a front, and of a back, which few need: those of the solid mirrored in its plane.
@@ -407,29 +416,43 @@ impl BothHeights {
     ) -> Self {
         Self {
             front: Arc::new(front),
-            back: Arc::new(LazyLock::new(Box::new(|| Arc::new(back())))),
+            back: Some(Arc::new(LazyLock::new(Box::new(back)))),
+        }
+    }
+
+    /// The heights of a solid in its own frame.
+    pub(super) fn of_solid(solid: &Solid) -> Self {
+        match solid.front() {
+            Some(front) if solid.options.placement.translation.z == 0.0 => Self {
+                front: Arc::new(Heights::over(Facet::of(&front), true)),
+                back: None,
+            },
+            _ => Self::of(&solid.surface()),
         }
     }
 
     /// The heights of both sides of a surface.
-    pub(super) fn of(surface: &Surface) -> Self {
+    fn of(surface: &Surface) -> Self {
         let [front, back] = [Facet::of(surface), Facet::of(&surface.mirrored())];
         // Most solids are their own mirror images.
         let is_symmetric = front == back;
-        let front = Arc::new(Heights::over(front, false));
-        let back = match is_symmetric {
-            true => Arc::clone(&front),
-            false => Arc::new(Heights::over(back, false)),
+        let back = || -> Arc<LazyHeights> {
+            Arc::new(LazyLock::new(Box::new(|| Heights::over(back, false))))
         };
         Self {
-            front,
-            back: Arc::new(LazyLock::new(Box::new(|| back))),
+            front: Arc::new(Heights::over(front, false)),
+            back: (!is_symmetric).then(back),
         }
     }
 
     /// The heights of the solid mirrored in its plane.
     pub(super) fn back(&self) -> &Heights {
-        &self.back
+        self.back.as_deref().map_or(&self.front, |back| back)
+    }
+
+    /// Whether both sides are the same.
+    pub(super) fn is_symmetric(&self) -> bool {
+        self.back.is_none()
     }
 
     /// The number of triangles of its front.

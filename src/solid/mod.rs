@@ -25,7 +25,7 @@ mod shell;
 mod source;
 mod stack;
 
-use glam::{DMat2, DVec3};
+use glam::{DMat2, DVec2, DVec3};
 
 use crate::geometry::{Outline, bounds};
 use crate::scene::Surface;
@@ -75,10 +75,16 @@ impl Placement {
 
 /// The solid of an outline in its part's frame; nothing for an outline without area.
 pub fn build(outline: &Outline, profile: &Profile, options: &Options) -> Surface {
-    match bounds(outline) {
-        Some((low, high)) => profile.surface(outline, low.abs().max(high.abs()), options),
+    match half_extents(outline) {
+        Some(half) => profile.surface(outline, half, options),
         None => Surface::default(),
     }
+}
+
+/// How far an outline reaches from its centre, across and along; `None` for one without points.
+fn half_extents(outline: &Outline) -> Option<DVec2> {
+    let (low, high) = bounds(outline)?;
+    Some(low.abs().max(high.abs()))
 }
 
 #[cfg(test)]

@@ -7,7 +7,8 @@ use std::sync::Arc;
 use glam::{DAffine2, DVec2};
 use rustc_hash::FxHasher;
 
-use super::{Options, Profile, build};
+use super::inflate::Mesh;
+use super::{Options, Profile, build, half_extents};
 use crate::geometry::Outline;
 use crate::scene::{Surface, SurfaceSource};
 
@@ -66,11 +67,7 @@ pub(super) fn on_sides(mut surface: Surface, sides: Sides) -> Surface {
 
 impl SurfaceSource for Solid {
     fn surface(&self) -> Surface {
-        let local = |point: &DVec2| self.to_frame.transform_point2(*point);
-        let local = self
-            .outline
-            .map_rings(|ring| ring.iter().map(local).collect());
-        let mut surface = build(&local, &self.profile, &self.options);
+        let mut surface = build(&self.in_frame(), &self.profile, &self.options);
         if let Some(texture) = self.texture {
             let map = texture * self.to_drawing();
             let uv = |[x, y, _]: &[f32; 3]| {
@@ -132,6 +129,28 @@ impl Solid {
         let transforms = transforms.flat_map(|transform| transform.to_cols_array());
         let numbers = transforms.chain(self.profile.numbers());
         numbers.for_each(&mut number);
+    }
+
+    /// The front of its surface without normals, for height fields.
+    pub(super) fn front(&self) -> Option<Surface> {
+        let field = self.profile.height_field()?;
+        let outline = self.in_frame();
+        let half = half_extents(&outline)?;
+        Some(field.front(&outline, half, &self.options))
+    }
+
+    /// The heights over the points of a mesh of its outline, for height fields.
+    pub(super) fn heights_over(&self, mesh: &Mesh) -> Option<Vec<f64>> {
+        let field = self.profile.height_field()?;
+        let half = half_extents(&self.in_frame())?;
+        Some(field.heights(mesh, half, &self.options))
+    }
+
+    /// The outline in the part's own frame.
+    fn in_frame(&self) -> Outline {
+        let place = |point: &DVec2| self.to_frame.transform_point2(*point);
+        let outline = &self.outline;
+        outline.map_rings(|ring| ring.iter().map(place).collect())
     }
 
     /// From the solid's final positions, as seen from the front, to the drawing.

@@ -102,7 +102,7 @@ impl Lifting<'_> {
             |other: usize| moved[other].is_some() && !self.arrangement.shapes[other].is_soft;
         if !shape.is_soft && below().all(is_plate) {
             let by = self.raise(index, moved);
-            if by[1] <= MAX_RAISE * shape.height.max(self.arrangement.steps[index])
+            if by[1] <= MAX_RAISE * shape.height().max(self.arrangement.steps[index])
                 || self.arrangement.shapes[index].profile.is_open()
             {
                 return Form::Raised(by);
@@ -150,6 +150,7 @@ impl Lifting<'_> {
             behind: cover.behind.clone(),
             clips,
             step: self.arrangement.steps[index] * self.world.scale,
+            invisible: self.arrangement.context.invisible * self.world.scale,
             bulge,
             form,
             is_line: self.arrangement.context.bindings.parts[shape.part].is_stroke,

@@ -145,7 +145,7 @@ impl Layers {
             let profile = shape.profile.clone();
             context.natural(frames, world, [shape.main, shape.part], profile)
         };
-        measure(&mut shapes, &overlaps, solid, &recent);
+        describe(&mut shapes, &overlaps, solid, &recent);
         let is_one = !context.bindings.annotated;
         let mut covers = covers(&shapes, &nodes, &overlaps, is_one);
         let spread: Vec<f64> = nodes
@@ -159,6 +159,13 @@ impl Layers {
                 reasons: vec![Reason::Plane; nodes.len()],
             }
         } else {
+            // On all cores, before they are asked for one by one: what hangs on something may be moved by its height.
+            let hangs = |shape: usize| nodes.parent[nodes.of_shape[shape]].is_some();
+            let volumes = shapes.par_iter().zip(&covers).enumerate();
+            let volumes = volumes.filter(|(index, (_, cover))| !cover.is_detail && hangs(*index));
+            volumes.for_each(|(_, (shape, _))| {
+                shape.height();
+            });
             let behind = backdrops(&mut shapes, &nodes, &overlaps);
             for (cover, behind) in covers.iter_mut().zip(behind) {
                 cover.behind = behind;
@@ -235,12 +242,12 @@ impl Layers {
     }
 }
 
-/// Looks up the heights of soft shapes that lie over others or under them.
-fn measure(
+/// Gives the soft shapes that lie over others or under them their heights.
+fn describe(
     shapes: &mut [Shape],
     overlaps: &[Vec<Overlap>],
     solid: impl Fn(&Shape) -> Solid + Sync,
-    recent: &RecentHeights,
+    recent: &Arc<RecentHeights>,
 ) {
     let mut takes_part = vec![false; shapes.len()];
     for (above, below) in overlaps.iter().enumerate() {
@@ -252,10 +259,7 @@ fn measure(
     let soft = shapes.par_iter_mut().zip(takes_part);
     let soft = soft.filter(|(shape, takes_part)| *takes_part && shape.is_soft && !shape.is_ink);
     soft.for_each(|(shape, _)| {
-        let heights = SolidHeights::of(&solid(shape), recent);
-        let [front, back] = heights.highest();
-        shape.height = front.max(back).max(0.0);
-        shape.natural = Some(heights);
+        shape.natural = Some(SolidHeights::new(solid(shape), Arc::clone(recent)));
     });
 }
 
@@ -335,7 +339,7 @@ fn may_wrap(shape: &Shape, is_detail: bool) -> bool {
 }
 
 fn may_be_wrapped(shape: &Shape) -> bool {
-    shape.is_soft && !shape.is_given && shape.height > 0.0
+    shape.is_soft && !shape.is_given && shape.area > 0.0
 }
 
 /// Per shape the step by which it comes out in front of what it lies on, drawing units.

@@ -57,7 +57,7 @@ pub(super) fn backdrops(
         }
     }
     for (shape, later) in found.iter().enumerate() {
-        let highest = later.iter().map(|later| shapes[*later].height);
+        let highest = later.iter().map(|later| shapes[*later].height());
         if let Some(highest) = highest.reduce(f64::max) {
             shapes[shape].flatten(THIN * highest);
         }
@@ -80,7 +80,8 @@ pub(super) struct Figure<'a> {
 struct Unit {
     /// The sum of the areas of its volumes.
     area: f64,
-    height: f64,
+    /// The shapes that it is as high as.
+    shapes: Vec<usize>,
 }
 
 impl Figure<'_> {
@@ -118,7 +119,7 @@ impl Figure<'_> {
             let (depth, reason) = if let Some(offset) = nodes.given[node] {
                 (base + offset, Reason::Given)
             } else if cover.is_some_and(|cover| !cover.behind.is_empty()) {
-                let height = units[node].height;
+                let height = self.height(&units[node]);
                 let first = cover.and_then(|cover| cover.behind.first());
                 let reason = first.map_or(Reason::Plane, |later| Reason::Backdrop {
                     of: self.shapes[*later].part,
@@ -175,7 +176,7 @@ impl Figure<'_> {
         let mut units: Vec<Unit> = (0..nodes.len())
             .map(|_| Unit {
                 area: 0.0,
-                height: 0.0,
+                shapes: Vec::new(),
             })
             .collect();
         for (index, shape) in self.shapes.iter().enumerate() {
@@ -184,7 +185,7 @@ impl Figure<'_> {
                 let unit = &mut units[unit_of[node]];
                 unit.area += shape.area;
                 if unit_of[node] == node {
-                    unit.height = unit.height.max(shape.height);
+                    unit.shapes.push(index);
                 }
             }
         }
@@ -192,11 +193,17 @@ impl Figure<'_> {
             if let Some(shape) = nodes.shape[node].filter(|_| unit.area == 0.0) {
                 *unit = Unit {
                     area: self.shapes[shape].area,
-                    height: self.shapes[shape].height,
+                    shapes: vec![shape],
                 };
             }
         }
         units
+    }
+
+    /// How high a unit is.
+    fn height(&self, unit: &Unit) -> f64 {
+        let heights = unit.shapes.iter().map(|shape| self.shapes[*shape].height());
+        heights.fold(0.0, f64::max)
     }
 
     /// For pairs of units that overlap, how far the later one is to be in front of the earlier one.
@@ -275,7 +282,7 @@ impl Figure<'_> {
         } else {
             base.max(low).min(high)
         };
-        let farthest = FARTHEST * units[node].height;
+        let farthest = FARTHEST * self.height(&units[node]);
         let by = self.spread[node] * (wanted - base).clamp(-farthest, farthest);
         let part = |other: Option<usize>| other.map(|other| self.nodes.main[other]);
         let reason = match (by > 0.0, by < 0.0, part(over), part(under)) {
@@ -353,7 +360,7 @@ impl Figure<'_> {
                             self.stands_out(second, parent, unit_of)
                         }
                     });
-                    if by >= NEAR * b.height {
+                    if by >= NEAR * b.height() {
                         pairs.push((distance, far, near));
                     }
                 }
@@ -407,7 +414,7 @@ impl Figure<'_> {
         }
         fronts.sort_unstable_by(f64::total_cmp);
         let median = fronts.get(fronts.len() / 2).copied().unwrap_or(0.0);
-        median.min(FARTHEST * self.shapes[shape].height)
+        median.min(FARTHEST * self.shapes[shape].height())
     }
 }
 

@@ -38,9 +38,7 @@ pub(super) struct Shape {
     pub(super) faces: [Option<f64>; 2],
     /// The heights of a soft shape that lies over others or under them.
     pub(super) natural: Option<SolidHeights>,
-    /// How far it reaches from its plane at most, drawing units; see [`Shape::flatten`].
-    pub(super) height: f64,
-    /// What its heights are multiplied by.
+    /// What its heights are multiplied by; see [`Shape::flatten`].
     pub(super) flattened: f64,
 }
 
@@ -53,11 +51,19 @@ impl Shape {
         }
     }
 
+    /// How far it reaches from its plane at most, drawing units. That of a soft shape takes long when it is first asked for.
+    pub(super) fn height(&self) -> f64 {
+        match &self.natural {
+            Some(natural) => self.flattened * natural.highest(),
+            None => self.plate[0].midpoint(self.plate[1]).max(0.0),
+        }
+    }
+
     /// Makes it no higher than this.
     pub(super) fn flatten(&mut self, height: f64) {
-        if height < self.height {
-            self.flattened = height / self.height;
-            self.height = height;
+        let own = self.height();
+        if height < own {
+            self.flattened *= height / own;
         }
     }
 }
@@ -116,7 +122,6 @@ fn shape(context: &FigureContext<'_>, index: usize) -> Option<Shape> {
         plate,
         faces,
         natural: None,
-        height: plate[0].midpoint(plate[1]).max(0.0),
         flattened: 1.0,
         profile,
     })

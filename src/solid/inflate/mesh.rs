@@ -17,7 +17,8 @@ const NOTHING: f64 = 1e-40;
 
 /// Triangles in the plane, at their final positions.
 #[derive(Debug, Default)]
-pub(in crate::solid) struct Mesh {
+pub struct Mesh {
+    /// Their final positions, as seen from the front.
     pub(in crate::solid) points: Vec<[f32; 2]>,
     /// Counter-clockwise, all with area; each has a point off the border.
     pub(in crate::solid) triangles: Vec<[u32; 3]>,

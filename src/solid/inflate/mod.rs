@@ -63,19 +63,46 @@ pub(super) fn inflate(
     }
 }
 
-/// The front of the surface of [`inflate`].
-pub(in crate::solid) fn field(
+/// The front of the surface of [`inflate`], without normals.
+pub(super) fn front(
     outline: &Outline,
     given: Option<f64>,
     half: DVec2,
     options: &Options,
-) -> Field {
-    let most = height(given, half);
+) -> Surface {
+    let field = field(outline, given, half, options);
+    let Placement {
+        translation, scale, ..
+    } = options.placement;
+    let positions = sides::front(&field, scale * translation.z);
+    Surface {
+        positions: positions.collect(),
+        triangles: field.mesh.triangles,
+        ..Surface::default()
+    }
+}
+
+/// The front of the surface of [`inflate`] as heights.
+fn field(outline: &Outline, given: Option<f64>, half: DVec2, options: &Options) -> Field {
     let transform = PlacementTransform::new(options);
     let points = points(outline, steps_per_half_turn(options));
     let mesh = mesh(&points, &transform);
+    Field {
+        heights: heights(&mesh, given, half, &options.placement),
+        mesh,
+    }
+}
+
+/// The heights of the front of [`inflate`] over a mesh of the outline at its final place, model units.
+pub(super) fn heights(
+    mesh: &Mesh,
+    given: Option<f64>,
+    half: DVec2,
+    placement: &Placement,
+) -> Vec<f64> {
+    let most = height(given, half);
     let Some(first) = mesh.points.first() else {
-        return Field::default();
+        return Vec::new();
     };
 
     // Relative to one of the points and to the extent, so that products neither lose precision nor overflow.
@@ -92,7 +119,7 @@ pub(in crate::solid) fn field(
 
     let Placement {
         translation, scale, ..
-    } = options.placement;
+    } = placement;
     let own = 2.0 * highest.sqrt() * extent / scale;
     let height = if given.is_none() { most.min(own) } else { most };
     let least = MIN_HEIGHT * translation.z.abs().max(height);
@@ -104,10 +131,7 @@ pub(in crate::solid) fn field(
             scale * ((u / highest).max(0.0).sqrt() * height).max(least)
         }
     });
-    Field {
-        heights: heights.collect(),
-        mesh,
-    }
+    heights.collect()
 }
 
 /// The largest height over an outline whose bounding box has these half extents, drawing units.

@@ -24,9 +24,7 @@ impl Sides {
         let mesh = &field.mesh;
         let count = mesh.points.len();
         let mut points = Vec::with_capacity(2 * count);
-        for ([x, y], height) in mesh.points.iter().zip(&field.heights) {
-            points.push([*x, *y, (middle + height) as f32]);
-        }
+        points.extend(front(field, middle));
         let mut back = Vec::with_capacity(count);
         for (i, [x, y]) in mesh.points.iter().enumerate() {
             if mesh.on_border[i] {
@@ -102,6 +100,12 @@ impl Sides {
         turn_outward(&mut surface, &faces);
         surface
     }
+}
+
+/// The points of the front of a field about a depth, model units.
+pub(super) fn front(field: &Field, middle: f64) -> impl Iterator<Item = [f32; 3]> + '_ {
+    let points = field.mesh.points.iter().zip(&field.heights);
+    points.map(move |([x, y], height)| [*x, *y, (middle + height) as f32])
 }
 
 /// Where faces fold sharply, one may face away from their mean: it gets corners of its own, and so does that behind it.

@@ -4,11 +4,11 @@ use std::f64::consts::FRAC_PI_2;
 
 use glam::DVec2;
 
-use super::Kind;
+use super::{HeightField, Kind};
 use crate::geometry::Outline;
 use crate::scene::Surface;
 use crate::solid::Options;
-use crate::solid::inflate::{height, inflate};
+use crate::solid::inflate::{Mesh, front, height, heights, inflate};
 use crate::solid::layers::DEFAULT_SEGMENTS;
 
 /// Layers per half turn of the smallest outlines: seen from near by they are still round.
@@ -37,6 +37,10 @@ impl Kind for Inflate {
         inflate(outline, self.height, half, options)
     }
 
+    fn height_field(&self) -> Option<&dyn HeightField> {
+        Some(self)
+    }
+
     fn depths(&self, half: DVec2, _: &Options) -> Option<[f64; 2]> {
         let height = height(self.height, half);
         Some([-height, height])
@@ -51,5 +55,15 @@ impl Kind for Inflate {
         // With more degrees between the layers than the crease has, their edges would show.
         let smooth = ((180.0 / crease) as u32).saturating_add(1);
         enough.max(smooth).clamp(LEAST_SEGMENTS, DEFAULT_SEGMENTS)
+    }
+}
+
+impl HeightField for Inflate {
+    fn front(&self, outline: &Outline, half: DVec2, options: &Options) -> Surface {
+        front(outline, self.height, half, options)
+    }
+
+    fn heights(&self, mesh: &Mesh, half: DVec2, options: &Options) -> Vec<f64> {
+        heights(mesh, self.height, half, &options.placement)
     }
 }

@@ -13,6 +13,7 @@ use std::ops::{Deref, DerefMut};
 use glam::DVec2;
 
 use super::Options;
+use super::inflate::Mesh;
 use super::layers::{DEFAULT_SEGMENTS, Layer, with_thickness};
 use super::stack;
 use crate::geometry::Outline;
@@ -100,6 +101,11 @@ pub trait Kind {
         stack::surface(outline, &layers, options)
     }
 
+    /// The kind as a height field, if it is one.
+    fn height_field(&self) -> Option<&dyn HeightField> {
+        None
+    }
+
     /// How deep the solid reaches to the back and to the front, drawing units. A `lathe` is taken to reach as far as the
     /// outline does.
     fn depths(&self, half: DVec2, options: &Options) -> Option<[f64; 2]> {
@@ -140,6 +146,15 @@ pub trait Kind {
     fn depends_on_axis(&self) -> bool {
         false
     }
+}
+
+/// A kind whose front is a height field over the outline, 0 along its border, and whose back mirrors the front.
+pub trait HeightField {
+    /// The front of the surface, without normals.
+    fn front(&self, outline: &Outline, half: DVec2, options: &Options) -> Surface;
+
+    /// The heights over the points of any mesh of the outline at its final place, model units.
+    fn heights(&self, mesh: &Mesh, half: DVec2, options: &Options) -> Vec<f64>;
 }
 
 /// The plane faces of a solid that are parallel to the drawing.

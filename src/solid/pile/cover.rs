@@ -1,5 +1,7 @@
 //! How a mesh follows what it is laid on, and where it does not.
 
+use std::cell::OnceCell;
+
 use glam::{DVec2, DVec3, Vec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -29,18 +31,18 @@ const PLACES: [[f64; 3]; 7] = [
 /// A place of the plane, told apart exactly.
 type Key = [u32; 2];
 
-/// What is known of a mesh that is laid on others, and of those that it was refined from.
+/// What is known of a mesh that is laid on others.
 pub(super) struct Cover<'a> {
     target: &'a Target<'a>,
     tolerance: f64,
     is_volume: bool,
+    mesh: Mesh,
+    /// The mesh in the plane, in which the triangles at places are found.
+    plane: OnceCell<Heights>,
     /// Per point of the mesh.
     levels: Vec<Level>,
     /// Per triangle of the mesh, if what lies below matters there.
     samples: Vec<Option<Samples>>,
-    /// What was known of the last mesh, most of which is in the next one.
-    known_levels: FxHashMap<Key, Level>,
-    known_samples: FxHashMap<[Key; 3], Option<Samples>>,
 }
 
 /// A triangle compared with the target.
@@ -55,48 +57,95 @@ struct Samples {
     at: DVec2,
 }
 
+impl Samples {
+    /// Those of the triangle that begins with this corner of this one.
+    fn turned(mut self, first: usize) -> Self {
+        self.lifts.rotate_left(first % 3);
+        self
+    }
+}
+
 impl<'a> Cover<'a> {
-    pub(super) fn new(target: &'a Target<'a>, tolerance: f64) -> Self {
-        Self {
+    /// Compares a mesh with the target.
+    pub(super) fn new(mesh: Mesh, target: &'a Target<'a>, tolerance: f64) -> Self {
+        let points = mesh.points.iter().zip(target.reaches(&mesh));
+        let levels = points.map(|(point, reach)| target.at(flat(point), reach));
+        let mut cover = Self {
             target,
             tolerance,
             is_volume: target.lay.form == LayForm::Volume,
-            levels: Vec::new(),
+            levels: levels.collect(),
             samples: Vec::new(),
-            known_levels: FxHashMap::default(),
-            known_samples: FxHashMap::default(),
-        }
+            plane: OnceCell::new(),
+            mesh,
+        };
+        let triangles = cover.mesh.triangles.iter();
+        let samples = triangles.map(|triangle| cover.samples_of(*triangle));
+        cover.samples = samples.collect();
+        cover
     }
 
-    /// Compares a mesh with the target.
-    pub(super) fn lay(&mut self, mesh: &Mesh) {
-        let key = |i: u32| mesh.points[i as usize].map(f32::to_bits);
-        self.levels = (0..mesh.points.len())
-            .map(|i| {
-                let level = || self.target.at(flat(&mesh.points[i]));
-                *self.known_levels.entry(key(i as u32)).or_insert_with(level)
-            })
+    /// Compares a mesh with the target that was refined from the one before: most of its triangles are known.
+    pub(super) fn refine(&mut self, mesh: Mesh) {
+        let key = |mesh: &Mesh, i: u32| mesh.points[i as usize].map(f32::to_bits);
+        // Triangles begin with the least corner.
+        let turned = |mesh: &Mesh, triangle: &[u32; 3]| {
+            let first = (0..3).min_by_key(|i| key(mesh, triangle[*i])).unwrap_or(0);
+            (first, [0, 1, 2].map(|i| triangle[(first + i) % 3]))
+        };
+        let levels = (0..).zip(&self.levels);
+        let known_levels: FxHashMap<Key, Level> = levels
+            .map(|(i, level)| (key(&self.mesh, i), *level))
             .collect();
-        let mut samples = Vec::with_capacity(mesh.triangles.len());
-        let mut known = FxHashMap::default();
-        for triangle in &mesh.triangles {
-            let first = (0..3).min_by_key(|i| key(triangle[*i])).unwrap_or(0);
-            let turned = [0, 1, 2].map(|i| triangle[(first + i) % 3]);
-            let keys = turned.map(key);
-            let found = self.known_samples.get(&keys).copied();
-            let mut found = found.unwrap_or_else(|| self.samples_of(turned, mesh));
-            known.insert(keys, found);
-            if let Some(found) = &mut found {
-                found.lifts.rotate_right(first);
-            }
-            samples.push(found);
+        let mut known_samples: FxHashMap<[Key; 3], Option<Samples>> = FxHashMap::default();
+        for (triangle, samples) in self.mesh.triangles.iter().zip(&self.samples) {
+            let (first, triangle) = turned(&self.mesh, triangle);
+            let samples = samples.map(|samples| samples.turned(first));
+            known_samples.insert(triangle.map(|i| key(&self.mesh, i)), samples);
         }
-        self.samples = samples;
-        self.known_samples = known;
+        let level = |i: u32| {
+            let known = known_levels.get(&key(&mesh, i)).copied();
+            known.unwrap_or_else(|| self.at(flat(&mesh.points[i as usize])))
+        };
+        self.levels = (0..mesh.points.len() as u32).map(level).collect();
+        self.mesh = mesh;
+        self.plane = OnceCell::new();
+        let samples = self.mesh.triangles.iter().map(|triangle| {
+            let (first, turned) = turned(&self.mesh, triangle);
+            let known = known_samples.get(&turned.map(|i| key(&self.mesh, i)));
+            match known {
+                Some(samples) => samples.map(|samples| samples.turned(3 - first)),
+                None => self.samples_of(*triangle),
+            }
+        });
+        self.samples = samples.collect();
+    }
+
+    /// The target over a point of the mesh.
+    fn at(&self, point: DVec2) -> Level {
+        let reach = self.target.reach(point);
+        let over_mesh = || self.interpolated(point, |level| level.reach).unwrap_or(0.0);
+        self.target
+            .at(point, reach.unwrap_or_else(|| [over_mesh(); 2]))
+    }
+
+    /// What the mesh has over a place, if it is there, by what it has at its points.
+    fn interpolated(&self, place: DVec2, of_level: impl Fn(&Level) -> f64) -> Option<f64> {
+        // In the plane none of the triangles is a wall, so their numbers are those of the mesh.
+        let plane = self.plane.get_or_init(|| heights_over(&self.mesh, |_| 0.0));
+        let (_, triangle) = plane.find(place)?;
+        let triangle = self.mesh.triangles.get(triangle as usize)?;
+        let [a, b, c] = triangle.map(|i| flat(&self.mesh.points[i as usize]));
+        let [own_a, own_b, own_c] = triangle.map(|i| of_level(&self.levels[i as usize]));
+        let (ab, ac, to) = (b - a, c - a, place - a);
+        let twice = ab.perp_dot(ac);
+        let (share_b, share_c) = (to.perp_dot(ac) / twice, ab.perp_dot(to) / twice);
+        Some(own_a + (own_b - own_a) * share_b + (own_c - own_a) * share_c)
     }
 
     /// Compares a triangle with the target; `None` where nothing below matters.
-    fn samples_of(&self, triangle: [u32; 3], mesh: &Mesh) -> Option<Samples> {
+    fn samples_of(&self, triangle: [u32; 3]) -> Option<Samples> {
+        let mesh = &self.mesh;
         let target = self.target;
         let levels = triangle.map(|i| self.levels[i as usize]);
         // Where nothing below lifts it the solid by itself is fine enough.
@@ -104,19 +153,28 @@ impl<'a> Cover<'a> {
             return None;
         }
         let flats = triangle.map(|i| flat(&mesh.points[i as usize]));
+        let reach = levels.map(|level| level.reach);
         let [a, b, c] = [0, 1, 2].map(|i| flats[i].extend(levels[i].front));
         let normal = (b - a).cross(c - a).normalize_or(DVec3::Z);
         let slope = normal.z.max(STEEP);
+        // On slopes the front is as far from the surface below as elsewhere.
+        let step = target.lay.step / slope;
+        let least = if self.is_volume {
+            0.0
+        } else {
+            step - target.lay.step
+        };
         let mut samples = Samples {
-            lifts: [0.0; 3],
+            lifts: [least; 3],
             apart: 0.0,
             at: flats[0],
         };
+        if target.is_plane(&levels) {
+            return Some(samples);
+        }
         let mut missing = [f64::NEG_INFINITY; PLACES.len()];
         let fronts = levels.map(|level| level.front);
         let mut top = fronts.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        // On slopes the front is as far from the surface below as elsewhere.
-        let step = target.lay.step / slope;
         for (shares, missing) in PLACES.iter().zip(&mut missing) {
             let [share_a, share_b, share_c] = *shares;
             let own = a * share_a + b * share_b + c * share_c;
@@ -127,9 +185,13 @@ impl<'a> Cover<'a> {
                 // A volume may stand out more than it has to.
                 (below, (below + target.lay.step).max(0.0))
             } else {
-                match target.lifted(point, target.rim(point), || target.front_reach(point)) {
-                    Some([below, lifted]) => (below - own.z, (lifted - own.z).abs()),
-                    None => (f64::NEG_INFINITY, (target.at(point).front - own.z).abs()),
+                let reach = reach[0] * share_a + reach[1] * share_b + reach[2] * share_c;
+                match target.lifted(point, target.rim(point), reach) {
+                    Some((below, lifted)) => (below.front - own.z, (lifted - own.z).abs()),
+                    None => (
+                        f64::NEG_INFINITY,
+                        (target.at(point, [reach; 2]).front - own.z).abs(),
+                    ),
                 }
             };
             *missing = below + (1.0 - LIFTED) * step;
@@ -143,20 +205,15 @@ impl<'a> Cover<'a> {
         let lifts = PLACES.iter().zip(missing);
         let lifts = lifts.map(|(shares, missing)| lift(*shares, room, missing));
         let lift = lifts.fold(0.0, f64::max);
-        let least = if self.is_volume {
-            0.0
-        } else {
-            step - target.lay.step
-        };
         samples.lifts = room.map(|room| lift.min(room).max(least));
         Some(samples)
     }
 
     /// The corners of the triangles below, and of those that it is wrapped around or behind, which the mesh misses by more than
     /// the tolerance; of too many those that it misses most.
-    pub(super) fn corners(&self, mesh: &Mesh, most: usize) -> Vec<DVec2> {
+    pub(super) fn corners(&self, most: usize) -> Vec<DVec2> {
         let target = self.target;
-        let points = || mesh.points.iter().map(flat);
+        let points = || self.mesh.points.iter().map(flat);
         let (Some(low), Some(high)) = (points().reduce(DVec2::min), points().reduce(DVec2::max))
         else {
             return Vec::new();
@@ -172,13 +229,12 @@ impl<'a> Cover<'a> {
                 missed.push((apart, corner));
             }
         };
-        let front = heights_over(mesh, |i| self.levels[i].front);
         let apart = |corner: DVec2| {
-            let own = front.at(corner)?;
+            let own = self.interpolated(corner, |level| level.front)?;
             Some(if self.is_volume {
                 target.below(corner)? + target.lay.step - own
             } else {
-                (target.at(corner).front - own).abs()
+                (self.at(corner).front - own).abs()
             })
         };
         for place in target.ground.visible() {
@@ -187,8 +243,10 @@ impl<'a> Cover<'a> {
         }
         let around = || target.ground.wraps.iter().chain(&target.ground.behind);
         if around().next().is_some() {
-            let back = heights_over(mesh, |i| self.levels[i].back);
-            let apart = |corner: DVec2| Some((target.at(corner).back - back.at(corner)?).abs());
+            let apart = |corner: DVec2| {
+                let own = self.interpolated(corner, |level| level.back)?;
+                Some((self.at(corner).back - own).abs())
+            };
             for place in around() {
                 let corners = place.corners([low, high], Place::back_heights);
                 corners.for_each(|corner| add(corner, &apart));
@@ -199,7 +257,8 @@ impl<'a> Cover<'a> {
 
     /// Where triangles are farther from the target than the tolerance: of each the worst place, moved inward from its sides; of
     /// too many the worst.
-    pub(super) fn deviations(&self, mesh: &Mesh, most: usize) -> Vec<DVec2> {
+    pub(super) fn deviations(&self, most: usize) -> Vec<DVec2> {
+        let mesh = &self.mesh;
         let of_triangles = mesh.triangles.iter().zip(&self.samples);
         let deviations = of_triangles.filter_map(|(triangle, samples)| {
             let samples = samples.as_ref()?;
@@ -215,9 +274,9 @@ impl<'a> Cover<'a> {
     }
 
     /// The depths of the front and of the back at each point, the front lifted where the surface below would cut through it.
-    pub(super) fn fields(&self, mesh: &Mesh) -> [Vec<f64>; 2] {
+    pub(super) fn fields(&self) -> [Vec<f64>; 2] {
         let mut more = vec![0.0_f64; self.levels.len()];
-        for (triangle, samples) in mesh.triangles.iter().zip(&self.samples) {
+        for (triangle, samples) in self.mesh.triangles.iter().zip(&self.samples) {
             let Some(samples) = samples else { continue };
             for (i, lift) in triangle.iter().zip(samples.lifts) {
                 let most = &mut more[*i as usize];
@@ -230,6 +289,11 @@ impl<'a> Cover<'a> {
             front.collect(),
             self.levels.iter().map(|level| level.back).collect(),
         ]
+    }
+
+    /// The mesh.
+    pub(super) fn into_mesh(self) -> Mesh {
+        self.mesh
     }
 }
 
@@ -269,7 +333,7 @@ fn worst(mut places: Vec<(f64, DVec2)>, most: usize) -> Vec<DVec2> {
     places.into_iter().map(|(_, place)| place).collect()
 }
 
-fn flat(place: &[f32; 2]) -> DVec2 {
+pub(super) fn flat(place: &[f32; 2]) -> DVec2 {
     let [x, y] = place.map(f64::from);
     DVec2::new(x, y)
 }

@@ -22,12 +22,8 @@ use crate::solid::shade::shade;
 use crate::solid::stack::PlacementTransform;
 use crate::solid::{Options, Placement};
 
-/// How far the mesh may deviate from the surfaces below it before it is refined, as a share of the step.
-const TOLERANCE: f64 = 0.5;
 /// Points of the border are no closer than this, in tolerances.
 const NEAR: f64 = 0.2;
-/// The number of rounds of refinement.
-const MAX_ROUNDS: usize = 2;
 /// Limit of the points that are added to those of a solid by itself and of its border, as a multiple of these, beside what the
 /// pile allows for. It is reached only over surfaces with many steps.
 const MAX_GROWTH: usize = 1;
@@ -56,9 +52,9 @@ impl Field {
     /// The height fields over an outline, in the frame of its node; `None` if nothing lifts the solid.
     pub(super) fn new(outline: &Outline, options: &Options, target: &Target<'_>) -> Option<Self> {
         let steps = steps_per_half_turn(options);
-        let tolerance = TOLERANCE * target.lay.step;
+        let tolerance = target.lay.tolerance();
         // Skins of plates and lines have no heights of their own.
-        let is_round = target.own.is_some() && target.lay.bulge > 0.0;
+        let is_round = target.lay.form != LayForm::Ink && target.lay.bulge > 0.0;
         let mut all = match is_round {
             true => points(outline, steps),
             false => Points {
@@ -83,29 +79,22 @@ impl Field {
             placement: Placement::default(),
             ..*options
         });
-        let mut cover = Cover::new(target, tolerance);
-        let mut mesh = mesh_of(&all, &in_place);
+        let mut cover = Cover::new(mesh_of(&all, &in_place), target, tolerance);
         let most = (MAX_GROWTH + 1) * all.points.len() + target.more_points;
-        for round in 0..=MAX_ROUNDS {
-            cover.lay(&mesh);
-            let room = most.saturating_sub(all.points.len());
-            let wanted = match round {
-                // Half of them are left for what the corners do not tell.
-                0 => cover.corners(&mesh, room / 2),
-                MAX_ROUNDS => Vec::new(),
-                _ => cover.deviations(&mesh, room),
+        let mut refine =
+            |cover: &mut Cover<'_>, wanted: &dyn Fn(&Cover<'_>, usize) -> Vec<DVec2>| {
+                let wanted = wanted(cover, most.saturating_sub(all.points.len()));
+                if !wanted.is_empty() {
+                    all.points.extend(wanted);
+                    cover.refine(mesh_of(&all, &in_place));
+                }
             };
-            if wanted.is_empty() && round > 0 {
-                break;
-            }
-            if !wanted.is_empty() {
-                all.points.extend(wanted);
-                mesh = mesh_of(&all, &in_place);
-            }
-        }
-        let [front, back] = cover.fields(&mesh);
+        // Half of the points are left for what the corners do not tell.
+        refine(&mut cover, &|cover, room| cover.corners(room / 2));
+        refine(&mut cover, &|cover, room| cover.deviations(room));
+        let [front, back] = cover.fields();
         Some(Self {
-            mesh,
+            mesh: cover.into_mesh(),
             front,
             back,
             is_open: target.lay.form == LayForm::Sheet,
@@ -227,7 +216,12 @@ fn border(rings: &[Vec<DVec2>], target: &Target<'_>, tolerance: f64) -> Points {
             let profile = std::iter::once(0.0)
                 .chain(crossings.iter().copied())
                 .chain([1.0]);
-            let at = |share: f64| (share, target.at(from.lerp(to, share)).front);
+            let at = |share: f64| {
+                let point = from.lerp(to, share);
+                // Height fields are 0 along the border.
+                let reach = target.reach(point).unwrap_or_default();
+                (share, target.at(point, reach).front)
+            };
             let mut profile: Vec<(f64, f64)> = profile.map(at).collect();
             profile.dedup_by(|next, last| (next.0 - last.0) * length < apart && next.0 < 1.0);
             keep_bends(&profile, tolerance, &mut |share| {

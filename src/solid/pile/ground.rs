@@ -2,10 +2,13 @@
 
 use glam::{DAffine2, DVec2};
 
+use super::cover::flat;
 use super::rim::Rim;
 use super::{Lay, LayForm, Placed};
 use crate::geometry::{EdgeRanges, Intervals, LINES, Outline, Scanlines, bounds};
+use crate::solid::Solid;
 use crate::solid::heights::Heights;
+use crate::solid::inflate::Mesh;
 
 /// A body that another one lies on or around, as seen from that.
 pub(super) struct Place {
@@ -28,7 +31,8 @@ pub(super) struct Ground {
 }
 
 impl Place {
-    fn front(&self, point: DVec2) -> Option<f64> {
+    /// The front over a point, where the body is, and the number of the triangle there.
+    fn front(&self, point: DVec2) -> Option<(f64, u32)> {
         self.placed.front(self.to.transform_point2(point))
     }
 
@@ -88,12 +92,39 @@ impl Ground {
 
     /// The front of what lies below a point.
     pub(super) fn front(&self, point: DVec2) -> Option<f64> {
-        highest(self.below.iter(), point)
+        let mut highest = Highest::default();
+        for place in &self.below {
+            highest.add(place, place.front(point));
+            if highest.is_final {
+                break;
+            }
+        }
+        highest.front
     }
 
-    /// The front of the volumes below a point.
-    fn volumes(&self, point: DVec2) -> Option<f64> {
-        highest(self.volumes.iter().map(|index| &self.below[*index]), point)
+    /// What lies below a point of a solid that adds this share of its own heights to those of volumes.
+    fn below(&self, point: DVec2, bulge: f64) -> Option<Below> {
+        let (mut all, mut volumes) = (Highest::default(), Highest::default());
+        let mut triangle = None;
+        for (index, place) in self.below.iter().enumerate() {
+            if place.is_detail && all.is_final {
+                continue;
+            }
+            let found = place.front(point);
+            all.add(place, found);
+            if !place.is_detail {
+                volumes.add(place, found);
+            }
+            if volumes.is_final || (all.is_final && bulge == 0.0) {
+                triangle = found.filter(|_| index == 0).map(|(_, triangle)| triangle);
+                break;
+            }
+        }
+        Some(Below {
+            front: all.front?,
+            volumes: volumes.front,
+            triangle,
+        })
     }
 
     /// The index of the topmost volume below a point.
@@ -121,19 +152,23 @@ impl Ground {
     }
 }
 
-/// The highest front over a point, of places in their order, the topmost first.
-fn highest<'a>(places: impl Iterator<Item = &'a Place>, point: DVec2) -> Option<f64> {
-    let mut highest: Option<f64> = None;
-    for place in places {
-        if let Some(front) = place.front(point) {
-            highest = Some(highest.map_or(front, |highest| highest.max(front)));
+/// The highest front over a point, of places that are added in their order, the topmost first.
+#[derive(Default)]
+struct Highest {
+    front: Option<f64>,
+    /// Whether nothing below can be higher.
+    is_final: bool,
+}
+
+impl Highest {
+    /// Adds a place with its front over the point.
+    fn add(&mut self, place: &Place, front: Option<(f64, u32)>) {
+        if let Some((front, _)) = front.filter(|_| !self.is_final) {
+            self.front = Some(self.front.map_or(front, |highest| highest.max(front)));
             // What is not given comes out in front of all that is below it itself.
-            if !place.is_given {
-                break;
-            }
+            self.is_final = !place.is_given;
         }
     }
-    highest
 }
 
 /// Those of the places below an outline, the topmost first, that can be seen from the front, as far as a number of points tell.
@@ -167,10 +202,20 @@ fn visible(below: &[Place], outline: &Outline) -> Vec<usize> {
     visible
 }
 
+/// A solid by itself.
+pub(super) enum Own<'a> {
+    /// A line has no heights of its own.
+    Line,
+    /// One whose heights are looked up.
+    Placed(Placed),
+    /// One whose heights are known over every mesh of its outline, with the factor by which they are multiplied.
+    Field(&'a Solid, f64),
+}
+
 /// What the height fields of a solid are to be.
 pub(super) struct Target<'a> {
-    /// The solid by itself; a line has no heights of its own.
-    pub(super) own: Option<Placed>,
+    /// The solid by itself.
+    pub(super) own: Own<'a>,
     /// The depth of its plane.
     pub(super) depth: f64,
     pub(super) lay: &'a Lay,
@@ -181,31 +226,52 @@ pub(super) struct Target<'a> {
     pub(super) more_points: usize,
 }
 
+/// What lies below a point.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Below {
+    /// Its front.
+    pub(super) front: f64,
+    /// The front of the volumes there.
+    volumes: Option<f64>,
+    /// The triangle of the topmost body, if nothing else matters there.
+    pub(super) triangle: Option<u32>,
+}
+
 /// The target over a point.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Level {
     pub(super) front: f64,
     pub(super) back: f64,
-    /// The front of what lies below, if something does.
-    pub(super) below: Option<f64>,
+    /// How far the solid by itself reaches to the front.
+    pub(super) reach: f64,
+    /// What lies below, if something does.
+    pub(super) below: Option<Below>,
 }
 
 impl Target<'_> {
-    /// How far the solid by itself reaches to the front and to the back.
-    fn reach(&self, point: DVec2) -> [f64; 2] {
-        let own = self.own.as_ref();
-        own.map_or([0.0; 2], |own| own.reach(point))
+    /// How far the solid by itself reaches to the front and to the back, unless that is known for meshes alone.
+    pub(super) fn reach(&self, point: DVec2) -> Option<[f64; 2]> {
+        match &self.own {
+            Own::Line => Some([0.0; 2]),
+            Own::Placed(own) => Some(own.reach(point)),
+            Own::Field(..) => None,
+        }
+    }
+
+    /// The same over the points of a mesh of its outline.
+    pub(super) fn reaches(&self, mesh: &Mesh) -> Vec<[f64; 2]> {
+        if let Own::Field(solid, factor) = self.own
+            && let Some(heights) = solid.heights_over(mesh)
+        {
+            return heights.iter().map(|height| [height * factor; 2]).collect();
+        }
+        let reach = |point: &[f32; 2]| self.reach(flat(point)).unwrap_or_default();
+        mesh.points.iter().map(reach).collect()
     }
 
     /// The front of what lies below a point.
     pub(super) fn below(&self, point: DVec2) -> Option<f64> {
         self.ground.front(point)
-    }
-
-    /// How far the solid by itself reaches to the front.
-    pub(super) fn front_reach(&self, point: DVec2) -> f64 {
-        let own = self.own.as_ref();
-        own.map_or(0.0, |own| own.front_reach(point))
     }
 
     /// The front of the hoop that a line is at a point; -∞ where it is none.
@@ -219,27 +285,33 @@ impl Target<'_> {
         self.ground.nearest(point).unwrap_or(self.depth)
     }
 
-    /// The front of what lies below a point, and the depth that it lifts this solid to, which by itself reaches this far to the
-    /// front there, and whose hoop reaches to `rim`.
-    pub(super) fn lifted(
-        &self,
-        point: DVec2,
-        rim: f64,
-        front: impl Fn() -> f64,
-    ) -> Option<[f64; 2]> {
+    /// What lies below a point, and the depth that it lifts this solid to, which by itself reaches this far to the front there,
+    /// and whose hoop reaches to `rim`.
+    pub(super) fn lifted(&self, point: DVec2, rim: f64, reach: f64) -> Option<(Below, f64)> {
         let Lay { step, bulge, .. } = self.lay;
-        let below = self.ground.front(point)?;
-        let volumes = (*bulge > 0.0).then(|| self.ground.volumes(point)).flatten();
-        let on_volumes = volumes.map_or(f64::NEG_INFINITY, |volumes| volumes + bulge * front());
-        let lifted = on_volumes.max(below + step).max(rim);
-        Some([below, lifted])
+        let below = self.ground.below(point, *bulge)?;
+        let volumes = below.volumes.filter(|_| *bulge > 0.0);
+        let on_volumes = volumes.map_or(f64::NEG_INFINITY, |volumes| volumes + bulge * reach);
+        Some((below, on_volumes.max(below.front + step).max(rim)))
     }
 
     /// Whether what lies below a point lifts the solid there.
     pub(super) fn lifts(&self, point: DVec2) -> bool {
-        let front = self.front_reach(point);
-        let lifted = self.lifted(point, self.rim(point), || front);
-        lifted.is_some_and(|[_, lifted]| lifted > self.depth + front)
+        let [front, _] = self.reach(point).unwrap_or_default();
+        let lifted = self.lifted(point, self.rim(point), front);
+        lifted.is_some_and(|(_, lifted)| lifted > self.depth + front)
+    }
+
+    /// Whether the front, if it is lifted, is a plane over the triangle between points with these levels: over one triangle of
+    /// what lies below, by the same rule.
+    pub(super) fn is_plane(&self, levels: &[Level; 3]) -> bool {
+        let Lay { step, bulge, .. } = self.lay;
+        let triangles = levels.map(|level| level.below.and_then(|below| below.triangle));
+        let bulges = levels.map(|level| bulge * level.reach > *step);
+        self.rim.is_none()
+            && triangles[0].is_some()
+            && triangles.iter().all(|triangle| *triangle == triangles[0])
+            && bulges.iter().all(|is_bulging| *is_bulging == bulges[0])
     }
 
     /// Whether anything makes the solid differ from what it is by itself, as far as these points of it tell.
@@ -253,18 +325,15 @@ impl Target<'_> {
             || points.iter().any(|point| self.lifts(*point))
     }
 
-    /// The target over a point.
-    pub(super) fn at(&self, point: DVec2) -> Level {
+    /// The target over a point where the solid by itself reaches this far to the front and to the back.
+    pub(super) fn at(&self, point: DVec2, [reach, back]: [f64; 2]) -> Level {
         let Lay {
             step, bulge, form, ..
         } = self.lay;
-        let [front, back] = self.reach(point);
         let rim = self.rim(point);
-        let lifted = self.lifted(point, rim, || front);
-        let below = lifted.map(|[below, _]| below);
-        let lifted = lifted.map(|[_, lifted]| lifted);
-        let natural = [self.depth + front, self.depth - back];
-        let [front, back] = match (form, lifted, below) {
+        let (below, lifted) = self.lifted(point, rim, reach).unzip();
+        let natural = [self.depth + reach, self.depth - back];
+        let [front, back] = match (form, lifted, below.map(|below| below.front)) {
             (LayForm::Volume, lifted, _) => {
                 let lifted = lifted.unwrap_or(rim);
                 [natural[0].max(lifted), natural[1]]
@@ -277,7 +346,7 @@ impl Target<'_> {
                 [rim.max(beside + step), beside - step]
             }
             _ => {
-                let bulge = bulge * front;
+                let bulge = bulge * reach;
                 [
                     (self.depth + bulge.max(*step)).max(rim),
                     self.depth - back.min(bulge + step),
@@ -295,6 +364,11 @@ impl Target<'_> {
         let hoop = rim.is_finite().then(|| 2.0 * self.beside(point) - rim);
         let lower = around.into_iter().chain(covered).chain(hoop);
         let back = lower.fold(back, f64::min);
-        Level { front, back, below }
+        Level {
+            front,
+            back,
+            reach,
+            below,
+        }
     }
 }

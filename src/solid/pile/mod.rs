@@ -12,6 +12,7 @@ use std::hash::Hasher;
 use std::sync::Arc;
 
 use glam::{DAffine2, DVec2};
+use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHasher};
 
 use super::heights::BothHeights;
@@ -20,7 +21,7 @@ use super::{Sides, Solid};
 use crate::geometry::Outline;
 use crate::scene::{Surface, SurfaceSource};
 use field::Field;
-use ground::{Ground, Place, Target};
+use ground::{Ground, Own, Place, Target};
 use rim::Rim;
 
 pub use recent::{RecentHeights, SolidHeights};
@@ -36,6 +37,11 @@ const MORE_POINTS: usize = 1 << 16;
 /// The same for one of a few bodies, and for one of many.
 const MOST_EACH: usize = 1 << 9;
 const LEAST_EACH: usize = 1 << 5;
+
+/// How far a mesh may deviate from the surfaces below it before it is refined, as a share of the step.
+const TOLERANCE: f64 = 0.5;
+/// The same where nobody sees the deviation. What lies on top is lifted by it, so it has a limit.
+const MAX_TOLERANCE: f64 = 2.0;
 
 /// The solids of a drawing that lie over one another or that others lie on, back-most first.
 #[derive(Debug)]
@@ -84,6 +90,8 @@ pub struct Lay {
     pub clips: bool,
     /// How far it comes out in front of what it lies on, at least.
     pub step: f64,
+    /// A deviation that nobody sees.
+    pub invisible: f64,
     /// The share of its own heights that it adds to those of the volumes below it.
     pub bulge: f64,
     /// Its form.
@@ -126,12 +134,13 @@ impl Placed {
         }
     }
 
-    /// The front and the back over a point, where the body is.
-    fn front(&self, point: DVec2) -> Option<f64> {
-        let height = self.heights.front.at(point)?;
-        Some(self.depth + self.factor * height)
+    /// The front over a point, where the body is, and the number of the triangle there.
+    fn front(&self, point: DVec2) -> Option<(f64, u32)> {
+        let (height, triangle) = self.heights.front.find(point)?;
+        Some((self.depth + self.factor * height, triangle))
     }
 
+    /// The back over a point, where the body is.
     fn back(&self, point: DVec2) -> Option<f64> {
         let height = self.heights.back().at(point)?;
         Some(self.depth - self.factor * height)
@@ -146,10 +155,13 @@ impl Placed {
 
     /// How far front and back are from the plane, over a point of its outline.
     fn reach(&self, point: DVec2) -> [f64; 2] {
-        [&*self.heights.front, self.heights.back()].map(|side| {
-            let height = side.at(point).or_else(|| side.nearest(point));
-            self.factor * height.unwrap_or(0.0)
-        })
+        let front = self.front_reach(point);
+        if self.heights.is_symmetric() {
+            return [front; 2];
+        }
+        let back = self.heights.back();
+        let height = back.at(point).or_else(|| back.nearest(point));
+        [front, self.factor * height.unwrap_or(0.0)]
     }
 }
 
@@ -157,6 +169,12 @@ impl Lay {
     /// What it is laid on or around.
     fn on(&self) -> impl Iterator<Item = usize> + '_ {
         self.below.iter().chain(&self.wraps).copied()
+    }
+
+    /// How far its mesh may deviate from the surfaces below it.
+    fn tolerance(&self) -> f64 {
+        let unseen = self.invisible.min(MAX_TOLERANCE * self.step);
+        unseen.max(TOLERANCE * self.step)
     }
 }
 
@@ -176,8 +194,10 @@ impl Pile {
             carries,
             recent,
         };
-        for body in &pile.bodies {
-            let key = pile.key_of(body);
+        let solids = pile.bodies.par_iter();
+        let solids: Vec<u128> = solids.map(|body| body.solid.long_key()).collect();
+        for body in 0..solids.len() {
+            let key = pile.key_of(body, &solids);
             pile.keys.push(key);
         }
         pile
@@ -188,18 +208,22 @@ impl Pile {
         &self.bodies
     }
 
-    /// A hash of all that the surface of a body is made from; those of earlier bodies are known.
-    fn key_of(&self, body: &Body) -> u128 {
-        let place = |hasher: &mut dyn Hasher, body: &Body| {
-            hasher.write_u128(body.solid.long_key());
+    /// A hash of all that the surface of a body is made from; those of earlier bodies, and of the solids by themselves, are known.
+    fn key_of(&self, body: usize, solids: &[u128]) -> u128 {
+        let place = |hasher: &mut dyn Hasher, index: usize| {
+            let body = &self.bodies[index];
+            hasher.write_u128(solids[index]);
             let numbers = body.to_plane.to_cols_array().into_iter();
             let numbers = numbers.chain([body.depth, body.node_depth, body.flattened]);
             numbers.for_each(|number| hasher.write_u64(number.to_bits()));
         };
         long_hash(|hasher| {
             place(hasher, body);
-            let Some(lay) = &body.lay else { return };
+            let Some(lay) = &self.bodies[body].lay else {
+                return;
+            };
             hasher.write_u64(lay.step.to_bits());
+            hasher.write_u64(lay.tolerance().to_bits());
             hasher.write_u64(lay.bulge.to_bits());
             hasher.write_usize(self.more_points);
             hasher.write_u8(lay.form as u8);
@@ -214,7 +238,7 @@ impl Pile {
                 }
             }
             for later in &lay.behind {
-                place(hasher, &self.bodies[*later]);
+                place(hasher, *later);
             }
         })
     }
@@ -277,7 +301,15 @@ impl Pile {
             &outline,
         );
         let target = Target {
-            own: (lay.form != LayForm::Ink).then(|| self.unlifted(index)),
+            own: match lay.form {
+                LayForm::Ink => Own::Line,
+                // Whether a volume is lifted at all is known before its mesh.
+                LayForm::Volume => Own::Placed(self.unlifted(index)),
+                _ if lay.bulge > 0.0 && body.solid.profile.height_field().is_some() => {
+                    Own::Field(&body.solid, body.flattened)
+                }
+                _ => Own::Placed(self.unlifted(index)),
+            },
             depth: body.depth,
             lay,
             ground: &ground,

@@ -7,9 +7,8 @@ use glam::{DAffine2, DVec2};
 use rustc_hash::FxHashMap;
 
 use super::field::Field;
-use crate::scene::SurfaceSource;
 use crate::solid::Solid;
-use crate::solid::heights::BothHeights;
+use crate::solid::heights::{BothHeights, Heights};
 
 /// Limit of the triangles of the fields that are kept: to make a field again, all below it is needed.
 const MAX_OF_FIELDS: usize = 1 << 23;
@@ -39,7 +38,7 @@ impl Default for RecentHeights {
 impl RecentHeights {
     /// The heights of a solid by itself.
     pub(super) fn of_solid(&self, solid: &Solid) -> BothHeights {
-        let make = || BothHeights::of(&solid.surface());
+        let make = || BothHeights::of_solid(solid);
         self.heights.get(solid.long_key(), make)
     }
 
@@ -162,33 +161,59 @@ impl<T> Kept<T> {
     }
 }
 
-/// How far a solid by itself reaches from its plane, over points of the drawing.
-#[derive(Debug, Clone)]
+/// How far a solid by itself reaches from its plane, over points of the drawing. It is made when that is first asked for.
+#[derive(Debug)]
 pub struct SolidHeights {
-    both: BothHeights,
+    solid: Solid,
+    recent: Arc<RecentHeights>,
     /// From the drawing, y down, to the solid's final positions.
     to_final: DAffine2,
-    scale: f64,
+    made: OnceLock<Made>,
+}
+
+/// What is made when it is first asked for.
+#[derive(Debug)]
+struct Made {
+    both: BothHeights,
+    /// Model units.
+    highest: f64,
 }
 
 impl SolidHeights {
     /// The heights of a solid, its plane at depth 0.
-    pub fn of(solid: &Solid, recent: &RecentHeights) -> Self {
+    pub fn new(solid: Solid, recent: Arc<RecentHeights>) -> Self {
         Self {
-            both: recent.of_solid(solid),
             to_final: solid.to_final(),
-            scale: solid.options.placement.scale,
+            solid,
+            recent,
+            made: OnceLock::new(),
         }
+    }
+
+    fn made(&self) -> &Made {
+        self.made.get_or_init(|| {
+            let both = self.recent.of_solid(&self.solid);
+            let [front, back] = [&both.front, both.back()].map(Heights::highest);
+            Made {
+                both,
+                highest: front.max(back).max(0.0),
+            }
+        })
+    }
+
+    fn scale(&self) -> f64 {
+        self.solid.options.placement.scale
     }
 
     /// How far it reaches to the front over a point, drawing units; 0 beside it.
     pub fn front(&self, point: DVec2) -> f64 {
-        let height = self.both.front.at(self.to_final.transform_point2(point));
-        height.unwrap_or(0.0) / self.scale
+        let front = &self.made().both.front;
+        let height = front.at(self.to_final.transform_point2(point));
+        height.unwrap_or(0.0) / self.scale()
     }
 
-    /// How far it reaches to the front and to the back at most, drawing units.
-    pub fn highest(&self) -> [f64; 2] {
-        [&*self.both.front, self.both.back()].map(|side| side.highest() / self.scale)
+    /// How far it reaches from its plane at most, drawing units.
+    pub fn highest(&self) -> f64 {
+        self.made().highest / self.scale()
     }
 }

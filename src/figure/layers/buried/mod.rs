@@ -12,6 +12,7 @@ use rayon::prelude::*;
 
 pub(in super::super) use hint::report;
 
+use super::shapes::Shape;
 use super::{Arrangement, FigureContext, Layers};
 use crate::geometry::{Intervals, Scanlines};
 use crate::threads::GRAIN;
@@ -175,12 +176,14 @@ impl Search<'_> {
 
     /// Per shape how far its front reaches at most, what lifts it included, drawing units.
     fn highest(&self) -> Vec<f64> {
-        let mut highest: Vec<f64> = Vec::with_capacity(self.arrangement.shapes.len());
-        for (index, shape) in self.arrangement.shapes.iter().enumerate() {
-            let reach = shape.height.max(shape.plate[1]) + self.layers.raised(shape.part)[1];
+        let shapes = self.arrangement.shapes;
+        let heights: Vec<f64> = shapes.par_iter().map(Shape::height).collect();
+        let mut highest: Vec<f64> = Vec::with_capacity(shapes.len());
+        for (index, (shape, height)) in shapes.iter().zip(heights).enumerate() {
+            let reach = height.max(shape.plate[1]) + self.layers.raised(shape.part)[1];
             let own = self.arrangement.plane(index) + reach;
             let copies = self.mirrors(index).map(|plane| {
-                2.0 * plane - self.arrangement.plane(index) + shape.height.max(shape.plate[0])
+                2.0 * plane - self.arrangement.plane(index) + height.max(shape.plate[0])
             });
             let mut most = copies.fold(own, f64::max);
             if self.is_laid(index) {
@@ -376,7 +379,7 @@ impl Search<'_> {
             &self.arrangement.shapes[other],
         );
         let extent = (other.bounds.1 - other.bounds.0).max_element();
-        (gap > FLOATS * extent && gap > 2.0 * own.height).then_some(Buried {
+        (gap > FLOATS * extent && gap > 2.0 * own.height()).then_some(Buried {
             given: self.gives(shape)?,
             part: own.part,
             other: other.part,
