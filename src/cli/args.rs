@@ -10,7 +10,7 @@ use crate::motion::resample::{Range, parse_range};
 
 mod render;
 
-pub(super) use render::{Bend, Projection, Render, Shading};
+pub(super) use render::{Background, Bend, Projection, Render, Shading};
 
 const EXAMPLES: &str = "\
 Examples:

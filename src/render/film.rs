@@ -1,17 +1,22 @@
-//! Renders a clip with one camera for all its frames.
+//! Renders a clip with one camera for all its frames, which stands still or follows the figure.
 
 use std::borrow::Cow;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec3Swizzles as _};
 use rayon::prelude::*;
 
 use super::camera::{Framing, View};
+use super::follow::CameraPath;
+use super::ground::Floor;
 use super::model::Model;
-use super::posed_model::{Image, RayTarget, check_size, draw};
+use super::posed_model::{Image, Take, check_size, draw};
+use super::sampling::{FILM, STILL, Sampling};
 use super::surface::{Normalization, Surface};
-use super::trace::Rays;
+use super::trace::{Hierarchy, Rays};
 use super::{MAX_CLIP_FRAMES, MAX_FILM_STRIP_PIXELS, Options, RenderError, on_pool};
-use crate::import::{Clip, ImportError};
+use crate::crash::Crash;
+use crate::import::{Clip, ImportError, Pose};
 
 /// At how many times the pose is sampled, at most, to find the space that the clip needs.
 const MAX_SAMPLES: u32 = 32;
@@ -19,6 +24,8 @@ const MAX_SAMPLES: u32 = 32;
 const MAX_CACHED_CORNERS: usize = 4 << 20;
 /// The longest time that one picture is held, in seconds: file formats cannot store much longer delays.
 const MAX_HOLD_SECONDS: f64 = 60.0;
+/// The most pixels of the pictures that are rendered at the same time, unless one has more.
+const MAX_BATCH_PIXELS: u64 = 8 << 20;
 /// A remainder of less than this many frames does not become a frame.
 const FRAME_TOLERANCE: f64 = 1e-4;
 
@@ -33,6 +40,28 @@ pub struct Film<'a> {
     /// The height of the ground in normalised space: below all poses.
     ground: f32,
     triangles: usize,
+    /// How the camera moves, unless it stands still.
+    following: Option<Following>,
+}
+
+/// A camera that follows what moves from place to place.
+struct Following {
+    path: CameraPath,
+    /// For each node whether it has a mesh that is followed, and so is kept in the picture.
+    meshes: Vec<bool>,
+    /// The longest side of what is followed, in normalised space.
+    length: f32,
+    /// How far in front of it there may be something else, in normalised space.
+    clearance: f32,
+}
+
+/// What all pictures of a film have in common.
+struct Setting<'a> {
+    options: &'a Options,
+    framing: Framing,
+    sampling: &'static Sampling,
+    /// The hierarchy of one pose; `None` if it has no triangles.
+    hierarchy: Option<Hierarchy>,
 }
 
 /// A picture of a film, and how long it is held.
@@ -94,7 +123,43 @@ impl<'a> Film<'a> {
             normalization,
             ground: normalization.apply(low).y as f32,
             triangles,
+            following: None,
         })
+    }
+
+    /// The same, with a camera that follows what moves from place to place, smoothly and at one height, and keeps it in the
+    /// picture. Lines on the ground show how far it goes. Where nothing moves from place to place, the camera stands still.
+    ///
+    /// # Errors
+    /// A model with too many triangles.
+    pub fn following(mut self) -> Result<Self, RenderError> {
+        let travellers = self.model.travellers(self.clip);
+        if travellers.roots.is_empty() {
+            return Ok(self);
+        }
+        let length = || {
+            let mut length = 0.0_f32;
+            for time in evenly(self.span, MAX_SAMPLES) {
+                let pose = self.model.pose_at(self.clip, time);
+                let surface =
+                    self.model
+                        .surface_of(&travellers.meshes, &pose, self.normalization)?;
+                if !surface.triangles.is_empty() {
+                    length = length.max((surface.high - surface.low).max_element());
+                }
+            }
+            Ok(length)
+        };
+        let length = on_pool(length)?;
+        let path = CameraPath::new(self.model, self.clip, &travellers, self.span);
+        self.following = Some(Following {
+            meshes: travellers.meshes,
+            length,
+            // The diagonal of a cube with the longest side of a pose, and the way.
+            clearance: 2.0 + (path.length() * self.normalization.scale) as f32,
+            path,
+        });
+        Ok(self)
     }
 
     /// The largest number of triangles of any sampled pose.
@@ -144,8 +209,8 @@ impl<'a> Film<'a> {
         Ok(held)
     }
 
-    /// Renders the film at some times with one camera that frames all of it. `each` gets the pictures one by one and may
-    /// stop with its own error.
+    /// Renders the film at some times with one camera that frames all of it. `each` gets the pictures one by one, while the
+    /// next ones are rendered, and may stop with its own error.
     ///
     /// # Errors
     /// A size out of range, or the error of `each`.
@@ -153,13 +218,46 @@ impl<'a> Film<'a> {
         &self,
         options: &Options,
         moments: impl IntoIterator<Item = f64>,
+        each: impl FnMut(Image) -> Result<(), E>,
+    ) -> Result<(), E> {
+        self.draw_sampled(options, moments, &FILM, each)
+    }
+
+    fn draw_sampled<E: From<RenderError>>(
+        &self,
+        options: &Options,
+        moments: impl IntoIterator<Item = f64>,
+        sampling: &'static Sampling,
         mut each: impl FnMut(Image) -> Result<(), E>,
     ) -> Result<(), E> {
-        let framing = self.framing(options)?;
-        for time in moments {
-            each(self.picture(options, &framing, time)?)?;
+        let moments: Vec<f64> = moments.into_iter().collect();
+        let setting = self.setting(options, sampling)?;
+        std::thread::scope(|scope| {
+            // A batch is rendered while `each` takes the one before.
+            let (sender, batches) = sync_channel(0);
+            let (setting, moments) = (&setting, &moments);
+            std::thread::Builder::new()
+                .spawn_scoped(scope, move || self.render(setting, moments, sender))
+                .map_err(|_| RenderError::from(Crash::no_threads()))?;
+            take(batches, &mut each)
+        })
+    }
+
+    /// Renders pictures in batches, several at once: much of the work for one picture uses one thread only.
+    fn render(&self, setting: &Setting<'_>, moments: &[f64], batches: SyncSender<Batch>) {
+        let [width, height] = setting.options.size.map(u64::from);
+        let fitting = (MAX_BATCH_PIXELS / (width * height)).max(1);
+        let work = || Ok(rayon::current_num_threads() as u64);
+        let batch = on_pool(work).map_or(1, |threads| threads.min(fitting)) as usize;
+        for moments in moments.chunks(batch) {
+            let picture = |time: &f64| self.picture(setting, *time);
+            let images = on_pool(|| moments.par_iter().map(picture).collect());
+            let failed = images.is_err();
+            // Nobody takes pictures after an error.
+            if batches.send(images).is_err() || failed {
+                return;
+            }
         }
-        Ok(())
     }
 
     /// Renders `cells` evenly spaced times side by side, each in the size of the options. `done` is called with the number
@@ -180,7 +278,7 @@ impl<'a> Film<'a> {
         }
         let mut strip = Image::new(wide as u32, height);
         let mut cell = 0;
-        self.draw(options, evenly(self.span, cells), |image| {
+        self.draw_sampled(options, evenly(self.span, cells), &STILL, |image| {
             let left = i64::from(cell * width);
             image::imageops::replace(&mut strip, &image, left, 0);
             cell += 1;
@@ -190,12 +288,42 @@ impl<'a> Film<'a> {
         Ok(strip)
     }
 
+    fn setting<'o>(
+        &self,
+        options: &'o Options,
+        sampling: &'static Sampling,
+    ) -> Result<Setting<'o>, RenderError> {
+        let framing = self.framing(options)?;
+        let hierarchy = || {
+            // As it is drawn, limbs are apart: the boxes of a pose in which they touch would fit other poses badly.
+            let pose = self.model.rest().seen_from(options.viewer(options.view));
+            let surface = self.model.surface(&pose, Some(self.normalization))?;
+            let empty = surface.triangles.is_empty();
+            Ok((!empty).then(|| Hierarchy::new(&surface, Rays::Many)))
+        };
+        Ok(Setting {
+            options,
+            framing,
+            sampling,
+            hierarchy: on_pool(hierarchy)?,
+        })
+    }
+
     fn framing(&self, options: &Options) -> Result<Framing, RenderError> {
         check_size(options.size)?;
         let moments: Vec<f64> = evenly(self.span, MAX_SAMPLES).collect();
         let view = options.view;
-        let corners =
-            |time: f64| Ok::<_, RenderError>(self.surface(options, time)?.used_positions());
+        let corners = |time: f64| match &self.following {
+            None => Ok::<_, RenderError>(self.surface(options, time)?.used_positions()),
+            Some(following) => {
+                let pose = self.pose(options, time);
+                let marked = &following.meshes;
+                let surface = self.model.surface_of(marked, &pose, self.normalization)?;
+                let moved = self.camera_offset(time);
+                let positions = surface.used_positions().into_iter();
+                Ok(positions.map(|position| position - moved).collect())
+            }
+        };
         let few = self.triangles.saturating_mul(3 * moments.len()) <= MAX_CACHED_CORNERS;
         let framing = || {
             let kept: Vec<Vec<Vec3>> = match few {
@@ -211,38 +339,85 @@ impl<'a> Film<'a> {
                 Some(kept) => Ok(Cow::Borrowed(&**kept)),
                 None => corners(moments[moment]).map(Cow::Owned),
             };
-            Framing::new(&shots, options.projection, options.size, points)
+            let framing = Framing::new(&shots, options.projection, options.size, points)?;
+            Ok(match &self.following {
+                Some(following) => framing.stepping_back(following.clearance),
+                None => framing,
+            })
         };
         on_pool(framing)
     }
 
+    /// How far the camera has moved at a time, in normalised space.
+    fn camera_offset(&self, time: f64) -> Vec3 {
+        self.following.as_ref().map_or(Vec3::ZERO, |following| {
+            let path = &following.path;
+            let moved = path.at(time) - path.at(self.span[0]);
+            (moved * self.normalization.scale).as_vec3()
+        })
+    }
+
+    /// The lines on the ground at a time, if the camera follows something.
+    fn floor(&self, time: f64) -> Option<Floor> {
+        let following = self.following.as_ref()?;
+        let on_ground = |place: DVec3| self.normalization.apply(place).as_vec3().xz();
+        Some(Floor::new(
+            on_ground(DVec3::ZERO),
+            self.normalization.scale,
+            on_ground(following.path.at(time)),
+            following.length,
+        ))
+    }
+
+    /// The pose at a time, for the viewer.
+    fn pose(&self, options: &Options, time: f64) -> Pose {
+        let pose = self.model.pose_at(self.clip, time);
+        pose.seen_from(options.viewer(options.view))
+    }
+
     /// The posed surface at a time.
     fn surface(&self, options: &Options, time: f64) -> Result<Surface, RenderError> {
-        let pose = self.model.pose_at(self.clip, time);
-        let pose = pose.seen_from(options.viewer(options.view));
+        let pose = self.pose(options, time);
         self.model.surface(&pose, Some(self.normalization))
     }
 
-    fn picture(
-        &self,
-        options: &Options,
-        framing: &Framing,
-        time: f64,
-    ) -> Result<Image, RenderError> {
+    fn picture(&self, setting: &Setting<'_>, time: f64) -> Result<Image, RenderError> {
+        let options = setting.options;
         let [width, height] = options.size;
-        on_pool(|| {
-            let mut surface = self.surface(options, time)?;
-            if surface.triangles.is_empty() {
-                // The whole model is scaled to zero at this time.
-                let [r, g, b] = options.background.unwrap_or_default();
-                let alpha = if options.background.is_some() { 255 } else { 0 };
-                let pixel = image::Rgba([r, g, b, alpha]);
-                return Ok(Image::from_pixel(width, height, pixel));
-            }
-            // The ground stays where it is when the model jumps.
-            surface.low.y = surface.low.y.min(self.ground);
-            let target = RayTarget::new(self.model, surface, Rays::Many);
-            draw(&target, options, &framing.camera(options.view))
-        })
+        let mut surface = self.surface(options, time)?;
+        if surface.triangles.is_empty() {
+            // The whole model is scaled to zero at this time.
+            let [r, g, b] = options.background.unwrap_or_default();
+            let alpha = if options.background.is_some() { 255 } else { 0 };
+            let pixel = image::Rgba([r, g, b, alpha]);
+            return Ok(Image::from_pixel(width, height, pixel));
+        }
+        // The ground stays where it is when the model jumps.
+        surface.low.y = surface.low.y.min(self.ground);
+        let tracer = match &setting.hierarchy {
+            Some(hierarchy) => self.model.fitted_tracer(surface, hierarchy),
+            None => self.model.tracer(surface, Rays::Many),
+        };
+        let camera = setting.framing.camera(options.view);
+        let take = Take {
+            camera: camera.moved(self.camera_offset(time)),
+            sampling: setting.sampling,
+            floor: self.floor(time),
+        };
+        draw(&tracer, options, &take)
     }
+}
+
+/// Consecutive pictures, or why they cannot be rendered.
+type Batch = Result<Vec<Image>, RenderError>;
+
+/// Hands over pictures one by one until there are no more. Its end, early or not, ends the rendering of more.
+fn take<E: From<RenderError>>(
+    batches: Receiver<Batch>,
+    each: &mut impl FnMut(Image) -> Result<(), E>,
+) -> Result<(), E> {
+    for images in batches {
+        images?.into_iter().try_for_each(&mut *each)?;
+    }
+    Ok(())
 }

@@ -4,6 +4,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 use super::Shading;
 use super::fragment::{Fragment, FragmentKind, PixelSampler};
+use super::ground::{GroundLight, shadow_on_lines};
 use super::light::{IncidentLight, Lights, share};
 use super::shade::shade;
 use super::texture::{linear_to_srgb, srgb_to_linear, srgb_values};
@@ -11,14 +12,16 @@ use super::texture::{linear_to_srgb, srgb_to_linear, srgb_values};
 /// The side of a tile in pixels.
 pub(super) const TILE_SIDE: u32 = 64;
 /// The width of the border of neighbours around a tile, in pixels.
-const HALO: u32 = 2;
+pub(super) const HALO: u32 = 2;
 /// Neighbours whose normals have at least this cosine share their light.
 const ALIKE: f32 = 0.88;
 
-/// Renders the pixels from `left`, `top`, at most [`TILE_SIDE`] each way; rows from the top, RGBA.
+/// Renders the pixels from `left`, `top`, at most [`TILE_SIDE`] each way; rows from the top, RGBA. `ground` is the light on
+/// the ground, unless it is computed in each pixel.
 pub(super) fn draw_tile(
     sampler: &PixelSampler<'_>,
     lights: &Lights,
+    ground: Option<&GroundLight>,
     background: Option<[u8; 3]>,
     [left, top]: [u32; 2],
     [width, height]: [u32; 2],
@@ -30,27 +33,43 @@ pub(super) fn draw_tile(
             .map(|(x, y)| {
                 fragments.clear();
                 sampler.sample(x, y, &mut fragments);
-                pixel(base_colour(&fragments), &SRGB, background)
+                let colour = base_colour(&fragments, lines(sampler, x, y));
+                pixel(colour, &SRGB, background)
             })
             .collect();
     }
-    let tile = Tile::new(sampler, lights, [left, top], [width, height]);
+    let tile = Tile::new(sampler, lights, ground, [left, top], [width, height]);
     pixels
         .map(|(x, y)| {
             let here = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
             let border = sampler.camera.border(here);
             let mut colour = Vec4::ZERO;
             for fragment in tile.at(x, y) {
-                let incident = tile.gathered(x, y, fragment);
+                let incident = match (fragment.kind, ground) {
+                    (FragmentKind::Ground, Some(ground)) => ground.at(x, y),
+                    _ => tile.gathered(x, y, fragment),
+                };
                 let mut light = shade(fragment, &incident, sampler.tracer, lights);
                 if fragment.kind == FragmentKind::Ground {
                     light.w *= border;
+                    if sampler.floor.is_some() {
+                        light = shadow_on_lines(light.w, lines(sampler, x, y));
+                    }
                 }
                 colour += light * fragment.weight;
             }
             pixel(colour, &LINEAR, background)
         })
         .collect()
+}
+
+/// The opacity of the lines on the ground in a pixel.
+fn lines(sampler: &PixelSampler<'_>, x: u32, y: u32) -> f32 {
+    let place = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+    let level = sampler.tracer.surface.low.y;
+    sampler.floor.map_or(0.0, |floor| {
+        floor.opacity(sampler.camera, place, level) * sampler.camera.border(place)
+    })
 }
 
 /// How colour values are written as sRGB bytes, and read from them.
@@ -90,12 +109,20 @@ fn byte(value: f32) -> u8 {
     (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8
 }
 
-/// The base colours of a pixel's fragments as sRGB values, multiplied by alpha, and alpha.
-fn base_colour(fragments: &[Fragment]) -> Vec4 {
-    let parts = fragments.iter();
-    parts
-        .map(|fragment| srgb_values(fragment.colour).extend(1.0) * fragment.weight)
-        .sum()
+/// The base colours of a pixel's fragments as sRGB values, multiplied by alpha, and alpha. The ground shows lines only.
+fn base_colour(fragments: &[Fragment], lines: f32) -> Vec4 {
+    let parts = fragments.iter().map(|fragment| {
+        let colour = match fragment.kind {
+            FragmentKind::Model(_) => srgb_values(fragment.colour).extend(1.0),
+            FragmentKind::Ground => {
+                let lines = shadow_on_lines(0.0, lines);
+                let alpha = lines.w.max(f32::MIN_POSITIVE);
+                (srgb_values(lines.truncate() / alpha) * lines.w).extend(lines.w)
+            }
+        };
+        colour * fragment.weight
+    });
+    parts.sum()
 }
 
 /// The fragments of a tile and its halo.
@@ -112,6 +139,7 @@ impl Tile {
     fn new(
         sampler: &PixelSampler<'_>,
         lights: &Lights,
+        ground: Option<&GroundLight>,
         [left, top]: [u32; 2],
         [width, height]: [u32; 2],
     ) -> Self {
@@ -129,7 +157,11 @@ impl Tile {
                 };
                 sampler.sample(x, y, &mut fragments);
                 let share = share(x, y);
-                for fragment in &mut fragments[start..] {
+                let needs_light = |fragment: &&mut Fragment| match (fragment.kind, ground) {
+                    (FragmentKind::Ground, ground) => ground.is_none(),
+                    (FragmentKind::Model(_), _) => true,
+                };
+                for fragment in fragments[start..].iter_mut().filter(needs_light) {
                     fragment.incident = lights.incident(sampler.tracer, fragment, share);
                 }
             }

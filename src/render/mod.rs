@@ -22,15 +22,20 @@
 //! Colours are linear until they become pixels. The first row of a picture is the top one.
 
 mod camera;
+mod coverage;
 mod error;
 mod film;
+mod follow;
 mod fragment;
+mod gif_writer;
+mod ground;
 mod image_files;
 mod image_tile;
 mod light;
 mod materials;
 mod model;
 mod posed_model;
+mod sampling;
 mod shade;
 mod surface;
 #[cfg(test)]
@@ -47,7 +52,8 @@ pub use crate::import::{Clip, MAX_TRIANGLES, Pose};
 pub use camera::{MAX_PITCH, Projection, Sheet, View};
 pub use error::RenderError;
 pub use film::{Film, HeldFrame};
-pub use image_files::{AnimationWriter, MAX_GIF_FPS, Palette, write_png};
+pub use gif_writer::{MAX_GIF_FPS, Palette};
+pub use image_files::{AnimationWriter, write_png};
 pub use model::{Model, read};
 pub use posed_model::{Image, PosedModel};
 pub use visibility::{VisibleSurface, Window};
@@ -57,7 +63,7 @@ pub const MAX_SIDE: u32 = 8192;
 /// The largest number of frames of a turntable.
 pub const MAX_TURNTABLE_FRAMES: u32 = 1000;
 /// The duration of a full turn of a turntable, in seconds.
-pub const TURNTABLE_SECONDS: f64 = 4.0;
+pub const TURNTABLE_SECONDS: u32 = 4;
 /// The largest number of frames of a clip: seven minutes at 24 frames a second.
 pub const MAX_CLIP_FRAMES: u32 = 10_000;
 /// The largest number of pictures in a film strip.

@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use glam::{Vec2, Vec3, Vec3A, Vec4};
 use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::ray::{Ray, RayHit};
@@ -45,31 +46,98 @@ pub(super) enum Rays {
     Many,
 }
 
+/// The bounding volume hierarchy of one pose, which others of the same model use too: its boxes are fitted to them
+/// (Lauterbach and others 2006). That takes a fraction of the time of building one.
+pub(super) struct Hierarchy {
+    tree: Bvh2,
+    /// The triangles of the pose, in the order of the file.
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Hierarchy {
+    pub(super) fn new(surface: &Surface, rays: Rays) -> Self {
+        let mut tree = build(&triangles_of(surface), rays);
+        // Boxes are fitted in one sweep over nodes in order.
+        tree.reorder_in_stack_traversal_order();
+        Self {
+            tree,
+            triangles: surface.triangles.clone(),
+        }
+    }
+
+    /// The tree for another pose; `None` if other triangles are visible in it.
+    fn fitted(&self, surface: &Surface, triangles: &[RtTriangle]) -> Option<Bvh2> {
+        if self.triangles != surface.triangles {
+            return None;
+        }
+        let mut tree = self.tree.clone();
+        for node in tree.nodes.iter_mut().filter(|node| node.is_leaf()) {
+            let first = node.first_index as usize;
+            let within = &tree.primitive_indices[first..][..node.prim_count as usize];
+            let boxes = within.iter().map(|index| triangles[*index as usize].aabb());
+            node.set_aabb(boxes.fold(Aabb::empty(), |all, one| all.union(&one)));
+        }
+        tree.refit_all();
+        Some(tree)
+    }
+}
+
+fn triangles_of(surface: &Surface) -> Vec<RtTriangle> {
+    let of = |[a, b, c]: [u32; 3]| {
+        let at = |corner: u32| Vec3A::from(surface.positions[corner as usize]);
+        RtTriangle::new(at(a), at(b), at(c))
+    };
+    surface
+        .triangles
+        .iter()
+        .map(|corners| of(*corners))
+        .collect()
+}
+
+fn build(triangles: &[RtTriangle], rays: Rays) -> Bvh2 {
+    let effort = match rays {
+        Rays::Few => BvhBuildParams::fastest_build(),
+        // Reinsertion would improve the tree a little, but may make it deeper than the stack that `obvhs` traverses it with.
+        Rays::Many => BvhBuildParams {
+            reinsertion_batch_ratio: 0.0,
+            ..BvhBuildParams::medium_build()
+        },
+    };
+    build_bvh2(triangles, effort, &mut Duration::default())
+}
+
 impl<'a> Tracer<'a> {
     pub(super) fn new(
-        mut surface: Surface,
+        surface: Surface,
         materials: &'a [Material],
         textures: &'a [Option<Texture>],
         rays: Rays,
     ) -> Self {
-        let of = |[a, b, c]: [u32; 3]| {
-            let at = |corner: u32| Vec3A::from(surface.positions[corner as usize]);
-            RtTriangle::new(at(a), at(b), at(c))
-        };
-        let triangles: Vec<RtTriangle> = surface
-            .triangles
-            .iter()
-            .map(|corners| of(*corners))
-            .collect();
-        let effort = match rays {
-            Rays::Few => BvhBuildParams::fastest_build(),
-            // Reinsertion would improve the tree a little, but may make it deeper than the stack that `obvhs` traverses it with.
-            Rays::Many => BvhBuildParams {
-                reinsertion_batch_ratio: 0.0,
-                ..BvhBuildParams::medium_build()
-            },
-        };
-        let tree = build_bvh2(&triangles, effort, &mut Duration::default());
+        let triangles = triangles_of(&surface);
+        let tree = build(&triangles, rays);
+        Self::with_tree(surface, materials, textures, (tree, triangles))
+    }
+
+    /// With the hierarchy of another pose, if that has the same triangles.
+    pub(super) fn fitted(
+        surface: Surface,
+        materials: &'a [Material],
+        textures: &'a [Option<Texture>],
+        hierarchy: &Hierarchy,
+    ) -> Self {
+        let triangles = triangles_of(&surface);
+        let tree = hierarchy.fitted(&surface, &triangles);
+        let tree = tree.unwrap_or_else(|| build(&triangles, Rays::Many));
+        Self::with_tree(surface, materials, textures, (tree, triangles))
+    }
+
+    /// Puts triangles in the order of their tree.
+    fn with_tree(
+        mut surface: Surface,
+        materials: &'a [Material],
+        textures: &'a [Option<Texture>],
+        (tree, triangles): (Bvh2, Vec<RtTriangle>),
+    ) -> Self {
         let order = || tree.primitive_indices.iter().map(|index| *index as usize);
         let triangles = order().map(|index| triangles[index]).collect();
         surface.triangles = order().map(|index| surface.triangles[index]).collect();

@@ -2,11 +2,12 @@
 
 use std::io;
 
+use super::movie::{Movie, MovieForm};
 use super::{Destination, Failure, Form, MAX_THUMBNAILS, describe_picture, options};
 use crate::cli::args::Render;
 use crate::cli::progress::{counting, spinning};
 use crate::render::{
-    AnimationWriter, Clip, Film, HeldFrame, MAX_GIF_FPS, Model, Options, Palette, write_png,
+    Clip, Film, HeldFrame, MAX_GIF_FPS, Model, Options, Palette, RenderError, write_png,
 };
 
 /// The default frame rate: that of film, and of the clips that okoshi makes.
@@ -83,8 +84,14 @@ pub(super) fn film<'a>(
             "cannot be shown from {from} to {to} seconds: --to must be after --from"
         ));
     }
-    spinning("framing the clip", || Film::new(model, clip, [from, to]))
-        .map_err(|error| error.to_string())
+    let framed = || {
+        let film = Film::new(model, clip, [from, to])?;
+        match arguments.follow {
+            true => film.following(),
+            false => Ok(film),
+        }
+    };
+    spinning("framing the clip", framed).map_err(|error: RenderError| error.to_string())
 }
 
 /// Writes frames of a clip side by side, and describes the picture.
@@ -94,7 +101,7 @@ pub(super) fn strip(
     cells: u32,
     output: &Destination,
 ) -> Result<String, Failure> {
-    let options = options(arguments);
+    let options = options(arguments, Form::Png);
     let target = output.single().map_err(Failure::written)?;
     let image = counting("drawing", cells, |done| {
         film.film_strip(&options, cells, done)
@@ -107,71 +114,87 @@ pub(super) fn strip(
     Ok(format!("{name}: {cells} moments, {picture} each"))
 }
 
-/// Writes a clip, and describes the pictures.
-pub(super) fn moving(
+/// Writes a clip as numbered files, and describes the pictures.
+pub(super) fn numbered(
     film: &Film<'_>,
     arguments: &Render,
-    form: Form,
     output: &Destination,
 ) -> Result<String, Failure> {
-    let options = options(arguments);
-    let pictures = film
-        .held_frames(arguments.fps.unwrap_or(FPS))
-        .map_err(|error| Failure::of(arguments, &error))?;
-    let times = || pictures.iter().map(|picture| picture.time);
-    let count = pictures.len() as u32;
-    let picture = describe_picture(options.size, film.triangles());
-    if form == Form::Png {
-        let frames: u32 = pictures.iter().map(|picture| picture.frames).sum();
-        output.check_numbered(frames).map_err(Failure::written)?;
-        counting("drawing", count, |done| {
-            let mut number = 0;
-            let mut left = pictures.iter().zip(1..);
-            film.draw(&options, times(), |image| {
-                let mut png = Vec::new();
-                write_png(&image, &mut png).map_err(|error| Failure(error.to_string()))?;
-                let Some((picture, drawn)) = left.next() else {
-                    return Ok(());
-                };
-                for _ in 0..picture.frames {
-                    number += 1;
-                    output
-                        .numbered(number, frames)
-                        .and_then(|target| target.write(|out| out.write_all(&png)))
-                        .map_err(Failure::written)?;
-                }
-                done(drawn);
-                Ok::<(), Failure>(())
-            })
-        })?;
-        return Ok(format!("{}: {picture} each", output.range(frames)));
-    }
-    let target = output.single().map_err(Failure::written)?;
-    counting("drawing", count, |done| {
-        target.write(|out| {
-            let mut animation = match form {
-                Form::Gif => {
-                    AnimationWriter::gif(out, options.size, palette(film, &options, &pictures)?)?
-                }
-                Form::Png | Form::Apng => AnimationWriter::apng(out, options.size, count)?,
+    let options = options(arguments, Form::Png);
+    let pictures = held_frames(film, arguments)?;
+    let frames: u32 = pictures.iter().map(|picture| picture.frames).sum();
+    output.check_numbered(frames).map_err(Failure::written)?;
+    counting("drawing", pictures.len() as u32, |done| {
+        let mut number = 0;
+        let mut left = pictures.iter().zip(1..);
+        film.draw(&options, times(&pictures), |image| {
+            let mut png = Vec::new();
+            write_png(&image, &mut png).map_err(|error| Failure(error.to_string()))?;
+            let Some((picture, drawn)) = left.next() else {
+                return Ok(());
             };
+            for _ in 0..picture.frames {
+                number += 1;
+                output
+                    .numbered(number, frames)
+                    .and_then(|target| target.write(|out| out.write_all(&png)))
+                    .map_err(Failure::written)?;
+            }
+            done(drawn);
+            Ok::<(), Failure>(())
+        })
+    })?;
+    let picture = describe_picture(options.size, film.triangles());
+    Ok(format!("{}: {picture} each", output.range(frames)))
+}
+
+/// Writes a clip as one file, and describes it.
+pub(super) fn movie(
+    film: &Film<'_>,
+    arguments: &Render,
+    form: MovieForm,
+    output: &Destination,
+) -> Result<String, Failure> {
+    let options = options(arguments, Form::Movie(form));
+    let pictures = held_frames(film, arguments)?;
+    let count = pictures.len() as u32;
+    let target = output.single().map_err(Failure::written)?;
+    let movie = Movie {
+        form,
+        options: &options,
+        pictures: count,
+        rate: [arguments.fps.unwrap_or(FPS), 1],
+    };
+    counting("drawing", count, |done| {
+        let colours = || palette(film, &options, &pictures);
+        movie.write(&target, colours, |push| {
             let mut left = pictures.iter().zip(1..);
-            film.draw(&options, times(), |image| -> io::Result<()> {
+            film.draw(&options, times(&pictures), |image| -> io::Result<()> {
                 if let Some((picture, drawn)) = left.next() {
-                    animation.push(&image, picture.seconds)?;
+                    push(&image, picture.seconds, picture.frames)?;
                     done(drawn);
                 }
                 Ok(())
-            })?;
-            animation.finish()
+            })
         })
-    })
-    .map_err(Failure::written)?;
+    })?;
     let seconds = rounded(pictures.iter().map(|picture| picture.seconds).sum());
+    let picture = describe_picture(options.size, film.triangles());
     let name = output.path.display();
     Ok(format!(
         "{name}: {count} pictures in {seconds} seconds, {picture} each"
     ))
+}
+
+/// The pictures to draw.
+fn held_frames(film: &Film<'_>, arguments: &Render) -> Result<Vec<HeldFrame>, Failure> {
+    film.held_frames(arguments.fps.unwrap_or(FPS))
+        .map_err(|error| Failure::of(arguments, &error))
+}
+
+/// The times of the pictures, in seconds of the clip.
+fn times(pictures: &[HeldFrame]) -> impl Iterator<Item = f64> {
+    pictures.iter().map(|picture| picture.time)
 }
 
 /// The colours of a GIF, from thumbnails of its frames.
@@ -188,14 +211,14 @@ fn palette(film: &Film<'_>, options: &Options, pictures: &[HeldFrame]) -> io::Re
             Ok(())
         },
     )?;
-    Ok(Palette::new(&thumbnails))
+    Ok(Palette::new(&thumbnails, options.background))
 }
 
 /// Refuses a frame rate that the format cannot hold.
 pub(super) fn check_fps(arguments: &Render, form: Form) -> Result<(), String> {
     match arguments.fps {
-        Some(fps) if form == Form::Gif && fps > MAX_GIF_FPS => Err(format!(
-            "GIFs show at most {MAX_GIF_FPS} frames a second: ask for --fps {MAX_GIF_FPS} or fewer, or write .apng"
+        Some(fps) if form == Form::Movie(MovieForm::Gif) && fps > MAX_GIF_FPS => Err(format!(
+            "GIFs show at most {MAX_GIF_FPS} frames a second: ask for --fps {MAX_GIF_FPS} or fewer, or write .apng or .mp4"
         )),
         _ => Ok(()),
     }
