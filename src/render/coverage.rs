@@ -37,7 +37,8 @@ impl Coverage {
             .map(|position| camera.project(*position).unwrap_or(Vec2::NAN))
             .collect();
         for triangle in &surface.triangles {
-            let [a, b, c] = triangle.map(|corner| places[corner as usize]);
+            let [a, b, c] = *triangle;
+            let [a, b, c] = [places[a as usize], places[b as usize], places[c as usize]];
             if (a + b + c).is_nan() {
                 return everywhere;
             }

@@ -9,11 +9,11 @@ use rayon::prelude::*;
 use super::camera::{Framing, View};
 use super::follow::CameraPath;
 use super::ground::Floor;
+use super::hierarchy::{Hierarchy, Rays};
 use super::model::Model;
 use super::posed_model::{Image, Take, check_size, draw};
 use super::sampling::{FILM, STILL, Sampling};
 use super::surface::{Normalization, Surface};
-use super::trace::{Hierarchy, Rays};
 use super::{MAX_CLIP_FRAMES, MAX_FILM_STRIP_PIXELS, Options, RenderError, on_pool};
 use crate::crash::Crash;
 use crate::import::{Clip, ImportError, Pose};
@@ -55,13 +55,14 @@ struct Following {
     clearance: f32,
 }
 
-/// What all pictures of a film have in common.
-struct Setting<'a> {
-    options: &'a Options,
+/// A film and the camera that frames all of it.
+pub struct Shooting<'a> {
+    film: &'a Film<'a>,
+    options: Options,
     framing: Framing,
     sampling: &'static Sampling,
-    /// The hierarchy of one pose; `None` if it has no triangles.
-    hierarchy: Option<Hierarchy>,
+    /// The triangles of one pose and their hierarchy, which is fitted to other poses.
+    hierarchy: (Vec<[u32; 3]>, Hierarchy),
 }
 
 /// A picture of a film, and how long it is held.
@@ -209,57 +210,6 @@ impl<'a> Film<'a> {
         Ok(held)
     }
 
-    /// Renders the film at some times with one camera that frames all of it. `each` gets the pictures one by one, while the
-    /// next ones are rendered, and may stop with its own error.
-    ///
-    /// # Errors
-    /// A size out of range, or the error of `each`.
-    pub fn draw<E: From<RenderError>>(
-        &self,
-        options: &Options,
-        moments: impl IntoIterator<Item = f64>,
-        each: impl FnMut(Image) -> Result<(), E>,
-    ) -> Result<(), E> {
-        self.draw_sampled(options, moments, &FILM, each)
-    }
-
-    fn draw_sampled<E: From<RenderError>>(
-        &self,
-        options: &Options,
-        moments: impl IntoIterator<Item = f64>,
-        sampling: &'static Sampling,
-        mut each: impl FnMut(Image) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let moments: Vec<f64> = moments.into_iter().collect();
-        let setting = self.setting(options, sampling)?;
-        std::thread::scope(|scope| {
-            // A batch is rendered while `each` takes the one before.
-            let (sender, batches) = sync_channel(0);
-            let (setting, moments) = (&setting, &moments);
-            std::thread::Builder::new()
-                .spawn_scoped(scope, move || self.render(setting, moments, sender))
-                .map_err(|_| RenderError::from(Crash::no_threads()))?;
-            take(batches, &mut each)
-        })
-    }
-
-    /// Renders pictures in batches, several at once: much of the work for one picture uses one thread only.
-    fn render(&self, setting: &Setting<'_>, moments: &[f64], batches: SyncSender<Batch>) {
-        let [width, height] = setting.options.size.map(u64::from);
-        let fitting = (MAX_BATCH_PIXELS / (width * height)).max(1);
-        let work = || Ok(rayon::current_num_threads() as u64);
-        let batch = on_pool(work).map_or(1, |threads| threads.min(fitting)) as usize;
-        for moments in moments.chunks(batch) {
-            let picture = |time: &f64| self.picture(setting, *time);
-            let images = on_pool(|| moments.par_iter().map(picture).collect());
-            let failed = images.is_err();
-            // Nobody takes pictures after an error.
-            if batches.send(images).is_err() || failed {
-                return;
-            }
-        }
-    }
-
     /// Renders `cells` evenly spaced times side by side, each in the size of the options. `done` is called with the number
     /// of finished pictures.
     ///
@@ -278,7 +228,8 @@ impl<'a> Film<'a> {
         }
         let mut strip = Image::new(wide as u32, height);
         let mut cell = 0;
-        self.draw_sampled(options, evenly(self.span, cells), &STILL, |image| {
+        let shooting = self.shooting_sampled(options, &STILL)?;
+        shooting.draw(evenly(self.span, cells), |image| {
             let left = i64::from(cell * width);
             image::imageops::replace(&mut strip, &image, left, 0);
             cell += 1;
@@ -288,21 +239,30 @@ impl<'a> Film<'a> {
         Ok(strip)
     }
 
-    fn setting<'o>(
-        &self,
-        options: &'o Options,
+    /// Places the camera.
+    ///
+    /// # Errors
+    /// A size out of range.
+    pub fn shooting(&'a self, options: &Options) -> Result<Shooting<'a>, RenderError> {
+        self.shooting_sampled(options, &FILM)
+    }
+
+    fn shooting_sampled(
+        &'a self,
+        options: &Options,
         sampling: &'static Sampling,
-    ) -> Result<Setting<'o>, RenderError> {
+    ) -> Result<Shooting<'a>, RenderError> {
         let framing = self.framing(options)?;
         let hierarchy = || {
             // As it is drawn, limbs are apart: the boxes of a pose in which they touch would fit other poses badly.
             let pose = self.model.rest().seen_from(options.viewer(options.view));
             let surface = self.model.surface(&pose, Some(self.normalization))?;
-            let empty = surface.triangles.is_empty();
-            Ok((!empty).then(|| Hierarchy::new(&surface, Rays::Many)))
+            let hierarchy = Hierarchy::new(&surface, Rays::Many);
+            Ok((surface.triangles, hierarchy))
         };
-        Ok(Setting {
-            options,
+        Ok(Shooting {
+            film: self,
+            options: *options,
             framing,
             sampling,
             hierarchy: on_pool(hierarchy)?,
@@ -380,11 +340,52 @@ impl<'a> Film<'a> {
         let pose = self.pose(options, time);
         self.model.surface(&pose, Some(self.normalization))
     }
+}
 
-    fn picture(&self, setting: &Setting<'_>, time: f64) -> Result<Image, RenderError> {
-        let options = setting.options;
+impl Shooting<'_> {
+    /// Renders the film at some times. `each` gets the pictures one by one, while the next ones are rendered, and may stop
+    /// with its own error.
+    ///
+    /// # Errors
+    /// The error of `each`.
+    pub fn draw<E: From<RenderError>>(
+        &self,
+        moments: impl IntoIterator<Item = f64>,
+        mut each: impl FnMut(Image) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let moments: Vec<f64> = moments.into_iter().collect();
+        std::thread::scope(|scope| {
+            // A batch is rendered while `each` takes the one before.
+            let (sender, batches) = sync_channel(0);
+            let moments = &moments;
+            std::thread::Builder::new()
+                .spawn_scoped(scope, move || self.render(moments, sender))
+                .map_err(|_| RenderError::from(Crash::no_threads()))?;
+            take(batches, &mut each)
+        })
+    }
+
+    /// Renders pictures in batches, several at once: much of the work for one picture uses one thread only.
+    fn render(&self, moments: &[f64], batches: SyncSender<Batch>) {
+        let [width, height] = self.options.size.map(u64::from);
+        let fitting = (MAX_BATCH_PIXELS / (width * height)).max(1);
+        let work = || Ok(rayon::current_num_threads() as u64);
+        let batch = on_pool(work).map_or(1, |threads| threads.min(fitting)) as usize;
+        for moments in moments.chunks(batch) {
+            let picture = |time: &f64| self.picture(*time);
+            let images = on_pool(|| moments.par_iter().map(picture).collect());
+            let failed = images.is_err();
+            // Nobody takes pictures after an error.
+            if batches.send(images).is_err() || failed {
+                return;
+            }
+        }
+    }
+
+    fn picture(&self, time: f64) -> Result<Image, RenderError> {
+        let (film, options) = (self.film, &self.options);
         let [width, height] = options.size;
-        let mut surface = self.surface(options, time)?;
+        let mut surface = film.surface(options, time)?;
         if surface.triangles.is_empty() {
             // The whole model is scaled to zero at this time.
             let [r, g, b] = options.background.unwrap_or_default();
@@ -393,16 +394,19 @@ impl<'a> Film<'a> {
             return Ok(Image::from_pixel(width, height, pixel));
         }
         // The ground stays where it is when the model jumps.
-        surface.low.y = surface.low.y.min(self.ground);
-        let tracer = match &setting.hierarchy {
-            Some(hierarchy) => self.model.fitted_tracer(surface, hierarchy),
-            None => self.model.tracer(surface, Rays::Many),
+        surface.low.y = surface.low.y.min(film.ground);
+        let (triangles, hierarchy) = &self.hierarchy;
+        let hierarchy = match *triangles == surface.triangles {
+            true => hierarchy.fitted(&surface),
+            // Other triangles are visible: some are too small in one of the poses.
+            false => Hierarchy::new(&surface, Rays::Many),
         };
-        let camera = setting.framing.camera(options.view);
+        let tracer = film.model.tracer_with(surface, hierarchy);
+        let camera = self.framing.camera(options.view);
         let take = Take {
-            camera: camera.moved(self.camera_offset(time)),
-            sampling: setting.sampling,
-            floor: self.floor(time),
+            camera: camera.moved(film.camera_offset(time)),
+            sampling: self.sampling,
+            floor: film.floor(time),
         };
         draw(&tracer, options, &take)
     }

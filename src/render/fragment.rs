@@ -6,12 +6,13 @@ use super::Shading;
 use super::camera::{Camera, on_level};
 use super::coverage::Coverage;
 use super::ground::{Floor, shadow_fade};
+use super::hierarchy::Hit;
 use super::light::{IncidentLight, even};
 use super::sampling::Sampling;
 use super::surface::Alpha;
-use super::trace::{Hit, Tracer};
+use super::trace::Tracer;
 
-/// Rays of every pixel.
+/// The rays that decide whether a pixel contains an edge.
 const MIN_RAYS: usize = 4;
 /// The largest number of surfaces that a ray passes through.
 const MAX_LAYERS: usize = 64;
@@ -19,6 +20,8 @@ const MAX_LAYERS: usize = 64;
 const OPAQUE: f32 = 0.004;
 /// Surfaces in a pixel whose normals have at least this cosine are shaded as one.
 const ALIKE: f32 = 0.94;
+/// Neighbours whose normals have at least this cosine share their light.
+const NEIGHBOURS_ALIKE: f32 = 0.88;
 /// The largest number of fragments of a pixel.
 const MAX_FRAGMENTS: usize = 12;
 /// The distance from a surface at which secondary rays start, so that they do not hit it.
@@ -85,11 +88,43 @@ impl PixelSampler<'_> {
             }
             rays += 1;
         }
-        for fragment in &mut out[first..] {
-            fragment.colour /= fragment.weight;
-            fragment.weight /= rays as f32;
-            fragment.normal = fragment.normal.normalize_or(fragment.towards);
+        average(&mut out[first..], rays);
+    }
+
+    /// As [`sample`](Self::sample), by one ray.
+    pub(super) fn sample_once(&self, x: u32, y: u32, out: &mut Vec<Fragment>) {
+        let first = out.len();
+        self.trace(Vec2::new(x as f32, y as f32) + even(0), first, out);
+        average(&mut out[first..], 1);
+    }
+
+    /// As [`sample`](Self::sample), by as many rays as for an edge.
+    pub(super) fn sample_edge(&self, x: u32, y: u32, out: &mut Vec<Fragment>) {
+        let first = out.len();
+        let corner = Vec2::new(x as f32, y as f32);
+        for index in 0..self.sampling.edge {
+            self.trace(corner + even(index), first, out);
         }
+        average(&mut out[first..], self.sampling.edge);
+    }
+
+    /// Whether one ray is enough for a pixel, judging by what it shows and what its neighbours show.
+    pub(super) fn is_enough<'f>(
+        &self,
+        seen: &[Fragment],
+        mut neighbours: impl Iterator<Item = &'f [Fragment]>,
+    ) -> bool {
+        let is_bare = |fragments: &[Fragment]| {
+            let mut kinds = fragments.iter().map(|fragment| fragment.kind);
+            kinds.all(|kind| kind == FragmentKind::Ground)
+        };
+        self.is_uniform(seen, 1)
+            && neighbours.all(|other| match (seen, other) {
+                // The ground has no edges.
+                _ if is_bare(seen) => is_bare(other),
+                ([one], [other]) => one.kind == other.kind && same_surface(one, other),
+                _ => false,
+            })
     }
 
     /// Whether the first `few` rays are enough.
@@ -206,6 +241,24 @@ impl PixelSampler<'_> {
             incident: IncidentLight::default(),
         })
     }
+}
+
+/// Turns the sums of so many rays into means.
+fn average(fragments: &mut [Fragment], rays: usize) {
+    for fragment in fragments {
+        fragment.colour /= fragment.weight;
+        fragment.weight /= rays as f32;
+        fragment.normal = fragment.normal.normalize_or(fragment.towards);
+    }
+}
+
+/// Whether two fragments of neighbouring pixels are on one surface, without an edge between them.
+pub(super) fn same_surface(one: &Fragment, other: &Fragment) -> bool {
+    let apart = other.place - one.place;
+    (one.kind == FragmentKind::Ground) == (other.kind == FragmentKind::Ground)
+        && one.normal.dot(other.normal) > NEIGHBOURS_ALIKE
+        && apart.dot(one.normal).abs() < one.width * 2.5
+        && apart.length_squared() < (one.width * 12.0).powi(2)
 }
 
 /// Adds a fragment to a similar one of its pixel, or to the list.

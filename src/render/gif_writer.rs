@@ -46,9 +46,12 @@ pub struct Palette {
 impl Palette {
     /// Computes the palette of sample pictures (NeuQuant), which have this background; `None` is transparent. The background
     /// keeps its exact colour.
-    pub fn new(samples: &[Image], background: Option<[u8; 3]>) -> Self {
+    pub fn new<'i>(
+        samples: impl IntoIterator<Item = &'i Image, IntoIter: Clone>,
+        background: Option<[u8; 3]>,
+    ) -> Self {
         let solid = samples
-            .iter()
+            .into_iter()
             .flat_map(|image| image.pixels())
             .map(|pixel| pixel.0)
             .filter(|[r, g, b, alpha]| *alpha > 127 && Some([*r, *g, *b]) != background);

@@ -3,10 +3,11 @@
 use glam::DVec3;
 
 use super::RenderError;
+use super::hierarchy::{Hierarchy, Rays};
 use super::materials;
 use super::surface::{Material, Normalization, Surface};
 use super::texture::Texture;
-use super::trace::{Hierarchy, Rays, Tracer};
+use super::trace::Tracer;
 use crate::import::{self, Clip, Geometry, Pose, Travellers};
 use crate::resolver::Resolver;
 
@@ -91,8 +92,8 @@ impl Model {
         Tracer::new(surface, &self.materials, &self.textures, rays)
     }
 
-    /// As [`tracer`](Self::tracer), with the hierarchy of another pose.
-    pub(super) fn fitted_tracer(&self, surface: Surface, hierarchy: &Hierarchy) -> Tracer<'_> {
-        Tracer::fitted(surface, &self.materials, &self.textures, hierarchy)
+    /// As [`tracer`](Self::tracer), with a hierarchy of the surface.
+    pub(super) fn tracer_with(&self, surface: Surface, hierarchy: Hierarchy) -> Tracer<'_> {
+        Tracer::with_hierarchy(surface, &self.materials, &self.textures, hierarchy)
     }
 }

@@ -10,12 +10,13 @@ use super::camera::{Camera, Framing, Sheet, View};
 use super::coverage::Coverage;
 use super::fragment::PixelSampler;
 use super::ground::{Floor, GroundLight};
+use super::hierarchy::Rays;
 use super::image_tile::{HALO, TILE_SIDE, draw_tile};
 use super::light::Lights;
 use super::model::Model;
 use super::sampling::{FILM, GroundSampling, STILL, Sampling};
 use super::surface::{Normalization, Surface};
-use super::trace::{Rays, Tracer};
+use super::trace::Tracer;
 use super::{MAX_SIDE, Options, RenderError, Shading, on_pool};
 use crate::import::{ImportError, Pose};
 

@@ -7,11 +7,21 @@ use super::light::LAMPS;
 pub(super) struct Sampling {
     /// Rays of a pixel that contains an edge or a texture.
     pub(super) edge: usize,
+    pub(super) refinement: Refinement,
     /// Rays of a pixel that shows nothing but the ground, or nothing at all, unless the ground ends in it.
     pub(super) empty: usize,
     /// Rays of a pixel of the model to each lamp, and to the sky.
     pub(super) model: LightRays,
     pub(super) ground: GroundSampling,
+}
+
+/// Which pixels contain an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Refinement {
+    /// Those whose first few rays meet different surfaces.
+    Pixel,
+    /// Those whose one ray meets another surface than those of its neighbours.
+    Neighbours,
 }
 
 /// Rays from one point to the lights.
@@ -37,6 +47,7 @@ pub(super) enum GroundSampling {
 /// A still picture: each pixel is as good as 16 rays to everything can make it.
 pub(super) static STILL: Sampling = Sampling {
     edge: 16,
+    refinement: Refinement::Pixel,
     empty: 4,
     model: LightRays {
         lamps: [3, 1, 1],
@@ -52,6 +63,7 @@ pub(super) static STILL: Sampling = Sampling {
 /// A picture of a film, which is seen for a moment. The rays are the same in all pictures, so that nothing flickers.
 pub(super) static FILM: Sampling = Sampling {
     edge: 8,
+    refinement: Refinement::Neighbours,
     empty: 1,
     model: LightRays {
         lamps: [1, 1, 1],
@@ -60,8 +72,8 @@ pub(super) static FILM: Sampling = Sampling {
     ground: GroundSampling::Lattice {
         spacing: 3,
         rays: LightRays {
-            lamps: [6, 0, 0],
-            sky: 16,
+            lamps: [4, 0, 0],
+            sky: 8,
         },
     },
 };

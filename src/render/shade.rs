@@ -39,7 +39,7 @@ pub(super) fn shade(
 }
 
 /// The opacity of the ground's shadow, 0 in full light.
-fn shadow(incident: &IncidentLight, lights: &Lights) -> f32 {
+pub(super) fn shadow(incident: &IncidentLight, lights: &Lights) -> f32 {
     let key = lights.strength(0) * lights.directions[0].y;
     let sky = lights.sky_strength();
     let light = (key * incident.lamps[0] + sky * incident.sky / open_sky(Vec3::Y)) / (key + sky);

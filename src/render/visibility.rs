@@ -4,9 +4,10 @@ use glam::{DVec3, Vec3, Vec4};
 use rayon::prelude::*;
 
 use super::camera::Sheet;
+use super::hierarchy::Rays;
 use super::posed_model::{PosedModel, check_size};
 use super::texture::srgb_values;
-use super::trace::{Rays, Tracer};
+use super::trace::Tracer;
 use super::{Options, RenderError};
 
 /// The smallest number of rows per task.

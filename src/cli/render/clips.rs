@@ -1,17 +1,23 @@
 //! Rendering clips: which one, which part of it, and how it is written.
 
+use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::io;
 
 use super::movie::{Movie, MovieForm};
-use super::{Destination, Failure, Form, MAX_THUMBNAILS, describe_picture, options};
+use super::{Destination, Failure, Form, describe_picture, options};
 use crate::cli::args::Render;
 use crate::cli::progress::{counting, spinning};
 use crate::render::{
-    Clip, Film, HeldFrame, MAX_GIF_FPS, Model, Options, Palette, RenderError, write_png,
+    Clip, Film, HeldFrame, Image, MAX_GIF_FPS, Model, Options, Palette, RenderError, write_png,
 };
 
 /// The default frame rate: that of film, and of the clips that okoshi makes.
 const FPS: u32 = 24;
+/// The most pixels of the pictures that the colours of a GIF are chosen from.
+const MAX_PALETTE_PIXELS: u64 = 16 << 20;
+/// The most of these pictures: several are needed, as flat sides change their shade with every frame.
+const MAX_PALETTE_PICTURES: u64 = 16;
 /// The most clips that a message lists.
 const MAX_LISTED: usize = 20;
 
@@ -127,7 +133,7 @@ pub(super) fn numbered(
     counting("drawing", pictures.len() as u32, |done| {
         let mut number = 0;
         let mut left = pictures.iter().zip(1..);
-        film.draw(&options, times(&pictures), |image| {
+        film.shooting(&options)?.draw(times(&pictures), |image| {
             let mut png = Vec::new();
             write_png(&image, &mut png).map_err(|error| Failure(error.to_string()))?;
             let Some((picture, drawn)) = left.next() else {
@@ -165,17 +171,52 @@ pub(super) fn movie(
         pictures: count,
         rate: [arguments.fps.unwrap_or(FPS), 1],
     };
+    // Pictures that the colours of a GIF are chosen from are rendered before the others.
+    let early = RefCell::new(VecDeque::new());
     counting("drawing", count, |done| {
-        let colours = || palette(film, &options, &pictures);
-        movie.write(&target, colours, |push| {
-            let mut left = pictures.iter().zip(1..);
-            film.draw(&options, times(&pictures), |image| -> io::Result<()> {
-                if let Some((picture, drawn)) = left.next() {
-                    push(&image, picture.seconds, picture.frames)?;
-                    done(drawn);
-                }
+        let shooting = film.shooting(&options)?;
+        let colours = || {
+            let mut early = early.borrow_mut();
+            let mut indices = (0..pictures.len()).step_by(palette_step(pictures.len(), &options));
+            let moments = indices.clone().map(|index| pictures[index].time);
+            shooting.draw(moments, |image| -> io::Result<()> {
+                early.extend(indices.next().map(|index| (index, image)));
+                done(early.len() as u32);
                 Ok(())
-            })
+            })?;
+            let samples: Vec<&Image> = early.iter().map(|(_, image)| image).collect();
+            Ok(Palette::new(samples, options.background))
+        };
+        movie.write(&target, colours, |push| {
+            let mut early = early.take();
+            let is_early = |index: &usize| early.iter().any(|(other, _)| other == index);
+            let late: Vec<usize> = (0..pictures.len())
+                .filter(|index| !is_early(index))
+                .collect();
+            let mut shown = 0;
+            let mut show = |index: usize, image: &Image| -> io::Result<()> {
+                let picture = &pictures[index];
+                push(image, picture.seconds, picture.frames)?;
+                shown += 1;
+                done(shown);
+                Ok(())
+            };
+            let mut indices = late.iter();
+            let moments = late.iter().map(|index| pictures[*index].time);
+            shooting.draw(moments, |image| -> io::Result<()> {
+                let Some(index) = indices.next() else {
+                    return Ok(());
+                };
+                while early.front().is_some_and(|(other, _)| *other < *index) {
+                    if let Some((before, image)) = early.pop_front() {
+                        show(before, &image)?;
+                    }
+                }
+                show(*index, &image)
+            })?;
+            early
+                .iter()
+                .try_for_each(|(index, image)| show(*index, image))
         })
     })?;
     let seconds = rounded(pictures.iter().map(|picture| picture.seconds).sum());
@@ -197,21 +238,11 @@ fn times(pictures: &[HeldFrame]) -> impl Iterator<Item = f64> {
     pictures.iter().map(|picture| picture.time)
 }
 
-/// The colours of a GIF, from thumbnails of its frames.
-fn palette(film: &Film<'_>, options: &Options, pictures: &[HeldFrame]) -> io::Result<Palette> {
-    let size = super::thumbnail_size(options.size);
-    let step = pictures.len().div_ceil(MAX_THUMBNAILS as usize).max(1);
-    let times = pictures.iter().step_by(step).map(|picture| picture.time);
-    let mut thumbnails = Vec::new();
-    film.draw(
-        &Options { size, ..*options },
-        times,
-        |image| -> io::Result<()> {
-            thumbnails.push(image);
-            Ok(())
-        },
-    )?;
-    Ok(Palette::new(&thumbnails, options.background))
+/// The colours of a GIF are chosen from one picture of so many: from several ones, but not from more than fit into memory.
+fn palette_step(count: usize, options: &Options) -> usize {
+    let [width, height] = options.size.map(u64::from);
+    let fitting = (MAX_PALETTE_PIXELS / (width * height)).clamp(1, MAX_PALETTE_PICTURES);
+    count.div_ceil(fitting as usize).max(1)
 }
 
 /// Refuses a frame rate that the format cannot hold.

@@ -51,16 +51,12 @@ impl Movie<'_> {
         draw: impl FnOnce(Push<'_>) -> io::Result<()>,
     ) -> Result<(), Failure> {
         let size = self.options.size;
-        let animate = |mut writer: AnimationWriter<&mut dyn Output>| {
-            draw(&mut |image, seconds, _| writer.push(image, seconds))?;
-            writer.finish()
-        };
         let written = match self.form {
             MovieForm::Gif => {
-                target.write(|out| animate(AnimationWriter::gif(out, size, palette()?)?))
+                target.write(|out| animate(AnimationWriter::gif(out, size, palette()?)?, draw))
             }
             MovieForm::Apng => {
-                target.write(|out| animate(AnimationWriter::apng(out, size, self.pictures)?))
+                target.write(|out| animate(AnimationWriter::apng(out, size, self.pictures)?, draw))
             }
             MovieForm::Video(container) => {
                 let format = VideoFormat {
@@ -78,4 +74,12 @@ impl Movie<'_> {
         };
         written.map_err(Failure::written)
     }
+}
+
+fn animate(
+    mut writer: AnimationWriter<&mut dyn Output>,
+    draw: impl FnOnce(Push<'_>) -> io::Result<()>,
+) -> io::Result<()> {
+    draw(&mut |image, seconds, _| writer.push(image, seconds))?;
+    writer.finish()
 }

@@ -71,11 +71,12 @@ fn wide(width: u32) -> Options {
 
 fn drawn(film: &Film<'_>, options: &Options, times: &[f64]) -> Vec<Image> {
     let mut images = vec![];
-    film.draw(options, times.iter().copied(), |image| {
+    let shooting = film.shooting(options).unwrap();
+    let drawn = shooting.draw(times.iter().copied(), |image| {
         images.push(image);
         Ok::<(), RenderError>(())
-    })
-    .unwrap();
+    });
+    drawn.unwrap();
     images
 }
 
@@ -371,7 +372,8 @@ fn an_error_ends_a_film() {
     let film = Film::new(&model, &model.clips()[0], [0.0, 3.0]).unwrap();
     let mut seen = 0;
     let times = (0..500).map(|index| f64::from(index) / 200.0);
-    let ended = film.draw(&wide(20), times, |_| {
+    let shooting = film.shooting(&wide(20)).unwrap();
+    let ended = shooting.draw(times, |_| {
         seen += 1;
         match seen {
             7 => Err(RenderError::Broken),
