@@ -72,33 +72,15 @@ impl Coverage {
 
 #[cfg(test)]
 mod tests {
-    use glam::{DVec3, Vec3};
+    use glam::Vec3;
 
     use super::*;
-    use crate::import::TriangleSoup;
     use crate::render::camera::{Framing, Projection, View};
+    use crate::render::hierarchy::Rays;
+    use crate::render::hierarchy::tests::ring;
     use crate::render::light::even;
-    use crate::render::surface::{Material, Surface};
-    use crate::render::trace::{Rays, Tracer};
-
-    /// Small triangles at random places of a ring, around an empty middle.
-    fn ring(seed: u64) -> Surface {
-        let mut random = fastrand::Rng::with_seed(seed);
-        let mut soup = TriangleSoup::default();
-        for _ in 0..200 {
-            let (sin, cos) = (random.f64() * std::f64::consts::TAU).sin_cos();
-            let first = soup.positions.len() as u32;
-            for _ in 0..3 {
-                let apart = DVec3::from_array([(); 3].map(|()| random.f64() - 0.5)) * 0.2;
-                soup.positions.push(DVec3::new(sin, cos, 0.0) + apart);
-                soup.normals.push(Vec3::ZERO);
-                soup.uvs.push(Vec2::ZERO);
-            }
-            soup.triangles.push([first, first + 1, first + 2]);
-            soup.materials.push(None);
-        }
-        Surface::new(soup, 0, None)
-    }
+    use crate::render::surface::Material;
+    use crate::render::trace::Tracer;
 
     #[test]
     fn rays_hit_covered_pixels_only() {

@@ -11,7 +11,7 @@ use super::trace::Tracer;
 /// How far from the model its shadow is visible, relative to the normalised model.
 const SHADOW_REACH: f32 = 0.65;
 /// The width of a line, relative to the distance of two lines.
-const LINE_WIDTH: f32 = 0.025;
+const LINE_WIDTH: f32 = 0.04;
 /// The opacity of the lines.
 const LINE_OPACITY: f32 = 0.45;
 /// The colour of the lines, linear: a grey that is visible on black and on white.

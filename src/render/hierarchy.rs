@@ -431,3 +431,125 @@ impl Hierarchy {
         fitted
     }
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use glam::{DVec3, Vec2};
+
+    use super::*;
+    use crate::import::TriangleSoup;
+
+    /// Small triangles at random places of a ring, around an empty middle.
+    pub(crate) fn ring(seed: u64) -> Surface {
+        let mut random = fastrand::Rng::with_seed(seed);
+        let mut soup = TriangleSoup::default();
+        for _ in 0..200 {
+            let (sin, cos) = (random.f64() * std::f64::consts::TAU).sin_cos();
+            let first = soup.positions.len() as u32;
+            for _ in 0..3 {
+                let apart = DVec3::from_array([(); 3].map(|()| random.f64() - 0.5)) * 0.2;
+                soup.positions.push(DVec3::new(sin, cos, 0.0) + apart);
+                soup.normals.push(Vec3::ZERO);
+                soup.uvs.push(Vec2::ZERO);
+            }
+            soup.triangles.push([first, first + 1, first + 2]);
+            soup.materials.push(None);
+        }
+        Surface::new(soup, 0, None)
+    }
+
+    /// Rays from all around, each with an origin and a direction.
+    fn rays() -> Vec<(Vec3, Vec3)> {
+        let mut random = fastrand::Rng::with_seed(5);
+        let mut point = || Vec3::from_array([(); 3].map(|()| random.f32() - 0.5));
+        // Towards the ring.
+        let mut rays: Vec<(Vec3, Vec3)> = (0..3000)
+            .map(|_| {
+                let origin = point() * 3.0;
+                let aim = point().with_z(0.0).normalize_or(Vec3::X) * 0.45;
+                (origin, (aim - origin).normalize_or(Vec3::X))
+            })
+            .collect();
+        // Along axes too, where boxes are met at infinity.
+        rays.extend((0..300).map(|_| (point().with_z(2.0), Vec3::NEG_Z)));
+        rays
+    }
+
+    /// All triangles that a ray meets, without a tree.
+    fn met(surface: &Surface, origin: Vec3, direction: Vec3) -> Vec<Hit> {
+        let mut met = Vec::new();
+        let ray = Ray::new(origin, direction, 0.0);
+        for triangle in 0..surface.triangles.len() as u32 {
+            Pack::new(surface, &[triangle]).meet(&ray, f32::INFINITY, |hit| met.push(hit));
+        }
+        met
+    }
+
+    fn check(hierarchy: &Hierarchy, surface: &Surface) {
+        let mut hits = 0;
+        for (origin, direction) in rays() {
+            let met = met(surface, origin, direction);
+            let first = met.iter().min_by(|a, b| a.distance.total_cmp(&b.distance));
+            let found = hierarchy.closest(origin, direction, 0.0, |_| true);
+            assert_eq!(found.map(|hit| hit.triangle), first.map(|hit| hit.triangle));
+            let blocked = hierarchy.is_blocked(origin, direction, |_| true);
+            assert_eq!(blocked, first.is_some());
+            let mut count = 0;
+            hierarchy.is_blocked(origin, direction, |_| {
+                count += 1;
+                false
+            });
+            assert_eq!(count, met.len());
+            hits += count;
+            // What is refused is not there, and what is before the start is not either.
+            if let Some(first) = first {
+                let behind = met.iter().filter(|hit| hit.distance > first.distance);
+                let second = behind.min_by(|a, b| a.distance.total_cmp(&b.distance));
+                let second = second.map(|hit| hit.triangle);
+                let other = |hit: &Hit| hit.triangle != first.triangle;
+                let found = hierarchy.closest(origin, direction, 0.0, other);
+                assert_eq!(found.map(|hit| hit.triangle), second);
+                let nearest = first.distance.next_up();
+                let found = hierarchy.closest(origin, direction, nearest, |_| true);
+                assert_eq!(found.map(|hit| hit.triangle), second);
+            }
+        }
+        assert!(hits > 1000, "{hits}");
+    }
+
+    #[test]
+    fn rays_meet_what_they_meet_without_a_tree() {
+        for (seed, rays) in [(1, Rays::Many), (2, Rays::Few)] {
+            let surface = ring(seed);
+            check(&Hierarchy::new(&surface, rays), &surface);
+        }
+    }
+
+    #[test]
+    fn a_tree_is_fitted_to_other_positions() {
+        let (before, after) = (ring(3), ring(4));
+        assert_eq!(before.triangles, after.triangles);
+        check(&Hierarchy::new(&before, Rays::Many).fitted(&after), &after);
+    }
+
+    #[test]
+    fn of_coincident_triangles_the_first_one_is_met() {
+        let mut surface = ring(6);
+        let twice = surface.triangles.clone();
+        surface.triangles.extend(twice);
+        let hierarchy = Hierarchy::new(&surface, Rays::Many);
+        for (origin, direction) in rays() {
+            let found = hierarchy.closest(origin, direction, 0.0, |_| true);
+            assert!(found.is_none_or(|hit| hit.triangle < 200));
+        }
+    }
+
+    #[test]
+    fn without_triangles_nothing_is_met() {
+        let hierarchy = Hierarchy::new(&Surface::default(), Rays::Many);
+        let found = hierarchy.closest(Vec3::ZERO, Vec3::X, 0.0, |_| true);
+        assert!(found.is_none() && !hierarchy.is_blocked(Vec3::ZERO, Vec3::X, |_| true));
+        let fitted = hierarchy.fitted(&Surface::default());
+        assert!(!fitted.is_blocked(Vec3::ZERO, Vec3::X, |_| true));
+    }
+}

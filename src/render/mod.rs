@@ -5,17 +5,18 @@
 //! world that a picture shows exactly. A [`Film`] is a stretch of a clip that one camera renders:
 //!
 //! ```text
-//!  bytes ─► Model ─► (Pose) ─► PosedModel ─► Image ─► PNG, GIF
+//!  bytes ─► Model ─► (Pose) ─► PosedModel, Film ─► Image ─► PNG, GIF
 //!                     surface · BVH     camera · tiles: fragments, light, shade
 //! ```
 //!
 //! Pictures are ray traced. Shadows, ambient occlusion, the order of transparent surfaces and thin solids are then the
 //! same query of one tree, where a rasteriser such as `euc` would need a shadow map, a screen-space estimate and a sort.
-//! The ray tracer is written by hand on `obvhs`, which builds and traverses the bounding volume hierarchy: it is small,
-//! maintained, fast on a CPU and shares our version of `glam`, while complete renderers need a GPU or C++ (Embree) and
-//! do not give the same picture on every machine. There is no noise and no random number: each pixel of a block of four
+//! The ray tracer is written by hand on `obvhs`, which builds the bounding volume hierarchy: it is small, maintained, fast on a
+//! CPU and shares our version of `glam`, while complete renderers need a GPU or C++ (Embree) and do not give the same picture
+//! on every machine. There is no noise and no random number: each pixel of a block of four
 //! by four sends its own sixteenth of one fixed set of rays, and gathers the rest from its neighbours on the same
-//! surface (interleaved sampling: Keller and Heidrich 2001). Same input, same picture, on any number of threads.
+//! surface (interleaved sampling: Keller and Heidrich 2001). Same input, same picture, on any number of threads. Pictures of
+//! films take fewer rays than still ones.
 //!
 //! Conventions: the model's axes are glTF's (right-handed, +Y up, its front looks along +Z). Rendering happens in
 //! normalised space: the world moved and scaled so that the model's bounding box is centred at the origin and its longest side is 1.

