@@ -464,7 +464,7 @@ fn a_camera_follows_what_moves() {
     // The first and the last column of the model in the first and in the last frame.
     let extents = |more: &str| {
         let arguments = format!(
-            "render run.glb -o run.gif --size 90x60 --view 0,10 --shading unlit --background #000000{more}"
+            "render run.glb -o run.gif --clip run --size 90x60 --view 0,10 --shading unlit --background #000000{more}"
         );
         ends(
             &room,

@@ -6,7 +6,7 @@ use super::camera::Camera;
 use super::surface::Surface;
 
 /// The side of the blocks that are marked together, in pixels.
-const BLOCK: f32 = 4.0;
+const BLOCK: f32 = 2.0;
 /// How far a triangle may reach beyond its corners by rounding, in pixels.
 const TOLERANCE: f32 = 1.0;
 /// How many blocks are marked, relative to the number of triangles and blocks, before it is not worth while.

@@ -257,7 +257,7 @@ impl<'a> Film<'a> {
             // As it is drawn, limbs are apart: the boxes of a pose in which they touch would fit other poses badly.
             let pose = self.model.rest().seen_from(options.viewer(options.view));
             let surface = self.model.surface(&pose, Some(self.normalization))?;
-            let hierarchy = Hierarchy::new(&surface, Rays::Many);
+            let hierarchy = Hierarchy::new(&surface, Rays::Film);
             Ok((surface.triangles, hierarchy))
         };
         Ok(Shooting {

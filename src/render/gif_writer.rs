@@ -102,7 +102,7 @@ pub(super) struct GifWriter<W: Write> {
     encoder: gif::Encoder<W>,
     palette: Palette,
     /// Indices of colours that were looked up before.
-    known: FxHashMap<[u8; 3], u8>,
+    known: FxHashMap<u32, u8>,
     size: [u16; 2],
     /// The indices of the frame before, row by row; empty before the first.
     shown: Vec<u8>,
@@ -152,7 +152,7 @@ impl<W: Write> GifWriter<W> {
             let threshold = BAYER_8X8[(y % 8) as usize][(x % 8) as usize];
             match alpha > threshold * 4 + 1 {
                 true => *known
-                    .entry([r, g, b])
+                    .entry(u32::from_le_bytes([r, g, b, 0]))
                     .or_insert_with(|| palette.nearest([r, g, b])),
                 false => CLEAR,
             }

@@ -95,9 +95,9 @@ impl GroundLight {
     /// The light in the middle of a pixel.
     pub(super) fn at(&self, x: u32, y: u32) -> IncidentLight {
         let place = |pixel: u32| (pixel as f32 + 0.5) / self.spacing as f32 + 1.0;
-        let [x, y] = [x, y].map(place);
-        let [column, row] = [x as usize, y as usize];
-        let [right, down] = [x.fract(), y.fract()];
+        let (x, y) = (place(x), place(y));
+        let (column, row) = (x as usize, y as usize);
+        let (right, down) = (x.fract(), y.fract());
         let mut light = IncidentLight::default();
         for (row, high) in [(row, 1.0 - down), (row + 1, down)] {
             for (column, wide) in [(column, 1.0 - right), (column + 1, right)] {

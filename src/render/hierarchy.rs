@@ -10,6 +10,7 @@ use obvhs::BvhBuildParams;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::bvh2::node::Bvh2Node;
+use obvhs::ploc::PlocSearchDistance;
 use obvhs::ray::Ray as Inverted;
 use smallvec::SmallVec;
 
@@ -31,6 +32,8 @@ pub(super) enum Rays {
     Few,
     /// Those of a lit picture.
     Many,
+    /// Those of many lit pictures.
+    Film,
 }
 
 /// Triangles in a tree of boxes.
@@ -272,6 +275,11 @@ impl Hierarchy {
             ..match rays {
                 Rays::Few => BvhBuildParams::very_fast_build(),
                 Rays::Many => BvhBuildParams::medium_build(),
+                Rays::Film => BvhBuildParams {
+                    ploc_search_distance: PlocSearchDistance::VeryHigh,
+                    search_depth_threshold: 0,
+                    ..BvhBuildParams::medium_build()
+                },
             }
         };
         let tree = build_bvh2(&boxes, effort, &mut Duration::default());
@@ -519,7 +527,7 @@ pub(crate) mod tests {
 
     #[test]
     fn rays_meet_what_they_meet_without_a_tree() {
-        for (seed, rays) in [(1, Rays::Many), (2, Rays::Few)] {
+        for (seed, rays) in [(1, Rays::Many), (2, Rays::Few), (3, Rays::Film)] {
             let surface = ring(seed);
             check(&Hierarchy::new(&surface, rays), &surface);
         }
@@ -529,7 +537,7 @@ pub(crate) mod tests {
     fn a_tree_is_fitted_to_other_positions() {
         let (before, after) = (ring(3), ring(4));
         assert_eq!(before.triangles, after.triangles);
-        check(&Hierarchy::new(&before, Rays::Many).fitted(&after), &after);
+        check(&Hierarchy::new(&before, Rays::Film).fitted(&after), &after);
     }
 
     #[test]

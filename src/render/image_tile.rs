@@ -131,8 +131,8 @@ fn pixel(colour: Vec4, encoding: &Encoding, background: Option<[u8; 3]>) -> [u8;
         None if byte(alpha) == 0 => return [0; 4],
         None => (colour.truncate() / colour.w, byte(alpha)),
     };
-    let [r, g, b] = seen.to_array().map(encoding.write);
-    [r, g, b, alpha]
+    let write = encoding.write;
+    [write(seen.x), write(seen.y), write(seen.z), alpha]
 }
 
 /// A value from 0 to 1 as a byte.

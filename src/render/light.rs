@@ -69,7 +69,12 @@ impl IncidentLight {
 
     pub(super) fn scaled(&self, factor: f32) -> Self {
         Self {
-            lamps: self.lamps.map(|lamp| lamp * factor),
+            // Not `map`, which is not inlined.
+            lamps: [
+                self.lamps[0] * factor,
+                self.lamps[1] * factor,
+                self.lamps[2] * factor,
+            ],
             sky: self.sky * factor,
         }
     }
