@@ -54,6 +54,14 @@ pub fn record_locations() {
 }
 
 impl Crash {
+    /// The operating system starts no more threads.
+    pub(crate) fn no_threads() -> Self {
+        Self {
+            message: "no threads can be started".to_owned(),
+            location: None,
+        }
+    }
+
     /// The crash of a panic with this payload.
     ///
     /// A pool of threads hands a panic on from thread to thread, so that the payload alone says which panic it is: the

@@ -28,10 +28,7 @@ static POOL: LazyLock<Option<rayon::ThreadPool>> = LazyLock::new(|| {
 /// If `work` panics, or no threads can be started.
 pub(crate) fn run<R: Send>(work: impl FnOnce() -> R + Send) -> Result<R, Crash> {
     let Some(pool) = POOL.as_ref() else {
-        return Err(Crash {
-            message: "no threads can be started".to_owned(),
-            location: None,
-        });
+        return Err(Crash::no_threads());
     };
     crash::catch(|| pool.install(work))
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Runs everything that tells whether okoshi is in order: bash tests/all.sh [--quick]
 #
-# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender, Inkscape, Neovim, Emacs and clip art are installed if they
-# are missing and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the summary says why.
+# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender, Inkscape, Neovim, Emacs, ffmpeg and clip art are installed if
+# they are missing and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the summary says why.
 # --quick leaves Blender out, and installs nothing. Exit status 1 if anything failed. All of cargo's work is done in one profile.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -109,6 +109,15 @@ install() { # WHAT PACKAGES…
   $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -yq --no-install-recommends "$@"
 }
 
+# The tests of videos run with all others too, but say there only that they skip what needs ffmpeg.
+videos() {
+  if ! command -v ffmpeg > /dev/null; then
+    [ $quick = no ] || skip "--quick, and ffmpeg is not installed"
+    install ffmpeg ffmpeg
+  fi
+  cargo test --locked --test videos
+}
+
 # Models of clip art by others, beside the drawings.
 clip_art() {
   [ $quick = no ] || skip "--quick"
@@ -199,6 +208,7 @@ inkscape_extension() {
 step format formatting
 step clippy lints
 step test tests
+step videos videos
 step doc manual
 step licences licences
 step examples examples

@@ -6,7 +6,7 @@ use std::fs;
 use std::sync::Arc;
 
 use common::program::{BAD, Room};
-use glam::DQuat;
+use glam::{DQuat, DVec3};
 use image::{AnimationDecoder, ImageDecoder};
 use okoshi::export::{GLB, to_memory};
 use okoshi::scene::{
@@ -168,13 +168,21 @@ fn turntables() {
             *frame.buffer() == picture(&room, &numbers[index]),
             "frame {index}"
         );
-        // The GIF's colours are close, and its transparent pixels are mostly transparent here.
+        // The GIF shows the same on white, in close colours.
         let gif = frames[index].buffer();
-        let far = gif.pixels().zip(frame.buffer().pixels()).filter(|(a, b)| {
-            let apart = (0..3).any(|channel| a.0[channel].abs_diff(b.0[channel]) > 24);
-            a.0[3] == 255 && b.0[3] == 255 && apart || a.0[3] == 0 && b.0[3] == 255
-        });
-        assert!(far.count() < 8, "frame {index}");
+        for (found, wanted) in gif.pixels().zip(frame.buffer().pixels()) {
+            let [r, g, b, alpha] = wanted.0;
+            if alpha == 0 {
+                assert_eq!(found.0, [255; 4], "frame {index}");
+            }
+            if alpha == 255 {
+                let apart = (0..3).map(|channel| found.0[channel].abs_diff([r, g, b][channel]));
+                assert!(
+                    apart.max() < Some(24),
+                    "frame {index}: {found:?} {wanted:?}"
+                );
+            }
+        }
     }
     let (_, out, _) = run(&room, "render a.svg -o - --size 40x40 --turntable 10");
     assert_eq!(Some(out), fs::read(room.path("t.apng")).ok());
@@ -218,7 +226,7 @@ fn wrong_use_is_explained() {
         ),
         (
             "render a.svg --background reddish",
-            "expected a colour of six digits",
+            "expected a colour of six digits, for example '#ffffff' for white, or transparent",
         ),
         (
             "render a.svg --turntable 1",
@@ -234,11 +242,11 @@ fn wrong_use_is_explained() {
         ),
         (
             "render a.svg -o a.jpg",
-            "error: the output `a.jpg` must end in .png, .gif or .apng",
+            "error: the output `a.jpg` must end in .png, .gif, .apng, .mp4 or .webm",
         ),
         (
             "render a.svg -o a.svg",
-            "error: the output `a.svg` must end in .png, .gif or .apng",
+            "error: the output `a.svg` must end in .png, .gif, .apng, .mp4 or .webm",
         ),
         (
             "render a.svg -o none/a.png",
@@ -434,6 +442,75 @@ fn gif_delays_match_the_held_drawings_of_a_clip() {
     assert_eq!((status, Some(out)), (0, fs::read(room.path("a.apng")).ok()));
 }
 
+/// A room with a model that runs ten metres to the right.
+fn running_room() -> Room {
+    let room = room();
+    let run = Animation {
+        name: "run".to_owned(),
+        seconds: 1.0,
+        tracks: vec![Track {
+            node: 0,
+            timing: Arc::new(Timing {
+                times: vec![0.0, 1.0],
+                interpolation: Interpolation::Linear,
+            }),
+            values: Values::Translations(vec![DVec3::ZERO, DVec3::X * 10.0]),
+        }],
+    };
+    room.write("run.glb", upright(Node::default(), vec![run]));
+    room
+}
+
+#[test]
+fn a_camera_follows_what_moves() {
+    let room = running_room();
+    // The first and the last column of the model in the first and in the last frame.
+    let extents = |more: &str| {
+        let arguments = format!(
+            "render run.glb -o run.gif --clip run --size 90x60 --view 0,10 --shading unlit --background #000000{more}"
+        );
+        ends(
+            &room,
+            &arguments,
+            0,
+            "wrote run.gif: 24 pictures in 1 seconds",
+        );
+        let frames = gif(&room, "run.gif");
+        [0, 23].map(|index: usize| {
+            let pixels = frames[index].buffer().enumerate_pixels();
+            let model = pixels.filter(|(_, _, pixel)| pixel.0[0] > 200);
+            let columns: Vec<u32> = model.map(|(x, _, _)| x).collect();
+            let of = |column: Option<&u32>| column.copied().expect("the model");
+            (of(columns.iter().min()), of(columns.iter().max()))
+        })
+    };
+    let [(first, _), (_, last)] = extents("");
+    assert!(first < 10 && last > 79, "{first} {last}");
+    let [start, end] = extents(" --follow");
+    assert_eq!(start, end);
+    assert!(
+        start.0 > 10 && start.1 < 79 && start.1 - start.0 > 30,
+        "{start:?}"
+    );
+}
+
+#[test]
+fn gifs_have_a_background_unless_they_are_to_have_none() {
+    let room = moving_room();
+    let first = |more: &str| {
+        let arguments = format!("render one.glb -o a.gif --size 40x40 --clip held{more}");
+        ends(&room, &arguments, 0, "wrote a.gif");
+        let frames = gif(&room, "a.gif");
+        let pixels = frames.iter().flat_map(|frame| frame.buffer().pixels());
+        let opaque = pixels.filter(|pixel| pixel.0[3] == 255).count();
+        (frames[0].buffer().get_pixel(0, 0).0, opaque == 3 * 40 * 40)
+    };
+    assert_eq!(first(""), ([255; 4], true));
+    assert_eq!(first(" --background #102030"), ([16, 32, 48, 255], true));
+    let (corner, opaque) = first(" --background transparent");
+    assert!(corner[3] == 0 && !opaque, "{corner:?} {opaque}");
+}
+
 #[test]
 fn moments_and_strips_of_clips() {
     let room = moving_room();
@@ -503,6 +580,12 @@ fn wrong_use_of_clips_is_explained() {
         ),
         ("one.glb --time=-1", "expected a number of seconds from 0"),
         ("one.glb --time 1 --fps 3", "cannot be used with"),
+        ("one.glb --time 1 --follow", "cannot be used with"),
+        ("one.glb --turntable 4 --follow", "cannot be used with"),
+        (
+            "two.glb --follow",
+            "has several clips: name one with --clip",
+        ),
         (
             "one.glb --strip 1",
             "expected a whole number from 2 to 1000",

@@ -13,7 +13,7 @@ use crate::motion::up::UpAxis;
 
 mod render;
 
-pub(super) use render::{Bend, Projection, Render, Shading};
+pub(super) use render::{Background, Bend, Projection, Render, Shading};
 
 const EXAMPLES: &str = "\
 Examples:

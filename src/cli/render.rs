@@ -3,7 +3,8 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::args::{Bend, Common, Projection, Render, Shading};
+use self::movie::{Movie, MovieForm};
+use super::args::{Background, Bend, Common, Projection, Render, Shading};
 use super::loading::{Detail, describe, load, resolver};
 use super::progress::{counting, spinning};
 use super::{Outcome, fail, style};
@@ -11,25 +12,29 @@ use crate::disk::{Inputs, Naming, Target, WriteError, read_file};
 use crate::export::{self, GLB};
 use crate::look::{DrawnView, LookError};
 use crate::render::{
-    self, AnimationWriter, Clip, Model, Options, Palette, PosedModel, RenderError, Sheet,
-    TURNTABLE_SECONDS, write_png,
+    self, Clip, Model, Options, Palette, PosedModel, RenderError, Sheet, TURNTABLE_SECONDS,
+    write_png,
 };
 use crate::resolver::Recorder;
 
 mod clips;
+mod movie;
+mod video;
 
 /// The side in pixels of the thumbnails that the colours of a GIF are chosen from.
-const THUMBNAIL_SIZE: u32 = 160;
+const THUMBNAIL_SIZE: u32 = 128;
 /// The most thumbnails: several are needed, as flat sides change their shade with every frame.
-const MAX_THUMBNAILS: u32 = 36;
+const MAX_THUMBNAILS: u32 = 16;
+/// The background of formats without partial transparency, unless another one is requested.
+const DEFAULT_BACKGROUND: [u8; 3] = [255; 3];
 
 /// The format of the output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Form {
     /// One picture, or numbered ones.
     Png,
-    Gif,
-    Apng,
+    /// All pictures in one file.
+    Movie(MovieForm),
 }
 
 /// What to draw.
@@ -94,7 +99,10 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
             };
             match subject {
                 Subject::Strip(cells) => clips::strip(&film, arguments, cells, &output),
-                _ => clips::moving(&film, arguments, form, &output),
+                _ => match form {
+                    Form::Png => clips::numbered(&film, arguments, &output),
+                    Form::Movie(form) => clips::movie(&film, arguments, form, &output),
+                },
             }
         }
         (_, clip) => {
@@ -215,17 +223,18 @@ fn form(output: &Path, subject: Subject, arguments: &Render) -> Result<Form, Str
     let one = matches!(subject, Subject::Still | Subject::Strip(_));
     let form = match ending.as_deref() {
         // Standard output is a single file, so all frames go into one.
-        _ if output.as_os_str() == "-" && !one => Form::Apng,
+        _ if output.as_os_str() == "-" && !one => Form::Movie(MovieForm::Apng),
         _ if output.as_os_str() == "-" => Form::Png,
         Some("png") => Form::Png,
-        Some("gif") => Form::Gif,
-        Some("apng") => Form::Apng,
-        _ => {
-            return Err(format!(
-                "the output `{}` must end in .png, .gif or .apng",
-                output.display()
-            ));
-        }
+        ending => match ending.and_then(MovieForm::of) {
+            Some(form) => Form::Movie(form),
+            None => {
+                return Err(format!(
+                    "the output `{}` must end in .png, .gif, .apng, .mp4 or .webm",
+                    output.display()
+                ));
+            }
+        },
     };
     if one && form != Form::Png {
         let name = output.display();
@@ -239,7 +248,13 @@ fn form(output: &Path, subject: Subject, arguments: &Render) -> Result<Form, Str
         });
     }
     clips::check_fps(arguments, form)?;
-    Ok(form)
+    let transparent = arguments.background == Some(Background::Transparent);
+    match form {
+        Form::Movie(MovieForm::Video(_)) if transparent => Err(
+            "videos have no transparency: choose another --background, or write .apng".to_owned(),
+        ),
+        _ => Ok(form),
+    }
 }
 
 /// What is drawn.
@@ -337,7 +352,7 @@ fn draw(
     output: &Destination,
     what: (Form, Subject),
 ) -> Result<String, Failure> {
-    let options = options(arguments);
+    let options = options(arguments, what.0);
     let picture = describe_picture(options.size, posed.triangles());
     let name = output.path.display();
     match what {
@@ -357,28 +372,27 @@ fn draw(
             })?;
             Ok(format!("{}: {picture} each", output.range(frames)))
         }
-        (form, Subject::Turntable(frames)) => {
+        (Form::Movie(form), Subject::Turntable(frames)) => {
             let target = output.single().map_err(Failure::written)?;
+            let movie = Movie {
+                form,
+                options: &options,
+                pictures: frames,
+                rate: [frames, TURNTABLE_SECONDS],
+            };
+            let seconds = f64::from(TURNTABLE_SECONDS) / f64::from(frames);
             counting("drawing", frames, |done| {
-                target.write(|out| {
-                    let mut animation = match form {
-                        Form::Gif => {
-                            let palette = palette(posed, &options, frames)?;
-                            AnimationWriter::gif(out, options.size, palette)?
-                        }
-                        Form::Png | Form::Apng => AnimationWriter::apng(out, options.size, frames)?,
-                    };
+                let colours = || palette(posed, &options, frames);
+                movie.write(&target, colours, |push| {
                     let mut number = 0;
                     posed.turntable(&options, frames, |image| -> io::Result<()> {
-                        animation.push(&image, TURNTABLE_SECONDS / f64::from(frames))?;
+                        push(&image, seconds, 1)?;
                         number += 1;
                         done(number);
                         Ok(())
-                    })?;
-                    animation.finish()
+                    })
                 })
-            })
-            .map_err(Failure::written)?;
+            })?;
             Ok(format!("{name}: {frames} frames, {picture} each"))
         }
         _ => {
@@ -401,7 +415,7 @@ fn draw_page(
     let options = Options {
         size,
         shading: render::Shading::Unlit,
-        background: arguments.background,
+        background: background(arguments, Form::Png),
         ..Options::default()
     };
     let target = output.single().map_err(Failure::written)?;
@@ -432,9 +446,24 @@ impl From<render::RenderError> for Failure {
     }
 }
 
-fn options(arguments: &Render) -> Options {
+/// The background of the pictures; `None` is transparent.
+fn background(arguments: &Render, form: Form) -> Option<[u8; 3]> {
+    match (arguments.background, form) {
+        (Some(Background::Colour(colour)), _) => Some(colour),
+        (Some(Background::Transparent), _) | (None, Form::Png | Form::Movie(MovieForm::Apng)) => {
+            None
+        }
+        (None, Form::Movie(MovieForm::Gif | MovieForm::Video(_))) => Some(DEFAULT_BACKGROUND),
+    }
+}
+
+fn options(arguments: &Render, form: Form) -> Options {
     Options {
-        size: arguments.size,
+        size: match form {
+            // The codecs store the colours of two by two pixels together.
+            Form::Movie(MovieForm::Video(_)) => arguments.size.map(|side| side.next_multiple_of(2)),
+            Form::Png | Form::Movie(_) => arguments.size,
+        },
         view: arguments.view,
         projection: match arguments.projection {
             Projection::Perspective => render::Projection::Perspective,
@@ -446,7 +475,7 @@ fn options(arguments: &Render) -> Options {
             Shading::Unlit => render::Shading::Unlit,
         },
         bend: arguments.bend == Bend::On,
-        background: arguments.background,
+        background: background(arguments, form),
     }
 }
 
@@ -468,5 +497,5 @@ fn palette(posed: &PosedModel<'_>, options: &Options, frames: u32) -> io::Result
             Ok(())
         },
     )?;
-    Ok(Palette::new(&thumbnails))
+    Ok(Palette::new(&thumbnails, options.background))
 }

@@ -4,6 +4,7 @@ mod cache;
 mod folder;
 mod poll;
 mod read;
+mod scratch;
 mod search;
 mod sniff;
 mod target;
@@ -17,6 +18,7 @@ pub use folder::{FolderResolver, LINK_LIMIT};
 pub use read::{
     DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, is_packed, open_stream, read_drawing, read_file,
 };
+pub use scratch::Scratch;
 pub use search::{Below, Stamp, below, is_drawing, stamp};
 pub use sniff::NotADrawing;
 pub use target::{Inputs, Naming, Target, rewrite};

@@ -4,7 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use super::write::{WriteError, write_atomic};
+use super::scratch::Scratch;
+use super::write::{WriteError, scratch_for, write_atomic};
 use super::{is_drawing, is_standard_stream};
 use crate::export::Output;
 
@@ -116,6 +117,14 @@ impl Target {
         fill: impl FnOnce(&mut dyn Output) -> io::Result<T>,
     ) -> Result<T, WriteError> {
         write_atomic(&self.0, fill)
+    }
+
+    /// A file beside it for what another program makes of it.
+    ///
+    /// # Errors
+    /// If no file can be created there.
+    pub fn scratch(&self) -> Result<Scratch, WriteError> {
+        scratch_for(&self.0)
     }
 }
 

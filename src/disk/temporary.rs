@@ -66,6 +66,14 @@ impl Temporary {
         }
     }
 
+    /// A path by which other programs can open the file while this program runs.
+    pub(super) fn path(&self) -> PathBuf {
+        match &self.file {
+            Handle::Unnamed(file) => open_path(file, std::process::id()),
+            Handle::Named(file) => file.path(),
+        }
+    }
+
     /// Gives the file its name, in place of the file that has it.
     ///
     /// # Errors
@@ -128,6 +136,11 @@ impl Listed {
         }
     }
 
+    fn path(&self) -> PathBuf {
+        let file = self.0.as_ref();
+        file.map(|file| file.path().to_owned()).unwrap_or_default()
+    }
+
     fn take(&mut self) -> NamedTempFile {
         self.unlist();
         match self.0.take() {
@@ -185,16 +198,25 @@ fn unnamed(_: &Path) -> Option<File> {
     None
 }
 
+/// The path of an open file of a process, whether it has a name or not.
+#[cfg(target_os = "linux")]
+fn open_path(file: &File, process: impl std::fmt::Display) -> PathBuf {
+    use std::os::fd::AsRawFd as _;
+    PathBuf::from(format!("/proc/{process}/fd/{}", file.as_raw_fd()))
+}
+
+#[cfg(not(target_os = "linux"))]
+fn open_path(_: &File, _: impl std::fmt::Display) -> PathBuf {
+    PathBuf::new()
+}
+
 /// Gives a file without a name a name.
 #[cfg(target_os = "linux")]
 fn link(file: &File, name: &Path) -> io::Result<()> {
-    use std::os::fd::AsRawFd as _;
-
     use rustix::fs::{AtFlags, CWD};
-    let open = format!("/proc/self/fd/{}", file.as_raw_fd());
     Ok(rustix::fs::linkat(
         CWD,
-        open,
+        open_path(file, "self"),
         CWD,
         name,
         AtFlags::SYMLINK_FOLLOW,

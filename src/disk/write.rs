@@ -7,6 +7,7 @@ use std::fs::{self, File};
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
+use super::scratch::Scratch;
 use super::temporary::Temporary;
 use crate::export::{Output, SeekableOutput};
 
@@ -123,6 +124,15 @@ pub(super) fn write_atomic<T>(
     // before the rename.
     temporary.replace(&target).map_err(failed)?;
     Ok(answer)
+}
+
+/// A file in the folder of an output.
+///
+/// # Errors
+/// If it cannot be created there.
+pub(super) fn scratch_for(path: &Path) -> Result<Scratch, WriteError> {
+    let target = follow_links(path).map_err(|source| failure(path, source))?;
+    Scratch::new(folder_of(&target)).map_err(|error| folder_failure(&target, path, error))
 }
 
 /// Creates a folder and its parents.

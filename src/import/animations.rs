@@ -77,6 +77,12 @@ impl Clip {
         }
         pose
     }
+
+    /// The nodes that it moves from place to place.
+    pub(crate) fn translated_nodes(&self) -> impl Iterator<Item = usize> {
+        let moved = self.animated.iter().filter(|one| one.translation.is_some());
+        moved.map(|one| one.node)
+    }
 }
 
 /// The rotation of a quaternion of any length; the identity for length zero.

@@ -9,6 +9,7 @@ mod buffers;
 mod meshes;
 mod pose;
 mod static_model;
+mod travel;
 mod view_dependent;
 
 use ::gltf::{Document, Gltf};
@@ -23,6 +24,7 @@ pub use pose::Pose;
 pub(crate) use pose::{Geometry, TriangleSoup};
 use pose::{Node, Skin};
 pub use static_model::{StaticModel, read_static_model};
+pub(crate) use travel::Travellers;
 
 /// The largest number of triangles in a file; those of a mesh count once for each node that uses it.
 pub const MAX_TRIANGLES: usize = 32 << 20;

@@ -157,11 +157,30 @@ impl Geometry {
         globals
     }
 
+    /// The places of some nodes in a pose, in the world.
+    pub(crate) fn places(&self, pose: &Pose, nodes: &[usize]) -> Vec<DVec3> {
+        let globals = self.globals(pose);
+        let place = |node: &usize| globals[*node].w_axis.truncate();
+        nodes.iter().map(place).collect()
+    }
+
     /// All triangles in a pose.
     ///
     /// # Errors
     /// No triangles, or too many.
     pub(crate) fn triangles(&self, pose: &Pose) -> Result<TriangleSoup, ImportError> {
+        self.triangles_of(pose, &self.visible)
+    }
+
+    /// The triangles of the nodes that are marked, in a pose.
+    ///
+    /// # Errors
+    /// No triangles, or too many.
+    pub(crate) fn triangles_of(
+        &self,
+        pose: &Pose,
+        marked: &[bool],
+    ) -> Result<TriangleSoup, ImportError> {
         let turned = pose.towards.map(|towards| self.turned(pose, towards));
         let pose = turned.as_ref().unwrap_or(pose);
         let globals = self.globals(pose);
@@ -170,7 +189,7 @@ impl Geometry {
                 .nodes
                 .iter()
                 .enumerate()
-                .filter(|(index, _)| self.visible[*index]);
+                .filter(|(index, _)| marked[*index]);
             nodes.filter_map(|(index, node)| Some((index, node, &self.meshes[node.mesh?])))
         };
         let triangles =

@@ -194,6 +194,14 @@ impl Framing {
         Ok(framing)
     }
 
+    /// The same picture, in which parallel rays start further away by `distance`, for what is in front of the points.
+    pub(super) fn stepping_back(mut self, distance: f32) -> Self {
+        if self.projection == Projection::Orthographic {
+            self.depth -= distance;
+        }
+        self
+    }
+
     /// Moves the eye sideways, so that opposite margins become equal.
     fn centre<'p, S: Copy, E>(
         &mut self,
@@ -256,6 +264,34 @@ impl Camera {
         }
     }
 
+    /// The point of the picture at which a point in space is seen, in pixels from the top left; `None` if it is not in front
+    /// of the camera.
+    pub(super) fn project(&self, point: Vec3) -> Option<Vec2> {
+        let seen = self.axes.of(point - self.eye);
+        let across = match self.projection {
+            Projection::Perspective if seen.z > 0.0 => seen.truncate() / seen.z,
+            Projection::Perspective => return None,
+            Projection::Orthographic => seen.truncate(),
+        };
+        let across = Vec2::new(across.x, -across.y) / self.half;
+        Some((across * self.size.max_element() + self.size) / 2.0)
+    }
+
+    /// The point on the horizontal plane at height `level` that is seen from above at a point of the picture, unless it is
+    /// very far away.
+    pub(super) fn on_level(&self, place: Vec2, level: f32) -> Option<Vec3> {
+        let (origin, direction) = self.ray(place);
+        on_level(origin, direction, level).map(|distance| origin + direction * distance)
+    }
+
+    /// The same camera, moved.
+    pub(super) fn moved(self, by: Vec3) -> Self {
+        Self {
+            eye: self.eye + by,
+            ..self
+        }
+    }
+
     /// The width of a pixel on a surface at a distance along its ray.
     pub(super) fn pixel(&self, distance: f32) -> f32 {
         let width = 2.0 * self.half / self.size.max_element();
@@ -271,4 +307,10 @@ impl Camera {
         let share = (to_edge / (MARGIN * self.size.min_element())).clamp(0.0, 1.0);
         share * share * (3.0 - 2.0 * share)
     }
+}
+
+/// The distance at which a ray from above meets the horizontal plane at height `level`, unless it is very far away.
+pub(super) fn on_level(origin: Vec3, direction: Vec3, level: f32) -> Option<f32> {
+    let distance = (level - origin.y) / direction.y;
+    (direction.y <= -1e-4 && (0.0..1e6).contains(&distance)).then_some(distance)
 }

@@ -1,17 +1,22 @@
-//! Renders a clip with one camera for all its frames.
+//! Renders a clip with one camera for all its frames, which stands still or follows the figure.
 
 use std::borrow::Cow;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3, Vec3Swizzles as _};
 use rayon::prelude::*;
 
 use super::camera::{Framing, View};
+use super::follow::CameraPath;
+use super::ground::Floor;
+use super::hierarchy::{Hierarchy, Rays};
 use super::model::Model;
-use super::posed_model::{Image, RayTarget, check_size, draw};
+use super::posed_model::{Image, Take, check_size, draw};
+use super::sampling::{FILM, STILL, Sampling};
 use super::surface::{Normalization, Surface};
-use super::trace::Rays;
 use super::{MAX_CLIP_FRAMES, MAX_FILM_STRIP_PIXELS, Options, RenderError, on_pool};
-use crate::import::{Clip, ImportError};
+use crate::crash::Crash;
+use crate::import::{Clip, ImportError, Pose};
 
 /// At how many times the pose is sampled, at most, to find the space that the clip needs.
 const MAX_SAMPLES: u32 = 32;
@@ -19,6 +24,8 @@ const MAX_SAMPLES: u32 = 32;
 const MAX_CACHED_CORNERS: usize = 4 << 20;
 /// The longest time that one picture is held, in seconds: file formats cannot store much longer delays.
 const MAX_HOLD_SECONDS: f64 = 60.0;
+/// The most pixels of the pictures that are rendered at the same time, unless one has more.
+const MAX_BATCH_PIXELS: u64 = 8 << 20;
 /// A remainder of less than this many frames does not become a frame.
 const FRAME_TOLERANCE: f64 = 1e-4;
 
@@ -33,6 +40,29 @@ pub struct Film<'a> {
     /// The height of the ground in normalised space: below all poses.
     ground: f32,
     triangles: usize,
+    /// How the camera moves, unless it stands still.
+    following: Option<Following>,
+}
+
+/// A camera that follows what moves from place to place.
+struct Following {
+    path: CameraPath,
+    /// For each node whether it has a mesh that is followed, and so is kept in the picture.
+    meshes: Vec<bool>,
+    /// The longest side of what is followed, in normalised space.
+    length: f32,
+    /// How far in front of it there may be something else, in normalised space.
+    clearance: f32,
+}
+
+/// A film and the camera that frames all of it.
+pub struct Shooting<'a> {
+    film: &'a Film<'a>,
+    options: Options,
+    framing: Framing,
+    sampling: &'static Sampling,
+    /// The triangles of one pose and their hierarchy, which is fitted to other poses.
+    hierarchy: (Vec<[u32; 3]>, Hierarchy),
 }
 
 /// A picture of a film, and how long it is held.
@@ -94,7 +124,43 @@ impl<'a> Film<'a> {
             normalization,
             ground: normalization.apply(low).y as f32,
             triangles,
+            following: None,
         })
+    }
+
+    /// The same, with a camera that follows what moves from place to place, smoothly and at one height, and keeps it in the
+    /// picture. Lines on the ground show how far it goes. Where nothing moves from place to place, the camera stands still.
+    ///
+    /// # Errors
+    /// A model with too many triangles.
+    pub fn following(mut self) -> Result<Self, RenderError> {
+        let travellers = self.model.travellers(self.clip);
+        if travellers.roots.is_empty() {
+            return Ok(self);
+        }
+        let length = || {
+            let mut length = 0.0_f32;
+            for time in evenly(self.span, MAX_SAMPLES) {
+                let pose = self.model.pose_at(self.clip, time);
+                let surface =
+                    self.model
+                        .surface_of(&travellers.meshes, &pose, self.normalization)?;
+                if !surface.triangles.is_empty() {
+                    length = length.max((surface.high - surface.low).max_element());
+                }
+            }
+            Ok(length)
+        };
+        let length = on_pool(length)?;
+        let path = CameraPath::new(self.model, self.clip, &travellers, self.span);
+        self.following = Some(Following {
+            meshes: travellers.meshes,
+            length,
+            // The diagonal of a cube with the longest side of a pose, and the way.
+            clearance: 2.0 + (path.length() * self.normalization.scale) as f32,
+            path,
+        });
+        Ok(self)
     }
 
     /// The largest number of triangles of any sampled pose.
@@ -144,24 +210,6 @@ impl<'a> Film<'a> {
         Ok(held)
     }
 
-    /// Renders the film at some times with one camera that frames all of it. `each` gets the pictures one by one and may
-    /// stop with its own error.
-    ///
-    /// # Errors
-    /// A size out of range, or the error of `each`.
-    pub fn draw<E: From<RenderError>>(
-        &self,
-        options: &Options,
-        moments: impl IntoIterator<Item = f64>,
-        mut each: impl FnMut(Image) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let framing = self.framing(options)?;
-        for time in moments {
-            each(self.picture(options, &framing, time)?)?;
-        }
-        Ok(())
-    }
-
     /// Renders `cells` evenly spaced times side by side, each in the size of the options. `done` is called with the number
     /// of finished pictures.
     ///
@@ -180,7 +228,8 @@ impl<'a> Film<'a> {
         }
         let mut strip = Image::new(wide as u32, height);
         let mut cell = 0;
-        self.draw(options, evenly(self.span, cells), |image| {
+        let shooting = self.shooting_sampled(options, &STILL)?;
+        shooting.draw(evenly(self.span, cells), |image| {
             let left = i64::from(cell * width);
             image::imageops::replace(&mut strip, &image, left, 0);
             cell += 1;
@@ -190,12 +239,51 @@ impl<'a> Film<'a> {
         Ok(strip)
     }
 
+    /// Places the camera.
+    ///
+    /// # Errors
+    /// A size out of range.
+    pub fn shooting(&'a self, options: &Options) -> Result<Shooting<'a>, RenderError> {
+        self.shooting_sampled(options, &FILM)
+    }
+
+    fn shooting_sampled(
+        &'a self,
+        options: &Options,
+        sampling: &'static Sampling,
+    ) -> Result<Shooting<'a>, RenderError> {
+        let framing = self.framing(options)?;
+        let hierarchy = || {
+            // As it is drawn, limbs are apart: the boxes of a pose in which they touch would fit other poses badly.
+            let pose = self.model.rest().seen_from(options.viewer(options.view));
+            let surface = self.model.surface(&pose, Some(self.normalization))?;
+            let hierarchy = Hierarchy::new(&surface, Rays::Film);
+            Ok((surface.triangles, hierarchy))
+        };
+        Ok(Shooting {
+            film: self,
+            options: *options,
+            framing,
+            sampling,
+            hierarchy: on_pool(hierarchy)?,
+        })
+    }
+
     fn framing(&self, options: &Options) -> Result<Framing, RenderError> {
         check_size(options.size)?;
         let moments: Vec<f64> = evenly(self.span, MAX_SAMPLES).collect();
         let view = options.view;
-        let corners =
-            |time: f64| Ok::<_, RenderError>(self.surface(options, time)?.used_positions());
+        let corners = |time: f64| match &self.following {
+            None => Ok::<_, RenderError>(self.surface(options, time)?.used_positions()),
+            Some(following) => {
+                let pose = self.pose(options, time);
+                let marked = &following.meshes;
+                let surface = self.model.surface_of(marked, &pose, self.normalization)?;
+                let moved = self.camera_offset(time);
+                let positions = surface.used_positions().into_iter();
+                Ok(positions.map(|position| position - moved).collect())
+            }
+        };
         let few = self.triangles.saturating_mul(3 * moments.len()) <= MAX_CACHED_CORNERS;
         let framing = || {
             let kept: Vec<Vec<Vec3>> = match few {
@@ -211,38 +299,129 @@ impl<'a> Film<'a> {
                 Some(kept) => Ok(Cow::Borrowed(&**kept)),
                 None => corners(moments[moment]).map(Cow::Owned),
             };
-            Framing::new(&shots, options.projection, options.size, points)
+            let framing = Framing::new(&shots, options.projection, options.size, points)?;
+            Ok(match &self.following {
+                Some(following) => framing.stepping_back(following.clearance),
+                None => framing,
+            })
         };
         on_pool(framing)
     }
 
-    /// The posed surface at a time.
-    fn surface(&self, options: &Options, time: f64) -> Result<Surface, RenderError> {
-        let pose = self.model.pose_at(self.clip, time);
-        let pose = pose.seen_from(options.viewer(options.view));
-        self.model.surface(&pose, Some(self.normalization))
-    }
-
-    fn picture(
-        &self,
-        options: &Options,
-        framing: &Framing,
-        time: f64,
-    ) -> Result<Image, RenderError> {
-        let [width, height] = options.size;
-        on_pool(|| {
-            let mut surface = self.surface(options, time)?;
-            if surface.triangles.is_empty() {
-                // The whole model is scaled to zero at this time.
-                let [r, g, b] = options.background.unwrap_or_default();
-                let alpha = if options.background.is_some() { 255 } else { 0 };
-                let pixel = image::Rgba([r, g, b, alpha]);
-                return Ok(Image::from_pixel(width, height, pixel));
-            }
-            // The ground stays where it is when the model jumps.
-            surface.low.y = surface.low.y.min(self.ground);
-            let target = RayTarget::new(self.model, surface, Rays::Many);
-            draw(&target, options, &framing.camera(options.view))
+    /// How far the camera has moved at a time, in normalised space.
+    fn camera_offset(&self, time: f64) -> Vec3 {
+        self.following.as_ref().map_or(Vec3::ZERO, |following| {
+            let path = &following.path;
+            let moved = path.at(time) - path.at(self.span[0]);
+            (moved * self.normalization.scale).as_vec3()
         })
     }
+
+    /// The lines on the ground at a time, if the camera follows something.
+    fn floor(&self, time: f64) -> Option<Floor> {
+        let following = self.following.as_ref()?;
+        let on_ground = |place: DVec3| self.normalization.apply(place).as_vec3().xz();
+        Some(Floor::new(
+            on_ground(DVec3::ZERO),
+            self.normalization.scale,
+            on_ground(following.path.at(time)),
+            following.length,
+        ))
+    }
+
+    /// The pose at a time, for the viewer.
+    fn pose(&self, options: &Options, time: f64) -> Pose {
+        let pose = self.model.pose_at(self.clip, time);
+        pose.seen_from(options.viewer(options.view))
+    }
+
+    /// The posed surface at a time.
+    fn surface(&self, options: &Options, time: f64) -> Result<Surface, RenderError> {
+        let pose = self.pose(options, time);
+        self.model.surface(&pose, Some(self.normalization))
+    }
+}
+
+impl Shooting<'_> {
+    /// Renders the film at some times. `each` gets the pictures one by one, while the next ones are rendered, and may stop
+    /// with its own error.
+    ///
+    /// # Errors
+    /// The error of `each`.
+    pub fn draw<E: From<RenderError>>(
+        &self,
+        moments: impl IntoIterator<Item = f64>,
+        mut each: impl FnMut(Image) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let moments: Vec<f64> = moments.into_iter().collect();
+        std::thread::scope(|scope| {
+            // A batch is rendered while `each` takes the one before.
+            let (sender, batches) = sync_channel(0);
+            let moments = &moments;
+            std::thread::Builder::new()
+                .spawn_scoped(scope, move || self.render(moments, sender))
+                .map_err(|_| RenderError::from(Crash::no_threads()))?;
+            take(batches, &mut each)
+        })
+    }
+
+    /// Renders pictures in batches, several at once: much of the work for one picture uses one thread only.
+    fn render(&self, moments: &[f64], batches: SyncSender<Batch>) {
+        let [width, height] = self.options.size.map(u64::from);
+        let fitting = (MAX_BATCH_PIXELS / (width * height)).max(1);
+        let work = || Ok(rayon::current_num_threads() as u64);
+        let batch = on_pool(work).map_or(1, |threads| threads.min(fitting)) as usize;
+        for moments in moments.chunks(batch) {
+            let picture = |time: &f64| self.picture(*time);
+            let images = on_pool(|| moments.par_iter().map(picture).collect());
+            let failed = images.is_err();
+            // Nobody takes pictures after an error.
+            if batches.send(images).is_err() || failed {
+                return;
+            }
+        }
+    }
+
+    fn picture(&self, time: f64) -> Result<Image, RenderError> {
+        let (film, options) = (self.film, &self.options);
+        let [width, height] = options.size;
+        let mut surface = film.surface(options, time)?;
+        if surface.triangles.is_empty() {
+            // The whole model is scaled to zero at this time.
+            let [r, g, b] = options.background.unwrap_or_default();
+            let alpha = if options.background.is_some() { 255 } else { 0 };
+            let pixel = image::Rgba([r, g, b, alpha]);
+            return Ok(Image::from_pixel(width, height, pixel));
+        }
+        // The ground stays where it is when the model jumps.
+        surface.low.y = surface.low.y.min(film.ground);
+        let (triangles, hierarchy) = &self.hierarchy;
+        let hierarchy = match *triangles == surface.triangles {
+            true => hierarchy.fitted(&surface),
+            // Other triangles are visible: some are too small in one of the poses.
+            false => Hierarchy::new(&surface, Rays::Many),
+        };
+        let tracer = film.model.tracer_with(surface, hierarchy);
+        let camera = self.framing.camera(options.view);
+        let take = Take {
+            camera: camera.moved(film.camera_offset(time)),
+            sampling: self.sampling,
+            floor: film.floor(time),
+        };
+        draw(&tracer, options, &take)
+    }
+}
+
+/// Consecutive pictures, or why they cannot be rendered.
+type Batch = Result<Vec<Image>, RenderError>;
+
+/// Hands over pictures one by one until there are no more. Its end, early or not, ends the rendering of more.
+fn take<E: From<RenderError>>(
+    batches: Receiver<Batch>,
+    each: &mut impl FnMut(Image) -> Result<(), E>,
+) -> Result<(), E> {
+    for images in batches {
+        images?.into_iter().try_for_each(&mut *each)?;
+    }
+    Ok(())
 }

@@ -3,21 +3,25 @@
 use glam::{Vec2, Vec3};
 
 use super::Shading;
-use super::camera::Camera;
+use super::camera::{Camera, on_level};
+use super::coverage::Coverage;
+use super::ground::{Floor, shadow_fade};
+use super::hierarchy::Hit;
 use super::light::{IncidentLight, even};
-use super::surface::{Alpha, Surface};
-use super::trace::{Hit, Tracer};
+use super::sampling::Sampling;
+use super::surface::Alpha;
+use super::trace::Tracer;
 
-/// Rays of every pixel.
+/// The rays that decide whether a pixel contains an edge.
 const MIN_RAYS: usize = 4;
-/// Rays of a pixel that contains an edge or a texture.
-const MAX_RAYS: usize = 16;
 /// The largest number of surfaces that a ray passes through.
 const MAX_LAYERS: usize = 64;
 /// Below this transmittance nothing more is visible.
 const OPAQUE: f32 = 0.004;
 /// Surfaces in a pixel whose normals have at least this cosine are shaded as one.
 const ALIKE: f32 = 0.94;
+/// Neighbours whose normals have at least this cosine share their light.
+const NEIGHBOURS_ALIKE: f32 = 0.88;
 /// The largest number of fragments of a pixel.
 const MAX_FRAGMENTS: usize = 12;
 /// The distance from a surface at which secondary rays start, so that they do not hit it.
@@ -55,7 +59,11 @@ pub(super) struct Fragment {
 pub(super) struct PixelSampler<'a> {
     pub(super) tracer: &'a Tracer<'a>,
     pub(super) camera: &'a Camera,
+    pub(super) coverage: &'a Coverage,
+    pub(super) sampling: &'a Sampling,
     pub(super) shading: Shading,
+    /// The lines on the ground.
+    pub(super) floor: Option<Floor>,
 }
 
 impl PixelSampler<'_> {
@@ -63,24 +71,64 @@ impl PixelSampler<'_> {
     pub(super) fn sample(&self, x: u32, y: u32, out: &mut Vec<Fragment>) {
         let first = out.len();
         let corner = Vec2::new(x as f32, y as f32);
+        let covered = self.coverage.contains(x, y);
+        let few = match covered {
+            true => MIN_RAYS,
+            false => self.sampling.empty,
+        };
         let mut rays = 0;
-        for index in 0..MAX_RAYS {
-            let uniform = index == MIN_RAYS && self.is_uniform(&out[first..]);
+        for index in 0..self.sampling.edge {
+            let uniform = index == few && self.is_uniform(&out[first..], few);
             if uniform {
                 break;
             }
-            self.trace(corner + even(index), first, out);
+            match covered {
+                true => self.trace(corner + even(index), first, out),
+                false => self.trace_ground(corner + even(index), first, out),
+            }
             rays += 1;
         }
-        for fragment in &mut out[first..] {
-            fragment.colour /= fragment.weight;
-            fragment.weight /= rays as f32;
-            fragment.normal = fragment.normal.normalize_or(fragment.towards);
-        }
+        average(&mut out[first..], rays);
     }
 
-    /// Whether the first few rays are enough.
-    fn is_uniform(&self, seen: &[Fragment]) -> bool {
+    /// As [`sample`](Self::sample), by one ray.
+    pub(super) fn sample_once(&self, x: u32, y: u32, out: &mut Vec<Fragment>) {
+        let first = out.len();
+        self.trace(Vec2::new(x as f32, y as f32) + even(0), first, out);
+        average(&mut out[first..], 1);
+    }
+
+    /// As [`sample`](Self::sample), by as many rays as for an edge.
+    pub(super) fn sample_edge(&self, x: u32, y: u32, out: &mut Vec<Fragment>) {
+        let first = out.len();
+        let corner = Vec2::new(x as f32, y as f32);
+        for index in 0..self.sampling.edge {
+            self.trace(corner + even(index), first, out);
+        }
+        average(&mut out[first..], self.sampling.edge);
+    }
+
+    /// Whether one ray is enough for a pixel, judging by what it shows and what its neighbours show.
+    pub(super) fn is_enough<'f>(
+        &self,
+        seen: &[Fragment],
+        mut neighbours: impl Iterator<Item = &'f [Fragment]>,
+    ) -> bool {
+        let is_bare = |fragments: &[Fragment]| {
+            let mut kinds = fragments.iter().map(|fragment| fragment.kind);
+            kinds.all(|kind| kind == FragmentKind::Ground)
+        };
+        self.is_uniform(seen, 1)
+            && neighbours.all(|other| match (seen, other) {
+                // The ground has no edges.
+                _ if is_bare(seen) => is_bare(other),
+                ([one], [other]) => one.kind == other.kind && same_surface(one, other),
+                _ => false,
+            })
+    }
+
+    /// Whether the first `few` rays are enough.
+    fn is_uniform(&self, seen: &[Fragment], few: usize) -> bool {
         match seen {
             [] => true,
             [one] => {
@@ -91,7 +139,7 @@ impl PixelSampler<'_> {
                         material.sampler.is_none() && material.alpha == Alpha::Opaque
                     }
                 };
-                flat && one.weight > MIN_RAYS as f32 - 0.5
+                flat && one.weight > few as f32 - 0.5
             }
             _ => false,
         }
@@ -108,7 +156,9 @@ impl PixelSampler<'_> {
             };
             nearest = hit.distance + 1e-6;
             let width = self.camera.pixel(hit.distance);
-            let base = self.tracer.base(&hit, width / (MAX_RAYS as f32).sqrt());
+            let base = self
+                .tracer
+                .base(&hit, width / (self.sampling.edge as f32).sqrt());
             let cover = self.tracer.cover(&hit, base.w);
             if cover > 0.0 {
                 let fragment = self.fragment(&hit, origin, direction, width, base.truncate());
@@ -119,13 +169,16 @@ impl PixelSampler<'_> {
                 return;
             }
         }
-        // The ground shows shadows only.
-        let ground = match self.shading {
-            Shading::Unlit => None,
-            Shading::Smooth | Shading::Flat => self.ground(origin, direction),
-        };
-        if let Some(ground) = ground {
+        if let Some(ground) = self.ground(origin, direction) {
             merge(ground, clear, first, out);
+        }
+    }
+
+    /// Follows the ray through a point of the picture where the model is not.
+    fn trace_ground(&self, place: Vec2, first: usize, out: &mut Vec<Fragment>) {
+        let (origin, direction) = self.camera.ray(place);
+        if let Some(ground) = self.ground(origin, direction) {
+            merge(ground, 1.0, first, out);
         }
     }
 
@@ -166,15 +219,18 @@ impl PixelSampler<'_> {
         }
     }
 
-    /// The ground where a ray hits it, if seen from above and not too far from the model.
+    /// The ground where a ray hits it, if seen from above and where it shows anything.
     fn ground(&self, origin: Vec3, direction: Vec3) -> Option<Fragment> {
         let surface = &self.tracer.surface;
-        let distance = (surface.low.y - origin.y) / direction.y;
-        if direction.y > -1e-4 || !(0.0..1e6).contains(&distance) {
+        let lit = self.shading != Shading::Unlit;
+        if !lit && self.floor.is_none() {
             return None;
         }
+        let distance = on_level(origin, direction, surface.low.y)?;
         let place = origin + direction * distance;
-        (ground_fade(place, surface) > 0.0).then(|| Fragment {
+        let shadow = lit && shadow_fade(place, surface) > 0.0;
+        let lines = || self.floor.is_some_and(|floor| floor.fade(place) > 0.0);
+        (shadow || lines()).then(|| Fragment {
             kind: FragmentKind::Ground,
             weight: 0.0,
             colour: Vec3::ZERO,
@@ -187,11 +243,22 @@ impl PixelSampler<'_> {
     }
 }
 
-/// How strong the model's shadow is at a point on the ground: it fades with the distance from the model.
-pub(super) fn ground_fade(place: Vec3, model: &Surface) -> f32 {
-    let beside = (model.low - place).max(place - model.high).max(Vec3::ZERO);
-    let share = 1.0 - (Vec2::new(beside.x, beside.z).length() / 0.65).min(1.0);
-    share * share * (3.0 - 2.0 * share)
+/// Turns the sums of so many rays into means.
+fn average(fragments: &mut [Fragment], rays: usize) {
+    for fragment in fragments {
+        fragment.colour /= fragment.weight;
+        fragment.weight /= rays as f32;
+        fragment.normal = fragment.normal.normalize_or(fragment.towards);
+    }
+}
+
+/// Whether two fragments of neighbouring pixels are on one surface, without an edge between them.
+pub(super) fn same_surface(one: &Fragment, other: &Fragment) -> bool {
+    let apart = other.place - one.place;
+    (one.kind == FragmentKind::Ground) == (other.kind == FragmentKind::Ground)
+        && one.normal.dot(other.normal) > NEIGHBOURS_ALIKE
+        && apart.dot(one.normal).abs() < one.width * 2.5
+        && apart.length_squared() < (one.width * 12.0).powi(2)
 }
 
 /// Adds a fragment to a similar one of its pixel, or to the list.

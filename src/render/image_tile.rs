@@ -3,22 +3,24 @@
 use glam::{Vec2, Vec3, Vec4};
 
 use super::Shading;
-use super::fragment::{Fragment, FragmentKind, PixelSampler};
+use super::fragment::{Fragment, FragmentKind, PixelSampler, same_surface};
+use super::ground::{GroundLight, shadow_fade, shadow_on_lines};
 use super::light::{IncidentLight, Lights, share};
-use super::shade::shade;
+use super::sampling::Refinement;
+use super::shade::{shade, shadow};
 use super::texture::{linear_to_srgb, srgb_to_linear, srgb_values};
 
 /// The side of a tile in pixels.
 pub(super) const TILE_SIDE: u32 = 64;
 /// The width of the border of neighbours around a tile, in pixels.
-const HALO: u32 = 2;
-/// Neighbours whose normals have at least this cosine share their light.
-const ALIKE: f32 = 0.88;
+pub(super) const HALO: u32 = 2;
 
-/// Renders the pixels from `left`, `top`, at most [`TILE_SIDE`] each way; rows from the top, RGBA.
+/// Renders the pixels from `left`, `top`, at most [`TILE_SIDE`] each way; rows from the top, RGBA. `ground` is the light on
+/// the ground, unless it is computed in each pixel.
 pub(super) fn draw_tile(
     sampler: &PixelSampler<'_>,
     lights: &Lights,
+    ground: Option<&GroundLight>,
     background: Option<[u8; 3]>,
     [left, top]: [u32; 2],
     [width, height]: [u32; 2],
@@ -30,27 +32,72 @@ pub(super) fn draw_tile(
             .map(|(x, y)| {
                 fragments.clear();
                 sampler.sample(x, y, &mut fragments);
-                pixel(base_colour(&fragments), &SRGB, background)
+                let colour = base_colour(&fragments, lines(sampler, x, y));
+                pixel(colour, &SRGB, background)
             })
             .collect();
     }
-    let tile = Tile::new(sampler, lights, [left, top], [width, height]);
+    let tile = Tile::new(sampler, lights, ground, [left, top], [width, height]);
     pixels
         .map(|(x, y)| {
-            let here = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
-            let border = sampler.camera.border(here);
+            if let Some(ground) = ground.filter(|_| !sampler.coverage.contains(x, y)) {
+                let colour = bare_ground(sampler, lights, ground, x, y);
+                return pixel(colour, &LINEAR, background);
+            }
             let mut colour = Vec4::ZERO;
             for fragment in tile.at(x, y) {
-                let incident = tile.gathered(x, y, fragment);
+                let incident = match (fragment.kind, ground) {
+                    (FragmentKind::Ground, Some(ground)) => ground.at(x, y),
+                    _ => tile.gathered(x, y, fragment),
+                };
                 let mut light = shade(fragment, &incident, sampler.tracer, lights);
                 if fragment.kind == FragmentKind::Ground {
-                    light.w *= border;
+                    light = ground_colour(sampler, x, y, light.w);
                 }
                 colour += light * fragment.weight;
             }
             pixel(colour, &LINEAR, background)
         })
         .collect()
+}
+
+/// Premultiplied colour and alpha of a pixel that shows nothing but the ground.
+fn bare_ground(
+    sampler: &PixelSampler<'_>,
+    lights: &Lights,
+    ground: &GroundLight,
+    x: u32,
+    y: u32,
+) -> Vec4 {
+    let surface = &sampler.tracer.surface;
+    let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+    let Some(place) = sampler.camera.on_level(middle, surface.low.y) else {
+        return Vec4::ZERO;
+    };
+    let shadow = match shadow_fade(place, surface) {
+        0.0 => 0.0,
+        fade => shadow(&ground.at(x, y), lights) * fade,
+    };
+    ground_colour(sampler, x, y, shadow)
+}
+
+/// Premultiplied colour and alpha of the ground in a pixel, with a shadow of some opacity.
+fn ground_colour(sampler: &PixelSampler<'_>, x: u32, y: u32, shadow: f32) -> Vec4 {
+    let middle = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+    let shadow = shadow * sampler.camera.border(middle);
+    match sampler.floor {
+        Some(_) => shadow_on_lines(shadow, lines(sampler, x, y)),
+        None => Vec4::new(0.0, 0.0, 0.0, shadow),
+    }
+}
+
+/// The opacity of the lines on the ground in a pixel.
+fn lines(sampler: &PixelSampler<'_>, x: u32, y: u32) -> f32 {
+    let place = Vec2::new(x as f32 + 0.5, y as f32 + 0.5);
+    let level = sampler.tracer.surface.low.y;
+    sampler.floor.map_or(0.0, |floor| {
+        floor.opacity(sampler.camera, place, level) * sampler.camera.border(place)
+    })
 }
 
 /// How colour values are written as sRGB bytes, and read from them.
@@ -73,6 +120,9 @@ const SRGB: Encoding = Encoding {
 /// A pixel of a colour that is multiplied by its alpha, both in an encoding, over a background or without one.
 fn pixel(colour: Vec4, encoding: &Encoding, background: Option<[u8; 3]>) -> [u8; 4] {
     let alpha = colour.w.clamp(0.0, 1.0);
+    if let Some([r, g, b]) = background.filter(|_| colour == Vec4::ZERO) {
+        return [r, g, b, 255];
+    }
     let (seen, alpha) = match background {
         Some(background) => {
             let behind = Vec3::from(background.map(encoding.read));
@@ -81,8 +131,8 @@ fn pixel(colour: Vec4, encoding: &Encoding, background: Option<[u8; 3]>) -> [u8;
         None if byte(alpha) == 0 => return [0; 4],
         None => (colour.truncate() / colour.w, byte(alpha)),
     };
-    let [r, g, b] = seen.to_array().map(encoding.write);
-    [r, g, b, alpha]
+    let write = encoding.write;
+    [write(seen.x), write(seen.y), write(seen.z), alpha]
 }
 
 /// A value from 0 to 1 as a byte.
@@ -90,12 +140,20 @@ fn byte(value: f32) -> u8 {
     (value * 255.0 + 0.5).clamp(0.0, 255.0) as u8
 }
 
-/// The base colours of a pixel's fragments as sRGB values, multiplied by alpha, and alpha.
-fn base_colour(fragments: &[Fragment]) -> Vec4 {
-    let parts = fragments.iter();
-    parts
-        .map(|fragment| srgb_values(fragment.colour).extend(1.0) * fragment.weight)
-        .sum()
+/// The base colours of a pixel's fragments as sRGB values, multiplied by alpha, and alpha. The ground shows lines only.
+fn base_colour(fragments: &[Fragment], lines: f32) -> Vec4 {
+    let parts = fragments.iter().map(|fragment| {
+        let colour = match fragment.kind {
+            FragmentKind::Model(_) => srgb_values(fragment.colour).extend(1.0),
+            FragmentKind::Ground => {
+                let lines = shadow_on_lines(0.0, lines);
+                let alpha = lines.w.max(f32::MIN_POSITIVE);
+                (srgb_values(lines.truncate() / alpha) * lines.w).extend(lines.w)
+            }
+        };
+        colour * fragment.weight
+    });
+    parts.sum()
 }
 
 /// The fragments of a tile and its halo.
@@ -112,36 +170,94 @@ impl Tile {
     fn new(
         sampler: &PixelSampler<'_>,
         lights: &Lights,
+        ground: Option<&GroundLight>,
         [left, top]: [u32; 2],
         [width, height]: [u32; 2],
     ) -> Self {
         let halo = i64::from(HALO);
-        let (first_x, first_y) = (i64::from(left) - halo, i64::from(top) - halo);
-        let (wide, high) = (width + 2 * HALO, height + 2 * HALO);
-        let mut fragments = Vec::with_capacity((wide * high) as usize);
-        let mut starts = Vec::with_capacity((wide * high) as usize + 1);
-        for y in first_y..first_y + i64::from(high) {
-            for x in first_x..first_x + i64::from(wide) {
-                let start = fragments.len();
-                starts.push(start);
-                let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else {
-                    continue;
-                };
-                sampler.sample(x, y, &mut fragments);
-                let share = share(x, y);
-                for fragment in &mut fragments[start..] {
+        let corner = [i64::from(left) - halo, i64::from(top) - halo];
+        let size = [width + 2 * HALO, height + 2 * HALO];
+        // Pixels that show nothing but the ground need no fragments if the light on it is known.
+        let is_bare = |x: u32, y: u32| ground.is_some() && !sampler.coverage.contains(x, y);
+        let mut tile = match sampler.sampling.refinement {
+            Refinement::Pixel => Self::filled(corner, size, |x, y, out| {
+                if !is_bare(x, y) {
+                    sampler.sample(x, y, out);
+                }
+            }),
+            Refinement::Neighbours => {
+                let once = Self::filled(corner, size, |x, y, out| {
+                    if !is_bare(x, y) {
+                        sampler.sample_once(x, y, out);
+                    }
+                });
+                Self::filled(corner, size, |x, y, out| {
+                    let seen = once.at(x, y);
+                    if is_bare(x, y) {
+                    } else if sampler.is_enough(seen, once.neighbours(x, y)) {
+                        out.extend_from_slice(seen);
+                    } else {
+                        sampler.sample_edge(x, y, out);
+                    }
+                })
+            }
+        };
+        let width = tile.width;
+        for (index, ends) in tile.starts.windows(2).enumerate() {
+            let place = |start: i64, step: usize| start + step as i64;
+            let [x, y] = [
+                place(corner[0], index % width),
+                place(corner[1], index / width),
+            ];
+            let share = share(x.max(0) as u32, y.max(0) as u32);
+            for fragment in &mut tile.fragments[ends[0]..ends[1]] {
+                if ground.is_none() || fragment.kind != FragmentKind::Ground {
                     fragment.incident = lights.incident(sampler.tracer, fragment, share);
+                }
+            }
+        }
+        tile
+    }
+
+    /// A tile whose pixels `sample` gives. Those left of the picture and above it have no fragments.
+    fn filled(
+        [left, top]: [i64; 2],
+        [width, height]: [u32; 2],
+        mut sample: impl FnMut(u32, u32, &mut Vec<Fragment>),
+    ) -> Self {
+        let mut fragments = Vec::new();
+        let mut starts = Vec::with_capacity((width * height) as usize + 1);
+        for y in top..top + i64::from(height) {
+            for x in left..left + i64::from(width) {
+                starts.push(fragments.len());
+                if let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) {
+                    sample(x, y, &mut fragments);
                 }
             }
         }
         starts.push(fragments.len());
         Self {
-            left: first_x,
-            top: first_y,
-            width: wide as usize,
+            left,
+            top,
+            width: width as usize,
             fragments,
             starts,
         }
+    }
+
+    /// The fragments of the pixels beside, above and below a pixel, as far as they are in the tile or its halo.
+    fn neighbours(&self, x: u32, y: u32) -> impl Iterator<Item = &[Fragment]> {
+        let (x, y) = (i64::from(x), i64::from(y));
+        let height = ((self.starts.len() - 1) / self.width) as i64;
+        let places = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+        let inside = move |(x, y): &(i64, i64)| {
+            (self.left..self.left + self.width as i64).contains(x)
+                && (self.top..self.top + height).contains(y)
+                && *x >= 0
+                && *y >= 0
+        };
+        let inside = places.into_iter().filter(inside);
+        inside.map(|(x, y)| self.at(x as u32, y as u32))
     }
 
     /// The fragments of a pixel in the tile or its halo.
@@ -172,12 +288,4 @@ impl Tile {
             fragment.incident
         }
     }
-}
-
-fn same_surface(one: &Fragment, other: &Fragment) -> bool {
-    let apart = other.place - one.place;
-    (one.kind == FragmentKind::Ground) == (other.kind == FragmentKind::Ground)
-        && one.normal.dot(other.normal) > ALIKE
-        && apart.dot(one.normal).abs() < one.width * 2.5
-        && apart.length_squared() < (one.width * 12.0).powi(2)
 }

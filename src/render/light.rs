@@ -3,15 +3,17 @@
 use glam::{Quat, Vec2, Vec3};
 
 use super::fragment::{Fragment, FragmentKind};
+use super::sampling::{GroundSampling, LightRays, Sampling};
 use super::trace::Tracer;
 
 /// `BLOCK` × `BLOCK` pixels share their rays.
 pub(super) const BLOCK: u32 = 4;
 const BLOCK_PIXELS: usize = (BLOCK * BLOCK) as usize;
-/// Rays of a pixel to each lamp.
-const LAMP_RAYS: [usize; 3] = [3, 1, 1];
-/// Rays of a pixel to the sky: from the model, and from the ground, where faint shadows show on white.
-const SKY_RAYS: [usize; 2] = [6, 16];
+/// `CELL` × `CELL` points of the lattice on the ground share their rays.
+pub(super) const CELL: u32 = 2;
+const CELL_POINTS: usize = (CELL * CELL) as usize;
+/// The number of lamps.
+pub(super) const LAMPS: usize = 3;
 /// Light that the ground reflects from below, relative to the sky.
 const GROUND: f32 = 0.5;
 
@@ -27,7 +29,7 @@ struct Lamp {
 }
 
 /// Key from the upper left, fill from the right, rim from behind.
-const LAMPS: [Lamp; 3] = [
+const LAMP: [Lamp; LAMPS] = [
     Lamp {
         direction: Vec3::new(-0.55, 1.3, 0.95),
         strength: 0.75,
@@ -52,7 +54,7 @@ const SKY: f32 = 0.5;
 /// The share of each light that reaches a point, 0 to 1.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct IncidentLight {
-    pub(super) lamps: [f32; 3],
+    pub(super) lamps: [f32; LAMPS],
     /// Of sky and ground together, weighted by the cosine.
     pub(super) sky: f32,
 }
@@ -67,7 +69,12 @@ impl IncidentLight {
 
     pub(super) fn scaled(&self, factor: f32) -> Self {
         Self {
-            lamps: self.lamps.map(|lamp| lamp * factor),
+            // Not `map`, which is not inlined.
+            lamps: [
+                self.lamps[0] * factor,
+                self.lamps[1] * factor,
+                self.lamps[2] * factor,
+            ],
             sky: self.sky * factor,
         }
     }
@@ -75,34 +82,56 @@ impl IncidentLight {
 
 /// The lights for a view.
 pub(super) struct Lights {
-    pub(super) directions: [Vec3; 3],
-    /// Directions to each lamp, grouped by the pixels of a block.
-    lamps: [Vec<Vec3>; 3],
-    /// Cosine-weighted directions around +Z, for each of [`SKY_RAYS`].
-    sky: [Vec<Vec3>; 2],
+    pub(super) directions: [Vec3; LAMPS],
+    /// The rays from the model, distributed over the pixels of a block.
+    model: Rays,
+    /// Those from the ground, distributed over a block of pixels or over a cell of the lattice.
+    ground: Rays,
 }
 
-impl Lights {
-    /// Lights that turn with the camera by `yaw` degrees.
-    pub(super) fn new(yaw: f64) -> Self {
-        let turn = Quat::from_rotation_y(yaw.to_radians() as f32);
-        let directions = LAMPS.map(|lamp| turn * lamp.direction.normalize());
-        let lamps = [0, 1, 2].map(|index| {
-            let towards = directions[index];
-            let turn = Quat::from_rotation_arc(Vec3::Z, towards);
-            spread(LAMP_RAYS[index], |share| {
-                (turn * disk(share, LAMPS[index].spread).extend(1.0)).normalize()
+/// Directions to the lights. Neighbours have different ones and share their results.
+struct Rays {
+    count: LightRays,
+    /// Directions to each lamp, grouped by neighbour.
+    lamps: [Vec<Vec3>; LAMPS],
+    /// Cosine-weighted directions around +Z, grouped by neighbour.
+    sky: Vec<Vec3>,
+}
+
+impl Rays {
+    /// Directions for a number of neighbours.
+    fn new(directions: [Vec3; LAMPS], count: LightRays, neighbours: usize) -> Self {
+        let lamps = std::array::from_fn(|index| {
+            let turn = Quat::from_rotation_arc(Vec3::Z, directions[index]);
+            spread(count.lamps[index], neighbours, |share| {
+                (turn * disk(share, LAMP[index].spread).extend(1.0)).normalize()
             })
         });
         let dome = |share| {
             let flat = disk(share, 1.0);
             flat.extend((1.0 - flat.length_squared()).max(0.0).sqrt())
         };
-        let sky = SKY_RAYS.map(|count| spread(count, dome));
+        Self {
+            count,
+            lamps,
+            sky: spread(count.sky, neighbours, dome),
+        }
+    }
+}
+
+impl Lights {
+    /// Lights that turn with the camera by `yaw` degrees.
+    pub(super) fn new(yaw: f64, sampling: &Sampling) -> Self {
+        let turn = Quat::from_rotation_y(yaw.to_radians() as f32);
+        let directions = LAMP.map(|lamp| turn * lamp.direction.normalize());
+        let (ground, neighbours) = match sampling.ground {
+            GroundSampling::Pixels(rays) => (rays, BLOCK_PIXELS),
+            GroundSampling::Lattice { rays, .. } => (rays, CELL_POINTS),
+        };
         Self {
             directions,
-            lamps,
-            sky,
+            model: Rays::new(directions, sampling.model, BLOCK_PIXELS),
+            ground: Rays::new(directions, ground, neighbours),
         }
     }
 
@@ -113,14 +142,38 @@ impl Lights {
         piece: &Fragment,
         share: usize,
     ) -> IncidentLight {
-        let Fragment { place, normal, .. } = *piece;
+        let rays = match piece.kind {
+            FragmentKind::Ground => &self.ground,
+            FragmentKind::Model(_) => &self.model,
+        };
+        self.reaching(tracer, piece.place, piece.normal, rays, share)
+    }
+
+    /// The light that reaches a point of the ground, by the rays of point `share` of its cell of the lattice.
+    pub(super) fn on_ground(
+        &self,
+        tracer: &Tracer<'_>,
+        place: Vec3,
+        share: usize,
+    ) -> IncidentLight {
+        self.reaching(tracer, place, Vec3::Y, &self.ground, share)
+    }
+
+    fn reaching(
+        &self,
+        tracer: &Tracer<'_>,
+        place: Vec3,
+        normal: Vec3,
+        rays: &Rays,
+        share: usize,
+    ) -> IncidentLight {
         let mut incident = IncidentLight::default();
-        for (index, rays) in self.lamps.iter().enumerate() {
-            let count = LAMP_RAYS[index];
+        for (index, directions) in rays.lamps.iter().enumerate() {
+            let count = rays.count.lamps[index];
             // A surface that faces away from the lamp needs no shadow rays.
-            incident.lamps[index] = match self.facing(index, normal) > 0.0 {
+            incident.lamps[index] = match count > 0 && self.facing(index, normal) > 0.0 {
                 true => {
-                    let rays = &rays[share * count..][..count];
+                    let rays = &directions[share * count..][..count];
                     rays.iter()
                         .map(|ray| tracer.light_through(place, *ray))
                         .sum::<f32>()
@@ -130,9 +183,8 @@ impl Lights {
             };
         }
         let turn = Quat::from_rotation_arc(Vec3::Z, normal);
-        let kind = usize::from(piece.kind == FragmentKind::Ground);
-        let count = SKY_RAYS[kind];
-        let rays = &self.sky[kind][share * count..][..count];
+        let count = rays.count.sky;
+        let rays = &rays.sky[share * count..][..count];
         let light = rays.iter().map(|ray| {
             let ray = turn * *ray;
             sky(ray) * tracer.light_through(place, ray)
@@ -143,17 +195,17 @@ impl Lights {
 
     /// How much a surface faces a lamp, 0 to 1.
     fn facing(&self, lamp: usize, normal: Vec3) -> f32 {
-        let wrap = LAMPS[lamp].wrap;
+        let wrap = LAMP[lamp].wrap;
         ((normal.dot(self.directions[lamp]) + wrap) / (1.0 + wrap)).max(0.0)
     }
 
     /// The light of a lamp on a white surface.
     pub(super) fn on(&self, lamp: usize, normal: Vec3, incident: &IncidentLight) -> f32 {
-        LAMPS[lamp].strength * self.facing(lamp, normal) * incident.lamps[lamp]
+        LAMP[lamp].strength * self.facing(lamp, normal) * incident.lamps[lamp]
     }
 
     pub(super) fn strength(&self, lamp: usize) -> f32 {
-        LAMPS[lamp].strength
+        LAMP[lamp].strength
     }
 
     pub(super) fn sky_strength(&self) -> f32 {
@@ -172,11 +224,11 @@ pub(super) fn open_sky(normal: Vec3) -> f32 {
     GROUND + (1.0 - GROUND) * (0.5 + 0.5 * normal.y).clamp(0.0, 1.0)
 }
 
-/// `count` rays for each pixel of a block, evenly distributed within a pixel and within the block.
-fn spread(count: usize, ray: impl Fn(Vec2) -> Vec3) -> Vec<Vec3> {
-    let mut rays = Vec::with_capacity(BLOCK_PIXELS * count);
-    for share in 0..BLOCK_PIXELS {
-        rays.extend((0..count).map(|index| ray(even(index * BLOCK_PIXELS + share))));
+/// `count` rays for each of some neighbours, evenly distributed for each of them and for all together.
+fn spread(count: usize, neighbours: usize, ray: impl Fn(Vec2) -> Vec3) -> Vec<Vec3> {
+    let mut rays = Vec::with_capacity(neighbours * count);
+    for share in 0..neighbours {
+        rays.extend((0..count).map(|index| ray(even(index * neighbours + share))));
     }
     rays
 }

@@ -5,32 +5,39 @@
 //! world that a picture shows exactly. A [`Film`] is a stretch of a clip that one camera renders:
 //!
 //! ```text
-//!  bytes ─► Model ─► (Pose) ─► PosedModel ─► Image ─► PNG, GIF
+//!  bytes ─► Model ─► (Pose) ─► PosedModel, Film ─► Image ─► PNG, GIF
 //!                     surface · BVH     camera · tiles: fragments, light, shade
 //! ```
 //!
 //! Pictures are ray traced. Shadows, ambient occlusion, the order of transparent surfaces and thin solids are then the
 //! same query of one tree, where a rasteriser such as `euc` would need a shadow map, a screen-space estimate and a sort.
-//! The ray tracer is written by hand on `obvhs`, which builds and traverses the bounding volume hierarchy: it is small,
-//! maintained, fast on a CPU and shares our version of `glam`, while complete renderers need a GPU or C++ (Embree) and
-//! do not give the same picture on every machine. There is no noise and no random number: each pixel of a block of four
+//! The ray tracer is written by hand on `obvhs`, which builds the bounding volume hierarchy: it is small, maintained, fast on a
+//! CPU and shares our version of `glam`, while complete renderers need a GPU or C++ (Embree) and do not give the same picture
+//! on every machine. There is no noise and no random number: each pixel of a block of four
 //! by four sends its own sixteenth of one fixed set of rays, and gathers the rest from its neighbours on the same
-//! surface (interleaved sampling: Keller and Heidrich 2001). Same input, same picture, on any number of threads.
+//! surface (interleaved sampling: Keller and Heidrich 2001). Same input, same picture, on any number of threads. Pictures of
+//! films take fewer rays than still ones.
 //!
 //! Conventions: the model's axes are glTF's (right-handed, +Y up, its front looks along +Z). Rendering happens in
 //! normalised space: the world moved and scaled so that the model's bounding box is centred at the origin and its longest side is 1.
 //! Colours are linear until they become pixels. The first row of a picture is the top one.
 
 mod camera;
+mod coverage;
 mod error;
 mod film;
+mod follow;
 mod fragment;
+mod gif_writer;
+mod ground;
+mod hierarchy;
 mod image_files;
 mod image_tile;
 mod light;
 mod materials;
 mod model;
 mod posed_model;
+mod sampling;
 mod shade;
 mod surface;
 #[cfg(test)]
@@ -46,8 +53,9 @@ use crate::threads;
 pub use crate::import::{Clip, MAX_TRIANGLES, Pose};
 pub use camera::{MAX_PITCH, Projection, Sheet, View};
 pub use error::RenderError;
-pub use film::{Film, HeldFrame};
-pub use image_files::{AnimationWriter, MAX_GIF_FPS, Palette, write_png};
+pub use film::{Film, HeldFrame, Shooting};
+pub use gif_writer::{MAX_GIF_FPS, Palette};
+pub use image_files::{AnimationWriter, write_png};
 pub use model::{Model, read};
 pub use posed_model::{Image, PosedModel};
 pub use visibility::{VisibleSurface, Window};
@@ -57,7 +65,7 @@ pub const MAX_SIDE: u32 = 8192;
 /// The largest number of frames of a turntable.
 pub const MAX_TURNTABLE_FRAMES: u32 = 1000;
 /// The duration of a full turn of a turntable, in seconds.
-pub const TURNTABLE_SECONDS: f64 = 4.0;
+pub const TURNTABLE_SECONDS: u32 = 4;
 /// The largest number of frames of a clip: seven minutes at 24 frames a second.
 pub const MAX_CLIP_FRAMES: u32 = 10_000;
 /// The largest number of pictures in a film strip.

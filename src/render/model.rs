@@ -1,10 +1,14 @@
 //! A model as read from a file.
 
+use glam::DVec3;
+
 use super::RenderError;
+use super::hierarchy::{Hierarchy, Rays};
 use super::materials;
 use super::surface::{Material, Normalization, Surface};
 use super::texture::Texture;
-use crate::import::{self, Clip, Geometry, Pose};
+use super::trace::Tracer;
+use crate::import::{self, Clip, Geometry, Pose, Travellers};
 use crate::resolver::Resolver;
 
 /// A model as read from a file, not yet posed.
@@ -13,8 +17,8 @@ pub struct Model {
     geometry: Geometry,
     clips: Vec<Clip>,
     /// The file's materials, followed by the one for triangles without a material.
-    pub(super) materials: Vec<Material>,
-    pub(super) textures: Vec<Option<Texture>>,
+    materials: Vec<Material>,
+    textures: Vec<Option<Texture>>,
 }
 
 /// Reads a `.glb` or `.gltf`; what it links to comes from `resolver`.
@@ -61,5 +65,35 @@ impl Model {
     ) -> Result<Surface, RenderError> {
         let soup = self.geometry.triangles(pose)?;
         Ok(Surface::new(soup, self.materials.len() - 1, normalization))
+    }
+    /// What a clip moves from place to place.
+    pub(super) fn travellers(&self, clip: &Clip) -> Travellers {
+        self.geometry.travellers(clip)
+    }
+
+    /// The places of some nodes in a pose, in the world.
+    pub(super) fn places(&self, pose: &Pose, nodes: &[usize]) -> Vec<DVec3> {
+        self.geometry.places(pose, nodes)
+    }
+
+    /// The triangles of the nodes that are marked, in a pose, moved by `normalization`.
+    pub(super) fn surface_of(
+        &self,
+        marked: &[bool],
+        pose: &Pose,
+        normalization: Normalization,
+    ) -> Result<Surface, RenderError> {
+        let soup = self.geometry.triangles_of(pose, marked)?;
+        let materials = self.materials.len() - 1;
+        Ok(Surface::new(soup, materials, Some(normalization)))
+    }
+    /// A surface of this model, ready for rays.
+    pub(super) fn tracer(&self, surface: Surface, rays: Rays) -> Tracer<'_> {
+        Tracer::new(surface, &self.materials, &self.textures, rays)
+    }
+
+    /// As [`tracer`](Self::tracer), with a hierarchy of the surface.
+    pub(super) fn tracer_with(&self, surface: Surface, hierarchy: Hierarchy) -> Tracer<'_> {
+        Tracer::with_hierarchy(surface, &self.materials, &self.textures, hierarchy)
     }
 }

@@ -7,13 +7,17 @@ use image::RgbaImage;
 use rayon::prelude::*;
 
 use super::camera::{Camera, Framing, Sheet, View};
+use super::coverage::Coverage;
 use super::fragment::PixelSampler;
-use super::image_tile::{TILE_SIDE, draw_tile};
+use super::ground::{Floor, GroundLight};
+use super::hierarchy::Rays;
+use super::image_tile::{HALO, TILE_SIDE, draw_tile};
 use super::light::Lights;
 use super::model::Model;
+use super::sampling::{FILM, GroundSampling, STILL, Sampling};
 use super::surface::{Normalization, Surface};
-use super::trace::{Rays, Tracer};
-use super::{MAX_SIDE, Options, RenderError, on_pool};
+use super::trace::Tracer;
+use super::{MAX_SIDE, Options, RenderError, Shading, on_pool};
 use crate::import::{ImportError, Pose};
 
 /// A picture, sRGB with straight alpha.
@@ -26,24 +30,9 @@ pub struct PosedModel<'a> {
     normalization: Normalization,
     triangles: usize,
     /// The geometry for every view; `None` if it depends on the view.
-    view_independent: Option<RayTarget<'a>>,
-}
-
-/// Geometry that rays are traced against.
-pub(super) struct RayTarget<'a> {
-    pub(super) tracer: Tracer<'a>,
-    /// The points that must be in the picture.
+    view_independent: Option<Tracer<'a>>,
+    /// The points that must be in every picture, unless they depend on the view.
     points: Vec<Vec3>,
-}
-
-impl<'a> RayTarget<'a> {
-    pub(super) fn new(model: &'a Model, surface: Surface, rays: Rays) -> Self {
-        let points = surface.used_positions();
-        Self {
-            tracer: Tracer::new(surface, &model.materials, &model.textures, rays),
-            points,
-        }
-    }
 }
 
 impl<'a> PosedModel<'a> {
@@ -62,8 +51,9 @@ impl<'a> PosedModel<'a> {
                 pose: pose.clone(),
                 normalization: surface.normalization,
                 triangles: surface.triangles.len(),
+                points: surface.used_positions(),
                 view_independent: (!model.is_view_dependent())
-                    .then(|| RayTarget::new(model, surface, Rays::Many)),
+                    .then(|| model.tracer(surface, Rays::Many)),
             })
         };
         on_pool(build)
@@ -90,13 +80,13 @@ impl<'a> PosedModel<'a> {
         &self,
         viewer: Option<DVec3>,
         rays: Rays,
-        work: impl FnOnce(&RayTarget<'_>) -> Result<T, RenderError> + Send,
+        work: impl FnOnce(&Tracer<'_>) -> Result<T, RenderError> + Send,
     ) -> Result<T, RenderError> {
         on_pool(|| match &self.view_independent {
-            Some(target) => work(target),
+            Some(tracer) => work(tracer),
             None => {
                 let surface = self.surface_from(viewer)?;
-                work(&RayTarget::new(self.model, surface, rays))
+                work(&self.model.tracer(surface, rays))
             }
         })
     }
@@ -107,7 +97,7 @@ impl<'a> PosedModel<'a> {
     /// A size out of range.
     pub fn picture(&self, options: &Options) -> Result<Image, RenderError> {
         let framing = self.framing(options, &[options.view])?;
-        self.draw(options, &framing, options.view)
+        self.draw(options, &framing, options.view, &STILL)
     }
 
     /// Renders what a rectangle in the world shows of the model. Of the options the view and the projection are not used; the
@@ -118,9 +108,9 @@ impl<'a> PosedModel<'a> {
     pub fn picture_of(&self, options: &Options, sheet: &Sheet) -> Result<Image, RenderError> {
         check_size(options.size)?;
         let viewer = options.bend.then_some(sheet.towards());
-        self.with(viewer, Rays::Many, |target| {
-            let camera = sheet.camera(options.size, &target.tracer.surface);
-            draw(target, options, &camera)
+        self.with(viewer, Rays::Many, |tracer| {
+            let camera = sheet.camera(options.size, &tracer.surface);
+            draw(tracer, options, &Take::still(&camera))
         })
     }
 
@@ -141,7 +131,7 @@ impl<'a> PosedModel<'a> {
         // One framing for all, so that the model keeps its size and position while it turns.
         let framing = self.framing(options, &views)?;
         for view in views {
-            each(self.draw(options, &framing, view)?)?;
+            each(self.draw(options, &framing, view, &FILM)?)?;
         }
         Ok(())
     }
@@ -150,7 +140,7 @@ impl<'a> PosedModel<'a> {
         check_size(options.size)?;
         let shots: Vec<(View, ())> = views.iter().map(|view| (*view, ())).collect();
         let points = |view: View, ()| match &self.view_independent {
-            Some(target) => Ok(Cow::Borrowed(&*target.points)),
+            Some(_) => Ok(Cow::Borrowed(&*self.points)),
             None => Ok(Cow::Owned(
                 self.surface_from(options.viewer(view))?.used_positions(),
             )),
@@ -158,9 +148,19 @@ impl<'a> PosedModel<'a> {
         on_pool(|| Framing::new(&shots, options.projection, options.size, points))
     }
 
-    fn draw(&self, options: &Options, framing: &Framing, view: View) -> Result<Image, RenderError> {
-        self.with(options.viewer(view), Rays::Many, |target| {
-            draw(target, options, &framing.camera(view))
+    fn draw(
+        &self,
+        options: &Options,
+        framing: &Framing,
+        view: View,
+        sampling: &Sampling,
+    ) -> Result<Image, RenderError> {
+        self.with(options.viewer(view), Rays::Many, |tracer| {
+            let take = Take {
+                sampling,
+                ..Take::still(&framing.camera(view))
+            };
+            draw(tracer, options, &take)
         })
     }
 
@@ -168,8 +168,8 @@ impl<'a> PosedModel<'a> {
     #[cfg(test)]
     pub(super) fn drawn_here(&self, options: &Options) -> Result<Image, RenderError> {
         let framing = self.framing(options, &[options.view])?;
-        let target = self.view_independent.as_ref().ok_or(RenderError::Broken)?;
-        draw(target, options, &framing.camera(options.view))
+        let tracer = self.view_independent.as_ref().ok_or(RenderError::Broken)?;
+        draw(tracer, options, &Take::still(&framing.camera(options.view)))
     }
 }
 
@@ -182,18 +182,52 @@ pub(super) fn check_size([width, height]: [u32; 2]) -> Result<(), RenderError> {
     }
 }
 
+/// How one picture is taken.
+#[derive(Clone, Copy)]
+pub(super) struct Take<'a> {
+    pub(super) camera: Camera,
+    pub(super) sampling: &'a Sampling,
+    /// The lines on the ground.
+    pub(super) floor: Option<Floor>,
+}
+
+impl Take<'_> {
+    /// A still picture.
+    pub(super) fn still(camera: &Camera) -> Self {
+        Self {
+            camera: *camera,
+            sampling: &STILL,
+            floor: None,
+        }
+    }
+}
+
 /// Renders a picture.
 pub(super) fn draw(
-    target: &RayTarget<'_>,
+    tracer: &Tracer<'_>,
     options: &Options,
-    camera: &Camera,
+    take: &Take<'_>,
 ) -> Result<Image, RenderError> {
     let [width, height] = options.size;
-    let lights = Lights::new(camera.yaw);
-    let sampler = PixelSampler {
-        tracer: &target.tracer,
+    let Take {
         camera,
+        sampling,
+        floor,
+    } = take;
+    let lights = Lights::new(camera.yaw, sampling);
+    let sampler = PixelSampler {
+        tracer,
+        camera,
+        coverage: &Coverage::new(&tracer.surface, camera, options.size, HALO),
+        sampling,
         shading: options.shading,
+        floor: *floor,
+    };
+    let ground = match sampling.ground {
+        GroundSampling::Lattice { spacing, .. } if options.shading != Shading::Unlit => Some(
+            GroundLight::new(tracer, &lights, camera, options.size, spacing),
+        ),
+        _ => None,
     };
     let mut pixels = vec![[0_u8; 4]; width as usize * height as usize];
     let bands = pixels
@@ -211,6 +245,7 @@ pub(super) fn draw(
                 draw_tile(
                     &sampler,
                     &lights,
+                    ground.as_ref(),
                     options.background,
                     [*left, top],
                     [wide, high],

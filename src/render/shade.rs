@@ -2,7 +2,8 @@
 
 use glam::{Vec3, Vec4};
 
-use super::fragment::{Fragment, FragmentKind, ground_fade};
+use super::fragment::{Fragment, FragmentKind};
+use super::ground::shadow_fade;
 use super::light::{IncidentLight, Lights, open_sky, sky};
 use super::surface::Material;
 use super::trace::Tracer;
@@ -23,7 +24,7 @@ pub(super) fn shade(
 ) -> Vec4 {
     match fragment.kind {
         FragmentKind::Ground => {
-            let fade = ground_fade(fragment.place, &tracer.surface);
+            let fade = shadow_fade(fragment.place, &tracer.surface);
             Vec4::new(0.0, 0.0, 0.0, shadow(incident, lights) * fade)
         }
         FragmentKind::Model(material) => {
@@ -38,7 +39,7 @@ pub(super) fn shade(
 }
 
 /// The opacity of the ground's shadow, 0 in full light.
-fn shadow(incident: &IncidentLight, lights: &Lights) -> f32 {
+pub(super) fn shadow(incident: &IncidentLight, lights: &Lights) -> f32 {
     let key = lights.strength(0) * lights.directions[0].y;
     let sky = lights.sky_strength();
     let light = (key * incident.lamps[0] + sky * incident.sky / open_sky(Vec3::Y)) / (key + sky);

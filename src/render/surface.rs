@@ -94,7 +94,8 @@ impl Surface {
             .triangles
             .iter()
             .map(|triangle| {
-                let corners = triangle.map(|corner| world[corner as usize]);
+                let [a, b, c] = *triangle;
+                let corners = [world[a as usize], world[b as usize], world[c as usize]];
                 let [a, b, c] = corners;
                 let sound = corners
                     .iter()

@@ -1,79 +1,39 @@
 //! Traces rays: what they hit, and how much light passes.
 
-use std::time::Duration;
+use glam::{Vec3, Vec4};
 
-use glam::{Vec2, Vec3, Vec3A, Vec4};
-use obvhs::BvhBuildParams;
-use obvhs::bvh2::Bvh2;
-use obvhs::bvh2::builder::build_bvh2;
-use obvhs::ray::{Ray, RayHit};
-use obvhs::rt_triangle::RtTriangle;
-
+use super::hierarchy::{Hierarchy, Hit, Rays};
 use super::surface::{Alpha, Material, Surface};
 use super::texture::Texture;
-
-/// How far triangles extend beyond their edges, relative to their size, so that no ray slips through between two.
-const EDGE: f32 = 1e-5;
 
 /// A surface in a bounding volume hierarchy.
 pub(super) struct Tracer<'a> {
     pub(super) surface: Surface,
     pub(super) materials: &'a [Material],
     textures: &'a [Option<Texture>],
-    tree: Bvh2,
-    /// In the order of the tree, like the surface's.
-    triangles: Vec<RtTriangle>,
+    hierarchy: Hierarchy,
     /// Whether any material is transparent.
     clear: bool,
 }
 
-/// The intersection of a ray with a triangle.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Hit {
-    pub(super) triangle: usize,
-    pub(super) distance: f32,
-    /// Barycentric coordinates.
-    pub(super) shares: Vec3,
-}
-
-/// How many rays will be traced: a better tree pays off only for many.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Rays {
-    /// One for each pixel of a small picture.
-    Few,
-    /// Those of a lit picture.
-    Many,
-}
-
 impl<'a> Tracer<'a> {
     pub(super) fn new(
-        mut surface: Surface,
+        surface: Surface,
         materials: &'a [Material],
         textures: &'a [Option<Texture>],
         rays: Rays,
     ) -> Self {
-        let of = |[a, b, c]: [u32; 3]| {
-            let at = |corner: u32| Vec3A::from(surface.positions[corner as usize]);
-            RtTriangle::new(at(a), at(b), at(c))
-        };
-        let triangles: Vec<RtTriangle> = surface
-            .triangles
-            .iter()
-            .map(|corners| of(*corners))
-            .collect();
-        let effort = match rays {
-            Rays::Few => BvhBuildParams::fastest_build(),
-            // Reinsertion would improve the tree a little, but may make it deeper than the stack that `obvhs` traverses it with.
-            Rays::Many => BvhBuildParams {
-                reinsertion_batch_ratio: 0.0,
-                ..BvhBuildParams::medium_build()
-            },
-        };
-        let tree = build_bvh2(&triangles, effort, &mut Duration::default());
-        let order = || tree.primitive_indices.iter().map(|index| *index as usize);
-        let triangles = order().map(|index| triangles[index]).collect();
-        surface.triangles = order().map(|index| surface.triangles[index]).collect();
-        surface.materials = order().map(|index| surface.materials[index]).collect();
+        let hierarchy = Hierarchy::new(&surface, rays);
+        Self::with_hierarchy(surface, materials, textures, hierarchy)
+    }
+
+    /// With a hierarchy of this surface.
+    pub(super) fn with_hierarchy(
+        surface: Surface,
+        materials: &'a [Material],
+        textures: &'a [Option<Texture>],
+        hierarchy: Hierarchy,
+    ) -> Self {
         let clear = materials
             .iter()
             .any(|material| material.alpha != Alpha::Opaque);
@@ -81,8 +41,7 @@ impl<'a> Tracer<'a> {
             surface,
             materials,
             textures,
-            tree,
-            triangles,
+            hierarchy,
             clear,
         }
     }
@@ -93,54 +52,23 @@ impl<'a> Tracer<'a> {
 
     /// The first triangle beyond `nearest` that is visible to the ray; single-sided ones are invisible from behind.
     pub(super) fn closest(&self, origin: Vec3, direction: Vec3, nearest: f32) -> Option<Hit> {
-        let ray = Ray::new(origin.into(), direction.into(), nearest, f32::INFINITY);
-        let mut found = RayHit::none();
-        let hit = self.tree.ray_traverse(ray, &mut found, |ray, index| {
-            let triangle = &self.triangles[index];
-            let distance = meet(triangle, ray);
-            // `ng` points inward.
-            let behind = || triangle.ng.dot(ray.direction) < 0.0;
-            if distance.is_finite()
-                && behind()
-                && !self.materials[self.material(index)].double_sided
-            {
-                return f32::INFINITY;
-            }
-            distance
-        });
-        hit.then(|| self.hit(&ray, found.primitive_id as usize, found.t))
-    }
-
-    fn hit(&self, ray: &Ray, triangle: usize, distance: f32) -> Hit {
-        let Vec2 { x, y } = self.triangles[triangle].compute_barycentric(ray);
-        Hit {
-            triangle,
-            distance,
-            shares: Vec3::new(1.0 - x - y, x, y),
-        }
+        let visible =
+            |hit: &Hit| !hit.behind || self.materials[self.material(hit.triangle)].double_sided;
+        self.hierarchy.closest(origin, direction, nearest, visible)
     }
 
     /// The share of light that arrives from a direction, 0 to 1.
     pub(super) fn light_through(&self, origin: Vec3, direction: Vec3) -> f32 {
-        let ray = Ray::new(origin.into(), direction.into(), 0.0, f32::INFINITY);
         let mut light = 1.0;
-        let missed = self.tree.ray_traverse_miss(ray, |ray, index| {
-            let distance = meet(&self.triangles[index], ray);
-            if !self.clear || !distance.is_finite() {
-                return distance;
-            }
-            light *= 1.0
-                - self.cover(
-                    &self.hit(ray, index, distance),
-                    self.base(&self.hit(ray, index, distance), 0.0).w,
-                );
-            if light > 0.01 {
-                f32::INFINITY
+        let blocked = self.hierarchy.is_blocked(origin, direction, |hit| {
+            if self.clear {
+                light *= 1.0 - self.cover(hit, self.base(hit, 0.0).w);
             } else {
-                distance
+                light = 0.0;
             }
+            light <= 0.01
         });
-        if missed { light } else { 0.0 }
+        if blocked { 0.0 } else { light }
     }
 
     /// The opacity of a surface whose material has this alpha at the hit.
@@ -175,7 +103,7 @@ impl<'a> Tracer<'a> {
         // The density of texels on this triangle.
         let [a, b, c] = corners.map(|corner| uvs[corner as usize] * texture.size());
         let texels = (b - a).perp_dot(c - a).abs();
-        let area = self.triangles[hit.triangle].ng.length();
+        let area = self.inward(hit.triangle).length();
         base * texture.at(
             uv,
             width * (texels / area.max(f32::MIN_POSITIVE)).sqrt(),
@@ -185,7 +113,14 @@ impl<'a> Tracer<'a> {
 
     /// The unit normal of a triangle.
     pub(super) fn facet(&self, triangle: usize) -> Vec3 {
-        self.triangles[triangle].compute_normal().into()
+        -self.inward(triangle).normalize_or_zero()
+    }
+
+    /// A vector at a right angle to a triangle, twice as long as its area.
+    fn inward(&self, triangle: usize) -> Vec3 {
+        let [a, b, c] = self.surface.triangles[triangle];
+        let at = |corner: u32| self.surface.positions[corner as usize];
+        (at(a) - at(b)).cross(at(c) - at(a))
     }
 
     /// The interpolated normal of the file, if it has any.
@@ -209,29 +144,11 @@ impl<'a> Tracer<'a> {
     }
 }
 
-/// The distance at which a ray hits a triangle, infinite if it does not (Möller and Trumbore 1997).
-///
-/// `obvhs` has this test too, but lets rays slip through between two triangles.
-#[inline]
-fn meet(triangle: &RtTriangle, ray: &Ray) -> f32 {
-    let to = triangle.v0 - ray.origin;
-    let across = ray.direction.cross(to);
-    let inverse = 1.0 / triangle.ng.dot(ray.direction);
-    let u = across.dot(triangle.e2) * inverse;
-    let v = across.dot(triangle.e1) * inverse;
-    if u >= -EDGE && v >= -EDGE && u + v <= 1.0 + EDGE {
-        let distance = triangle.ng.dot(to) * inverse;
-        if distance >= ray.tmin && distance <= ray.tmax {
-            return distance;
-        }
-    }
-    f32::INFINITY
-}
-
 fn blend<T>(corners: [u32; 3], shares: Vec3, at: impl Fn(usize) -> T) -> T
 where
     T: std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T>,
 {
-    let [a, b, c] = corners.map(|corner| at(corner as usize));
-    a * shares.x + b * shares.y + c * shares.z
+    // Not `map`, which is not inlined.
+    let [a, b, c] = corners;
+    at(a as usize) * shares.x + at(b as usize) * shares.y + at(c as usize) * shares.z
 }

@@ -4,9 +4,10 @@ use glam::{DVec3, Vec3, Vec4};
 use rayon::prelude::*;
 
 use super::camera::Sheet;
-use super::posed_model::{PosedModel, RayTarget, check_size};
+use super::hierarchy::Rays;
+use super::posed_model::{PosedModel, check_size};
 use super::texture::srgb_values;
-use super::trace::{Rays, Tracer};
+use super::trace::Tracer;
 use super::{Options, RenderError};
 
 /// The smallest number of rows per task.
@@ -109,8 +110,7 @@ impl PosedModel<'_> {
         let normalization = self.normalization();
         let towards = beam.towards;
         let texel = (beam.width * normalization.scale) as f32;
-        let look = |target: &RayTarget<'_>| {
-            let tracer = &target.tracer;
+        let look = |tracer: &Tracer<'_>| {
             let away = tracer.surface.reach();
             let at = |row: u32, column: u32| {
                 let [right, down] = beam.steps;

@@ -15,6 +15,8 @@ Examples:
   okoshi render human.svg -o turn.gif --turntable 36  the model turns, as a moving GIF
   okoshi render human.svg -o turn.png --turntable 8   turn-1.png to turn-8.png
   okoshi render human.svg -o walk.gif --clip walk     the model moves; walk.png gives numbered frames
+  okoshi render human.svg -o walk.mp4 --clip walk --follow
+                                                      a video whose camera goes along with the model
   okoshi render human.svg -o step.png --clip walk --time 0.5
                                                       its pose after half a second
   okoshi render human.svg -o walk.png --clip walk --strip 6
@@ -26,7 +28,7 @@ Examples:
   okoshi render human.glb --size 1920x1080 --background '#ffffff'
 
 The picture shows the model that `okoshi build` writes. The camera frames it by itself, a clip as a whole, so that a
-walking figure stays in the picture. The background is transparent.";
+walking figure stays in the picture. The background is transparent, in a GIF or a video white.";
 
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
@@ -34,7 +36,7 @@ pub(in crate::cli) struct Render {
     /// The drawing, an SVG file, `-` for stdin; or a model, a .glb or .gltf file
     #[arg(value_name = "DRAWING")]
     pub(in crate::cli) drawing: PathBuf,
-    /// Where to write: a .png, .gif or .apng file, `-` for stdout, or a folder [default: beside the drawing]
+    /// Where to write: a .png, .gif, .apng, .mp4 or .webm file, `-` for stdout, or a folder [default: beside the drawing]
     #[arg(short, long, value_name = "FILE")]
     pub(in crate::cli) output: Option<PathBuf>,
     /// The direction of the camera: degrees to the model's left, degrees up
@@ -43,7 +45,7 @@ pub(in crate::cli) struct Render {
     /// Show the page as drawn: from the front, in parallel, without light, and exactly as large as the page
     ///
     /// Terrain looks as from 45° above, bent. The model is at rest.
-    #[arg(long, conflicts_with_all = ["view", "size", "shading", "projection", "bend", "turntable", "clip", "time", "strip", "from", "to", "fps"])]
+    #[arg(long, conflicts_with_all = ["view", "size", "shading", "projection", "bend", "turntable", "clip", "time", "strip", "from", "to", "fps", "follow"])]
     pub(in crate::cli) as_drawn: bool,
     /// With --as-drawn, the pixels of a drawing unit [default: 1]
     #[arg(long, value_name = "PIXELS", requires = "as_drawn", value_parser = scale)]
@@ -60,15 +62,18 @@ pub(in crate::cli) struct Render {
     /// Bend terrain with the view, so that from 45° above tops and fronts are as large as drawn; off shows its true shape
     #[arg(long, value_name = "WHEN", default_value = "on")]
     pub(in crate::cli) bend: Bend,
-    /// The background colour [default: transparent]
+    /// The background colour, or `transparent` [default: transparent, in a GIF or a video white]
     #[arg(long, value_name = "#RRGGBB", value_parser = background)]
-    pub(in crate::cli) background: Option<[u8; 3]>,
-    /// Turn the model once around in N pictures: one animated .gif or .apng, or numbered .png files
+    pub(in crate::cli) background: Option<Background>,
+    /// Turn the model once around in N pictures: one .gif, .apng, .mp4 or .webm, or numbered .png files
     #[arg(long, value_name = "N", value_parser = frames)]
     pub(in crate::cli) turntable: Option<u32>,
-    /// Show a clip, by name or by number from 1: an animated .gif or .apng, or numbered .png files
+    /// Show a clip, by name or by number from 1: one .gif, .apng, .mp4 or .webm, or numbered .png files
     #[arg(long, value_name = "NAME")]
     pub(in crate::cli) clip: Option<String>,
+    /// Move the camera along with the figure of the clip; lines show the ground
+    #[arg(long, conflicts_with_all = ["time", "turntable"])]
+    pub(in crate::cli) follow: bool,
     /// Show one frame of the clip, S seconds after its start
     #[arg(long, value_name = "S", value_parser = seconds, conflicts_with_all = ["fps", "strip", "from", "to"])]
     pub(in crate::cli) time: Option<f64>,
@@ -96,9 +101,18 @@ impl Render {
     pub(in crate::cli) fn asks_for_clip(&self) -> bool {
         let times = [self.time, self.from, self.to];
         self.clip.is_some()
+            || self.follow
             || self.strip.or(self.fps).is_some()
             || times.iter().any(Option::is_some)
     }
+}
+
+/// What is behind the model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::cli) enum Background {
+    Transparent,
+    /// In sRGB.
+    Colour([u8; 3]),
 }
 
 /// How surfaces are shaded.
@@ -178,16 +192,22 @@ fn scale(text: &str) -> Result<f64, String> {
     }
 }
 
-fn background(text: &str) -> Result<[u8; 3], String> {
+fn background(text: &str) -> Result<Background, String> {
+    if text == "transparent" {
+        return Ok(Background::Transparent);
+    }
     let digits = text.strip_prefix('#').unwrap_or(text);
     let valid = digits.len() == 6 && digits.bytes().all(|byte| byte.is_ascii_hexdigit());
     let number = u32::from_str_radix(digits, 16).ok().filter(|_| valid);
     match number {
         Some(number) => {
             let [_, colour @ ..] = number.to_be_bytes();
-            Ok(colour)
+            Ok(Background::Colour(colour))
         }
-        None => Err("expected a colour of six digits, for example '#ffffff' for white".to_owned()),
+        None => Err(
+            "expected a colour of six digits, for example '#ffffff' for white, or transparent"
+                .to_owned(),
+        ),
     }
 }
 

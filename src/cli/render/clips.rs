@@ -1,16 +1,23 @@
 //! Rendering clips: which one, which part of it, and how it is written.
 
+use std::cell::RefCell;
+use std::collections::VecDeque;
 use std::io;
 
-use super::{Destination, Failure, Form, MAX_THUMBNAILS, describe_picture, options};
+use super::movie::{Movie, MovieForm};
+use super::{Destination, Failure, Form, describe_picture, options};
 use crate::cli::args::Render;
 use crate::cli::progress::{counting, spinning};
 use crate::render::{
-    AnimationWriter, Clip, Film, HeldFrame, MAX_GIF_FPS, Model, Options, Palette, write_png,
+    Clip, Film, HeldFrame, Image, MAX_GIF_FPS, Model, Options, Palette, RenderError, write_png,
 };
 
 /// The default frame rate: that of film, and of the clips that okoshi makes.
 const FPS: u32 = 24;
+/// The most pixels of the pictures that the colours of a GIF are chosen from.
+const MAX_PALETTE_PIXELS: u64 = 16 << 20;
+/// The most of these pictures: several are needed, as flat sides change their shade with every frame.
+const MAX_PALETTE_PICTURES: u64 = 16;
 /// The most clips that a message lists.
 const MAX_LISTED: usize = 20;
 
@@ -83,8 +90,14 @@ pub(super) fn film<'a>(
             "cannot be shown from {from} to {to} seconds: --to must be after --from"
         ));
     }
-    spinning("framing the clip", || Film::new(model, clip, [from, to]))
-        .map_err(|error| error.to_string())
+    let framed = || {
+        let film = Film::new(model, clip, [from, to])?;
+        match arguments.follow {
+            true => film.following(),
+            false => Ok(film),
+        }
+    };
+    spinning("framing the clip", framed).map_err(|error: RenderError| error.to_string())
 }
 
 /// Writes frames of a clip side by side, and describes the picture.
@@ -94,7 +107,7 @@ pub(super) fn strip(
     cells: u32,
     output: &Destination,
 ) -> Result<String, Failure> {
-    let options = options(arguments);
+    let options = options(arguments, Form::Png);
     let target = output.single().map_err(Failure::written)?;
     let image = counting("drawing", cells, |done| {
         film.film_strip(&options, cells, done)
@@ -107,95 +120,136 @@ pub(super) fn strip(
     Ok(format!("{name}: {cells} moments, {picture} each"))
 }
 
-/// Writes a clip, and describes the pictures.
-pub(super) fn moving(
+/// Writes a clip as numbered files, and describes the pictures.
+pub(super) fn numbered(
     film: &Film<'_>,
     arguments: &Render,
-    form: Form,
     output: &Destination,
 ) -> Result<String, Failure> {
-    let options = options(arguments);
-    let pictures = film
-        .held_frames(arguments.fps.unwrap_or(FPS))
-        .map_err(|error| Failure::of(arguments, &error))?;
-    let times = || pictures.iter().map(|picture| picture.time);
-    let count = pictures.len() as u32;
-    let picture = describe_picture(options.size, film.triangles());
-    if form == Form::Png {
-        let frames: u32 = pictures.iter().map(|picture| picture.frames).sum();
-        output.check_numbered(frames).map_err(Failure::written)?;
-        counting("drawing", count, |done| {
-            let mut number = 0;
-            let mut left = pictures.iter().zip(1..);
-            film.draw(&options, times(), |image| {
-                let mut png = Vec::new();
-                write_png(&image, &mut png).map_err(|error| Failure(error.to_string()))?;
-                let Some((picture, drawn)) = left.next() else {
-                    return Ok(());
-                };
-                for _ in 0..picture.frames {
-                    number += 1;
-                    output
-                        .numbered(number, frames)
-                        .and_then(|target| target.write(|out| out.write_all(&png)))
-                        .map_err(Failure::written)?;
-                }
-                done(drawn);
-                Ok::<(), Failure>(())
-            })
-        })?;
-        return Ok(format!("{}: {picture} each", output.range(frames)));
-    }
-    let target = output.single().map_err(Failure::written)?;
-    counting("drawing", count, |done| {
-        target.write(|out| {
-            let mut animation = match form {
-                Form::Gif => {
-                    AnimationWriter::gif(out, options.size, palette(film, &options, &pictures)?)?
-                }
-                Form::Png | Form::Apng => AnimationWriter::apng(out, options.size, count)?,
+    let options = options(arguments, Form::Png);
+    let pictures = held_frames(film, arguments)?;
+    let frames: u32 = pictures.iter().map(|picture| picture.frames).sum();
+    output.check_numbered(frames).map_err(Failure::written)?;
+    counting("drawing", pictures.len() as u32, |done| {
+        let mut number = 0;
+        let mut left = pictures.iter().zip(1..);
+        film.shooting(&options)?.draw(times(&pictures), |image| {
+            let mut png = Vec::new();
+            write_png(&image, &mut png).map_err(|error| Failure(error.to_string()))?;
+            let Some((picture, drawn)) = left.next() else {
+                return Ok(());
             };
-            let mut left = pictures.iter().zip(1..);
-            film.draw(&options, times(), |image| -> io::Result<()> {
-                if let Some((picture, drawn)) = left.next() {
-                    animation.push(&image, picture.seconds)?;
-                    done(drawn);
-                }
+            for _ in 0..picture.frames {
+                number += 1;
+                output
+                    .numbered(number, frames)
+                    .and_then(|target| target.write(|out| out.write_all(&png)))
+                    .map_err(Failure::written)?;
+            }
+            done(drawn);
+            Ok::<(), Failure>(())
+        })
+    })?;
+    let picture = describe_picture(options.size, film.triangles());
+    Ok(format!("{}: {picture} each", output.range(frames)))
+}
+
+/// Writes a clip as one file, and describes it.
+pub(super) fn movie(
+    film: &Film<'_>,
+    arguments: &Render,
+    form: MovieForm,
+    output: &Destination,
+) -> Result<String, Failure> {
+    let options = options(arguments, Form::Movie(form));
+    let pictures = held_frames(film, arguments)?;
+    let count = pictures.len() as u32;
+    let target = output.single().map_err(Failure::written)?;
+    let movie = Movie {
+        form,
+        options: &options,
+        pictures: count,
+        rate: [arguments.fps.unwrap_or(FPS), 1],
+    };
+    // Pictures that the colours of a GIF are chosen from are rendered before the others.
+    let early = RefCell::new(VecDeque::new());
+    counting("drawing", count, |done| {
+        let shooting = film.shooting(&options)?;
+        let colours = || {
+            let mut early = early.borrow_mut();
+            let mut indices = (0..pictures.len()).step_by(palette_step(pictures.len(), &options));
+            let moments = indices.clone().map(|index| pictures[index].time);
+            shooting.draw(moments, |image| -> io::Result<()> {
+                early.extend(indices.next().map(|index| (index, image)));
+                done(early.len() as u32);
                 Ok(())
             })?;
-            animation.finish()
+            let samples: Vec<&Image> = early.iter().map(|(_, image)| image).collect();
+            Ok(Palette::new(samples, options.background))
+        };
+        movie.write(&target, colours, |push| {
+            let mut early = early.take();
+            let is_early = |index: &usize| early.iter().any(|(other, _)| other == index);
+            let late: Vec<usize> = (0..pictures.len())
+                .filter(|index| !is_early(index))
+                .collect();
+            let mut shown = 0;
+            let mut show = |index: usize, image: &Image| -> io::Result<()> {
+                let picture = &pictures[index];
+                push(image, picture.seconds, picture.frames)?;
+                shown += 1;
+                done(shown);
+                Ok(())
+            };
+            let mut indices = late.iter();
+            let moments = late.iter().map(|index| pictures[*index].time);
+            shooting.draw(moments, |image| -> io::Result<()> {
+                let Some(index) = indices.next() else {
+                    return Ok(());
+                };
+                while early.front().is_some_and(|(other, _)| *other < *index) {
+                    if let Some((before, image)) = early.pop_front() {
+                        show(before, &image)?;
+                    }
+                }
+                show(*index, &image)
+            })?;
+            early
+                .iter()
+                .try_for_each(|(index, image)| show(*index, image))
         })
-    })
-    .map_err(Failure::written)?;
+    })?;
     let seconds = rounded(pictures.iter().map(|picture| picture.seconds).sum());
+    let picture = describe_picture(options.size, film.triangles());
     let name = output.path.display();
     Ok(format!(
         "{name}: {count} pictures in {seconds} seconds, {picture} each"
     ))
 }
 
-/// The colours of a GIF, from thumbnails of its frames.
-fn palette(film: &Film<'_>, options: &Options, pictures: &[HeldFrame]) -> io::Result<Palette> {
-    let size = super::thumbnail_size(options.size);
-    let step = pictures.len().div_ceil(MAX_THUMBNAILS as usize).max(1);
-    let times = pictures.iter().step_by(step).map(|picture| picture.time);
-    let mut thumbnails = Vec::new();
-    film.draw(
-        &Options { size, ..*options },
-        times,
-        |image| -> io::Result<()> {
-            thumbnails.push(image);
-            Ok(())
-        },
-    )?;
-    Ok(Palette::new(&thumbnails))
+/// The pictures to draw.
+fn held_frames(film: &Film<'_>, arguments: &Render) -> Result<Vec<HeldFrame>, Failure> {
+    film.held_frames(arguments.fps.unwrap_or(FPS))
+        .map_err(|error| Failure::of(arguments, &error))
+}
+
+/// The times of the pictures, in seconds of the clip.
+fn times(pictures: &[HeldFrame]) -> impl Iterator<Item = f64> {
+    pictures.iter().map(|picture| picture.time)
+}
+
+/// The colours of a GIF are chosen from one picture of so many: from several ones, but not from more than fit into memory.
+fn palette_step(count: usize, options: &Options) -> usize {
+    let [width, height] = options.size.map(u64::from);
+    let fitting = (MAX_PALETTE_PIXELS / (width * height)).clamp(1, MAX_PALETTE_PICTURES);
+    count.div_ceil(fitting as usize).max(1)
 }
 
 /// Refuses a frame rate that the format cannot hold.
 pub(super) fn check_fps(arguments: &Render, form: Form) -> Result<(), String> {
     match arguments.fps {
-        Some(fps) if form == Form::Gif && fps > MAX_GIF_FPS => Err(format!(
-            "GIFs show at most {MAX_GIF_FPS} frames a second: ask for --fps {MAX_GIF_FPS} or fewer, or write .apng"
+        Some(fps) if form == Form::Movie(MovieForm::Gif) && fps > MAX_GIF_FPS => Err(format!(
+            "GIFs show at most {MAX_GIF_FPS} frames a second: ask for --fps {MAX_GIF_FPS} or fewer, or write .apng or .mp4"
         )),
         _ => Ok(()),
     }

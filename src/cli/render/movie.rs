@@ -1,0 +1,85 @@
+//! Files that hold all pictures of a clip or turntable: animations and videos.
+
+use std::io;
+
+use super::Failure;
+use super::video::{self, Container, VideoFormat};
+use crate::disk::Target;
+use crate::export::Output;
+use crate::render::{AnimationWriter, Image, Options, Palette};
+
+/// The format of a file with all pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum MovieForm {
+    Gif,
+    Apng,
+    Video(Container),
+}
+
+impl MovieForm {
+    /// The format for the extension of a file, in lower case.
+    pub(super) fn of(extension: &str) -> Option<Self> {
+        match extension {
+            "gif" => Some(Self::Gif),
+            "apng" => Some(Self::Apng),
+            "mp4" => Some(Self::Video(Container::Mp4)),
+            "webm" => Some(Self::Video(Container::Webm)),
+            _ => None,
+        }
+    }
+}
+
+/// A file with all pictures.
+pub(super) struct Movie<'a> {
+    pub(super) form: MovieForm,
+    pub(super) options: &'a Options,
+    /// The number of pictures.
+    pub(super) pictures: u32,
+    /// Frames per second, as a fraction.
+    pub(super) rate: [u32; 2],
+}
+
+/// Appends a picture that is shown for some seconds, which are some frames.
+pub(super) type Push<'a> = &'a mut dyn FnMut(&Image, f64, u32) -> io::Result<()>;
+
+impl Movie<'_> {
+    /// Writes the pictures that `draw` makes. `palette` finds the colours of a GIF.
+    pub(super) fn write(
+        &self,
+        target: &Target,
+        palette: impl FnOnce() -> io::Result<Palette>,
+        draw: impl FnOnce(Push<'_>) -> io::Result<()>,
+    ) -> Result<(), Failure> {
+        let size = self.options.size;
+        let written = match self.form {
+            MovieForm::Gif => {
+                target.write(|out| animate(AnimationWriter::gif(out, size, palette()?)?, draw))
+            }
+            MovieForm::Apng => {
+                target.write(|out| animate(AnimationWriter::apng(out, size, self.pictures)?, draw))
+            }
+            MovieForm::Video(container) => {
+                let format = VideoFormat {
+                    container,
+                    size,
+                    rate: self.rate,
+                };
+                let scratch = target.scratch().map_err(Failure::written)?;
+                target.write(|out| {
+                    video::encode(format, scratch, out, |encoder| {
+                        draw(&mut |image, _, frames| encoder.push(image, frames))
+                    })
+                })
+            }
+        };
+        written.map_err(Failure::written)
+    }
+}
+
+fn animate(
+    mut writer: AnimationWriter<&mut dyn Output>,
+    draw: impl FnOnce(Push<'_>) -> io::Result<()>,
+) -> io::Result<()> {
+    draw(&mut |image, seconds, _| writer.push(image, seconds))?;
+    writer.finish()
+}

@@ -1,0 +1,134 @@
+//! The path of a camera that follows what a clip moves from place to place.
+
+use glam::DVec3;
+
+use super::model::Model;
+use crate::import::{Clip, Travellers};
+
+/// How many points of the path there are in a second.
+const RATE: f64 = 24.0;
+/// The most points of a path.
+const MAX_POINTS: u32 = 10_000;
+/// The standard deviation of the filter that smooths the path, in seconds: steps and swaying vanish, a run-up stays.
+const SMOOTHING: f64 = 0.4;
+/// How far the filter reaches, in standard deviations.
+const REACH: f64 = 3.0;
+
+/// Where a camera is, relative to its place at the beginning of a clip. It never rises or sinks.
+#[derive(Debug)]
+pub(super) struct CameraPath {
+    /// The first and the last time, in seconds of the clip.
+    span: [f64; 2],
+    /// Evenly spaced from the first time to the last, in the world; y is 0. Never empty.
+    points: Vec<DVec3>,
+}
+
+impl CameraPath {
+    /// Follows the mean of the roots, smoothly. Without any the camera stands still.
+    pub(super) fn new(
+        model: &Model,
+        clip: &Clip,
+        travellers: &Travellers,
+        [from, to]: [f64; 2],
+    ) -> Self {
+        let roots = &travellers.roots;
+        let intervals = ((to - from) * RATE)
+            .ceil()
+            .clamp(1.0, f64::from(MAX_POINTS - 1)) as u32;
+        let step = (to - from) / f64::from(intervals);
+        let place = |index: u32| {
+            let pose = model.pose_at(clip, from + step * f64::from(index));
+            let places = model.places(&pose, roots);
+            let mean = places.iter().sum::<DVec3>() / roots.len().max(1) as f64;
+            DVec3::new(mean.x, 0.0, mean.z)
+        };
+        let places: Vec<DVec3> = (0..=intervals).map(place).collect();
+        Self {
+            span: [from, to],
+            points: smoothed(&places, SMOOTHING / step.max(f64::MIN_POSITIVE)),
+        }
+    }
+
+    /// The length of the way, in metres.
+    pub(super) fn length(&self) -> f64 {
+        let steps = self.points.windows(2);
+        steps.map(|pair| pair[0].distance(pair[1])).sum()
+    }
+
+    /// Its place at a time of the clip.
+    pub(super) fn at(&self, time: f64) -> DVec3 {
+        let [from, to] = self.span;
+        let last = self.points.len() - 1;
+        let share = ((time - from) / (to - from)).clamp(0.0, 1.0);
+        // A span without length has equal points.
+        let place = if share.is_nan() { 0.0 } else { share } * last as f64;
+        let index = (place as usize).min(last);
+        let next = self.points[(index + 1).min(last)];
+        self.points[index].lerp(next, place.fract())
+    }
+}
+
+/// Smooths a path by a Gaussian filter of this standard deviation, in points. The path is continued at both ends by its
+/// mirror image through the end, so that the ends stay and a steady movement remains one.
+fn smoothed(path: &[DVec3], deviation: f64) -> Vec<DVec3> {
+    let last = path.len() as i64 - 1;
+    let reach = ((deviation * REACH).ceil() as i64).min(last);
+    let weight = |offset: i64| (-0.5 * (offset as f64 / deviation).powi(2)).exp();
+    let weights: Vec<f64> = (0..=reach).map(weight).collect();
+    let total = weights[0] + 2.0 * weights[1..].iter().sum::<f64>();
+    let at = |index: i64| {
+        let inside = |index: i64| path[index.clamp(0, last) as usize];
+        match index {
+            ..0 => 2.0 * path[0] - inside(-index),
+            _ if index > last => 2.0 * inside(last) - inside(2 * last - index),
+            _ => inside(index),
+        }
+    };
+    let point = |index: i64| {
+        let around = (1..=reach)
+            .map(|offset| (at(index - offset) + at(index + offset)) * weights[offset as usize]);
+        (at(index) * weights[0] + around.sum::<DVec3>()) / total
+    };
+    (0..=last).map(point).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn path(place: impl Fn(f64) -> f64) -> Vec<DVec3> {
+        (0..=96)
+            .map(|index| DVec3::X * place(f64::from(index) / RATE))
+            .collect()
+    }
+
+    fn largest_difference(one: &[DVec3], other: &[DVec3]) -> f64 {
+        let pairs = one.iter().zip(other);
+        pairs.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn steady_movements_stay_and_swaying_vanishes() {
+        let steady = path(|time| 1.3 * time + 0.2);
+        assert!(largest_difference(&smoothed(&steady, 9.6), &steady) < 1e-9);
+        let swaying =
+            path(|time| 1.3 * time + 0.2 + 0.1 * (time * 2.0 * std::f64::consts::TAU).sin());
+        assert!(largest_difference(&smoothed(&swaying, 9.6), &steady) < 0.02);
+        // Longer than the path.
+        assert!(largest_difference(&smoothed(&steady[..5], 9.6), &steady[..5]) < 1e-9);
+        assert_eq!(smoothed(&steady[..1], 9.6), &steady[..1]);
+    }
+
+    #[test]
+    fn a_run_up_is_followed_closely() {
+        // Stands for a second, then runs.
+        let run = path(|time| 3.0 * (time - 1.0).max(0.0));
+        let followed = smoothed(&run, 9.6);
+        assert!(largest_difference(&followed, &run) < 0.5);
+        // The camera never moves backwards, and never jumps.
+        for pair in followed.windows(2) {
+            let step = pair[1].x - pair[0].x;
+            assert!((-1e-9..3.01 / RATE).contains(&step), "{step}");
+        }
+    }
+}

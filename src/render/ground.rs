@@ -1,0 +1,190 @@
+//! The invisible ground: shadows that fall on it, and lines that show how the camera moves over it.
+
+use glam::{Vec2, Vec3, Vec4};
+use rayon::prelude::*;
+
+use super::camera::Camera;
+use super::light::{CELL, IncidentLight, Lights};
+use super::surface::Surface;
+use super::trace::Tracer;
+
+/// How far from the model its shadow is visible, relative to the normalised model.
+const SHADOW_REACH: f32 = 0.65;
+/// The width of a line, relative to the distance of two lines.
+const LINE_WIDTH: f32 = 0.04;
+/// The opacity of the lines.
+const LINE_OPACITY: f32 = 0.45;
+/// The colour of the lines, linear: a grey that is visible on black and on white.
+const LINE_COLOUR: f32 = 0.2;
+/// How many lines there are in the length of the figure, roughly.
+const LINES: f64 = 4.0;
+/// Where the lines begin to fade, and where they end, relative to the length of the figure.
+const LINES_FADE: [f32; 2] = [0.5, 1.5];
+
+/// How strong the model's shadow is at a point on the ground: it fades with the distance from the model.
+pub(super) fn shadow_fade(place: Vec3, model: &Surface) -> f32 {
+    let beside = (model.low - place).max(place - model.high).max(Vec3::ZERO);
+    let share = 1.0 - (Vec2::new(beside.x, beside.z).length() / SHADOW_REACH).min(1.0);
+    smooth(share)
+}
+
+/// Smoothstep.
+fn smooth(share: f32) -> f32 {
+    share * share * (3.0 - 2.0 * share)
+}
+
+/// The light on the ground in a picture, on a lattice of points.
+pub(super) struct GroundLight {
+    spacing: u32,
+    columns: usize,
+    /// Rows from the top. The first row and column lie outside the picture.
+    points: Vec<IncidentLight>,
+}
+
+impl GroundLight {
+    /// The light on the ground below the model in a picture of `size` pixels.
+    pub(super) fn new(
+        tracer: &Tracer<'_>,
+        lights: &Lights,
+        camera: &Camera,
+        size: [u32; 2],
+        spacing: u32,
+    ) -> Self {
+        // One point before the picture and two behind it: pixels interpolate, and points gather from their neighbours.
+        let [columns, rows] = size.map(|side| (side.div_ceil(spacing) + 4) as usize);
+        let level = tracer.surface.low.y;
+        let at = |index: usize| {
+            let [column, row] = [index % columns, index / columns];
+            let pixel = |point: usize| (point as f32 - 1.0) * spacing as f32;
+            let place = camera.on_level(Vec2::new(pixel(column), pixel(row)), level)?;
+            let share = (row % CELL as usize) * CELL as usize + column % CELL as usize;
+            let lit = shadow_fade(place, &tracer.surface) > 0.0;
+            lit.then(|| lights.on_ground(tracer, place, share))
+        };
+        let own: Vec<Option<IncidentLight>> = (0..columns * rows).into_par_iter().map(at).collect();
+        // Each of the rays of a cell has the same weight.
+        let gathered = |index: usize| {
+            let [column, row] = [index % columns, index / columns];
+            let mut sum = IncidentLight::default();
+            let mut weights = 0.0;
+            for (y, high) in [(row.wrapping_sub(1), 1.0), (row, 2.0), (row + 1, 1.0)] {
+                for (x, wide) in [
+                    (column.wrapping_sub(1), 1.0),
+                    (column, 2.0),
+                    (column + 1, 1.0),
+                ] {
+                    let inside = x < columns && y < rows;
+                    if let Some(Some(light)) = inside.then(|| own[y * columns + x]) {
+                        sum.add(&light.scaled(high * wide));
+                        weights += high * wide;
+                    }
+                }
+            }
+            match weights > 0.0 {
+                true => sum.scaled(1.0 / weights),
+                false => sum,
+            }
+        };
+        Self {
+            spacing,
+            columns,
+            points: (0..columns * rows).map(gathered).collect(),
+        }
+    }
+
+    /// The light in the middle of a pixel.
+    pub(super) fn at(&self, x: u32, y: u32) -> IncidentLight {
+        let place = |pixel: u32| (pixel as f32 + 0.5) / self.spacing as f32 + 1.0;
+        let (x, y) = (place(x), place(y));
+        let (column, row) = (x as usize, y as usize);
+        let (right, down) = (x.fract(), y.fract());
+        let mut light = IncidentLight::default();
+        for (row, high) in [(row, 1.0 - down), (row + 1, down)] {
+            for (column, wide) in [(column, 1.0 - right), (column + 1, right)] {
+                light.add(&self.points[row * self.columns + column].scaled(high * wide));
+            }
+        }
+        light
+    }
+}
+
+/// A grid of lines on the ground, fixed in the world. In normalised space.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Floor {
+    /// Where two lines cross.
+    crossing: Vec2,
+    /// The distance of two lines.
+    cell: f32,
+    /// In the middle of the visible part.
+    middle: Vec2,
+    /// The length of the figure.
+    length: f32,
+}
+
+impl Floor {
+    /// Lines around a figure of some length at `middle`, which is given by its x and z. `origin` is that of the world,
+    /// `scale` the factor from metres.
+    pub(super) fn new(origin: Vec2, scale: f64, middle: Vec2, length: f32) -> Self {
+        let cell = (round_length(f64::from(length) / scale / LINES) * scale) as f32;
+        let cell = if cell.is_normal() { cell } else { 1.0 };
+        Self {
+            crossing: origin,
+            cell,
+            middle,
+            length,
+        }
+    }
+
+    /// How visible the lines are at a point on the ground.
+    pub(super) fn fade(&self, place: Vec3) -> f32 {
+        let [near, far] = LINES_FADE.map(|share| share * self.length);
+        let distance = Vec2::new(place.x, place.z).distance(self.middle);
+        smooth(((far - distance) / (far - near)).clamp(0.0, 1.0))
+    }
+
+    /// The share of the pixel at `pixel` that lines cover, with their opacity, where a camera sees the ground at `level`.
+    pub(super) fn opacity(&self, camera: &Camera, pixel: Vec2, level: f32) -> f32 {
+        let on_floor = |place: Vec2| {
+            let place = camera.on_level(place, level)?;
+            Some((Vec2::new(place.x, place.z) - self.crossing) / self.cell)
+        };
+        let corners = [pixel, pixel + Vec2::X, pixel + Vec2::Y].map(on_floor);
+        let [Some(here), Some(right), Some(down)] = corners else {
+            return 0.0;
+        };
+        let width = ((right - here).abs() + (down - here).abs()).max(Vec2::splat(1e-4));
+        let clear = |axis: usize| 1.0 - lines_within(here[axis], width[axis]);
+        let Some(middle) = camera.on_level(pixel, level) else {
+            return 0.0;
+        };
+        (1.0 - clear(0) * clear(1)) * LINE_OPACITY * self.fade(middle)
+    }
+}
+
+/// The nearest length of the series 1, 2, 5, 10, 20 and so on.
+fn round_length(length: f64) -> f64 {
+    let power = 10_f64.powf(length.log10().floor());
+    let digits = match length / power {
+        ..1.5 => 1.0,
+        ..3.5 => 2.0,
+        ..7.5 => 5.0,
+        _ => 10.0,
+    };
+    digits * power
+}
+
+/// The share of an interval around `place` that lines cover, which are [`LINE_WIDTH`] wide at all whole numbers.
+fn lines_within(place: f32, width: f32) -> f32 {
+    // The length that lines cover up to a point.
+    let until = |end: f32| {
+        let end = end + LINE_WIDTH / 2.0;
+        end.floor() * LINE_WIDTH + (end - end.floor()).min(LINE_WIDTH)
+    };
+    ((until(place + width / 2.0) - until(place - width / 2.0)) / width).clamp(0.0, 1.0)
+}
+
+/// Premultiplied colour and alpha of a shadow on lines, each of some opacity.
+pub(super) fn shadow_on_lines(shadow: f32, lines: f32) -> Vec4 {
+    let colour = LINE_COLOUR * lines * (1.0 - shadow);
+    Vec3::splat(colour).extend(shadow + lines * (1.0 - shadow))
+}

@@ -1,0 +1,79 @@
+//! How many rays a picture takes.
+
+use super::light::LAMPS;
+
+/// The numbers of rays that pictures are made from.
+#[derive(Debug)]
+pub(super) struct Sampling {
+    /// Rays of a pixel that contains an edge or a texture.
+    pub(super) edge: usize,
+    pub(super) refinement: Refinement,
+    /// Rays of a pixel that shows nothing but the ground, or nothing at all, unless the ground ends in it.
+    pub(super) empty: usize,
+    /// Rays of a pixel of the model to each lamp, and to the sky.
+    pub(super) model: LightRays,
+    pub(super) ground: GroundSampling,
+}
+
+/// Which pixels contain an edge.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Refinement {
+    /// Those whose first few rays meet different surfaces.
+    Pixel,
+    /// Those whose one ray meets another surface than those of its neighbours.
+    Neighbours,
+}
+
+/// Rays from one point to the lights.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LightRays {
+    pub(super) lamps: [usize; LAMPS],
+    pub(super) sky: usize,
+}
+
+/// Where the light on the ground is computed.
+#[derive(Debug)]
+pub(super) enum GroundSampling {
+    /// In every pixel, as on the model.
+    Pixels(LightRays),
+    /// On a lattice with this spacing in pixels. The pixels between interpolate: shadows on the ground are soft.
+    Lattice {
+        spacing: u32,
+        /// Rays of each point of the lattice.
+        rays: LightRays,
+    },
+}
+
+/// A still picture: each pixel is as good as 16 rays to everything can make it.
+pub(super) static STILL: Sampling = Sampling {
+    edge: 16,
+    refinement: Refinement::Pixel,
+    empty: 4,
+    model: LightRays {
+        lamps: [3, 1, 1],
+        sky: 6,
+    },
+    // Faint shadows show on white, and only the key lamp casts one.
+    ground: GroundSampling::Pixels(LightRays {
+        lamps: [3, 0, 0],
+        sky: 16,
+    }),
+};
+
+/// A picture of a film, which is seen for a moment. The rays are the same in all pictures, so that nothing flickers.
+pub(super) static FILM: Sampling = Sampling {
+    edge: 8,
+    refinement: Refinement::Neighbours,
+    empty: 1,
+    model: LightRays {
+        lamps: [1, 1, 1],
+        sky: 2,
+    },
+    ground: GroundSampling::Lattice {
+        spacing: 3,
+        rays: LightRays {
+            lamps: [4, 0, 0],
+            sky: 8,
+        },
+    },
+};
