@@ -61,6 +61,10 @@ struct Arms {
     elbow_swing: f64,
 }
 
+/// The time of the first frame. Hips and shoulders are square to the way then, so that a figure, whose front is found by them in the
+/// first frame, goes straight ahead.
+pub(super) const START: f64 = 0.25;
+
 /// How far behind the upper arm the forearm is.
 const ELBOW_LAG: f64 = 0.06;
 
@@ -125,7 +129,7 @@ impl Gait {
 
     /// The poses of a cycle; the last one is the first one again, one stride ahead.
     pub(super) fn poses(&self, body: &Body) -> Vec<Pose> {
-        let times = (0..=self.frames).map(|frame| frame as f64 / self.frames as f64);
+        let times = (0..=self.frames).map(|frame| START + frame as f64 / self.frames as f64);
         let mut poses: Vec<Pose> = times.map(|time| self.pose(body, time)).collect();
         lower(body, &mut poses, self.reach);
         poses
