@@ -447,7 +447,6 @@ fn running_room() -> Room {
     let room = room();
     let run = Animation {
         name: "run".to_owned(),
-        seconds: 1.0,
         tracks: vec![Track {
             node: 0,
             timing: Arc::new(Timing {

@@ -7,7 +7,7 @@ use super::bindings::Bindings;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
-use crate::lang::value::Value;
+use crate::lang::value::{Setting, Value};
 use crate::source::{Span, Text};
 
 pub use crate::lang::value::{MotionSource, SignedAxis};
@@ -62,12 +62,15 @@ impl ClipRequest<'_> {
 }
 
 impl ClipLimits {
-    /// The table allows whole numbers only.
-    fn new([omit, hold]: [f64; 2], span: Span) -> Self {
-        Self {
-            omit: omit as usize,
-            hold: hold as usize,
-            span,
+    /// The value of a `Limited`, which the table allows whole numbers only.
+    fn of(limited: &Setting, span: Span) -> Option<Self> {
+        match limited.value {
+            Value::Pair([omit, hold]) => Some(Self {
+                omit: omit as usize,
+                hold: hold as usize,
+                span,
+            }),
+            _ => None,
         }
     }
 }
@@ -88,13 +91,13 @@ impl Bindings {
                     part: part?,
                     source: &motion.source,
                     text: &string.text,
-                    source_range: motion.source_range.clone(),
+                    source_range: first_argument(&string.annotation, setting),
                     name: motion.clip.as_deref(),
                     up: motion.up,
                     is_in_place: motion.is_in_place,
                     is_loop: motion.is_loop,
-                    limits: motion.limited.as_ref().map(|limited| {
-                        ClipLimits::new(limited.amounts, string.text.span(limited.range.clone()))
+                    limits: setting.limited.as_ref().and_then(|limited| {
+                        ClipLimits::of(limited, string.text.span(limited.range.clone()))
                     }),
                     span: string.text.span(setting.range.clone()),
                 }),
@@ -108,21 +111,35 @@ impl Bindings {
     /// string, and which of these it is.
     pub fn limits_of_clips(&self, part: usize) -> Option<(SetBy, ClipLimits)> {
         let source = self.setting(part, Keyword::Limited)?;
-        match source.setting.value {
-            Value::Pair(amounts) => {
-                Some((source.from, ClipLimits::new(amounts, self.span_of(&source))))
-            }
-            _ => None,
-        }
+        let limits = ClipLimits::of(source.setting, self.span_of(&source))?;
+        Some((source.from, limits))
     }
 }
 
-/// Reports `Limited`, `Bone` and `Swing`, each once, in a drawing without a motion.
+/// The range of the first argument of a setting in its string.
+fn first_argument(annotation: &Annotation, setting: &Setting) -> Range<usize> {
+    let attributes = match annotation {
+        Annotation::Defaults(attributes) | Annotation::Legend(attributes) => attributes.as_slice(),
+        Annotation::Part(part) => &part.attributes,
+        _ => &[],
+    };
+    let mut attributes = attributes.iter();
+    let attribute = attributes.find(|attribute| attribute.range == setting.range);
+    let first = attribute.and_then(|attribute| attribute.arguments.first());
+    first.map_or(setting.range.clone(), |first| first.range.clone())
+}
+
+/// Reports `Limited`, `Bone`, `Carry` and `Swing`, each once, in a drawing without a motion.
 pub(super) fn without_motion(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
     if !bindings.clip_requests().is_empty() {
         return;
     }
-    for keyword in [Keyword::Limited, Keyword::Bone, Keyword::Swing] {
+    for keyword in [
+        Keyword::Limited,
+        Keyword::Bone,
+        Keyword::Carry,
+        Keyword::Swing,
+    ] {
         let found = bindings.strings.iter().find_map(|string| {
             let counts = !matches!(string.annotation, Annotation::Legend(_));
             let mut settings = string.settings.iter().filter(|_| counts);

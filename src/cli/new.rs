@@ -88,7 +88,7 @@ fn explained(error: &WriteError) -> String {
 fn next_steps(path: &Path) -> String {
     let drawing = quoted(path);
     format!(
-        "wrote {}; draw on in Inkscape, and try next:\n  okoshi build {drawing}\n  okoshi inspect {drawing}\n",
+        "wrote {}; draw on in Inkscape, and try next:\n  okoshi preview {drawing} --open\n  okoshi build {drawing}\n  okoshi inspect {drawing}\n",
         path.display()
     )
 }

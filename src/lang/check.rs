@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 use super::ast::{Annotation, ArgumentKind, Attribute};
 use super::keyword::signature::Takes;
 use super::keyword::{AttributeString, Keyword, Status};
-use super::value::{MotionLimits, Setting, Value};
+use super::value::Setting;
 use super::variables::Variables;
 use crate::diagnostic::Diagnostic;
 use crate::source::Text;
@@ -157,6 +157,7 @@ impl Checker<'_> {
             value,
             text,
             range: attribute.range.clone(),
+            limited: None,
         })
     }
 
@@ -198,18 +199,9 @@ fn give_limits_to_motions(attributes: &[Attribute], settings: &mut [Option<Setti
             Keyword::Motion => motion = Some(index),
             Keyword::Limited => {
                 let Some(motion) = motion else { continue };
-                let limits = settings[index].take();
-                if let Some(Setting {
-                    value: Value::Motion(motion),
-                    ..
-                }) = &mut settings[motion]
-                    && let Some(limits) = limits
-                    && let Value::Pair(amounts) = limits.value
-                {
-                    motion.limited = Some(MotionLimits {
-                        amounts,
-                        range: limits.range,
-                    });
+                let limits = settings[index].take().map(Box::new);
+                if let Some(motion) = &mut settings[motion] {
+                    motion.limited = limits.or(motion.limited.take());
                 }
             }
             _ => {}

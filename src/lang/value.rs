@@ -15,6 +15,8 @@ pub struct Setting {
     pub text: String,
     /// Its range in the decoded string, keyword included.
     pub range: Range<usize>,
+    /// The `Limited` that belongs to a `Motion`: the one between it and the next.
+    pub limited: Option<Box<Setting>>,
 }
 
 /// The value of an attribute.
@@ -102,8 +104,6 @@ impl Shape {
 pub struct Motion {
     /// The motion.
     pub source: MotionSource,
-    /// The range of the file or the word in the decoded string.
-    pub source_range: Range<usize>,
     /// The clip's name, if given.
     pub clip: Option<String>,
     /// The axis that points up in the file, if given.
@@ -112,8 +112,6 @@ pub struct Motion {
     pub is_in_place: bool,
     /// `-l`: a loop.
     pub is_loop: bool,
-    /// The `Limited` that belongs to it.
-    pub limited: Option<MotionLimits>,
 }
 
 /// Where a motion comes from.
@@ -123,15 +121,6 @@ pub enum MotionSource {
     File(String),
     /// A clip that comes along, by its word in the table.
     BuiltIn(String),
-}
-
-/// `Limited` behind a `Motion`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct MotionLimits {
-    /// How many drawings to omit, and how many frames to hold.
-    pub amounts: [f64; 2],
-    /// The range of the setting in the decoded string, keyword included.
-    pub range: Range<usize>,
 }
 
 /// `Origin center | start | end | x y`

@@ -65,7 +65,7 @@ pub fn in_place(clip: &Clip, hips: usize, up: DVec3, ending: Ending) -> Clip {
 pub(super) fn root_positions(clip: &Clip) -> impl Iterator<Item = (usize, Axis)> {
     let mut start = 0;
     let joints = clip.skeleton.joints.iter();
-    let own = joints.flat_map(move |joint| {
+    joints.flat_map(move |joint| {
         let first = start;
         start += joint.channels.len();
         let is_root = joint.parent.is_none();
@@ -74,8 +74,7 @@ pub(super) fn root_positions(clip: &Clip) -> impl Iterator<Item = (usize, Axis)>
             Channel::Position(axis) if is_root => Some((first + index, *axis)),
             _ => None,
         })
-    });
-    own
+    })
 }
 
 #[cfg(test)]

@@ -394,3 +394,35 @@ fn a_damaged_file() {
     room.run(&["motion", "empty.bvh", "--keep-going"])
         .ends(2, "", "empty.bvh: line 1, column 1");
 }
+
+#[test]
+fn clips_that_come_along_are_written() {
+    for (legs, joints, frames) in [("2", 21, 25), ("4", 19, 25), ("6", 24, 17)] {
+        let room = room();
+        room.run(&["motion", "walk", "-o", "walk.bvh", "--legs", legs])
+            .ends(0, "", "wrote walk.bvh");
+        let clip = written(&room, "walk.bvh");
+        assert_eq!(
+            (clip.skeleton.joints.len(), clip.frames()),
+            (joints, frames)
+        );
+    }
+    let room = room();
+    room.run(&["motion", "walk", "--legs", "3"])
+        .ends(2, "", "expected 2, 4 or 6");
+    room.run(&["motion", "kick.bvh", "--up", "w"])
+        .ends(2, "", "expected one of +x");
+    room.run(&["motion", "wlak"]).ends(2, "", "wlak");
+}
+
+#[test]
+fn a_loop_in_place_ends_where_it_begins() {
+    let room = room();
+    room.run(&["motion", "kick.bvh", "-o", "loop.bvh", "--full", "-il"])
+        .ends(0, "", "a loop of the frames");
+    let clip = written(&room, "loop.bvh");
+    let (first, last) = (clip.pose(0), clip.pose(clip.frames() - 1));
+    for (first, last) in first.iter().zip(&last) {
+        assert!(first.position.distance(last.position) < 0.01);
+    }
+}

@@ -318,7 +318,7 @@ fn has_flag(attribute: &Attribute, letter: char) -> bool {
     flags.any(|(flag, _)| flag.eq_ignore_ascii_case(&letter))
 }
 
-/// The value of `Motion`, without the `Limited` that may follow it.
+/// The value of `Motion`.
 fn motion(attribute: &Attribute, values: &[ArgumentValue]) -> Option<Motion> {
     let (first, others) = values.split_first()?;
     let source = match first {
@@ -336,12 +336,10 @@ fn motion(attribute: &Attribute, values: &[ArgumentValue]) -> Option<Motion> {
     });
     Some(Motion {
         source,
-        source_range: attribute.arguments.first()?.range.clone(),
         clip,
         up,
         is_in_place: has_flag(attribute, 'i'),
         is_loop: has_flag(attribute, 'l'),
-        limited: None,
     })
 }
 

@@ -4,7 +4,9 @@ use serde_json::{Value, json};
 
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::kinds::KINDS;
-use crate::lang::keyword::vocabulary::{AXES, BIND, FUNCTIONS, GROUND, ORIGIN, STROKES, TILE};
+use crate::lang::keyword::vocabulary::{
+    AXES, BIND, CLIPS, FUNCTIONS, GROUND, ORIGIN, STROKES, TILE,
+};
 
 const NOTE: &str =
     "Generated from the keyword table: OKOSHI_REWRITE=generated cargo test --test generated";
@@ -155,7 +157,7 @@ fn functions() -> String {
 
 fn words() -> String {
     let choices = ORIGIN.iter().chain(&GROUND).chain(&BIND).chain(&STROKES);
-    let choices = choices.chain(&TILE).map(|word| word.name);
+    let choices = choices.chain(&TILE).chain(&CLIPS).map(|word| word.name);
     let mut names: Vec<_> = KINDS.iter().map(|kind| kind.name).chain(choices).collect();
     names.sort_unstable();
     names.dedup();

@@ -87,8 +87,9 @@ fn feet_on_the_ground_stay_where_they_are() {
                 let [before, after] = [&pair[0], &pair[1]].map(|pose| sole(leg, pose));
                 let stands = match contact {
                     Some((touches, duty)) => {
-                        let since =
-                            |frame: usize| (frame as f64 / frames as f64 - touches).rem_euclid(1.0);
+                        let since = |frame: usize| {
+                            (gaits::START + frame as f64 / frames as f64 - touches).rem_euclid(1.0)
+                        };
                         since(frame) < since(frame + 1) && since(frame + 1) <= duty
                     }
                     None => [before, after].iter().flatten().all(|point| point.y < 0.3),
