@@ -361,7 +361,7 @@ impl Shooting<'_> {
             std::thread::Builder::new()
                 .spawn_scoped(scope, move || self.render(moments, sender))
                 .map_err(|_| RenderError::from(Crash::no_threads()))?;
-            take(batches, &mut each)
+            hand_over(batches, &mut each)
         })
     }
 
@@ -416,7 +416,7 @@ impl Shooting<'_> {
 type Batch = Result<Vec<Image>, RenderError>;
 
 /// Hands over pictures one by one until there are no more. Its end, early or not, ends the rendering of more.
-fn take<E: From<RenderError>>(
+fn hand_over<E: From<RenderError>>(
     batches: Receiver<Batch>,
     each: &mut impl FnMut(Image) -> Result<(), E>,
 ) -> Result<(), E> {

@@ -1,7 +1,7 @@
 //! Videos: ffmpeg encodes them from frames that are piped to it.
 
 use std::io::{self, Read as _, Write as _};
-use std::process::{Child, ChildStdin, Command, Stdio};
+use std::process::{Child, ChildStderr, ChildStdin, Command, Stdio};
 use std::thread::JoinHandle;
 
 use crate::disk::Scratch;
@@ -106,20 +106,13 @@ impl Encoder {
             .spawn()
             .map_err(not_started)?;
         let frames = child.stdin.take();
-        let errors = child.stderr.take().map(|stderr| {
-            std::thread::spawn(move || {
-                let mut told = Vec::new();
-                let mut stderr = stderr.take(MAX_ERROR_BYTES);
-                // What could be read is shown.
-                let _ = stderr.read_to_end(&mut told);
-                let _ = io::copy(&mut stderr.into_inner(), &mut io::sink());
-                String::from_utf8_lossy(&told).into_owned()
-            })
-        });
+        let errors = child.stderr.take();
+        let errors =
+            errors.map(|errors| std::thread::Builder::new().spawn(move || read_errors(errors)));
         Ok(Self {
             child,
             frames,
-            errors,
+            errors: errors.transpose()?,
         })
     }
 
@@ -159,6 +152,16 @@ impl Encoder {
             false => Err(io::Error::other(failure(&told.unwrap_or_default()))),
         }
     }
+}
+
+/// The beginning of what ffmpeg writes to its stderr, which is read to its end.
+fn read_errors(errors: ChildStderr) -> String {
+    let mut told = Vec::new();
+    let mut errors = errors.take(MAX_ERROR_BYTES);
+    // What could be read is shown.
+    let _ = errors.read_to_end(&mut told);
+    let _ = io::copy(&mut errors.into_inner(), &mut io::sink());
+    String::from_utf8_lossy(&told).into_owned()
 }
 
 impl Drop for Encoder {
