@@ -111,12 +111,12 @@ pub struct Transform {
 
 impl Transform {
     /// A point of the local frame in the outer one.
-    pub(crate) fn apply(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn apply(self, point: DVec3) -> DVec3 {
         self.rotation * point + self.position
     }
 
     /// A point of the outer frame in the local one.
-    pub(crate) fn to_local(&self, point: DVec3) -> DVec3 {
+    pub(crate) fn to_local(self, point: DVec3) -> DVec3 {
         self.rotation.inverse() * (point - self.position)
     }
 }

@@ -134,7 +134,6 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
         world(&compiled.scene, &still, 0)
     };
     let mut worst = 0.0_f64;
-    let at_rest = Body::of_offsets(clip, &Landmarks::of(&prepared.anatomy), facing);
     let (mut looked_at, mut splayed) = (0, 0);
     for frame in 0..clip.frames() {
         let pose = clip.pose(frame);
@@ -145,13 +144,11 @@ fn worst(compiled: &Compiled, figure_clip: &FigureClip, facing: Facing, turn: DQ
                 continue;
             };
             let node = names[name];
-            // What points like the chain: the part's axis, or if it keeps its drawn pose the chain at rest; in the node's own frame.
+            // What points like the chain: the part's axis, or if it keeps its drawn pose the mean of the chain; in the node's own frame.
             let points = match drive.why.contains("keeps its drawn pose") {
                 true => {
                     splayed += 1;
-                    let offsets = clip.skeleton.offset_pose();
-                    let way = chain(clip, &offsets, &drive.why).expect("a chain");
-                    at_rest.drawn(&offsets, way)
+                    body.mean(clip, |pose| chain(clip, pose, &drive.why))
                 }
                 false => axis(compiled, drive.part),
             };

@@ -34,7 +34,7 @@ impl Body {
     }
 
     /// The same for the skeleton's offset pose, which may have been made in other axes.
-    pub(crate) fn of_offsets(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> Self {
+    fn of_offsets(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> Self {
         let pose = clip.skeleton.offset_pose();
         Self::from_rise(landmarks, facing, rise(landmarks, &pose))
     }
@@ -69,6 +69,13 @@ impl Body {
             Facing::Right => DVec3::new(front, up, -left),
             Facing::Left => DVec3::new(-front, up, left),
         }
+    }
+
+    /// The mean of a direction over all frames, in the axes of a drawing of the body.
+    pub(crate) fn mean(&self, clip: &Clip, way: impl Fn(&[Transform]) -> Option<DVec3>) -> DVec3 {
+        let poses = (0..clip.frames()).map(|frame| clip.pose(frame));
+        let ways = poses.filter_map(|pose| Some(self.drawn(&pose, way(&pose)?.normalize())));
+        ways.sum::<DVec3>().normalize()
     }
 
     /// The same as a rotation.
@@ -223,14 +230,11 @@ fn check(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> Worst {
                     let off = angle(turned * drawn, body.drawn(&first, lean(&pose)));
                     worst.limbs = worst.limbs.max(off);
                 }
-                // A limb that keeps its drawn pose turns by as much as its chain does.
+                // A limb that keeps its drawn pose turns by as much as its chain does, from where that is on average.
                 (Follow::Change, Some(way)) => {
                     let turned = placed[index].rotation * part.node.rotation.inverse();
-                    let before = direction(clip, &rest, drive).expect("a chain");
-                    let off = angle(
-                        turned * at_rest.drawn(&rest, before),
-                        body.drawn(&first, way),
-                    );
+                    let mean = body.mean(clip, |pose| direction(clip, pose, drive));
+                    let off = angle(turned * mean, body.drawn(&first, way));
                     worst.limbs = worst.limbs.max(off);
                 }
                 (Follow::Change, None) => {

@@ -59,7 +59,7 @@ pub enum Follow {
     /// Its axis points like the bone or chain, from the joint to the tip: limbs.
     Direction,
     /// It turns by as much as the joint has turned from its rest, starting from the drawn pose: trunk, neck, head. If there is a
-    /// tip, it leans by as much as the chain from the joint to the tip.
+    /// tip, as for a limb that is splayed, it turns like the chain from the joint to the tip, from where that is on average.
     Change,
     /// Like a change, but it leans by as much as the line from the hips to the middle of the shoulders: a trunk of one piece.
     Trunk {

@@ -138,7 +138,8 @@ pub fn retarget(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> RetargetedClip
     let mut poses = PoseBuffer::new(clip);
     let axes = axes::Axes::of(clip, landmarks, rig.facing);
     let rest = rest_pose::choose(clip, rig, landmarks, &axes, &mut poses);
-    let mut rotations = rotations::rotations(clip, rig, &axes, &rest, &mut poses, &order);
+    let mut rotations =
+        rotations::rotations(clip, rig, landmarks, &axes, &rest, &mut poses, &order);
     let root_motion =
         root_motion::root_motion(clip, rig, landmarks, &axes, &rotations, &order, &mut poses);
     swing::swing(

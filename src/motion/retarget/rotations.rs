@@ -2,7 +2,7 @@
 
 use glam::{DQuat, DVec3};
 
-use super::axes::Axes;
+use super::axes::{Axes, Landmarks};
 use super::rest_pose::RestPose;
 use super::{PoseBuffer, Rig};
 use crate::motion::matching::{Drive, Follow};
@@ -59,16 +59,23 @@ impl Rotations {
 pub(super) fn rotations(
     clip: &Clip,
     rig: &Rig,
+    landmarks: &Landmarks,
     axes: &Axes,
     rest: &RestPose,
     poses: &mut PoseBuffer<'_>,
     order: &[usize],
 ) -> Rotations {
     let count = rig.parts.len();
-    let solvers: Vec<(usize, PartRotation)> = order
-        .iter()
-        .filter_map(|part| Some((*part, PartRotation::new(clip, rig, *part, axes, rest)?)))
-        .collect();
+    let means = mean_references(clip, rig, landmarks, axes, poses);
+    let solver = |part: &usize| {
+        let drive = rig.parts[*part].drive?;
+        let reference = match means[*part] {
+            Some(mean) => mean,
+            None => Reference::at_rest(clip, &drive, rest),
+        };
+        Some((*part, PartRotation::new(rig, *part, axes, reference)?))
+    };
+    let solvers: Vec<(usize, PartRotation)> = order.iter().filter_map(solver).collect();
     let mut own: Vec<Option<Vec<DQuat>>> = vec![None; count];
     for (part, _) in &solvers {
         own[*part] = Some(Vec::with_capacity(clip.frames()));
@@ -77,7 +84,7 @@ pub(super) fn rotations(
         let pose = poses.at(frame);
         for (part, solver) in &solvers {
             if let Some(rotations) = &mut own[*part] {
-                rotations.push(solver.at(clip, pose, rest));
+                rotations.push(solver.at(clip, pose));
             }
         }
     }
@@ -89,51 +96,115 @@ pub(super) fn rotations(
     rotations
 }
 
+/// What a joint's rotations are measured from.
+#[derive(Debug, Clone, Copy)]
+struct Reference {
+    /// From the drawing's axes to the joint's own: Rⱼ(r)ᵀ · Cᵣ.
+    turn: DQuat,
+    /// The direction of the chain, if the part follows one, in the drawing's axes: Cᵣᵀ · d(r).
+    direction: Option<DVec3>,
+}
+
+impl Reference {
+    fn at_rest(clip: &Clip, drive: &Drive, rest: &RestPose) -> Self {
+        Self::of(clip, drive, rest.axes, &rest.pose)
+    }
+
+    /// A pose as the reference, in which the body has these axes.
+    fn of(clip: &Clip, drive: &Drive, axes: DQuat, pose: &[Transform]) -> Self {
+        let direction = drive.direction(&clip.skeleton, pose);
+        Self {
+            turn: pose[drive.joint].rotation.inverse() * axes,
+            direction: direction.map(|direction| axes.inverse() * direction),
+        }
+    }
+}
+
+/// Per part the mean over all frames, for limbs that keep their drawn pose: wings are drawn as they are on average, not as the arms
+/// of a T-pose. `None` for all others, and for limbs that point everywhere.
+fn mean_references(
+    clip: &Clip,
+    rig: &Rig,
+    landmarks: &Landmarks,
+    axes: &Axes,
+    poses: &mut PoseBuffer<'_>,
+) -> Vec<Option<Reference>> {
+    /// The length of the mean of the directions, below which a limb has no main direction.
+    const MAIN: f64 = 0.2;
+
+    let mut sums: Vec<Option<(Drive, DQuat, DVec3)>> = vec![None; rig.parts.len()];
+    for (part, sum) in rig.parts.iter().zip(&mut sums) {
+        let keeps_pose = |drive: &Drive| drive.follow == Follow::Change && drive.tip.is_some();
+        let none = DQuat::from_xyzw(0.0, 0.0, 0.0, 0.0);
+        *sum = part
+            .drive
+            .filter(keeps_pose)
+            .map(|drive| (drive, none, DVec3::ZERO));
+    }
+    if sums.iter().all(Option::is_none) {
+        return vec![None; rig.parts.len()];
+    }
+    for frame in 0..clip.frames() {
+        let pose = poses.at(frame);
+        let body = axes.at(landmarks, pose);
+        for (drive, turns, directions) in sums.iter_mut().flatten() {
+            let own = Reference::of(clip, drive, body, pose);
+            let is_opposite = turns.dot(own.turn) < 0.0;
+            *turns = *turns + if is_opposite { -own.turn } else { own.turn };
+            *directions += own.direction.unwrap_or_default();
+        }
+    }
+    let mean = |(_, turns, directions): (Drive, DQuat, DVec3)| {
+        let frames = clip.frames() as f64;
+        let is_clear = turns.length() > MAIN * frames && directions.length() > MAIN * frames;
+        is_clear.then(|| Reference {
+            turn: turns.normalize(),
+            direction: directions.try_normalize(),
+        })
+    };
+    sums.into_iter().map(|sum| sum.and_then(mean)).collect()
+}
+
 /// Computes the rotations of one part.
 struct PartRotation {
     drive: Drive,
+    reference: Reference,
     /// From the clip's world to the drawing's axes: C₀ᵀ.
     to_drawing: DQuat,
-    /// The rotation that the joint's change is applied to: Cᵣ · A · D for limbs, Cᵣ · D for bodies.
+    /// The rotation that the joint's change is applied to: A · D for limbs, D for bodies.
     drawn: DQuat,
-    /// The direction of the chain at rest, if the part follows one, in the clip's world.
-    direction: Option<DVec3>,
     /// The viewer's axis in the clip's world.
     viewer: DVec3,
 }
 
 impl PartRotation {
-    fn new(clip: &Clip, rig: &Rig, part: usize, axes: &Axes, rest: &RestPose) -> Option<Self> {
+    fn new(rig: &Rig, part: usize, axes: &Axes, reference: Reference) -> Option<Self> {
         let part = &rig.parts[part];
         let drive = part.drive?;
-        let direction = drive.direction(&clip.skeleton, &rest.pose);
         let axis = (part.tip - part.joint).try_normalize();
-        let align = match (drive.follow, axis, direction) {
-            (Follow::Direction, Some(axis), Some(direction)) => {
-                arc(axis, rest.axes.inverse() * direction, DVec3::Z)
-            }
+        let align = match (drive.follow, axis, reference.direction) {
+            (Follow::Direction, Some(axis), Some(direction)) => arc(axis, direction, DVec3::Z),
             _ => DQuat::IDENTITY,
         };
         Some(Self {
             drive,
+            reference,
             to_drawing: axes.first.inverse(),
-            drawn: rest.axes * align * part.node.rotation,
-            direction,
+            drawn: align * part.node.rotation,
             viewer: axes.first * DVec3::Z,
         })
     }
 
     /// G(k) · D with G(k) = C₀ᵀ · S(k) · Rⱼ(k) · Rⱼ(r)ᵀ · Cᵣ · A; A is the identity for parts that keep the drawn pose, S for those
     /// that follow no chain.
-    fn at(&self, clip: &Clip, pose: &[Transform], rest: &RestPose) -> DQuat {
-        let joint = self.drive.joint;
-        let change = pose[joint].rotation * rest.pose[joint].rotation.inverse();
+    fn at(&self, clip: &Clip, pose: &[Transform]) -> DQuat {
+        let turn = pose[self.drive.joint].rotation * self.reference.turn;
         let now = self.drive.direction(&clip.skeleton, pose);
-        let straighten = match (self.direction, now) {
-            (Some(rest), Some(now)) => arc(change * rest, now, self.viewer),
+        let straighten = match (self.reference.direction, now) {
+            (Some(rest), Some(now)) => arc(turn * rest, now, self.viewer),
             _ => DQuat::IDENTITY,
         };
-        (self.to_drawing * straighten * change * self.drawn).normalize()
+        (self.to_drawing * straighten * turn * self.drawn).normalize()
     }
 }
 

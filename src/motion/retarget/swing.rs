@@ -300,7 +300,7 @@ impl Pendulum {
         let most = MAX_ANGLE.to_radians();
         let cross = drawn.cross(offset);
         let angle = cross.length().atan2(drawn.dot(offset));
-        if !(angle > most) {
+        if angle <= most || angle.is_nan() {
             return offset;
         }
         let axis = cross.try_normalize();
