@@ -150,7 +150,7 @@ fn mean_references(
         for (drive, turns, directions) in sums.iter_mut().flatten() {
             let own = Reference::of(clip, drive, body, pose);
             let is_opposite = turns.dot(own.turn) < 0.0;
-            *turns = *turns + if is_opposite { -own.turn } else { own.turn };
+            *turns += if is_opposite { -own.turn } else { own.turn };
             *directions += own.direction.unwrap_or_default();
         }
     }
