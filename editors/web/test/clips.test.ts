@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
 import { camera, overlaps, picture, project, shown, still, type Colour } from "./browser";
-import { EXPOSURE, FACTS, FRAMES, FPS, FULL, kick, LEG, OMITTED, raised, SECONDS, SSD } from "./kick";
+import { aside, EXPOSURE, FACTS, FRAMES, FPS, FULL, kick, LEG, OMITTED, raised, SECONDS, SSD } from "./kick";
 import type { MockHost } from "./mock";
 import { assertLike, browse, build, FIGURE, isLike } from "./setup";
 import { animate } from "./animate";
@@ -253,6 +253,31 @@ browse("the inspector shows which joint drives a part, and why", kicking(), asyn
   assert.match(await page.locator(".inspector").innerText(), /Driven by\s+RightUpLeg — drawn left, so right; lowest point near the ground/);
   await page.locator("[data-part=Head]").click();
   assert.match(await page.locator(".inspector").innerText(), /Driven by\s+no joint: it follows its parent/);
+});
+
+browse("the view goes along with a figure that travels, and stays where it is afterwards", kicking(), async (page) => {
+  await shown(page);
+  await page.keyboard.press(" ");
+  const button = page.getByRole("button", { name: "Follow the figure" });
+  const numbers = async () => (await camera(page)).split(" ").slice(0, 6).map(Number);
+  const seek = async (time: number) => {
+    await page.locator(".slider").fill(String(time));
+    await still(page);
+    return numbers();
+  };
+  const begin = await seek(0);
+  assert.deepEqual(await seek(SECONDS), begin, "without the switch the view stays");
+  await seek(0);
+  await page.locator("canvas").focus();
+  await page.keyboard.press("v");
+  assert.equal(await button.getAttribute("aria-pressed"), "true");
+  const end = await seek(SECONDS);
+  end.forEach((number, at) => assert.ok(Math.abs(number - begin[at]! - (at % 3 === 0 ? aside(EXPOSURE.at(-1)![0]) : 0)) < 1e-3, `${begin} ${end}`));
+  const back = await seek(0);
+  back.forEach((number, at) => assert.ok(Math.abs(number - begin[at]!) < 1e-3, `${begin} ${back}`));
+  await button.click();
+  assert.equal(await button.getAttribute("aria-pressed"), "false");
+  assert.deepEqual(await seek(SECONDS), await seek(0));
 });
 
 browse("the drawings of one of several figures are counted; without facts keys are counted", (host) => {

@@ -41,7 +41,7 @@ export function raised(frame: number): number {
   };
   return -0.5 * between(0, 22) + 2.1 * between(23, 34) - 1.6 * between(36, 59);
 }
-const aside = (frame: number): number => (STEP_ASIDE * frame) / (FRAMES - 1);
+export const aside = (frame: number): number => (STEP_ASIDE * frame) / (FRAMES - 1);
 
 /** For the two joints that move, hip and foot. */
 export const SSD = Array.from({ length: FRAMES }, (_, frame) => {

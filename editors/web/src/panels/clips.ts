@@ -1,6 +1,6 @@
 // The clip bar: which clip plays, at what time and speed, and above it the chart.
 
-import { ChartSpline, Columns2, Pause, Play, Repeat, SkipBack, SkipForward } from "lucide";
+import { ChartSpline, Columns2, Footprints, Pause, Play, Repeat, SkipBack, SkipForward } from "lucide";
 import type { AnimationClip } from "three";
 import { button, fill, h, icon, svg } from "../dom";
 import { drawingAt, keysOf } from "../viewport/clips";
@@ -31,6 +31,7 @@ export class Clips {
   private readonly now = svg("path", { class: "now" });
   private readonly readout = h("output", { class: "readout" });
   private readonly loop = button({ icon: Repeat, label: "Loop", press: () => this.viewer.moved(() => (this.player.loops = !this.player.loops)) });
+  private readonly along = button({ icon: Footprints, label: "Follow the figure", key: "V", press: () => this.followTravel() });
   private readonly charts = button({ icon: ChartSpline, label: "Chart", key: "C", press: () => this.chart.toggle() });
   private readonly compares = button({ icon: Columns2, label: "Full and limited side by side", key: "O", press: () => this.compare() });
   private readonly speed = h("select", { class: "select", attributes: { "aria-label": "Speed" } }, ...SPEEDS.map((speed) => h("option", { attributes: { value: speed } }, `${speed}×`)));
@@ -52,7 +53,7 @@ export class Clips {
       ),
       h("div", { class: "timeline" }, this.ticks, this.slider),
       this.readout,
-      h("div", { class: "clip-looks" }, this.charts, this.compares, this.loop),
+      h("div", { class: "clip-looks" }, this.charts, this.compares, this.along, this.loop),
       this.speed,
     );
     fill(this.panel, this.chart.element, this.element);
@@ -75,6 +76,11 @@ export class Clips {
 
   toggle(): void {
     this.viewer.moved(() => this.player.play(!this.player.playing));
+  }
+
+  /** Lets the view go along with a figure that travels, or stay. */
+  followTravel(): void {
+    this.viewer.followTravel(!this.viewer.travel.wanted);
   }
 
   /** Goes to the previous or next drawing or key. */
@@ -145,6 +151,7 @@ export class Clips {
     this.now.setAttribute("d", box ? outline(box, clip.duration) : "");
     this.element.dataset["playing"] = String(playing);
     this.loop.setAttribute("aria-pressed", String(loops));
+    this.along.setAttribute("aria-pressed", String(this.viewer.travel.wanted));
     this.charts.hidden = !this.chart.isPossible;
     this.charts.setAttribute("aria-pressed", String(this.chart.isOpen));
     this.compares.hidden = !comparison.isPossible;

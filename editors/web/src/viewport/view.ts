@@ -117,6 +117,11 @@ export class View {
     return at.z > 1 ? null : { x: (at.x + 1) / 2, y: (1 - at.y) / 2 };
   }
 
+  /** Moves target and camera alike. */
+  shift(by: Vector3): void {
+    if (by.lengthSq() > 0) this.place(this.direction(), this.controls.target.clone().add(by), this.distance());
+  }
+
   /** Looks from the named view; distance and target stay. */
   look(name: ViewName): void {
     this.go(directionOf(VIEWS[name]), this.controls.target.clone(), this.distance(), true);

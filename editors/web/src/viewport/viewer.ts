@@ -15,6 +15,7 @@ import { drawingAt, Player } from "./clips";
 import { Pose } from "./pose";
 import { RenderLoop } from "./render-loop";
 import { Stack } from "./stack";
+import { Travel } from "./travel";
 import { View } from "./view";
 import { Box3, Vector3, type Camera, type Object3D } from "three";
 
@@ -45,6 +46,7 @@ export class Viewer {
   readonly sideBySide: SideBySide;
   readonly comparison: Comparison;
   readonly stack: Stack;
+  readonly travel = new Travel();
   private readonly ground: Ground;
   private readonly highlight = new Highlight();
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
@@ -197,11 +199,26 @@ export class Viewer {
   /** The user stopped, started or moved the clip. */
   moved(change: () => void): void {
     this.pose.release();
+    const { clip } = this.player;
     change();
+    if (this.player.clip !== clip) this.travel.restart();
     this.comparison.follow();
+    this.goAlong();
     this.pose.apply();
     this.renderLoop.moved();
     this.notify("time");
+  }
+
+  /** Lets the view go along with a figure that travels, or no longer. */
+  followTravel(on: boolean): void {
+    this.travel.wanted = on;
+    this.travel.restart();
+    this.goAlong();
+    this.notify("time");
+  }
+
+  private goAlong(): void {
+    if (this.travel.wanted) this.view.shift(this.travel.since(this.model, this.player.clip));
   }
 
   /** Runs `draw` while marks and ground are hidden. */
@@ -258,6 +275,7 @@ export class Viewer {
     model.shade(this.shading);
     this.exposures = wanted.clips.map((facts) => new ExposureSheet(facts));
     this.player.take(model, !prefersReducedMotion());
+    this.travel.restart();
     this.pose.apply();
     this.renderLoop.scene.add(model.root);
     this.surround();
@@ -365,6 +383,7 @@ export class Viewer {
     this.pose.release();
     const more = this.player.advance(seconds);
     this.comparison.follow();
+    this.goAlong();
     this.pose.apply();
     // A held drawing is not drawn again.
     if (this.sideBySide.copy || !keys.held || drawingAt(keys, time) !== drawingAt(keys, this.player.time)) this.renderLoop.moved();
