@@ -52,7 +52,7 @@ formatting() { cargo fmt --check; }
 lints() { cargo clippy --locked --all-targets -- -D warnings; }
 # With the tests, for what is built alone has other features of some libraries, and all would be built once more.
 program() { cargo build --locked --bins --tests; }
-tests() { cargo test --locked; }
+tests() { cargo test --locked --no-fail-fast; }
 manual() { RUSTDOCFLAGS="-D warnings" cargo doc --locked --no-deps; }
 
 licences() {

@@ -17,7 +17,7 @@ fn drives(figure: &Figure, clip: &Clip) -> (Vec<String>, Vec<Problem>) {
     let short = |part: &MatchedPart| match part.drive {
         None => "-".to_owned(),
         Some(drive) => {
-            assert!(drive.tip.is_some() || drive.follow == Follow::Change);
+            assert!(drive.tip.is_some() || drive.follow != Follow::Direction);
             let name = |joint: usize| skeleton.joints[joint].name.clone();
             let tip = drive.tip.filter(|_| drive.follow == Follow::Direction);
             match tip {
