@@ -78,7 +78,7 @@ fn inspect_explains_why_a_joint_drives_a_part() {
         "clip kick of Hips, from kick.bvh: 2.83 s, 68 frames, 34 drawings\n",
         "   omitted 4 frames: 32-35\n",
         "   Rarm      RightArm      `Rarm` is an arm by its name, and its side is right; it points from `RightArm` to `RightForeArm`\n",
-        "   Body      Chest         `Body` is a body by its name; it turns with `Chest`\n",
+        "   Body      Chest         `Body` is a body by its name; it turns with `Chest` and leans with the line from the hips to the shoulders\n",
     ] {
         assert!(run.out.contains(line), "{line:?} is not in:\n{}", run.out);
     }
