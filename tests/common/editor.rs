@@ -151,7 +151,7 @@ impl Editor {
     }
 
     /// The next message that `wanted` accepts; others are dropped.
-    pub(crate) fn until(&mut self, wanted: impl Fn(&Value) -> bool) -> Value {
+    pub(crate) fn until(&mut self, mut wanted: impl FnMut(&Value) -> bool) -> Value {
         let until = Instant::now() + PATIENCE;
         while let Some(note) = self.notes.pop_front() {
             if wanted(&note) {
