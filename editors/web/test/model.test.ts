@@ -251,7 +251,7 @@ browse("clips play, can be scrubbed, and continue in the next model", (host) => 
   await front(page);
   const clips = page.locator(".clips");
   assert.equal(await clips.getAttribute("data-playing"), "false", "who wants little movement starts it by hand");
-  assert.equal(await page.locator(".ticks").getAttribute("data-keys"), "5");
+  assert.equal(await page.locator(".ticks").getAttribute("data-keys"), "4");
   assert.equal(await page.locator(".clips .readout").innerText(), "drawing 1 of 5 · 0.00 s");
   const hand = await at(page, 240, 120, 0.08);
   assertLike((await picture(page)).at(hand), GREEN, "the hand in the first drawing");
