@@ -1,6 +1,5 @@
 //! Reports copies (`-s`, `-d`) that coincide with their original or with another copy of it.
 
-use glam::DVec2;
 use rayon::prelude::*;
 
 use super::FigureContext;
@@ -40,12 +39,10 @@ fn depths(context: &FigureContext<'_>, part: usize) -> Option<[f64; 2]> {
         context.bindings.parts[part].kind,
         PartKind::Main | PartKind::Sub
     );
-    let profile = context.profile(part).filter(|_| built)?;
-    let measure = &context.bindings.parts[part].measure;
-    let half = DVec2::new(measure.half_across, measure.half_along);
-    let [low, high] = profile.depths(half, &context.options(part, &profile))?;
-    let offset = context.offset(part);
-    Some([low + offset, high + offset])
+    match built {
+        true => Some(context.thickness(part, context.offset(part))?.depths),
+        false => None,
+    }
 }
 
 /// Whether a solid reaches equally far to both sides of a plane.

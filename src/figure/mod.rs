@@ -136,6 +136,8 @@ impl<'a> Figures<'a> {
         let thicknesses = match bindings.clip_requests().is_empty() {
             true => Vec::new(),
             false => (0..bindings.parts.len())
+                .into_par_iter()
+                .with_min_len(GRAIN)
                 .map(|part| self.context.thickness(part, self.layers.offset(part)))
                 .collect(),
         };

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::labels::Anatomy;
+use super::limited::ssd;
 use super::resample::{Mix, mixed};
 use super::skeleton::Clip;
 use super::travel::root_positions;
@@ -79,18 +80,15 @@ struct Poses {
 impl Poses {
     fn of(clip: &Clip, anatomy: &Anatomy, up: DVec3) -> Self {
         let count = clip.skeleton.joints.len();
-        let is_labelled = |joint: &usize| matches!(anatomy.labels.get(*joint), Some(Some(_)));
-        let mut points: Vec<usize> = (0..count).filter(is_labelled).collect();
+        let mut points: Vec<usize> = anatomy.labelled().collect();
         if points.is_empty() {
             points = (0..count).collect();
         }
         let hips = anatomy.hips.unwrap_or(0);
         let mut places = Vec::with_capacity(clip.frames() * points.len());
-        let mut pose = Vec::new();
-        for frame in 0..clip.frames() {
-            clip.pose_into(frame, &mut pose);
-            let below = pose[hips].position.reject_from(up);
-            places.extend(points.iter().map(|joint| pose[*joint].position - below));
+        for pose in clip.positions().chunks_exact(count.max(1)) {
+            let below = pose[hips].reject_from(up);
+            places.extend(points.iter().map(|joint| pose[*joint] - below));
         }
         Self {
             points: points.len(),
@@ -104,8 +102,7 @@ impl Poses {
 
     /// The sum of the squared distances of two poses.
     fn apart(&self, a: usize, b: usize) -> f64 {
-        let pairs = self.at(a).iter().zip(self.at(b));
-        pairs.map(|(a, b)| a.distance_squared(*b)).sum()
+        ssd(self.at(a), self.at(b))
     }
 
     /// The sum of the squared differences of their velocities, per frame.

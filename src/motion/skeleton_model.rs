@@ -97,15 +97,7 @@ fn animation(
 ) -> Animation {
     let step = clip.frame_time;
     let keys: Vec<[usize; 2]> = match exposure {
-        Some(sheet) => {
-            let drawings = sheet.drawings();
-            let mut keys: Vec<[usize; 2]> = drawings
-                .map(|drawing| [drawing.start, drawing.source as usize])
-                .collect();
-            // Readers take the last key for the end of the clip.
-            keys.extend(keys.last().map(|[_, source]| [sheet.len(), *source]));
-            keys
-        }
+        Some(sheet) => sheet.step_keys(),
         None => (0..clip.frames()).map(|frame| [frame; 2]).collect(),
     };
     let mut animation = Animation {

@@ -44,12 +44,9 @@ pub fn travel(path: &[DVec3], up: DVec3, fps: f64, ending: Ending) -> Vec<DVec3>
 /// The clip without the travel of a joint, its hips. `up` is the axis of the clip's world that points up.
 #[must_use]
 pub fn in_place(clip: &Clip, hips: usize, up: DVec3, ending: Ending) -> Clip {
-    let mut pose = Vec::new();
-    let mut path = Vec::with_capacity(clip.frames());
-    for frame in 0..clip.frames() {
-        clip.pose_into(frame, &mut pose);
-        path.push(pose[hips].position);
-    }
+    let positions = clip.positions();
+    let poses = positions.chunks_exact(clip.skeleton.joints.len().max(1));
+    let path: Vec<DVec3> = poses.map(|pose| pose[hips]).collect();
     let travel = travel(&path, up, 1.0 / clip.frame_time, ending);
     let mut values = clip.values().to_vec();
     let width = clip.skeleton.channel_count();

@@ -145,11 +145,12 @@ pub fn add_clips(
                 is_played = true;
                 break;
             }
+            let figure = rigging::drawn_figure(context, group);
             let motion = match &motion {
                 Motion::File(motion) => Arc::clone(motion),
-                Motion::BuiltIn(which) => builder.built_in(*which, group),
+                Motion::BuiltIn(which) => builder.built_in(*which, &figure),
             };
-            let Some(matched) = builder.match_figure(group, &motion) else {
+            let Some(matched) = builder.match_figure(group, figure, &motion) else {
                 continue;
             };
             is_played = true;
@@ -181,22 +182,21 @@ struct ClipBuilder<'a> {
 
 impl ClipBuilder<'_> {
     /// A clip that comes along, for as many legs as a figure has.
-    fn built_in(&self, which: BuiltIn, group: &FigureGroup) -> Arc<PreparedClip> {
-        let figure = rigging::drawn_figure(self.context, group);
-        let legs = Legs::of(&figure);
+    fn built_in(&self, which: BuiltIn, figure: &Figure) -> Arc<PreparedClip> {
+        let legs = Legs::of(figure);
         self.memo.get(BuiltInKey(which, legs), |key| {
             Arc::new(prepare::built_in(key.0, key.1))
         })
     }
 
-    /// Matches a figure with a motion; `None` if no joint drives any part.
+    /// Matches a figure, as it is drawn, with a motion; `None` if no joint drives any part.
     fn match_figure(
         &mut self,
         group: &FigureGroup,
+        figure: Figure,
         motion: &PreparedClip,
     ) -> Option<MatchedFigure> {
-        let matched = |group: FigureGroup| {
-            let figure = rigging::drawn_figure(self.context, &group);
+        let matched = |group: FigureGroup, figure: Figure| {
             let matching = match_figure(&figure, &motion.clip.skeleton, &motion.anatomy);
             MatchedFigure {
                 group,
@@ -204,7 +204,7 @@ impl ClipBuilder<'_> {
                 matching,
             }
         };
-        let mut found = matched(group.clone());
+        let mut found = matched(group.clone(), figure);
         let is_hips = |part: &usize| {
             let label = found.matching.parts[*part].label.as_ref();
             label.is_some_and(|label| label.class == Class::Hips) && group.is_rooted(*part)
@@ -213,7 +213,9 @@ impl ClipBuilder<'_> {
         let hips = (0..group.parts.len()).find(is_hips);
         let hips = hips.map(|part| group.parts[part]);
         if let Some(hips) = hips.filter(|hips| *hips != group.root) {
-            found = matched(group.clone().rooted_at(hips));
+            let group = group.clone().rooted_at(hips);
+            let figure = rigging::drawn_figure(self.context, &group);
+            found = matched(group, figure);
         }
         let mut parts = found.matching.parts.iter();
         if parts.all(|part| part.drive.is_none()) {

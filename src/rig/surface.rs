@@ -19,69 +19,87 @@ pub(super) fn outermost(
     nodes: impl Iterator<Item = (usize, f64)> + Clone,
 ) -> Vec<DVec3> {
     let mut points: Vec<DVec3> = Vec::new();
-    for direction in directions() {
-        let mut best: Option<(f64, DVec3)> = None;
-        for (node, depth) in nodes.clone() {
-            for part in &context.parts_of_node[node] {
-                let Some(point) = support(context, *part, direction) else {
-                    continue;
-                };
-                let point = point + DVec3::Z * depth;
-                let reach = point.dot(direction);
-                if best.is_none_or(|(most, _)| reach > most) {
-                    best = Some((reach, point));
-                }
-            }
-        }
-        if let Some((_, point)) = best.filter(|(_, point)| !points.contains(point)) {
-            points.push(point);
+    for step in 0..AROUND {
+        let around = DVec2::from_angle(std::f64::consts::TAU * step as f64 / AROUND as f64);
+        // The outline is searched once for all tilts.
+        let supports = nodes.clone().flat_map(|(node, depth)| {
+            let parts = context.parts_of_node[node].iter();
+            parts.filter_map(move |part| Support::of(context, *part, depth, around))
+        });
+        let supports: Vec<Support> = supports.collect();
+        let tilts = TILTS.map(|tilt| {
+            let (up, level) = tilt.to_radians().sin_cos();
+            (around * level).extend(up)
+        });
+        // Straight to the front and to the back it makes no difference where on the outline.
+        let poles = [DVec3::Z, DVec3::NEG_Z];
+        let poles = poles.into_iter().filter(|_| step == 0);
+        for direction in tilts.into_iter().chain(poles) {
+            let reach = |point: &DVec3| point.dot(direction);
+            let farthest = supports.iter().map(|support| support.point(direction));
+            let farthest = farthest.reduce(|best, next| match reach(&next) > reach(&best) {
+                true => next,
+                false => best,
+            });
+            points.extend(farthest.filter(|point| !points.contains(point)));
         }
     }
     points
 }
 
-fn directions() -> impl Iterator<Item = DVec3> {
-    let tilted = TILTS.into_iter().flat_map(|tilt| {
-        let (up, level) = tilt.to_radians().sin_cos();
-        (0..AROUND).map(move |step| {
-            let angle = std::f64::consts::TAU * step as f64 / AROUND as f64;
-            DVec2::from_angle(angle).extend(0.0) * level + DVec3::Z * up
-        })
-    });
-    tilted.chain([DVec3::Z, DVec3::NEG_Z])
+/// What is needed of a part's solid to find the points that are farthest in directions with the same bearing in the drawing plane.
+struct Support {
+    /// The farthest point of its outline, and its centre.
+    border: DVec2,
+    center: DVec2,
+    /// The back and the front of its solid.
+    faces: [f64; 2],
+    is_soft: bool,
 }
 
-/// The point of a part's solid that is farthest in a direction, relative to its node's plane.
-fn support(context: &Context<'_>, part: usize, direction: DVec3) -> Option<DVec3> {
-    let own = &context.bindings.parts[part];
-    let rings = own.outline.polygons.iter().filter_map(|p| p.rings.first());
-    let farthest = rings
-        .flatten()
-        .map(|point| y_up(*point))
-        .reduce(|best, next| {
-            match next.dot(direction.truncate()) > best.dot(direction.truncate()) {
-                true => next,
-                false => best,
-            }
+impl Support {
+    /// That of a part whose node has a depth; `None` without an outline.
+    fn of(context: &Context<'_>, part: usize, depth: f64, around: DVec2) -> Option<Self> {
+        let own = &context.bindings.parts[part];
+        let rings = own.outline.polygons.iter().filter_map(|p| p.rings.first());
+        let points = rings.flatten().map(|point| y_up(*point));
+        let border = points.reduce(|best, next| match next.dot(around) > best.dot(around) {
+            true => next,
+            false => best,
         })?;
-    let Some(thickness) = context.thicknesses.get(part).copied().flatten() else {
-        return Some(farthest.extend(0.0));
-    };
-    let [back, front] = thickness.depths;
-    let face = if direction.z < 0.0 { back } else { front };
-    if !thickness.is_soft {
-        return Some(farthest.extend(face));
+        let thickness = context.thicknesses.get(part).copied().flatten();
+        Some(Self {
+            border,
+            center: y_up(own.measure.center),
+            faces: thickness.map_or([depth; 2], |thickness| {
+                thickness.depths.map(|face| face + depth)
+            }),
+            is_soft: thickness.is_some_and(|thickness| thickness.is_soft),
+        })
     }
-    let (middle, center) = (back.midpoint(front), y_up(own.measure.center));
-    let candidates = [
-        farthest.extend(middle),
-        center
-            .lerp(farthest, SOFT)
-            .extend(middle + SOFT * (face - middle)),
-        center.extend(face),
-    ];
-    let reach = |point: &DVec3| point.dot(direction);
-    candidates
-        .into_iter()
-        .max_by(|a, b| reach(a).total_cmp(&reach(b)))
+
+    /// The farthest point in a direction.
+    fn point(&self, direction: DVec3) -> DVec3 {
+        let [back, front] = self.faces;
+        let face = if direction.z < 0.0 { back } else { front };
+        if !self.is_soft {
+            return self.border.extend(face);
+        }
+        let middle = back.midpoint(front);
+        let candidates = [
+            self.border.extend(middle),
+            self.center
+                .lerp(self.border, SOFT)
+                .extend(middle + SOFT * (face - middle)),
+            self.center.extend(face),
+        ];
+        let reach = |point: &DVec3| point.dot(direction);
+        let mut farthest = candidates[0];
+        for point in candidates {
+            if reach(&point) >= reach(&farthest) {
+                farthest = point;
+            }
+        }
+        farthest
+    }
 }

@@ -32,18 +32,11 @@ impl KeyTimes {
         }
     }
 
-    /// A key for every drawing of an exposure sheet, held until the next one, and a closing key that ends the last one: readers
-    /// take the last key for the end of the clip.
+    /// A key for every drawing of an exposure sheet, held until the next one, and one that closes the clip.
     pub(super) fn stepped(exposure: &Exposure, frame_time: f64) -> Self {
-        let drawings = exposure.drawings();
-        let keys = drawings.map(|drawing| (drawing.start, drawing.source as usize));
-        let mut keys: Vec<(usize, usize)> = keys.collect();
-        keys.extend(keys.last().map(|(_, source)| (exposure.len(), *source)));
         let time = |frame: usize| (frame as f64 * frame_time) as f32;
-        let (times, frames) = keys
-            .into_iter()
-            .map(|(frame, source)| (time(frame), source))
-            .unzip();
+        let keys = exposure.step_keys().into_iter();
+        let (times, frames) = keys.map(|[frame, source]| (time(frame), source)).unzip();
         Self {
             timing: Arc::new(Timing {
                 times,

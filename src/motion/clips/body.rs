@@ -81,18 +81,18 @@ impl Body {
 
 /// An adult of 1.75 m.
 fn biped() -> Body {
-    let mut builder = Builder::new(DVec3::new(0.0, 95.0, 0.0));
+    let mut body = Body::begun(DVec3::new(0.0, 95.0, 0.0));
     let hips = 0;
-    let spine = builder.trunk("Spine", hips, DVec3::new(0.0, 10.0, 0.0));
-    let chest = builder.trunk("Chest", spine, DVec3::new(0.0, 13.0, 0.0));
-    let neck = builder.neck(chest, DVec3::new(0.0, 26.0, 0.0));
-    builder.head(neck, DVec3::new(0.0, 9.0, 1.0), DVec3::new(0.0, 20.0, 0.0));
+    let spine = body.trunk("Spine", hips, DVec3::new(0.0, 10.0, 0.0));
+    let chest = body.trunk("Chest", spine, DVec3::new(0.0, 13.0, 0.0));
+    let neck = body.neck(chest, DVec3::new(0.0, 26.0, 0.0));
+    body.head(neck, DVec3::new(0.0, 9.0, 1.0), DVec3::new(0.0, 20.0, 0.0));
     for side in Side::BOTH {
-        builder.arm(chest, side);
+        body.arm(chest, side);
     }
     for side in Side::BOTH {
         let x = sign(side);
-        builder.leg(LegPlan {
+        body.leg(LegPlan {
             side,
             pair: 0,
             parent: hips,
@@ -104,30 +104,30 @@ fn biped() -> Body {
             pole: DVec3::Z,
         });
     }
-    builder.done()
+    body
 }
 
 /// A dog of 60 cm at the shoulder.
 fn quadruped() -> Body {
-    let mut builder = Builder::new(DVec3::new(0.0, 58.0, -32.0));
+    let mut body = Body::begun(DVec3::new(0.0, 58.0, -32.0));
     let hips = 0;
-    let spine = builder.trunk("Spine", hips, DVec3::new(0.0, 2.0, 30.0));
-    let chest = builder.trunk("Chest", spine, DVec3::new(0.0, -2.0, 30.0));
-    let neck = builder.neck(chest, DVec3::new(0.0, 6.0, 8.0));
-    builder.head(
+    let spine = body.trunk("Spine", hips, DVec3::new(0.0, 2.0, 30.0));
+    let chest = body.trunk("Chest", spine, DVec3::new(0.0, -2.0, 30.0));
+    let neck = body.neck(chest, DVec3::new(0.0, 6.0, 8.0));
+    body.head(
         neck,
         DVec3::new(0.0, 16.0, 14.0),
         DVec3::new(0.0, 0.0, 18.0),
     );
-    let tail = builder.tail("Tail", hips, DVec3::new(0.0, 3.0, -8.0));
-    let tail = builder.tail("Tail2", tail, DVec3::new(0.0, 4.0, -16.0));
-    builder.skeleton.joints[tail]
+    let tail = body.tail("Tail", hips, DVec3::new(0.0, 3.0, -8.0));
+    let tail = body.tail("Tail2", tail, DVec3::new(0.0, 4.0, -16.0));
+    body.skeleton.joints[tail]
         .ends
         .push(DVec3::new(0.0, 6.0, -16.0));
     for (pair, parent, z) in [(0, hips, -32.0), (1, chest, 28.0)] {
         for side in Side::BOTH {
             let x = 8.0 * sign(side);
-            builder.leg(LegPlan {
+            body.leg(LegPlan {
                 side,
                 pair,
                 parent,
@@ -140,19 +140,19 @@ fn quadruped() -> Body {
             });
         }
     }
-    builder.done()
+    body
 }
 
 /// An insect, as large as a dog, on three pairs of splayed legs.
 fn hexapod() -> Body {
-    let mut builder = Builder::new(DVec3::new(0.0, 30.0, -14.0));
+    let mut body = Body::begun(DVec3::new(0.0, 30.0, -14.0));
     let hips = 0;
-    let spine = builder.trunk("Spine", hips, DVec3::new(0.0, 0.0, 14.0));
-    let chest = builder.trunk("Chest", spine, DVec3::new(0.0, 0.0, 14.0));
-    let neck = builder.neck(chest, DVec3::new(0.0, 2.0, 6.0));
-    builder.head(neck, DVec3::new(0.0, 2.0, 6.0), DVec3::new(0.0, 0.0, 12.0));
-    let tail = builder.tail("Tail", hips, DVec3::new(0.0, 0.0, -8.0));
-    builder.skeleton.joints[tail]
+    let spine = body.trunk("Spine", hips, DVec3::new(0.0, 0.0, 14.0));
+    let chest = body.trunk("Chest", spine, DVec3::new(0.0, 0.0, 14.0));
+    let neck = body.neck(chest, DVec3::new(0.0, 2.0, 6.0));
+    body.head(neck, DVec3::new(0.0, 2.0, 6.0), DVec3::new(0.0, 0.0, 12.0));
+    let tail = body.tail("Tail", hips, DVec3::new(0.0, 0.0, -8.0));
+    body.skeleton.joints[tail]
         .ends
         .push(DVec3::new(0.0, 2.0, -26.0));
     let pairs = [
@@ -163,7 +163,7 @@ fn hexapod() -> Body {
     for (pair, parent, z, reach) in pairs {
         for side in Side::BOTH {
             let x = sign(side);
-            builder.leg(LegPlan {
+            body.leg(LegPlan {
                 side,
                 pair,
                 parent,
@@ -176,7 +176,7 @@ fn hexapod() -> Body {
             });
         }
     }
-    builder.done()
+    body
 }
 
 /// Where a leg is, at rest.
@@ -198,30 +198,21 @@ struct LegPlan {
     pole: DVec3,
 }
 
-/// Collects joints, with their labels.
-struct Builder {
-    skeleton: Skeleton,
-    anatomy: Anatomy,
-    legs: Vec<Leg>,
-    arms: Vec<Arm>,
-}
-
-impl Builder {
+/// The parts of a body, added one by one with their labels.
+impl Body {
     /// The hips, with their place at rest.
-    fn new(hips: DVec3) -> Self {
-        let mut builder = Self {
+    fn begun(hips: DVec3) -> Self {
+        let mut body = Self {
             skeleton: Skeleton::default(),
             anatomy: Anatomy::default(),
             legs: Vec::new(),
             arms: Vec::new(),
         };
-        let hips = builder.joint("Hips".to_owned(), None, hips, Class::Hips, None);
+        let hips = body.joint("Hips".to_owned(), None, hips, Class::Hips, None);
         let position = [Axis::X, Axis::Y, Axis::Z].map(Channel::Position);
-        builder.skeleton.joints[hips]
-            .channels
-            .splice(0..0, position);
-        builder.anatomy.hips = Some(hips);
-        builder
+        body.skeleton.joints[hips].channels.splice(0..0, position);
+        body.anatomy.hips = Some(hips);
+        body
     }
 
     fn joint(
@@ -379,15 +370,6 @@ impl Builder {
             sole: plan.sole,
             knee: pole(hip, &plan),
         });
-    }
-
-    fn done(self) -> Body {
-        Body {
-            skeleton: self.skeleton,
-            anatomy: self.anatomy,
-            legs: self.legs,
-            arms: self.arms,
-        }
     }
 }
 

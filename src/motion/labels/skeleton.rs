@@ -38,6 +38,12 @@ impl Anatomy {
         self.spine.last().copied().or(self.hips)
     }
 
+    /// The joints that have a label: all but helpers, fingers and faces.
+    pub fn labelled(&self) -> impl Iterator<Item = usize> + '_ {
+        let labels = self.labels.iter().enumerate();
+        labels.filter_map(|(joint, label)| label.as_ref().map(|_| joint))
+    }
+
     /// The limb of a class and a side; of several the rearmost one.
     pub fn limb(&self, class: Class, side: Side) -> Option<&Limb> {
         self.limb_of_pair(class, side, 0)

@@ -52,7 +52,18 @@ impl Exposure {
         })
     }
 
-    /// The frames in which a new drawing begins: those that need a `STEP` key.
+    /// The `STEP` keys of a clip: the frame in which each drawing begins, with its source frame, and a closing key that repeats the
+    /// last drawing at the end, because readers take the last key for the end of the clip.
+    pub fn step_keys(&self) -> Vec<[usize; 2]> {
+        let drawings = self.drawings();
+        let mut keys: Vec<[usize; 2]> = drawings
+            .map(|drawing| [drawing.start, drawing.source as usize])
+            .collect();
+        keys.extend(keys.last().map(|[_, source]| [self.len(), *source]));
+        keys
+    }
+
+    /// The frames in which a new drawing begins.
     pub fn keys(&self) -> impl Iterator<Item = usize> + '_ {
         self.drawings().map(|drawing| drawing.start)
     }

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::axes::{Axes, Landmarks};
 use super::rest_pose::RestPose;
-use super::{PoseBuffer, Rig};
+use super::{PoseBuffer, Rig, RigPart};
 use crate::motion::matching::{Drive, Follow};
 use crate::motion::skeleton::{Clip, Transform};
 
@@ -73,7 +73,8 @@ pub(super) fn rotations(
             Some(mean) => mean,
             None => Reference::at_rest(clip, &drive, rest),
         };
-        Some((*part, PartRotation::new(rig, *part, axes, reference)?))
+        let rotation = PartRotation::new(&rig.parts[*part], drive, axes, reference);
+        Some((*part, rotation))
     };
     let solvers: Vec<(usize, PartRotation)> = order.iter().filter_map(solver).collect();
     let mut own: Vec<Option<Vec<DQuat>>> = vec![None; count];
@@ -178,21 +179,19 @@ struct PartRotation {
 }
 
 impl PartRotation {
-    fn new(rig: &Rig, part: usize, axes: &Axes, reference: Reference) -> Option<Self> {
-        let part = &rig.parts[part];
-        let drive = part.drive?;
+    fn new(part: &RigPart, drive: Drive, axes: &Axes, reference: Reference) -> Self {
         let axis = (part.tip - part.joint).try_normalize();
         let align = match (drive.follow, axis, reference.direction) {
             (Follow::Direction, Some(axis), Some(direction)) => arc(axis, direction, DVec3::Z),
             _ => DQuat::IDENTITY,
         };
-        Some(Self {
+        Self {
             drive,
             reference,
             to_drawing: axes.first.inverse(),
             drawn: align * part.node.rotation,
             viewer: axes.first * DVec3::Z,
-        })
+        }
     }
 
     /// G(k) · D with G(k) = C₀ᵀ · S(k) · Rⱼ(k) · Rⱼ(r)ᵀ · Cᵣ · A; A is the identity for parts that keep the drawn pose, S for those

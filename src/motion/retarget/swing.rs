@@ -8,7 +8,7 @@ use glam::{DQuat, DVec3};
 use super::Rig;
 use super::kinematics::ForwardKinematics;
 use super::rotations::{Rotations, arc};
-use crate::motion::skeleton::Transform;
+use crate::motion::skeleton::{Transform, height};
 
 /// Steps of the integration per second, at least; every frame has a whole number of them.
 const STEPS: f64 = 240.0;
@@ -80,12 +80,8 @@ pub(super) fn swing(
 
 /// Drawing units per metre.
 fn metre(rig: &Rig) -> f64 {
-    let ends = rig.parts.iter().flat_map(|part| [part.joint.y, part.tip.y]);
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    for y in ends {
-        (low, high) = (low.min(y), high.max(y));
-    }
-    (high - low) / HEIGHT
+    let ends = rig.parts.iter().flat_map(|part| [part.joint, part.tip]);
+    height(ends) / HEIGHT
 }
 
 /// Whether a clip ends as it begins, so that it may be repeated.
@@ -259,9 +255,12 @@ impl Pendulum {
         let time = self.frame_time / steps;
         let mut directions = vec![weight.offset / self.length];
         for frame in 1..carried.frames.len() {
+            let at = |step: usize| Moment::between(carried, frame, step as f64 / steps);
+            let mut before = at(0);
             for step in 1..=steps as usize {
-                let at = |step: usize| Moment::between(carried, frame, step as f64 / steps);
-                weight = self.step(weight, &at(step - 1), &at(step), time);
+                let now = at(step);
+                weight = self.step(weight, &before, &now, time);
+                before = now;
             }
             directions.push(weight.offset / self.length);
         }

@@ -36,34 +36,38 @@ fn bones(limb: &Limb, pieces: usize) -> Vec<(usize, Option<Tip>)> {
     }
 }
 
+/// A part from a joint to a tip that nothing drives; +Y of its node points along it.
+pub(crate) fn part(parent: Option<usize>, is_rooted: bool, [joint, tip]: [DVec3; 2]) -> RigPart {
+    let way = tip - joint;
+    RigPart {
+        parent,
+        is_rooted,
+        node: Transform {
+            rotation: DQuat::from_rotation_z((-way.x).atan2(way.y)),
+            position: if is_rooted {
+                (joint + tip) / 2.0
+            } else {
+                joint
+            },
+        },
+        joint,
+        tip,
+        surface: Vec::new(),
+        stands: false,
+        drive: None,
+        is_leg: false,
+        swing: None,
+    }
+}
+
 struct Builder {
     rig: Rig,
     limbs: Limbs,
 }
 
 impl Builder {
-    /// A part from a joint to a tip; +Y of its node points along it.
     fn add(&mut self, parent: Option<usize>, is_rooted: bool, [joint, tip]: [DVec3; 2]) -> usize {
-        let way = tip - joint;
-        self.rig.parts.push(RigPart {
-            parent,
-            is_rooted,
-            node: Transform {
-                rotation: DQuat::from_rotation_z((-way.x).atan2(way.y)),
-                position: if is_rooted {
-                    (joint + tip) / 2.0
-                } else {
-                    joint
-                },
-            },
-            joint,
-            tip,
-            surface: Vec::new(),
-            stands: false,
-            drive: None,
-            is_leg: false,
-            swing: None,
-        });
+        self.rig.parts.push(part(parent, is_rooted, [joint, tip]));
         self.rig.parts.len() - 1
     }
 

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use glam::{DQuat, DVec3, dvec3};
+use glam::{DVec3, dvec3};
 use okoshi::motion::bvh;
 use okoshi::motion::labels::Anatomy;
 use okoshi::motion::matching::{Drive, Follow};
@@ -12,26 +12,14 @@ use okoshi::motion::retarget::{Landmarks, RetargetedClip, Rig, RigPart, retarget
 use okoshi::motion::skeleton::{Axis, Channel, Clip, Joint, Skeleton, Transform};
 
 use super::clips::{FILES, clip};
-use super::rigs::{Limbs, biped};
+use super::rigs::{Limbs, biped, part};
 use super::{angle, apart, placed};
 
 /// A part from a joint to a tip that hangs on another and swings.
 fn hanging(parent: usize, joint: DVec3, tip: DVec3, swing: Option<f64>) -> RigPart {
-    let way = tip - joint;
     RigPart {
-        parent: Some(parent),
-        is_rooted: false,
-        node: Transform {
-            rotation: DQuat::from_rotation_z((-way.x).atan2(way.y)),
-            position: joint,
-        },
-        joint,
-        tip,
-        surface: Vec::new(),
-        stands: false,
-        drive: None,
-        is_leg: false,
         swing,
+        ..part(Some(parent), false, [joint, tip])
     }
 }
 

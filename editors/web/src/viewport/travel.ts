@@ -1,47 +1,45 @@
 // Keeps a figure that travels in the picture.
 
-import { Vector3, type AnimationClip } from "three";
+import { Vector3, type AnimationClip, type Object3D } from "three";
 import type { Model } from "./model";
 
 /** How far a clip has carried the model over the ground. */
 export class Travel {
   /** Whether the view goes along. */
   wanted = false;
-  private readonly last = new Vector3();
-  private isKnown = false;
+  private model: Model | null = null;
+  private clip: AnimationClip | null = null;
+  /** The nodes that the clip moves and that hang on no other such node. */
+  private roots: readonly Object3D[] = [];
+  /** Where they were last; none if the way begins at the next place. */
+  private last: Vector3 | null = null;
 
-  /** The clip or the model is another: the next place is where the way begins. */
+  /** The next place is where the way begins. */
   restart(): void {
-    this.isKnown = false;
+    this.last = null;
   }
 
-  /** How far the model has gone since the last call, level; 0 at first, and if nothing travels. */
+  /** How far the model has gone since the last call, level; 0 in another model or clip, and if nothing travels. */
   since(model: Model | null, clip: AnimationClip | null): Vector3 {
-    const place = model && clip && placeOf(model, clip);
-    if (!place) {
-      this.restart();
-      return new Vector3();
+    if (model !== this.model || clip !== this.clip) {
+      this.model = model;
+      this.clip = clip;
+      this.roots = model && clip ? rootsOf(model, clip) : [];
+      this.last = null;
     }
-    const step = this.isKnown ? place.clone().sub(this.last) : new Vector3();
-    this.last.copy(place);
-    this.isKnown = true;
-    return step.setY(0);
+    const place = new Vector3();
+    for (const node of this.roots) place.add(node.getWorldPosition(new Vector3()).divideScalar(this.roots.length));
+    const step = this.last ? place.clone().sub(this.last).setY(0) : new Vector3();
+    this.last = place;
+    return step;
   }
 }
 
-/** The middle of the nodes that a clip moves and that hang on no other such node. */
-function placeOf({ root }: Model, clip: AnimationClip): Vector3 | null {
+function rootsOf({ root }: Model, clip: AnimationClip): readonly Object3D[] {
   const names = clip.tracks.filter(({ name }) => name.endsWith(".position")).map(({ name }) => name.slice(0, -".position".length));
-  const moved = names.flatMap((name) => root.getObjectByName(name) ?? []);
-  const all = new Set(moved);
-  const sum = new Vector3();
-  let count = 0;
-  for (const node of moved) {
-    let above = node.parent;
-    while (above && !all.has(above)) above = above.parent;
-    if (above) continue;
-    sum.add(node.getWorldPosition(new Vector3()));
-    count += 1;
-  }
-  return count > 0 ? sum.divideScalar(count) : null;
+  const moved = new Set(names.flatMap((name) => root.getObjectByName(name) ?? []));
+  return [...moved].filter((node) => {
+    for (let above = node.parent; above; above = above.parent) if (moved.has(above)) return false;
+    return true;
+  });
 }

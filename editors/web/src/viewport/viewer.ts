@@ -199,9 +199,7 @@ export class Viewer {
   /** The user stopped, started or moved the clip. */
   moved(change: () => void): void {
     this.pose.release();
-    const { clip } = this.player;
     change();
-    if (this.player.clip !== clip) this.travel.restart();
     this.comparison.follow();
     this.goAlong();
     this.pose.apply();
@@ -275,7 +273,6 @@ export class Viewer {
     model.shade(this.shading);
     this.exposures = wanted.clips.map((facts) => new ExposureSheet(facts));
     this.player.take(model, !prefersReducedMotion());
-    this.travel.restart();
     this.pose.apply();
     this.renderLoop.scene.add(model.root);
     this.surround();
