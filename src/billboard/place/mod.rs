@@ -97,6 +97,11 @@ fn snapped(depth: f64) -> f64 {
     (depth * STEPS).round() / STEPS
 }
 
+/// Whether places can be computed from a length in heights without overflow; no drawing has larger ones.
+fn is_usable(length: f64) -> bool {
+    length.abs() < 1e12
+}
+
 /// What the drawings say.
 struct Scene<'a> {
     views: &'a [View],
@@ -146,13 +151,17 @@ impl<'a> Scene<'a> {
     fn at(&self, (view, region): (usize, usize)) -> DVec2 {
         let (low, high) = bounds(&self.views[view].regions[region].outline).unwrap_or_default();
         let at = self.frames[view].on_screen((low + high) / 2.0);
-        if at.is_finite() { at } else { DVec2::ZERO }
+        if is_usable(at.x) && is_usable(at.y) {
+            at
+        } else {
+            DVec2::ZERO
+        }
     }
 
     /// The depth that the drawing sets for a region, heights.
     fn set_depth(&self, (view, region): (usize, usize)) -> Option<f64> {
         let depth = (*self.depths.get(view)?.get(region)?)? / self.frames[view].height;
-        depth.is_finite().then_some(depth)
+        is_usable(depth).then_some(depth)
     }
 
     /// The place that set depths or several rays tell.

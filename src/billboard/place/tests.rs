@@ -453,6 +453,23 @@ fn a_track_that_a_view_does_not_show_follows_its_container() {
 }
 
 #[test]
+fn lengths_beyond_all_drawings_do_not_overflow() {
+    let far = [1e300, -1e300, 1e20, f64::INFINITY, f64::NAN];
+    for length in far {
+        let views = [
+            view(0.0, vec![square([length, 0.0], 1.0, None)]),
+            view(90.0, vec![square([0.0, length], 1.0, None)]),
+        ];
+        let set = vec![vec![Some(length)], vec![Some(length)]];
+        for depths in [set.as_slice(), &[]] {
+            let placed = place(&views, &[UNIT; 2], &[track([Some(0), Some(0)])], depths);
+            assert!(placed[0].point.is_finite());
+            assert!(placed[0].in_views.iter().all(|place| place.is_finite()));
+        }
+    }
+}
+
+#[test]
 fn parallel_rays_have_no_nearest_point() {
     for other in [
         direction(0.3, 0.0),
