@@ -12,6 +12,7 @@ pub mod labels;
 pub mod lead_in;
 pub mod limited;
 pub mod looping;
+pub mod mark_tracks;
 pub mod matching;
 pub mod measured;
 pub mod prepare;
