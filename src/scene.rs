@@ -1,9 +1,10 @@
-//! The model: nodes, meshes, materials, textures. No drawing, no glTF.
+//! The model: nodes, meshes, materials, textures, clips, cameras. No drawing, no glTF.
 //!
 //! Conventions, stated once: right-handed axes, +Y up, metres, counter-clockwise front faces seen
 //! from outside, quaternions `x y z w`, colours linear RGBA.
 
 mod animation;
+mod camera;
 mod deferred;
 mod skin;
 mod turn;
@@ -15,6 +16,7 @@ use std::sync::Arc;
 use glam::{DAffine2, DQuat, DVec3};
 
 pub use animation::{Animation, Interpolation, Timing, Track, Values};
+pub use camera::{Camera, CameraProjection};
 pub use deferred::SurfaceSource;
 pub use skin::{MAX_JOINTS, RigidTransform, Skin, SkinnedPiece, TooManyJoints};
 pub use turn::{Turn, direction, view_axes};
@@ -39,6 +41,8 @@ pub struct Scene {
     pub skin: Option<Skin>,
     /// The clips, with distinct names.
     pub animations: Vec<Animation>,
+    /// The cameras that nodes refer to.
+    pub cameras: Vec<Camera>,
 }
 
 /// A node to be added to a scene, with its mesh.
@@ -82,6 +86,8 @@ pub struct Node {
     pub rotation: DQuat,
     /// Index of its mesh.
     pub mesh: Option<usize>,
+    /// Index of its camera. Such a node is a root, without mesh and children: a camera is no part of the model.
+    pub camera: Option<usize>,
     /// How its mesh depends on the viewer.
     pub view_dependent: Option<ViewDependent>,
     /// Its source in the drawing.

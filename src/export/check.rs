@@ -9,6 +9,7 @@ use crate::scene::{AlphaMode, Animation, MAX_JOINTS, MediaType, Scene, Surface, 
 /// Refuses nodes, materials and animations that would make an invalid file.
 pub(super) fn check(scene: &Scene) -> io::Result<()> {
     check_nodes(scene)?;
+    check_cameras(scene)?;
     check_skin(scene)?;
     check_images(scene)?;
     check_materials(scene)?;
@@ -41,15 +42,42 @@ fn check_nodes(scene: &Scene) -> io::Result<()> {
     Ok(())
 }
 
+fn check_cameras(scene: &Scene) -> io::Result<()> {
+    for camera in &scene.cameras {
+        if !camera.projection.is_valid() {
+            let name = &camera.name;
+            return Err(invalid(format!(
+                "camera `{name}` has a number out of range"
+            )));
+        }
+    }
+    for (index, node) in scene.nodes.iter().enumerate() {
+        let Some(camera) = node.camera else { continue };
+        let name = &node.name;
+        if camera >= scene.cameras.len() {
+            return Err(invalid(format!("node `{name}` has a camera out of range")));
+        }
+        let is_apart = node.mesh.is_none() && node.children.is_empty();
+        if !is_apart || !scene.roots.contains(&index) {
+            return Err(invalid(format!(
+                "node `{name}` has a camera, but is a part of the model"
+            )));
+        }
+    }
+    Ok(())
+}
+
 fn check_skin(scene: &Scene) -> io::Result<()> {
     let Some(skin) = &scene.skin else {
         return Ok(());
     };
     let own = scene.nodes.iter().any(|node| node.mesh == Some(skin.mesh));
-    if own || skin.mesh >= scene.meshes.len() || skin.rest.len() != scene.nodes.len() {
+    let is_joint = |joint: &usize| *joint < scene.nodes.len();
+    let joints_fit = skin.rest.len() == skin.joints.len() && skin.joints.iter().all(is_joint);
+    if own || skin.mesh >= scene.meshes.len() || !joints_fit {
         return Err(invalid("a skin that does not fit the nodes"));
     }
-    match scene.nodes.len() > MAX_JOINTS {
+    match skin.joints.len() > MAX_JOINTS {
         true => Err(invalid("a skin with too many joints")),
         false => Ok(()),
     }

@@ -147,6 +147,7 @@ pub fn originals(scene: &Scene, clips: &[FigureClip]) -> Option<Scene> {
     }
     let bare = |node: &Node| Node {
         mesh: None,
+        camera: None,
         provenance: None,
         ..node.clone()
     };

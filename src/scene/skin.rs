@@ -7,12 +7,14 @@ use super::{Mesh, Node, Piece, Primitive, Scene, Surface};
 /// The largest number of joints of a skin: corners refer to them by 16 bits.
 pub const MAX_JOINTS: usize = 1 << 16;
 
-/// A mesh that is bound to the nodes: every node of the scene is a joint, in the order of the nodes.
+/// A mesh that is bound to the nodes: every node of the scene is a joint, except those of cameras.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Skin {
     /// Index of the mesh; its corners are in the world's frame, in the rest pose.
     pub mesh: usize,
-    /// Per node its transform to the world in the rest pose.
+    /// Indices of the nodes that are joints, ascending.
+    pub joints: Vec<usize>,
+    /// Per joint its transform to the world in the rest pose.
     pub rest: Vec<RigidTransform>,
 }
 
@@ -70,7 +72,7 @@ pub struct SkinnedPiece {
     pub piece: Piece,
     /// From there to the world in the rest pose.
     pub pose: RigidTransform,
-    /// Index of the joint.
+    /// Index of the joint in the skin.
     pub joint: u16,
 }
 
@@ -91,37 +93,43 @@ impl SkinnedPiece {
     }
 }
 
-/// A scene has more nodes than a skin can have joints.
+/// A scene has more parts than a skin can have joints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the model has {joints} joints, but a skin holds at most {}; build it without --skin",
     MAX_JOINTS
 )]
 pub struct TooManyJoints {
-    /// The number of nodes.
+    /// The number of joints.
     pub joints: usize,
 }
 
 impl Scene {
-    /// The same model with one skinned mesh, with a primitive for each material. The nodes become its joints.
+    /// The same model with one skinned mesh, with a primitive for each material. The nodes become its joints, except those of
+    /// cameras.
     ///
     /// View-dependent nodes and their descendants keep their own meshes, because corners of a skin cannot depend on the viewer.
     ///
     /// # Errors
-    /// More nodes than [`MAX_JOINTS`].
+    /// More joints than [`MAX_JOINTS`].
     pub fn skinned(mut self) -> Result<Self, TooManyJoints> {
-        let joints = self.nodes.len();
-        if joints > MAX_JOINTS {
-            return Err(TooManyJoints { joints });
+        let joints: Vec<usize> = (0..self.nodes.len())
+            .filter(|node| self.nodes[*node].camera.is_none())
+            .collect();
+        if joints.len() > MAX_JOINTS {
+            return Err(TooManyJoints {
+                joints: joints.len(),
+            });
         }
-        let rest = rest(&self.nodes);
+        let to_world = rest(&self.nodes);
+        let rest: Vec<RigidTransform> = joints.iter().map(|node| to_world[*node]).collect();
         let kept = below_view_dependent(&self.nodes);
         let mut by_material: Vec<Vec<Piece>> = vec![Vec::new(); self.materials.len()];
-        for (joint, node) in self.nodes.iter_mut().enumerate() {
-            if kept[joint] {
+        for (joint, index) in joints.iter().enumerate() {
+            if kept[*index] {
                 continue;
             }
-            let Some(mesh) = node.mesh.take() else {
+            let Some(mesh) = self.nodes[*index].mesh.take() else {
                 continue;
             };
             for primitive in &self.meshes[mesh].primitives {
@@ -145,7 +153,7 @@ impl Scene {
         if !primitives.is_empty() {
             let mesh = self.meshes.len();
             self.meshes.push(Mesh { primitives });
-            self.skin = Some(Skin { mesh, rest });
+            self.skin = Some(Skin { mesh, joints, rest });
         }
         Ok(self)
     }

@@ -20,7 +20,7 @@ use serde_json::value::to_raw_value;
 use super::buffer::Kind;
 use super::json::Json;
 use super::primitives::Packed;
-use super::{ROOT, SKINNED, VIEW_DEPENDENT, animations, materials};
+use super::{ROOT, SKINNED, VIEW_DEPENDENT, animations, cameras, materials};
 use crate::scene::{self, Scene, Turn, ViewDependent};
 
 /// The JSON up to the buffers, without the closing brace.
@@ -46,10 +46,11 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
         ..Root::default()
     };
     materials::add_textures(scene, packed, &mut root);
+    let joints = skin.map_or(&[][..], |skin| &skin.joints);
     root.skins
         .extend(packed.bind_matrices.map(|matrices| JsonSkin {
             inverse_bind_matrices: Some(index(matrices)),
-            joints: (0..root_node).map(index).collect(),
+            joints: joints.iter().copied().map(index).collect(),
             skeleton: Some(index(root_node)),
             extensions: None,
             extras: None,
@@ -110,6 +111,9 @@ pub(super) fn describe(scene: &Scene, packed: &Packed) -> io::Result<Json> {
                 .and_then(|target_names| to_raw_value(&TargetNames { target_names }).ok()),
         })
     })?;
+    json.list("cameras", scene.cameras.len(), |number| {
+        Some(cameras::camera(&scene.cameras[number]))
+    })?;
     json.list("materials", scene.materials.len(), |number| {
         Some(materials::material(&scene.materials[number]))
     })?;
@@ -139,7 +143,8 @@ pub(super) fn estimate_length(scene: &Scene) -> u64 {
     let nodes: usize = scene.nodes.iter().map(node).sum();
     let primitives = scene.meshes.iter().flat_map(|mesh| &mesh.primitives);
     let tracks = scene.animations.iter().flat_map(|a| &a.tracks);
-    (4096 + nodes + 520 * primitives.count() + 400 * tracks.count()) as u64
+    let cameras = scene.cameras.iter().map(|camera| 160 + camera.name.len());
+    (4096 + nodes + 520 * primitives.count() + 400 * tracks.count() + cameras.sum::<usize>()) as u64
 }
 
 /// The extensions that the scene uses.
@@ -170,6 +175,7 @@ fn json_node(node: &scene::Node) -> JsonNode {
     JsonNode {
         name: name(&node.name),
         children: children(&node.children),
+        camera: node.camera.map(index),
         translation: (translation != [0.0; 3]).then_some(translation),
         rotation: rotated.then_some(UnitQuaternion(rotation)),
         extensions: node.view_dependent.as_ref().map(|view_dependent| {

@@ -2,10 +2,11 @@
 //!
 //! The file has one scene with the virtual node `Root` and under it the scene's nodes (node `i` of the scene is node `i`
 //! of the file, `Root` comes last), one mesh a part with a primitive a material, the animations with exactly the keys
-//! that they have, and one buffer, which holds images and keys too.
+//! that they have, the cameras, and one buffer, which holds images and keys too.
 
 mod animations;
 mod buffer;
+mod cameras;
 mod document;
 mod json;
 mod materials;

@@ -222,6 +222,7 @@ impl Batch {
         self.data.iter_mut().for_each(Vec::clear);
         self.accessors.clear();
         self.primitives.clear();
+        let joints = scene.skin.as_ref().map_or(0, |skin| skin.joints.len());
         for primitive in primitives {
             let Some(material) = scene.materials.get(primitive.material) else {
                 return Err(invalid("a primitive with a material out of range"));
@@ -234,7 +235,7 @@ impl Batch {
                 }
                 match surface.triangles.is_empty() {
                     true => Ok(()),
-                    false => self.push(surface, scene.nodes.len()),
+                    false => self.push(surface, joints),
                 }
             })?;
             self.primitives.push(first..self.accessors.len());

@@ -13,6 +13,8 @@ use crate::scene::{
 
 mod animated;
 
+mod cameras;
+
 mod textured;
 
 mod skinned;
@@ -402,6 +404,7 @@ fn long_numbers_and_names_are_written_without_gaps() {
             longest.into(),
         ),
         mesh: Some(part),
+        camera: None,
         view_dependent: Some(ViewDependent::Bend),
         provenance: Some(Provenance {
             element: Some("\n".repeat(9)),
