@@ -175,6 +175,7 @@ fn measure(frames: usize) {
             &repeats(&positions, JOINTS),
             [few.omit, few.hold],
             true,
+            None,
         )
         .shown;
     });

@@ -15,6 +15,7 @@ pub mod looping;
 pub mod mark_tracks;
 pub mod matching;
 pub mod measured;
+pub mod performance;
 pub mod prepare;
 pub mod resample;
 pub mod retarget;

@@ -22,6 +22,8 @@ struct Motion<'a> {
     positions: &'a [DVec3],
     joints: usize,
     shown: Vec<u32>,
+    /// What stays shown.
+    key: Option<u32>,
 }
 
 /// Per frame whether all its positions are those of the frame before.
@@ -32,19 +34,22 @@ pub(crate) fn repeats(positions: &[DVec3], joints: usize) -> Vec<bool> {
     (0..frames).map(repeat).collect()
 }
 
-/// Omits and holds; `positions` are frames × joints, `repeats` says which frames are equal to the one before.
+/// Omits and holds; `positions` are frames × joints, `repeats` says which frames are equal to the one before, and the pose of the
+/// frame `key` stays.
 pub(crate) fn plain(
     positions: &[DVec3],
     joints: usize,
     repeats: &[bool],
     [omit, hold]: [usize; 2],
     kept: bool,
+    key: Option<usize>,
 ) -> Plain {
     let frames = positions.len().checked_div(joints).unwrap_or(0);
     let mut motion = Motion {
         positions,
         joints,
         shown: (0..frames as u32).collect(),
+        key: None,
     };
     // Equal neighbours are one pose: its first frame stands for all.
     for (frame, repeats) in repeats.iter().enumerate().take(frames) {
@@ -52,6 +57,7 @@ pub(crate) fn plain(
             motion.shown[frame] = motion.shown[frame - 1];
         }
     }
+    motion.key = key.and_then(|key| motion.shown.get(key).copied());
     let mut done = Plain::default();
     for _ in 0..omit {
         if !motion.omit(&mut done, kept) {
@@ -93,6 +99,11 @@ impl Motion<'_> {
         before + self.shown[k..].iter().take_while(same).count()
     }
 
+    /// Whether the pose that frame `k` shows may go.
+    fn is_free(&self, k: usize) -> bool {
+        self.stands(k) == 1 && self.key != Some(self.shown[k])
+    }
+
     fn begins(&self, k: usize) -> bool {
         self.shown[k] != self.shown[k - 1]
     }
@@ -115,7 +126,7 @@ impl Motion<'_> {
         let mut fastest = None;
         for k in 1..self.shown.len() {
             let faster = fastest.is_none_or(|fastest: usize| speeds[k] > speeds[fastest]);
-            if self.stands(k) == 1 && faster {
+            if self.is_free(k) && faster {
                 fastest = Some(k);
             }
         }
@@ -136,7 +147,7 @@ impl Motion<'_> {
     }
 
     fn hold(&mut self, done: &mut Plain) -> bool {
-        let Some(slowest) = self.slowest(|k| self.stands(k) == 1) else {
+        let Some(slowest) = self.slowest(|k| self.is_free(k)) else {
             return false;
         };
         done.held

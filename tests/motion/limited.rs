@@ -104,7 +104,7 @@ fn check_repeating(
     };
     assert_eq!(
         fast,
-        plain(positions, joints, repeats, steps, kept),
+        plain(positions, joints, repeats, steps, kept, None),
         "{positions:?} {steps:?} {kept}"
     );
 
@@ -160,6 +160,27 @@ fn the_fast_code_does_what_the_plain_code_does() {
         let steps = [steps(), steps()];
         check(&positions, joints, steps, true);
         check(&positions, joints, steps, false);
+        for kept in [true, false] {
+            let key = random.u64(..1 + frames as u64) as usize;
+            check_keeping(&positions, joints, key, steps, kept);
+        }
+    }
+}
+
+/// The same with a frame that must stay shown; a frame that does not exist changes nothing.
+fn check_keeping(positions: &[DVec3], joints: usize, key: usize, steps: [usize; 2], length: bool) {
+    let poses = Poses::new(positions, joints);
+    let cut = cut(poses.keeping(Some(key)), steps, length);
+    let repeats = repeats(positions, joints);
+    let plain = plain(positions, joints, &repeats, steps, length, Some(key));
+    assert_eq!(
+        cut.exposure.sources(),
+        plain.shown,
+        "{positions:?} {steps:?} {key}"
+    );
+    let whole = self::cut(poses, [0; 2], length).exposure;
+    if let Some(pose) = whole.sources().get(key) {
+        assert!(cut.exposure.sources().contains(pose), "frame {key} stays");
     }
 }
 

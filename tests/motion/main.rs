@@ -10,4 +10,5 @@ mod cli;
 mod figures;
 mod limited;
 mod model;
+mod performance;
 mod retarget;

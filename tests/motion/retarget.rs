@@ -3,7 +3,7 @@
 pub(crate) mod clips;
 mod random;
 mod rewritten;
-mod rigs;
+pub(crate) mod rigs;
 mod swing;
 mod walks;
 

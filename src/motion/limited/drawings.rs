@@ -32,7 +32,8 @@ pub struct BestDrawings {
 
 /// The `count` drawings that approximate the motion best: those with the least Σ ‖p(t) − p(drawing)‖² over all frames t.
 ///
-/// A drawing is one of the frames of the segment for which it is held; of equally good ones the first. A segment is at most
+/// A drawing is one of the frames of the segment for which it is held: the one that must stay ([`Poses::keeping`]), of equally good
+/// ones the first. A segment is at most
 /// `max_hold` frames long (1 to 64), but equal neighbours may be held for any time. If `count` is below what that allows, or
 /// above the number of poses, the nearest possible number is used. The same motion always gives the same drawings; of equally
 /// good choices, any one.

@@ -72,6 +72,16 @@ impl Exposure {
 /// Shoots on twos, on threes, or on any other number: every `n`-th of `frames` frames is a drawing that is held for `n` frames,
 /// the last one for the remaining frames. 0 is taken as 1.
 pub fn every(frames: u32, n: u32) -> Exposure {
+    every_through(frames, n, 0)
+}
+
+/// The same, so that the frame `key` is a drawing: the first drawing is held for fewer frames if necessary.
+pub fn every_through(frames: u32, n: u32, key: u32) -> Exposure {
     let n = n.max(1);
-    Exposure::new((0..frames).map(|frame| frame - frame % n).collect())
+    let late = |frame: u32| (frame + n - key % n) % n;
+    Exposure::new(
+        (0..frames)
+            .map(|frame| frame - late(frame).min(frame))
+            .collect(),
+    )
 }

@@ -34,7 +34,7 @@ pub(super) fn hold(list: &mut PoseList<'_>, asked: usize) -> Vec<Hold> {
 
 fn hold_key(list: &PoseList<'_>, pose: usize) -> u64 {
     match list.previous(pose) {
-        Some(before) if list.shown[pose] == 1 && list.shown[before] < MAX_COPIED_FRAMES => {
+        Some(before) if list.is_removable(pose) && list.shown[before] < MAX_COPIED_FRAMES => {
             ascending(list.speed[pose])
         }
         _ => Queue::OUT,

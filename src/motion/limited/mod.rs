@@ -21,7 +21,7 @@ mod tests;
 pub use camera::Camera;
 pub use drawings::{BestDrawings, MAX_HOLD, drawings};
 pub use error::{Error, Method, compare, error};
-pub use exposure::{Drawing, Exposure, every};
+pub use exposure::{Drawing, Exposure, every, every_through};
 pub use poses::{Poses, ssd};
 
 use pose_list::PoseList;
@@ -116,7 +116,7 @@ impl Steps {
 /// frame is the first of them, and it may be shown for any time. Frames that become neighbours later remain two poses, and so do
 /// frames whose [`ssd`] is 0 although something moves that has no point.
 /// The speed of a pose is its [`ssd`] to the pose shown before it. Only poses that are shown for a single frame are omitted or
-/// covered, and never the first one.
+/// covered, and never the first one or the key pose ([`Poses::keeping`]).
 ///
 /// - *Omission*: removes the fastest pose. To keep the length, the pose before the slowest one is then shown for one frame
 ///   more. Only poses shown for fewer than [`MAX_COPIED_FRAMES`] frames qualify, and never the last one, which has no

@@ -61,9 +61,9 @@ pub(super) fn omit(list: &mut PoseList<'_>, asked: usize, length: Length) -> Omi
 }
 
 fn omission_key(list: &PoseList<'_>, pose: usize) -> u64 {
-    match list.previous(pose) {
-        Some(_) if list.shown[pose] == 1 => descending(list.speed[pose]),
-        _ => Queue::OUT,
+    match list.is_removable(pose) {
+        true => descending(list.speed[pose]),
+        false => Queue::OUT,
     }
 }
 

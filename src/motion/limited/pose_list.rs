@@ -17,6 +17,8 @@ pub(super) struct PoseList<'a> {
     pub(super) speed: Vec<f64>,
     before: Vec<u32>,
     after: Vec<u32>,
+    /// The pose that is not to be removed.
+    key: Option<usize>,
 }
 
 impl<'a> PoseList<'a> {
@@ -33,8 +35,12 @@ impl<'a> PoseList<'a> {
             }
         }
         let speed = frames.speeds_of(source.len(), |pose| source[pose] as usize);
+        let key = frames.key().filter(|key| *key < frames.count());
+        // The pose of a frame is the last one that begins before it.
+        let key = key.map(|key| source.partition_point(|first| *first as usize <= key) - 1);
         let count = source.len() as u32;
         Self {
+            key,
             frames,
             source,
             shown,
@@ -63,6 +69,11 @@ impl<'a> PoseList<'a> {
     pub(super) fn next(&self, pose: usize) -> Option<usize> {
         let after = self.after[pose];
         (after != NONE).then_some(after as usize)
+    }
+
+    /// Whether a pose may be removed, as far as it is not shown by copying.
+    pub(super) fn is_removable(&self, pose: usize) -> bool {
+        self.shown[pose] == 1 && self.key != Some(pose) && self.previous(pose).is_some()
     }
 
     /// Removes a pose that is shown for one frame and is not the first.

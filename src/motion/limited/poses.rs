@@ -25,6 +25,7 @@ pub struct Poses<'a> {
     points: &'a [DVec3],
     per_frame: usize,
     repeats: Option<&'a [bool]>,
+    key: Option<usize>,
 }
 
 impl<'a> Poses<'a> {
@@ -35,6 +36,7 @@ impl<'a> Poses<'a> {
             points,
             per_frame,
             repeats: None,
+            key: None,
         }
     }
 
@@ -45,6 +47,16 @@ impl<'a> Poses<'a> {
             repeats: Some(repeats),
             ..self
         }
+    }
+
+    /// The same poses, of which the pose of this frame is never removed: the key pose of a performance.
+    #[must_use]
+    pub fn keeping(self, key: Option<usize>) -> Self {
+        Self { key, ..self }
+    }
+
+    pub(super) fn key(self) -> Option<usize> {
+        self.key
     }
 
     /// The number of frames.

@@ -79,8 +79,23 @@ impl Segments {
             ends: vec![Self::NONE; count + 1],
             poses: 0,
         };
+        if let Some(key) = frames.key().filter(|key| *key < count) {
+            segments.require(frames, key);
+        }
         segments.find_still(frames);
         segments
+    }
+
+    /// Makes a frame the drawing of all segments that contain it.
+    fn require(&mut self, frames: Poses<'_>, key: usize) {
+        for start in (key + 1).saturating_sub(self.max_hold)..=key {
+            let longest = self.frames.min(start + self.max_hold);
+            for end in key + 1..=longest {
+                let cost = start..end;
+                let cost = cost.map(|frame| frames.ssd(frame, key).min(FAR)).sum();
+                self.costs[start * self.max_hold + end - start - 1] = cost;
+            }
+        }
     }
 
     /// A segment of equal frames costs nothing, however long it is. A segment of more than `max_hold` frames only needs to
@@ -209,8 +224,11 @@ fn accumulate_costs(
     }
 }
 
-/// The frame of a segment that is its best drawing; of equal ones the first.
+/// The frame of a segment that is its drawing: the one that must stay, else the best one; of equal ones the first.
 pub(super) fn drawing(frames: Poses<'_>, start: usize, end: usize, max_hold: usize) -> usize {
+    if let Some(key) = frames.key().filter(|key| (start..end).contains(key)) {
+        return key;
+    }
     // Longer segments are still.
     let end = end.min(start + max_hold);
     let cost = |drawing: usize| -> f64 {

@@ -4,7 +4,7 @@ use glam::DVec3;
 use super::poses::Poses;
 use super::queue::{Queue, ascending, descending};
 use super::segments::{Segments, drawing};
-use super::{drawings, every, exact};
+use super::{drawings, every, every_through, exact};
 
 /// A motion of one joint, of `frames` frames; some stand still.
 fn motion(random: &mut Rng, frames: usize, places: u64) -> Vec<DVec3> {
@@ -74,8 +74,9 @@ fn keys_are_ordered_as_the_numbers_are() {
     assert!(keys.max() < Some(Queue::OUT));
 }
 
-/// The least cost of any choice of drawings, by their number: all segments, all drawings of each, no shortcut.
-fn least(motion: &[DVec3], max_hold: usize) -> Vec<f64> {
+/// The least cost of any choice of drawings, by their number: all segments, all drawings of each, no shortcut. The frame `key` is
+/// the drawing of its segment.
+fn least(motion: &[DVec3], max_hold: usize, key: Option<usize>) -> Vec<f64> {
     let cost = |start: usize, end: usize| {
         let all = start..end;
         let of = |drawing: usize| -> f64 {
@@ -84,7 +85,9 @@ fn least(motion: &[DVec3], max_hold: usize) -> Vec<f64> {
                 .map(|frame| motion[frame].distance_squared(motion[drawing]));
             apart.sum()
         };
-        let least = all.clone().map(of).fold(f64::INFINITY, f64::min);
+        let key = key.filter(|key| all.contains(key));
+        let drawings = key.map_or(all.clone(), |key| key..key + 1);
+        let least = drawings.map(of).fold(f64::INFINITY, f64::min);
         if end - start > max_hold && least > 0.0 {
             return f64::INFINITY;
         }
@@ -112,16 +115,24 @@ fn the_best_drawings_are_optimal() {
         let max_hold = 1 + random.u64(..9) as usize;
         let places = [2, 3, 10, 1_000_000][round % 4];
         let motion = self::motion(&mut random, frames, places);
-        let least = least(&motion, max_hold);
+        let key = match round % 3 {
+            0 => None,
+            _ => Some(random.usize(..frames)),
+        };
+        let least = least(&motion, max_hold, key);
         let fewest = least.iter().position(|cost| cost.is_finite()).unwrap_or(0);
         let poses = motion.chunk_by(|a, b| a == b).count();
         for asked in 0..frames + 3 {
-            let drawn = drawings(Poses::new(&motion, 1), asked, max_hold);
+            let drawn = drawings(Poses::new(&motion, 1).keeping(key), asked, max_hold);
             let count = asked.clamp(fewest, poses);
             assert_eq!([drawn.fewest, drawn.most], [fewest, poses]);
             assert_eq!([drawn.asked, drawn.drawings], [asked, count]);
             assert_eq!(drawn.exposure.drawings().count(), count);
             assert_eq!(drawn.exposure.len(), frames);
+            if let Some(key) = key {
+                let shown = drawn.exposure.sources()[key] as usize;
+                assert_eq!(motion[shown], motion[key], "the key pose is shown");
+            }
             let near = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.max(1.0);
             assert!(
                 near(drawn.cost, least[count]),
@@ -199,6 +210,8 @@ fn each_second_or_third_frame_is_a_drawing() {
     assert_eq!(every(5, 3).sources(), [0, 0, 0, 3, 3]);
     assert_eq!(every(2, 0).sources(), [0, 1]);
     assert!(every(0, 3).is_empty());
+    assert_eq!(every_through(6, 3, 4).sources(), [0, 1, 1, 1, 4, 4]);
+    assert_eq!(every_through(6, 3, 2).sources(), [0, 0, 2, 2, 2, 5]);
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod euler;
 mod range;
 #[cfg(test)]
 mod tests;
+mod time_map;
 
 use std::fmt;
 use std::sync::Arc;
@@ -18,6 +19,7 @@ use super::skeleton::Clip;
 
 use euler::RotationTrack;
 pub use range::{Range, parse_range, range};
+pub use time_map::TimeMap;
 
 /// A clip whose rate differs from the requested one by at most this fraction keeps its rate.
 const RATE_TOLERANCE: f64 = 0.005;

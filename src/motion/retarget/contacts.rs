@@ -6,6 +6,7 @@ use super::axes::{Axes, Landmarks};
 use super::{PoseBuffer, Rig};
 use crate::motion::labels::Tip;
 use crate::motion::matching::Drive;
+use crate::motion::resample::TimeMap;
 use crate::motion::skeleton::Clip;
 
 /// A point of a foot is in contact if it is lower than this above its lowest height, in leg lengths …
@@ -84,6 +85,25 @@ impl Walk {
         Self { hips, feet }
     }
 
+    /// The same walk, played along a map of time. A foot is in contact on the way to a frame if it was in contact on the whole way in
+    /// the source, however slow or fast it is now.
+    #[must_use]
+    pub(super) fn timed(&self, map: &TimeMap) -> Self {
+        let between = |a: f64, b: f64, t: f64| a + (b - a) * t;
+        let foot = |foot: &Foot| Foot {
+            drive: foot.drive,
+            parts: foot.parts.clone(),
+            clearance: map.apply(&foot.clearance, between),
+            contact: (0..map.frames())
+                .map(|frame| foot.contact_between(map, frame))
+                .collect(),
+        };
+        Self {
+            hips: map.apply(&self.hips, DVec3::lerp),
+            feet: self.feet.iter().map(foot).collect(),
+        }
+    }
+
     /// The foot that is locked on the way to a frame: the same as before while it is in contact, else the slowest one in
     /// contact.
     pub(super) fn planted(&self, frame: usize, before: Option<usize>) -> Option<usize> {
@@ -112,6 +132,24 @@ fn ground_points(landmarks: &Landmarks, drive: &Drive) -> Vec<Tip> {
 }
 
 impl Foot {
+    /// The length of the foot's step in the source between two frames of a map, if it was in contact all the time.
+    fn contact_between(&self, map: &TimeMap, frame: usize) -> Option<f64> {
+        let place = |frame: usize| {
+            let mix = &map.places()[frame];
+            mix.from as f64 + mix.t
+        };
+        let [start, end] = [place(frame.saturating_sub(1)), place(frame)];
+        // A source frame's contact is that of the way to it. A pose that is held is one moment of such a way.
+        let first = (start.floor() as usize + 1).min(end.ceil() as usize);
+        let ways = first..=end.ceil() as usize;
+        let mut length = 0.0;
+        for source in ways {
+            let share = end.min(source as f64) - start.max(source as f64 - 1.0);
+            length += self.contact[source]? * share.max(0.0);
+        }
+        Some(length)
+    }
+
     fn measure(&mut self, path: &[DVec3], frame_time: f64, leg: f64) {
         let mut heights: Vec<f64> = path.iter().map(|point| point.y).collect();
         heights.sort_by(f64::total_cmp);

@@ -11,6 +11,7 @@ mod rest_pose;
 mod root_motion;
 mod rotations;
 mod swing;
+mod turns;
 
 use glam::{DQuat, DVec3};
 
@@ -20,6 +21,7 @@ use super::skeleton::{Clip, Transform};
 
 pub use axes::Landmarks;
 pub use rest_pose::RestSource;
+pub use turns::Turns;
 
 /// A figure as motion sees it: its nodes at rest, and the joints that drive them.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -125,85 +127,7 @@ impl RetargetedClip {
 /// Retargets a clip to a rig. Every index in `rig` and `landmarks` must be valid. Nothing moves if no part is driven; parts
 /// whose parents form a cycle stay in place.
 pub fn retarget(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> RetargetedClip {
-    let count = rig.parts.len();
-    let order = rig.order();
-    if rig.parts.iter().all(|part| part.drive.is_none()) || order.is_empty() {
-        return RetargetedClip {
-            rotations: vec![None; count],
-            translations: vec![None; count],
-            grounded: vec![false; clip.frames()],
-            rest: RestSource::default(),
-        };
-    }
-    let mut poses = PoseBuffer::new(clip);
-    let axes = axes::Axes::of(clip, landmarks, rig.facing);
-    let rest = rest_pose::choose(clip, rig, landmarks, &axes, &mut poses);
-    let mut rotations =
-        rotations::rotations(clip, rig, landmarks, &axes, &rest, &mut poses, &order);
-    let root_motion =
-        root_motion::root_motion(clip, rig, landmarks, &axes, &rotations, &order, &mut poses);
-    swing::swing(
-        rig,
-        &order,
-        &root_motion.path,
-        clip.frame_time,
-        &mut rotations,
-    );
-    let frames = 0..clip.frames();
-    let mut local = vec![None; count];
-    for part in &order {
-        let own = &rig.parts[*part];
-        let turned: Vec<DQuat> = match (own.is_rooted, own.parent) {
-            (true, _) | (false, None) => frames
-                .clone()
-                .map(|frame| rotations.at(*part, frame))
-                .collect(),
-            (false, Some(parent)) if rotations.is_own(*part) => {
-                let inner =
-                    |frame| rotations.at(parent, frame).inverse() * rotations.at(*part, frame);
-                frames
-                    .clone()
-                    .map(|frame| inner(frame).normalize())
-                    .collect()
-            }
-            _ => continue,
-        };
-        local[*part] = Some(continuous(turned));
-    }
-    RetargetedClip {
-        rotations: local,
-        translations: translations(rig, &order, &rotations, &root_motion.path),
-        grounded: root_motion.grounded,
-        rest: rest.source,
-    }
-}
-
-/// Per part the positions of its node, for the root part and for nodes that are children of the model's root.
-fn translations(
-    rig: &Rig,
-    order: &[usize],
-    rotations: &rotations::Rotations,
-    path: &[DVec3],
-) -> Vec<Option<Vec<DVec3>>> {
-    let mut translations = vec![None; rig.parts.len()];
-    let is_moving = |part: &usize| Some(part) == order.first() || rig.parts[*part].is_rooted;
-    let moving: Vec<usize> = order.iter().copied().filter(is_moving).collect();
-    for part in &moving {
-        translations[*part] = Some(Vec::with_capacity(path.len()));
-    }
-    let mut kinematics = kinematics::ForwardKinematics::new(rig);
-    for (frame, root) in path.iter().enumerate() {
-        // The root part itself is at the origin.
-        if moving.len() > 1 {
-            kinematics.pose(rig, rotations, order, frame);
-        }
-        for part in &moving {
-            if let Some(places) = &mut translations[*part] {
-                places.push(*root + kinematics.transforms[*part].position);
-            }
-        }
-    }
-    translations
+    Turns::new(clip, rig, landmarks).travel()
 }
 
 /// From a clip's world to the axes of a drawing whose figure faces the viewer: y up, and z to the front of the body in the

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::axes::{Axes, Landmarks};
+use super::axes::Landmarks;
 use super::contacts::{CONTACT_HEIGHT, Walk};
 use super::kinematics::ForwardKinematics;
 use super::rotations::Rotations;
@@ -21,24 +21,22 @@ pub(super) struct RootMotion {
     pub(super) grounded: Vec<bool>,
 }
 
+/// The motion of the root of a rig whose parts turn like this. `legs` are the lengths of the clip's legs and of the rig's.
 pub(super) fn root_motion(
-    clip: &Clip,
     rig: &Rig,
-    landmarks: &Landmarks,
-    axes: &Axes,
-    rotations: &Rotations,
     order: &[usize],
-    poses: &mut PoseBuffer<'_>,
+    rotations: &Rotations,
+    walk: &Walk,
+    legs: [f64; 2],
 ) -> RootMotion {
+    let frames = walk.hips.len();
     let mut motion = RootMotion {
-        path: Vec::with_capacity(clip.frames()),
-        grounded: vec![false; clip.frames()],
+        path: Vec::with_capacity(frames),
+        grounded: vec![false; frames],
     };
     let Some(&main) = order.first() else {
         return motion;
     };
-    let legs = leg_lengths(clip, rig, landmarks, poses);
-    let walk = Walk::of(clip, rig, landmarks, axes, legs[0], poses);
     let scale = match legs[0] > 0.0 {
         true => legs[1] / legs[0],
         false => 0.0,
@@ -53,7 +51,7 @@ pub(super) fn root_motion(
     let mut planted: Option<usize> = None;
     // Per foot of the clip, and per part that stands on it, the points of the part's surface.
     let mut before: Vec<Vec<Vec<DVec3>>> = Vec::new();
-    for frame in 0..clip.frames() {
+    for frame in 0..frames {
         kinematics.pose(rig, rotations, order, frame);
         let feet: Vec<Vec<Vec<DVec3>>> = walk
             .feet
@@ -165,7 +163,7 @@ fn is_foot(landmarks: &Landmarks, drive: &Drive) -> bool {
 }
 
 /// The leg lengths of the clip and of the figure, feet excluded; if one of them has no legs, their sizes.
-fn leg_lengths(
+pub(super) fn leg_lengths(
     clip: &Clip,
     rig: &Rig,
     landmarks: &Landmarks,

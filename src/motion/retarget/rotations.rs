@@ -4,8 +4,10 @@ use glam::{DQuat, DVec3};
 
 use super::axes::{Axes, Landmarks};
 use super::rest_pose::RestPose;
-use super::{PoseBuffer, Rig, RigPart};
+use super::{PoseBuffer, Rig, RigPart, continuous};
 use crate::motion::matching::{Drive, Follow};
+use crate::motion::performance::damp;
+use crate::motion::resample::TimeMap;
 use crate::motion::skeleton::{Clip, Transform};
 
 /// The rotations of parts in the drawing's axes, frame by frame.
@@ -45,6 +47,67 @@ impl Rotations {
                     (carrier, inner * above.inverse() * drawn)
                 }
             };
+        }
+    }
+
+    /// The same rotations, played along a map of time.
+    pub(super) fn timed(self, map: &TimeMap) -> Self {
+        let timed = |turns: Vec<DQuat>| map.apply(&turns, DQuat::slerp);
+        Self {
+            own: self.own.into_iter().map(|own| own.map(timed)).collect(),
+            carrier: self.carrier,
+        }
+    }
+
+    /// The rotation of a part in the frame of its parent.
+    pub(super) fn local(&self, part: usize, parent: usize, frame: usize) -> DQuat {
+        (self.at(parent, frame).inverse() * self.at(part, frame)).normalize()
+    }
+
+    /// Damps the rotations of parts in their parents' frames, from those of the first frame on. What hangs on a damped part turns
+    /// with it.
+    pub(super) fn damp(&mut self, rig: &Rig, order: &[usize], ratios: &[Option<f64>]) {
+        let ratio = |part: usize| {
+            ratios
+                .get(part)
+                .copied()
+                .flatten()
+                .filter(|ratio| *ratio != 1.0)
+        };
+        let mut is_changed = vec![false; rig.parts.len()];
+        let mut changed: Vec<Option<Vec<DQuat>>> = vec![None; rig.parts.len()];
+        for part in order {
+            let parent = rig.parts[*part].parent;
+            let is_above = parent.is_some_and(|parent| is_changed[parent]);
+            let own = self.own[*part].as_ref();
+            is_changed[*part] = is_above || own.is_some() && ratio(*part).is_some();
+            let Some(turns) = own.filter(|_| is_changed[*part]) else {
+                continue;
+            };
+            let locals = (0..turns.len()).map(|frame| match parent {
+                Some(parent) => self.local(*part, parent, frame),
+                None => turns[frame],
+            });
+            let mut locals = continuous(locals.collect());
+            if let Some(ratio) = ratio(*part) {
+                damp(&mut locals, ratio);
+            }
+            let turns = locals.into_iter().enumerate().map(|(frame, local)| {
+                let above = parent.map_or(DQuat::IDENTITY, |parent| {
+                    let (carrier, inner) = self.carrier[parent];
+                    let turns = carrier.and_then(|carrier| {
+                        changed[carrier].as_ref().or(self.own[carrier].as_ref())
+                    });
+                    turns.map_or(inner, |turns| turns[frame] * inner)
+                });
+                (above * local).normalize()
+            });
+            changed[*part] = Some(turns.collect());
+        }
+        for (own, changed) in self.own.iter_mut().zip(changed) {
+            if changed.is_some() {
+                *own = changed;
+            }
         }
     }
 
