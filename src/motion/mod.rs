@@ -22,4 +22,5 @@ pub mod retarget;
 pub mod skeleton;
 pub mod skeleton_model;
 pub mod travel;
+pub(crate) mod turns;
 pub mod up;

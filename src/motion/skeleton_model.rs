@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3, Vec3};
 
 use super::limited::Exposure;
-use super::retarget::continuous;
 use super::skeleton::{Channel, Clip, Transform, height};
+use super::turns::continuous;
 use crate::scene::{
     Animation, Interpolation, Material, Mesh, Node, Primitive, Scene, Surface, Timing, Track,
     Values,

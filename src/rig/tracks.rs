@@ -6,7 +6,8 @@ use std::sync::Arc;
 use glam::{DQuat, DVec3};
 
 use crate::motion::limited::Exposure;
-use crate::motion::retarget::{RetargetedClip, continuous};
+use crate::motion::retarget::RetargetedClip;
+use crate::motion::turns::continuous;
 use crate::scene::{Animation, Interpolation, Timing, Track, Values, WorldTransform};
 
 use super::RestNode;

@@ -154,7 +154,7 @@ fn ratios_follow_equation_1() {
     assert_eq!(checked, 24);
     assert!(damped > 100, "{damped} parts were damped");
     assert!(
-        compared > 100_000 && skipped * 50 < compared,
+        compared > 50_000 && skipped * 50 < compared,
         "{skipped} of {compared} skipped"
     );
 }

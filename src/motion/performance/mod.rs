@@ -11,7 +11,7 @@ mod marks;
 mod plan;
 
 pub use camerawork::{CAMERA_FOV, CameraPath, camerawork};
-pub use emphasis::{Limbs, damp, ratios};
+pub use emphasis::{Limbs, ratios};
 pub use information::{Information, Key, joint_movements};
 pub use marks::mark_movements;
 pub use plan::{Effects, Filming, Finding, Plan, Request, plan};

@@ -74,6 +74,17 @@ impl AxisOrder {
         [alpha, beta, gamma].map(f64::to_degrees)
     }
 
+    /// Of all angles that are equivalent to these, the ones nearest to `before`.
+    fn nearest(self, found: [f64; 3], before: [f64; 3]) -> [f64; 3] {
+        let one = equivalents_near(found, before);
+        let other = equivalents_near(self.flipped(found), before);
+        if total_difference(one, before) <= total_difference(other, before) {
+            one
+        } else {
+            other
+        }
+    }
+
     /// The second solution: other angles, within one turn, of the same rotation.
     fn flipped(self, [a, b, c]: [f64; 3]) -> [f64; 3] {
         [
@@ -144,16 +155,13 @@ impl RotationTrack {
             (Some(order), &[a, b, c]) => {
                 let ends = between.map(|end| self.rotation(end));
                 self.known = [Some((first, ends[0])), Some((second, ends[1]))];
-                let before = [a, b, c];
-                let found = order.angles(slerp(ends[0], ends[1], t), a);
-                let one = equivalents_near(found, before);
-                let other = equivalents_near(order.flipped(found), before);
-                let nearer = if total_difference(one, before) <= total_difference(other, before) {
-                    one
-                } else {
-                    other
+                let found = match (t, self.indices.as_slice()) {
+                    // The very numbers of the frame, but for whole turns.
+                    (0.0, &[a, b, c]) => [from[a], from[b], from[c]],
+                    _ => order.angles(slerp(ends[0], ends[1], t), a),
                 };
-                self.angles.copy_from_slice(&nearer);
+                let found = order.nearest(found, [a, b, c]);
+                self.angles.copy_from_slice(&found);
             }
             _ => {
                 for (index, angle) in self.indices.iter().zip(&mut self.angles) {
@@ -163,6 +171,25 @@ impl RotationTrack {
                 }
             }
         }
+        self.write(out);
+    }
+
+    /// Whether the channels can express every rotation.
+    pub(super) fn is_complete(&self) -> bool {
+        self.order.is_some()
+    }
+
+    /// Writes a rotation to the numbers of a new frame, as angles nearest to the previous sample's. Channels that cannot express every
+    /// rotation are left as they are.
+    pub(super) fn set(&mut self, rotation: DQuat, out: &mut [f64]) {
+        if let (Some(order), &[a, b, c]) = (self.order, self.angles.as_slice()) {
+            let found = order.nearest(order.angles(rotation, a), [a, b, c]);
+            self.angles.copy_from_slice(&found);
+            self.write(out);
+        }
+    }
+
+    fn write(&self, out: &mut [f64]) {
         for (index, angle) in self.indices.iter().zip(&self.angles) {
             if let Some(number) = out.get_mut(*index) {
                 *number = *angle;

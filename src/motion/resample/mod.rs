@@ -3,6 +3,7 @@
 //! The thesis works at 24 frames a second (section 5.2.1). Rotations are interpolated by slerp (Shoemake 1985) and converted
 //! back to each joint's own channels by Euler-angle extraction, so that the result has the skeleton that was read.
 
+mod damped;
 mod euler;
 mod range;
 #[cfg(test)]
@@ -17,6 +18,7 @@ use rayon::prelude::*;
 use super::bvh::MAX_NUMBERS;
 use super::skeleton::Clip;
 
+pub use damped::damped;
 use euler::RotationTrack;
 pub use range::{Range, parse_range, range};
 pub use time_map::TimeMap;

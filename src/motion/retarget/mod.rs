@@ -138,16 +138,6 @@ pub fn to_drawing(clip: &Clip, landmarks: &Landmarks) -> DQuat {
         .inverse()
 }
 
-/// Flips signs so that consecutive quaternions are as near to each other as possible; the rotations are the same.
-pub(crate) fn continuous(mut turns: Vec<DQuat>) -> Vec<DQuat> {
-    for at in 1..turns.len() {
-        if turns[at].dot(turns[at - 1]) < 0.0 {
-            turns[at] = -turns[at];
-        }
-    }
-    turns
-}
-
 /// The poses of a clip, of which the one that was used last is stored.
 struct PoseBuffer<'a> {
     clip: &'a Clip,

@@ -4,11 +4,11 @@ use glam::{DQuat, DVec3};
 
 use super::axes::{Axes, Landmarks};
 use super::rest_pose::RestPose;
-use super::{PoseBuffer, Rig, RigPart, continuous};
+use super::{PoseBuffer, Rig, RigPart};
 use crate::motion::matching::{Drive, Follow};
-use crate::motion::performance::damp;
 use crate::motion::resample::TimeMap;
 use crate::motion::skeleton::{Clip, Transform};
+use crate::motion::turns::{continuous, damp};
 
 /// The rotations of parts in the drawing's axes, frame by frame.
 pub(super) struct Rotations {

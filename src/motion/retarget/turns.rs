@@ -9,11 +9,12 @@ use super::axes::Axes;
 use super::contacts::Walk;
 use super::rotations::{self, Rotations};
 use super::{
-    Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, continuous, kinematics, rest_pose,
-    root_motion, swing,
+    Landmarks, PoseBuffer, RestSource, RetargetedClip, Rig, kinematics, rest_pose, root_motion,
+    swing,
 };
 use crate::motion::resample::TimeMap;
 use crate::motion::skeleton::Clip;
+use crate::motion::turns::continuous;
 
 /// How the parts of a rig turn in a clip, frame by frame, and when its feet are in contact with the ground.
 pub struct Turns<'a> {
