@@ -94,6 +94,7 @@ const SHOWN: &[(Code, &str)] = &[
     (Code::NoPartner, "view-no-partner"),
     (Code::UnlikelyViews, "view-wrong-sign"),
     (Code::UnusedFeature, "view-feature-points-unused"),
+    (Code::NoMark, "mark-follow-without"),
     (Code::Uncertain, "bind-meant-uncertain"),
     (Code::AutomaticName, "bind-automatic-names"),
     (Code::AxisGuess, "shape-axis-guess"),

@@ -5,7 +5,7 @@
 
 use super::bindings::Bindings;
 use crate::lang::keyword::{AttributeString, Keyword};
-use crate::lang::value::{KindArguments, Origin, Setting, Shape, Value};
+use crate::lang::value::{KindArguments, Mark, Origin, Setting, Shape, Value};
 use crate::solid::Profile;
 use crate::source::Span;
 use crate::svg::{Drawing, PaintKey};
@@ -390,6 +390,16 @@ impl<'a> Attributes<'a> {
     /// `Bone`: the names of the joints that drive the part.
     pub fn bones(&self) -> Option<Attribute<'a, &'a [String]>> {
         typed!(self, Keyword::Bone, Value::Names(names) => names.as_slice())
+    }
+
+    /// `Mark`: the colour mark that performs the part.
+    pub fn mark(&self) -> Option<Attribute<'a, &'a Mark>> {
+        typed!(self, Keyword::Mark, Value::Mark(mark) => mark)
+    }
+
+    /// `Follow`: the names of the parts or joints that are edited together with the part.
+    pub fn follows(&self) -> Option<Attribute<'a, &'a [String]>> {
+        typed!(self, Keyword::Follow, Value::Names(names) => names.as_slice())
     }
 
     /// `Swing`: how stiff a part is that swings, `None` for one that does not.

@@ -21,6 +21,7 @@ mod leaders;
 mod legends;
 mod located;
 mod many;
+mod marks;
 mod meant;
 mod motions;
 mod names;
@@ -47,7 +48,11 @@ pub use given_depths::GivenDepth;
 pub use layers::{Layer, LayerKind, in_layers_of_pixels};
 pub use legends::Legend;
 pub use located::locate;
-pub use motions::{ClipLimits, ClipRequest, MotionSource, SignedAxis};
+pub use marks::{FollowedName, PartMark};
+pub use motions::{
+    Camerawork, ClipLimits, ClipRequest, MotionSource, PerformanceEffects, PerformanceRequest,
+    SignedAxis,
+};
 pub use names::written_by_a_person;
 pub use nearest::DistanceMode;
 pub use settings::{BindRule, DrawingSettings, Strokes};
@@ -99,6 +104,7 @@ pub fn bind(drawing: &Drawing, memo: &Memo, diagnostics: &mut Vec<Diagnostic>) -
     legends::merge(drawing, &mut bindings, diagnostics);
     hierarchy::build(drawing, &mut bindings, memo, diagnostics);
     motions::without_motion(&bindings, diagnostics);
+    marks::without_mark(&bindings, diagnostics);
     uncertain::report(drawing, &bindings, &node_groups, diagnostics);
     many::off_page(drawing, &bindings, diagnostics);
     outlines::report(drawing, &bindings, diagnostics);

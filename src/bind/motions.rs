@@ -3,14 +3,14 @@
 use std::ops::Range;
 
 use super::attributes::SetBy;
-use super::bindings::Bindings;
+use super::bindings::{Bindings, DrawingString};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::lang::ast::Annotation;
 use crate::lang::keyword::Keyword;
 use crate::lang::value::{Setting, Value};
 use crate::source::{Span, Text};
 
-pub use crate::lang::value::{MotionSource, SignedAxis};
+pub use crate::lang::value::{Camerawork, MotionSource, PerformanceEffects, SignedAxis};
 
 /// A clip that a string asks for with `Motion`.
 #[derive(Debug, Clone)]
@@ -19,10 +19,8 @@ pub struct ClipRequest<'a> {
     pub part: Option<usize>,
     /// The link to a motion file, or the word for a clip that comes along.
     pub source: &'a MotionSource,
-    /// The string.
-    text: &'a Text,
-    /// The range of the file or the word in it.
-    source_range: Range<usize>,
+    /// Where the file or the word is written.
+    written: Written<'a>,
     /// The name of the clip, if the string gives one.
     pub name: Option<&'a str>,
     /// The axis that points up in the file, if the string says so.
@@ -33,6 +31,8 @@ pub struct ClipRequest<'a> {
     pub is_loop: bool,
     /// The `Limited` of this clip.
     pub limits: Option<ClipLimits>,
+    /// The `Perform` of this clip.
+    pub performance: Option<PerformanceRequest<'a>>,
     /// The place of the setting.
     pub span: Span,
 }
@@ -48,16 +48,88 @@ pub struct ClipLimits {
     pub span: Span,
 }
 
+/// A performed track, as a string asks for it with `Perform`.
+#[derive(Debug, Clone)]
+pub struct PerformanceRequest<'a> {
+    /// The link to the file of the track.
+    pub file: &'a str,
+    /// Where the file is written.
+    written: Written<'a>,
+    /// What the performance does to the clip.
+    pub effects: PerformanceEffects,
+    /// The name of the mark that is emphasised, if the string gives one.
+    pub emphasised: Option<&'a str>,
+    /// The key frames of the track and of the motion, if the string gives them, counted from 1 at 24 frames a second.
+    pub keys: Option<[usize; 2]>,
+    /// The place of the setting.
+    pub span: Span,
+}
+
+/// An argument of a string that names a file.
+#[derive(Debug, Clone)]
+struct Written<'a> {
+    text: &'a Text,
+    range: Range<usize>,
+}
+
+impl<'a> Written<'a> {
+    /// The first argument of a setting.
+    fn first_of(string: &'a DrawingString, setting: &Setting) -> Self {
+        let attribute = string.annotation.attribute_at(&setting.range);
+        let first = attribute.and_then(|attribute| attribute.arguments.first());
+        Self {
+            text: &string.text,
+            range: first.map_or(setting.range.clone(), |first| first.range.clone()),
+        }
+    }
+
+    fn span(&self) -> Span {
+        self.text.span(self.range.clone())
+    }
+
+    /// The name of a file as it is written in the place of this one, in quotes and escaped for XML.
+    fn replaced_by(&self, file: &str) -> String {
+        let quoted = format!("\"{file}\"");
+        self.text.escape_at(self.range.start, &quoted)
+    }
+}
+
 impl ClipRequest<'_> {
     /// The place of the file or the word.
     pub fn source_span(&self) -> Span {
-        self.text.span(self.source_range.clone())
+        self.written.span()
     }
 
     /// The name of a file as it is written in the place of this one, in quotes and escaped for XML.
     pub fn written(&self, file: &str) -> String {
-        let quoted = format!("\"{file}\"");
-        self.text.escape_at(self.source_range.start, &quoted)
+        self.written.replaced_by(file)
+    }
+}
+
+impl<'a> PerformanceRequest<'a> {
+    /// The value of a `Perform` in a string.
+    fn of(setting: &'a Setting, string: &'a DrawingString) -> Option<Self> {
+        match &setting.value {
+            Value::Performance(performance) => Some(Self {
+                file: &performance.file,
+                written: Written::first_of(string, setting),
+                effects: performance.effects,
+                emphasised: performance.emphasised.as_deref(),
+                keys: performance.keys,
+                span: string.text.span(setting.range.clone()),
+            }),
+            _ => None,
+        }
+    }
+
+    /// The place of the file.
+    pub fn file_span(&self) -> Span {
+        self.written.span()
+    }
+
+    /// The name of a file as it is written in the place of this one, in quotes and escaped for XML.
+    pub fn written(&self, file: &str) -> String {
+        self.written.replaced_by(file)
     }
 }
 
@@ -90,8 +162,7 @@ impl Bindings {
                 Value::Motion(motion) => Some(ClipRequest {
                     part: part?,
                     source: &motion.source,
-                    text: &string.text,
-                    source_range: first_argument(&string.annotation, setting),
+                    written: Written::first_of(string, setting),
                     name: motion.clip.as_deref(),
                     up: motion.up,
                     is_in_place: motion.is_in_place,
@@ -99,6 +170,10 @@ impl Bindings {
                     limits: setting.limited.as_ref().and_then(|limited| {
                         ClipLimits::of(limited, string.text.span(limited.range.clone()))
                     }),
+                    performance: setting
+                        .performance
+                        .as_ref()
+                        .and_then(|performance| PerformanceRequest::of(performance, string)),
                     span: string.text.span(setting.range.clone()),
                 }),
                 _ => None,
@@ -114,22 +189,16 @@ impl Bindings {
         let limits = ClipLimits::of(source.setting, self.span_of(&source))?;
         Some((source.from, limits))
     }
+
+    /// The `Perform` that applies to all clips of a part's figure, likewise.
+    pub fn performance_of_clips(&self, part: usize) -> Option<(SetBy, PerformanceRequest<'_>)> {
+        let source = self.setting(part, Keyword::Perform)?;
+        let performance = PerformanceRequest::of(source.setting, &self.strings[source.string])?;
+        Some((source.from, performance))
+    }
 }
 
-/// The range of the first argument of a setting in its string.
-fn first_argument(annotation: &Annotation, setting: &Setting) -> Range<usize> {
-    let attributes = match annotation {
-        Annotation::Defaults(attributes) | Annotation::Legend(attributes) => attributes.as_slice(),
-        Annotation::Part(part) => &part.attributes,
-        _ => &[],
-    };
-    let mut attributes = attributes.iter();
-    let attribute = attributes.find(|attribute| attribute.range == setting.range);
-    let first = attribute.and_then(|attribute| attribute.arguments.first());
-    first.map_or(setting.range.clone(), |first| first.range.clone())
-}
-
-/// Reports `Limited`, `Bone`, `Carry` and `Swing`, each once, in a drawing without a motion.
+/// Reports `Limited`, `Bone`, `Carry`, `Swing` and `Perform`, each once, in a drawing without a motion.
 pub(super) fn without_motion(bindings: &Bindings, diagnostics: &mut Vec<Diagnostic>) {
     if !bindings.clip_requests().is_empty() {
         return;
@@ -139,6 +208,7 @@ pub(super) fn without_motion(bindings: &Bindings, diagnostics: &mut Vec<Diagnost
         Keyword::Bone,
         Keyword::Carry,
         Keyword::Swing,
+        Keyword::Perform,
     ] {
         let found = bindings.strings.iter().find_map(|string| {
             let counts = !matches!(string.annotation, Annotation::Legend(_));

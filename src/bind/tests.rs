@@ -400,3 +400,72 @@ fn a_request_says_how_its_clip_is_played() {
     let (from, limits) = compiled.bindings.limits_of_clips(0).unwrap();
     assert_eq!((from, limits.omit), (SetBy::Own, 9));
 }
+
+#[test]
+fn a_performance_belongs_to_the_motion_before_it() {
+    let elements = [
+        square(
+            20,
+            20,
+            "A$Perform \"a.json\" Motion walk Perform -te \"w.csv\" \"left hand\" 14 31 Motion run",
+        ),
+        text(150, 150, "%Perform -R \"all.json\" 3 (2 + 2)"),
+    ];
+    let compiled = drawing(&elements.concat());
+    let bindings = &compiled.bindings;
+    let requests = bindings.clip_requests();
+    let own = requests[0].performance.as_ref().unwrap();
+    assert_eq!(own.file, "w.csv");
+    assert_eq!(own.emphasised, Some("left hand"));
+    assert_eq!(own.keys, Some([14, 31]));
+    let effects = PerformanceEffects {
+        timing: false,
+        emphasis: false,
+        camerawork: Camerawork::Camera,
+    };
+    assert_eq!(own.effects, effects);
+    assert!(requests[1].performance.is_none());
+    let (from, all) = bindings.performance_of_clips(0).unwrap();
+    assert_eq!((from, all.file, all.keys), (SetBy::Own, "a.json", None));
+
+    let elements = [
+        square(20, 20, "A$Motion walk"),
+        text(150, 150, "%Perform -R \"all.json\" 3 (2 + 2)"),
+    ];
+    let compiled = drawing(&elements.concat());
+    let (from, all) = compiled.bindings.performance_of_clips(0).unwrap();
+    assert_eq!(
+        (from, all.file, all.keys),
+        (SetBy::Default, "all.json", Some([3, 4]))
+    );
+    let effects = PerformanceEffects {
+        timing: true,
+        emphasis: true,
+        camerawork: Camerawork::Root,
+    };
+    assert_eq!(all.effects, effects);
+}
+
+#[test]
+fn marks_and_what_follows_them_have_places() {
+    let elements = [
+        square(20, 20, "A$Mark Red Follow B \"left foot\""),
+        square(60, 20, "B@A$Mark #00F"),
+        square(100, 20, "C@A"),
+    ];
+    let compiled = drawing(&elements.concat());
+    let bindings = &compiled.bindings;
+    let mark = |name: &str| {
+        let mark = bindings.mark(part(&compiled, name))?;
+        Some((mark.word, mark.colour))
+    };
+    assert_eq!(mark("A"), Some(("red", [255, 0, 0])));
+    assert_eq!(mark("B"), Some(("#00f", [0, 0, 255])));
+    assert_eq!(mark("C"), None);
+    let follows = bindings.follows(part(&compiled, "A"));
+    let follows: Vec<(&str, usize)> = follows
+        .iter()
+        .map(|followed| (followed.name, followed.span.end - followed.span.start))
+        .collect();
+    assert_eq!(follows, [("B", 1), ("left foot", "\"left foot\"".len())]);
+}

@@ -431,7 +431,7 @@ codes! {
     /// Write the joint's name as in the motion file. Editors complete it, and `okoshi motion FILE` lists all joints.
     /// `Bone` takes one joint, or two: the first and the last of a chain.
     UnclearJoint = "W316", "unclear joint";
-    /// A motion moves nothing, or the drawing has `Limited` or `Bone` but no motion.
+    /// A motion moves nothing, or the drawing has `Limited`, `Bone` or `Perform` but no motion.
     ///
     /// ```text
     /// %Limited 4 30, and no Motion
@@ -530,6 +530,15 @@ codes! {
     ///
     /// Write the same name beside the same place of the outline in every view that shows the region.
     UnusedFeature = "W326", "feature point without effect";
+    /// `Follow` names what is edited together with a characteristic joint, but its part is none: it has no `Mark`. So `Follow`
+    /// has no effect.
+    ///
+    /// ```text
+    /// Rhand@Rarm$Follow Head
+    /// ```
+    ///
+    /// Write the colour of the mark that performs the part, `Mark red Follow Head` for example, or delete `Follow`.
+    NoMark = "W327", "`Follow` without a mark";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

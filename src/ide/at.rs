@@ -107,15 +107,7 @@ impl Analysis {
 }
 
 pub(super) fn attributes(annotation: &Annotation) -> &[Attribute] {
-    match annotation {
-        Annotation::Defaults(attributes) | Annotation::Legend(attributes) => attributes,
-        Annotation::Part(part) => &part.attributes,
-        Annotation::Empty
-        | Annotation::Comment
-        | Annotation::Unused
-        | Annotation::Feature(_)
-        | Annotation::Caption => &[],
-    }
+    annotation.attributes()
 }
 
 /// The words and signs of a string, in order, without what could not be parsed.

@@ -3,7 +3,7 @@
 use super::Analysis;
 use super::at::attributes;
 use crate::diagnostic::Edit;
-use crate::lang::ast::ArgumentKind;
+use crate::lang::ast::{ArgumentKind, Attribute};
 use crate::lang::keyword::Keyword;
 use crate::lang::keyword::colours::{COLOURS, colour};
 use crate::lang::value::Value;
@@ -19,26 +19,33 @@ pub struct Swatch {
 }
 
 impl Analysis {
-    /// The colours of all `Color` attributes, in the order of the file.
+    /// The colours of all `Color` and `Mark` attributes, in the order of the file.
     pub fn swatches(&self) -> Vec<Swatch> {
         let mut out = vec![];
         for string in &self.bindings().strings {
             let all = attributes(&string.annotation).iter();
-            for attribute in all.filter(|attribute| attribute.keyword == Keyword::Color) {
+            for attribute in all.filter(|attribute| is_colour(attribute)) {
                 let setting = string
                     .settings
                     .iter()
                     .find(|setting| setting.range == attribute.range);
-                let value = setting.map(|setting| &setting.value);
-                if let (Some(Value::Color { rgb, alpha }), Some(first), Some(last)) = (
-                    value,
-                    attribute.arguments.first(),
-                    attribute.arguments.last(),
-                ) {
-                    let [r, g, b] = *rgb;
+                let rgba = match setting.map(|setting| &setting.value) {
+                    Some(Value::Color { rgb, alpha }) => {
+                        let [r, g, b] = *rgb;
+                        [r, g, b, alpha.unwrap_or(1.0)]
+                    }
+                    Some(Value::Mark(mark)) => {
+                        let [r, g, b] = mark.colour.map(|channel| f64::from(channel) / 255.0);
+                        [r, g, b, 1.0]
+                    }
+                    _ => continue,
+                };
+                if let (Some(first), Some(last)) =
+                    (attribute.arguments.first(), attribute.arguments.last())
+                {
                     out.push(Swatch {
                         span: string.text.span(first.range.start..last.range.end),
-                        rgba: [r, g, b, alpha.unwrap_or(1.0)],
+                        rgba,
                     });
                 }
             }
@@ -56,7 +63,7 @@ impl Analysis {
         let string = &self.bindings().strings[index];
         let mut all = attributes(&string.annotation).iter();
         let Some(attribute) = all.find(|attribute| {
-            attribute.keyword == Keyword::Color
+            is_colour(attribute)
                 && string
                     .text
                     .span(attribute.range.clone())
@@ -72,7 +79,16 @@ impl Analysis {
             ArgumentKind::Hex(digits) => matches!(digits.len(), 4 | 8),
             _ => attribute.arguments.len() == 4,
         };
-        let mut forms = vec![hex(rgba, had_alpha), numbers(rgba, had_alpha)];
+        // A mark is opaque, and is not written in numbers.
+        let is_mark = attribute.keyword == Keyword::Mark;
+        let rgba = match (is_mark, rgba) {
+            (true, [r, g, b, _]) => [r, g, b, 1.0],
+            (false, rgba) => rgba,
+        };
+        let mut forms = match is_mark {
+            true => vec![hex(rgba, false)],
+            false => vec![hex(rgba, had_alpha), numbers(rgba, had_alpha)],
+        };
         match first.kind {
             ArgumentKind::Hex(_) => {}
             _ => forms.reverse(),
@@ -90,6 +106,11 @@ impl Analysis {
         });
         edits.collect()
     }
+}
+
+/// Whether an attribute's arguments are a colour.
+fn is_colour(attribute: &Attribute) -> bool {
+    matches!(attribute.keyword, Keyword::Color | Keyword::Mark)
 }
 
 /// `0.5 0.25 1`, with three decimals, enough for 8-bit channels.
@@ -149,6 +170,8 @@ mod tests {
                 "#0080ffff",
             ),
             ("Body$Color red", [1.0, 0.0, 0.0, 1.0], "0 0.502 1"),
+            ("Body$Mark lime", [0.0, 1.0, 0.0, 1.0], "#0080ff"),
+            ("Body$Mark #00FF0080", [0.0, 1.0, 0.0, 1.0], "#0080ff"),
             ("Body$Color w 0 0", [0.5, 0.0, 0.0, 1.0], "0 0.502 1"),
         ] {
             let (analysis, _) = analysis(&figure([string, "", "", "", "%Let w 0.5"]));

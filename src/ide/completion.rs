@@ -2,6 +2,7 @@
 
 mod choice;
 mod joints;
+mod marks;
 mod parents;
 mod snippets;
 #[cfg(test)]
@@ -254,8 +255,8 @@ impl Cursor<'_> {
         for attribute in whole.unwrap_or(attributes(annotation)) {
             match attribute.keyword {
                 Keyword::Let => {}
-                // Each motion can have its own `Limited`.
-                Keyword::Motion => drop(given.remove(&Keyword::Limited)),
+                // Each motion can have its own `Limited` and `Perform`.
+                Keyword::Motion => given.retain(|keyword: &Keyword| !keyword.belongs_to_motion()),
                 keyword => drop(given.insert(keyword)),
             }
         }
@@ -309,12 +310,17 @@ impl Cursor<'_> {
     fn arguments(&self, attribute: &Attribute, in_quotes: bool, word: &str) -> Choice<Proposal> {
         let next = attribute.arguments.len();
         let is_variable = |name: &str| self.context.analysis.is_variable(name);
-        let forms: Vec<&Takes> = match (next, attribute.keyword) {
-            (0, keyword) => {
-                let forms = keyword.row().forms.iter();
-                let first = forms.filter_map(|form| form.parameters.first());
-                first.map(|parameter| &parameter.takes).collect()
-            }
+        let forms = attribute.keyword.row().forms.iter();
+        let nth = |index: usize| {
+            forms
+                .clone()
+                .filter_map(move |form| form.parameters.get(index))
+        };
+        // What follows a file tells its forms apart.
+        let is_file = nth(0).all(|parameter| matches!(parameter.takes, Takes::File));
+        let forms: Vec<&Takes> = match next {
+            0 => nth(0).map(|parameter| &parameter.takes).collect(),
+            1 if is_file => nth(1).map(|parameter| &parameter.takes).collect(),
             _ => parameter_at(attribute, next, &is_variable)
                 .map(|slot| &slot.parameter().takes)
                 .into_iter()
@@ -352,12 +358,11 @@ impl Cursor<'_> {
                     .collect(),
                 Takes::Number(_) => self.variables(word),
                 Takes::File => self.files(attribute, word),
-                Takes::Names if attribute.keyword == Keyword::Follow => {
-                    self.parents(word, NamePlace::Argument)
-                }
+                Takes::Names if attribute.keyword == Keyword::Follow => self.other_parts(word),
                 Takes::Names if attribute.keyword == Keyword::Bone => {
                     choose(self.joints(attribute), |joint| &joint.label, word)
                 }
+                Takes::Text if attribute.keyword == Keyword::Perform => self.marks(word),
                 Takes::Names | Takes::Text | Takes::Variable | Takes::Hex => Choice::default(),
             });
         }
@@ -400,7 +405,7 @@ impl Cursor<'_> {
             Keyword::Texture => &["png", "jpg", "jpeg", "gif", "webp"],
             Keyword::Shape => &["glb", "gltf"],
             Keyword::Motion => &["bvh"],
-            _ => &["json"],
+            _ => &["json", "csv"],
         };
         let fits = |name: &String| {
             let ending = name

@@ -139,8 +139,10 @@ impl Analysis {
             (Takes::Names, ArgumentKind::Word(name) | ArgumentKind::Quoted(name))
                 if slot.owner == Keyword::Follow.name() =>
             {
-                let part = self.part_named(name);
-                return part.map(|part| self.part_card(part));
+                return match self.part_named(name) {
+                    Some(part) => Some(self.part_card(part)),
+                    None => self.joint_card(string, name),
+                };
             }
             (takes, _) => format!(
                 "`{}` of `{}`: {}\n\n*{}*",

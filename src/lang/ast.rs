@@ -27,6 +27,23 @@ pub enum Annotation {
     Caption,
 }
 
+impl Annotation {
+    /// The attributes, in the order of the string.
+    pub fn attributes(&self) -> &[Attribute] {
+        match self {
+            Self::Defaults(attributes) | Self::Legend(attributes) => attributes,
+            Self::Part(part) => &part.attributes,
+            Self::Empty | Self::Comment | Self::Unused | Self::Feature(_) | Self::Caption => &[],
+        }
+    }
+
+    /// The attribute with this range.
+    pub fn attribute_at(&self, range: &Range<usize>) -> Option<&Attribute> {
+        let mut attributes = self.attributes().iter();
+        attributes.find(|attribute| attribute.range == *range)
+    }
+}
+
 /// A part string.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Part {

@@ -77,7 +77,7 @@ impl Checker<'_> {
             };
             if attribute.keyword == Keyword::Motion {
                 // A `Limited` behind it is another one than those before it.
-                given.remove(&Keyword::Limited);
+                given.retain(|keyword, _| !keyword.belongs_to_motion());
             }
             if !matches!(attribute.keyword, Keyword::Let | Keyword::Motion) {
                 let earlier = given.insert(attribute.keyword, (settings.len(), attribute));
@@ -91,7 +91,7 @@ impl Checker<'_> {
             settings.push(setting);
             before = Some(attribute);
         }
-        give_limits_to_motions(attributes, &mut settings);
+        give_to_motions(attributes, &mut settings);
         if in_second_string {
             self.keep_last(&mut settings);
         }
@@ -158,6 +158,7 @@ impl Checker<'_> {
             text,
             range: attribute.range.clone(),
             limited: None,
+            performance: None,
         })
     }
 
@@ -191,20 +192,25 @@ impl Checker<'_> {
     }
 }
 
-/// Moves each `Limited` into the `Motion` before it, which it belongs to. One behind a `Motion` with an error is dropped like that.
-fn give_limits_to_motions(attributes: &[Attribute], settings: &mut [Option<Setting>]) {
+/// Moves each `Limited` and `Perform` into the `Motion` before it, which it belongs to. One behind a `Motion` with an error is dropped
+/// like that.
+fn give_to_motions(attributes: &[Attribute], settings: &mut [Option<Setting>]) {
     let mut motion = None;
     for (index, attribute) in attributes.iter().enumerate() {
-        match attribute.keyword {
-            Keyword::Motion => motion = Some(index),
-            Keyword::Limited => {
-                let Some(motion) = motion else { continue };
-                let limits = settings[index].take().map(Box::new);
-                if let Some(motion) = &mut settings[motion] {
-                    motion.limited = limits.or(motion.limited.take());
-                }
-            }
-            _ => {}
+        let keyword = attribute.keyword;
+        if keyword == Keyword::Motion {
+            motion = Some(index);
+        }
+        let Some(motion) = motion.filter(|_| keyword.belongs_to_motion()) else {
+            continue;
+        };
+        let given = settings[index].take().map(Box::new);
+        if let Some(motion) = &mut settings[motion] {
+            let slot = match keyword {
+                Keyword::Perform => &mut motion.performance,
+                _ => &mut motion.limited,
+            };
+            *slot = given.or(slot.take());
         }
     }
 }

@@ -223,6 +223,11 @@ impl Keyword {
             .find(|keyword| keyword.name().eq_ignore_ascii_case(name))
     }
 
+    /// Whether an attribute behind a `Motion` belongs to that clip, so that each motion can have its own.
+    pub fn belongs_to_motion(self) -> bool {
+        matches!(self, Self::Limited | Self::Perform)
+    }
+
     /// The keyword that `word` is probably a misspelling of, and their edit distance.
     pub fn nearest(word: &str) -> Option<(Self, usize)> {
         let lower = word.to_ascii_lowercase();
@@ -309,6 +314,13 @@ mod tests {
             ]
         );
         assert_eq!(Keyword::Follow.usages(), ["Follow name…"]);
+        assert_eq!(
+            Keyword::Perform.usages(),
+            [
+                "Perform [-tecr] \"file\" [input-key motion-key]",
+                "Perform [-tecr] \"file\" mark [input-key motion-key]"
+            ]
+        );
         assert_eq!(Keyword::Hidden.usages(), ["Hidden"]);
     }
 

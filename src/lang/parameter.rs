@@ -85,12 +85,16 @@ pub(super) fn form_by_first_argument(
     found.or_else(|| forms.iter().find(fits))
 }
 
-/// Whether the second argument can be that of a form whose second parameter is an axis or a text: an axis has a sign.
+/// Whether the second argument can be that of a form whose second parameter is an axis, a number or a text: an axis has a sign.
 fn fits_second(form: &Form, attribute: &Attribute) -> bool {
     let second = attribute.arguments.get(1).map(|argument| &argument.kind);
     let is_axis = matches!(second, Some(ArgumentKind::Word(word)) if word.starts_with(['+', '-']));
     match form.parameters.get(1).map(|parameter| &parameter.takes) {
         Some(Takes::SignedAxis) => is_axis || second.is_none(),
+        Some(Takes::Number(_)) => matches!(
+            second,
+            None | Some(ArgumentKind::Number(_) | ArgumentKind::Expression(_))
+        ),
         Some(Takes::Text) => !is_axis,
         _ => true,
     }
@@ -141,6 +145,19 @@ mod tests {
             ("$Motion \"a.bvh\" +z", 2, None),
             ("$Motion \"a.bvh\" kick", 1, Some(("Motion", "clip"))),
             ("$Motion \"a.bvh\" kick", 2, Some(("Motion", "up"))),
+            ("$Perform \"a.json\" 10", 1, Some(("Perform", "input-key"))),
+            (
+                "$Perform \"a.json\" (5 + 5) 7",
+                2,
+                Some(("Perform", "motion-key")),
+            ),
+            ("$Perform \"a.json\" 10 7", 3, None),
+            ("$Perform \"a.json\" red", 1, Some(("Perform", "mark"))),
+            (
+                "$Perform a.json \"left hand\" 10",
+                3,
+                Some(("Perform", "motion-key")),
+            ),
             ("$Motion walk", 0, Some(("Motion", "clip"))),
             ("$Motion walk", 1, None),
         ] {

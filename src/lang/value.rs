@@ -17,6 +17,8 @@ pub struct Setting {
     pub range: Range<usize>,
     /// The `Limited` that belongs to a `Motion`: the one between it and the next.
     pub limited: Option<Box<Setting>>,
+    /// The `Perform` that belongs to a `Motion`, likewise.
+    pub performance: Option<Box<Setting>>,
 }
 
 /// The value of an attribute.
@@ -49,6 +51,10 @@ pub enum Value {
     Ground(Ground),
     /// `Motion`
     Motion(Motion),
+    /// `Mark`
+    Mark(Mark),
+    /// `Perform`
+    Performance(Performance),
     /// `Let`: name and value.
     Let(String, f64),
     /// No arguments, such as `Hidden`.
@@ -121,6 +127,50 @@ pub enum MotionSource {
     File(String),
     /// A clip that comes along, by its word in the table.
     BuiltIn(String),
+}
+
+/// `Mark colour`
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mark {
+    /// The colour as it is written, in lower case: `red`, `#ff8000`.
+    pub word: String,
+    /// Red, green, blue, sRGB.
+    pub colour: [u8; 3],
+}
+
+/// `Perform [-tecr] "file" [mark] [input-key motion-key]`
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Performance {
+    /// The file of the track, as written.
+    pub file: String,
+    /// What it does to a clip.
+    pub effects: PerformanceEffects,
+    /// The name of the mark that is emphasised, if given.
+    pub emphasised: Option<String>,
+    /// The key frames of the track and of the motion, if given, counted from 1 at 24 frames a second.
+    pub keys: Option<[usize; 2]>,
+}
+
+/// What a performance does to a clip.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PerformanceEffects {
+    /// It gives the clip its timing; not with `-t`.
+    pub timing: bool,
+    /// It damps the joints that are not emphasised; not with `-e`.
+    pub emphasis: bool,
+    /// What keeps the emphasised joint in the middle of the picture.
+    pub camerawork: Camerawork,
+}
+
+/// What keeps the emphasised joint of a performance in the middle of the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Camerawork {
+    /// A camera.
+    Camera,
+    /// The figure moves instead, as in the paper: `-r`.
+    Root,
+    /// Nothing: `-c`.
+    None,
 }
 
 /// `Origin center | start | end | x y`

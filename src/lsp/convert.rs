@@ -177,7 +177,7 @@ pub(super) fn diagnostic(
 
 /// Whether a code is about something that has no effect, which editors show faded.
 fn has_no_effect(code: Code) -> bool {
-    matches!(code, Code::UnusedLegend | Code::NotBuiltYet)
+    matches!(code, Code::UnusedLegend | Code::NotBuiltYet | Code::NoMark)
 }
 
 /// Text in Markdown.

@@ -6,7 +6,9 @@
 mod diagnostics;
 mod figure_clip;
 mod figures;
+mod missing_files;
 mod motion_files;
+mod performances;
 mod rigging;
 mod surface;
 mod tracks;
@@ -15,7 +17,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::bind::{Bindings, ClipLimits, ClipRequest, MotionSource};
+use crate::bind::{Bindings, ClipLimits, ClipRequest, MotionSource, PerformanceRequest, SetBy};
 use crate::diagnostic::Diagnostic;
 use crate::geometry::{Frame, Thickness};
 use crate::memo::{Memo, Same};
@@ -36,6 +38,7 @@ use diagnostics::MatchProblems;
 pub use figure_clip::{FigureClip, PartDrive, originals};
 use figures::FigureGroup;
 use motion_files::MotionFiles;
+use performances::Performances;
 pub use rigging::RestNode;
 use rigging::{RestNodes, RetargetKey};
 use tracks::{AnimatedNodes, KeyTimes};
@@ -121,7 +124,7 @@ pub fn add_clips(
         problems: MatchProblems::default(),
         clips: Vec::new(),
     };
-    let mut files = MotionFiles::default();
+    let (mut files, mut performances) = (MotionFiles::default(), Performances::default());
     let (mut keys, mut matches) = (0_usize, 0_usize);
     for request in &requests {
         let (link, motion) = match request.source {
@@ -159,6 +162,9 @@ pub fn add_clips(
                 diagnostics.push(diagnostics::too_many_keys(request.span));
                 break;
             }
+            if let Some(performance) = builder.performance(request, &matched.group) {
+                performances.follow(&performance, resolver, diagnostics);
+            }
             builder.add_clip(request, link, &matched, &motion, scene, diagnostics);
         }
         if !is_played {
@@ -180,7 +186,7 @@ struct ClipBuilder<'a> {
     clips: Vec<FigureClip>,
 }
 
-impl ClipBuilder<'_> {
+impl<'a> ClipBuilder<'a> {
     /// A clip that comes along, for as many legs as a figure has.
     fn built_in(&self, which: BuiltIn, figure: &Figure) -> Arc<PreparedClip> {
         let legs = Legs::of(figure);
@@ -317,12 +323,27 @@ impl ClipBuilder<'_> {
     /// The limits of all clips of a figure that have none of their own.
     fn limits(&self, group: &FigureGroup) -> Option<ClipLimits> {
         let bindings = self.context.bindings;
-        // The string of any part of the figure takes precedence over a string for all figures.
-        let all = std::iter::once(&group.root).chain(&group.parts);
-        let limits = all.filter_map(|part| bindings.limits_of_clips(*part));
-        let (_, limits) = limits.min_by_key(|(from, _)| *from)?;
-        Some(limits)
+        of_figure(group, |part| bindings.limits_of_clips(part))
     }
+
+    /// The performance of a clip: its own, or else that of all clips of the figure.
+    fn performance(
+        &self,
+        request: &ClipRequest<'a>,
+        group: &FigureGroup,
+    ) -> Option<PerformanceRequest<'a>> {
+        let bindings = self.context.bindings;
+        let own = request.performance.clone();
+        own.or_else(|| of_figure(group, |part| bindings.performance_of_clips(part)))
+    }
+}
+
+/// What the strings say about all clips of a figure: that of any of its parts takes precedence over one for all figures.
+fn of_figure<T>(group: &FigureGroup, said: impl Fn(usize) -> Option<(SetBy, T)>) -> Option<T> {
+    let parts = std::iter::once(&group.root).chain(&group.parts);
+    let said = parts.filter_map(|part| said(*part));
+    let (_, first) = said.min_by_key(|(from, _)| *from)?;
+    Some(first)
 }
 
 /// The clip without the travel of the figure's root over the ground.

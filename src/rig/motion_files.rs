@@ -4,16 +4,16 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::bind::{ClipRequest, SignedAxis};
-use crate::diagnostic::{Diagnostic, nearest_word};
+use crate::diagnostic::Diagnostic;
 use crate::memo::Memo;
 use crate::motion::bvh;
 use crate::motion::prepare::{self, PreparedClip, prepare};
 use crate::motion::skeleton::{Axis, Clip};
 use crate::motion::up::UpAxis;
 use crate::resolver::{LinkError, Resolver};
-use crate::svg::broken_link;
 
-use super::{diagnostics, figure_clip};
+use super::diagnostics;
+use super::missing_files::missing_file;
 
 /// A link to a motion file and what is done with it, as the key of a cached [`MotionFile`].
 #[derive(Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -61,7 +61,9 @@ impl MotionFiles {
         });
         match file {
             Err(error) => {
-                diagnostics.push(missing_file(link, error, request, resolver));
+                let span = request.source_span();
+                let written = |file: &str| request.written(file);
+                diagnostics.push(missing_file(link, error, span, written, resolver));
                 None
             }
             Ok(file) => {
@@ -86,35 +88,6 @@ fn up_axis(axis: SignedAxis) -> Option<UpAxis> {
         axis: found,
         is_negative: axis.negative,
     })
-}
-
-/// A link that leads to no file that can be read; of the files beside it, the one that could be meant is offered.
-fn missing_file(
-    link: &str,
-    error: &LinkError,
-    request: &ClipRequest<'_>,
-    resolver: &dyn Resolver,
-) -> Diagnostic {
-    let span = request.source_span();
-    let diagnostic = broken_link(link, error, span);
-    if *error != LinkError::Missing {
-        return diagnostic;
-    }
-    let siblings = resolver.siblings(link);
-    let stems = siblings.iter().map(|sibling| figure_clip::stem(sibling));
-    let nearest = nearest_word(figure_clip::stem(link), stems);
-    let mut siblings = siblings.iter();
-    // A name with a quotation mark cannot be written in a string.
-    let found = siblings
-        .find(|sibling| Some(figure_clip::stem(sibling)) == nearest && !sibling.contains('"'));
-    match found {
-        Some(found) => diagnostic.label(format!("did you mean `{found}`?")).fix(
-            format!("Write `{found}`"),
-            span,
-            request.written(found),
-        ),
-        None => diagnostic,
-    }
 }
 
 impl MotionFile {

@@ -1,4 +1,4 @@
-//! The parts that a string can name as parents.
+//! The parts that a string can name: as parents, and after `Follow`.
 
 use std::collections::HashSet;
 
@@ -15,14 +15,33 @@ impl Cursor<'_> {
             Some(string) => self.context.analysis.part_of_string(string),
             None => None,
         };
-        let typed = own_name_of(self.text, self.in_desc);
         let carried = own.map_or_else(Vec::new, |own| descendants_of(bindings, own));
+        let is_possible = |index: usize| !carried.get(index).copied().unwrap_or(false);
+        self.parts(word, place, is_possible)
+    }
+
+    /// All parts but the string's own, of which `word` is typed, written as arguments.
+    pub(super) fn other_parts(&self, word: &str) -> Choice<Proposal> {
+        let own = self
+            .string
+            .and_then(|string| self.context.analysis.part_of_string(string));
+        self.parts(word, NamePlace::Argument, |index| Some(index) != own)
+    }
+
+    fn parts(
+        &self,
+        word: &str,
+        place: NamePlace,
+        is_possible: impl Fn(usize) -> bool,
+    ) -> Choice<Proposal> {
+        let bindings = self.context.analysis.bindings();
+        let typed = own_name_of(self.text, self.in_desc);
         let parts = bindings.parts.iter().enumerate().filter(|(index, part)| {
             part.kind == PartKind::Main
                 && !part.name.is_empty()
                 && !part.name.contains('"')
                 && typed.as_deref() != Some(part.name.as_str())
-                && !carried.get(*index).copied().unwrap_or(false)
+                && is_possible(*index)
         });
         let mut parts: Vec<&Part> = parts.map(|(_, part)| part).collect();
         // Parts with names that people gave come first.

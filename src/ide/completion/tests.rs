@@ -10,6 +10,7 @@ fn proposed(source: &str) -> Option<(String, Vec<Proposal>)> {
             "a.png".to_owned(),
             "b/c d.glb".to_owned(),
             "e.txt".to_owned(),
+            "f.csv".to_owned(),
         ]
     };
     let context = Context {
@@ -56,9 +57,43 @@ fn keywords_are_proposed_where_allowed() {
 
 #[test]
 fn every_motion_can_have_its_limits() {
-    let has = |string: &str| labels(string).1.contains(&"Limited".to_owned());
-    assert!(has("%Motion walk Limited 0 2 Motion run ¦"));
-    assert!(!has("%Motion walk Limited 0 2 ¦"));
+    let has = |string: &str, word: &str| labels(string).1.contains(&word.to_owned());
+    assert!(has("%Motion walk Limited 0 2 Motion run ¦", "Limited"));
+    assert!(!has("%Motion walk Limited 0 2 ¦", "Limited"));
+    assert!(has(
+        "%Motion walk Perform \"f.csv\" Motion run ¦",
+        "Perform"
+    ));
+    assert!(!has("%Motion walk Perform \"f.csv\" red ¦", "Perform"));
+}
+
+#[test]
+fn the_marks_of_the_drawing_are_proposed_behind_a_track() {
+    let drawing = |string: &str| {
+        let parts = ["Body", "Rarm@Body$Mark #FF0000", "Larm@Body$Mark blue"];
+        figure([parts[0], parts[1], parts[2], "", string])
+    };
+    let (_, found) = proposed(&drawing("%Motion walk Perform \"f.csv\" ¦")).unwrap();
+    let marks: Vec<_> = found
+        .iter()
+        .filter(|proposal| proposal.kind == ProposalKind::Colour)
+        .map(|proposal| (proposal.text.as_str(), proposal.detail.as_str()))
+        .collect();
+    let expected = [
+        ("\"#ff0000\"", "the mark of Rarm"),
+        ("blue", "the mark of Larm"),
+    ];
+    assert_eq!(marks, expected);
+    let (replaced, found) = proposed(&drawing("%Motion walk Perform \"f.csv\" bl¦")).unwrap();
+    assert_eq!(replaced, "bl");
+    assert!(found.iter().any(|proposal| proposal.label == "blue"));
+}
+
+#[test]
+fn follow_can_name_descendants() {
+    let has = |string: &str, name: &str| labels(string).1.contains(&name.to_owned());
+    assert!(has("Rarm@Body$Mark red Follow ¦", "Larm"));
+    assert!(!has("Rarm@Body$Mark red Follow ¦", "Rarm"));
 }
 
 #[test]
@@ -81,6 +116,11 @@ fn arguments_fit_their_parameter() {
         ("Rarm@Body$Texture \"¦", "a.png"),
         ("Rarm@Body$Shape model \"b¦\"", "b/c d.glb"),
         ("Rarm@Body$Mark red Follow ¦", "Body"),
+        ("Rarm@Body$Mark ¦", "crimson"),
+        ("Rarm@Body$Perform ¦", "-t"),
+        ("Rarm@Body$Perform -t ¦", "f.csv"),
+        ("Rarm@Body$Perform \"f.csv\" ¦", "wide"),
+        ("Rarm@Body$Perform \"f.csv\" red ¦", "wide"),
         ("%Axes +x ¦", "-y"),
     ] {
         let (_, found) = labels(string);

@@ -10,7 +10,8 @@ use crate::lang::keyword::signature::{Form, Takes};
 use crate::lang::keyword::{Keyword, kinds};
 use crate::lang::parameter::form_by_first_argument;
 use crate::lang::value::{
-    Ground, KindArguments, Motion, MotionSource, Origin, Shape, SignedAxis, Value,
+    Camerawork, Ground, KindArguments, Mark, Motion, MotionSource, Origin, Performance,
+    PerformanceEffects, Shape, SignedAxis, Value,
 };
 
 impl Checker<'_> {
@@ -38,6 +39,7 @@ impl Checker<'_> {
         let values = self.match_arguments(callee, form, &attribute.arguments)?;
         let value = match attribute.keyword {
             Keyword::Motion => Value::Motion(motion(attribute, &values)?),
+            Keyword::Perform => Value::Performance(performance(attribute, &values)?),
             keyword => value_of(keyword, &values)?,
         };
         if let Value::Axes(axes) = &value {
@@ -300,7 +302,10 @@ fn value_of(keyword: Keyword, values: &[ArgumentValue]) -> Option<Value> {
             _ => Ground::Point(pair()?),
         }),
         Keyword::Mark => match values.first()? {
-            ArgumentValue::Colour(_, written) => Value::Word(written.clone()),
+            ArgumentValue::Colour([r, g, b, _], written) => Value::Mark(Mark {
+                word: written.clone(),
+                colour: [*r, *g, *b],
+            }),
             _ => return None,
         },
         Keyword::Axes => Value::Axes([
@@ -340,6 +345,39 @@ fn motion(attribute: &Attribute, values: &[ArgumentValue]) -> Option<Motion> {
         up,
         is_in_place: has_flag(attribute, 'i'),
         is_loop: has_flag(attribute, 'l'),
+    })
+}
+
+/// The value of `Perform`.
+fn performance(attribute: &Attribute, values: &[ArgumentValue]) -> Option<Performance> {
+    let (ArgumentValue::Text(file), others) = values.split_first()? else {
+        return None;
+    };
+    let emphasised = others.iter().find_map(|value| match value {
+        ArgumentValue::Text(mark) => Some(mark.clone()),
+        _ => None,
+    });
+    let keys: Vec<usize> = others
+        .iter()
+        .filter_map(|value| match value {
+            ArgumentValue::Number(key) => Some(*key as usize),
+            _ => None,
+        })
+        .collect();
+    let camerawork = match (has_flag(attribute, 'r'), has_flag(attribute, 'c')) {
+        (true, _) => Camerawork::Root,
+        (false, true) => Camerawork::None,
+        (false, false) => Camerawork::Camera,
+    };
+    Some(Performance {
+        file: file.clone(),
+        effects: PerformanceEffects {
+            timing: !has_flag(attribute, 't'),
+            emphasis: !has_flag(attribute, 'e'),
+            camerawork,
+        },
+        emphasised,
+        keys: <[usize; 2]>::try_from(keys).ok(),
     })
 }
 

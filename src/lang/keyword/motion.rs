@@ -1,8 +1,6 @@
 //! Rows of the table: motion, and figures on a stage.
 
-use super::signature::{
-    Bounds, COLOUR_NAME, FILE, Form, HEX, NAMES, POINT, Parameter, Takes, number,
-};
+use super::signature::{Bounds, Form, NAMES, POINT, Parameter, Restriction, Takes, number};
 use super::{Allowed, Flag, Row, vocabulary};
 
 const BVH: Parameter = Parameter {
@@ -44,6 +42,48 @@ static CARRY_WORD: [Parameter; 1] = [Parameter {
     summary: "what the limb takes over",
     takes: Takes::Choice(&vocabulary::CARRY),
 }];
+static MARK_NAME: [Parameter; 1] = [Parameter {
+    name: "colour",
+    summary: "the CSS name of the mark's colour",
+    takes: Takes::ColourName,
+}];
+static MARK_HEX: [Parameter; 1] = [Parameter {
+    name: "hex",
+    summary: "the mark's colour",
+    takes: Takes::Hex,
+}];
+static FOLLOWED: [Parameter; 1] = [Parameter {
+    name: "name",
+    summary: "a part, or a joint of the motion",
+    takes: Takes::Names,
+}];
+const TRACK: Parameter = Parameter {
+    name: "file",
+    summary: "a track made by `okoshi track`, in the drawing's folder",
+    takes: Takes::File,
+};
+const FRAME: Bounds = Bounds::new(1., 1e6, Restriction::Integer);
+const INPUT_KEY: Parameter = number(
+    "input-key",
+    FRAME,
+    "the key frame of the track, at 24 frames a second",
+);
+const MOTION_KEY: Parameter = number(
+    "motion-key",
+    FRAME,
+    "the key frame of the motion, which is shown at the time of the track's",
+);
+static TRACK_AND_KEYS: [Parameter; 3] = [TRACK, INPUT_KEY, MOTION_KEY];
+static TRACK_MARK_AND_KEYS: [Parameter; 4] = [
+    TRACK,
+    Parameter {
+        name: "mark",
+        summary: "the name of the mark whose part is emphasised",
+        takes: Takes::Text,
+    },
+    INPUT_KEY,
+    MOTION_KEY,
+];
 static FACTOR: [Parameter; 1] = [number("factor", Bounds::POSITIVE, "1 is the size as drawn")];
 static SPEED: [Parameter; 1] = [number(
     "speed",
@@ -91,22 +131,27 @@ pub(super) static CARRY: Row = Row {
 };
 
 pub(super) static MARK: Row = Row {
-    forms: &[Form::new(&COLOUR_NAME, &[1]), Form::new(&HEX, &[1])],
-    summary: "the coloured mark that moves the part in a filmed performance",
-    long: "In a filmed performance, small coloured marks are moved by hand. A part with `Mark` \
-           follows the mark of that colour.",
+    forms: &[Form::new(&MARK_NAME, &[1]), Form::new(&MARK_HEX, &[1])],
+    summary: "the coloured mark that performs the part",
+    long: "A puppet of the figure, cut out of paper, carries coloured marks, and somebody moves it by \
+           hand before a camera. A part with `Mark` is performed by the mark of that colour: \
+           `okoshi puppet` prints the mark on the part, `okoshi track` finds it in the film, and \
+           `Perform` gives the motion the timing and the emphasis of the performance.\n\n\
+           The ends of arms or legs show a movement best: mark hands or feet, two to four of them, \
+           in colours that are far apart.",
     example: "Rhand@Rarm$Mark red",
-    ..Row::PLANNED
+    ..Row::ROW
 };
 
 pub(super) static FOLLOW: Row = Row {
-    forms: &[Form::new(&NAMES, &[])],
+    forms: &[Form::new(&FOLLOWED, &[])],
     summary: "joints that are edited together with this one",
-    long: "Whatever a performance does to the part with `Mark`, it also does to the parts named \
-           here: it moves the upper arm along with the hand, for example. A name that is a keyword, \
-           or that contains spaces or punctuation, needs quotes.",
-    example: "Rhand@Rarm$Mark red Follow Rarm Ubody",
-    ..Row::PLANNED
+    long: "A performance makes the movement of a part with `Mark` smaller where another mark is \
+           emphasised. The parts named here, or joints of the motion, are treated in the same way: \
+           the hips that swing with a leg, for example. A name that is a keyword, or that contains \
+           spaces or punctuation, needs quotes.",
+    example: "Rhand@Rarm$Mark red Follow Head",
+    ..Row::ROW
 };
 
 pub(super) static MOTION: Row = Row {
@@ -191,11 +236,40 @@ pub(super) static POSE: Row = Row {
 };
 
 pub(super) static PERFORM: Row = Row {
-    forms: &[Form::new(&FILE, &[1])],
+    forms: &[
+        Form::new(&TRACK_AND_KEYS, &[1, 3]),
+        Form::new(&TRACK_MARK_AND_KEYS, &[2, 4]),
+    ],
+    flags: &[
+        Flag {
+            letter: 't',
+            summary: "the motion keeps its own timing",
+        },
+        Flag {
+            letter: 'e',
+            summary: "no emphasis: the other joints move as far as before",
+        },
+        Flag {
+            letter: 'c',
+            summary: "no camera",
+        },
+        Flag {
+            letter: 'r',
+            summary: "the figure moves instead of a camera",
+        },
+    ],
     allowed: Allowed::PartAndDrawing,
+    default: "as recorded",
     summary: "a performed track that times and exaggerates the motion",
-    long: "A track of coloured marks, made by `okoshi track` from a film in which somebody moves \
-           them by hand. The motion takes its timing and its emphasis from the track.",
+    long: "The file is a track of coloured marks, made by `okoshi track` from a film in which \
+           somebody moves a puppet. The motion takes its timing from the mark that moves most: the \
+           key pose comes when that mark is fastest. The part with that `Mark` keeps its movement, \
+           those with other marks move less, and a camera approaches it.\n\n\
+           Behind a `Motion`, `Perform` belongs to that clip. Elsewhere it applies to all clips of \
+           the figure, or of the drawing in a `%` string, that have no `Perform` of their own.\n\n\
+           Nothing else needs to be set. A mark's name behind the file says which one is \
+           emphasised, and two numbers say which frame of the track and which frame of the motion \
+           are the keys, counted from 1: `Perform \"hands.json\" red 14 31`.",
     example: "Lbody$Motion \"kick.bvh\" Perform \"hands.json\"",
-    ..Row::PLANNED
+    ..Row::ROW
 };

@@ -34,8 +34,6 @@ fn e101_unknown_keyword() {
         "Arm$Follow Rarm Colr 1 0 0",
         r#"
             Arm$Follow Rarm Colr 1 0 0
-                ^^^^^^ W310: `Follow` has no effect in this version (read and checked, but not supported yet)
-              help: leave it in for a later version, or delete it
                             ^^^^ E101: `Colr` is not a keyword (did you mean `Color`?)
               fix: Write `Color` -> Arm$Follow Rarm Color 1 0 0
         "#,
@@ -211,8 +209,6 @@ fn e104_argument_type() {
         "Arm$Follow Rarm 5",
         r#"
             Arm$Follow Rarm 5
-                ^^^^^^ W310: `Follow` has no effect in this version (read and checked, but not supported yet)
-              help: leave it in for a later version, or delete it
                             ^ E104: `5` is not what `Follow` needs here (expected one or more names)
               help: write `Follow name…`
         "#,
@@ -391,6 +387,42 @@ fn e105_out_of_range() {
             %Let w (1 / 0) Offset w
                    ^^^^^^^ E105: this calculation divides by zero
               help: change the calculation, or a variable in it, so that it has a result
+        "#,
+    );
+}
+
+#[test]
+fn performances_and_marks() {
+    check(
+        "Arm$Mark reed Perform \"a.json\" red 0 2.5",
+        r#"
+            Arm$Mark reed Perform "a.json" red 0 2.5
+                     ^^^^ E102: `reed` is not a colour (did you mean `red`?)
+              fix: Write `red` -> Arm$Mark red Perform "a.json" red 0 2.5
+                                               ^ E105: `input-key` of `Perform` cannot be 0 (expected a whole number from 1 to 1000000)
+                                                 ^^^ E105: `motion-key` of `Perform` cannot be 2.5 (expected a whole number from 1 to 1000000)
+        "#,
+    );
+    check(
+        "Arm$Perform \"a.json\" 3",
+        r#"
+            Arm$Perform "a.json" 3
+                ^^^^^^^^^^^^^^^^^^ E103: `Perform` has too few arguments (`motion-key` is missing)
+              help: write `Perform [-tecr] "file" [input-key motion-key]`, or `Perform [-tecr] "file" mark [input-key motion-key]`
+        "#,
+    );
+    check(
+        "Arm$Mark #ff8000 Perform -TC \"a.json\" \"left hand\" 3 4",
+        r#"
+            Arm$Mark #ff8000 Perform -TC "a.json" "left hand" 3 4
+        "#,
+    );
+    check(
+        "Arm$Mark 1 0 0",
+        r#"
+            Arm$Mark 1 0 0
+                     ^ E104: `1` is not what `Mark` needs here (expected a CSS colour name, `orange` for example)
+              help: write `Mark colour`, or `Mark #rrggbb[aa]`
         "#,
     );
 }

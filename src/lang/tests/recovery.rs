@@ -333,8 +333,6 @@ fn read_without_diagnostics() {
         r##"Arm$Follow U-1 "Left arm" mixamorig:Hips"##,
         r#"
             Arm$Follow U-1 "Left arm" mixamorig:Hips
-                ^^^^^^ W310: `Follow` has no effect in this version (read and checked, but not supported yet)
-              help: leave it in for a later version, or delete it
         "#,
     );
     check(
