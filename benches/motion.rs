@@ -17,7 +17,7 @@ use std::time::{Duration, Instant};
 
 use glam::DVec3;
 use okoshi::motion::bvh;
-use okoshi::motion::edit::{ExposureMethod, edit};
+use okoshi::motion::edit::{self, ExposureMethod, edit};
 use okoshi::motion::limited::{Length, Options, Poses, compare, drawings, limit};
 use okoshi::motion::measured::PointChoice;
 use okoshi::motion::prepare;
@@ -108,7 +108,17 @@ fn whole(frames: usize) {
         let begun = Instant::now();
         out.clear();
         let prepared = prepare::prepare(read(&text), &prepare::Options::default());
-        let edited = prepared.map(|prepared| edit(prepared, method, PointChoice::Seen, None));
+        let edited = prepared.map(|prepared| {
+            edit(
+                prepared,
+                &edit::Options {
+                    method: method,
+                    points: PointChoice::Seen,
+                    camera: None,
+                    key: None,
+                },
+            )
+        });
         let written = edited.map(|edited| edited.write_bvh(&mut out).is_ok());
         assert_eq!(written, Ok(true));
         times[1].push(begun.elapsed());

@@ -5,14 +5,11 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::export::{EXPORTERS, extensions};
-use crate::motion::clips::Legs;
-use crate::motion::limited::Camera;
-use crate::motion::measured::PointChoice;
-use crate::motion::resample::{Range, parse_range};
-use crate::motion::up::UpAxis;
 
+mod motion;
 mod render;
 
+pub(super) use motion::{Filming, Motion, Performing};
 pub(super) use render::{Background, Bend, Projection, Render, Shading};
 
 const EXAMPLES: &str = "\
@@ -168,13 +165,6 @@ fn output_help() -> String {
     )
 }
 
-fn motion_output_help() -> String {
-    format!(
-        "Where to write: a .bvh, {} or .svg file, `-` for BVH on stdout [default: nowhere, the joints are listed]",
-        extensions(|exporter| exporter.is_animated())
-    )
-}
-
 #[derive(Debug, Args)]
 #[command(after_help = formats())]
 pub(super) struct Build {
@@ -247,138 +237,6 @@ pub(super) struct Preview {
     pub(super) noticing: Noticing,
     #[command(flatten)]
     pub(super) reading: Reading,
-}
-
-const MOTION_EXAMPLES: &str = "\
-Examples:
-  okoshi motion kick.bvh                          lists its joints and what they are recognised as
-  okoshi motion kick.bvh -o snappy.bvh            limited animation: 4 drawings omitted, a third of the frames held
-  okoshi motion kick.bvh -o snappy.bvh --omit 6 --hold 40
-  okoshi motion kick.bvh -o kick.svg              a chart of its speed and of the omitted and held frames
-  okoshi motion kick.bvh -o kick.glb              a model of its skeleton that plays it
-  okoshi motion kick.bvh -o shot.bvh --drawings 14   the 14 drawings that fit it best
-  okoshi motion kick.bvh -o twos.bvh --every 2    on twos
-  okoshi motion take.bvh -o part.bvh --full --range 25:72 --fps 30
-
-Motions are BVH files, the common format for motion capture. A T-pose at the beginning is removed, the motion is resampled
-to 24 frames a second, and then reduced. Frames count from 1. A drawing links to a motion with `Motion \"kick.bvh\"`.";
-
-#[derive(Debug, Args)]
-#[command(after_help = MOTION_EXAMPLES)]
-pub(super) struct Motion {
-    /// The motion, a BVH file (`-` is stdin), or a clip that comes along: walk, run, trot, sneak, jump, idle, wave, dance, punch
-    #[arg(value_name = "IN.bvh|WORD")]
-    pub(super) motion: PathBuf,
-    /// The legs of a clip that comes along
-    #[arg(long, value_name = "N", default_value = "2", value_parser = legs)]
-    pub(super) legs: Legs,
-    #[arg(short, long, value_name = "OUT", help = motion_output_help())]
-    pub(super) output: Option<PathBuf>,
-    /// Drawings to omit where the motion is fastest [default: 4]
-    #[arg(long, value_name = "N")]
-    pub(super) omit: Option<usize>,
-    /// Frames to hold where the motion is slowest [default: a third]
-    #[arg(long, value_name = "N")]
-    pub(super) hold: Option<usize>,
-    /// Shorten the motion by the omitted drawings
-    #[arg(long)]
-    pub(super) shorten: bool,
-    /// Shoot on twos or threes: one drawing for every N frames
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=24), conflicts_with_all = ["omit", "hold", "shorten"])]
-    pub(super) every: Option<u32>,
-    /// Keep the N drawings that fit the motion best
-    #[arg(long, value_name = "N", conflicts_with_all = ["omit", "hold", "shorten", "every"])]
-    pub(super) drawings: Option<usize>,
-    /// Keep every frame
-    #[arg(long, conflicts_with_all = ["omit", "hold", "shorten", "every", "drawings"])]
-    pub(super) full: bool,
-    /// Compare with other methods: on twos, on threes, the best drawings
-    #[arg(long)]
-    pub(super) compare: bool,
-    /// Frames a second
-    #[arg(long, value_name = "F", default_value_t = crate::motion::prepare::FPS)]
-    pub(super) fps: f64,
-    /// Use only these frames, counted from 1 and including both ends; `10:` and `:48` are open-ended
-    #[arg(long, value_name = "A:B", value_parser = range)]
-    pub(super) range: Option<Range>,
-    /// Keep the T-pose at the beginning
-    #[arg(long)]
-    pub(super) keep_rest: bool,
-    /// Where speed is measured: at the joints that are seen and the ends of head, hands and feet, or at all joints, as in the
-    /// thesis
-    #[arg(long, value_name = "POINTS", value_parser = points, default_value = "seen")]
-    pub(super) points: PointChoice,
-
-    /// The axis of the motion that points up: +x, -x, +y, -y, +z or -z
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true)]
-    pub(super) up: Option<UpAxis>,
-
-    /// Remove the travel over the ground
-    #[arg(short, long)]
-    pub(super) in_place: bool,
-    /// Make a loop of the best cycle of the motion
-    #[arg(short = 'l', long = "loop")]
-    pub(super) is_loop: bool,
-    /// Measure speed as seen by a camera: degrees to the body's left, degrees up and, for perspective, the distance
-    /// in the file's unit
-    #[arg(long, value_name = "YAW,PITCH[,DISTANCE]", value_parser = camera, allow_hyphen_values = true)]
-    pub(super) camera: Option<Camera>,
-    /// Also write a chart of its speed, an SVG file
-    #[arg(long, value_name = "FILE.svg", value_parser = plot)]
-    pub(super) plot: Option<PathBuf>,
-    /// Continue with the frames before a damaged one
-    #[arg(long)]
-    pub(super) keep_going: bool,
-}
-
-fn legs(text: &str) -> Result<Legs, String> {
-    let found = Legs::ALL
-        .into_iter()
-        .find(|legs| legs.count().to_string() == text);
-    found.ok_or_else(|| "expected 2, 4 or 6".to_owned())
-}
-
-fn range(text: &str) -> Result<Range, String> {
-    parse_range(text).map_err(|error| error.to_string())
-}
-
-fn plot(text: &str) -> Result<PathBuf, String> {
-    match text.to_lowercase().ends_with(".svg") {
-        true => Ok(PathBuf::from(text)),
-        false => Err("the name of the chart must end in .svg".to_owned()),
-    }
-}
-
-fn points(text: &str) -> Result<PointChoice, String> {
-    match text {
-        "seen" => Ok(PointChoice::Seen),
-        "all" => Ok(PointChoice::All),
-        _ => Err("expected `seen` or `all`".to_owned()),
-    }
-}
-
-fn camera(text: &str) -> Result<Camera, String> {
-    let numbers: Option<Vec<f64>> = text
-        .split(',')
-        .map(|number| number.trim().parse().ok())
-        .collect();
-    let finite = numbers.filter(|numbers| numbers.iter().all(|number: &f64| number.is_finite()));
-    match finite.as_deref() {
-        Some([yaw, pitch]) => Ok(Camera {
-            yaw: *yaw,
-            pitch: *pitch,
-            distance: None,
-        }),
-        Some([yaw, pitch, distance]) if *distance > 0.0 => Ok(Camera {
-            yaw: *yaw,
-            pitch: *pitch,
-            distance: Some(*distance),
-        }),
-        _ => Err(
-            "expected two numbers, for example `30,15`, or three with the camera's distance"
-                .to_owned(),
-        ),
-    }
 }
 
 /// How changes of files are detected.

@@ -10,14 +10,16 @@ use crate::disk::{Inputs, Naming, Target, WriteError, open_stream};
 use crate::export::{self, Exporter};
 use crate::motion::bvh::{self, Reading};
 use crate::motion::clips::BuiltIn;
-use crate::motion::edit::{EditedClip, ExposureMethod, edit};
+use crate::motion::edit::{self, EditedClip, ExposureMethod, Filmed, edit};
 use crate::motion::labels::{Anatomy, Label};
 use crate::motion::limited::{self, Error, Length, Method};
 use crate::motion::prepare::{self, LeadInPolicy};
 use crate::motion::resample::rate;
 use crate::motion::skeleton::Clip;
-use crate::motion::skeleton_model::skeleton_model;
+use crate::motion::skeleton_model::{add_camera, skeleton_model};
 use crate::report::ranges;
+
+mod performance;
 
 /// What to write.
 #[derive(Clone, Copy)]
@@ -35,7 +37,8 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
     };
     let plot = arguments.plot.as_ref().map(|plot| (plot, Kind::Chart));
     let outputs = arguments.output.as_ref().zip(kind).into_iter().chain(plot);
-    let mut inputs = Inputs::of(&arguments.motion);
+    let track = arguments.performing.perform.clone();
+    let mut inputs = Inputs::of(&arguments.motion).linking(track);
     let mut targets = Vec::new();
     for (output, kind) in outputs {
         match inputs.target(output, Naming::Given) {
@@ -80,10 +83,24 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
         Ok(prepared) => prepared,
         Err(error) => return fail(&format!("`{name}`: {error}")),
     };
-    let method = exposure_method(arguments);
-    let edited = spinning("cutting", || {
-        edit(prepared, method, arguments.points, arguments.camera)
-    });
+    let performed = match performance::perform(&arguments.performing, prepared) {
+        Ok(performed) => performed,
+        Err(outcome) => return outcome,
+    };
+    messages.push_str(&performed.messages);
+    let options = edit::Options {
+        method: exposure_method(arguments),
+        points: arguments.points,
+        camera: arguments.camera,
+        key: performed.key_frame,
+    };
+    let mut edited = spinning("cutting", || edit(performed.prepared, &options));
+    if let Some(film) = performed.film {
+        if edited.film(film) == Filmed::NotMoved {
+            messages
+                .push_str("  warning: the root of the motion has no position: it is not moved\n");
+        }
+    }
     for note in &edited.notes {
         let _ = writeln!(messages, "  {note}");
     }
@@ -203,7 +220,10 @@ fn write(
         Kind::Chart => target.write(|out| out.write_all(edited.chart(&stem).as_bytes())),
         Kind::Model(exporter) => {
             let exposure = edited.exposure.as_ref();
-            let scene = skeleton_model(&edited.clip, exposure, &stem, edited.to_model);
+            let mut scene = skeleton_model(&edited.clip, exposure, &stem, edited.to_model);
+            if let Some(joint) = edited.filmed_joint {
+                add_camera(&mut scene, &edited.clip, exposure, joint, edited.to_model);
+            }
             target.write(|out| export::write(exporter, &scene, out, None).map(|_| ()))
         }
     }

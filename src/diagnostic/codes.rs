@@ -298,6 +298,14 @@ codes! {
     ///
     /// Export the motion again. Or delete the damaged frame, and set `Frames:` to the number of frames that are left.
     BrokenMotion = "E207", "motion file that cannot be read";
+    /// The file that `Perform` names is not a readable file of tracks: JSON or CSV, as `okoshi track` writes it.
+    ///
+    /// ```text
+    /// %Motion "hook.bvh" Perform "hands.json", and hands.json is cut off
+    /// ```
+    ///
+    /// Track the clip again: `okoshi track CLIP -o hands.json --mark red`.
+    BrokenTrack = "E208", "track that cannot be read";
 
     // Warnings
     /// A string sets the same attribute twice. The later one counts.
@@ -539,6 +547,25 @@ codes! {
     ///
     /// Write the colour of the mark that performs the part, `Mark red Follow Head` for example, or delete `Follow`.
     NoMark = "W327", "`Follow` without a mark";
+    /// The marks of a performed track and those of the drawing do not fit together: a mark without a part, a part whose mark is not
+    /// in the track or which no joint of the motion drives, or a name that means nothing.
+    ///
+    /// ```text
+    /// Rhand@Rarm$Mark purple, and the track has the marks `red` and `green`
+    /// ```
+    ///
+    /// Write the colour or the name of one of the track's marks, or track the clip again with `--mark purple`.
+    MarkMismatch = "W328", "mark that does not fit";
+    /// A performance does not do what one expects of it: no mark moves, there are two actions, or the motion's largest movement is that of
+    /// another joint.
+    ///
+    /// ```text
+    /// %Motion "hook.bvh" Perform "hands.json", and no mark moves in hands.json
+    /// ```
+    ///
+    /// Film the puppet from the front, and cut the clip to one action: `okoshi track CLIP --range 1:48`. Or name the frames that
+    /// belong together, that of the track first: `Perform "hands.json" 31 44`.
+    OddPerformance = "W329", "performance with an unexpected effect";
 
     // Hints
     /// The string may mean one of two shapes: it lies on both, or between them.

@@ -8,15 +8,17 @@ use super::labels::Anatomy;
 use super::limited::{self, BestDrawings, Camera, Cut, Error, Exposure, Length, Method, Poses};
 use super::looping::Cycle;
 use super::measured::{Measured, PointChoice};
+use super::performance::{self, Filming};
 use super::prepare::PreparedClip;
 use super::resample;
 use super::retarget;
 use super::skeleton::{Clip, height};
 
 /// How a motion is thinned out.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub enum ExposureMethod {
     /// Not at all.
+    #[default]
     Full,
     /// As limited animation; `None` stands for the defaults of [`limited::Options`].
     Limited {
@@ -31,6 +33,19 @@ pub enum ExposureMethod {
     Every(u32),
     /// The best drawings, this many.
     Drawings(usize),
+}
+
+/// How a motion is edited.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Options {
+    /// How it is thinned out.
+    pub method: ExposureMethod,
+    /// Where its speed is measured.
+    pub points: PointChoice,
+    /// In whose picture its speed is measured; `None` for space.
+    pub camera: Option<Camera>,
+    /// The frame that stays, whatever is thinned out: the key of a performance.
+    pub key: Option<usize>,
 }
 
 /// An edited motion.
@@ -52,22 +67,27 @@ pub struct EditedClip {
     pub to_model: DQuat,
     /// The cycle that was made a loop.
     pub cycle: Option<Cycle>,
+    /// The joint that a camera follows.
+    pub filmed_joint: Option<usize>,
     is_changed: bool,
     /// Where speed is measured, in the file's unit; upright if there is a camera.
     measured: Measured,
     /// The same points in the camera's picture, where speed is measured then.
     projected: Option<Vec<DVec3>>,
+    /// The frame that stays.
+    key: Option<usize>,
     /// The height of the body in the first frame, in the file's unit.
     height: f64,
 }
 
-/// Thins a prepared clip out. With a camera, speed is measured in its picture.
-pub fn edit(
-    prepared: PreparedClip,
-    method: ExposureMethod,
-    points: PointChoice,
-    camera: Option<Camera>,
-) -> EditedClip {
+/// Thins a prepared clip out.
+pub fn edit(prepared: PreparedClip, options: &Options) -> EditedClip {
+    let Options {
+        method,
+        points,
+        camera,
+        key,
+    } = *options;
     let to_model = retarget::to_drawing(&prepared.clip, &prepared.landmarks());
     let PreparedClip {
         clip,
@@ -97,15 +117,75 @@ pub fn edit(
         to_model,
         is_changed,
         cycle,
+        filmed_joint: None,
         measured,
         projected,
+        key,
         height,
     };
     edited.expose(method);
     edited
 }
 
+/// How an edited motion is filmed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Film {
+    /// Whether a camera moves, or the character.
+    pub filming: Filming,
+    /// The joint in the middle of the picture.
+    pub joint: usize,
+}
+
+/// Whether a motion could be filmed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Filmed {
+    /// It is filmed.
+    Filmed,
+    /// The character cannot be moved, because its root has no position.
+    NotMoved,
+}
+
 impl EditedClip {
+    /// Films what is shown. A camera is only noted, for models; moving the character changes the clip, which then has exactly the
+    /// frames that are shown.
+    pub fn film(&mut self, film: Film) -> Filmed {
+        match film.filming {
+            Filming::None => {}
+            Filming::Camera => self.filmed_joint = Some(film.joint),
+            Filming::Character => return self.move_character(film.joint),
+        }
+        Filmed::Filmed
+    }
+
+    fn move_character(&mut self, joint: usize) -> Filmed {
+        let shown: Vec<usize> = match &self.exposure {
+            Some(sheet) => sheet
+                .sources()
+                .iter()
+                .map(|source| *source as usize)
+                .collect(),
+            None => (0..self.clip.frames()).collect(),
+        };
+        let upright = |at: &DVec3| self.to_model * *at;
+        let points: Vec<DVec3> = self.clip.positions().iter().map(upright).collect();
+        let per_frame = self.clip.skeleton.joints.len();
+        let filmed =
+            performance::Filmed::new(Filming::Character, &points, per_frame, &shown, joint);
+        let back = self.to_model.inverse();
+        let shifts = filmed.shifts().unwrap_or_default();
+        let shifts: Vec<DVec3> = shifts.iter().map(|shift| back * *shift).collect();
+        let Some(moved) = self.clip.select_frames(shown).moved(&shifts) else {
+            return Filmed::NotMoved;
+        };
+        self.exposure = self
+            .exposure
+            .as_ref()
+            .map(|sheet| limited::every(sheet.len() as u32, 1));
+        self.clip = moved;
+        self.is_changed = true;
+        Filmed::Filmed
+    }
+
     fn expose(&mut self, method: ExposureMethod) {
         let frames = self.clip.frames();
         self.exposure = match method {
@@ -122,7 +202,10 @@ impl EditedClip {
                 self.cut = Some(cut);
                 Some(exposure)
             }
-            ExposureMethod::Every(n) => Some(limited::every(frames as u32, n)),
+            ExposureMethod::Every(n) => {
+                let key = self.key.unwrap_or(0) as u32;
+                Some(limited::every_through(frames as u32, n, key))
+            }
             ExposureMethod::Drawings(count) => {
                 let best_drawings = limited::drawings(self.seen(), count, limited::MAX_HOLD);
                 let exposure = best_drawings.exposure.clone();
@@ -135,7 +218,9 @@ impl EditedClip {
     /// The poses by which speed is measured.
     fn seen(&self) -> Poses<'_> {
         let points = self.projected.as_ref().unwrap_or(&self.measured.points);
-        Poses::new(points, self.measured.per_frame).repeating(&self.measured.repeats)
+        Poses::new(points, self.measured.per_frame)
+            .repeating(&self.measured.repeats)
+            .keeping(self.key)
     }
 
     /// The error of what is shown against the source, and those of other ways to thin it out.

@@ -27,3 +27,18 @@ pub struct MarkTrack {
     /// Per frame whether it was lost.
     pub is_lost: Vec<bool>,
 }
+
+/// temporary
+#[derive(Debug, Clone, PartialEq)]
+pub struct Error;
+impl std::fmt::Display for Error {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "x")
+    }
+}
+impl MarkTracks {
+    /// temporary
+    pub fn from_bytes(_: &[u8]) -> Result<Self, Error> {
+        Err(Error)
+    }
+}

@@ -8,6 +8,7 @@ pub mod chart;
 pub mod clips;
 pub mod edit;
 pub mod figure;
+pub mod key_times;
 pub mod labels;
 pub mod lead_in;
 pub mod limited;

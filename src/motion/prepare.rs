@@ -172,6 +172,16 @@ impl PreparedClip {
         self.is_changed = true;
     }
 
+    /// Another clip of the same skeleton, which was made from this one and need not end as it begins.
+    #[must_use]
+    pub(super) fn replaced_by(mut self, clip: Clip) -> Self {
+        if clip != self.clip {
+            self.replace(clip);
+            self.ending = Ending::Open;
+        }
+        self
+    }
+
     /// What defines how the body is oriented.
     pub fn landmarks(&self) -> Landmarks {
         Landmarks {

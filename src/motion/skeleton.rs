@@ -182,6 +182,33 @@ impl Clip {
         Self::new(Arc::clone(&self.skeleton), self.frame_time, values)
     }
 
+    /// The clip whose roots are moved in each frame; `None` if a root has no channels for its whole position.
+    pub(super) fn moved(mut self, ways: &[DVec3]) -> Option<Self> {
+        let mut start = 0;
+        let mut columns = Vec::new();
+        for joint in &self.skeleton.joints {
+            let own = joint.channels.iter().zip(start..);
+            start += joint.channels.len();
+            if joint.parent.is_none() {
+                let position = |axis: Axis| {
+                    let mut own = own.clone();
+                    let found = own.find(|(channel, _)| **channel == Channel::Position(axis));
+                    found.map(|(_, column)| (column, axis.index()))
+                };
+                for axis in [Axis::X, Axis::Y, Axis::Z] {
+                    columns.push(position(axis)?);
+                }
+            }
+        }
+        let rows = self.values.chunks_mut(start.max(1));
+        for (row, way) in rows.zip(ways) {
+            for (column, axis) in &columns {
+                row[*column] += way[*axis];
+            }
+        }
+        Some(self)
+    }
+
     /// The transform of a joint in its parent's frame, from its numbers in a frame.
     pub fn local(joint: &Joint, numbers: &[f64]) -> Transform {
         let mut position = joint.offset;

@@ -1,15 +1,14 @@
 //! A model of a clip's skeleton: a bone for each joint that leads to another, so that viewers show what a motion file holds.
 
-use std::sync::Arc;
+use glam::{DQuat, DVec2, DVec3, Vec3};
 
-use glam::{DQuat, DVec3, Vec3};
-
+use super::key_times::KeyTimes;
 use super::limited::Exposure;
+use super::performance::{Filmed, Filming};
 use super::skeleton::{Channel, Clip, Transform, height};
 use super::turns::continuous;
 use crate::scene::{
-    Animation, Interpolation, Material, Mesh, Node, Primitive, Scene, Surface, Timing, Track,
-    Values,
+    Animation, Material, Mesh, Node, Primitive, Scene, Surface, Track, Values, WorldTransform,
 };
 
 /// The height of the model in the first frame, metres: files have any unit.
@@ -80,6 +79,42 @@ pub fn skeleton_model(
     scene
 }
 
+/// Films the model of a clip's skeleton, which [`skeleton_model`] made: a camera keeps a joint in the middle of its picture.
+pub fn add_camera(
+    scene: &mut Scene,
+    clip: &Clip,
+    exposure: Option<&Exposure>,
+    joint: usize,
+    to_model: DQuat,
+) {
+    let Some(mut animation) = scene.animations.pop() else {
+        return;
+    };
+    let world = WorldTransform {
+        origin: DVec2::ZERO,
+        rotation: DQuat::IDENTITY,
+        scale: scale(&clip.pose(0), to_model),
+    };
+    let points: Vec<DVec3> = clip.positions().iter().map(|at| to_model * *at).collect();
+    let (shown, keys) = match exposure {
+        Some(sheet) => {
+            let sources = sheet.sources().iter().map(|source| *source as usize);
+            (
+                sources.collect(),
+                KeyTimes::every_shown(sheet.len(), clip.frame_time),
+            )
+        }
+        None => {
+            let all: Vec<usize> = (0..clip.frames()).collect();
+            (all, KeyTimes::full(clip.frames(), clip.frame_time))
+        }
+    };
+    let per_frame = clip.skeleton.joints.len();
+    let filmed = Filmed::new(Filming::Camera, &points, per_frame, &shown, joint);
+    filmed.add_camera(&world, &keys, &mut animation, scene);
+    scene.animations.push(animation);
+}
+
 /// Metres per unit of the file.
 fn scale(pose: &[Transform], to_model: DQuat) -> f64 {
     match height(pose.iter().map(|placed| to_model * placed.position)) {
@@ -95,28 +130,17 @@ fn animation(
     to_model: DQuat,
     scale: f64,
 ) -> Animation {
-    let step = clip.frame_time;
-    let keys: Vec<[usize; 2]> = match exposure {
-        Some(sheet) => sheet.step_keys(),
-        None => (0..clip.frames()).map(|frame| [frame; 2]).collect(),
+    let keys = match exposure {
+        Some(sheet) => KeyTimes::stepped(sheet, clip.frame_time),
+        None => KeyTimes::full(clip.frames(), clip.frame_time),
     };
     let mut animation = Animation {
         name: name.to_owned(),
         tracks: Vec::new(),
     };
-    if keys.is_empty() {
+    if keys.frames().is_empty() {
         return animation;
     }
-    let timing = Arc::new(Timing {
-        times: keys
-            .iter()
-            .map(|[at, _]| (*at as f64 * step) as f32)
-            .collect(),
-        interpolation: match exposure {
-            Some(_) => Interpolation::Step,
-            None => Interpolation::Linear,
-        },
-    });
     let mut start = 0;
     for (node, joint) in clip.skeleton.joints.iter().enumerate() {
         let numbers = start..start + joint.channels.len();
@@ -130,8 +154,9 @@ fn animation(
             DQuat::IDENTITY
         };
         let local = keys
+            .frames()
             .iter()
-            .map(|[_, frame]| Clip::local(joint, &clip.row(*frame)[numbers.clone()]));
+            .map(|frame| Clip::local(joint, &clip.row(*frame)[numbers.clone()]));
         let (turns, places): (Vec<DQuat>, Vec<DVec3>) = local
             .map(|local| (turn * local.rotation, turn * local.position * scale))
             .unzip();
@@ -142,7 +167,7 @@ fn animation(
         let mut add = |values| {
             animation.tracks.push(Track {
                 node,
-                timing: Arc::clone(&timing),
+                timing: keys.timing(),
                 values,
             });
         };

@@ -2,10 +2,13 @@
 
 use std::collections::BTreeMap;
 
+use crate::bind::{FollowedName, PartMark, PerformanceRequest};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::motion::bvh;
 use crate::motion::limited::{Cut, MAX_OMITTED_RUN};
+use crate::motion::mark_tracks;
 use crate::motion::matching::{Matching, Problem};
+use crate::motion::performance::Finding;
 use crate::motion::skeleton::Skeleton;
 use crate::source::Span;
 
@@ -101,6 +104,159 @@ pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mu
                 .to_owned(),
         );
     }
+}
+
+/// A file of tracks that cannot be read.
+pub(super) fn broken_track(link: &str, error: &mark_tracks::Error, span: Span) -> Diagnostic {
+    let message = format!("the track `{link}` cannot be read: {error}");
+    Diagnostic::new(Code::BrokenTrack, span, message).help(format!(
+        "track the clip again: `okoshi track CLIP -o {link} --mark red`"
+    ))
+}
+
+/// What does not fit between the marks of a drawing and those of a track.
+#[derive(Debug)]
+pub(super) enum MarkProblem<'a> {
+    /// No part of the figure has a mark.
+    NoMarks,
+    /// A part with a mark that no joint drives.
+    NoJoint { part: &'a str, mark: PartMark<'a> },
+    /// A mark that is not among those of the track.
+    NoTrack {
+        mark: PartMark<'a>,
+        names: Vec<&'a str>,
+    },
+    /// A name in `Follow` that is neither a part nor a joint.
+    NoFollower {
+        follower: FollowedName<'a>,
+        nearest: Option<&'a str>,
+    },
+    /// An emphasised mark that no part has.
+    NoEmphasis {
+        wanted: &'a str,
+        names: Vec<&'a str>,
+    },
+}
+
+pub(super) fn mark_problem(
+    problem: &MarkProblem<'_>,
+    request: &PerformanceRequest<'_>,
+) -> Diagnostic {
+    let file = request.file;
+    let (span, message, help) = match problem {
+        MarkProblem::NoMarks => (
+            request.span,
+            format!("`Perform \"{file}\"` has no effect: no part of the figure has a mark"),
+            "write the colour of its mark behind each part that the puppet performs: `Rhand@Rarm$Mark red`"
+                .to_owned(),
+        ),
+        MarkProblem::NoJoint { part, mark } => (
+            mark.span,
+            format!("the mark of `{part}` has no effect: no joint of the motion drives this part"),
+            "move `Mark` to a part that moves, or say which joint drives it: `Bone RightHand`".to_owned(),
+        ),
+        MarkProblem::NoTrack { mark, names } => (
+            mark.span,
+            format!("the track `{file}` has no mark like `{}`", mark.word),
+            match names.is_empty() {
+                true => format!("track it: `okoshi track CLIP -o {file} --mark {}`", mark.word),
+                false => format!(
+                    "its marks are {}: write one of them, or track the clip again with `--mark {}`",
+                    listed(names),
+                    mark.word
+                ),
+            },
+        ),
+        MarkProblem::NoFollower { follower, nearest } => (
+            follower.span,
+            format!("`Follow {}` means nothing: no part and no joint of the motion has this name", follower.name),
+            match nearest {
+                Some(nearest) => format!("did you mean `{nearest}`?"),
+                None => "write the name of a part of the figure".to_owned(),
+            },
+        ),
+        MarkProblem::NoEmphasis { wanted, names } => (
+            request.span,
+            format!("`{wanted}` cannot be emphasised: no part that is performed has this mark"),
+            format!("the marks are {}", listed(names)),
+        ),
+    };
+    Diagnostic::new(Code::MarkMismatch, span, message).help(help)
+}
+
+/// Marks of a track that no part of the drawing has.
+pub(super) fn unused_marks(names: &[&str], span: Span) -> Diagnostic {
+    let (which, verb) = match names {
+        [name] => (format!("mark `{name}`"), "is"),
+        names => (format!("marks {}", listed(names)), "are"),
+    };
+    let message = format!(
+        "the {which} {verb} in the track, but no part has {}",
+        match names.len() {
+            1 => "it",
+            _ => "them",
+        }
+    );
+    let first = names.first().copied().unwrap_or("red");
+    Diagnostic::new(Code::MarkMismatch, span, message).help(format!(
+        "write it behind the part that it performs: `Rhand@Rarm$Mark {first}`"
+    ))
+}
+
+/// Names in backquotes, as a sentence lists them.
+fn listed(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted.as_slice() {
+        [] => String::new(),
+        [only] => only.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// What a performance has besides what one expects. `emphasised` are the emphasised part and its mark, `other` the part that moves most
+/// in the motion.
+pub(super) fn odd_performance(
+    finding: Finding,
+    emphasised: Option<(String, String)>,
+    other: Option<String>,
+    span: Span,
+) -> Diagnostic {
+    let (part, mark) = emphasised.unwrap_or_default();
+    let cut = "cut the clip to one action (`okoshi track CLIP --range 1:48`), or give the key frames of track and motion: `Perform \"FILE\" 31 44`";
+    let (message, help) = match finding {
+        Finding::NoInput => (
+            "no mark of the track moves: the clip keeps its timing, and no joint is emphasised".to_owned(),
+            "film the puppet from the front, larger or with less blur, and see what `okoshi track` reports as lost".to_owned(),
+        ),
+        Finding::NoMotion => (
+            "no part with a mark moves in the motion: the clip keeps its timing".to_owned(),
+            "put `Mark` on the parts that the motion is about, such as the hands of a boxer".to_owned(),
+        ),
+        Finding::SecondInput(frame) => (
+            format!("the track has a second movement that is nearly as large, in frame {}", frame + 1),
+            cut.to_owned(),
+        ),
+        Finding::SecondMotion(frame) => (
+            format!("the motion has a second movement that is nearly as large, in frame {}", frame + 1),
+            "use a motion of one action (`okoshi motion IN.bvh -o OUT.bvh --range 1:48`), or give the key frames of track and motion: `Perform \"FILE\" 31 44`".to_owned(),
+        ),
+        Finding::OtherJoint(_) => (
+            format!(
+                "the mark `{mark}` of `{part}` moves most in the track, but in the motion `{}` does",
+                other.unwrap_or_default()
+            ),
+            format!("perform with the mark of that part, or name the one that counts: `Perform \"FILE\" {mark}`"),
+        ),
+        Finding::NoSuchInputKey(key, frames) => (
+            format!("the track has no frame {key}, only {frames} at the motion's rate: the frame of its largest movement is used"),
+            format!("write a frame from 1 to {frames}"),
+        ),
+        Finding::NoSuchMotionKey(key, frames) => (
+            format!("the motion has no frame {key}, only {frames}: the frame of its largest movement is used"),
+            format!("write a frame from 1 to {frames}"),
+        ),
+    };
+    Diagnostic::new(Code::OddPerformance, span, message).help(help)
 }
 
 /// Problems of matching parts with joints, over all clips: a problem is only reported if every clip of the figure has it.

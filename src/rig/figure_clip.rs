@@ -2,17 +2,20 @@
 
 use std::sync::Arc;
 
+use crate::motion::key_times::KeyTimes;
 use crate::motion::labels::{Label, Tip};
 use crate::motion::limited::Cut;
 use crate::motion::matching::{Follow, Matching, joints_named};
 use crate::motion::measured::Measured;
+use crate::motion::performance::Filmed;
 use crate::motion::prepare::PreparedClip;
 use crate::motion::retarget::RetargetedClip;
 use crate::motion::skeleton::Skeleton;
 use crate::scene::{Animation, Node, Scene};
 use crate::source::Span;
 
-use super::tracks::{self, AnimatedNodes, KeyTimes};
+use super::performed::Performed;
+use super::tracks::{self, AnimatedNodes, Shifts};
 
 /// A clip that a figure plays.
 #[derive(Debug)]
@@ -33,6 +36,9 @@ pub struct FigureClip {
     pub cut: Option<Arc<Cut>>,
     /// Where a string limits the clip; `None` for full animation.
     pub limited_at: Option<Span>,
+    /// The performance that the clip follows.
+    pub performed: Option<Performed>,
+    pub(super) filmed: Filmed,
     /// The parts in the order of `retargeted`.
     pub(super) order: Vec<usize>,
     pub(super) retargeted: Arc<RetargetedClip>,
@@ -64,9 +70,9 @@ impl FigureClip {
         self.motion.clip.frame_time
     }
 
-    /// How many frames the motion has before anything is omitted.
+    /// How many frames the clip has before anything is omitted: those of the motion, or those of its performance.
     pub fn source_frames(&self) -> usize {
-        self.motion.clip.frames()
+        self.retargeted.grounded.len()
     }
 
     /// How many frames are shown.
@@ -129,9 +135,44 @@ impl FigureClip {
         self.animation(&KeyTimes::full(self.source_frames(), self.frame_time()))
     }
 
-    pub(super) fn animation(&self, keys: &KeyTimes) -> Animation {
+    /// The animation of what is shown, with its camera if it has one.
+    pub(super) fn add_to(&self, scene: &mut Scene) {
+        let frame_time = self.frame_time();
+        let keys = match &self.cut {
+            Some(cut) => KeyTimes::stepped(&cut.exposure, frame_time),
+            None => KeyTimes::full(self.source_frames(), frame_time),
+        };
+        let shown = self.shown_frames();
+        // Held drawings move past a camera, or before it, in every frame.
+        let every = match &self.cut {
+            Some(_) => KeyTimes::every_shown(shown.len(), frame_time),
+            None => KeyTimes::full(shown.len(), frame_time),
+        };
+        let shifts = self.filmed.shifts().map(|ways| Shifts {
+            keys: &every,
+            shown: &shown,
+            ways,
+        });
+        let mut animation = self.animated.animation(
+            &self.name,
+            &self.order,
+            &self.retargeted,
+            &keys,
+            shifts.as_ref(),
+        );
+        self.filmed
+            .add_camera(&self.animated.world, &every, &mut animation, scene);
+        tracks::add(&mut scene.animations, animation);
+    }
+
+    /// Per shown frame the frame of the clip.
+    fn shown_frames(&self) -> Vec<usize> {
+        shown_frames(self.cut.as_deref(), self.source_frames())
+    }
+
+    fn animation(&self, keys: &KeyTimes) -> Animation {
         self.animated
-            .animation(&self.name, &self.order, &self.retargeted, keys)
+            .animation(&self.name, &self.order, &self.retargeted, keys, None)
     }
 }
 
@@ -157,6 +198,17 @@ pub fn originals(scene: &Scene, clips: &[FigureClip]) -> Option<Scene> {
         animations,
         ..Scene::default()
     })
+}
+
+/// Per shown frame the frame of a clip of so many frames.
+pub(super) fn shown_frames(cut: Option<&Cut>, frames: usize) -> Vec<usize> {
+    match cut {
+        Some(cut) => {
+            let sources = cut.exposure.sources().iter();
+            sources.map(|source| *source as usize).collect()
+        }
+        None => (0..frames).collect(),
+    }
 }
 
 /// What drives these parts of the drawing, which are those of the matched figure, in the same order; and which of them swing.

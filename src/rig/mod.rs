@@ -9,6 +9,7 @@ mod figures;
 mod missing_files;
 mod motion_files;
 mod performances;
+mod performed;
 mod rigging;
 mod surface;
 mod tracks;
@@ -25,10 +26,12 @@ use crate::motion::clips::{BuiltIn, Legs};
 use crate::motion::figure::Figure;
 use crate::motion::labels::Class;
 use crate::motion::limited::{self, Cut, Length};
+use crate::motion::mark_tracks::MarkTracks;
 use crate::motion::matching::{Matching, bent_arms, match_figure};
 use crate::motion::measured::Measured;
+use crate::motion::performance::{Filmed, Plan};
 use crate::motion::prepare::{self, PreparedClip};
-use crate::motion::retarget::{RetargetedClip, retarget};
+use crate::motion::retarget::{RetargetedClip, Rig, Turns};
 use crate::motion::travel::travel;
 use crate::resolver::Resolver;
 use crate::scene::{Scene, WorldTransform};
@@ -39,9 +42,11 @@ pub use figure_clip::{FigureClip, PartDrive, originals};
 use figures::FigureGroup;
 use motion_files::MotionFiles;
 use performances::Performances;
+use performed::Channels;
+pub use performed::{Performed, PerformedParts};
 pub use rigging::RestNode;
 use rigging::{RestNodes, RetargetKey};
-use tracks::{AnimatedNodes, KeyTimes};
+use tracks::AnimatedNodes;
 
 /// The most keys of all clips of a drawing: frames × parts.
 const MAX_KEYS: usize = 1 << 24;
@@ -57,9 +62,9 @@ struct InPlaceKey(Same<RetargetedClip>);
 #[derive(PartialEq, Eq, Hash)]
 struct MeasuredKey(Same<RetargetedClip>);
 
-/// A figure's motion and the numbers of drawings to omit and frames to hold, as the key of a cached [`Cut`].
+/// A figure's motion, the numbers of drawings to omit and frames to hold, and the frame that must stay, as the key of a cached [`Cut`].
 #[derive(PartialEq, Eq, Hash)]
-struct CutKey(Same<Measured>, [usize; 2]);
+struct CutKey(Same<Measured>, [usize; 2], Option<usize>);
 
 /// The drawing whose figures are animated.
 pub struct Context<'a> {
@@ -94,6 +99,22 @@ struct MatchedFigure {
     group: FigureGroup,
     figure: Figure,
     matching: Matching,
+}
+
+/// A clip that a string asks for.
+struct Requested<'r, 'a> {
+    request: &'r ClipRequest<'a>,
+    /// The file or the word.
+    link: &'a str,
+    performance: Option<FoundPerformance<'a>>,
+}
+
+/// A performance of a figure.
+struct FoundPerformance<'a> {
+    request: PerformanceRequest<'a>,
+    tracks: Arc<MarkTracks>,
+    channels: Channels,
+    plan: Arc<Plan>,
 }
 
 /// Adds the clips that strings ask for to the scene, and returns what they are. `nodes` are the scene's first nodes, parents before
@@ -162,10 +183,26 @@ pub fn add_clips(
                 diagnostics.push(diagnostics::too_many_keys(request.span));
                 break;
             }
-            if let Some(performance) = builder.performance(request, &matched.group) {
-                performances.follow(&performance, resolver, diagnostics);
+            let performance = builder.performance(request, &matched.group);
+            let performance = performance.and_then(|request| {
+                let tracks = performances.get(&request, resolver, memo, diagnostics)?;
+                let found = builder.perform(request, &tracks, &matched, &motion, diagnostics);
+                let marks = found.iter().flat_map(|found| found.channels.marks());
+                performances.note_used(&found.as_ref()?.request, &tracks, marks);
+                found
+            });
+            let frames = performance.as_ref().map_or(0, |found| found.plan.frames(0));
+            keys = keys.saturating_add(frames.saturating_mul(group.parts.len()));
+            if keys > MAX_KEYS {
+                diagnostics.push(diagnostics::too_many_keys(request.span));
+                break;
             }
-            builder.add_clip(request, link, &matched, &motion, scene, diagnostics);
+            let requested = Requested {
+                request,
+                link,
+                performance,
+            };
+            builder.add_clip(requested, &matched, &motion, scene, diagnostics);
         }
         if !is_played {
             diagnostics.push(diagnostics::idle_motion(request.span, link));
@@ -173,6 +210,7 @@ pub fn add_clips(
     }
     let skeleton = builder.clips.last().map(|clip| clip.skeleton());
     builder.problems.report(context, skeleton, diagnostics);
+    performances.report_unused(diagnostics);
     builder.clips
 }
 
@@ -233,22 +271,82 @@ impl<'a> ClipBuilder<'a> {
         Some(found)
     }
 
+    /// What a performance does to a clip of a figure; `None` if no part of it has a mark of the tracks.
+    fn perform<'r>(
+        &self,
+        request: PerformanceRequest<'r>,
+        tracks: &Arc<MarkTracks>,
+        matched: &MatchedFigure,
+        motion: &Arc<PreparedClip>,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Option<FoundPerformance<'r>> {
+        let channels = Channels::find(self.context, matched, &request, tracks, motion, diagnostics);
+        if channels.is_empty() {
+            return None;
+        }
+        let plan = channels.plan(matched, &request, tracks, motion, self.memo);
+        let parts = &self.context.bindings.parts;
+        let name = |part: usize| parts[part].name.clone();
+        let of_parts = channels.parts(&matched.group);
+        performed::report(&plan, tracks, &of_parts, name, &request, diagnostics);
+        Some(FoundPerformance {
+            request,
+            tracks: Arc::clone(tracks),
+            channels,
+            plan,
+        })
+    }
+
     fn add_clip(
         &mut self,
-        request: &ClipRequest<'_>,
-        link: &str,
+        requested: Requested<'_, '_>,
         matched: &MatchedFigure,
         motion: &Arc<PreparedClip>,
         scene: &mut Scene,
         diagnostics: &mut Vec<Diagnostic>,
     ) {
+        let Requested {
+            request,
+            link,
+            performance,
+        } = requested;
         let group = &matched.group;
-        let (retargeted, measured) = self.retargeted(request, matched, motion);
+        let rig = rigging::rig(
+            self.context,
+            &matched.figure,
+            group,
+            &matched.matching,
+            self.rest,
+        );
+        let (retargeted, measured) =
+            self.retargeted(request, matched, motion, &rig, performance.as_ref());
+        let frames = retargeted.grounded.len();
         let limits = request.limits.or_else(|| self.limits(group));
+        let key_frame = performance
+            .as_ref()
+            .and_then(|found| found.plan.key_frame());
         let cut = limits.map(|limits| {
-            let cut = self.cut([limits.omit, limits.hold], &measured);
-            diagnostics::too_limited(&cut, motion.clip.frames(), limits.span, diagnostics);
+            let cut = self.cut([limits.omit, limits.hold], &measured, key_frame);
+            diagnostics::too_limited(&cut, frames, limits.span, diagnostics);
             cut
+        });
+        let filmed = performance.as_ref().and_then(|found| {
+            let part = found.channels.filmed(&found.plan)?;
+            let driven = rig.parts[..part]
+                .iter()
+                .filter(|part| part.drive.is_some())
+                .count();
+            let shown = figure_clip::shown_frames(cut.as_deref(), frames);
+            // Of each driven part the joint and the far end are measured.
+            let (points, tip) = (&measured.points, 2 * driven + 1);
+            let filming = found.plan.filming;
+            Some(Filmed::new(
+                filming,
+                points,
+                measured.per_frame,
+                &shown,
+                tip,
+            ))
         });
         let wanted = request.name.unwrap_or_else(|| figure_clip::stem(link));
         let clip = FigureClip {
@@ -262,16 +360,19 @@ impl<'a> ClipBuilder<'a> {
             motion: Arc::clone(motion),
             cut,
             limited_at: limits.map(|limits| limits.span),
+            performed: performance.map(|found| Performed {
+                file: found.request.file.to_owned(),
+                channels: found.channels.parts(group),
+                tracks: found.tracks,
+                plan: found.plan,
+            }),
+            filmed: filmed.unwrap_or_default(),
             order: group.parts.clone(),
             retargeted,
             measured,
             animated: Arc::clone(&self.animated),
         };
-        let keys = match &clip.cut {
-            Some(cut) => KeyTimes::stepped(&cut.exposure, clip.frame_time()),
-            None => KeyTimes::full(motion.clip.frames(), clip.frame_time()),
-        };
-        tracks::add(&mut scene.animations, clip.animation(&keys));
+        clip.add_to(scene);
         self.clips.push(clip);
     }
 
@@ -280,17 +381,19 @@ impl<'a> ClipBuilder<'a> {
         request: &ClipRequest<'_>,
         matched: &MatchedFigure,
         motion: &Arc<PreparedClip>,
+        rig: &Rig,
+        performance: Option<&FoundPerformance<'_>>,
     ) -> (Arc<RetargetedClip>, Arc<Measured>) {
-        let rig = rigging::rig(
-            self.context,
-            &matched.figure,
-            &matched.group,
-            &matched.matching,
-            self.rest,
-        );
-        let key = RetargetKey::new(&rig, motion);
+        let ratios = performance.map(|found| found.channels.ratios(&found.plan, matched, rig));
+        let ratios = ratios.unwrap_or_default();
+        let plan = performance.map(|found| &found.plan);
+        let key = RetargetKey::new(rig, motion, plan.map(|plan| (plan, ratios.as_slice())));
         let mut retargeted = self.memo.get(key, |_| {
-            Arc::new(retarget(&motion.clip, &rig, &motion.landmarks()))
+            let mut turns = Turns::new(&motion.clip, rig, &motion.landmarks());
+            if let Some(timing) = plan.and_then(|plan| plan.timing.as_ref()) {
+                turns = turns.timed(timing);
+            }
+            Arc::new(turns.damped(&ratios).travel())
         });
         if request.is_in_place {
             let group = &matched.group;
@@ -303,12 +406,17 @@ impl<'a> ClipBuilder<'a> {
         let key = MeasuredKey(Same(Arc::clone(&retargeted)));
         let measured = self
             .memo
-            .get(key, |_| Arc::new(Measured::of_figure(&rig, &retargeted)));
+            .get(key, |_| Arc::new(Measured::of_figure(rig, &retargeted)));
         (retargeted, measured)
     }
 
-    fn cut(&self, amounts: [usize; 2], measured: &Arc<Measured>) -> Arc<Cut> {
-        let key = CutKey(Same(Arc::clone(measured)), amounts);
+    fn cut(
+        &self,
+        amounts: [usize; 2],
+        measured: &Arc<Measured>,
+        key_frame: Option<usize>,
+    ) -> Arc<Cut> {
+        let key = CutKey(Same(Arc::clone(measured)), amounts, key_frame);
         self.memo.get(key, |_| {
             let [omit, hold] = amounts;
             let options = limited::Options {
@@ -316,7 +424,8 @@ impl<'a> ClipBuilder<'a> {
                 hold,
                 length: Length::Kept,
             };
-            Arc::new(limited::limit(measured.poses(), &options))
+            let poses = measured.poses().keeping(key_frame);
+            Arc::new(limited::limit(poses, &options))
         })
     }
 

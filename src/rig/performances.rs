@@ -1,33 +1,96 @@
 //! The performed tracks that strings link to with `Perform`.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
+use super::diagnostics;
+use super::missing_files::missing_file;
 use crate::bind::PerformanceRequest;
 use crate::diagnostic::Diagnostic;
-use crate::resolver::Resolver;
+use crate::memo::Memo;
+use crate::motion::mark_tracks::{self, MarkTracks};
+use crate::resolver::{LinkError, Resolver};
 use crate::source::Span;
 
-use super::missing_files::missing_file;
+/// A link to a file of tracks, as the key of the cached file.
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct TrackKey(String);
 
-/// The links to tracks that clips of the drawing have followed so far, by the places of their `Perform`.
+/// What a file of tracks holds.
+type TrackFile = Result<Arc<MarkTracks>, Arc<mark_tracks::Error>>;
+
+/// The tracks that clips of a drawing have followed so far.
 #[derive(Default)]
-pub(super) struct Performances(BTreeSet<Span>);
+pub(super) struct Performances {
+    files: BTreeMap<String, Result<TrackFile, LinkError>>,
+    /// The places of links that were reported, however many clips they are for.
+    reported: BTreeSet<Span>,
+    /// Per place of a `Perform` its file, and which marks of it parts of figures have.
+    used: BTreeMap<Span, (Arc<MarkTracks>, BTreeSet<usize>)>,
+}
 
 impl Performances {
-    /// Follows the link of a clip's performance. One that cannot be followed is reported once, however many clips it is for.
-    pub(super) fn follow(
+    /// The tracks of a clip's performance. Files that cannot be read are reported.
+    pub(super) fn get(
         &mut self,
         request: &PerformanceRequest<'_>,
         resolver: &dyn Resolver,
+        memo: &Memo,
         diagnostics: &mut Vec<Diagnostic>,
-    ) {
-        if !self.0.insert(request.span) {
-            return;
+    ) -> Option<Arc<MarkTracks>> {
+        let file = self
+            .files
+            .entry(request.file.to_owned())
+            .or_insert_with(|| {
+                memo.get_reading(
+                    TrackKey(request.file.to_owned()),
+                    resolver,
+                    |key, resolver| {
+                        let bytes = resolver.read(&key.0)?;
+                        Ok(MarkTracks::from_bytes(&bytes)
+                            .map(Arc::new)
+                            .map_err(Arc::new))
+                    },
+                )
+            });
+        let span = request.file_span();
+        let problem = match file {
+            Ok(Ok(tracks)) => return Some(Arc::clone(tracks)),
+            Ok(Err(error)) => diagnostics::broken_track(request.file, error, span),
+            Err(error) => {
+                let written = |file: &str| request.written(file);
+                missing_file(request.file, error, span, written, resolver)
+            }
+        };
+        if self.reported.insert(span) {
+            diagnostics.push(problem);
         }
-        if let Err(error) = resolver.read(request.file) {
-            let span = request.file_span();
-            let written = |file: &str| request.written(file);
-            diagnostics.push(missing_file(request.file, &error, span, written, resolver));
+        None
+    }
+
+    /// Notes which marks of a file a figure has, for the report of those that no figure has.
+    pub(super) fn note_used(
+        &mut self,
+        request: &PerformanceRequest<'_>,
+        tracks: &Arc<MarkTracks>,
+        marks: impl Iterator<Item = usize>,
+    ) {
+        let none = || (Arc::clone(tracks), BTreeSet::new());
+        let (_, used) = self.used.entry(request.span).or_insert_with(none);
+        used.extend(marks);
+    }
+
+    /// Reports the marks that no part of the drawing has.
+    pub(super) fn report_unused(&self, diagnostics: &mut Vec<Diagnostic>) {
+        for (span, (tracks, used)) in &self.used {
+            let unused = (0..tracks.marks.len()).filter(|mark| !used.contains(mark));
+            let unused: Vec<&str> = unused
+                .map(|mark| tracks.marks[mark].name.as_str())
+                .collect();
+            // Without any mark the performance has no effect, which is reported by itself.
+            if !unused.is_empty() && !used.is_empty() {
+                diagnostics.push(diagnostics::unused_marks(&unused, *span));
+            }
         }
     }
 }

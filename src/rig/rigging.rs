@@ -6,6 +6,7 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::Context;
 use super::figures::FigureGroup;
+use super::performed::ratio_bits;
 use super::surface;
 use crate::bind::Carry;
 use crate::geometry::{Frame, y_up};
@@ -13,6 +14,7 @@ use crate::memo::{Bits, Same};
 use crate::motion::figure::{Figure, FigurePart};
 use crate::motion::labels::{Class, Facing};
 use crate::motion::matching::{Drive, Follow, Matching};
+use crate::motion::performance::Plan;
 use crate::motion::prepare::PreparedClip;
 use crate::motion::retarget::{Rig, RigPart};
 use crate::motion::skeleton::Transform;
@@ -193,6 +195,8 @@ pub(super) struct RetargetKey {
     motion: Same<PreparedClip>,
     facing: Facing,
     parts: Vec<PartKey>,
+    /// The performance, and per part the ratio of its turns that is left.
+    performance: Option<(Same<Plan>, Vec<Option<Bits<f64>>>)>,
 }
 
 #[derive(PartialEq, Eq, Hash)]
@@ -209,7 +213,11 @@ struct PartKey {
 }
 
 impl RetargetKey {
-    pub(super) fn new(rig: &Rig, motion: &Arc<PreparedClip>) -> Self {
+    pub(super) fn new(
+        rig: &Rig,
+        motion: &Arc<PreparedClip>,
+        performance: Option<(&Arc<Plan>, &[Option<f64>])>,
+    ) -> Self {
         let part = |part: &RigPart| PartKey {
             parent: part.parent,
             is_rooted: part.is_rooted,
@@ -228,6 +236,8 @@ impl RetargetKey {
             motion: Same(Arc::clone(motion)),
             facing: rig.facing,
             parts: rig.parts.iter().map(part).collect(),
+            performance: performance
+                .map(|(plan, ratios)| (Same(Arc::clone(plan)), ratio_bits(ratios))),
         }
     }
 }

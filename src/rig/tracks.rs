@@ -1,51 +1,24 @@
 //! Retargeted clips as animations of the scene's nodes.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
 use glam::{DQuat, DVec3};
 
-use crate::motion::limited::Exposure;
+use crate::motion::key_times::KeyTimes;
 use crate::motion::retarget::RetargetedClip;
 use crate::motion::turns::continuous;
-use crate::scene::{Animation, Interpolation, Timing, Track, Values, WorldTransform};
+use crate::scene::{Animation, Track, Values, WorldTransform};
 
 use super::RestNode;
 
-/// The keys of an animation: their times, and the frames that they show.
-pub(super) struct KeyTimes {
-    timing: Arc<Timing>,
-    /// Per key the frame of the clip.
-    frames: Vec<usize>,
-}
-
-impl KeyTimes {
-    /// A key for every frame, interpolated linearly.
-    pub(super) fn full(frames: usize, frame_time: f64) -> Self {
-        Self {
-            timing: Arc::new(Timing {
-                times: (0..frames)
-                    .map(|frame| (frame as f64 * frame_time) as f32)
-                    .collect(),
-                interpolation: Interpolation::Linear,
-            }),
-            frames: (0..frames).collect(),
-        }
-    }
-
-    /// A key for every drawing of an exposure sheet, held until the next one, and one that closes the clip.
-    pub(super) fn stepped(exposure: &Exposure, frame_time: f64) -> Self {
-        let time = |frame: usize| (frame as f64 * frame_time) as f32;
-        let keys = exposure.step_keys().into_iter();
-        let (times, frames) = keys.map(|[frame, source]| (time(frame), source)).unzip();
-        Self {
-            timing: Arc::new(Timing {
-                times,
-                interpolation: Interpolation::Step,
-            }),
-            frames,
-        }
-    }
+/// How a figure is moved in front of a camera that stands still.
+pub(super) struct Shifts<'a> {
+    /// A key for each shown frame.
+    pub(super) keys: &'a KeyTimes,
+    /// Per shown frame the frame of the clip.
+    pub(super) shown: &'a [usize],
+    /// Per shown frame by how much the figure is moved, in the drawing's axes and unit.
+    pub(super) ways: &'a [DVec3],
 }
 
 /// The nodes that a drawing's clips animate.
@@ -64,33 +37,46 @@ impl AnimatedNodes {
         parts: &[usize],
         clip: &RetargetedClip,
         keys: &KeyTimes,
+        shifts: Option<&Shifts<'_>>,
     ) -> Animation {
         let index: BTreeMap<usize, usize> = parts.iter().copied().zip(0..).collect();
         let mut tracks = Vec::new();
         for (node, rest) in self.nodes.iter().enumerate() {
-            let Some(&index) = index.get(&rest.part).filter(|_| !keys.frames.is_empty()) else {
+            let Some(&index) = index.get(&rest.part).filter(|_| !keys.frames().is_empty()) else {
                 continue;
             };
-            let mut add = |values| {
+            let mut add = |timing, values| {
                 tracks.push(Track {
                     node,
-                    timing: Arc::clone(&keys.timing),
+                    timing,
                     values,
-                });
+                })
             };
             // Only children of the model's root change their position, and only they are in the world's axes.
             if let Some(positions) = clip.translations[index].as_ref().filter(|_| rest.is_rooted) {
-                let positions = keys.frames.iter().map(|frame| {
-                    let position = positions[*frame];
+                let placed = |position: DVec3| {
                     self.world.point(match rest.is_mirrored {
                         true => position * MIRROR,
                         false => position,
                     })
-                });
-                add(Values::Translations(positions.collect()));
+                };
+                match shifts {
+                    Some(shifts) => {
+                        let moved = shifts.shown.iter().zip(shifts.ways);
+                        let moved = moved
+                            .map(|(frame, way)| placed(positions[*frame]) + self.world.way(*way));
+                        let moved: Vec<DVec3> = moved.collect();
+                        let values = shifts.keys.of(&moved).collect();
+                        add(shifts.keys.timing(), Values::Translations(values));
+                    }
+                    None => {
+                        let values = keys.of(positions).map(placed).collect();
+                        add(keys.timing(), Values::Translations(values));
+                    }
+                }
             }
             if let Some(rotations) = &clip.rotations[index] {
-                let rotations = keys.frames.iter().map(|frame| {
+                let rotations = keys.frames().iter().map(|frame| {
                     let rotation = match rest.is_mirrored {
                         true => mirrored(rotations[*frame]),
                         false => rotations[*frame],
@@ -100,7 +86,10 @@ impl AnimatedNodes {
                         false => rotation,
                     }
                 });
-                add(Values::Rotations(continuous(rotations.collect())));
+                add(
+                    keys.timing(),
+                    Values::Rotations(continuous(rotations.collect())),
+                );
             }
         }
         Animation {

@@ -20,6 +20,11 @@ impl WorldTransform {
         self.rotation * point * self.scale
     }
 
+    /// Maps a way between two points in drawing units, y up, to the world, metres.
+    pub fn way(&self, way: DVec3) -> DVec3 {
+        self.rotation * way * self.scale
+    }
+
     /// Maps a rotation in the drawing's axes to the world's axes.
     pub fn rotate(&self, rotation: DQuat) -> DQuat {
         self.rotation * rotation

@@ -11,7 +11,7 @@ use crate::retarget::clips::clip;
 use fastrand::Rng;
 use glam::{DVec3, dvec3};
 use okoshi::motion::bvh;
-use okoshi::motion::edit::{ExposureMethod, edit};
+use okoshi::motion::edit::{self, ExposureMethod, edit};
 use okoshi::motion::labels::label_clip;
 use okoshi::motion::limited::{
     Camera, Cut, Drawing, Exposure, Length, MAX_OMITTED_RUN, Method, Options, Poses, compare,
@@ -306,7 +306,15 @@ fn frames_that_are_shown_keep_their_numbers() {
         length: Length::Kept,
     };
     let prepared = prepare::prepare(clip.clone(), &prepare::Options::default()).expect("a rate");
-    let edited = edit(prepared, how, PointChoice::All, None);
+    let edited = edit(
+        prepared,
+        &edit::Options {
+            method: how,
+            points: PointChoice::All,
+            camera: None,
+            key: None,
+        },
+    );
     let mut text = Vec::new();
     edited
         .write_bvh(&mut text)

@@ -5,13 +5,17 @@
 //! *characteristic joint* is a joint or part that a mark performs; they are called channels, and numbered, and so are their marks.
 
 mod camerawork;
+mod clip;
 mod emphasis;
+mod filmed;
 mod information;
 mod marks;
 mod plan;
 
 pub use camerawork::{CAMERA_FOV, CameraPath, camerawork};
+pub use clip::{JointChannel, PerformedClip, perform};
 pub use emphasis::{Limbs, ratios};
+pub use filmed::Filmed;
 pub use information::{Information, Key, joint_movements};
 pub use marks::mark_movements;
 pub use plan::{Effects, Filming, Finding, Plan, Request, plan};

@@ -168,6 +168,12 @@ pub(super) fn mixed(clip: &Clip, mixes: &[Mix]) -> Clip {
     )
 }
 
+/// A clip played along a map of time, at the same rate. Poses are interpolated as by [`resample`]; where a frame of the result is one of
+/// the clip, its angles are the very same but for whole turns.
+pub fn along(clip: &Clip, map: &TimeMap) -> Clip {
+    mixed(clip, map.places())
+}
+
 /// The channels of a joint, and their numbers in some of the new frames.
 struct JointChannels {
     track: RotationTrack,

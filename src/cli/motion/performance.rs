@@ -1,0 +1,233 @@
+//! `okoshi motion --perform`: which joint each mark performs, and what was done to the motion.
+
+use std::fmt::Write as _;
+
+use crate::cli::args::{self, Performing};
+use crate::cli::{Outcome, fail};
+use crate::diagnostic::nearest_word;
+use crate::disk::read_file;
+use crate::motion::edit::Film;
+use crate::motion::mark_tracks::MarkTracks;
+use crate::motion::matching::joints_named;
+use crate::motion::performance::{
+    Effects, Filming, Finding, JointChannel, PerformedClip, Plan, Request, perform as perform_clip,
+};
+use crate::motion::prepare::PreparedClip;
+use crate::motion::skeleton::Skeleton;
+
+/// A motion that was performed, or left as it is.
+pub(super) struct Performed {
+    pub(super) prepared: PreparedClip,
+    /// The frame of the motion's key pose.
+    pub(super) key_frame: Option<usize>,
+    pub(super) film: Option<Film>,
+    pub(super) messages: String,
+}
+
+/// Performs a motion as the arguments say. Failures are reported.
+pub(super) fn perform(
+    arguments: &Performing,
+    prepared: PreparedClip,
+) -> Result<Performed, Outcome> {
+    let Some(path) = &arguments.perform else {
+        return Ok(Performed {
+            prepared,
+            key_frame: None,
+            film: None,
+            messages: String::new(),
+        });
+    };
+    let name = path.display().to_string();
+    let bytes = read_file(path).map_err(|error| fail(&error.to_string()))?;
+    let tracks = MarkTracks::from_bytes(&bytes).map_err(|error| {
+        let outcome = fail(&format!("`{name}`: {error}"));
+        eprintln!("  help: track the clip again: okoshi track CLIP -o {name} --mark red");
+        outcome
+    })?;
+    let channels =
+        channels(arguments, &tracks, &prepared.clip.skeleton).map_err(|[message, help]| {
+            let outcome = fail(&format!("`{name}`: {message}"));
+            eprintln!("  help: {help}");
+            outcome
+        })?;
+    let emphasised = match &arguments.emphasize {
+        Some(wanted) => {
+            let is_it = |channel: &JointChannel| same(&tracks.marks[channel.mark].name, wanted);
+            let found = channels.iter().position(is_it);
+            if found.is_none() {
+                let message = format!("--emphasize {wanted}: no joint has this mark");
+                let outcome = fail(&message);
+                eprintln!("  help: write --mark {wanted}=JOINT for it");
+                return Err(outcome);
+            }
+            found
+        }
+        None => None,
+    };
+    let request = Request {
+        effects: Effects {
+            timing: !arguments.no_timing,
+            emphasis: !arguments.no_emphasis,
+            filming: match arguments.filming {
+                args::Filming::Camera => Filming::Camera,
+                args::Filming::Root => Filming::Character,
+                args::Filming::None => Filming::None,
+            },
+        },
+        emphasised,
+        keys: arguments.keys,
+    };
+    let PerformedClip { prepared, plan } = perform_clip(prepared, &tracks, &channels, &request);
+    let joint = |channel: usize| {
+        prepared.clip.skeleton.joints[channels[channel].joint]
+            .name
+            .as_str()
+    };
+    let mark = |channel: usize| tracks.marks[channels[channel].mark].name.as_str();
+    let messages = describe(&plan, joint, mark);
+    let film = plan.emphasised.map(|channel| Film {
+        filming: plan.filming,
+        joint: channels[channel].joint,
+    });
+    Ok(Performed {
+        key_frame: plan.key_frame(),
+        film,
+        messages,
+        prepared,
+    })
+}
+
+/// The joints that marks perform; else a message, and what to do.
+fn channels(
+    arguments: &Performing,
+    tracks: &MarkTracks,
+    skeleton: &Skeleton,
+) -> Result<Vec<JointChannel>, [String; 2]> {
+    let names: Vec<&str> = tracks.marks.iter().map(|mark| mark.name.as_str()).collect();
+    if arguments.marks.is_empty() {
+        let help = match names.as_slice() {
+            [] => "track the clip again, with --mark red for a red mark".to_owned(),
+            names => format!(
+                "write --mark {}=RightHand, and likewise for each of its marks: {}",
+                names[0],
+                names.join(", ")
+            ),
+        };
+        return Err(["no mark performs a joint".to_owned(), help]);
+    }
+    let joint = |name: &str| {
+        joints_named(skeleton, name)
+            .first()
+            .copied()
+            .ok_or_else(|| {
+                let joints = skeleton.joints.iter().map(|joint| joint.name.as_str());
+                let help = match nearest_word(name, joints) {
+                    Some(nearest) => format!("did you mean `{nearest}`?"),
+                    None => "okoshi motion IN.bvh lists the joints".to_owned(),
+                };
+                [format!("the motion has no joint `{name}`"), help]
+            })
+    };
+    let mut channels: Vec<JointChannel> = Vec::new();
+    for marked in &arguments.marks {
+        let found = names.iter().position(|name| same(name, &marked.mark));
+        let mark = found.ok_or_else(|| {
+            [
+                format!("the track has no mark `{}`", marked.mark),
+                format!("its marks are {}", names.join(", ")),
+            ]
+        })?;
+        if channels.iter().any(|channel| channel.mark == mark) {
+            return Err([
+                format!("--mark {}: this mark performs a joint already", marked.mark),
+                "write joints that are edited along with it behind a comma: red=RightHand,RightShoulder"
+                    .to_owned(),
+            ]);
+        }
+        let mut joints = Vec::new();
+        for name in &marked.joints {
+            joints.push(joint(name)?);
+        }
+        channels.push(JointChannel {
+            mark,
+            joint: joints.remove(0),
+            followers: joints,
+        });
+    }
+    Ok(channels)
+}
+
+fn same(a: &str, b: &str) -> bool {
+    a.to_lowercase() == b.to_lowercase()
+}
+
+/// What a performance does, for people to read. Frames count from 1.
+fn describe<'a>(
+    plan: &Plan,
+    joint: impl Fn(usize) -> &'a str,
+    mark: impl Fn(usize) -> &'a str,
+) -> String {
+    let mut out = String::new();
+    if let Some(emphasised) = plan.emphasised {
+        let _ = writeln!(
+            out,
+            "  performed: `{}` moves most, so {} is emphasised",
+            mark(emphasised),
+            joint(emphasised)
+        );
+        if plan.is_damping {
+            for (channel, ratio) in plan.largest_inputs().iter().enumerate() {
+                if channel != emphasised {
+                    let most = plan.input.largest_of(emphasised);
+                    let percent = 100.0 * (ratio / most).min(1.0);
+                    let _ = writeln!(
+                        out,
+                        "  {} keeps {percent:.0} % of its turns (`{}`)",
+                        joint(channel),
+                        mark(channel)
+                    );
+                }
+            }
+        }
+    }
+    if let (Some([input, motion]), Some(timing)) = (plan.keys, &plan.timing) {
+        let _ = writeln!(
+            out,
+            "  frame {} of the motion stands in frame {} of {}",
+            motion + 1,
+            input + 1,
+            timing.frames()
+        );
+    }
+    for finding in &plan.findings {
+        let text = match finding {
+            Finding::NoInput => {
+                "no mark of the track moves: the motion keeps its timing, and no joint is emphasised".to_owned()
+            }
+            Finding::NoMotion => {
+                "none of these joints moves: the motion keeps its timing".to_owned()
+            }
+            Finding::SecondInput(frame) => format!(
+                "the track has a second movement that is nearly as large, in frame {}: cut it to one action, or give --keys",
+                frame + 1
+            ),
+            Finding::SecondMotion(frame) => format!(
+                "the motion has a second movement that is nearly as large, in frame {}: cut it to one action with --range, or give --keys",
+                frame + 1
+            ),
+            Finding::OtherJoint(channel) => format!(
+                "in the motion it is {} that moves most: --emphasize {} would emphasise it",
+                joint(*channel),
+                mark(*channel)
+            ),
+            Finding::NoSuchInputKey(key, frames) => format!(
+                "the track has no frame {key}, only {frames} at this rate: the frame of its largest movement is used"
+            ),
+            Finding::NoSuchMotionKey(key, frames) => format!(
+                "the motion has no frame {key}, only {frames}: the frame of its largest movement is used"
+            ),
+        };
+        let _ = writeln!(out, "  warning: {text}");
+    }
+    out
+}

@@ -1,0 +1,407 @@
+//! Performances of figures: which part each mark performs, and what that does to a clip (motion.md, Performance).
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::diagnostics::{self, MarkProblem};
+use super::figures::FigureGroup;
+use super::{Context, MatchedFigure};
+use crate::bind::{Camerawork, PartMark, PerformanceRequest};
+use crate::diagnostic::{Diagnostic, nearest_word};
+use crate::memo::{Bits, Memo, Same};
+use crate::motion::labels::Tip;
+use crate::motion::mark_tracks::{MarkTrack, MarkTracks};
+use crate::motion::matching::{Drive, MatchedPart, joints_named};
+use crate::motion::performance::{
+    Effects, Filming, Finding, Limbs, Plan, Request, joint_movements, mark_movements, plan, ratios,
+};
+use crate::motion::prepare::PreparedClip;
+use crate::motion::retarget::Rig;
+use crate::motion::skeleton::Clip;
+
+/// A mark whose hue differs by more than this from that of a part's `Mark` is another one, degrees.
+const SAME_HUE: f64 = 30.0;
+/// A colour of less chroma has no hue to compare, 0 to 255.
+const LEAST_CHROMA: u8 = 40;
+
+/// A clip's performance.
+#[derive(Debug)]
+pub struct Performed {
+    /// The file of the track, as the string names it.
+    pub file: String,
+    /// The tracks.
+    pub tracks: Arc<MarkTracks>,
+    /// What it does to the clip. Its channels are those of `channels`.
+    pub plan: Arc<Plan>,
+    /// Which mark performs which parts.
+    pub channels: Vec<PerformedParts>,
+}
+
+/// Parts of a figure that a mark performs.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PerformedParts {
+    /// Index of the mark in the tracks.
+    pub mark: usize,
+    /// Indices of the parts.
+    pub parts: Vec<usize>,
+}
+
+/// The channels of a performance, in places of a figure's group.
+#[derive(Debug, Default)]
+pub(super) struct Channels {
+    /// Per channel the index of its mark, and the parts that the mark performs.
+    marks: Vec<(usize, Vec<usize>)>,
+    /// Per channel the parts that are edited along with them.
+    followers: Vec<Vec<usize>>,
+    /// The channel that the string emphasises.
+    emphasised: Option<usize>,
+}
+
+/// Everything that a plan follows from, as the key of a cached [`Plan`].
+#[derive(PartialEq, Eq, Hash)]
+struct PlanKey {
+    motion: Same<PreparedClip>,
+    tracks: Same<MarkTracks>,
+    /// Per channel its mark, and the drives of its parts.
+    channels: Vec<(usize, Vec<Drive>)>,
+    request: Request,
+}
+
+impl Channels {
+    /// Finds the parts that marks of a file perform. What does not fit is reported.
+    pub(super) fn find(
+        context: &Context<'_>,
+        matched: &MatchedFigure,
+        request: &PerformanceRequest<'_>,
+        tracks: &MarkTracks,
+        motion: &PreparedClip,
+        diagnostics: &mut Vec<Diagnostic>,
+    ) -> Self {
+        let bindings = context.bindings;
+        let group = &matched.group;
+        let mut found = Self::default();
+        let mut report = |problem: MarkProblem<'_>| {
+            let diagnostic = diagnostics::mark_problem(&problem, request);
+            // Figures that play several clips have the same problem in each.
+            if !diagnostics.contains(&diagnostic) {
+                diagnostics.push(diagnostic);
+            }
+        };
+        let mut has_mark = false;
+        for (place, part) in group.parts.iter().enumerate() {
+            let Some(mark) = bindings.mark(*part) else {
+                continue;
+            };
+            has_mark = true;
+            let name = &bindings.parts[*part].name;
+            if matched.matching.parts[place].drive.is_none() {
+                report(MarkProblem::NoJoint { part: name, mark });
+                continue;
+            }
+            let Some(index) = mark_of(tracks, &mark) else {
+                let names = tracks.marks.iter().map(|mark| mark.name.as_str());
+                report(MarkProblem::NoTrack {
+                    mark,
+                    names: names.collect(),
+                });
+                continue;
+            };
+            let channel = found.marks.iter().position(|(known, _)| *known == index);
+            let channel = channel.unwrap_or_else(|| {
+                found.marks.push((index, Vec::new()));
+                found.followers.push(Vec::new());
+                found.marks.len() - 1
+            });
+            found.marks[channel].1.push(place);
+            for follower in bindings.follows(*part) {
+                let places = followers(context, matched, motion, follower.name);
+                if places.is_empty() {
+                    let parts = group
+                        .parts
+                        .iter()
+                        .map(|part| bindings.parts[*part].name.as_str());
+                    let nearest = nearest_word(follower.name, parts);
+                    report(MarkProblem::NoFollower { follower, nearest });
+                }
+                found.followers[channel].extend(places);
+            }
+        }
+        if found.marks.is_empty() && !has_mark {
+            report(MarkProblem::NoMarks);
+        }
+        if let Some(wanted) = request.emphasised {
+            let names = || {
+                found
+                    .marks
+                    .iter()
+                    .map(|(mark, _)| tracks.marks[*mark].name.as_str())
+            };
+            let word = |channel: &usize| {
+                let parts = &found.marks[*channel].1;
+                let mut words = parts
+                    .iter()
+                    .filter_map(|place| bindings.mark(group.parts[*place]));
+                names()
+                    .nth(*channel)
+                    .is_some_and(|name| same_word(name, wanted))
+                    || words.any(|mark| same_word(mark.word, wanted))
+            };
+            found.emphasised = (0..found.marks.len()).find(word);
+            if found.emphasised.is_none() && !found.marks.is_empty() {
+                let names: Vec<&str> = names().collect();
+                report(MarkProblem::NoEmphasis { wanted, names });
+            }
+        }
+        found
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.marks.is_empty()
+    }
+
+    /// The marks of the channels.
+    pub(super) fn marks(&self) -> impl Iterator<Item = usize> + '_ {
+        self.marks.iter().map(|(mark, _)| *mark)
+    }
+
+    /// What the performance does to a clip.
+    pub(super) fn plan(
+        &self,
+        matched: &MatchedFigure,
+        request: &PerformanceRequest<'_>,
+        tracks: &Arc<MarkTracks>,
+        motion: &Arc<PreparedClip>,
+        memo: &Memo,
+    ) -> Arc<Plan> {
+        let drive = |place: &usize| matched.matching.parts[*place].drive;
+        let channel = |(mark, places): &(usize, Vec<usize>)| {
+            (*mark, places.iter().filter_map(drive).collect())
+        };
+        let key = PlanKey {
+            motion: Same(Arc::clone(motion)),
+            tracks: Same(Arc::clone(tracks)),
+            channels: self.marks.iter().map(channel).collect(),
+            request: Request {
+                effects: effects(request),
+                emphasised: self.emphasised,
+                keys: request.keys,
+            },
+        };
+        memo.get(key, |key| {
+            let marks: Vec<usize> = key.channels.iter().map(|(mark, _)| *mark).collect();
+            let input = mark_movements(tracks, &marks, 1.0 / motion.clip.frame_time);
+            let drives = key.channels.iter().map(|(_, drives)| drives.as_slice());
+            let hips = motion.landmarks().hips;
+            let movements = drives.map(|drives| drive_movement(&motion.clip, drives, hips));
+            Arc::new(plan(input, movements.collect(), &key.request))
+        })
+    }
+
+    /// Per part of a rig the ratio of its turns that is left.
+    pub(super) fn ratios(
+        &self,
+        plan: &Plan,
+        matched: &MatchedFigure,
+        rig: &Rig,
+    ) -> Vec<Option<f64>> {
+        let Some(emphasised) = plan.emphasised.filter(|_| plan.is_damping) else {
+            return Vec::new();
+        };
+        let parents: Vec<Option<usize>> = rig.parts.iter().map(|part| part.parent).collect();
+        let class = |part: &MatchedPart| part.label.as_ref().map(|label| label.class);
+        let classes: Vec<_> = matched.matching.parts.iter().map(class).collect();
+        let limbs = Limbs {
+            parents: &parents,
+            classes: &classes,
+        };
+        let channels: Vec<Vec<usize>> = self
+            .marks
+            .iter()
+            .map(|(_, places)| places.clone())
+            .collect();
+        let largest = plan.largest_inputs();
+        ratios(&limbs, &channels, &self.followers, &largest, emphasised)
+    }
+
+    /// The part that the camera shows, in places of the group.
+    pub(super) fn filmed(&self, plan: &Plan) -> Option<usize> {
+        self.marks[plan.emphasised?].1.first().copied()
+    }
+
+    /// The channels in parts of the drawing.
+    pub(super) fn parts(&self, group: &FigureGroup) -> Vec<PerformedParts> {
+        let channel = |(mark, places): &(usize, Vec<usize>)| PerformedParts {
+            mark: *mark,
+            parts: places.iter().map(|place| group.parts[*place]).collect(),
+        };
+        self.marks.iter().map(channel).collect()
+    }
+}
+
+/// The ratios of a rig's parts as the key of a cached result.
+pub(super) fn ratio_bits(ratios: &[Option<f64>]) -> Vec<Option<Bits<f64>>> {
+    ratios.iter().map(|ratio| ratio.map(Bits)).collect()
+}
+
+fn effects(request: &PerformanceRequest<'_>) -> Effects {
+    Effects {
+        timing: request.effects.timing,
+        emphasis: request.effects.emphasis,
+        filming: match request.effects.camerawork {
+            Camerawork::Camera => Filming::Camera,
+            Camerawork::Root => Filming::Character,
+            Camerawork::None => Filming::None,
+        },
+    }
+}
+
+/// How much the far ends of some drives move relative to the hips; of several, in each frame the one that moves most.
+fn drive_movement(clip: &Clip, drives: &[Drive], hips: usize) -> Vec<f64> {
+    let mut paths = vec![Vec::with_capacity(clip.frames()); drives.len()];
+    let mut hip_path = Vec::with_capacity(clip.frames());
+    let mut pose = Vec::new();
+    for frame in 0..clip.frames() {
+        clip.pose_into(frame, &mut pose);
+        hip_path.push(pose.get(hips).map_or(DVec3::ZERO, |hips| hips.position));
+        for (path, drive) in paths.iter_mut().zip(drives) {
+            let end = drive.tip.unwrap_or(Tip::Joint(drive.joint));
+            path.push(end.place(&clip.skeleton, &pose));
+        }
+    }
+    let movements = joint_movements(&paths, &hip_path);
+    let most = |frame: usize| {
+        movements
+            .iter()
+            .map(|movement| movement[frame])
+            .fold(0.0, f64::max)
+    };
+    (0..clip.frames()).map(most).collect()
+}
+
+/// The mark of a file that a part's `Mark` means: that of the same name, else of the same colour, else of the nearest hue.
+fn mark_of(tracks: &MarkTracks, mark: &PartMark<'_>) -> Option<usize> {
+    let position = |fits: &dyn Fn(&MarkTrack) -> bool| tracks.marks.iter().position(fits);
+    let named = position(&|track| same_word(&track.name, mark.word));
+    let exact = || position(&|track| track.colour == mark.colour);
+    let near = || {
+        let own = hue(mark.colour)?;
+        let off = |track: &crate::motion::mark_tracks::MarkTrack| {
+            let way = (hue(track.colour)? - own).rem_euclid(360.0);
+            Some(way.min(360.0 - way)).filter(|off| *off <= SAME_HUE)
+        };
+        let offs = tracks.marks.iter().enumerate();
+        let offs = offs.filter_map(|(index, track)| Some((index, off(track)?)));
+        let nearest = offs.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(nearest.0)
+    };
+    named.or_else(exact).or_else(near)
+}
+
+fn same_word(a: &str, b: &str) -> bool {
+    a.to_lowercase() == b.to_lowercase()
+}
+
+/// The hue of a colour, degrees; `None` for one that is nearly grey.
+fn hue(colour: [u8; 3]) -> Option<f64> {
+    let [red, green, blue] = colour.map(f64::from);
+    let most = *colour.iter().max()?;
+    let chroma = most - *colour.iter().min()?;
+    if chroma < LEAST_CHROMA {
+        return None;
+    }
+    let chroma = f64::from(chroma);
+    let sector = if colour[0] == most {
+        (green - blue) / chroma
+    } else if colour[1] == most {
+        (blue - red) / chroma + 2.0
+    } else {
+        (red - green) / chroma + 4.0
+    };
+    Some((sector * 60.0).rem_euclid(360.0))
+}
+
+/// The parts that a name in `Follow` means, in places of the group: the part of that name, else all that a joint of that name drives.
+fn followers(
+    context: &Context<'_>,
+    matched: &MatchedFigure,
+    motion: &PreparedClip,
+    name: &str,
+) -> Vec<usize> {
+    let parts = matched.group.parts.iter();
+    let own = parts.map(|part| context.bindings.parts[*part].name.as_str());
+    if let Some(place) = own.into_iter().position(|own| own == name) {
+        return vec![place];
+    }
+    let joints = joints_named(&motion.clip.skeleton, name);
+    let is_driven = |place: &usize| {
+        let drive = matched.matching.parts[*place].drive;
+        drive.is_some_and(|drive| joints.contains(&drive.joint))
+    };
+    (0..matched.group.parts.len()).filter(is_driven).collect()
+}
+
+/// Reports what a plan found, once for each place and kind.
+pub(super) fn report(
+    plan: &Plan,
+    tracks: &MarkTracks,
+    channels: &[PerformedParts],
+    names: impl Fn(usize) -> String,
+    request: &PerformanceRequest<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) {
+    for finding in &plan.findings {
+        let of = |channel: usize| {
+            let parts = channels[channel].parts.first();
+            parts.map_or_else(String::new, |part| names(*part))
+        };
+        let emphasised = plan.emphasised.map(|channel| {
+            (
+                of(channel),
+                tracks.marks[channels[channel].mark].name.clone(),
+            )
+        });
+        let other = match finding {
+            Finding::OtherJoint(channel) => Some(of(*channel)),
+            _ => None,
+        };
+        let diagnostic = diagnostics::odd_performance(*finding, emphasised, other, request.span);
+        if !diagnostics.contains(&diagnostic) {
+            diagnostics.push(diagnostic);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::Span;
+
+    #[test]
+    fn marks_are_found_by_name_colour_and_hue() {
+        let track = |name: &str, colour| MarkTrack {
+            name: name.to_owned(),
+            colour,
+            ..MarkTrack::default()
+        };
+        let tracks = MarkTracks {
+            marks: vec![
+                track("left", [30, 160, 60]),
+                track("Red", [90, 40, 200]),
+                track("hand", [200, 60, 40]),
+                track("grey", [90, 90, 95]),
+            ],
+            ..MarkTracks::default()
+        };
+        let find = |word: &'static str, colour| {
+            let span = Span::default();
+            mark_of(&tracks, &PartMark { word, colour, span })
+        };
+        assert_eq!(find("red", [255, 0, 0]), Some(1), "names come first");
+        assert_eq!(find("green", [0, 128, 0]), Some(0));
+        assert_eq!(find("#c83c28", [200, 60, 40]), Some(2));
+        assert_eq!(find("orange", [255, 90, 0]), Some(2));
+        assert_eq!(find("yellow", [255, 255, 0]), None);
+        assert_eq!(find("white", [255, 255, 255]), None);
+    }
+}
