@@ -10,8 +10,8 @@ use glam::{DQuat, DVec3};
 use image::{AnimationDecoder, ImageDecoder};
 use okoshi::export::{GLB, to_memory};
 use okoshi::scene::{
-    Animation, Interpolation, Material, Mesh, Node, Primitive, Scene, Surface, Timing, Track,
-    Values, ViewDependent,
+    Animation, Camera, CameraProjection, Interpolation, Material, Mesh, NewNode, Node, Primitive,
+    Scene, Surface, Timing, Track, Values, ViewDependent,
 };
 
 const GOOD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
@@ -306,13 +306,21 @@ fn errors_in_the_drawing() {
 
 /// A model of one upright square, one metre wide, in one node.
 fn upright(node: Node, animations: Vec<Animation>) -> Vec<u8> {
+    written(&upright_scene(node, animations))
+}
+
+fn written(scene: &Scene) -> Vec<u8> {
+    to_memory(&GLB, scene, None).expect("sound").bytes
+}
+
+fn upright_scene(node: Node, animations: Vec<Animation>) -> Scene {
     let square = Surface {
         positions: vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]],
         normals: vec![[0.0, 0.0, 1.0]; 4],
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         ..Surface::default()
     };
-    let scene = Scene {
+    Scene {
         nodes: vec![Node {
             mesh: Some(0),
             ..node
@@ -330,8 +338,7 @@ fn upright(node: Node, animations: Vec<Animation>) -> Vec<u8> {
         }],
         animations,
         ..Scene::default()
-    };
-    to_memory(&GLB, &scene, None).expect("sound").bytes
+    }
 }
 
 /// A model that is bent with the view.
@@ -491,6 +498,135 @@ fn a_camera_follows_what_moves() {
         start.0 > 10 && start.1 < 79 && start.1 - start.0 > 30,
         "{start:?}"
     );
+}
+
+/// A room with a model of one square and two cameras in front of it: `Near`, and `Camera zoom`, which comes nearer in the second
+/// of the clips.
+fn filmed_room() -> Room {
+    let room = room();
+    let zoom = Animation {
+        name: "zoom".to_owned(),
+        tracks: vec![Track {
+            node: 2,
+            timing: Arc::new(Timing {
+                times: vec![0.0, 0.5, 1.0],
+                interpolation: Interpolation::Step,
+            }),
+            values: Values::Translations([8.0, 4.0, 4.0].map(|z| DVec3::new(0.5, 0.5, z)).to_vec()),
+        }],
+    };
+    let wave = turning("wave", &[0.0, 1.0], Interpolation::Linear);
+    let mut scene = upright_scene(Node::default(), vec![wave, zoom]);
+    for (index, (name, z)) in [("Near", 2.0), ("Camera zoom", 8.0)]
+        .into_iter()
+        .enumerate()
+    {
+        scene.add(NewNode {
+            node: Node {
+                name: name.to_owned(),
+                translation: DVec3::new(0.5, 0.5, z),
+                camera: Some(index),
+                ..Node::default()
+            },
+            mesh: None,
+            parent: None,
+        });
+        scene.cameras.push(Camera {
+            name: name.to_owned(),
+            projection: CameraProjection::Perspective {
+                vertical_field_of_view: 2.0 * 0.5_f64.atan(),
+                near: 0.01,
+                far: None,
+            },
+        });
+    }
+    room.write("filmed.glb", written(&scene));
+    room
+}
+
+/// The width of what is visible in a picture.
+fn visible_width(image: &image::RgbaImage) -> u32 {
+    let seen = image.enumerate_pixels().filter(|(_, _, p)| p.0[3] > 128);
+    let columns: std::collections::BTreeSet<u32> = seen.map(|(x, _, _)| x).collect();
+    columns.len() as u32
+}
+
+#[test]
+fn cameras_of_the_model_take_pictures() {
+    let room = filmed_room();
+    // The angle shows as many metres as the camera is away, in 64 pixels.
+    let width = |more: &str, expected: u32| {
+        let arguments = format!("render filmed.glb -o a.png --size 64x64 --shading unlit {more}");
+        ends(&room, &arguments, 0, "wrote a.png");
+        let width = visible_width(&picture(&room, "a.png"));
+        assert!(width.abs_diff(expected) <= 1, "{more}: {width}");
+    };
+    width("--camera", 32);
+    width("--camera Near", 32);
+    width("--camera 2", 8);
+    width("--camera=2", 8);
+    // The camera of the clip, at a moment.
+    width("--clip zoom --time 0.2 --camera", 8);
+    width("--clip zoom --time 0.7 --camera", 16);
+    width("--clip zoom --time 0.7 --camera 1", 32);
+    // This clip moves no camera.
+    width("--clip wave --time 0 --camera", 32);
+    let film = "render filmed.glb -o a.gif --size 64x64 --clip zoom";
+    let pictures = |more: &str| {
+        ends(&room, &format!("{film}{more}"), 0, "wrote a.gif");
+        gif(&room, "a.gif").len()
+    };
+    // Without the camera, nothing moves.
+    assert_eq!(pictures(" --camera"), 2);
+    assert_eq!(pictures(""), 1);
+    ends(
+        &room,
+        "render filmed.glb -o strip.png --size 64x64 --shading unlit --clip zoom --strip 2 --camera",
+        0,
+        "wrote strip.png: 2 moments",
+    );
+    let strip = picture(&room, "strip.png");
+    let cell = |index: u32| image::imageops::crop_imm(&strip, index * 64, 0, 64, 64).to_image();
+    let widths = [0, 1].map(|index| visible_width(&cell(index)));
+    assert!(widths[0].abs_diff(8) <= 1 && widths[1].abs_diff(16) <= 1);
+}
+
+#[test]
+fn wrong_use_of_cameras_is_explained() {
+    let room = filmed_room();
+    for (arguments, told) in [
+        (
+            "filmed.glb --camera Far",
+            "`filmed.glb` has no camera `Far`; there is 1 `Near`, 2 `Camera zoom`",
+        ),
+        ("filmed.glb --camera 3", "has no camera `3`; there is 1"),
+        (
+            "a.svg --camera",
+            "`a.svg` has no camera: leave out --camera",
+        ),
+        (
+            "filmed.glb --camera --view 0,0",
+            "so --view has no meaning: leave out --view, or --camera",
+        ),
+        (
+            "filmed.glb --camera --projection perspective",
+            "leave out --projection, or --camera",
+        ),
+        (
+            "filmed.glb --camera --turntable 4 -o a.gif",
+            "leave out --turntable, or --camera",
+        ),
+        (
+            "filmed.glb --camera --clip zoom --follow -o a.gif",
+            "leave out --follow, or --camera",
+        ),
+        (
+            "a.svg --camera --as-drawn",
+            "leave out --as-drawn, or --camera",
+        ),
+    ] {
+        ends(&room, &format!("render {arguments}"), 2, told);
+    }
 }
 
 #[test]

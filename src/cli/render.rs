@@ -12,11 +12,12 @@ use crate::disk::{Inputs, Naming, Target, WriteError, read_file};
 use crate::export::{self, GLB};
 use crate::look::{DrawnView, LookError};
 use crate::render::{
-    self, Clip, Model, Options, Palette, PosedModel, RenderError, Sheet, TURNTABLE_SECONDS,
-    write_png,
+    self, Clip, Model, ModelCamera, Options, Palette, PosedModel, RenderError, Sheet,
+    TURNTABLE_SECONDS, write_png,
 };
 use crate::resolver::Recorder;
 
+mod cameras;
 mod clips;
 mod movie;
 mod video;
@@ -53,6 +54,7 @@ enum Subject {
 /// Renders the model of a drawing, or a model.
 pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
     let asked = output(arguments).and_then(|output| {
+        cameras::check(arguments)?;
         let subject = subject(arguments)?;
         Ok((form(&output, subject, arguments)?, subject, output))
     });
@@ -91,9 +93,13 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
         Ok(clip) => clip,
         Err(message) => return fail(&format!("`{name}` {message}")),
     };
+    let camera = match cameras::chosen(&model, clip.map(|(clip, _)| clip), arguments) {
+        Ok(camera) => camera,
+        Err(message) => return fail(&format!("`{name}` {message}")),
+    };
     let written = match (subject, clip) {
         (Subject::Clip | Subject::Strip(_), Some((clip, _))) => {
-            let film = match clips::film(&model, clip, arguments) {
+            let film = match clips::film(&model, clip, camera, arguments) {
                 Ok(film) => film,
                 Err(message) => return fail(&format!("`{name}` {message}")),
             };
@@ -120,7 +126,7 @@ pub(super) fn run(arguments: &Render, common: Common) -> Outcome {
             };
             match page {
                 Some(page) => draw_page(&posed, arguments, &output, page),
-                None => draw(&posed, arguments, &output, (form, subject)),
+                None => draw(&posed, camera, arguments, &output, (form, subject)),
             }
         }
     };
@@ -348,6 +354,7 @@ fn describe_picture([width, height]: [u32; 2], triangles: usize) -> String {
 /// Draws and writes pictures, and returns a description of them.
 fn draw(
     posed: &PosedModel<'_>,
+    camera: Option<&ModelCamera>,
     arguments: &Render,
     output: &Destination,
     what: (Form, Subject),
@@ -397,7 +404,11 @@ fn draw(
         }
         _ => {
             let target = output.single().map_err(Failure::written)?;
-            let image = spinning("drawing", || posed.picture(&options))?;
+            let image = spinning("drawing", || match camera {
+                Some(camera) => posed.picture_by(&options, camera),
+                None => posed.picture(&options),
+            });
+            let image = image.map_err(|error| Failure::of(arguments, &error))?;
             let written = target.write(|out| write_png(&image, out));
             written.map_err(Failure::written)?;
             Ok(format!("{name}: {picture}"))
@@ -464,10 +475,10 @@ fn options(arguments: &Render, form: Form) -> Options {
             Form::Movie(MovieForm::Video(_)) => arguments.size.map(|side| side.next_multiple_of(2)),
             Form::Png | Form::Movie(_) => arguments.size,
         },
-        view: arguments.view,
+        view: arguments.view.unwrap_or_default(),
         projection: match arguments.projection {
-            Projection::Perspective => render::Projection::Perspective,
-            Projection::Orthographic => render::Projection::Orthographic,
+            None | Some(Projection::Perspective) => render::Projection::Perspective,
+            Some(Projection::Orthographic) => render::Projection::Orthographic,
         },
         shading: match arguments.shading {
             Shading::Flat => render::Shading::Flat,

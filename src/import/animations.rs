@@ -23,6 +23,7 @@ pub struct Clip {
     pub name: String,
     /// Its length: up to its last key.
     pub seconds: f64,
+    /// In the order of the nodes.
     animated: Vec<AnimatedNode>,
 }
 
@@ -76,6 +77,12 @@ impl Clip {
             }
         }
         pose
+    }
+
+    /// Whether it animates a node.
+    pub(crate) fn moves(&self, node: usize) -> bool {
+        let find = self.animated.binary_search_by_key(&node, |one| one.node);
+        find.is_ok()
     }
 
     /// The nodes that it moves from place to place.

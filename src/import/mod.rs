@@ -1,11 +1,12 @@
 //! Reads glTF 2.0 files made by other programs: for pictures of them, and for models that drawings link to.
 //!
 //! It reads the node hierarchy, triangles (lists, strips, fans), normals, one set of texture coordinates, vertex
-//! colours, morph targets of positions, skins, clips, and how nodes follow the viewer; [`StaticModel`] adds materials and
+//! colours, morph targets of positions, skins, clips, cameras, and how nodes follow the viewer; [`StaticModel`] adds materials and
 //! images.
 
 mod animations;
 mod buffers;
+mod cameras;
 mod meshes;
 mod pose;
 mod static_model;
@@ -16,10 +17,13 @@ use ::gltf::{Document, Gltf};
 use glam::DMat4;
 
 use crate::resolver::{LinkError, Resolver};
+pub(crate) use crate::scene::CameraProjection;
 
 pub(crate) use animations::read as read_clips;
 pub use animations::{Clip, MAX_KEYS};
 pub(crate) use buffers::Buffers;
+pub use cameras::ModelCamera;
+pub(crate) use cameras::{CameraPose, read as read_cameras};
 pub use pose::Pose;
 pub(crate) use pose::{Geometry, TriangleSoup};
 use pose::{Node, Skin};

@@ -157,6 +157,11 @@ impl Geometry {
         globals
     }
 
+    /// The transform from a node's frame to the world in a pose.
+    pub(crate) fn to_world(&self, pose: &Pose, node: usize) -> DMat4 {
+        self.globals(pose)[node]
+    }
+
     /// The places of some nodes in a pose, in the world.
     pub(crate) fn places(&self, pose: &Pose, nodes: &[usize]) -> Vec<DVec3> {
         let globals = self.globals(pose);

@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::surface::Surface;
+use super::surface::{Normalization, Surface};
+use crate::import::{CameraPose, CameraProjection, ModelCamera};
 
 /// How far the camera can be raised or lowered, in degrees.
 pub const MAX_PITCH: f64 = 90.0;
@@ -14,6 +15,9 @@ const LENS: f32 = 18.0 / 85.0;
 pub(super) const MARGIN: f32 = 0.06;
 /// The smallest half extent of a framing, so that a flat model seen edge-on has a scale.
 const LEAST: f32 = 1e-4;
+
+/// The depths of a camera that shows everything in front of it.
+const EVERYTHING: [f32; 2] = [0.0, f32::INFINITY];
 
 /// Iterations of the centring; each removes most of the remaining offset.
 const CENTRINGS: usize = 3;
@@ -86,6 +90,7 @@ impl Sheet {
             eye: eye.as_vec3(),
             half: (width.max(height) / 2.0 * surface.normalization.scale) as f32,
             size: Vec2::new(size[0] as f32, size[1] as f32),
+            depths: EVERYTHING,
         }
     }
 }
@@ -236,6 +241,7 @@ impl Framing {
             eye,
             half: self.half,
             size,
+            depths: EVERYTHING,
         }
     }
 }
@@ -250,9 +256,58 @@ pub(super) struct Camera {
     eye: Vec3,
     half: f32,
     size: Vec2,
+    /// The depths of the nearest and the farthest that is shown.
+    depths: [f32; 2],
 }
 
 impl Camera {
+    /// One of the file's cameras in a pose, for a picture of `size` pixels. Its vertical angle holds whatever the picture's shape.
+    pub(super) fn in_model(
+        camera: &ModelCamera,
+        pose: &CameraPose,
+        normalization: Normalization,
+        size: [u32; 2],
+    ) -> Self {
+        let [width, height] = size.map(f64::from);
+        let scale = normalization.scale;
+        let (projection, half_height, near, far) = match camera.projection {
+            CameraProjection::Perspective {
+                vertical_field_of_view,
+                near,
+                far,
+            } => {
+                let half = (vertical_field_of_view / 2.0).tan();
+                let far = far.unwrap_or(f64::INFINITY);
+                (Projection::Perspective, half, near, far)
+            }
+            CameraProjection::Orthographic {
+                half_height,
+                near,
+                far,
+            } => (Projection::Orthographic, half_height * scale, near, far),
+        };
+        let longer = width.max(height);
+        Self {
+            axes: Axes {
+                right: pose.right.as_vec3(),
+                up: pose.up.as_vec3(),
+                forward: -pose.towards.as_vec3(),
+            },
+            projection,
+            yaw: pose.yaw(),
+            eye: normalization.apply(pose.eye).as_vec3(),
+            half: (half_height * longer / height) as f32,
+            size: Vec2::new(width as f32, height as f32),
+            depths: [near * scale, far * scale].map(|depth| depth as f32),
+        }
+    }
+
+    /// The distances along a ray between which something is shown.
+    pub(super) fn limits(&self, direction: Vec3) -> [f32; 2] {
+        let cosine = direction.dot(self.axes.forward);
+        self.depths.map(|depth| depth / cosine)
+    }
+
     /// The origin and direction of the ray through a point of the picture, in pixels from the top left.
     pub(super) fn ray(&self, place: Vec2) -> (Vec3, Vec3) {
         let longer = self.size.max_element();

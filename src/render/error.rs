@@ -20,6 +20,9 @@ pub enum RenderError {
     /// A film strip with too many pixels.
     #[error("cannot be drawn as a strip of {0} by {1} pixels, more than {limit} in all: ask for fewer moments or a smaller size", limit = super::MAX_FILM_STRIP_PIXELS)]
     FilmStripTooLarge(u64, u32),
+    /// A camera whose node has a scale of zero, or numbers that are not finite.
+    #[error("has a camera `{0}` without a place or direction: the scale of its node may not be 0")]
+    CameraPose(String),
     /// Rendering panicked.
     #[error("cannot be rendered: {0}; {help}", help = crate::crash::HELP)]
     Crash(#[from] Crash),

@@ -1,7 +1,6 @@
-//! Renders a clip with one camera for all its frames, which stands still or follows the figure.
+//! Renders a clip with one camera for all its frames, which stands still, follows the figure, or is one of the file's.
 
 use std::borrow::Cow;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 use glam::{DVec3, Vec3, Vec3Swizzles as _};
 use rayon::prelude::*;
@@ -9,14 +8,12 @@ use rayon::prelude::*;
 use super::camera::{Framing, View};
 use super::follow::CameraPath;
 use super::ground::Floor;
-use super::hierarchy::{Hierarchy, Rays};
 use super::model::Model;
-use super::posed_model::{Image, Take, check_size, draw};
-use super::sampling::{FILM, STILL, Sampling};
+use super::posed_model::Image;
+use super::sampling::STILL;
 use super::surface::{Normalization, Surface};
 use super::{MAX_CLIP_FRAMES, MAX_FILM_STRIP_PIXELS, Options, RenderError, on_pool};
-use crate::crash::Crash;
-use crate::import::{Clip, ImportError, Pose};
+use crate::import::{Clip, ImportError, ModelCamera, Pose};
 
 /// At how many times the pose is sampled, at most, to find the space that the clip needs.
 const MAX_SAMPLES: u32 = 32;
@@ -24,27 +21,29 @@ const MAX_SAMPLES: u32 = 32;
 const MAX_CACHED_CORNERS: usize = 4 << 20;
 /// The longest time that one picture is held, in seconds: file formats cannot store much longer delays.
 const MAX_HOLD_SECONDS: f64 = 60.0;
-/// The most pixels of the pictures that are rendered at the same time, unless one has more.
-const MAX_BATCH_PIXELS: u64 = 8 << 20;
+/// How far a camera moves at least if it moves at all, in normalised space.
+const LEAST_MOVE: f32 = 1e-5;
 /// A remainder of less than this many frames does not become a frame.
 const FRAME_TOLERANCE: f64 = 1e-4;
 
 /// A stretch of a clip to render.
 pub struct Film<'a> {
-    model: &'a Model,
-    clip: &'a Clip,
+    pub(super) model: &'a Model,
+    pub(super) clip: &'a Clip,
     /// Its first and its last time, in seconds of the clip.
-    span: [f64; 2],
+    pub(super) span: [f64; 2],
     /// Normalised space: centred on all that the model does, with the scale of its largest pose.
-    normalization: Normalization,
+    pub(super) normalization: Normalization,
     /// The height of the ground in normalised space: below all poses.
-    ground: f32,
+    pub(super) ground: f32,
     triangles: usize,
-    /// How the camera moves, unless it stands still.
+    /// The camera of the file that films it.
+    pub(super) camera: Option<&'a ModelCamera>,
+    /// What moves from place to place. A camera that is not of the file follows it; lines show how it moves over the ground.
     following: Option<Following>,
 }
 
-/// A camera that follows what moves from place to place.
+/// The path of what moves from place to place.
 struct Following {
     path: CameraPath,
     /// For each node whether it has a mesh that is followed, and so is kept in the picture.
@@ -53,16 +52,6 @@ struct Following {
     length: f32,
     /// How far in front of it there may be something else, in normalised space.
     clearance: f32,
-}
-
-/// A film and the camera that frames all of it.
-pub struct Shooting<'a> {
-    film: &'a Film<'a>,
-    options: Options,
-    framing: Framing,
-    sampling: &'static Sampling,
-    /// The triangles of one pose and their hierarchy, which is fitted to other poses.
-    hierarchy: (Vec<[u32; 3]>, Hierarchy),
 }
 
 /// A picture of a film, and how long it is held.
@@ -124,6 +113,7 @@ impl<'a> Film<'a> {
             normalization,
             ground: normalization.apply(low).y as f32,
             triangles,
+            camera: None,
             following: None,
         })
     }
@@ -134,9 +124,35 @@ impl<'a> Film<'a> {
     /// # Errors
     /// A model with too many triangles.
     pub fn following(mut self) -> Result<Self, RenderError> {
+        self.following = self.path()?;
+        Ok(self)
+    }
+
+    /// The same, filmed by a camera of the file. If it moves, lines on the ground show how far.
+    ///
+    /// # Errors
+    /// A camera without a direction; a model with too many triangles.
+    pub fn filmed_by(mut self, camera: &'a ModelCamera) -> Result<Self, RenderError> {
+        let eye = |time: f64| {
+            let pose = self.model.pose_at(self.clip, time);
+            let eye = self.model.camera_pose(&pose, camera)?.eye;
+            Ok::<_, RenderError>(self.normalization.apply(eye).as_vec3())
+        };
+        let start = eye(self.span[0])?;
+        let mut moves = false;
+        for time in evenly(self.span, MAX_SAMPLES) {
+            moves |= eye(time)?.distance(start) > LEAST_MOVE;
+        }
+        self.following = if moves { self.path()? } else { None };
+        self.camera = Some(camera);
+        Ok(self)
+    }
+
+    /// The path of what moves from place to place, if anything does.
+    fn path(&self) -> Result<Option<Following>, RenderError> {
         let travellers = self.model.travellers(self.clip);
         if travellers.roots.is_empty() {
-            return Ok(self);
+            return Ok(None);
         }
         let length = || {
             let mut length = 0.0_f32;
@@ -153,14 +169,13 @@ impl<'a> Film<'a> {
         };
         let length = on_pool(length)?;
         let path = CameraPath::new(self.model, self.clip, &travellers, self.span);
-        self.following = Some(Following {
+        Ok(Some(Following {
             meshes: travellers.meshes,
             length,
             // The diagonal of a cube with the longest side of a pose, and the way.
             clearance: 2.0 + (path.length() * self.normalization.scale) as f32,
             path,
-        });
-        Ok(self)
+        }))
     }
 
     /// The largest number of triangles of any sampled pose.
@@ -195,6 +210,8 @@ impl<'a> Film<'a> {
                 frames: 1,
             };
             let pose = self.model.pose_at(self.clip, frame.time);
+            // A camera that does not film must not make pictures differ.
+            let pose = self.model.without_cameras(pose, self.camera);
             match held.last_mut() {
                 Some(before)
                     if shown.as_ref() == Some(&pose)
@@ -239,44 +256,14 @@ impl<'a> Film<'a> {
         Ok(strip)
     }
 
-    /// Places the camera.
-    ///
-    /// # Errors
-    /// A size out of range.
-    pub fn shooting(&'a self, options: &Options) -> Result<Shooting<'a>, RenderError> {
-        self.shooting_sampled(options, &FILM)
-    }
-
-    fn shooting_sampled(
-        &'a self,
-        options: &Options,
-        sampling: &'static Sampling,
-    ) -> Result<Shooting<'a>, RenderError> {
-        let framing = self.framing(options)?;
-        let hierarchy = || {
-            // As it is drawn, limbs are apart: the boxes of a pose in which they touch would fit other poses badly.
-            let pose = self.model.rest().seen_from(options.viewer(options.view));
-            let surface = self.model.surface(&pose, Some(self.normalization))?;
-            let hierarchy = Hierarchy::new(&surface, Rays::Film);
-            Ok((surface.triangles, hierarchy))
-        };
-        Ok(Shooting {
-            film: self,
-            options: *options,
-            framing,
-            sampling,
-            hierarchy: on_pool(hierarchy)?,
-        })
-    }
-
-    fn framing(&self, options: &Options) -> Result<Framing, RenderError> {
-        check_size(options.size)?;
+    /// The camera that frames all of the film.
+    pub(super) fn framing(&self, options: &Options) -> Result<Framing, RenderError> {
         let moments: Vec<f64> = evenly(self.span, MAX_SAMPLES).collect();
         let view = options.view;
         let corners = |time: f64| match &self.following {
             None => Ok::<_, RenderError>(self.surface(options, time)?.used_positions()),
             Some(following) => {
-                let pose = self.pose(options, time);
+                let pose = self.pose(options, time)?;
                 let marked = &following.meshes;
                 let surface = self.model.surface_of(marked, &pose, self.normalization)?;
                 let moved = self.camera_offset(time);
@@ -308,8 +295,8 @@ impl<'a> Film<'a> {
         on_pool(framing)
     }
 
-    /// How far the camera has moved at a time, in normalised space.
-    fn camera_offset(&self, time: f64) -> Vec3 {
+    /// How far a camera that follows has moved at a time, in normalised space.
+    pub(super) fn camera_offset(&self, time: f64) -> Vec3 {
         self.following.as_ref().map_or(Vec3::ZERO, |following| {
             let path = &following.path;
             let moved = path.at(time) - path.at(self.span[0]);
@@ -317,8 +304,8 @@ impl<'a> Film<'a> {
         })
     }
 
-    /// The lines on the ground at a time, if the camera follows something.
-    fn floor(&self, time: f64) -> Option<Floor> {
+    /// The lines on the ground at a time, if the camera moves.
+    pub(super) fn floor(&self, time: f64) -> Option<Floor> {
         let following = self.following.as_ref()?;
         let on_ground = |place: DVec3| self.normalization.apply(place).as_vec3().xz();
         Some(Floor::new(
@@ -330,98 +317,25 @@ impl<'a> Film<'a> {
     }
 
     /// The pose at a time, for the viewer.
-    fn pose(&self, options: &Options, time: f64) -> Pose {
-        let pose = self.model.pose_at(self.clip, time);
-        pose.seen_from(options.viewer(options.view))
+    fn pose(&self, options: &Options, time: f64) -> Result<Pose, RenderError> {
+        self.seen(options, self.model.pose_at(self.clip, time))
+    }
+
+    /// A pose for the viewer.
+    pub(super) fn seen(&self, options: &Options, pose: Pose) -> Result<Pose, RenderError> {
+        let viewer = match self.camera {
+            None => options.viewer(options.view),
+            Some(camera) => {
+                let towards = self.model.camera_pose(&pose, camera)?.towards;
+                options.bend.then_some(towards)
+            }
+        };
+        Ok(pose.seen_from(viewer))
     }
 
     /// The posed surface at a time.
-    fn surface(&self, options: &Options, time: f64) -> Result<Surface, RenderError> {
-        let pose = self.pose(options, time);
+    pub(super) fn surface(&self, options: &Options, time: f64) -> Result<Surface, RenderError> {
+        let pose = self.pose(options, time)?;
         self.model.surface(&pose, Some(self.normalization))
     }
-}
-
-impl Shooting<'_> {
-    /// Renders the film at some times. `each` gets the pictures one by one, while the next ones are rendered, and may stop
-    /// with its own error.
-    ///
-    /// # Errors
-    /// The error of `each`.
-    pub fn draw<E: From<RenderError>>(
-        &self,
-        moments: impl IntoIterator<Item = f64>,
-        mut each: impl FnMut(Image) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let moments: Vec<f64> = moments.into_iter().collect();
-        std::thread::scope(|scope| {
-            // A batch is rendered while `each` takes the one before.
-            let (sender, batches) = sync_channel(0);
-            let moments = &moments;
-            std::thread::Builder::new()
-                .spawn_scoped(scope, move || self.render(moments, sender))
-                .map_err(|_| RenderError::from(Crash::no_threads()))?;
-            hand_over(batches, &mut each)
-        })
-    }
-
-    /// Renders pictures in batches, several at once: much of the work for one picture uses one thread only.
-    fn render(&self, moments: &[f64], batches: SyncSender<Batch>) {
-        let [width, height] = self.options.size.map(u64::from);
-        let fitting = (MAX_BATCH_PIXELS / (width * height)).max(1);
-        let work = || Ok(rayon::current_num_threads() as u64);
-        let batch = on_pool(work).map_or(1, |threads| threads.min(fitting)) as usize;
-        for moments in moments.chunks(batch) {
-            let picture = |time: &f64| self.picture(*time);
-            let images = on_pool(|| moments.par_iter().map(picture).collect());
-            let failed = images.is_err();
-            // Nobody takes pictures after an error.
-            if batches.send(images).is_err() || failed {
-                return;
-            }
-        }
-    }
-
-    fn picture(&self, time: f64) -> Result<Image, RenderError> {
-        let (film, options) = (self.film, &self.options);
-        let [width, height] = options.size;
-        let mut surface = film.surface(options, time)?;
-        if surface.triangles.is_empty() {
-            // The whole model is scaled to zero at this time.
-            let [r, g, b] = options.background.unwrap_or_default();
-            let alpha = if options.background.is_some() { 255 } else { 0 };
-            let pixel = image::Rgba([r, g, b, alpha]);
-            return Ok(Image::from_pixel(width, height, pixel));
-        }
-        // The ground stays where it is when the model jumps.
-        surface.low.y = surface.low.y.min(film.ground);
-        let (triangles, hierarchy) = &self.hierarchy;
-        let hierarchy = match *triangles == surface.triangles {
-            true => hierarchy.fitted(&surface),
-            // Other triangles are visible: some are too small in one of the poses.
-            false => Hierarchy::new(&surface, Rays::Many),
-        };
-        let tracer = film.model.tracer_with(surface, hierarchy);
-        let camera = self.framing.camera(options.view);
-        let take = Take {
-            camera: camera.moved(film.camera_offset(time)),
-            sampling: self.sampling,
-            floor: film.floor(time),
-        };
-        draw(&tracer, options, &take)
-    }
-}
-
-/// Consecutive pictures, or why they cannot be rendered.
-type Batch = Result<Vec<Image>, RenderError>;
-
-/// Hands over pictures one by one until there are no more. Its end, early or not, ends the rendering of more.
-fn hand_over<E: From<RenderError>>(
-    batches: Receiver<Batch>,
-    each: &mut impl FnMut(Image) -> Result<(), E>,
-) -> Result<(), E> {
-    for images in batches {
-        images?.into_iter().try_for_each(&mut *each)?;
-    }
-    Ok(())
 }

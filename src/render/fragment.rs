@@ -148,10 +148,11 @@ impl PixelSampler<'_> {
     /// Follows the ray through a point of the picture.
     fn trace(&self, place: Vec2, first: usize, out: &mut Vec<Fragment>) {
         let (origin, direction) = self.camera.ray(place);
-        let mut nearest = 0.0;
+        let [mut nearest, farthest] = self.camera.limits(direction);
         let mut clear = 1.0;
         for _ in 0..MAX_LAYERS {
-            let Some(hit) = self.tracer.closest(origin, direction, nearest) else {
+            let hit = self.tracer.closest(origin, direction, nearest);
+            let Some(hit) = hit.filter(|hit| hit.distance <= farthest) else {
                 break;
             };
             nearest = hit.distance + 1e-6;

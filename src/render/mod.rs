@@ -2,7 +2,8 @@
 //!
 //! [`read`] parses a file, [`Model::rest`] and [`PosedModel::new`] pose the model, [`PosedModel::picture`] renders it.
 //! [`PosedModel::visible_surfaces`] reports which surface each pixel shows, without light. A [`Sheet`] is a rectangle in the
-//! world that a picture shows exactly. A [`Film`] is a stretch of a clip that one camera renders:
+//! world that a picture shows exactly, a [`ModelCamera`] one of the file's cameras. A [`Film`] is a stretch of a clip that one camera
+//! renders:
 //!
 //! ```text
 //!  bytes ─► Model ─► (Pose) ─► PosedModel, Film ─► Image ─► PNG, GIF
@@ -39,6 +40,7 @@ mod model;
 mod posed_model;
 mod sampling;
 mod shade;
+mod shooting;
 mod surface;
 #[cfg(test)]
 mod tests;
@@ -50,14 +52,15 @@ use glam::DVec3;
 
 use crate::threads;
 
-pub use crate::import::{Clip, MAX_TRIANGLES, Pose};
+pub use crate::import::{Clip, MAX_TRIANGLES, ModelCamera, Pose};
 pub use camera::{MAX_PITCH, Projection, Sheet, View};
 pub use error::RenderError;
-pub use film::{Film, HeldFrame, Shooting};
+pub use film::{Film, HeldFrame};
 pub use gif_writer::{MAX_GIF_FPS, Palette};
 pub use image_files::{AnimationWriter, write_png};
 pub use model::{Model, read};
 pub use posed_model::{Image, PosedModel};
+pub use shooting::Shooting;
 pub use visibility::{VisibleSurface, Window};
 
 /// The largest width and height of a picture, in pixels.

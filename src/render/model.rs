@@ -8,7 +8,7 @@ use super::materials;
 use super::surface::{Material, Normalization, Surface};
 use super::texture::Texture;
 use super::trace::Tracer;
-use crate::import::{self, Clip, Geometry, Pose, Travellers};
+use crate::import::{self, CameraPose, Clip, Geometry, ModelCamera, Pose, Travellers};
 use crate::resolver::Resolver;
 
 /// A model as read from a file, not yet posed.
@@ -16,6 +16,7 @@ use crate::resolver::Resolver;
 pub struct Model {
     geometry: Geometry,
     clips: Vec<Clip>,
+    cameras: Vec<ModelCamera>,
     /// The file's materials, followed by the one for triangles without a material.
     materials: Vec<Material>,
     textures: Vec<Option<Texture>>,
@@ -32,6 +33,7 @@ pub fn read(bytes: &[u8], resolver: &dyn Resolver) -> Result<Model, RenderError>
         materials: materials::read(&file.document),
         textures: materials::textures(&file.document, &file.buffers, resolver)?,
         clips: import::read_clips(&file.document, &file.buffers)?,
+        cameras: import::read_cameras(&file.document, &file.geometry)?,
         geometry: file.geometry,
     })
 }
@@ -45,6 +47,36 @@ impl Model {
     /// Its clips, in the file's order.
     pub fn clips(&self) -> &[Clip] {
         &self.clips
+    }
+
+    /// Its cameras, in the order of their nodes.
+    pub fn cameras(&self) -> &[ModelCamera] {
+        &self.cameras
+    }
+
+    /// The camera that films a clip: the first one that it moves, or else the first one.
+    pub fn camera_of(&self, clip: &Clip) -> Option<&ModelCamera> {
+        let mut cameras = self.cameras.iter();
+        let moved = cameras.find(|camera| self.geometry.is_moved(camera, clip));
+        moved.or(self.cameras.first())
+    }
+
+    /// Where a camera is in a pose.
+    ///
+    /// # Errors
+    /// A camera whose node has no direction.
+    pub(super) fn camera_pose(
+        &self,
+        pose: &Pose,
+        camera: &ModelCamera,
+    ) -> Result<CameraPose, RenderError> {
+        let pose = self.geometry.camera_pose(pose, camera);
+        pose.ok_or_else(|| RenderError::CameraPose(camera.name.clone()))
+    }
+
+    /// The pose with all cameras at rest, except one.
+    pub(super) fn without_cameras(&self, pose: Pose, except: Option<&ModelCamera>) -> Pose {
+        self.geometry.without_cameras(pose, &self.cameras, except)
     }
 
     /// The pose at a time of one of its clips, in seconds from the beginning.

@@ -18,7 +18,7 @@ use super::sampling::{FILM, GroundSampling, STILL, Sampling};
 use super::surface::{Normalization, Surface};
 use super::trace::Tracer;
 use super::{MAX_SIDE, Options, RenderError, Shading, on_pool};
-use crate::import::{ImportError, Pose};
+use crate::import::{ImportError, ModelCamera, Pose};
 
 /// A picture, sRGB with straight alpha.
 pub type Image = RgbaImage;
@@ -110,6 +110,24 @@ impl<'a> PosedModel<'a> {
         let viewer = options.bend.then_some(sheet.towards());
         self.with(viewer, Rays::Many, |tracer| {
             let camera = sheet.camera(options.size, &tracer.surface);
+            draw(tracer, options, &Take::still(&camera))
+        })
+    }
+
+    /// Renders what a camera of the file shows. Of the options the view and the projection are not used.
+    ///
+    /// # Errors
+    /// A size out of range, or a camera without a direction.
+    pub fn picture_by(
+        &self,
+        options: &Options,
+        camera: &ModelCamera,
+    ) -> Result<Image, RenderError> {
+        check_size(options.size)?;
+        let pose = self.model.camera_pose(&self.pose, camera)?;
+        let viewer = options.bend.then_some(pose.towards);
+        let camera = Camera::in_model(camera, &pose, self.normalization, options.size);
+        self.with(viewer, Rays::Many, |tracer| {
             draw(tracer, options, &Take::still(&camera))
         })
     }

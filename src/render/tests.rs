@@ -11,6 +11,7 @@ use super::*;
 use crate::resolver::MemoryResolver;
 
 mod bend;
+mod cameras;
 mod files;
 mod film;
 

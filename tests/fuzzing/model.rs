@@ -1,10 +1,11 @@
 //! Every file in place of a model is read or refused, for pictures and as a part of a drawing; what was read can be posed,
 //! rendered and written.
 
-use okoshi::export::{EXPORTERS, to_memory};
+use okoshi::export::{EXPORTERS, GLTF, to_memory};
 use okoshi::import::read_static_model;
 use okoshi::render::{self, Options, PosedModel, RenderError};
 use okoshi::resolver::MemoryResolver;
+use okoshi::scene::{Camera, CameraProjection, NewNode, Node};
 
 use super::{drawing, files};
 
@@ -48,6 +49,13 @@ fn check_pictures(bytes: &[u8]) -> Result<(), RenderError> {
         if posed.triangles() <= RENDERED {
             let picture = posed.picture(&options)?;
             assert_eq!(picture.dimensions(), (24, 16));
+            for camera in model.cameras().iter().take(2) {
+                match posed.picture_by(&options, camera) {
+                    Ok(picture) => assert_eq!(picture.dimensions(), (24, 16)),
+                    Err(RenderError::CameraPose(_)) => (),
+                    Err(error) => return Err(error),
+                }
+            }
         }
     }
     Ok(())
@@ -73,5 +81,37 @@ pub(super) fn seeds() -> Vec<Vec<u8>> {
         .filter(|model| model.len() <= LONGEST)
         .collect();
     models.push(files::read("examples/shapes/biscuit.glb"));
+    models.extend(filmed());
     models
+}
+
+/// A small model with a camera of each kind.
+fn filmed() -> Option<Vec<u8>> {
+    let compiled = okoshi::compile::compile(DRAWING, &Default::default(), &drawing::linked());
+    let mut scene = compiled.scene;
+    let projections = [
+        CameraProjection::Perspective {
+            vertical_field_of_view: 0.5,
+            near: 0.01,
+            far: Some(90.0),
+        },
+        CameraProjection::Orthographic {
+            half_height: 1.0,
+            near: 0.0,
+            far: 90.0,
+        },
+    ];
+    for (index, projection) in projections.into_iter().enumerate() {
+        scene.add(NewNode {
+            node: Node {
+                translation: glam::DVec3::Z * 3.0,
+                camera: Some(index),
+                ..Node::default()
+            },
+            ..NewNode::default()
+        });
+        let name = format!("Camera {index}");
+        scene.cameras.push(Camera { name, projection });
+    }
+    Some(to_memory(&GLTF, &scene, None).ok()?.bytes)
 }

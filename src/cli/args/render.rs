@@ -17,6 +17,8 @@ Examples:
   okoshi render human.svg -o walk.gif --clip walk     the model moves; walk.png gives numbered frames
   okoshi render human.svg -o walk.mp4 --clip walk --follow
                                                       a video whose camera goes along with the model
+  okoshi render human.svg -o walk.mp4 --clip walk --camera
+                                                      a video by the camera that films the clip
   okoshi render human.svg -o step.png --clip walk --time 0.5
                                                       its pose after half a second
   okoshi render human.svg -o walk.png --clip walk --strip 6
@@ -39,9 +41,12 @@ pub(in crate::cli) struct Render {
     /// Where to write: a .png, .gif, .apng, .mp4 or .webm file, `-` for stdout, or a folder [default: beside the drawing]
     #[arg(short, long, value_name = "FILE")]
     pub(in crate::cli) output: Option<PathBuf>,
-    /// The direction of the camera: degrees to the model's left, degrees up
-    #[arg(long, value_name = "YAW,PITCH", default_value = "30,15", value_parser = view, allow_hyphen_values = true)]
-    pub(in crate::cli) view: View,
+    /// The direction of the camera: degrees to the model's left, degrees up [default: 30,15]
+    #[arg(long, value_name = "YAW,PITCH", value_parser = view, allow_hyphen_values = true)]
+    pub(in crate::cli) view: Option<View>,
+    /// Show what a camera of the model sees, by name or by number from 1; without a name that of the clip, or the first
+    #[arg(long, value_name = "NAME", num_args = 0..=1)]
+    pub(in crate::cli) camera: Option<Option<String>>,
     /// Show the page as drawn: from the front, in parallel, without light, and exactly as large as the page
     ///
     /// Terrain looks as from 45° above, bent. The model is at rest.
@@ -56,9 +61,9 @@ pub(in crate::cli) struct Render {
     /// How surfaces are shaded
     #[arg(long, default_value = "smooth")]
     pub(in crate::cli) shading: Shading,
-    /// How the camera projects
-    #[arg(long, default_value = "perspective")]
-    pub(in crate::cli) projection: Projection,
+    /// How the camera projects [default: perspective]
+    #[arg(long)]
+    pub(in crate::cli) projection: Option<Projection>,
     /// Bend terrain with the view, so that from 45° above tops and fronts are as large as drawn; off shows its true shape
     #[arg(long, value_name = "WHEN", default_value = "on")]
     pub(in crate::cli) bend: Bend,

@@ -9,7 +9,8 @@ use super::{Destination, Failure, Form, describe_picture, options};
 use crate::cli::args::Render;
 use crate::cli::progress::{counting, spinning};
 use crate::render::{
-    Clip, Film, HeldFrame, Image, MAX_GIF_FPS, Model, Options, Palette, RenderError, write_png,
+    Clip, Film, HeldFrame, Image, MAX_GIF_FPS, Model, ModelCamera, Options, Palette, RenderError,
+    write_png,
 };
 
 /// The default frame rate: that of film, and of the clips that okoshi makes.
@@ -73,10 +74,11 @@ pub(super) fn within(clip: &Clip, option: &str, time: f64) -> Result<f64, String
     }
 }
 
-/// The requested part of a clip.
+/// The requested part of a clip, and the camera that films it.
 pub(super) fn film<'a>(
     model: &'a Model,
     clip: &'a Clip,
+    camera: Option<&'a ModelCamera>,
     arguments: &Render,
 ) -> Result<Film<'a>, String> {
     let from = within(clip, "--from", arguments.from.unwrap_or(0.0))?;
@@ -92,9 +94,10 @@ pub(super) fn film<'a>(
     }
     let framed = || {
         let film = Film::new(model, clip, [from, to])?;
-        match arguments.follow {
-            true => film.following(),
-            false => Ok(film),
+        match camera {
+            Some(camera) => film.filmed_by(camera),
+            None if arguments.follow => film.following(),
+            None => Ok(film),
         }
     };
     spinning("framing the clip", framed).map_err(|error: RenderError| error.to_string())

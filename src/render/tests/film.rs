@@ -8,7 +8,7 @@ fn walker(interpolation: &str) -> Vec<u8> {
 }
 
 /// A shape with three keys, a second apart, and a closing key that repeats the last a second later.
-fn moving(shape: Shape, path: &str, rows: [Vec3; 3], interpolation: &str) -> Vec<u8> {
+pub(super) fn moving(shape: Shape, path: &str, rows: [Vec3; 3], interpolation: &str) -> Vec<u8> {
     let rows = rows.iter().chain(&rows[2..]).flat_map(|row| row.to_array());
     let keys = bytes([0.0, 1.0, 2.0, 3.0].into_iter().chain(rows));
     let mut root: Value = serde_json::from_slice(&file(&[shape], &json!({}))).unwrap();
@@ -49,7 +49,7 @@ fn model(bytes: &[u8]) -> Model {
 }
 
 /// The first and the last column that contain red.
-fn red(image: &Image) -> (u32, u32) {
+pub(super) fn red(image: &Image) -> (u32, u32) {
     let columns = image
         .enumerate_pixels()
         .filter(|(_, _, pixel)| pixel.0 == [255, 0, 0, 255])
