@@ -156,4 +156,4 @@ macro_rules! tests {
     };
 }
 
-tests!(string drawing changes motion model picture messages session);
+tests!(string drawing changes motion model picture messages session track);

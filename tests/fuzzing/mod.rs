@@ -12,6 +12,7 @@ mod motion;
 mod picture;
 mod session;
 mod string;
+mod track;
 
 /// A reader of outside bytes, and the law that it is held to.
 pub(crate) struct Target {
@@ -24,7 +25,7 @@ pub(crate) struct Target {
 }
 
 /// All targets.
-pub(crate) const TARGETS: [Target; 8] = [
+pub(crate) const TARGETS: [Target; 9] = [
     Target {
         name: "string",
         check: string::check,
@@ -64,6 +65,11 @@ pub(crate) const TARGETS: [Target; 8] = [
         name: "session",
         check: session::check,
         seeds: session::seeds,
+    },
+    Target {
+        name: "track",
+        check: track::check,
+        seeds: track::seeds,
     },
 ];
 

@@ -1,0 +1,59 @@
+//! Errors of files that are no tracks.
+
+use std::fmt;
+
+/// Where in a file something is wrong.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Place {
+    /// The file as a whole.
+    File,
+    /// A line and a column in characters, both counted from 1.
+    Position {
+        /// The line.
+        line: usize,
+        /// The column.
+        column: usize,
+    },
+    /// A field of JSON, such as `marks[0].points[3]`; counted from 0.
+    Field(String),
+}
+
+/// Why a file is no track, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Error {
+    /// Where it is.
+    pub place: Place,
+    /// What is wrong.
+    pub message: String,
+    /// How to fix it.
+    pub help: String,
+}
+
+impl Error {
+    /// An error of the file as a whole.
+    pub(super) fn whole(message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self::new(Place::File, message, help)
+    }
+
+    /// An error at a place.
+    pub(super) fn new(place: Place, message: impl Into<String>, help: impl Into<String>) -> Self {
+        Self {
+            place,
+            message: message.into(),
+            help: help.into(),
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.place {
+            Place::File => {}
+            Place::Position { line, column } => write!(f, "line {line}, column {column}: ")?,
+            Place::Field(field) => write!(f, "`{field}`: ")?,
+        }
+        f.write_str(&self.message)
+    }
+}
+
+impl std::error::Error for Error {}

@@ -1,0 +1,193 @@
+//! Tracks read from JSON.
+
+use glam::DVec2;
+use serde::Deserialize;
+
+use super::check::{
+    MAX_FRAMES, MAX_MARKS, coordinate_problem, name_problem, repeated_name, size_problem,
+    time_problem,
+};
+use super::{Error, MarkTrack, MarkTracks, Place, bridge, parse_hex};
+
+/// What tells a track from other JSON.
+#[derive(Deserialize)]
+struct Header {
+    format: Option<String>,
+    version: Option<u64>,
+}
+
+/// A file as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    #[serde(rename = "format")]
+    _format: String,
+    #[serde(rename = "version")]
+    _version: u64,
+    size: [u32; 2],
+    times: Vec<f64>,
+    marks: Vec<Mark>,
+}
+
+/// A mark as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Mark {
+    name: String,
+    colour: String,
+    /// `null` where the mark was lost and nobody knows a place.
+    points: Vec<Option<[f64; 2]>>,
+    /// Ranges of frames: the first and the last.
+    #[serde(default)]
+    lost: Vec<[usize; 2]>,
+}
+
+pub(super) fn read(text: &str) -> Result<MarkTracks, Error> {
+    let header: Header = serde_json::from_str(text).map_err(|error| invalid(&error))?;
+    if header.format.as_deref() != Some("okoshi track") {
+        return Err(Error::new(
+            Place::Field("format".to_owned()),
+            "this JSON is no track: it does not say `\"format\": \"okoshi track\"`",
+            "`okoshi track` makes a track of a clip",
+        ));
+    }
+    if header.version != Some(1) {
+        return Err(Error::new(
+            Place::Field("version".to_owned()),
+            "only version 1 can be read",
+            "make the track again with this version of okoshi",
+        ));
+    }
+    let file: File = serde_json::from_str(text).map_err(|error| invalid(&error))?;
+    if let Some(message) = size_problem(file.size) {
+        let help = "give the width and the height of the clip's pictures";
+        return Err(Error::new(Place::Field("size".to_owned()), message, help));
+    }
+    check_times(&file.times)?;
+    check_marks(&file.marks)?;
+    let [width, height] = file.size.map(f64::from);
+    let middle = DVec2::new(width, height) / 2.0;
+    let marks = file.marks.iter().enumerate();
+    let marks = marks.map(|(index, mark)| read_mark(index, mark, &file.times, middle));
+    Ok(MarkTracks {
+        size: file.size,
+        marks: marks.collect::<Result<_, _>>()?,
+        times: file.times,
+    })
+}
+
+/// What is wrong with the syntax, or the type of a field.
+fn invalid(error: &serde_json::Error) -> Error {
+    let message = error.to_string();
+    let message = match message.rfind(" at line ") {
+        Some(at) => message[..at].to_owned(),
+        None => message,
+    };
+    let place = Place::Position {
+        line: error.line().max(1),
+        column: error.column().max(1),
+    };
+    Error::new(
+        place,
+        message,
+        "compare it with a track that `okoshi track` writes, or make it again",
+    )
+}
+
+fn check_times(times: &[f64]) -> Result<(), Error> {
+    if times.is_empty() || times.len() > MAX_FRAMES {
+        return Err(Error::new(
+            Place::Field("times".to_owned()),
+            format!(
+                "a track has from 1 to {MAX_FRAMES} frames, this one {}",
+                times.len()
+            ),
+            "give the time of each frame in seconds",
+        ));
+    }
+    for (frame, time) in times.iter().enumerate() {
+        let before = frame.checked_sub(1).map(|before| times[before]);
+        if let Some((message, help)) = time_problem(before, *time) {
+            let place = Place::Field(format!("times[{frame}]"));
+            return Err(Error::new(place, message, help));
+        }
+    }
+    Ok(())
+}
+
+fn check_marks(marks: &[Mark]) -> Result<(), Error> {
+    if marks.is_empty() || marks.len() > MAX_MARKS {
+        return Err(Error::new(
+            Place::Field("marks".to_owned()),
+            format!(
+                "a track has from 1 to {MAX_MARKS} marks, this one {}",
+                marks.len()
+            ),
+            "give a name, a colour and a point for each frame",
+        ));
+    }
+    for (index, mark) in marks.iter().enumerate() {
+        if let Some((message, help)) = name_problem(&mark.name) {
+            let place = Place::Field(format!("marks[{index}].name"));
+            return Err(Error::new(place, message, help));
+        }
+    }
+    match repeated_name(marks.iter().map(|mark| mark.name.as_str())) {
+        Some(index) => Err(Error::new(
+            Place::Field(format!("marks[{index}].name")),
+            format!("there is a mark `{}` already", marks[index].name),
+            "give each mark a name of its own",
+        )),
+        None => Ok(()),
+    }
+}
+
+fn read_mark(index: usize, mark: &Mark, times: &[f64], middle: DVec2) -> Result<MarkTrack, Error> {
+    let field = |field: String| Place::Field(format!("marks[{index}].{field}"));
+    let colour = parse_hex(&mark.colour).ok_or_else(|| {
+        let message = "this is no colour";
+        Error::new(field("colour".into()), message, "write it as `#d03020`")
+    })?;
+    let frames = times.len();
+    if mark.points.len() != frames {
+        return Err(Error::new(
+            field("points".into()),
+            format!("{} points for {frames} frames", mark.points.len()),
+            "give a point for each of the `times`, or `null` where the mark is lost",
+        ));
+    }
+    for (frame, point) in mark.points.iter().enumerate() {
+        for (axis, coordinate) in point.iter().flatten().enumerate() {
+            if let Some((message, help)) = coordinate_problem(*coordinate) {
+                let place = field(format!("points[{frame}][{axis}]"));
+                return Err(Error::new(place, message, help));
+            }
+        }
+    }
+    let mut is_lost: Vec<bool> = mark.points.iter().map(Option::is_none).collect();
+    for (range, [first, last]) in mark.lost.iter().enumerate() {
+        let lost = is_lost.get_mut(*first..last.saturating_add(1));
+        let Some(lost) = lost.filter(|_| first <= last) else {
+            return Err(Error::new(
+                field(format!("lost[{range}]")),
+                format!("there are no frames {first} to {last}"),
+                format!(
+                    "give the first and the last lost frame, from 0 to {}",
+                    frames - 1
+                ),
+            ));
+        };
+        lost.fill(true);
+    }
+    let points: Vec<Option<DVec2>> = mark
+        .points
+        .iter()
+        .map(|point| point.map(DVec2::from_array))
+        .collect();
+    Ok(MarkTrack {
+        name: mark.name.clone(),
+        colour,
+        points: bridge(times, &points, middle),
+        is_lost,
+    })
+}
