@@ -109,9 +109,7 @@ pub(super) fn too_limited(cut: &Cut, frames: usize, span: Span, diagnostics: &mu
 /// A file of tracks that cannot be read.
 pub(super) fn broken_track(link: &str, error: &mark_tracks::Error, span: Span) -> Diagnostic {
     let message = format!("the track `{link}` cannot be read: {error}");
-    Diagnostic::new(Code::BrokenTrack, span, message).help(format!(
-        "track the clip again: `okoshi track CLIP -o {link} --mark red`"
-    ))
+    Diagnostic::new(Code::BrokenTrack, span, message).help(error.help.clone())
 }
 
 /// What does not fit between the marks of a drawing and those of a track.

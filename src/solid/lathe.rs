@@ -18,8 +18,10 @@ use super::stack::PlacementTransform;
 use crate::geometry::{Outline, Polygon, bounds, intersect, remove_collinear, union};
 use crate::scene::Surface;
 
-/// Points closer to the axis than this, relative to the extent, are moved onto it.
+/// What is closer to the axis than this, relative to the extent, is cut off.
 const ON_AXIS: f64 = 1e-6;
+/// The rounding of cuts, relative to the extent.
+const ROUNDING: f64 = 4e-6;
 /// Points closer to each other than this, relative to the largest coordinate, are merged, because `f32` may not distinguish
 /// them.
 const SAME: f64 = 1e-6;
@@ -114,12 +116,14 @@ pub(super) fn lathe(outline: &Outline, degrees: f64, options: &Options) -> Surfa
 /// centre, `same` the distance below which points are merged.
 fn turned_profile(outline: &Outline, [extent, same]: [f64; 2], step: f64, whole: bool) -> Rings {
     // Boolean operations expect y down.
-    let right = half(outline, DVec2::new(1.0, -1.0), extent);
-    let left = half(outline, DVec2::new(-1.0, -1.0), extent);
-    let both = union(&[right, left]);
     let axis = (ON_AXIS * extent).max(same / step.min(1.0));
+    // What is nearer to the axis is cut off, and not moved: rings that were apart could touch.
+    let right = half(outline, DVec2::new(1.0, -1.0), [axis, extent]);
+    let left = half(outline, DVec2::new(-1.0, -1.0), [axis, extent]);
+    let both = union(&[right, left]);
     let least = if whole { 0.0 } else { axis };
-    let snap = |p: &DVec2| DVec2::new(if p.x < axis { least } else { p.x }, -p.y);
+    let is_cut = |p: &DVec2| p.x < axis + ROUNDING * extent;
+    let snap = |p: &DVec2| DVec2::new(if is_cut(p) { least } else { p.x }, -p.y);
     let ring = |ring: &Vec<DVec2>| {
         let mut ring: Vec<DVec2> = ring.iter().map(snap).collect();
         // Of a run on the axis only the ends are kept; slivers beside it may have collapsed onto it.
@@ -158,8 +162,8 @@ fn keep_apart(points: &mut [DVec2], axis: f64, distance: f64) {
     }
 }
 
-/// The half of an outline with positive x, after its coordinates were multiplied by ±1.
-fn half(outline: &Outline, signs: DVec2, extent: f64) -> Outline {
+/// The half of an outline beyond x = `axis`, after its coordinates were multiplied by ±1.
+fn half(outline: &Outline, signs: DVec2, [axis, extent]: [f64; 2]) -> Outline {
     let turned = signs.x * signs.y > 0.0;
     let ring = |ring: &Vec<DVec2>| {
         let mut ring: Vec<DVec2> = ring.iter().map(|p| *p * signs).collect();
@@ -170,7 +174,12 @@ fn half(outline: &Outline, signs: DVec2, extent: f64) -> Outline {
     };
     let outline = outline.map_rings(ring);
     let reach = 2.0 * extent;
-    let corners = [(0.0, -reach), (0.0, reach), (reach, reach), (reach, -reach)];
+    let corners = [
+        (axis, -reach),
+        (axis, reach),
+        (reach, reach),
+        (reach, -reach),
+    ];
     let side = Polygon {
         rings: vec![corners.iter().map(|&(x, y)| DVec2::new(x, y)).collect()],
     };

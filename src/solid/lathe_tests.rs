@@ -140,7 +140,7 @@ proptest! {
         // Pappus: the area times the way of its centroid.
         let (low, high) = bounds(&drawn).unwrap();
         let extent = (high - low).max_element();
-        let sides = [1.0, -1.0].map(|x| half(&drawn, DVec2::new(x, -1.0), extent));
+        let sides = [1.0, -1.0].map(|x| half(&drawn, DVec2::new(x, -1.0), [0.0, extent]));
         let profile = union(&sides);
         let moment: f64 = profile.polygons.iter().flat_map(|p| &p.rings).map(|ring| {
             let n = ring.len();

@@ -41,7 +41,7 @@ pub(super) fn perform(
     let bytes = read_file(path).map_err(|error| fail(&error.to_string()))?;
     let tracks = MarkTracks::from_bytes(&bytes).map_err(|error| {
         let outcome = fail(&format!("`{name}`: {error}"));
-        eprintln!("  help: track the clip again: okoshi track CLIP -o {name} --mark red");
+        eprintln!("  help: {}", error.help);
         outcome
     })?;
     let channels =
