@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import type { Page } from "playwright-core";
-import { camera, picture, shown, still } from "./browser";
+import { camera, overlaps, picture, shown, still } from "./browser";
 import { film } from "./film";
 import { aside, EXPOSURE, kick, SECONDS } from "./kick";
 import type { MockHost } from "./mock";
@@ -90,10 +90,11 @@ browse("what the camera shows in a square fits into a page of any shape", filmed
   await shown(page);
   await seek(page, 0);
   await page.keyboard.press("m");
-  for (const [width, height] of [[1300, 700], [500, 900], [380, 700]] as const) {
+  for (const [width, height] of [[1300, 700], [761, 800], [500, 900], [380, 700], [320, 700]] as const) {
     await page.setViewportSize({ width, height });
     await page.waitForTimeout(80);
     await still(page);
+    assert.deepEqual(await overlaps(page), [], `at ${width} pixels`);
     const box = (await page.locator("canvas").boundingBox())!;
     assertNear([(await lens(page)).half], [HALF / Math.min(box.width / box.height, 1)], 1e-3);
   }
