@@ -128,7 +128,7 @@ impl<'a> Film<'a> {
         Ok(self)
     }
 
-    /// The same, filmed by a camera of the file. If it moves, lines on the ground show how far.
+    /// The same, filmed by a camera of the file. If it moves, and something travels, lines on the ground show how far.
     ///
     /// # Errors
     /// A camera without a direction; a model with too many triangles.

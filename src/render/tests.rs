@@ -16,6 +16,7 @@ mod files;
 mod film;
 
 /// A mesh on a node of its own.
+#[derive(Clone)]
 struct Shape {
     positions: Vec<Vec3>,
     uvs: Vec<Vec2>,

@@ -35,6 +35,8 @@ pub(crate) struct Node {
     pub(crate) translation: [f32; 3],
     pub(crate) rotation: [f32; 4],
     pub(crate) primitives: Vec<Primitive>,
+    /// Its camera in words.
+    pub(crate) camera: Option<String>,
 }
 
 /// All examples, including subfolders: their paths in `examples` without extension.
@@ -101,9 +103,23 @@ pub(crate) fn nodes(glb: &[u8]) -> Result<Vec<Node>, String> {
             translation,
             rotation,
             primitives,
+            camera: node.camera().map(|camera| self::camera(&camera)),
         });
     }
     Ok(out)
+}
+
+fn camera(camera: &gltf::Camera<'_>) -> String {
+    match camera.projection() {
+        gltf::camera::Projection::Perspective(lens) => {
+            let degrees = numbers(&[lens.yfov().to_degrees()]);
+            format!("perspective camera, {degrees}° high")
+        }
+        gltf::camera::Projection::Orthographic(lens) => {
+            let height = numbers(&[2.0 * lens.ymag()]);
+            format!("orthographic camera, {height} m high")
+        }
+    }
 }
 
 fn read_primitive(primitive: &gltf::Primitive<'_>, blob: &[u8]) -> Result<Primitive, String> {
@@ -233,7 +249,7 @@ pub(crate) fn repeated_name(nodes: &[Node]) -> Option<&str> {
     nodes.find(|name| !names.insert(*name))
 }
 
-/// The nodes as text: names, parents, transforms to four digits, primitives.
+/// The nodes as text: names, parents, transforms to four digits, cameras, primitives.
 pub(crate) fn tree(nodes: &[Node]) -> String {
     let mut out = String::new();
     for node in nodes {
@@ -247,6 +263,9 @@ pub(crate) fn tree(nodes: &[Node]) -> String {
             let _ = write!(out, ", turned {turn}");
         }
         out.push('\n');
+        if let Some(camera) = &node.camera {
+            let _ = writeln!(out, "  {camera}");
+        }
         for primitive in &node.primitives {
             let mut low = [f32::INFINITY; 3];
             let mut high = [f32::NEG_INFINITY; 3];

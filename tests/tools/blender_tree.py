@@ -3,6 +3,7 @@
     blender -b --factory-startup --python-exit-code 1 --python blender_tree.py -- [-o OUT.json] FILE.glb...
 
 [{"file": ..., "nodes": [{"name", "parent", "mesh", "triangles"}]}]; a node without parent has null there.
+Cameras are left out.
 Blender talks on stdout too, so -o is for programs.
 """
 
@@ -34,7 +35,8 @@ def tree(file):
     """Imports `file`; returns the objects by name."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=file)
-    nodes = sorted(map(node, bpy.data.objects), key=lambda one: one["name"])
+    things = [thing for thing in bpy.data.objects if thing.type != "CAMERA"]
+    nodes = sorted(map(node, things), key=lambda one: one["name"])
     return {"file": file, "nodes": nodes}
 
 

@@ -1,5 +1,14 @@
 use super::film::{moving, red};
+use std::sync::Arc;
+
+use glam::DQuat;
+
 use super::*;
+use crate::export::{GLB, to_memory};
+use crate::scene::{
+    self, Animation, Interpolation, Material, Mesh, NewNode, Node, Primitive, Scene, Surface,
+    Timing, Track, Values,
+};
 
 /// A `.gltf` with the shapes and, at the next node, a camera.
 fn with_camera(shapes: &[Shape], node: Value, projection: Value) -> Vec<u8> {
@@ -47,7 +56,7 @@ fn differences(one: &Image, other: &Image) -> (f64, u8) {
 fn a_camera_of_the_file_gives_the_picture_of_the_same_view() {
     let ball = || [sphere(plain(0.8, 0.5, 0.3, 1.0))];
     let lens = 18.0 / 85.0;
-    for size in [[150_u32, 150], [180, 120], [100, 150]] {
+    for size in [[70_u32, 70], [90, 60], [60, 90]] {
         let sides = size.map(f64::from);
         let [longer, shorter] = [sides[0].max(sides[1]), sides[0].min(sides[1])];
         let inner = sides.map(|side| (side - 0.12 * shorter) / longer);
@@ -100,7 +109,6 @@ fn a_camera_of_the_file_gives_the_picture_of_the_same_view() {
             let by_camera = posed.picture_by(&other, &model.cameras()[0]).unwrap();
             let (mean, most) = differences(&own, &by_camera);
             assert!(mean < 0.05 && most < 40, "{size:?} {view:?} {mean} {most}");
-            assert!(differences(&own, &posed.picture(&other).unwrap()).0 > 0.1);
         }
     }
 }
@@ -175,6 +183,125 @@ fn pictures_are_equal_if_the_camera_is_too() {
     assert_eq!([true, false].map(|filmed| count(&smooth, filmed)), [49, 1]);
     let held = tracking_shot("STEP");
     assert_eq!([true, false].map(|filmed| count(&held, filmed)), [3, 1]);
+}
+
+/// A ball, and a camera that steps from its front to its back after two seconds.
+fn orbiting() -> Model {
+    let Shape {
+        positions,
+        triangles,
+        ..
+    } = sphere(plain(1.0, 1.0, 1.0, 1.0));
+    let corners: Vec<[f32; 3]> = positions.iter().map(|p| p.to_array()).collect();
+    let ball = Surface {
+        normals: corners.clone(),
+        positions: corners,
+        triangles,
+        ..Surface::default()
+    };
+    let mut scene = Scene {
+        materials: vec![Material::default()],
+        ..Scene::default()
+    };
+    scene.add(NewNode {
+        mesh: Some(Mesh {
+            primitives: vec![Primitive {
+                pieces: vec![ball.into()],
+                material: 0,
+            }],
+        }),
+        ..NewNode::default()
+    });
+    scene.add(NewNode {
+        node: Node {
+            camera: Some(0),
+            ..Node::default()
+        },
+        ..NewNode::default()
+    });
+    scene.cameras.push(scene::Camera {
+        name: String::new(),
+        projection: scene::CameraProjection::Perspective {
+            vertical_field_of_view: 0.6,
+            near: 0.01,
+            far: None,
+        },
+    });
+    let timing = Arc::new(Timing {
+        times: vec![0.0, 2.0, 3.0],
+        interpolation: Interpolation::Step,
+    });
+    let back = DQuat::from_rotation_y(std::f64::consts::PI);
+    let track = |values| Track {
+        node: 1,
+        timing: timing.clone(),
+        values,
+    };
+    scene.animations.push(Animation {
+        name: "orbit".to_owned(),
+        tracks: vec![
+            track(Values::Translations(
+                [5.0, -5.0, -5.0].map(|z| DVec3::Z * z).to_vec(),
+            )),
+            track(Values::Rotations(vec![DQuat::IDENTITY, back, back])),
+        ],
+    });
+    model(&to_memory(&GLB, &scene, None).unwrap().bytes)
+}
+
+#[test]
+fn lights_do_not_turn_with_the_camera() {
+    let model = orbiting();
+    let at = |span: [f64; 2], time: f64| {
+        let film = Film::new(&model, &model.clips()[0], span).unwrap();
+        let film = film.filmed_by(&model.cameras()[0]).unwrap();
+        frames(&film, &[time]).remove(0)
+    };
+    let front = at([0.0, 3.0], 0.0);
+    let back = at([0.0, 3.0], 2.0);
+    assert!(
+        differences(&front, &back).0 > 3.0,
+        "another side of the light"
+    );
+    // A film that begins there has its light there.
+    let (mean, most) = differences(&front, &at([2.0, 3.0], 2.0));
+    assert!(mean < 0.3 && most < 60, "{mean} {most}");
+}
+
+#[test]
+fn lines_show_how_far_a_moving_camera_goes() {
+    // The square goes to the right; a camera goes along, or stays.
+    let shape = square(Vec3::ZERO, 0.25, unlit(1.0, 0.0, 0.0, 1.0));
+    let places = [0.0, 0.5, 1.0].map(|x| Vec3::new(x, 0.0, 0.0));
+    let lines = |is_moving: bool| {
+        let walker = moving(shape.clone(), "translation", places, "LINEAR");
+        let mut root: Value = serde_json::from_slice(&walker).unwrap();
+        if is_moving {
+            let mut channel = root["animations"][0]["channels"][0].clone();
+            channel["target"]["node"] = 1.into();
+            let channels = root["animations"][0]["channels"].as_array_mut().unwrap();
+            channels.push(channel);
+        }
+        let walker = serde_json::to_vec(&root).unwrap();
+        let node = json!({ "children": [2] });
+        let mut root: Value =
+            serde_json::from_slice(&with_node(&walker, node, perspective(0.6))).unwrap();
+        // The camera hangs on the node that moves.
+        root["nodes"][1].as_object_mut().unwrap().remove("camera");
+        let above = json!({ "camera": 0, "translation": [0, 0, 4] });
+        root["nodes"].as_array_mut().unwrap().push(above);
+        let model = model(&serde_json::to_vec(&root).unwrap());
+        let film = Film::new(&model, &model.clips()[0], [0.0, 3.0]).unwrap();
+        let film = film.filmed_by(&model.cameras()[0]).unwrap();
+        let image = frames(&film, &[1.0]).remove(0);
+        let grey = image.pixels().filter(|pixel| {
+            let [r, g, b, alpha] = pixel.0;
+            r == g && g == b && (90..=150).contains(&r) && alpha > 5
+        });
+        grey.count()
+    };
+    assert!(lines(true) > 20, "{}", lines(true));
+    assert_eq!(lines(false), 0);
 }
 
 #[test]

@@ -1,9 +1,9 @@
 // The clip bar: which clip plays, at what time and speed, and above it the chart.
 
-import { ChartSpline, Columns2, Footprints, Pause, Play, Repeat, SkipBack, SkipForward } from "lucide";
+import { ChartSpline, Columns2, Footprints, Pause, Play, Repeat, SkipBack, SkipForward, Video } from "lucide";
 import type { AnimationClip } from "three";
 import { button, fill, h, icon, svg } from "../dom";
-import { drawingAt, keysOf } from "../viewport/clips";
+import { drawingAt } from "../viewport/clips";
 import type { ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
 import { Chart } from "./chart";
@@ -32,6 +32,7 @@ export class Clips {
   private readonly readout = h("output", { class: "readout" });
   private readonly loop = button({ icon: Repeat, label: "Loop", press: () => this.viewer.moved(() => (this.player.loops = !this.player.loops)) });
   private readonly along = button({ icon: Footprints, label: "Follow the figure", key: "V", press: () => this.followTravel() });
+  private readonly films = button({ icon: Video, label: "Camera", key: "M", press: () => this.film() });
   private readonly charts = button({ icon: ChartSpline, label: "Chart", key: "C", press: () => this.chart.toggle() });
   private readonly compares = button({ icon: Columns2, label: "Full and limited side by side", key: "O", press: () => this.compare() });
   private readonly speed = h("select", { class: "select", attributes: { "aria-label": "Speed" } }, ...SPEEDS.map((speed) => h("option", { attributes: { value: speed } }, `${speed}×`)));
@@ -53,7 +54,7 @@ export class Clips {
       ),
       h("div", { class: "timeline" }, this.ticks, this.slider),
       this.readout,
-      h("div", { class: "clip-looks" }, this.charts, this.compares, this.along, this.loop),
+      h("div", { class: "clip-looks" }, this.charts, this.compares, this.films, this.along, this.loop),
       this.speed,
     );
     fill(this.panel, this.chart.element, this.element);
@@ -81,6 +82,11 @@ export class Clips {
   /** Lets the view go along with a figure that travels, or stay. */
   followTravel(): void {
     this.viewer.followTravel(!this.viewer.travel.wanted);
+  }
+
+  /** Looks through the camera that films the clip, or no longer. */
+  film(): void {
+    if (this.viewer.isFilmable) this.viewer.film(!this.viewer.isFilming);
   }
 
   /** Goes to the previous or next drawing or key. */
@@ -119,7 +125,7 @@ export class Clips {
   /** A short description of a clip. */
   private describe(clip: AnimationClip, at: number): string {
     const figures = this.viewer.exposuresOf(clip);
-    const keys = keysOf(clip);
+    const keys = this.player.keysIn(clip);
     const [only] = figures;
     const words = [clip.name || `clip ${at + 1}`, `${clip.duration.toFixed(1)} s`];
     if (figures.length > 1) words.push(`${figures.length} figures`);
@@ -152,6 +158,8 @@ export class Clips {
     this.element.dataset["playing"] = String(playing);
     this.loop.setAttribute("aria-pressed", String(loops));
     this.along.setAttribute("aria-pressed", String(this.viewer.travel.wanted));
+    this.films.hidden = !this.viewer.isFilmable;
+    this.films.setAttribute("aria-pressed", String(this.viewer.isFilming));
     this.charts.hidden = !this.chart.isPossible;
     this.charts.setAttribute("aria-pressed", String(this.chart.isOpen));
     this.compares.hidden = !comparison.isPossible;

@@ -1,6 +1,6 @@
 // Plays the clips of a model.
 
-import { AnimationMixer, InterpolateDiscrete, LoopOnce, type AnimationAction, type AnimationClip } from "three";
+import { AnimationMixer, InterpolateDiscrete, LoopOnce, type AnimationAction, type AnimationClip, type KeyframeTrack } from "three";
 import type { Model } from "./model";
 
 export interface Keys {
@@ -11,7 +11,7 @@ export interface Keys {
 }
 
 /** The keys of a clip. A key at the end of a clip of held drawings only ends the last one. */
-export function keysOf(clip: Pick<AnimationClip, "tracks" | "duration">): Keys {
+export function keysOf(clip: { readonly tracks: readonly KeyframeTrack[]; readonly duration: number }): Keys {
   const times = new Set<number>();
   for (const track of clip.tracks) for (const time of track.times) times.add(time);
   const held = clip.tracks.length > 0 && clip.tracks.every((track) => track.getInterpolation() === InterpolateDiscrete);
@@ -36,6 +36,8 @@ export function drawingAt({ times }: Keys, time: number): number {
 export class Player {
   private mixer: AnimationMixer | null = null;
   private action: AnimationAction | null = null;
+  /** The tracks of a clip whose keys count. */
+  private tracksOf = (clip: AnimationClip): readonly KeyframeTrack[] => clip.tracks;
   clips: readonly AnimationClip[] = [];
   clip: AnimationClip | null = null;
   keys: Keys = { times: [], held: false };
@@ -49,6 +51,7 @@ export class Player {
     const before = this.clip;
     this.mixer?.stopAllAction();
     this.clips = model.clips;
+    this.tracksOf = (clip) => model.tracksOf(clip);
     this.mixer = model.clips.length > 0 ? new AnimationMixer(model.root) : null;
     const same = before && model.clips.find(({ name }) => name === before.name);
     if (!same) {
@@ -64,6 +67,11 @@ export class Player {
     this.clips = [];
     this.time = 0;
     this.playing = false;
+  }
+
+  /** The keys of a clip, without those of its camera. */
+  keysIn(clip: AnimationClip): Keys {
+    return keysOf({ tracks: this.tracksOf(clip), duration: clip.duration });
   }
 
   choose(clip: AnimationClip): void {
@@ -109,7 +117,7 @@ export class Player {
   private use(clip: AnimationClip | null): void {
     this.mixer?.stopAllAction();
     this.clip = clip;
-    this.keys = clip ? keysOf(clip) : { times: [], held: false };
+    this.keys = clip ? this.keysIn(clip) : { times: [], held: false };
     this.action = clip && this.mixer ? this.mixer.clipAction(clip).setLoop(LoopOnce, 1) : null;
     if (this.action) {
       this.action.clampWhenFinished = true;

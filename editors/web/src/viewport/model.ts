@@ -1,6 +1,6 @@
 // A loaded model: which of its nodes are parts, its shading, and its resources on the graphics card.
 
-import { Box3, BufferAttribute, DoubleSide, Group, Mesh, MeshStandardMaterial, SkinnedMesh, Texture, TextureLoader, Vector3, type AnimationClip, type BufferGeometry, type InterleavedBufferAttribute, type Material, type Object3D, type TypedArray } from "three";
+import { Box3, BufferAttribute, DoubleSide, Group, Mesh, MeshStandardMaterial, PerspectiveCamera, SkinnedMesh, Texture, TextureLoader, Vector3, type AnimationClip, type BufferGeometry, type InterleavedBufferAttribute, type KeyframeTrack, type Material, type Object3D, type TypedArray } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { Bend } from "./bend";
 import { Turns } from "./turn";
@@ -32,6 +32,9 @@ export class Model {
   private readonly made = new Map<string, Object3D[]>();
   private readonly materials = new Map<Material, { readonly flat: boolean }>();
   readonly meshes: Mesh[] = [];
+  private readonly cameras: PerspectiveCamera[] = [];
+  /** The cameras that film clips. */
+  private readonly films = new Map<AnimationClip, PerspectiveCamera>();
   /** Geometries that the next model uses too. */
   private readonly reusedGeometries = new Set<BufferGeometry>();
   readonly box: Box3;
@@ -51,6 +54,7 @@ export class Model {
         if (same) same.push(object);
         else this.made.set(element, [object]);
       }
+      if (object instanceof PerspectiveCamera) this.cameras.push(object);
       if (!(object instanceof Mesh)) return;
       this.meshes.push(object);
       object.castShadow = true;
@@ -71,7 +75,26 @@ export class Model {
     this.bend = new Bend(root);
     this.turns = new Turns(root);
     this.clips = this.turns.others(clips);
+    if (this.cameras.length > 0) {
+      for (const clip of this.clips) {
+        const moved = new Set(clip.tracks.map(targetOf));
+        const camera = this.cameras.find((one) => isCarried(one, moved));
+        if (camera) this.films.set(clip, camera);
+      }
+    }
     if (this.box.isEmpty()) this.box.set(new Vector3(-0.5, 0, -0.5), new Vector3(0.5, 1, 0.5));
+  }
+
+  /** The camera that films a clip: one that it moves, or what carries it. */
+  cameraOf(clip: AnimationClip): PerspectiveCamera | undefined {
+    return this.films.get(clip);
+  }
+
+  /** The tracks of a clip that change how the model looks, without those of cameras. */
+  tracksOf(clip: AnimationClip): readonly KeyframeTrack[] {
+    if (this.cameras.length === 0) return clip.tracks;
+    const cameras = new Set(this.cameras.map(({ name }) => name));
+    return clip.tracks.filter((track) => !cameras.has(targetOf(track)));
   }
 
   node(name: string): Object3D | undefined {
@@ -146,6 +169,15 @@ export const isOverlay = (object: Object3D): boolean => object.userData[OVER] ==
 export function nodeName(object: Object3D): string {
   const name: unknown = object.userData["name"];
   return typeof name === "string" ? name : object.name;
+}
+
+/** The name, as three.js has it, of the node that a track moves. */
+const targetOf = ({ name }: KeyframeTrack): string => name.slice(0, name.lastIndexOf("."));
+
+/** Whether an object or one that carries it has one of the names. */
+function isCarried(object: Object3D, names: ReadonlySet<string>): boolean {
+  for (let at: Object3D | null = object; at; at = at.parent) if (names.has(at.name)) return true;
+  return false;
 }
 
 /** The id of the element that a node was made from; null if the node is not that of a part. */

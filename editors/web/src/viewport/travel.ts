@@ -1,6 +1,6 @@
 // Keeps a figure that travels in the picture.
 
-import { Vector3, type AnimationClip, type Object3D } from "three";
+import { Camera, Vector3, type AnimationClip, type Object3D } from "three";
 import type { Model } from "./model";
 
 /** How far a clip has carried the model over the ground. */
@@ -9,7 +9,7 @@ export class Travel {
   wanted = false;
   private model: Model | null = null;
   private clip: AnimationClip | null = null;
-  /** The nodes that the clip moves and that hang on no other such node. */
+  /** The nodes that the clip moves and that hang on no other such node, without cameras. */
   private roots: readonly Object3D[] = [];
   /** Where they were last; none if the way begins at the next place. */
   private last: Vector3 | null = null;
@@ -39,6 +39,7 @@ function rootsOf({ root }: Model, clip: AnimationClip): readonly Object3D[] {
   const names = clip.tracks.filter(({ name }) => name.endsWith(".position")).map(({ name }) => name.slice(0, -".position".length));
   const moved = new Set(names.flatMap((name) => root.getObjectByName(name) ?? []));
   return [...moved].filter((node) => {
+    if (node instanceof Camera) return false;
     for (let above = node.parent; above; above = above.parent) if (moved.has(above)) return false;
     return true;
   });

@@ -1,6 +1,6 @@
-// The camera: orbit, named views, perspective and parallel projection, framing.
+// The camera: orbit, named views, perspective and parallel projection, framing; or a camera of the model.
 
-import { Box3, OrthographicCamera, PerspectiveCamera, Spherical, Vector3 } from "three";
+import { Box3, Matrix4, OrthographicCamera, PerspectiveCamera, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { prefersReducedMotion } from "../dom";
 import { cornersOf } from "./bend";
@@ -30,20 +30,40 @@ const POLE = 1e-4;
 export class View {
   private readonly perspective = new PerspectiveCamera(FIELD, 1, 0.1, 100);
   private readonly parallel = new OrthographicCamera(-1, 1, 1, -1, 0.1, 100);
+  /** Stands where a camera of the model is, while the page looks through one. */
+  private readonly lens = new PerspectiveCamera();
   private readonly controls: OrbitControls;
   private readonly listeners: (() => void)[] = [];
   private readonly box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
   private points: (towards: Vector3) => Vector3[] = () => cornersOf(this.box);
   private aspect = 1;
   private animation = 0;
-  camera: PerspectiveCamera | OrthographicCamera = this.perspective;
+  /** The camera that the user moves. */
+  private own: PerspectiveCamera | OrthographicCamera = this.perspective;
+  /** The vertical field of view of the model's camera, in degrees. */
+  private filmed = 0;
+  /** Where it is. */
+  private readonly filmedAt = new Matrix4();
+  /** Whether the user's camera is being put where the model's is. */
+  private joins = false;
+  /** The camera of the picture. */
+  camera: PerspectiveCamera | OrthographicCamera = this.own;
+  /** Called when the user moves the view away from the model's camera. */
+  leftFilm: () => void = () => {};
 
   constructor(canvas: HTMLElement) {
     this.perspective.position.set(2, 1, 3);
-    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls = new OrbitControls(this.own, canvas);
     this.controls.zoomToCursor = true;
-    this.controls.addEventListener("start", () => this.stop());
-    this.controls.addEventListener("change", () => this.changed());
+    this.controls.addEventListener("start", () => {
+      this.stop();
+      if (this.isFilmed) this.join();
+    });
+    this.controls.addEventListener("change", () => {
+      if (this.joins) return;
+      if (this.isFilmed) this.leave();
+      else this.changed();
+    });
   }
 
   onChange(listener: () => void): void {
@@ -59,12 +79,24 @@ export class View {
     return this.camera === this.parallel;
   }
 
+  /** Whether the picture is that of a camera of the model. */
+  get isFilmed(): boolean {
+    return this.camera === this.lens;
+  }
+
   get target(): Vector3 {
     return this.controls.target;
   }
 
-  /** The camera as text: target, position, height of the picture at the target, projection. */
+  /**
+   * The camera as text: target, position, height of the picture at the target, projection. A camera of the model: position, direction to the
+   * viewer, vertical field of view in degrees, `filmed`.
+   */
   describe(): string {
+    if (this.isFilmed) {
+      const { position, fov } = this.lens;
+      return `${[...position.toArray(), ...this.towards().toArray(), fov].map((one) => Number(one.toPrecision(6))).join(" ")} filmed`;
+    }
     const numbers = [...this.controls.target.toArray(), ...this.camera.position.toArray(), this.height()];
     return `${numbers.map((one) => Number(one.toPrecision(6))).join(" ")} ${this.isParallel ? "parallel" : "perspective"}`;
   }
@@ -75,6 +107,24 @@ export class View {
     const half = (this.parallel.top - this.parallel.bottom) / 2;
     this.parallel.left = -half * aspect;
     this.parallel.right = half * aspect;
+    this.fitLens();
+    this.changed();
+  }
+
+  /** Looks through a camera of the model where it is now; null looks through the user's own camera, which is where it was. */
+  film(camera: PerspectiveCamera | null): void {
+    if (!camera && !this.isFilmed) return;
+    if (camera) {
+      this.stop();
+      camera.updateWorldMatrix(true, false);
+      // A held camera is not drawn again.
+      if (this.isFilmed && camera.fov === this.filmed && camera.matrixWorld.equals(this.filmedAt)) return;
+      this.filmedAt.copy(camera.matrixWorld);
+      camera.matrixWorld.decompose(this.lens.position, this.lens.quaternion, new Vector3());
+      this.filmed = camera.fov;
+      this.fitLens();
+    }
+    this.camera = camera ? this.lens : this.own;
     this.changed();
   }
 
@@ -87,6 +137,7 @@ export class View {
 
   /** Moves until the whole scene is in the picture, from the current direction or a named view. */
   frame(name?: ViewName, moves = true): void {
+    this.takeOver();
     const direction = name ? directionOf(VIEWS[name]) : this.direction();
     const points = this.points(direction);
     const centre = new Box3().setFromPoints(points).getCenter(new Vector3());
@@ -124,11 +175,13 @@ export class View {
 
   /** Looks from the named view; distance and target stay. */
   look(name: ViewName): void {
+    this.takeOver();
     this.go(directionOf(VIEWS[name]), this.controls.target.clone(), this.distance(), true);
   }
 
   /** Turns by degrees, to the right and up. */
   orbit(right: number, up: number): void {
+    this.takeOver();
     this.stop();
     const at = new Spherical().setFromVector3(this.direction());
     at.theta += (right * Math.PI) / 180;
@@ -137,6 +190,7 @@ export class View {
   }
 
   zoom(factor: number): void {
+    this.takeOver();
     this.stop();
     this.place(this.direction(), this.controls.target, this.distance() / factor);
   }
@@ -144,22 +198,23 @@ export class View {
   /** Changes the projection; things at the target keep their size. */
   setParallel(parallel: boolean): void {
     if (parallel === this.isParallel) return;
+    this.takeOver();
     const direction = this.direction();
     const distance = this.distance();
-    this.camera = parallel ? this.parallel : this.perspective;
-    this.controls.object = this.camera;
+    this.camera = this.own = parallel ? this.parallel : this.perspective;
+    this.controls.object = this.own;
     this.place(direction, this.controls.target, distance);
   }
 
   private direction(): Vector3 {
-    const direction = this.camera.position.clone().sub(this.controls.target);
+    const direction = this.own.position.clone().sub(this.controls.target);
     return direction.lengthSq() > 0 ? direction.normalize() : new Vector3(0, 0, 1);
   }
 
   /** The height of the picture at the target, in metres. */
   private height(): number {
-    if (this.isParallel) return (this.parallel.top - this.parallel.bottom) / this.parallel.zoom;
-    return 2 * this.camera.position.distanceTo(this.controls.target) * Math.tan((FIELD * Math.PI) / 360);
+    if (this.own === this.parallel) return (this.parallel.top - this.parallel.bottom) / this.parallel.zoom;
+    return 2 * this.own.position.distanceTo(this.controls.target) * Math.tan((FIELD * Math.PI) / 360);
   }
 
   /** The distance at which a perspective camera shows the same height. */
@@ -206,10 +261,53 @@ export class View {
     this.animation = 0;
   }
 
+  /** Towards the viewer. */
+  private towards(): Vector3 {
+    return new Vector3(0, 0, 1).applyQuaternion(this.camera.quaternion);
+  }
+
+  /** Fits the framing of the model's camera into the page: what it shows in a square is in the picture, however wide or high that is. */
+  private fitLens(): void {
+    this.lens.aspect = this.aspect;
+    const half = Math.tan((this.filmed * Math.PI) / 360) / Math.min(this.aspect, 1);
+    this.lens.fov = (Math.atan(half) * 360) / Math.PI;
+  }
+
+  /** Puts the user's camera where the model's is; things in the middle of the model keep their size. */
+  private join(): void {
+    const { position, fov } = this.lens;
+    const towards = this.towards();
+    const reach = this.box.getSize(new Vector3()).length();
+    const away = Math.max(position.clone().sub(this.box.getCenter(new Vector3())).dot(towards), reach * 0.02);
+    const target = position.clone().addScaledVector(towards, -away);
+    this.joins = true;
+    this.aim(towards, target, (away * Math.tan((fov * Math.PI) / 360)) / Math.tan((FIELD * Math.PI) / 360));
+    this.joins = false;
+  }
+
+  /** The user's camera takes over from the model's. */
+  private takeOver(): void {
+    if (!this.isFilmed) return;
+    this.join();
+    this.leave();
+  }
+
+  private leave(): void {
+    this.camera = this.own;
+    this.changed();
+    this.leftFilm();
+  }
+
   private place(direction: Vector3, target: Vector3, distance: number): void {
+    this.aim(direction, target, distance);
+    this.changed();
+  }
+
+  /** Places the user's camera. */
+  private aim(direction: Vector3, target: Vector3, distance: number): void {
     this.controls.target.copy(target);
-    this.camera.position.copy(target).addScaledVector(direction, distance);
-    if (this.isParallel) {
+    this.own.position.copy(target).addScaledVector(direction, distance);
+    if (this.own === this.parallel) {
       const half = distance * Math.tan((FIELD * Math.PI) / 360);
       this.parallel.top = half;
       this.parallel.bottom = -half;
@@ -218,7 +316,6 @@ export class View {
       this.parallel.zoom = 1;
     }
     this.controls.update();
-    this.changed();
   }
 
   /** Sets the near and far planes around the model and its ground. */

@@ -17,7 +17,7 @@ import { RenderLoop } from "./render-loop";
 import { Stack } from "./stack";
 import { Travel } from "./travel";
 import { View } from "./view";
-import { Box3, Vector3, type Camera, type Object3D } from "three";
+import { Box3, Vector3, type Camera, type Object3D, type PerspectiveCamera } from "three";
 
 /** A model that was requested. */
 interface Wanted {
@@ -47,6 +47,8 @@ export class Viewer {
   readonly comparison: Comparison;
   readonly stack: Stack;
   readonly travel = new Travel();
+  /** Whether the page looks through the cameras of clips. */
+  private filming = false;
   private readonly ground: Ground;
   private readonly highlight = new Highlight();
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
@@ -103,6 +105,10 @@ export class Viewer {
     this.stack = new Stack(this);
     this.renderLoop.beforeFrame((seconds) => this.step(seconds));
     this.renderLoop.follow = (camera) => this.follow(camera);
+    this.view.leftFilm = () => {
+      this.filming = false;
+      this.notify("time");
+    };
     state.on(["current", "build", "link"], () => this.update());
     state.on("selection", () => this.mark("selected"));
     state.on("hover", () => this.mark("hovered"));
@@ -215,8 +221,34 @@ export class Viewer {
     this.notify("time");
   }
 
+  /** The camera that films the clip. */
+  private get clipCamera(): PerspectiveCamera | null {
+    const { clip } = this.player;
+    return (clip && this.model?.cameraOf(clip)) ?? null;
+  }
+
+  /** Whether a camera films the clip. */
+  get isFilmable(): boolean {
+    return this.clipCamera !== null;
+  }
+
+  /** Whether the page looks through the camera of the clip. */
+  get isFilming(): boolean {
+    return this.filming && this.isFilmable;
+  }
+
+  /** Looks through the cameras of clips, or no longer. */
+  film(on: boolean): void {
+    this.filming = on;
+    this.travel.restart();
+    this.goAlong();
+    this.notify("time");
+  }
+
   private goAlong(): void {
-    if (this.travel.wanted) this.view.shift(this.travel.since(this.model, this.player.clip));
+    const camera = this.filming ? this.clipCamera : null;
+    this.view.film(camera);
+    if (!camera && this.travel.wanted) this.view.shift(this.travel.since(this.model, this.player.clip));
   }
 
   /** Runs `draw` while marks and ground are hidden. */
@@ -279,6 +311,7 @@ export class Viewer {
     this.comparison.take(wanted);
     this.drawEdges();
     if (first) this.view.frame("threeQuarter", false);
+    this.goAlong();
     this.markAll();
     this.canvas.dataset["revision"] = String(wanted.revision);
     this.canvas.setAttribute("aria-label", `Model of ${this.state.drawing?.name ?? "the drawing"}: ${count(model.triangles, "triangle")}`);
@@ -313,6 +346,7 @@ export class Viewer {
     this.shown = this.awaited = null;
     this.failure = "";
     this.player.clear();
+    this.goAlong();
     this.ground.group.visible = false;
     delete this.canvas.dataset["revision"];
     this.canvas.setAttribute("aria-label", "No model yet");
