@@ -112,7 +112,7 @@ fn whole(frames: usize) {
             edit(
                 prepared,
                 &edit::Options {
-                    method: method,
+                    method,
                     points: PointChoice::Seen,
                     camera: None,
                     key: None,

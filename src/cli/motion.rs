@@ -95,18 +95,18 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
         key: performed.key_frame,
     };
     let mut edited = spinning("cutting", || edit(performed.prepared, &options));
-    if let Some(film) = performed.film {
-        if edited.film(film) == Filmed::NotMoved {
-            messages
-                .push_str("  warning: the root of the motion has no position: it is not moved\n");
-        }
-    }
     for note in &edited.notes {
         let _ = writeln!(messages, "  {note}");
     }
     if let Some(cycle) = edited.cycle {
         let (first, last) = (cycle.first + 1, cycle.last + 1);
         let _ = writeln!(messages, "  a loop of the frames {first} to {last}");
+    }
+    let report = report(&edited, arguments);
+    if let Some(film) = performed.film
+        && edited.film(film) == Filmed::NotMoved
+    {
+        messages.push_str("  warning: the root of the motion has no position: it is not moved\n");
     }
     let mut wrote = String::new();
     let mut count = 0;
@@ -125,7 +125,7 @@ pub(super) fn run(arguments: &Motion, common: Common) -> Outcome {
         || arguments.every.is_some()
         || arguments.drawings.is_some();
     if !common.quiet && (count > 0 || cuts) {
-        messages.push_str(&report(&edited, arguments));
+        messages.push_str(&report);
     }
     if !common.quiet {
         eprint!("{name}: {opening}\n{messages}{wrote}");

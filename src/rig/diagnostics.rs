@@ -116,21 +116,21 @@ pub(super) fn broken_track(link: &str, error: &mark_tracks::Error, span: Span) -
 #[derive(Debug)]
 pub(super) enum MarkProblem<'a> {
     /// No part of the figure has a mark.
-    NoMarks,
+    Unmarked,
     /// A part with a mark that no joint drives.
-    NoJoint { part: &'a str, mark: PartMark<'a> },
+    Undriven { part: &'a str, mark: PartMark<'a> },
     /// A mark that is not among those of the track.
-    NoTrack {
+    Untracked {
         mark: PartMark<'a>,
         names: Vec<&'a str>,
     },
     /// A name in `Follow` that is neither a part nor a joint.
-    NoFollower {
+    UnknownFollower {
         follower: FollowedName<'a>,
         nearest: Option<&'a str>,
     },
     /// An emphasised mark that no part has.
-    NoEmphasis {
+    UnknownEmphasis {
         wanted: &'a str,
         names: Vec<&'a str>,
     },
@@ -142,18 +142,18 @@ pub(super) fn mark_problem(
 ) -> Diagnostic {
     let file = request.file;
     let (span, message, help) = match problem {
-        MarkProblem::NoMarks => (
+        MarkProblem::Unmarked => (
             request.span,
             format!("`Perform \"{file}\"` has no effect: no part of the figure has a mark"),
             "write the colour of its mark behind each part that the puppet performs: `Rhand@Rarm$Mark red`"
                 .to_owned(),
         ),
-        MarkProblem::NoJoint { part, mark } => (
+        MarkProblem::Undriven { part, mark } => (
             mark.span,
             format!("the mark of `{part}` has no effect: no joint of the motion drives this part"),
             "move `Mark` to a part that moves, or say which joint drives it: `Bone RightHand`".to_owned(),
         ),
-        MarkProblem::NoTrack { mark, names } => (
+        MarkProblem::Untracked { mark, names } => (
             mark.span,
             format!("the track `{file}` has no mark like `{}`", mark.word),
             match names.is_empty() {
@@ -165,21 +165,28 @@ pub(super) fn mark_problem(
                 ),
             },
         ),
-        MarkProblem::NoFollower { follower, nearest } => (
+        MarkProblem::UnknownFollower { follower, .. } => (
             follower.span,
-            format!("`Follow {}` means nothing: no part and no joint of the motion has this name", follower.name),
-            match nearest {
-                Some(nearest) => format!("did you mean `{nearest}`?"),
-                None => "write the name of a part of the figure".to_owned(),
-            },
+            format!(
+                "`Follow {}` means nothing: no part and no joint of the motion has this name",
+                follower.name
+            ),
+            "write the name of a part of the figure".to_owned(),
         ),
-        MarkProblem::NoEmphasis { wanted, names } => (
+        MarkProblem::UnknownEmphasis { wanted, names } => (
             request.span,
             format!("`{wanted}` cannot be emphasised: no part that is performed has this mark"),
-            format!("the marks are {}", listed(names)),
+            format!("these marks are performed: {}", listed(names)),
         ),
     };
-    Diagnostic::new(Code::MarkMismatch, span, message).help(help)
+    let diagnostic = Diagnostic::new(Code::MarkMismatch, span, message).help(help);
+    match problem {
+        MarkProblem::UnknownFollower {
+            nearest: Some(nearest),
+            ..
+        } => diagnostic.label(format!("did you mean `{nearest}`?")),
+        _ => diagnostic,
+    }
 }
 
 /// Marks of a track that no part of the drawing has.
@@ -217,10 +224,13 @@ pub(super) fn odd_performance(
     finding: Finding,
     emphasised: Option<(String, String)>,
     other: Option<String>,
-    span: Span,
+    request: &PerformanceRequest<'_>,
 ) -> Diagnostic {
+    let file = request.file;
     let (part, mark) = emphasised.unwrap_or_default();
-    let cut = "cut the clip to one action (`okoshi track CLIP --range 1:48`), or give the key frames of track and motion: `Perform \"FILE\" 31 44`";
+    let cut = format!(
+        "cut the clip to one action (`okoshi track CLIP --range 1:48`), or give the key frames of track and motion: `Perform \"{file}\" 31 44`"
+    );
     let (message, help) = match finding {
         Finding::NoInput => (
             "no mark of the track moves: the clip keeps its timing, and no joint is emphasised".to_owned(),
@@ -232,18 +242,18 @@ pub(super) fn odd_performance(
         ),
         Finding::SecondInput(frame) => (
             format!("the track has a second movement that is nearly as large, in frame {}", frame + 1),
-            cut.to_owned(),
+            cut,
         ),
         Finding::SecondMotion(frame) => (
             format!("the motion has a second movement that is nearly as large, in frame {}", frame + 1),
-            "use a motion of one action (`okoshi motion IN.bvh -o OUT.bvh --range 1:48`), or give the key frames of track and motion: `Perform \"FILE\" 31 44`".to_owned(),
+            format!("use a motion of one action (`okoshi motion IN.bvh -o OUT.bvh --range 1:48`), or give the key frames of track and motion: `Perform \"{file}\" 31 44`"),
         ),
         Finding::OtherJoint(_) => (
             format!(
                 "the mark `{mark}` of `{part}` moves most in the track, but in the motion `{}` does",
                 other.unwrap_or_default()
             ),
-            format!("perform with the mark of that part, or name the one that counts: `Perform \"FILE\" {mark}`"),
+            format!("perform with the mark of that part, or name the one that counts: `Perform \"{file}\" {mark}`"),
         ),
         Finding::NoSuchInputKey(key, frames) => (
             format!("the track has no frame {key}, only {frames} at the motion's rate: the frame of its largest movement is used"),
@@ -254,7 +264,7 @@ pub(super) fn odd_performance(
             format!("write a frame from 1 to {frames}"),
         ),
     };
-    Diagnostic::new(Code::OddPerformance, span, message).help(help)
+    Diagnostic::new(Code::OddPerformance, request.span, message).help(help)
 }
 
 /// Problems of matching parts with joints, over all clips: a problem is only reported if every clip of the figure has it.

@@ -9,7 +9,7 @@ use super::figures::FigureGroup;
 use super::{Context, MatchedFigure};
 use crate::bind::{Camerawork, PartMark, PerformanceRequest};
 use crate::diagnostic::{Diagnostic, nearest_word};
-use crate::memo::{Bits, Memo, Same};
+use crate::memo::{Memo, Same};
 use crate::motion::labels::Tip;
 use crate::motion::mark_tracks::{MarkTrack, MarkTracks};
 use crate::motion::matching::{Drive, MatchedPart, joints_named};
@@ -96,12 +96,12 @@ impl Channels {
             has_mark = true;
             let name = &bindings.parts[*part].name;
             if matched.matching.parts[place].drive.is_none() {
-                report(MarkProblem::NoJoint { part: name, mark });
+                report(MarkProblem::Undriven { part: name, mark });
                 continue;
             }
             let Some(index) = mark_of(tracks, &mark) else {
                 let names = tracks.marks.iter().map(|mark| mark.name.as_str());
-                report(MarkProblem::NoTrack {
+                report(MarkProblem::Untracked {
                     mark,
                     names: names.collect(),
                 });
@@ -122,13 +122,13 @@ impl Channels {
                         .iter()
                         .map(|part| bindings.parts[*part].name.as_str());
                     let nearest = nearest_word(follower.name, parts);
-                    report(MarkProblem::NoFollower { follower, nearest });
+                    report(MarkProblem::UnknownFollower { follower, nearest });
                 }
                 found.followers[channel].extend(places);
             }
         }
         if found.marks.is_empty() && !has_mark {
-            report(MarkProblem::NoMarks);
+            report(MarkProblem::Unmarked);
         }
         if let Some(wanted) = request.emphasised {
             let names = || {
@@ -150,7 +150,7 @@ impl Channels {
             found.emphasised = (0..found.marks.len()).find(word);
             if found.emphasised.is_none() && !found.marks.is_empty() {
                 let names: Vec<&str> = names().collect();
-                report(MarkProblem::NoEmphasis { wanted, names });
+                report(MarkProblem::UnknownEmphasis { wanted, names });
             }
         }
         found
@@ -237,11 +237,6 @@ impl Channels {
         };
         self.marks.iter().map(channel).collect()
     }
-}
-
-/// The ratios of a rig's parts as the key of a cached result.
-pub(super) fn ratio_bits(ratios: &[Option<f64>]) -> Vec<Option<Bits<f64>>> {
-    ratios.iter().map(|ratio| ratio.map(Bits)).collect()
 }
 
 fn effects(request: &PerformanceRequest<'_>) -> Effects {
@@ -365,7 +360,7 @@ pub(super) fn report(
             Finding::OtherJoint(channel) => Some(of(*channel)),
             _ => None,
         };
-        let diagnostic = diagnostics::odd_performance(*finding, emphasised, other, request.span);
+        let diagnostic = diagnostics::odd_performance(*finding, emphasised, other, request);
         if !diagnostics.contains(&diagnostic) {
             diagnostics.push(diagnostic);
         }

@@ -6,7 +6,6 @@ use glam::{DQuat, DVec2, DVec3};
 
 use super::Context;
 use super::figures::FigureGroup;
-use super::performed::ratio_bits;
 use super::surface;
 use crate::bind::Carry;
 use crate::geometry::{Frame, y_up};
@@ -196,8 +195,11 @@ pub(super) struct RetargetKey {
     facing: Facing,
     parts: Vec<PartKey>,
     /// The performance, and per part the ratio of its turns that is left.
-    performance: Option<(Same<Plan>, Vec<Option<Bits<f64>>>)>,
+    performance: Option<(Same<Plan>, Ratios)>,
 }
+
+/// Per part the ratio of its turns that is left.
+type Ratios = Vec<Option<Bits<f64>>>;
 
 #[derive(PartialEq, Eq, Hash)]
 struct PartKey {
@@ -210,6 +212,10 @@ struct PartKey {
     swing: Option<Bits<f64>>,
     /// The positions of node, joint and tip, and the points of the surface.
     points: Vec<Bits<[f64; 3]>>,
+}
+
+fn bits(ratios: &[Option<f64>]) -> Ratios {
+    ratios.iter().map(|ratio| ratio.map(Bits)).collect()
 }
 
 impl RetargetKey {
@@ -236,8 +242,7 @@ impl RetargetKey {
             motion: Same(Arc::clone(motion)),
             facing: rig.facing,
             parts: rig.parts.iter().map(part).collect(),
-            performance: performance
-                .map(|(plan, ratios)| (Same(Arc::clone(plan)), ratio_bits(ratios))),
+            performance: performance.map(|(plan, ratios)| (Same(Arc::clone(plan)), bits(ratios))),
         }
     }
 }

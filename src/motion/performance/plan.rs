@@ -117,10 +117,13 @@ pub fn plan(input: Vec<Vec<f64>>, motion: Vec<Vec<f64>>, request: &Request) -> P
     let emphasised = request.emphasised.or(input.key.map(|key| key.channel));
     match input.key {
         None => findings.push(Finding::NoInput),
+        // Whoever gives the keys knows which action counts.
+        Some(_) if request.keys.is_some() => {}
         Some(_) => findings.extend(input.second.map(Finding::SecondInput)),
     }
     match motion.key {
         None => findings.push(Finding::NoMotion),
+        Some(_) if request.keys.is_some() => {}
         Some(_) => findings.extend(motion.second.map(Finding::SecondMotion)),
     }
     if let (Some(emphasised), Some(key)) = (emphasised, motion.key)
