@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3};
 
 use super::bvh::{self, Decimals};
 use super::chart::{Chart, chart};
-use super::labels::Anatomy;
+use super::labels::{Anatomy, Facing};
 use super::limited::{self, BestDrawings, Camera, Cut, Error, Exposure, Length, Method, Poses};
 use super::looping::Cycle;
 use super::measured::{Measured, PointChoice};
@@ -88,7 +88,7 @@ pub fn edit(prepared: PreparedClip, options: &Options) -> EditedClip {
         camera,
         key,
     } = *options;
-    let to_model = retarget::to_drawing(&prepared.clip, &prepared.landmarks());
+    let to_model = retarget::to_drawing(&prepared.clip, &prepared.landmarks(), Facing::Viewer);
     let PreparedClip {
         clip,
         positions,

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::clips::{self, BuiltIn, Legs};
-use super::labels::{Anatomy, Class, Side, label_clip};
+use super::labels::{Anatomy, Class, Facing, Side, label_clip};
 use super::lead_in::{LeadInKind, find_lead_in};
 use super::looping::{self, Cycle};
 use super::resample::{self, Error, Range};
@@ -192,7 +192,7 @@ impl PreparedClip {
 
     /// The axis of the clip's world that points up.
     fn up_direction(&self) -> DVec3 {
-        retarget::to_drawing(&self.clip, &self.landmarks()).inverse() * DVec3::Y
+        retarget::to_drawing(&self.clip, &self.landmarks(), Facing::Viewer).inverse() * DVec3::Y
     }
 }
 

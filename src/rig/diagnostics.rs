@@ -255,6 +255,13 @@ pub(super) fn odd_performance(
             ),
             format!("perform with the mark of that part, or name the one that counts: `Perform \"{file}\" {mark}`"),
         ),
+        Finding::TowardsViewer(_) => (
+            format!(
+                "in the motion `{}` moves towards the viewer, which moves a mark little when a puppet does the same",
+                other.unwrap_or_default()
+            ),
+            "film the puppet from the side, or let its mark go sideways at that moment".to_owned(),
+        ),
         Finding::NoSuchInputKey(key, frames) => (
             format!("the track has no frame {key}, only {frames} at the motion's rate: the frame of its largest movement is used"),
             format!("write a frame from 1 to {frames}"),

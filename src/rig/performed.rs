@@ -10,14 +10,14 @@ use super::{Context, MatchedFigure};
 use crate::bind::{Camerawork, PartMark, PerformanceRequest};
 use crate::diagnostic::{Diagnostic, nearest_word};
 use crate::memo::{Memo, Same};
-use crate::motion::labels::Tip;
+use crate::motion::labels::{Facing, Tip};
 use crate::motion::mark_tracks::{MarkTrack, MarkTracks};
 use crate::motion::matching::{Drive, MatchedPart, joints_named};
 use crate::motion::performance::{
-    Effects, Filming, Finding, Limbs, Plan, Request, joint_movements, mark_movements, plan, ratios,
+    Effects, Filming, Finding, Limbs, Plan, Request, joint_steps, mark_movements, plan, ratios,
 };
 use crate::motion::prepare::PreparedClip;
-use crate::motion::retarget::Rig;
+use crate::motion::retarget::{Rig, to_drawing};
 use crate::motion::skeleton::Clip;
 
 /// A mark whose hue differs by more than this from that of a part's `Mark` is another one, degrees.
@@ -66,6 +66,7 @@ struct PlanKey {
     /// Per channel its mark, and the drives of its parts.
     channels: Vec<(usize, Vec<Drive>)>,
     request: Request,
+    facing: Facing,
 }
 
 impl Channels {
@@ -187,14 +188,18 @@ impl Channels {
                 emphasised: self.emphasised,
                 keys: request.keys,
             },
+            facing: matched.matching.facing,
         };
         memo.get(key, |key| {
             let marks: Vec<usize> = key.channels.iter().map(|(mark, _)| *mark).collect();
             let input = mark_movements(tracks, &marks, 1.0 / motion.clip.frame_time);
             let drives = key.channels.iter().map(|(_, drives)| drives.as_slice());
             let hips = motion.landmarks().hips;
-            let movements = drives.map(|drives| drive_movement(&motion.clip, drives, hips));
-            Arc::new(plan(input, movements.collect(), &key.request))
+            let steps = drives.map(|drives| drive_steps(&motion.clip, drives, hips));
+            let steps: Vec<Vec<DVec3>> = steps.collect();
+            let to_drawing = to_drawing(&motion.clip, &motion.landmarks(), key.facing);
+            let viewer = to_drawing.inverse() * DVec3::Z;
+            Arc::new(plan(input, &steps, viewer, &key.request))
         })
     }
 
@@ -251,8 +256,8 @@ fn effects(request: &PerformanceRequest<'_>) -> Effects {
     }
 }
 
-/// How much the far ends of some drives move relative to the hips; of several, in each frame the one that moves most.
-fn drive_movement(clip: &Clip, drives: &[Drive], hips: usize) -> Vec<f64> {
+/// The steps of the far ends of some drives relative to the hips; of several, in each frame that of the one that moves most.
+fn drive_steps(clip: &Clip, drives: &[Drive], hips: usize) -> Vec<DVec3> {
     let mut paths = vec![Vec::with_capacity(clip.frames()); drives.len()];
     let mut hip_path = Vec::with_capacity(clip.frames());
     let mut pose = Vec::new();
@@ -264,12 +269,11 @@ fn drive_movement(clip: &Clip, drives: &[Drive], hips: usize) -> Vec<f64> {
             path.push(end.place(&clip.skeleton, &pose));
         }
     }
-    let movements = joint_movements(&paths, &hip_path);
+    let steps = joint_steps(&paths, &hip_path);
     let most = |frame: usize| {
-        movements
-            .iter()
-            .map(|movement| movement[frame])
-            .fold(0.0, f64::max)
+        let steps = steps.iter().map(|steps| steps[frame]);
+        let longest = steps.max_by(|a, b| a.length().total_cmp(&b.length()));
+        longest.unwrap_or_default()
     };
     (0..clip.frames()).map(most).collect()
 }
@@ -357,7 +361,7 @@ pub(super) fn report(
             )
         });
         let other = match finding {
-            Finding::OtherJoint(channel) => Some(of(*channel)),
+            Finding::OtherJoint(channel) | Finding::TowardsViewer(channel) => Some(of(*channel)),
             _ => None,
         };
         let diagnostic = diagnostics::odd_performance(*finding, emphasised, other, request);

@@ -220,6 +220,10 @@ fn describe<'a>(
                 joint(*channel),
                 mark(*channel)
             ),
+            Finding::TowardsViewer(channel) => format!(
+                "{} moves towards the viewer, which moves a mark little: film such a motion from the side",
+                joint(*channel)
+            ),
             Finding::NoSuchInputKey(key, frames) => format!(
                 "the track has no frame {key}, only {frames} at this rate: the frame of its largest movement is used"
             ),

@@ -2,11 +2,12 @@
 
 use glam::DVec3;
 
-use super::{Limbs, Plan, Request, joint_movements, mark_movements, plan, ratios};
-use crate::motion::labels::Class;
+use super::{Limbs, Plan, Request, joint_steps, mark_movements, plan, ratios};
+use crate::motion::labels::{Class, Facing};
 use crate::motion::mark_tracks::MarkTracks;
 use crate::motion::prepare::PreparedClip;
 use crate::motion::resample;
+use crate::motion::retarget::to_drawing;
 
 /// A joint that a mark performs.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -43,8 +44,10 @@ pub fn perform(
         frames.map(|frame| frame[joint]).collect()
     };
     let paths: Vec<Vec<DVec3>> = channels.iter().map(|channel| path(channel.joint)).collect();
-    let movements = joint_movements(&paths, &path(prepared.landmarks().hips));
-    let plan = plan(input, movements, request);
+    let landmarks = prepared.landmarks();
+    let steps = joint_steps(&paths, &path(landmarks.hips));
+    let viewer = to_drawing(&prepared.clip, &landmarks, Facing::Viewer).inverse() * DVec3::Z;
+    let plan = plan(input, &steps, viewer, request);
     let mut clip = match &plan.timing {
         Some(timing) => resample::along(&prepared.clip, timing),
         None => prepared.clip.clone(),

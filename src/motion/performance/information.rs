@@ -108,19 +108,35 @@ fn second(envelope: &[f64], first: usize) -> Option<usize> {
     high.max_by(|a, b| envelope[*a].total_cmp(&envelope[*b]).then(b.cmp(a)))
 }
 
-/// The movement of joints: per joint and frame the length of its step since the frame before, relative to the hips. `paths` are the
-/// joints' positions, frame by frame, in any unit.
-pub fn joint_movements(paths: &[Vec<DVec3>], hips: &[DVec3]) -> Vec<Vec<f64>> {
-    let movement = |path: &Vec<DVec3>| {
-        let relative: Vec<DVec3> = path
-            .iter()
-            .zip(hips)
-            .map(|(at, hips)| *at - *hips)
-            .collect();
-        let steps = relative.windows(2).map(|pair| pair[0].distance(pair[1]));
-        std::iter::once(0.0).chain(steps).collect()
+/// The movement of joints: per joint and frame the step since the frame before, relative to the hips. `paths` are the joints' positions,
+/// frame by frame, in any unit.
+pub fn joint_steps(paths: &[Vec<DVec3>], hips: &[DVec3]) -> Vec<Vec<DVec3>> {
+    let steps = |path: &Vec<DVec3>| {
+        let places = path.iter().zip(hips);
+        let relative: Vec<DVec3> = places.map(|(at, hips)| *at - *hips).collect();
+        let steps = relative.windows(2).map(|pair| pair[1] - pair[0]);
+        let first = relative.first().map(|_| DVec3::ZERO);
+        first.into_iter().chain(steps).collect()
     };
-    paths.iter().map(movement).collect()
+    paths.iter().map(steps).collect()
+}
+
+/// How much of a movement goes towards the viewer or away, 0 to 1: that of the steps around the frame `key` which are at least half as
+/// long as that one. `viewer` is a unit vector.
+pub(super) fn share_towards(steps: &[DVec3], key: usize, viewer: DVec3) -> f64 {
+    let Some(largest) = steps.get(key).map(|step| step.length()) else {
+        return 0.0;
+    };
+    let is_short = |step: &DVec3| step.length() < VALLEY * largest;
+    let first = steps[..key]
+        .iter()
+        .rposition(is_short)
+        .map_or(0, |frame| frame + 1);
+    let after = steps[key..].iter().position(is_short);
+    let stroke = &steps[first..after.map_or(steps.len(), |after| key + after)];
+    let way: f64 = stroke.iter().map(|step| step.length()).sum();
+    let towards: f64 = stroke.iter().map(|step| step.dot(viewer).abs()).sum();
+    if way > 0.0 { towards / way } else { 0.0 }
 }
 
 #[cfg(test)]
@@ -175,6 +191,22 @@ mod tests {
     fn joints_move_relative_to_the_hips() {
         let hips = [DVec3::ZERO, DVec3::X, DVec3::X * 2.0];
         let paths = [hips.to_vec(), vec![DVec3::ZERO; 3]];
-        assert_eq!(joint_movements(&paths, &hips), [[0.0; 3], [0.0, 1.0, 1.0]]);
+        let steps = joint_steps(&paths, &hips);
+        assert_eq!(steps[0], [DVec3::ZERO; 3]);
+        assert_eq!(steps[1], [DVec3::ZERO, DVec3::NEG_X, DVec3::NEG_X]);
+    }
+
+    #[test]
+    fn strokes_are_judged_as_a_whole() {
+        let steps = [
+            DVec3::X,
+            DVec3::Z * 4.0,
+            DVec3::Z * 5.0,
+            DVec3::X * 3.0,
+            DVec3::X * 2.0,
+        ];
+        assert!((share_towards(&steps, 2, DVec3::Z) - 9.0 / 12.0).abs() < 1e-12);
+        assert_eq!(share_towards(&steps, 9, DVec3::Z), 0.0);
+        assert_eq!(share_towards(&[DVec3::ZERO; 2], 1, DVec3::Z), 0.0);
     }
 }

@@ -16,6 +16,6 @@ pub use camerawork::{CAMERA_FOV, CameraPath, camerawork};
 pub use clip::{JointChannel, PerformedClip, perform};
 pub use emphasis::{Limbs, ratios};
 pub use filmed::Filmed;
-pub use information::{Information, Key, joint_movements};
+pub use information::{Information, Key, joint_steps};
 pub use marks::mark_movements;
 pub use plan::{Effects, Filming, Finding, Plan, Request, plan};

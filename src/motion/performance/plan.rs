@@ -1,7 +1,14 @@
 //! What a performance does to a motion: its timing, and what it emphasises (Manya & Matsuda, section 3.3).
 
-use super::information::Information;
+use glam::DVec3;
+
+use super::information::{Information, share_towards};
 use crate::motion::resample::TimeMap;
+
+/// A joint that moves less than this share of the largest movement is not the one that the motion is about.
+const NEARLY_LARGEST: f64 = 0.9;
+/// A movement that goes towards the viewer by more than this share hardly moves a mark when it is imitated.
+const TOWARDS: f64 = 0.85;
 
 /// How a camera is to show a performance.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
@@ -60,6 +67,8 @@ pub enum Finding {
     SecondMotion(usize),
     /// The motion's key joint is not the one whose mark moves most: its channel.
     OtherJoint(usize),
+    /// The motion's key joint moves towards the viewer, which moves a mark little: its channel.
+    TowardsViewer(usize),
     /// A key that a person gives lies beyond the end: the key, counted from 1, and the number of frames. It is not used.
     NoSuchInputKey(usize, usize),
     /// The same for the motion.
@@ -108,11 +117,18 @@ impl Plan {
     }
 }
 
-/// Plans a performance. `input` and `motion` hold the movements of the same channels, at the same frame rate.
-pub fn plan(input: Vec<Vec<f64>>, motion: Vec<Vec<f64>>, request: &Request) -> Plan {
-    let frames = |movements: &[Vec<f64>]| movements.iter().map(Vec::len).max().unwrap_or(0);
-    let lengths = [frames(&input), frames(&motion)];
-    let (input, motion) = (Information::new(input), Information::new(motion));
+/// Plans a performance. `input` holds the movements of marks, `steps` those of the joints of the same channels, at the same frame rate;
+/// `viewer` is the direction from the motion to the viewer, a unit vector.
+pub fn plan(input: Vec<Vec<f64>>, steps: &[Vec<DVec3>], viewer: DVec3, request: &Request) -> Plan {
+    let length = |steps: &Vec<DVec3>| steps.iter().map(|step| step.length()).collect();
+    let lengths = [
+        input.iter().map(Vec::len).max().unwrap_or(0),
+        steps.iter().map(Vec::len).max().unwrap_or(0),
+    ];
+    let (input, motion) = (
+        Information::new(input),
+        Information::new(steps.iter().map(length).collect()),
+    );
     let mut findings = Vec::new();
     let emphasised = request.emphasised.or(input.key.map(|key| key.channel));
     match input.key {
@@ -128,9 +144,14 @@ pub fn plan(input: Vec<Vec<f64>>, motion: Vec<Vec<f64>>, request: &Request) -> P
     }
     if let (Some(emphasised), Some(key)) = (emphasised, motion.key)
         && request.emphasised.is_none()
-        && key.channel != emphasised
+        && motion.largest_of(emphasised) < NEARLY_LARGEST
     {
         findings.push(Finding::OtherJoint(key.channel));
+    }
+    if let Some(key) = motion.key
+        && share_towards(&steps[key.channel], key.frame, viewer) > TOWARDS
+    {
+        findings.push(Finding::TowardsViewer(key.channel));
     }
     let given = request.keys.map(|keys| {
         let [input, motion] = [0, 1].map(|side| {

@@ -130,12 +130,10 @@ pub fn retarget(clip: &Clip, rig: &Rig, landmarks: &Landmarks) -> RetargetedClip
     Turns::new(clip, rig, landmarks).travel()
 }
 
-/// From a clip's world to the axes of a drawing whose figure faces the viewer: y up, and z to the front of the body in the
-/// first frame.
-pub fn to_drawing(clip: &Clip, landmarks: &Landmarks) -> DQuat {
-    axes::Axes::of(clip, landmarks, Facing::Viewer)
-        .first
-        .inverse()
+/// From a clip's world to the axes of a drawing whose figure faces in a direction: y up, z towards the viewer. The front of the body is
+/// that of the first frame.
+pub fn to_drawing(clip: &Clip, landmarks: &Landmarks, facing: Facing) -> DQuat {
+    axes::Axes::of(clip, landmarks, facing).first.inverse()
 }
 
 /// The poses of a clip, of which the one that was used last is stored.
