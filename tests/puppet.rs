@@ -477,7 +477,7 @@ fn wrong_uses_of_the_command_are_explained() {
         "empty.svg",
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\"/>",
     );
-    room.write("wrong.svg", &GOOD.replace("Hand@Arm", "Hand@Leg"));
+    room.write("wrong.svg", GOOD.replace("Hand@Arm", "Hand@Leg"));
     room.write("b-puppet.svg", "<svg/>");
     room.write("b.svg", GOOD);
     for (arguments, status, message) in [
