@@ -28,6 +28,7 @@ pub mod lsp;
 pub mod memo;
 pub mod motion;
 pub mod preview;
+pub mod puppet;
 pub mod render;
 pub mod report;
 pub mod resolver;

@@ -222,7 +222,7 @@ fn a_killed_fix_leaves_a_whole_drawing() {
 // ---- full disks
 
 /// The commands that write files, with what they write.
-const WRITERS: [(&[&str], &str); 9] = [
+const WRITERS: [(&[&str], &str); 10] = [
     (&["build", "../a.svg", "-o", "a.glb"], "a.glb"),
     (&["build", "../a.svg", "-o", "a.gltf"], "a.gltf"),
     (&["build", "../a.svg", "-o", "a.obj"], "a.obj"),
@@ -254,6 +254,7 @@ const WRITERS: [(&[&str], &str); 9] = [
     ),
     (&["motion", "../a.bvh", "-o", "b.bvh"], "b.bvh"),
     (&["motion", "../a.bvh", "--plot", "b.svg"], "b.svg"),
+    (&["puppet", "../a.svg", "-o", "b.svg"], "b.svg"),
     (&["check", "--fix", "b.svg"], "b.svg"),
 ];
 

@@ -73,6 +73,7 @@ const USES: &[(&str, &[&str])] = &[
             "lsp",
             "motion",
             "preview",
+            "puppet",
             "render",
             "report",
             "resolver",
@@ -192,6 +193,13 @@ const USES: &[(&str, &[&str])] = &[
             "resolver",
             "source",
             "watch",
+        ],
+    ),
+    (
+        "puppet",
+        &[
+            "anatomy", "bind", "compile", "crash", "geometry", "lang", "resolver", "rig", "source",
+            "svg", "threads",
         ],
     ),
     ("render", &["crash", "import", "resolver", "threads"]),

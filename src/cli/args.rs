@@ -7,9 +7,11 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::export::{EXPORTERS, extensions};
 
 mod motion;
+mod puppet;
 mod render;
 
 pub(super) use motion::{Filming, Motion, Performing};
+pub(super) use puppet::Puppet;
 pub(super) use render::{Background, Bend, Projection, Render, Shading};
 
 const EXAMPLES: &str = "\
@@ -23,6 +25,7 @@ Examples:
   okoshi watch human.svg                 builds it again on every save
   okoshi preview human.svg --open        shows it in the browser, live
   okoshi motion kick.bvh -o snappy.bvh   reduces a motion to limited animation, as if drawn by hand
+  okoshi puppet human.svg                a sheet to cut out a puppet from, human-puppet.svg
   okoshi inspect human.svg               shows which string belongs to which part, and why
   okoshi explain Shape                   the manual page of a keyword
   okoshi explain E204                    the manual page of a diagnostic
@@ -89,6 +92,8 @@ pub(super) enum Command {
     Preview(Preview),
     /// Edit a motion on its own: limited animation, frame rates, charts
     Motion(Motion),
+    /// Write a sheet of paper pieces to cut out: a puppet of the figure, to move by hand and film
+    Puppet(Puppet),
     /// Run the language server on stdin and stdout, for editors
     ///
     /// Editors start it by themselves; docs/editors describes how to set each up. Positions are in UTF-8 or

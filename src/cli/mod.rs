@@ -21,6 +21,7 @@ mod new;
 mod parallel;
 mod preview;
 mod progress;
+mod puppet;
 mod render;
 pub mod report;
 #[cfg(test)]
@@ -99,6 +100,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Inspect(arguments) => inspect::run(arguments, cli.common),
         Command::Explain { topic } => explain::run(topic.as_deref(), cli.common),
         Command::Motion(arguments) => motion::run(arguments, cli.common),
+        Command::Puppet(arguments) => puppet::run(arguments, cli.common),
         Command::Watch(arguments) => watch::run(arguments, cli.common),
         Command::Preview(arguments) => preview::run(arguments, cli.common),
         Command::Lsp => lsp(),

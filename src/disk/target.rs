@@ -10,10 +10,11 @@ use super::{is_drawing, is_standard_stream};
 use crate::export::Output;
 
 /// What the formats that okoshi writes have near their beginning, and files from other programs do not.
-const MARKS: [&[u8]; 3] = [
+const MARKS: [&[u8]; 4] = [
     br#""generator":"okoshi "#,
     b"Software\0okoshi ",
     b"<!-- Chart of a motion, written by okoshi ",
+    b"<!-- Puppet to cut out, written by okoshi ",
 ];
 
 /// How much of a file is searched for a mark, in bytes.
@@ -268,6 +269,12 @@ mod tests {
             (
                 "chart.svg",
                 "<svg><!-- Chart of a motion, written by okoshi 0.1.0 -->",
+                true,
+                true,
+            ),
+            (
+                "puppet.svg",
+                "<svg><!-- Puppet to cut out, written by okoshi 0.1.0 -->",
                 true,
                 true,
             ),

@@ -11,12 +11,13 @@ const GAP: f64 = 0.02;
 
 /// The parts of one figure.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct FigureGroup {
+pub struct FigureGroup {
     /// Its parts, indices into the bindings' parts.
-    pub(super) parts: Vec<usize>,
+    pub parts: Vec<usize>,
     /// Per part its parent, an index into `parts`: by its string, or because they touch.
-    pub(super) parents: Vec<Option<usize>>,
-    pub(super) root: usize,
+    pub parents: Vec<Option<usize>>,
+    /// The part that carries the others, an index into the bindings' parts.
+    pub root: usize,
     /// The parts without a parent by their strings, each with the parts that it touches; indices into `parts`.
     touching: Vec<(usize, Vec<usize>)>,
 }
@@ -60,7 +61,7 @@ impl FigureGroup {
 }
 
 /// The figures of a drawing, in the drawing order of their first parts.
-pub(super) fn find(bindings: &Bindings) -> Vec<FigureGroup> {
+pub fn find(bindings: &Bindings) -> Vec<FigureGroup> {
     let trees = trees(bindings);
     let near = touching(bindings, &trees);
     let groups = connected(&near).into_iter();

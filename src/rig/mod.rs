@@ -39,7 +39,7 @@ use crate::svg::Drawing;
 
 use diagnostics::MatchProblems;
 pub use figure_clip::{FigureClip, PartDrive, originals};
-use figures::FigureGroup;
+pub use figures::{FigureGroup, find as find_figures};
 use motion_files::MotionFiles;
 use performances::Performances;
 use performed::Channels;

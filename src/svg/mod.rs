@@ -6,6 +6,7 @@
 
 mod clip;
 mod elements;
+mod excerpts;
 mod fit;
 mod growth;
 mod image;
@@ -30,6 +31,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+pub use excerpts::{Excerpts, excerpts};
 pub use image::PictureSource;
 pub use incremental::TextEdit;
 pub(crate) use links::broken_link;
@@ -139,6 +141,8 @@ pub enum PaintKey {
 /// A shape of the drawing.
 #[derive(Debug, Clone)]
 pub struct Shape {
+    /// Its number among all visible paths and pictures of the file, in paint order; what is not built counts too.
+    pub leaf: usize,
     /// Index of the innermost group that contains it.
     pub group: usize,
     /// Its element; for the content of a clone, the clone.

@@ -67,6 +67,7 @@ pub(super) fn read(
         groups: Vec::new(),
         frames: FxHashMap::default(),
         tasks: Vec::new(),
+        leaves: 0,
         tolerance,
         page: DAffine2::from_translation(offset),
         unsolid: Vec::new(),
@@ -308,6 +309,7 @@ impl Context<'_, '_> {
         let element = self.element(node);
         let opacity = opacity * task.opacity;
         Some(Shape {
+            leaf: task.leaf,
             group: task.group,
             element,
             outline: Arc::new(outline),
@@ -330,6 +332,7 @@ impl Context<'_, '_> {
         let transform = self.page * affine(picture.abs_transform());
         let source = PictureSource::of(picture, transform, task.clips.clone());
         Shape {
+            leaf: task.leaf,
             group: task.group,
             element,
             outline: Arc::new(source.rectangle()),

@@ -18,6 +18,8 @@ use crate::geometry::Outline;
 /// A usvg node that becomes a shape.
 pub(super) struct Task<'a> {
     pub(super) node: Leaf<'a>,
+    /// See [`Shape::leaf`](super::Shape::leaf).
+    pub(super) leaf: usize,
     pub(super) xml: NodeId,
     pub(super) group: usize,
     pub(super) opacity: f64,
@@ -48,6 +50,8 @@ pub(super) struct Walk<'a, 'input> {
     /// The rectangles that elements are clipped to.
     pub(super) frames: FxHashMap<NodeId, (DVec2, DVec2)>,
     pub(super) tasks: Vec<Task<'a>>,
+    /// How many leaves were passed.
+    pub(super) leaves: usize,
     pub(super) tolerance: f64,
     pub(super) page: DAffine2,
     /// The elements that use features without a meaning for solids, by feature.
@@ -189,6 +193,8 @@ impl<'a> Walk<'a, '_> {
         opacity: f64,
         clips: Option<&Arc<Vec<Clip>>>,
     ) {
+        let number = self.leaves;
+        self.leaves += 1;
         let own = self.by_id.get(id);
         let Some(node) = self.root.document().get_node(own.unwrap_or(xml)) else {
             return;
@@ -206,6 +212,7 @@ impl<'a> Walk<'a, '_> {
         let group = self.group(node);
         self.tasks.push(Task {
             node: leaf,
+            leaf: number,
             xml,
             group,
             opacity,

@@ -1,0 +1,144 @@
+//! `okoshi puppet`
+
+use std::path::{Path, PathBuf};
+
+use super::args::{Common, Puppet};
+use super::loading::{Detail, Loaded, describe, load, resolver};
+use super::progress::spinning;
+use super::{Outcome, counted, fail, style};
+use crate::disk::{Inputs, Naming, is_standard_stream};
+use crate::puppet::{self, MarkOrigin, Options, Sheet};
+
+/// Writes the sheet of a drawing's figures.
+pub(super) fn run(arguments: &Puppet, common: Common) -> Outcome {
+    let (output, naming) = match output(arguments) {
+        Ok(output) => output,
+        Err(message) => return fail(&message),
+    };
+    let loaded = match load(&arguments.drawing, &arguments.reading) {
+        Ok(loaded) => loaded,
+        Err(outcome) => return outcome,
+    };
+    let stderr = style(common, &std::io::stderr());
+    eprint!(
+        "{}",
+        describe(loaded.findings(), common, Detail::Aside, stderr)
+    );
+    if loaded.compiled.has_errors() {
+        if !common.quiet {
+            eprintln!("`{}` was not written", output.display());
+        }
+        return Outcome::Errors;
+    }
+    match write(&loaded, &output, naming, arguments) {
+        Ok(sheet) => {
+            if !common.quiet {
+                eprintln!("wrote {}: {}", output.display(), summary(&loaded, &sheet));
+                if sheet.pages > 1 {
+                    eprintln!("print it with Inkscape: other programs show only its first page");
+                }
+            }
+            loaded.outcome()
+        }
+        Err(message) => fail(&message),
+    }
+}
+
+fn write(
+    loaded: &Loaded,
+    output: &Path,
+    naming: Naming,
+    arguments: &Puppet,
+) -> Result<Sheet, String> {
+    let resolver = resolver(&arguments.drawing, &arguments.reading);
+    let inputs = Inputs::of(&arguments.drawing).linking(loaded.linked(&resolver));
+    let target = inputs
+        .target(output, naming)
+        .map_err(|error| error.to_string())?;
+    let title = match is_standard_stream(&arguments.drawing) {
+        true => "puppet".into(),
+        false => arguments
+            .drawing
+            .file_stem()
+            .unwrap_or_default()
+            .to_string_lossy(),
+    };
+    let options = Options {
+        page: arguments.page,
+        scale: arguments.scale,
+    };
+    let make = || puppet::sheet(&loaded.compiled, &loaded.text, &title, &resolver, &options);
+    let sheet = spinning("laying out", make);
+    let sheet = sheet.map_err(|error| format!("`{}` {error}", loaded.path))?;
+    let written = target.write(|out| out.write_all(sheet.svg.as_bytes()));
+    written.map_err(|error| error.to_string())?;
+    Ok(sheet)
+}
+
+/// The file of the sheet, and how it got its name.
+fn output(arguments: &Puppet) -> Result<(PathBuf, Naming), String> {
+    let drawing = &arguments.drawing;
+    let derived = || -> Option<PathBuf> {
+        let mut name = drawing
+            .file_stem()
+            .filter(|_| !is_standard_stream(drawing))?
+            .to_owned();
+        name.push("-puppet.svg");
+        Some(PathBuf::from(name))
+    };
+    let unnamed = "a drawing from stdin has no name: name the sheet with -o";
+    match &arguments.output {
+        Some(folder) if folder.is_dir() => {
+            let name = derived().ok_or(unnamed)?;
+            Ok((folder.join(name), Naming::Derived))
+        }
+        Some(output) => match is_svg(output) || is_standard_stream(output) {
+            true => Ok((output.clone(), Naming::Given)),
+            false => Err(format!(
+                "a sheet is an SVG file, so the name of `{}` must end in .svg",
+                output.display()
+            )),
+        },
+        None => {
+            let name = derived().ok_or(unnamed)?;
+            Ok((drawing.with_file_name(name), Naming::Derived))
+        }
+    }
+}
+
+fn is_svg(path: &Path) -> bool {
+    let ending = path.extension().unwrap_or_default();
+    ending.eq_ignore_ascii_case("svg")
+}
+
+/// `12 pieces on 2 pages, 24 cm tall (--scale 0.8); marks: red on Rhand, blue on Lhand (suggested)`
+fn summary(loaded: &Loaded, sheet: &Sheet) -> String {
+    let parts = &loaded.compiled.bindings.parts;
+    let marks: Vec<String> = sheet
+        .marks
+        .iter()
+        .map(|mark| format!("{} on {}", mark.word, parts[mark.part].name))
+        .collect();
+    let is_suggested = |mark: &puppet::PieceMark| mark.origin == MarkOrigin::Suggested;
+    let suggested = match sheet.marks.iter().any(is_suggested) {
+        true => ", suggested",
+        false => "",
+    };
+    let marks = match marks.is_empty() {
+        true => String::new(),
+        false => format!("; marks{suggested}: {}", marks.join(", ")),
+    };
+    format!(
+        "{} on {}, {:.0} mm large, --scale {}{marks}",
+        counted(sheet.pieces, "piece"),
+        counted(sheet.pages, "page"),
+        sheet.size,
+        rounded(sheet.scale)
+    )
+}
+
+/// A scale with four digits.
+fn rounded(scale: f64) -> f64 {
+    let digits = 10_f64.powf(3.0 - scale.log10().floor());
+    (scale * digits).round() / digits
+}

@@ -1,0 +1,386 @@
+//! Printable puppets: the figures of a drawing as a sheet of pieces to cut out, pin together and film (motion.md,
+//! Performance).
+//!
+//! [`pieces`] says which parts are a piece of paper, in drawing units; `paper` cuts it out at a scale, and `layout` finds the
+//! scale and the places, both in millimetres, x to the right, y down; `sheet` writes it. A joint's hole lies on paper in both
+//! pieces that it joins.
+
+mod layout;
+mod marks;
+mod paper;
+mod pieces;
+mod sheet;
+
+use glam::DVec2;
+
+use crate::bind::Bindings;
+use crate::compile::Compiled;
+use crate::crash::Crash;
+use crate::geometry::bounds;
+use crate::lang::looks_like_string;
+use crate::resolver::Resolver;
+use crate::svg::{Excerpts, excerpts};
+use crate::threads;
+
+use layout::{Layout, Task};
+pub use marks::{MarkOrigin, PieceMark, marks};
+pub use pieces::{Joint, Piece, pieces};
+use sheet::{Printed, Texts};
+
+/// The most pieces of a sheet; nobody pins more.
+const MAX_PIECES: usize = 300;
+/// With more joints than there are letters that cannot be taken for digits, joints have numbers.
+const LETTERS: &str = "ABCDEFGHJKLMNPQRSTUVWXYZ";
+/// How many marks stand on a line of the command that tracks them.
+const MARKS_ON_LINE: usize = 3;
+/// Holes that are nearer than this are one, in millimetres.
+const SAME_HOLE: f64 = 1.0;
+
+/// How a sheet is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Options {
+    /// Width and height of a page, millimetres.
+    pub page: DVec2,
+    /// Millimetres on paper for a drawing unit; `None` for as many as fit.
+    pub scale: Option<f64>,
+}
+
+/// A sheet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Sheet {
+    /// The SVG.
+    pub svg: String,
+    /// How many pieces it has.
+    pub pieces: usize,
+    /// How many pages it has.
+    pub pages: usize,
+    /// Millimetres on paper for a drawing unit.
+    pub scale: f64,
+    /// The larger side of the largest figure, millimetres.
+    pub size: f64,
+    /// The marks, in paint order.
+    pub marks: Vec<PieceMark>,
+}
+
+/// Why there is no sheet. Messages go behind the drawing's name.
+#[derive(Debug, thiserror::Error)]
+pub enum PuppetError {
+    /// No part can be cut out.
+    #[error(
+        "has no figure to cut out: no shape is a part of one; write a name beside each part, for example `Arm@Body`"
+    )]
+    NoFigure,
+    /// It has too many pieces.
+    #[error(
+        "has {0} pieces, more than the {MAX_PIECES} that fit on a sheet; give only the parts that move a name"
+    )]
+    TooMany(usize),
+    /// A piece is larger than the page at the scale that was asked for.
+    #[error("is too large for the page at this scale; the largest is `--scale {0}`")]
+    TooLarge(String),
+    /// The pieces do not fit on the page at any scale.
+    #[error(
+        "does not fit on a page of this size, however small its pieces are; choose a larger page"
+    )]
+    NoRoom,
+    /// The drawing cannot be read again.
+    #[error("cannot be drawn")]
+    Drawing,
+    /// The program failed.
+    #[error("{0}")]
+    Crash(Crash),
+}
+
+/// Makes the sheet of a drawing called `title`, which was compiled from `text`.
+///
+/// # Errors
+/// If the drawing has no figure, or its pieces do not fit.
+pub fn sheet(
+    compiled: &Compiled,
+    text: &str,
+    title: &str,
+    resolver: &dyn Resolver,
+    options: &Options,
+) -> Result<Sheet, PuppetError> {
+    let made = threads::run(|| Puppet::new(compiled)?.sheet(text, title, resolver, options));
+    made.unwrap_or_else(|crash| Err(PuppetError::Crash(crash)))
+}
+
+/// The figures of a drawing, ready to be laid out.
+struct Puppet<'a> {
+    bindings: &'a Bindings,
+    pieces: Vec<Piece>,
+    marks: Vec<Option<PieceMark>>,
+    /// Per piece the holes of what it carries: the pieces whose joints they are.
+    carried: Vec<Vec<usize>>,
+}
+
+impl<'a> Puppet<'a> {
+    fn new(compiled: &'a Compiled) -> Result<Self, PuppetError> {
+        let Compiled {
+            bindings, drawing, ..
+        } = compiled;
+        let pieces = pieces(drawing, bindings);
+        match pieces.len() {
+            0 => return Err(PuppetError::NoFigure),
+            count if count > MAX_PIECES => return Err(PuppetError::TooMany(count)),
+            _ => {}
+        }
+        let mut carried = vec![Vec::new(); pieces.len()];
+        for (index, piece) in pieces.iter().enumerate() {
+            if let Some(joint) = piece.joint {
+                carried[joint.parent].push(index);
+            }
+        }
+        Ok(Self {
+            bindings,
+            marks: marks(drawing, bindings, &pieces),
+            carried,
+            pieces,
+        })
+    }
+
+    fn sheet(
+        &self,
+        text: &str,
+        title: &str,
+        resolver: &dyn Resolver,
+        options: &Options,
+    ) -> Result<Sheet, PuppetError> {
+        let texts = self.texts(title);
+        let task = Task {
+            pieces: &self.pieces,
+            marks: &self.marks,
+            holes: (0..self.pieces.len())
+                .map(|piece| self.holes(piece))
+                .collect(),
+            names: (0..self.pieces.len())
+                .map(|piece| sheet::text_width(&self.caption(piece)))
+                .collect(),
+            page: options.page,
+            text: texts.height(),
+            extent: self.extent(),
+        };
+        let layout = match options.scale {
+            None => task.fit().ok_or(PuppetError::NoRoom)?,
+            Some(scale) => match task.at(scale, usize::MAX) {
+                Some(layout) => layout,
+                None => {
+                    let largest = task.largest(scale, usize::MAX).ok_or(PuppetError::NoRoom)?;
+                    // Rounded down, so that what the message says does fit.
+                    let largest = (largest.scale * 1e3).floor() / 1e3;
+                    return Err(PuppetError::TooLarge(largest.to_string()));
+                }
+            },
+        };
+        let excerpts = self.drawn(text, resolver).ok_or(PuppetError::Drawing)?;
+        let printed: Vec<Printed<'_>> = (0..self.pieces.len())
+            .map(|index| self.printed(index, &layout))
+            .collect();
+        Ok(Sheet {
+            svg: sheet::write(options.page, &layout, &printed, &excerpts, &texts),
+            pieces: self.pieces.len(),
+            pages: layout.pages,
+            scale: layout.scale,
+            size: layout.scale * task.extent,
+            marks: self.marks.iter().flatten().cloned().collect(),
+        })
+    }
+
+    /// What is drawn on each piece.
+    fn drawn(&self, text: &str, resolver: &dyn Resolver) -> Option<Excerpts> {
+        let mut piece_of = std::collections::BTreeMap::new();
+        for (index, piece) in self.pieces.iter().enumerate() {
+            piece_of.extend(piece.leaves.iter().map(|leaf| (*leaf, index)));
+        }
+        excerpts(text, resolver, self.pieces.len(), |leaf| {
+            piece_of.get(&leaf).copied()
+        })
+    }
+
+    /// The larger side of the largest figure, drawing units.
+    fn extent(&self) -> f64 {
+        let mut boxes: Vec<Option<(DVec2, DVec2)>> = vec![None; self.pieces.len()];
+        for (index, piece) in self.pieces.iter().enumerate() {
+            let Some((low, high)) = bounds(&piece.outline) else {
+                continue;
+            };
+            let all = &mut boxes[self.root(index)];
+            *all = Some(match all {
+                None => (low, high),
+                Some((from, to)) => (from.min(low), to.max(high)),
+            });
+        }
+        let sides = boxes
+            .iter()
+            .flatten()
+            .map(|(low, high)| (*high - *low).max_element());
+        sides.fold(f64::MIN_POSITIVE, f64::max)
+    }
+
+    /// The piece that carries the whole figure of a piece.
+    fn root(&self, mut piece: usize) -> usize {
+        while let Some(joint) = self.pieces[piece].joint {
+            piece = joint.parent;
+        }
+        piece
+    }
+
+    /// The pieces whose joints make holes in a piece: its own first.
+    fn joints(&self, piece: usize) -> impl Iterator<Item = usize> + '_ {
+        let own = self.pieces[piece].joint.map(|_| piece);
+        own.into_iter().chain(self.carried[piece].iter().copied())
+    }
+
+    fn holes(&self, piece: usize) -> Vec<DVec2> {
+        let joints = self
+            .joints(piece)
+            .filter_map(|joint| self.pieces[joint].joint);
+        joints.map(|joint| joint.at).collect()
+    }
+
+    /// The letter of the joint at which a piece is carried.
+    fn letter(&self, piece: usize) -> String {
+        let is_joint = |index: &usize| self.pieces[*index].joint.is_some();
+        let count = (0..self.pieces.len()).filter(is_joint).count();
+        let number = (0..piece).filter(is_joint).count();
+        match LETTERS.chars().nth(number) {
+            Some(letter) if count <= LETTERS.len() => letter.to_string(),
+            _ => (number + 1).to_string(),
+        }
+    }
+
+    fn name(&self, piece: usize) -> &str {
+        &self.bindings.parts[self.pieces[piece].part].name
+    }
+
+    /// What stands below a piece: its name, and where it lies.
+    fn caption(&self, piece: usize) -> String {
+        let name = plain(self.name(piece));
+        match self.pieces[piece].joint {
+            Some(joint) if self.pieces[piece].is_behind(&self.pieces[joint.parent]) => {
+                format!("{name}, behind {}", plain(self.name(joint.parent)))
+            }
+            _ => name,
+        }
+    }
+
+    fn printed<'b>(&'b self, index: usize, layout: &'b Layout) -> Printed<'b> {
+        let placed = &layout.placed[index];
+        let holes = &placed.paper.holes;
+        let mut letters: Vec<Vec<String>> = vec![Vec::new(); holes.len()];
+        for (hole, joint) in self.joints(index).enumerate() {
+            let is_same = |other: &DVec2| other.distance(holes[hole]) < SAME_HOLE;
+            let first = holes[..hole].iter().position(is_same);
+            letters[first.unwrap_or(hole)].push(self.letter(joint));
+        }
+        Printed {
+            placed,
+            mark: self.marks[index].as_ref(),
+            name: self.name(index).to_owned(),
+            caption: self.caption(index),
+            letters,
+        }
+    }
+
+    fn texts(&self, title: &str) -> Texts {
+        let mut lines = vec![
+            ("Glue the sheet onto thin card and cut along the grey lines. Make a hole at each cross.".to_owned(), None),
+            ("Pin holes with the same letter together with paper fasteners.".to_owned(), None),
+        ];
+        let marks: Vec<&PieceMark> = self.marks.iter().flatten().collect();
+        if !marks.is_empty() {
+            lines.push((
+                "Film it from the front, with a camera that stands still. Then:".to_owned(),
+                None,
+            ));
+            lines.extend(track_command(&marks).into_iter().map(|line| (line, None)));
+        }
+        for mark in marks {
+            let name = plain(&self.bindings.parts[mark.part].name);
+            let line = match mark.origin {
+                MarkOrigin::Given => format!("{}: {name}", mark.word),
+                MarkOrigin::Suggested => format!(
+                    "{}: {name}. In the drawing, add Mark {} to the string of {name}.",
+                    mark.word, mark.word
+                ),
+            };
+            lines.push((line, Some(mark.colour)));
+        }
+        Texts {
+            title: plain(title),
+            lines,
+        }
+    }
+}
+
+/// The command that finds the marks in a film, for a shell, with few enough marks on each line for the narrowest page.
+fn track_command(marks: &[&PieceMark]) -> Vec<String> {
+    let mut words: Vec<&str> = Vec::new();
+    for mark in marks {
+        if !words.contains(&mark.word.as_str()) {
+            words.push(&mark.word);
+        }
+    }
+    let option = |word: &&str| match word.starts_with('#') {
+        true => format!(" --mark '{word}={word}'"),
+        false => format!(" --mark {word}={word}"),
+    };
+    let mut lines = vec!["okoshi track film.mp4 -o film.json".to_owned()];
+    for words in words.chunks(MARKS_ON_LINE) {
+        if let Some(before) = lines.last_mut() {
+            before.push_str(" \\");
+        }
+        let options: Vec<String> = words.iter().map(option).collect();
+        lines.push(options.concat());
+    }
+    lines
+}
+
+/// A name as a text that is not taken for a string, if the sheet is opened as a drawing.
+fn plain(name: &str) -> String {
+    match looks_like_string(name) || name.starts_with(['#', '^']) {
+        true => name.replace(['$', '@', '%', '*', '#', '^'], " "),
+        false => name.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_name_is_taken_for_a_string() {
+        for (name, text) in [
+            ("Arm", "Arm"),
+            ("右腕", "右腕"),
+            ("Arm@Body", "Arm Body"),
+            ("a$b", "a b"),
+            ("# 1", "  1"),
+            ("50 %", "50 %"),
+        ] {
+            assert_eq!(plain(name), text);
+            assert!(!looks_like_string(&plain(name)));
+        }
+    }
+
+    #[test]
+    fn long_commands_are_broken_into_lines() {
+        let words = ["red", "#00f", "red", "lime", "cyan"];
+        let marks = words.map(|word| PieceMark {
+            word: word.to_owned(),
+            colour: [0; 3],
+            part: 0,
+            origin: MarkOrigin::Given,
+        });
+        let lines = track_command(&marks.iter().collect::<Vec<_>>());
+        assert_eq!(
+            lines,
+            [
+                "okoshi track film.mp4 -o film.json \\",
+                " --mark red=red --mark '#00f=#00f' --mark lime=lime \\",
+                " --mark cyan=cyan"
+            ]
+        );
+    }
+}

@@ -1,0 +1,247 @@
+//! The paper of a piece, in millimetres: what is cut out around what is drawn, with room for holes and for the mark.
+
+use std::f64::consts::{PI, TAU};
+
+use glam::DVec2;
+
+use super::pieces::Piece;
+use crate::geometry::{
+    FillRule, Outline, Polygon, Ring, bounds, distance_squared, offset, resolve_overlaps, subtract,
+    union,
+};
+
+/// The paper around what is drawn.
+const MARGIN: f64 = 2.0;
+/// Notches narrower than twice this are not cut.
+const NOTCH: f64 = 2.0;
+/// The radius of a joint's hole.
+pub(super) const HOLE: f64 = 1.5;
+/// The least radius of the paper around a hole's middle.
+const RING: f64 = 5.0;
+/// The radius of a mark: 14 mm across are some 15 pixels of a film that shows the whole puppet.
+pub(super) const MARK: f64 = 7.0;
+/// The paper around a mark.
+const MARK_EDGE: f64 = 1.5;
+/// Half the width of a bridge of paper between what lies apart.
+const BRIDGE: f64 = 4.0;
+/// What lies between a mark and the middle of a hole beyond the mark's radius: a pin's head.
+const PIN: f64 = 5.0;
+/// The number of corners of a disc.
+const CORNERS: usize = 32;
+/// A piece is turned if that makes its box smaller than this share of the box as drawn.
+const WORTH_TURNING: f64 = 0.85;
+
+/// The paper of a piece at a certain scale. Points are in millimetres, the drawing's axes and corner.
+#[derive(Debug, Clone)]
+pub(super) struct Paper {
+    /// The line to cut: one border without holes.
+    pub(super) outline: Outline,
+    /// The holes of joints: first the piece's own, if it is carried, then those of the pieces that it carries.
+    pub(super) holes: Vec<DVec2>,
+    /// The middle of its mark.
+    pub(super) mark: Option<DVec2>,
+    /// How far the piece is turned on the sheet to take less room: radians, from the right to below.
+    pub(super) turn: f64,
+}
+
+/// Whether a piece carries a mark.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Marked {
+    Yes,
+    No,
+}
+
+/// Cuts out a piece at `scale` millimetres a drawing unit. `holes` are in drawing units.
+pub(super) fn cut_out(piece: &Piece, holes: &[DVec2], marked: Marked, scale: f64) -> Paper {
+    let drawn = piece
+        .outline
+        .map_rings(|ring| ring.iter().map(|p| *p * scale).collect());
+    let holes: Vec<DVec2> = holes.iter().map(|hole| *hole * scale).collect();
+    let around = offset(&without_holes(&drawn), MARGIN + NOTCH);
+    let mut all = vec![offset(&without_holes(&around), -NOTCH)];
+    let mut add = |at: DVec2, radius: f64| {
+        all.push(disc(at, radius));
+        // A disc off what is drawn would hang on its own margin only.
+        let near = nearest(&drawn, at);
+        if near.distance_squared(at) > 0.0 {
+            all.push(bridge(near, at));
+        }
+    };
+    for hole in &holes {
+        add(*hole, RING);
+    }
+    let mark = match marked {
+        Marked::Yes => {
+            let joint = piece.joint.map(|joint| joint.at * scale);
+            Some(mark_place(&drawn, joint, &holes))
+        }
+        Marked::No => None,
+    };
+    if let Some(mark) = mark {
+        add(mark, MARK + MARK_EDGE);
+    }
+    let outline = in_one_piece(without_holes(&union(&all)));
+    Paper {
+        turn: turn(&outline),
+        outline,
+        holes,
+        mark,
+    }
+}
+
+impl Paper {
+    /// The same paper, turned by a right angle if it is wider than that.
+    pub(super) fn upright_if_wider(mut self, width: f64) -> Self {
+        let (low, high) = self.bounds();
+        if high.x - low.x > width {
+            self.turn += PI / 2.0;
+        }
+        self
+    }
+
+    /// A point of the piece, turned as on the sheet.
+    pub(super) fn turned(&self, point: DVec2) -> DVec2 {
+        DVec2::from_angle(self.turn).rotate(point)
+    }
+
+    /// The lower and the upper corner of its box on the sheet, before it is moved to its place.
+    pub(super) fn bounds(&self) -> (DVec2, DVec2) {
+        bounds_turned(&self.outline, self.turn)
+    }
+}
+
+/// The middle of the mark: at the far end from the joint, as much on what is drawn as possible, and clear of all holes.
+fn mark_place(drawn: &Outline, joint: Option<DVec2>, holes: &[DVec2]) -> DVec2 {
+    let middle = bounds(drawn).map_or(DVec2::ZERO, |(low, high)| (low + high) / 2.0);
+    let from = joint.unwrap_or(middle);
+    let corners = drawn.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let far = corners.flatten().copied().max_by(|a, b| {
+        let length = |point: &DVec2| point.distance_squared(from);
+        length(a).total_cmp(&length(b))
+    });
+    let length = far.unwrap_or(from).distance(from);
+    // The far end may be a corner: the mark goes to the middle of all that is as far away.
+    let near = disc(from, (length - 2.0 * MARK).max(0.0));
+    let end = centroid(&subtract(drawn, &near)).unwrap_or(from);
+    let way = end - from;
+    let (wished, along) = (way.length(), way.normalize_or(DVec2::Y));
+    let is_clear = |at: DVec2| {
+        let mut holes = holes.iter();
+        holes.all(|hole| hole.distance(at) >= MARK + PIN)
+    };
+    let inwards = (0..=wished as usize).map(|step| wished - step as f64);
+    let outwards = (1..200).map(|step| wished + f64::from(step));
+    let mut places = inwards.chain(outwards).map(|step| from + along * step);
+    places.find(|at| is_clear(*at)).unwrap_or(end)
+}
+
+/// The middle of an area; `None` if it has none.
+fn centroid(outline: &Outline) -> Option<DVec2> {
+    let (mut twice, mut sum) = (0.0, DVec2::ZERO);
+    for ring in outline.polygons.iter().flat_map(|polygon| &polygon.rings) {
+        let next = ring.iter().cycle().skip(1);
+        for (a, b) in ring.iter().zip(next) {
+            let cross = a.perp_dot(*b);
+            twice += cross;
+            sum += (*a + *b) * cross;
+        }
+    }
+    let centre = sum / (3.0 * twice);
+    centre.is_finite().then_some(centre)
+}
+
+fn without_holes(outline: &Outline) -> Outline {
+    let borders = outline
+        .polygons
+        .iter()
+        .flat_map(|polygon| polygon.rings.first());
+    // What lies in a hole is inside now.
+    resolve_overlaps(borders.cloned().collect(), FillRule::NonZero)
+}
+
+/// The outline with bridges between its polygons.
+fn in_one_piece(mut outline: Outline) -> Outline {
+    // Each bridge joins at least two polygons.
+    for _ in 1..outline.polygons.len() {
+        let [first, others @ ..] = outline.polygons.as_slice() else {
+            break;
+        };
+        let one = |polygon: &Polygon| Outline {
+            polygons: vec![polygon.clone()],
+        };
+        let first = one(first);
+        let gaps = others.iter().flat_map(|other| {
+            let points = other.rings.iter().flatten();
+            points.map(|point| (nearest(&first, *point), *point))
+        });
+        let length = |gap: &(DVec2, DVec2)| gap.0.distance_squared(gap.1);
+        let Some((from, to)) = gaps.min_by(|a, b| length(a).total_cmp(&length(b))) else {
+            break;
+        };
+        let joined = union(&[std::mem::take(&mut outline), bridge(from, to)]);
+        outline = without_holes(&joined);
+    }
+    outline
+}
+
+/// The point of an area that is nearest to a point.
+fn nearest(outline: &Outline, point: DVec2) -> DVec2 {
+    if distance_squared(outline, point) == 0.0 {
+        return point;
+    }
+    let rings = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+    let on_edge = |(a, b): (&DVec2, &DVec2)| {
+        let way = *b - *a;
+        let t = (point - *a).dot(way) / way.length_squared();
+        *a + way * t.clamp(0.0, 1.0)
+    };
+    let length = |at: &DVec2| at.distance_squared(point);
+    let nearest = edges
+        .map(on_edge)
+        .min_by(|a, b| length(a).total_cmp(&length(b)));
+    nearest.unwrap_or(point)
+}
+
+fn disc(at: DVec2, radius: f64) -> Outline {
+    // The corners lie outside, so that the disc is nowhere narrower than it should be.
+    let radius = radius / (PI / CORNERS as f64).cos();
+    let angle = |corner: usize| TAU * corner as f64 / CORNERS as f64;
+    let ring: Ring = (0..CORNERS)
+        .map(|corner| at + DVec2::from_angle(angle(corner)) * radius)
+        .collect();
+    resolve_overlaps(vec![ring], FillRule::NonZero)
+}
+
+/// A strip of paper with round ends.
+fn bridge(from: DVec2, to: DVec2) -> Outline {
+    let Some(along) = (to - from).try_normalize() else {
+        return disc(to, BRIDGE);
+    };
+    let across = along.perp() * BRIDGE;
+    let strip = vec![from + across, to + across, to - across, from - across];
+    let strip = resolve_overlaps(vec![strip], FillRule::NonZero);
+    union(&[strip, disc(from, BRIDGE), disc(to, BRIDGE)])
+}
+
+fn bounds_turned(outline: &Outline, turn: f64) -> (DVec2, DVec2) {
+    let way = DVec2::from_angle(turn);
+    let points = outline.polygons.iter().flat_map(|polygon| &polygon.rings);
+    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    points.flatten().fold(none, |(low, high), point| {
+        let point = way.rotate(*point);
+        (low.min(point), high.max(point))
+    })
+}
+
+/// How far a piece is turned so that its box is smallest: not at all where that gains little.
+fn turn(outline: &Outline) -> f64 {
+    let size = |turn: f64| {
+        let (low, high) = bounds_turned(outline, turn);
+        (high.x - low.x) * (high.y - low.y)
+    };
+    let turns = (-17..=18).map(|step| f64::from(step) * PI / 36.0);
+    let best = turns.min_by(|a, b| size(*a).total_cmp(&size(*b)));
+    let best = best.filter(|best| size(*best) < WORTH_TURNING * size(0.0));
+    best.unwrap_or(0.0)
+}
