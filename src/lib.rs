@@ -39,4 +39,5 @@ pub mod svg;
 pub mod terrain;
 pub mod texture;
 mod threads;
+pub mod tracking;
 pub mod watch;

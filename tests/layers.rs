@@ -78,6 +78,7 @@ const USES: &[(&str, &[&str])] = &[
             "resolver",
             "source",
             "terrain",
+            "tracking",
             "watch",
         ],
     ),
@@ -254,6 +255,7 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("texture", &["scene"]),
     ("threads", &["crash"]),
+    ("tracking", &["motion"]),
     ("watch", &["compile", "disk", "export", "memo", "resolver"]),
 ];
 
