@@ -40,4 +40,5 @@ pub mod svg;
 pub mod terrain;
 pub mod texture;
 mod threads;
+pub mod tracking;
 pub mod watch;

@@ -79,6 +79,7 @@ const USES: &[(&str, &[&str])] = &[
             "resolver",
             "source",
             "terrain",
+            "tracking",
             "watch",
         ],
     ),
@@ -262,6 +263,7 @@ const USES: &[(&str, &[&str])] = &[
     ),
     ("texture", &["scene"]),
     ("threads", &["crash"]),
+    ("tracking", &["motion"]),
     ("watch", &["compile", "disk", "export", "memo", "resolver"]),
 ];
 

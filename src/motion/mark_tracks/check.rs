@@ -48,6 +48,11 @@ pub(super) fn repeated_name<'a>(names: impl IntoIterator<Item = &'a str>) -> Opt
     names.into_iter().position(|name| !seen.insert(name))
 }
 
+/// The nearest time that can be written, counted in steps of [`TICKS`].
+pub(super) fn ticks(time: f64) -> f64 {
+    (time * TICKS).round()
+}
+
 /// What is wrong with the time of a frame that follows on another.
 pub(super) fn time_problem(before: Option<f64>, time: f64) -> Option<(String, &'static str)> {
     if !(-MAX_TIME..=MAX_TIME).contains(&time) {
@@ -55,7 +60,7 @@ pub(super) fn time_problem(before: Option<f64>, time: f64) -> Option<(String, &'
         return Some((message, "give the time of each frame in seconds"));
     }
     // Frames closer than the times that are written would become one.
-    let is_later = |before| time - before > 0.75 / TICKS;
+    let is_later = |before| ticks(time) > ticks(before);
     match before {
         Some(before) if !is_later(before) => Some((
             format!("the frame at {time} s does not come after the one at {before} s"),

@@ -15,6 +15,9 @@ mod tests;
 
 use glam::DVec2;
 
+use check::ticks;
+use write::TICKS;
+
 pub use bridge::bridge;
 pub use check::{MAX_FRAMES, MAX_MARKS, MAX_NAME, MAX_SIDE, is_name};
 pub use colour::{hex, named_colour, parse_hex};
@@ -74,10 +77,10 @@ impl MarkTracks {
             true => json::read(text)?,
             false => csv::read(text)?,
         };
-        if let Some(first) = tracks.times.first().copied() {
-            for time in &mut tracks.times {
-                *time -= first;
-            }
+        // Rounded as they are written: times that are told apart here stay so in every copy of the file.
+        let first = tracks.times.first().copied().map_or(0.0, ticks);
+        for time in &mut tracks.times {
+            *time = (ticks(*time) - first) / TICKS;
         }
         Ok(tracks)
     }

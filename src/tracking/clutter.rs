@@ -1,0 +1,221 @@
+//! What looks like a mark and never moves.
+
+use std::fmt;
+
+use super::appearance::Appearance;
+use super::components::{Component, Run, components};
+use super::lookup::Lookup;
+use super::samples::Samples;
+
+/// What looks like a mark in more than this part of the samples stands still.
+const STILL: f64 = 0.8;
+/// What moves is at a place in at most this part of them: noise makes pixels look like a mark now and then.
+const MOVING: f64 = 0.4;
+/// With fewer samples nothing is known to stand still.
+const LEAST_SAMPLES: usize = 5;
+/// The fewest pixels of a sample that may be a mark.
+const LEAST_AREA: f64 = 3.0;
+/// Anything that has this part of the picture may be a mark.
+const MARK: f64 = 2e-4;
+
+/// For each pixel of a sample, the marks of which it looks in most frames; pixels beside such ones included.
+#[derive(Clone)]
+pub(super) struct Clutter {
+    /// The sets of marks, a bit for each, row by row.
+    pub(super) marks: Vec<u64>,
+    size: [usize; 2],
+}
+
+impl fmt::Debug for Clutter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Clutter")
+            .field("size", &self.size)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Clutter {
+    /// Nothing.
+    pub(super) fn none(size: [usize; 2]) -> Self {
+        Self {
+            marks: vec![0; size[0] * size[1]],
+            size,
+        }
+    }
+
+    /// What is taken for one of the marks and is none.
+    pub(super) fn find(samples: &Samples, appearances: &[Appearance]) -> Self {
+        let mut clutter = Self::none(samples.size);
+        if samples.frames.len() < LEAST_SAMPLES {
+            return clutter;
+        }
+        let lookup = Lookup::new(appearances);
+        // With noise, what is nearly like a mark looks like it now and then.
+        let widened: Vec<Appearance> = appearances.iter().map(Appearance::widened).collect();
+        let widened = Lookup::new(&widened);
+        for mark in 0..appearances.len() {
+            let counts = counts(samples, &widened, mark);
+            // The marks themselves may rest for most of a clip.
+            for rest in resting(samples, &lookup, mark, &counts) {
+                clutter.add(mark, &rest);
+            }
+        }
+        clutter
+    }
+
+    /// How much of the picture it is for a mark, from 0 to 1.
+    pub(super) fn part(&self, mark: usize) -> f64 {
+        let found = self
+            .marks
+            .iter()
+            .filter(|marks| *marks >> mark & 1 == 1)
+            .count();
+        found as f64 / self.marks.len() as f64
+    }
+
+    /// Whether it is in a rectangle of pixels of the sample, ends included, or beside it.
+    pub(super) fn touches(&self, mark: usize, least: [usize; 2], most: [usize; 2]) -> bool {
+        let [width, height] = self.size;
+        let rows = least[1].saturating_sub(1)..=(most[1] + 1).min(height - 1);
+        let (from, to) = (least[0].saturating_sub(1), (most[0] + 1).min(width - 1));
+        rows.into_iter().any(|y| {
+            let row = &self.marks[y * width + from..=y * width + to];
+            row.iter().any(|marks| marks >> mark & 1 == 1)
+        })
+    }
+
+    /// Adds pixels, and those beside them.
+    fn add(&mut self, mark: usize, pixels: &[usize]) {
+        let [width, height] = self.size;
+        for pixel in pixels {
+            let (x, y) = (pixel % width, pixel / width);
+            for y in y.saturating_sub(1)..=(y + 1).min(height - 1) {
+                for x in x.saturating_sub(1)..=(x + 1).min(width - 1) {
+                    self.marks[y * width + x] |= 1 << mark;
+                }
+            }
+        }
+    }
+}
+
+/// The components of a sample's pixels that look like a mark.
+pub(super) fn likenesses(
+    sample: &[[u8; 3]],
+    size: [usize; 2],
+    is_like: impl Fn(usize, [u8; 3]) -> bool,
+) -> Vec<Component> {
+    let mut runs: Vec<Run> = Vec::new();
+    for (index, pixel) in sample.iter().enumerate() {
+        if is_like(index, *pixel) {
+            add(&mut runs, index, size[0]);
+        }
+    }
+    components(&runs)
+}
+
+/// Adds a pixel of weight 1 to the runs of a picture.
+fn add(runs: &mut Vec<Run>, index: usize, width: usize) {
+    let (x, y) = ((index % width) as u32, (index / width) as u32);
+    match runs.last_mut() {
+        Some(run) if run.y == y && run.to == x => {
+            run.to += 1;
+            run.weight += 1.0;
+            run.moment += f64::from(x);
+        }
+        _ => runs.push(Run {
+            y,
+            from: x,
+            to: x + 1,
+            weight: 1.0,
+            moment: x.into(),
+        }),
+    }
+}
+
+/// In how many samples each pixel looks like a mark.
+fn counts(samples: &Samples, lookup: &Lookup, mark: usize) -> Vec<f64> {
+    let mut counts = vec![0.0; samples.size[0] * samples.size[1]];
+    for sample in &samples.frames {
+        for (count, pixel) in counts.iter_mut().zip(sample) {
+            *count += (lookup.marks(*pixel) >> mark & 1) as f64;
+        }
+    }
+    counts
+}
+
+/// The groups of pixels that stand still also where the mark is seen elsewhere: a mark that only rests for long leaves its place then.
+fn resting(samples: &Samples, lookup: &Lookup, mark: usize, counts: &[f64]) -> Vec<Vec<usize>> {
+    let all = samples.frames.len() as f64;
+    let is_still = |index: usize| counts[index] > STILL * all;
+    let is_like = |pixel: [u8; 3]| lookup.marks(pixel) >> mark & 1 == 1;
+    let groups = groups(samples.size, is_still);
+    if groups.is_empty() {
+        return groups;
+    }
+    // Pixels beside those that stand still look like the mark now and then.
+    let mut around = Clutter::none(samples.size);
+    for group in &groups {
+        around.add(mark, group);
+    }
+    let elsewhere = |sample: &Vec<[u8; 3]>| {
+        let found = likenesses(sample, samples.size, |index, pixel| {
+            around.marks[index] == 0 && counts[index] <= MOVING * all && is_like(pixel)
+        });
+        found.iter().map(|found| found.area).fold(0.0, f64::max)
+    };
+    let areas: Vec<f64> = samples.frames.iter().map(elsewhere).collect();
+    let mut sorted: Vec<f64> = areas
+        .iter()
+        .copied()
+        .filter(|area| *area >= LEAST_AREA)
+        .collect();
+    sorted.sort_by(f64::total_cmp);
+    let least = sorted
+        .get(sorted.len() / 2)
+        .map_or(LEAST_AREA, |area| LEAST_AREA.max(0.3 * area));
+    let largest = MARK * (samples.size[0] * samples.size[1]) as f64;
+    let stays = |group: &Vec<usize>| {
+        let frames = samples.frames.iter().zip(&areas);
+        let (mut there, mut all) = (0, 0);
+        // What is much smaller than a mark at rest is noise.
+        let least = least.max(largest.min(0.25 * group.len() as f64));
+        for (sample, _) in frames.filter(|(_, area)| **area >= least) {
+            let like = group
+                .iter()
+                .filter(|index| is_like(sample[**index]))
+                .count();
+            all += 1;
+            there += usize::from(2 * like > group.len());
+        }
+        2 * there > all
+    };
+    groups.into_iter().filter(stays).collect()
+}
+
+/// The groups of connected pixels.
+fn groups(size: [usize; 2], has: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+    let [width, height] = size;
+    let mut is_taken = vec![false; width * height];
+    let mut groups = Vec::new();
+    for start in 0..width * height {
+        let mut group = Vec::new();
+        let mut todo = vec![start];
+        while let Some(index) = todo.pop() {
+            if is_taken[index] || !has(index) {
+                continue;
+            }
+            is_taken[index] = true;
+            group.push(index);
+            let (x, y) = (index % width, index / width);
+            for y in y.saturating_sub(1)..=(y + 1).min(height - 1) {
+                for x in x.saturating_sub(1)..=(x + 1).min(width - 1) {
+                    todo.push(y * width + x);
+                }
+            }
+        }
+        if !group.is_empty() {
+            groups.push(group);
+        }
+    }
+    groups
+}

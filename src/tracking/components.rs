@@ -1,0 +1,162 @@
+//! Connected components of pixels, found from runs in rows.
+
+use glam::DVec2;
+
+/// Pixels of a row beside each other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Run {
+    /// The row.
+    pub(super) y: u32,
+    /// The first column.
+    pub(super) from: u32,
+    /// The column after the last one.
+    pub(super) to: u32,
+    /// The sum of the pixels' weights.
+    pub(super) weight: f64,
+    /// The sum of their columns, weighted.
+    pub(super) moment: f64,
+}
+
+/// Pixels that are connected, also by corners.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Component {
+    /// The number of pixels.
+    pub(super) area: f64,
+    /// The sum of their weights.
+    pub(super) weight: f64,
+    /// Their weighted middle.
+    pub(super) middle: DVec2,
+    /// The first column and row.
+    pub(super) least: [u32; 2],
+    /// The last column and row.
+    pub(super) most: [u32; 2],
+}
+
+/// The components of runs that are sorted by row and column, do not overlap and have weights, in the order of their first runs.
+pub(super) fn components(runs: &[Run]) -> Vec<Component> {
+    let mut parents: Vec<usize> = (0..runs.len()).collect();
+    let mut above = 0;
+    for (index, run) in runs.iter().enumerate() {
+        // Runs of the row above that touch this one, by a corner at least. Runs further left cannot touch later ones.
+        while runs[above].y + 1 < run.y || (runs[above].y + 1 == run.y && runs[above].to < run.from)
+        {
+            above += 1;
+        }
+        let touching = runs[above..index].iter().enumerate();
+        for (offset, _) in touching.take_while(|(_, other)| other.y < run.y && other.from <= run.to)
+        {
+            let (root, other) = (
+                root(&mut parents, index),
+                root(&mut parents, above + offset),
+            );
+            parents[root.max(other)] = root.min(other);
+        }
+    }
+    let mut places = vec![usize::MAX; runs.len()];
+    let mut components: Vec<Component> = Vec::new();
+    for (index, run) in runs.iter().enumerate() {
+        let root = root(&mut parents, index);
+        if root == index {
+            places[index] = components.len();
+            components.push(Component {
+                area: 0.0,
+                weight: 0.0,
+                middle: DVec2::ZERO,
+                least: [run.from, run.y],
+                most: [run.from, run.y],
+            });
+        }
+        let component = &mut components[places[root]];
+        component.area += f64::from(run.to - run.from);
+        component.weight += run.weight;
+        // A sum, until all runs are in it.
+        component.middle += DVec2::new(run.moment, run.weight * f64::from(run.y));
+        component.least[0] = component.least[0].min(run.from);
+        component.most = [component.most[0].max(run.to - 1), run.y];
+    }
+    for component in &mut components {
+        component.middle /= component.weight;
+    }
+    components
+}
+
+/// The first run of a run's component.
+fn root(parents: &mut [usize], mut run: usize) -> usize {
+    while parents[run] != run {
+        parents[run] = parents[parents[run]];
+        run = parents[run];
+    }
+    run
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// The runs of a picture of characters; `#` are pixels of weight 1.
+    fn runs(rows: &[Vec<bool>]) -> Vec<Run> {
+        let mut runs: Vec<Run> = Vec::new();
+        for (y, row) in rows.iter().enumerate() {
+            for (x, _) in row.iter().enumerate().filter(|(_, set)| **set) {
+                let (x, y) = (x as u32, y as u32);
+                match runs.last_mut() {
+                    Some(run) if run.y == y && run.to == x => {
+                        run.to += 1;
+                        run.weight += 1.0;
+                        run.moment += f64::from(x);
+                    }
+                    _ => runs.push(Run {
+                        y,
+                        from: x,
+                        to: x + 1,
+                        weight: 1.0,
+                        moment: x.into(),
+                    }),
+                }
+            }
+        }
+        runs
+    }
+
+    /// The sizes of the components by filling, in the order of their first pixels.
+    fn filled(mut rows: Vec<Vec<bool>>) -> Vec<(f64, DVec2)> {
+        let mut found = Vec::new();
+        for y in 0..rows.len() {
+            for x in 0..rows[y].len() {
+                let mut todo = vec![(x, y)];
+                let (mut area, mut sum) = (0.0, DVec2::ZERO);
+                while let Some((x, y)) = todo.pop() {
+                    if !std::mem::take(&mut rows[y][x]) {
+                        continue;
+                    }
+                    area += 1.0;
+                    sum += DVec2::new(x as f64, y as f64);
+                    for y in y.saturating_sub(1)..(y + 2).min(rows.len()) {
+                        for x in x.saturating_sub(1)..(x + 2).min(rows[y].len()) {
+                            todo.push((x, y));
+                        }
+                    }
+                }
+                if area > 0.0 {
+                    found.push((area, sum / area));
+                }
+            }
+        }
+        found
+    }
+
+    proptest! {
+        #[test]
+        fn components_equal_those_of_filling(rows in prop::collection::vec(prop::collection::vec(any::<bool>(), 12), 0..12)) {
+            let found = components(&runs(&rows));
+            let expected = filled(rows);
+            prop_assert_eq!(found.len(), expected.len());
+            for (component, (area, middle)) in found.iter().zip(expected) {
+                prop_assert_eq!(component.area, area);
+                prop_assert!(component.middle.distance(middle) < 1e-9);
+            }
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! Coloured marks found in the frames of a clip (motion.md, Performance).
+//!
+//! A [`Learner`] looks at some frames and learns what each mark looks like, and what else in the picture does; a [`Tracker`] then finds the
+//! marks in one frame after the other. Knows pixels, no files. Positions are pixels from the top left corner of the picture, x to the
+//! right, y down; the middle of the first pixel is at (0, 0). Hues are degrees from 0 to 360, saturation and chroma are from 0 to 1.
+
+mod appearance;
+mod clutter;
+mod colour;
+mod components;
+mod frame;
+mod learn;
+mod lookup;
+mod mark;
+mod samples;
+mod track;
+
+pub use colour::{HUES, Hsv, hue_name};
+pub use frame::Frame;
+pub use learn::{LearnError, Learned, Learner};
+pub use mark::{Mark, MarkError};
+pub use track::{Sighting, Tracker, tracks};

@@ -1,0 +1,290 @@
+//! How near tracks are to the truth.
+
+use glam::DVec2;
+use okoshi::tracking::{Frame, Learner, Mark, Tracker};
+
+use super::synthetic::{Disc, Scene, ellipse};
+
+const RED: (&str, [u8; 3]) = ("red", [205, 40, 45]);
+const GREEN: (&str, [u8; 3]) = ("green", [40, 150, 60]);
+const BLUE: (&str, [u8; 3]) = ("blue", [40, 70, 190]);
+const YELLOW: (&str, [u8; 3]) = ("yellow", [225, 205, 40]);
+
+/// Frames of each clip.
+const FRAMES: usize = 160;
+/// A mark is wrong if it is farther than this from the truth, pixels.
+const WRONG: f64 = 10.0;
+/// A mark of which less is seen may be lost.
+const SEEN: f64 = 0.75;
+/// A mark of which less is seen is gone.
+const GONE: f64 = 0.1;
+
+/// How well the marks of a clip were found.
+#[derive(Debug)]
+struct Accuracy {
+    /// Errors of the frames that are not lost, pixels: the middle one, and the one that only 5 % exceed.
+    median: f64,
+    p95: f64,
+    /// Marks that are seen well and said to be lost, of all that are seen well.
+    lost: f64,
+    /// Marks that are said to be where they are not, of all.
+    silently_wrong: usize,
+    /// Marks that are gone, and of these the ones that are said to be lost.
+    gone: usize,
+    gone_and_lost: usize,
+}
+
+/// Tracks a clip.
+fn accuracy(name: &str, scene: &Scene) -> Accuracy {
+    let background = scene.background();
+    let frames: Vec<Vec<u8>> = (0..FRAMES)
+        .map(|frame| scene.frame(&background, frame))
+        .collect();
+    let marks = scene.discs.iter().map(|disc| {
+        // As it is named: the hue of a word.
+        let named = [
+            ("red", [255, 0, 0]),
+            ("green", [0, 128, 0]),
+            ("blue", [0, 0, 255]),
+            ("yellow", [255, 255, 0]),
+        ];
+        let named = named.iter().find(|(name, _)| *name == disc.mark.0).unwrap();
+        Mark::new(disc.mark.0, named.1).unwrap()
+    });
+    let mut learner = Learner::new(scene.size, marks.collect());
+    for frame in &frames {
+        learner.push(Frame::new(scene.size, frame).unwrap());
+    }
+    let mut tracker = Tracker::new(learner.learned().unwrap());
+    let mut errors = Vec::new();
+    let (mut seen, mut lost, mut silently_wrong, mut gone, mut gone_and_lost) = (0, 0, 0, 0, 0);
+    for (number, frame) in frames.iter().enumerate() {
+        let found = tracker.push(Frame::new(scene.size, frame).unwrap());
+        for (truth, found) in scene.truth(number).iter().zip(found) {
+            seen += usize::from(truth.visible >= SEEN);
+            gone += usize::from(truth.visible < GONE);
+            match found {
+                Some(found) => {
+                    let error = found.at.distance(truth.at);
+                    errors.push(error);
+                    silently_wrong += usize::from(error > WRONG);
+                }
+                None => {
+                    lost += usize::from(truth.visible >= SEEN);
+                    gone_and_lost += usize::from(truth.visible < GONE);
+                }
+            }
+        }
+    }
+    errors.sort_by(f64::total_cmp);
+    let accuracy = Accuracy {
+        median: errors[errors.len() / 2],
+        p95: errors[errors.len() * 95 / 100],
+        lost: lost as f64 / seen as f64,
+        silently_wrong,
+        gone,
+        gone_and_lost,
+    };
+    eprintln!("{name}: {accuracy:?}");
+    accuracy
+}
+
+/// What must hold in every clip.
+fn check(name: &str, scene: &Scene) -> Accuracy {
+    let accuracy = accuracy(name, scene);
+    assert!(accuracy.median < 1.5, "{accuracy:?}");
+    assert!(accuracy.p95 < 4.0, "{accuracy:?}");
+    assert!(accuracy.lost < 0.05, "{accuracy:?}");
+    assert_eq!(accuracy.silently_wrong, 0, "{accuracy:?}");
+    assert_eq!(accuracy.gone_and_lost, accuracy.gone, "{accuracy:?}");
+    accuracy
+}
+
+/// Four discs that cross each other's ways at up to 15 pixels a frame.
+fn discs() -> Vec<Disc> {
+    vec![
+        Disc {
+            mark: RED,
+            radius: 8.0,
+            path: |time| ellipse(time, [160.0, 120.0], [110.0, 70.0], 15.0, 0.0),
+        },
+        Disc {
+            mark: GREEN,
+            radius: 7.0,
+            path: |time| ellipse(time, [150.0, 110.0], [60.0, 90.0], 9.0, 0.3),
+        },
+        Disc {
+            mark: BLUE,
+            radius: 9.0,
+            path: |time| ellipse(time, [170.0, 130.0], [120.0, 40.0], 11.0, 0.6),
+        },
+        Disc {
+            mark: YELLOW,
+            radius: 6.0,
+            path: |time| ellipse(time, [140.0, 120.0], [40.0, 40.0], 4.0, 0.5),
+        },
+    ]
+}
+
+fn scene(discs: Vec<Disc>) -> Scene {
+    Scene {
+        size: [320, 240],
+        discs,
+        colourful: 14,
+        patches: Vec::new(),
+        noise: 6.0,
+        shutter: 0.5,
+        light: |_| 1.0,
+    }
+}
+
+#[test]
+fn crossing_marks_are_found_on_clutter() {
+    check("crossing", &scene(discs()));
+}
+
+#[test]
+fn noise_does_not_hide_marks() {
+    check(
+        "noise",
+        &Scene {
+            noise: 14.0,
+            ..scene(discs())
+        },
+    );
+}
+
+#[test]
+fn marks_that_blur_are_found_in_the_middle_of_their_way() {
+    check(
+        "blur",
+        &Scene {
+            shutter: 1.0,
+            ..scene(discs())
+        },
+    );
+}
+
+#[test]
+fn marks_that_leave_are_lost_until_they_return() {
+    let mut discs = discs();
+    discs[0].path = |time| ellipse(time, [160.0, 120.0], [230.0, 60.0], 12.0, 0.25);
+    discs[1].path = |time| ellipse(time, [150.0, 120.0], [50.0, 190.0], 9.0, 0.0);
+    let accuracy = check("leaving", &scene(discs));
+    assert!(accuracy.gone > FRAMES / 4, "{accuracy:?}");
+}
+
+#[test]
+fn marks_are_found_in_changing_light() {
+    let light = |time: f64| 1.0 + 0.4 * (time / 11.0).sin();
+    check(
+        "light",
+        &Scene {
+            light,
+            ..scene(discs())
+        },
+    );
+}
+
+#[test]
+fn still_things_of_the_same_hue_are_no_marks() {
+    let patches = vec![
+        RED.1,
+        GREEN.1,
+        BLUE.1,
+        YELLOW.1,
+        [190, 60, 50],
+        [60, 130, 80],
+    ];
+    check(
+        "shared hue",
+        &Scene {
+            patches,
+            ..scene(discs())
+        },
+    );
+}
+
+#[test]
+fn a_mark_that_rests_for_most_of_the_clip_is_no_clutter() {
+    let mut discs = discs();
+    discs.truncate(1);
+    discs[0].path = |time| match time {
+        ..140.0 => DVec2::new(80.0, 60.0),
+        _ => DVec2::new(80.0 + 8.0 * (time - 140.0), 60.0),
+    };
+    check("resting", &scene(discs));
+}
+
+#[test]
+fn a_mark_that_never_moves_is_found() {
+    let mut discs = discs();
+    discs.truncate(1);
+    discs[0].path = |_| DVec2::new(80.0, 60.0);
+    check(
+        "still",
+        &Scene {
+            colourful: 0,
+            ..scene(discs)
+        },
+    );
+}
+
+#[test]
+fn light_that_changes_over_things_of_the_same_hue_leaves_marks_alone() {
+    let patches = vec![RED.1, GREEN.1, BLUE.1, YELLOW.1];
+    let light = |time: f64| 1.0 + 0.4 * (time / 17.0).sin();
+    check(
+        "light, shared hue",
+        &Scene {
+            light,
+            patches,
+            ..scene(discs())
+        },
+    );
+}
+
+#[test]
+fn a_hue_that_the_clip_has_not_is_refused_with_those_that_it_has() {
+    let scene = Scene {
+        colourful: 0,
+        ..scene(discs())
+    };
+    let background = scene.background();
+    let mut learner = Learner::new(scene.size, vec![Mark::new("left", [0, 200, 200]).unwrap()]);
+    for frame in 0..10 {
+        let frame = scene.frame(&background, frame);
+        learner.push(Frame::new(scene.size, &frame).unwrap());
+    }
+    let error = learner.learned().unwrap_err();
+    assert_eq!(error.mark, 0);
+    assert!(
+        error.hues.contains(&"red") && error.hues.contains(&"blue"),
+        "{error:?}"
+    );
+    assert!(!error.hues.contains(&"cyan"), "{error:?}");
+}
+
+#[test]
+fn a_mark_that_is_picked_is_followed_from_there() {
+    let scene = scene(discs());
+    let background = scene.background();
+    let frames: Vec<Vec<u8>> = (0..60)
+        .map(|frame| scene.frame(&background, frame))
+        .collect();
+    let frame = |number: usize| Frame::new(scene.size, &frames[number]).unwrap();
+    let at = scene.truth(0)[2].at + DVec2::new(2.0, -1.0);
+    let mark = Mark::picked("hand", frame(0), at).unwrap();
+    // A camera has no end: what the first frames show has to do.
+    let mut learner = Learner::new(scene.size, vec![mark]);
+    (0..20).for_each(|number| learner.push(frame(number)));
+    let mut tracker = Tracker::new(learner.learned().unwrap());
+    tracker.start(0, at);
+    for number in 0..60 {
+        let found = tracker.push(frame(number))[0].expect("it is seen");
+        assert!(
+            found.at.distance(scene.truth(number)[2].at) < 4.0,
+            "{number}: {found:?}"
+        );
+    }
+}

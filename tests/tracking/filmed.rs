@@ -1,0 +1,56 @@
+//! The tracker on a clip that was filmed.
+
+use std::fs::File;
+use std::io::BufReader;
+use std::path::Path;
+
+use image::AnimationDecoder as _;
+use image::codecs::webp::WebPDecoder;
+use okoshi::motion::mark_tracks::MarkTracks;
+use okoshi::tracking::{Frame, Learner, Mark, Tracker, tracks};
+
+#[test]
+fn a_filmed_clip_agrees_with_another_program() {
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/tracking/data");
+    let file = BufReader::new(File::open(data.join("sticks.webp")).unwrap());
+    let frames = WebPDecoder::new(file).unwrap().into_frames();
+    let frames: Vec<Vec<u8>> = frames
+        .map(|frame| {
+            image::DynamicImage::from(frame.unwrap().into_buffer())
+                .into_rgb8()
+                .into_raw()
+        })
+        .collect();
+    let reference = std::fs::read(data.join("sticks.csv")).unwrap();
+    let reference = MarkTracks::from_bytes(&reference).unwrap();
+    let frame = |number: usize| Frame::new(reference.size, &frames[number]).unwrap();
+    let marks = [("red", [255, 0, 0]), ("green", [0, 128, 0])];
+    let marks = marks.map(|(name, colour)| Mark::new(name, colour).unwrap());
+    let mut learner = Learner::new(reference.size, marks.to_vec());
+    (0..frames.len()).for_each(|number| learner.push(frame(number)));
+    let learned = learner.learned().unwrap();
+    let mut tracker = Tracker::new(learned.clone());
+    let seen: Vec<_> = (0..frames.len())
+        .map(|number| tracker.push(frame(number)))
+        .collect();
+    let found = tracks(&learned, reference.times.clone(), &seen);
+    for (mark, theirs) in found.marks.iter().zip(&reference.marks) {
+        assert_eq!(mark.name, theirs.name);
+        let lost = mark.is_lost.iter().filter(|lost| **lost).count();
+        let both =
+            (0..frames.len()).filter(|frame| !mark.is_lost[*frame] && !theirs.is_lost[*frame]);
+        let mut distances: Vec<f64> = both
+            .map(|frame| mark.points[frame].distance(theirs.points[frame]))
+            .collect();
+        distances.sort_by(f64::total_cmp);
+        let (median, p95) = (
+            distances[distances.len() / 2],
+            distances[distances.len() * 95 / 100],
+        );
+        eprintln!(
+            "{}: median {median:.2}, p95 {p95:.2}, {lost} lost",
+            mark.name
+        );
+        assert!(median < 1.0 && p95 < 4.0 && lost <= 4);
+    }
+}

@@ -1,0 +1,8 @@
+//! The tracker on clips whose marks are known, and on one that was filmed.
+//!
+//! `cargo test --test tracking -- --nocapture` prints how well the marks are found.
+#![allow(clippy::print_stderr, reason = "what was measured is told")]
+
+mod accuracy;
+mod filmed;
+mod synthetic;
