@@ -69,6 +69,21 @@ pub fn bounds(outline: &Outline) -> Option<(DVec2, DVec2)> {
     Some(points.fold((first, first), |(low, high), &p| (low.min(p), high.max(p))))
 }
 
+/// The centre of gravity of the filled area; `None` if there is none.
+pub fn centroid(outline: &Outline) -> Option<DVec2> {
+    let (low, _) = bounds(outline)?;
+    let (mut twice, mut sum) = (0.0, DVec2::ZERO);
+    for [a, b] in edges(outline) {
+        // From a corner of the bounding box, for precision far from the origin.
+        let (a, b) = (a - low, b - low);
+        let cross = a.perp_dot(b);
+        twice += cross;
+        sum += (a + b) * cross;
+    }
+    let centre = low + sum / (3.0 * twice);
+    centre.is_finite().then_some(centre)
+}
+
 /// The signed area of a ring (shoelace formula), positive where it runs from x to y. Computed relative to the first
 /// point, so that small rings far from the origin keep their precision.
 pub(crate) fn shoelace(ring: &Ring) -> f64 {

@@ -6,8 +6,8 @@ use glam::DVec2;
 
 use super::pieces::Piece;
 use crate::geometry::{
-    FillRule, Outline, Polygon, Ring, bounds, distance_squared, offset, resolve_overlaps, subtract,
-    union,
+    FillRule, Outline, Polygon, Ring, bounds, centroid, distance_squared, offset, resolve_overlaps,
+    subtract, union,
 };
 
 /// The paper around what is drawn.
@@ -133,21 +133,6 @@ fn mark_place(drawn: &Outline, joint: Option<DVec2>, holes: &[DVec2]) -> DVec2 {
     let outwards = (1..200).map(|step| wished + f64::from(step));
     let mut places = inwards.chain(outwards).map(|step| from + along * step);
     places.find(|at| is_clear(*at)).unwrap_or(end)
-}
-
-/// The middle of an area; `None` if it has none.
-fn centroid(outline: &Outline) -> Option<DVec2> {
-    let (mut twice, mut sum) = (0.0, DVec2::ZERO);
-    for ring in outline.polygons.iter().flat_map(|polygon| &polygon.rings) {
-        let next = ring.iter().cycle().skip(1);
-        for (a, b) in ring.iter().zip(next) {
-            let cross = a.perp_dot(*b);
-            twice += cross;
-            sum += (*a + *b) * cross;
-        }
-    }
-    let centre = sum / (3.0 * twice);
-    centre.is_finite().then_some(centre)
 }
 
 fn without_holes(outline: &Outline) -> Outline {

@@ -6,7 +6,9 @@ use glam::DVec2;
 
 use crate::anatomy::{self, Role};
 use crate::bind::{Bindings, PartKind};
-use crate::geometry::{Outline, area, bounds, distance_squared, intersect, offset, union};
+use crate::geometry::{
+    Outline, area, bounds, centroid, distance_squared, intersect, offset, union,
+};
 use crate::lang::value::Origin;
 use crate::rig::{FigureGroup, find_figures};
 use crate::svg::Drawing;
@@ -228,17 +230,30 @@ fn carriers_first(figure: &FigureGroup) -> Vec<usize> {
     order
 }
 
-/// Where two areas touch: the middle of what they share if both are a little larger.
+/// Where two areas touch: the middle of the largest area that they share, if need be after both have grown a little.
 fn contact(one: &Outline, other: &Outline) -> DVec2 {
+    let size = bounds(one).map_or(0.0, |(low, high)| (high - low).max_element());
+    let shared = intersect(one, other);
+    if area(&shared) > (NEAR * size).powi(2) {
+        return middle(shared).unwrap_or_default();
+    }
     let corners = one.polygons.iter().flat_map(|polygon| &polygon.rings);
     let gap = |point: &DVec2| distance_squared(other, *point);
     let nearest = corners.flatten().copied();
     let nearest = nearest.min_by(|a, b| gap(a).total_cmp(&gap(b)));
     let nearest = nearest.unwrap_or_default();
-    let size = bounds(one).map_or(0.0, |(low, high)| (high - low).max_element());
     let larger = NEAR * size + gap(&nearest).sqrt() / 2.0;
     let shared = intersect(&offset(one, larger), &offset(other, larger));
-    bounds(&shared).map_or(nearest, |(low, high)| (low + high) / 2.0)
+    middle(shared).unwrap_or(nearest)
+}
+
+/// The middle of the largest polygon.
+fn middle(outline: Outline) -> Option<DVec2> {
+    let polygons = outline.polygons.into_iter().map(|polygon| Outline {
+        polygons: vec![polygon],
+    });
+    let largest = polygons.max_by(|a, b| area(a).total_cmp(&area(b)))?;
+    centroid(&largest)
 }
 
 /// The pieces by their first shapes.
