@@ -12,8 +12,10 @@ use crate::motion::resample::{Range, parse_range};
 use crate::motion::up::UpAxis;
 
 mod render;
+mod track;
 
 pub(super) use render::{Background, Bend, Projection, Render, Shading};
+pub(super) use track::Track;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -26,6 +28,7 @@ Examples:
   okoshi watch human.svg                 builds it again on every save
   okoshi preview human.svg --open        shows it in the browser, live
   okoshi motion kick.bvh -o snappy.bvh   reduces a motion to limited animation, as if drawn by hand
+  okoshi track puppet.gif --mark red     follows a coloured mark through a clip
   okoshi inspect human.svg               shows which string belongs to which part, and why
   okoshi explain Shape                   the manual page of a keyword
   okoshi explain E204                    the manual page of a diagnostic
@@ -92,6 +95,8 @@ pub(super) enum Command {
     Preview(Preview),
     /// Edit a motion on its own: limited animation, frame rates, charts
     Motion(Motion),
+    /// Follow coloured marks through a clip, to perform a motion with them
+    Track(Track),
     /// Run the language server on stdin and stdout, for editors
     ///
     /// Editors start it by themselves; docs/editors describes how to set each up. Positions are in UTF-8 or
