@@ -1,10 +1,9 @@
 //! Printable puppets: the figures of a drawing as a sheet of pieces to cut out, pin together and film (motion.md,
 //! Performance).
 //!
-//! [`pieces`] says which parts are a piece of paper, in drawing units; `paper` cuts it out at a scale, and `layout` finds the
-//! scale and the places, both in millimetres, x to the right, y down; `instructions` says what to do with it, and `sheet` writes
-//! all that. A joint's hole lies on paper in both
-//! pieces that it joins.
+//! `pieces` says which parts are a piece of paper, in drawing units; `paper` cuts it out at a scale, and `layout` finds the
+//! scale and the places, both in millimetres, x to the right, y down; `instructions` says what to do with the sheet, and `sheet`
+//! writes it. A joint's hole lies on paper in both pieces that it joins.
 
 mod instructions;
 mod layout;
@@ -32,7 +31,7 @@ use sheet::Printed;
 
 /// The most pieces of a sheet; nobody pins more.
 const MAX_PIECES: usize = 300;
-/// With more joints than there are letters that cannot be taken for digits, joints have numbers.
+/// The letters of joints, without those that look like digits. If there are more joints, they have numbers.
 const LETTERS: &str = "ABCDEFGHJKLMNPQRSTUVWXYZ";
 /// Holes that are nearer than this are one, in millimetres.
 const SAME_HOLE: f64 = 1.0;
