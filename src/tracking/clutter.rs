@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::appearance::Appearance;
-use super::components::{Component, Run, components};
+use super::components::{Component, components, push_pixel};
 use super::lookup::Lookup;
 use super::samples::Samples;
 
@@ -56,8 +56,8 @@ impl Clutter {
         for mark in 0..appearances.len() {
             let counts = counts(samples, &widened, mark);
             // The marks themselves may rest for most of a clip.
-            for rest in resting(samples, &lookup, mark, &counts) {
-                clutter.add(mark, &rest);
+            for group in still_groups(samples, &lookup, mark, &counts) {
+                clutter.add(mark, &group);
             }
         }
         clutter
@@ -104,32 +104,14 @@ pub(super) fn likenesses(
     size: [usize; 2],
     is_like: impl Fn(usize, [u8; 3]) -> bool,
 ) -> Vec<Component> {
-    let mut runs: Vec<Run> = Vec::new();
+    let mut runs = Vec::new();
     for (index, pixel) in sample.iter().enumerate() {
         if is_like(index, *pixel) {
-            add(&mut runs, index, size[0]);
+            let (x, y) = (index % size[0], index / size[0]);
+            push_pixel(&mut runs, x as u32, y as u32, 1.0);
         }
     }
     components(&runs)
-}
-
-/// Adds a pixel of weight 1 to the runs of a picture.
-fn add(runs: &mut Vec<Run>, index: usize, width: usize) {
-    let (x, y) = ((index % width) as u32, (index / width) as u32);
-    match runs.last_mut() {
-        Some(run) if run.y == y && run.to == x => {
-            run.to += 1;
-            run.weight += 1.0;
-            run.moment += f64::from(x);
-        }
-        _ => runs.push(Run {
-            y,
-            from: x,
-            to: x + 1,
-            weight: 1.0,
-            moment: x.into(),
-        }),
-    }
 }
 
 /// In how many samples each pixel looks like a mark.
@@ -144,7 +126,12 @@ fn counts(samples: &Samples, lookup: &Lookup, mark: usize) -> Vec<f64> {
 }
 
 /// The groups of pixels that stand still also where the mark is seen elsewhere: a mark that only rests for long leaves its place then.
-fn resting(samples: &Samples, lookup: &Lookup, mark: usize, counts: &[f64]) -> Vec<Vec<usize>> {
+fn still_groups(
+    samples: &Samples,
+    lookup: &Lookup,
+    mark: usize,
+    counts: &[f64],
+) -> Vec<Vec<usize>> {
     let all = samples.frames.len() as f64;
     let is_still = |index: usize| counts[index] > STILL * all;
     let is_like = |pixel: [u8; 3]| lookup.marks(pixel) >> mark & 1 == 1;
