@@ -203,6 +203,7 @@ const USES: &[(&str, &[&str])] = &[
             "compile",
             "figure",
             "geometry",
+            "motion",
             "rig",
             "scene",
             "source",
