@@ -212,6 +212,7 @@ const USES: &[(&str, &[&str])] = &[
             "compile",
             "figure",
             "geometry",
+            "motion",
             "rig",
             "scene",
             "source",

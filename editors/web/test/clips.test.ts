@@ -212,22 +212,22 @@ browse("full and limited clips play side by side", kicking(), async (page, host)
   await page.getByRole("button", { name: "side by side" }).waitFor({ state: "hidden" });
 });
 
-browse("unreadable full clips are reported, and the model stays", (host) => {
+browse("unreadable original clips are reported, and the model stays", (host) => {
   kicking()(host);
   host.broken.add("/builds/1.originals.glb");
 }, async (page, host) => {
   await shown(page);
   await page.keyboard.press("o");
-  await page.getByText("The full clips could not be shown:").waitFor();
+  await page.getByText("The original clips could not be shown:").waitFor();
   assert.equal(await page.getAttribute("canvas", "data-beside"), "");
   host.broken.clear();
   await page.keyboard.press("o");
-  await page.getByText("The full clips could not be shown").waitFor({ state: "hidden" });
+  await page.getByText("The original clips could not be shown").waitFor({ state: "hidden" });
   await page.keyboard.press("o");
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);
 });
 
-browse("in VS Code full clips are requested like models", () => {}, async (page) => {
+browse("in VS Code original clips are requested like models", () => {}, async (page) => {
   const { model, originals, build: facts } = kick();
   await page.addInitScript(() => {
     const sent: unknown[] = [];
