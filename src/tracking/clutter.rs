@@ -98,17 +98,17 @@ impl Clutter {
     }
 }
 
-/// The components of a sample's pixels that look like a mark.
+/// The components of a sample's pixels, by what weighs the ones that look like a mark.
 pub(super) fn likenesses(
     sample: &[[u8; 3]],
     size: [usize; 2],
-    is_like: impl Fn(usize, [u8; 3]) -> bool,
+    weight: impl Fn(usize, [u8; 3]) -> Option<f64>,
 ) -> Vec<Component> {
     let mut runs = Vec::new();
     for (index, pixel) in sample.iter().enumerate() {
-        if is_like(index, *pixel) {
+        if let Some(weight) = weight(index, *pixel) {
             let (x, y) = (index % size[0], index / size[0]);
-            push_pixel(&mut runs, x as u32, y as u32, 1.0);
+            push_pixel(&mut runs, x as u32, y as u32, weight);
         }
     }
     components(&runs)
@@ -144,11 +144,15 @@ fn still_groups(
     for group in &groups {
         around.add(mark, group);
     }
+    // A mark that moves a little covers its middle in most samples: what is connected with that is not elsewhere.
+    let is_moving = |index: usize| around.marks[index] == 0 && counts[index] <= MOVING * all;
+    let weight = |index: usize, pixel: [u8; 3]| {
+        is_like(pixel).then_some(if is_moving(index) { 1.0 } else { 0.5 })
+    };
     let elsewhere = |sample: &Vec<[u8; 3]>| {
-        let found = likenesses(sample, samples.size, |index, pixel| {
-            around.marks[index] == 0 && counts[index] <= MOVING * all && is_like(pixel)
-        });
-        found.iter().map(|found| found.area).fold(0.0, f64::max)
+        let found = likenesses(sample, samples.size, weight).into_iter();
+        let apart = found.filter(|found| found.weight == found.area);
+        apart.map(|found| found.area).fold(0.0, f64::max)
     };
     let areas: Vec<f64> = samples.frames.iter().map(elsewhere).collect();
     let mut sorted: Vec<f64> = areas

@@ -233,7 +233,8 @@ impl Learner {
         let largest = |sample: &Vec<[u8; 3]>| {
             let is_mark = |marks: u64| marks >> mark & 1 == 1;
             let found = likenesses(sample, self.samples.size, |index, pixel| {
-                !is_mark(clutter.marks[index]) && is_mark(lookup.marks(pixel))
+                let is_it = !is_mark(clutter.marks[index]) && is_mark(lookup.marks(pixel));
+                is_it.then_some(1.0)
             });
             found.iter().map(|found| found.area).fold(0.0, f64::max)
         };

@@ -220,6 +220,17 @@ fn a_mark_that_rests_for_most_of_the_clip_is_no_clutter() {
 }
 
 #[test]
+fn a_mark_that_moves_a_little_is_no_clutter() {
+    let mut discs = discs();
+    discs[1].path = |time| DVec2::new(80.0 + 2.0 * (time / 5.0).sin(), 60.0);
+    let scene = Scene {
+        colourful: 0,
+        ..scene(discs)
+    };
+    check("moving a little", &scene);
+}
+
+#[test]
 fn a_mark_that_never_moves_is_found() {
     let mut discs = discs();
     discs.truncate(1);
