@@ -11,7 +11,7 @@ import { drawingAt, keysOf } from "../src/viewport/clips";
 import { onNodes } from "../src/viewport/side-by-side";
 import { ExposureSheet, describeExposure, peaks } from "../src/viewport/exposure-sheet";
 import { Latest } from "../src/viewport/latest";
-import { describeTiming, PerformanceTimes, type Rows } from "../src/viewport/performance";
+import { describeFilming, describeTiming, PerformanceTimes, type Rows } from "../src/viewport/performance";
 import { directionOf } from "../src/viewport/view";
 import { State } from "../src/state";
 
@@ -242,6 +242,12 @@ test("the timing of a performance goes through its keys, both ways", () => {
   const own = new PerformanceTimes(performance({ timed: false, timing: [] }));
   assert.deepEqual([own.motionAt(3), own.performanceAt(3)], [3, 3]);
   assert.equal(describeTiming(own.facts), "the motion keeps its timing");
+});
+
+test("how a performance is filmed is said in words", () => {
+  assert.equal(describeFilming(performance()), "not filmed");
+  assert.equal(describeFilming(performance({ filming: "camera", nearest: 7 })), "filmed by a camera that is nearest in frame 8");
+  assert.equal(describeFilming(performance({ filming: "root", nearest: 0 })), "filmed by moving the figure, which is nearest to the viewer in frame 1");
 });
 
 test("the rows of a performance share one scale of time", () => {
