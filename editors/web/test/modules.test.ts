@@ -1,17 +1,18 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { AnimationClip, InterpolateDiscrete, NumberKeyframeTrack, Object3D, Vector3 } from "three";
+import { AnimationClip, Group, InterpolateDiscrete, NumberKeyframeTrack, Object3D, Vector3 } from "three";
 import { toBase64, toBuffer } from "../src/host/code";
 import { figures, niceAbove } from "../src/panels/chart";
 import { cssColor, drivenBy } from "../src/panels/inspector";
 import { excerpt, sorted } from "../src/panels/findings";
 import { Parts } from "../src/parts";
 import { read, type ClipFacts, type Finding, type Part, type PerformanceFacts } from "../src/protocol";
-import { drawingAt, keysOf } from "../src/viewport/clips";
+import { drawingAt, keysOf, Player } from "../src/viewport/clips";
+import { Model } from "../src/viewport/model";
 import { onNodes } from "../src/viewport/side-by-side";
 import { ExposureSheet, describeExposure, peaks } from "../src/viewport/exposure-sheet";
 import { Latest } from "../src/viewport/latest";
-import { describeTiming, PerformanceTimes, type Rows } from "../src/viewport/performance";
+import { describeFilming, describeTiming, PerformanceTimes, type Rows } from "../src/viewport/performance";
 import { directionOf } from "../src/viewport/view";
 import { State } from "../src/state";
 
@@ -96,6 +97,22 @@ test("clips with only held keys are counted in drawings", () => {
   assert.deepEqual(keysOf({ duration: 0, tracks: [track([0], true)] }).times, [0]);
   assert.deepEqual([-1, 0, 0.24, 0.25, 0.9, 1, 5].map((time) => drawingAt(held, time)), [1, 1, 1, 2, 3, 4, 4]);
   assert.equal(drawingAt({ times: [0, Math.fround(0.1)], held: true }, 0.1), 2);
+});
+
+test("a clip waits at its end for a longer one beside it", () => {
+  const root = new Group();
+  const clip = new AnimationClip("move", 1, [new NumberKeyframeTrack(`${root.uuid}.position[x]`, [0, 1], [0, 1])]);
+  const player = new Player();
+  player.take(new Model(root, [clip]), true);
+  player.waitFor(2.5);
+  assert.equal(player.end, 2.5);
+  player.advance(1.5);
+  assert.deepEqual([player.time, root.position.x, player.playing], [1.5, 1, true]);
+  player.advance(1.25);
+  assert.deepEqual([player.time, root.position.x], [0.25, 0.25]);
+  player.seek(2);
+  player.waitFor(0);
+  assert.deepEqual([player.end, player.time, root.position.x], [1, 1, 1]);
 });
 
 test("of the models requested while one is loading, only the latest is loaded next", async () => {
@@ -242,6 +259,12 @@ test("the timing of a performance goes through its keys, both ways", () => {
   const own = new PerformanceTimes(performance({ timed: false, timing: [] }));
   assert.deepEqual([own.motionAt(3), own.performanceAt(3)], [3, 3]);
   assert.equal(describeTiming(own.facts), "the motion keeps its timing");
+});
+
+test("how a performance is filmed is said in words", () => {
+  assert.equal(describeFilming(performance()), "not filmed");
+  assert.equal(describeFilming(performance({ filming: "camera", nearest: 7 })), "filmed by a camera that is nearest in frame 8");
+  assert.equal(describeFilming(performance({ filming: "root", nearest: 0 })), "filmed by moving the figure, which is nearest to the viewer in frame 1");
 });
 
 test("the rows of a performance share one scale of time", () => {

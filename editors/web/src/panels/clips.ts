@@ -1,6 +1,6 @@
 // The clip bar: which clip plays, at what time and speed, and above it the chart.
 
-import { ChartSpline, Columns2, Hand, Footprints, Pause, Play, Repeat, SkipBack, SkipForward, Video } from "lucide";
+import { ChartSpline, Columns2, Footprints, Hand, Pause, Play, Repeat, SkipBack, SkipForward, Video } from "lucide";
 import type { AnimationClip } from "three";
 import { button, fill, h, icon, svg } from "../dom";
 import { drawingAt } from "../viewport/clips";

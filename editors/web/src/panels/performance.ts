@@ -2,7 +2,7 @@
 // in which of the other.
 
 import { fill, h, svg } from "../dom";
-import { describeEffect, describeTiming, PerformanceTimes, type Row, type Rows } from "../viewport/performance";
+import { describeEffect, describeFilming, describeTiming, PerformanceTimes, type Row, type Rows } from "../viewport/performance";
 import type { ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
 import { APART, half, niceStep, round, word } from "./plot";
@@ -28,6 +28,7 @@ export class PerformanceChart {
   private readonly picture = svg("svg", { class: "chart-picture performance-picture", role: "img" });
   private readonly tip = h("p", { class: "chart-tip", hidden: true });
   private readonly marks = h("tbody");
+  private readonly filming = h("p", { class: "muted" });
   private readonly head = svg("path", { class: "performance-head" });
   private readonly line = svg("path", { class: "chart-hover" });
   private drawn: ExposureSheet | null = null;
@@ -42,7 +43,7 @@ export class PerformanceChart {
     fill(
       this.element,
       h("header", { class: "chart-title" }, h("h2", {}, "Performance ", h("span", { class: "muted", title: "Movement per frame, as a ratio of the largest one" }, "movement, 0 to 1")), this.summary, this.file),
-      h("div", { class: "performance-body" }, h("div", { class: "chart-place" }, this.picture, this.tip), h("div", { class: "performance-marks" }, h("table", {}, head, this.marks))),
+      h("div", { class: "performance-body" }, h("div", { class: "chart-place" }, this.picture, this.tip), h("div", { class: "performance-marks" }, h("table", {}, head, this.marks), this.filming)),
     );
     new ResizeObserver(() => this.draw()).observe(this.picture);
     this.picture.addEventListener("pointermove", (event) => this.over(event));
@@ -129,6 +130,7 @@ export class PerformanceChart {
     const timing = describeTiming(facts);
     this.summary.textContent = timing;
     this.file.textContent = facts.track;
+    this.filming.textContent = describeFilming(facts);
     const keys = facts.keys ? `The marks move most in frame ${facts.keys.performance + 1} of ${facts.frames.performance}, the joints in frame ${facts.keys.motion + 1} of ${facts.frames.motion}` : "Not both of them move";
     this.picture.setAttribute("aria-label", `How much the marks of ${facts.track} move, and the joints of ${performed.facts.file}. ${keys}: ${timing}.`);
     this.move();

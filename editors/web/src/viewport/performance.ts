@@ -83,6 +83,12 @@ export function describeTiming({ keys, shown, timed, frames }: PerformanceFacts)
   return shown === null || shown === keys.performance ? stands : `${stands}, shown in frame ${shown + 1}`;
 }
 
+/** How it is filmed, in words. */
+export function describeFilming({ filming, nearest }: PerformanceFacts): string {
+  if (filming === "none" || nearest === null) return "not filmed";
+  return filming === "camera" ? `filmed by a camera that is nearest in frame ${nearest + 1}` : `filmed by moving the figure, which is nearest to the viewer in frame ${nearest + 1}`;
+}
+
 /** What a mark does to its parts, in words. */
 export function describeEffect({ emphasised, damped }: PerformanceFacts["marks"][number]): string {
   return emphasised ? "emphasised" : damped ? "damped" : "not damped";
