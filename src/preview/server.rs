@@ -20,7 +20,7 @@ use tokio::sync::Semaphore;
 
 use super::access::{Hosts, control};
 use super::hub::Hub;
-use super::{page, socket};
+use super::{camera, page, socket};
 
 /// The port that is tried first, so that an open page finds the server again after a restart.
 const PORT: u16 = 4173;
@@ -28,6 +28,8 @@ const PORT: u16 = 4173;
 const MAX_CONNECTIONS: usize = 256;
 /// The most pages that may be connected.
 pub(super) const MAX_PAGES: usize = 64;
+/// The most pages that may record at the same time: each recording is held in memory.
+const MAX_RECORDERS: usize = 2;
 /// How long the headers of a request may take to arrive.
 const HEADER_TIMEOUT: Duration = Duration::from_secs(5);
 /// How long a connection other than a WebSocket may stay open.
@@ -109,15 +111,18 @@ async fn converse(stream: TcpStream, router: Router) {
 pub(super) struct Shared {
     pub(super) hub: Arc<Hub>,
     pub(super) pages: Arc<Semaphore>,
+    pub(super) recorders: Arc<Semaphore>,
 }
 
 fn router(hub: Arc<Hub>, hosts: Hosts) -> Router {
     let shared = Shared {
         hub,
         pages: Arc::new(Semaphore::new(MAX_PAGES)),
+        recorders: Arc::new(Semaphore::new(MAX_RECORDERS)),
     };
     let mut router = Router::new()
         .route("/live", get(socket::open))
+        .route("/camera", get(camera::open))
         .route("/builds/{file}", get(build))
         .route("/originals/{file}", get(originals))
         .route("/pictures/{file}", get(picture));

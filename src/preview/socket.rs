@@ -17,9 +17,9 @@ const MAX_MESSAGE: usize = 16 << 10;
 /// How long a page may take to read a message.
 const SEND_TIMEOUT: Duration = Duration::from_secs(20);
 /// How often a page is pinged.
-const PING_INTERVAL: Duration = Duration::from_secs(15);
+pub(super) const PING_INTERVAL: Duration = Duration::from_secs(15);
 /// After how long without an answer a page counts as gone.
-const PONG_TIMEOUT: Duration = Duration::from_secs(50);
+pub(super) const PONG_TIMEOUT: Duration = Duration::from_secs(50);
 
 /// Upgrades a request to a WebSocket.
 pub(super) async fn open(State(shared): State<Shared>, upgrade: WebSocketUpgrade) -> Response {
@@ -74,7 +74,7 @@ async fn converse(mut socket: WebSocket, hub: &Arc<Hub>) {
 }
 
 /// Sends a message; `false` if the page is gone or does not read.
-async fn send(socket: &mut WebSocket, message: Message) -> bool {
+pub(super) async fn send(socket: &mut WebSocket, message: Message) -> bool {
     let sent = tokio::time::timeout(SEND_TIMEOUT, socket.send(message)).await;
     matches!(sent, Ok(Ok(())))
 }

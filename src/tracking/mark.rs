@@ -81,6 +81,16 @@ impl Mark {
     pub fn name(&self) -> &str {
         &self.name
     }
+
+    /// About its colour, sRGB.
+    pub fn colour(&self) -> [u8; 3] {
+        self.colour
+    }
+
+    /// Its hue in degrees.
+    pub fn hue(&self) -> f64 {
+        self.hue
+    }
 }
 
 #[cfg(test)]

@@ -15,6 +15,8 @@ export class Commands {
   pointer: Pointer | null = null;
   /** Opens the help; set by the page. */
   help: () => void = () => {};
+  /** Opens the panel that records a puppet, where there are cameras; set by the page. */
+  recordPuppet: (() => void) | null = null;
 
   constructor(private readonly viewer: Viewer, private readonly state: State, private readonly host: Host) {}
 

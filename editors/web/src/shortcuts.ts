@@ -103,6 +103,8 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
         return () => places.clips.step(-1);
       case "k":
         return () => places.clips.step(1);
+      case "r":
+        return commands.recordPuppet ?? undefined;
       case "c":
         return () => places.clips.chart.toggle();
       case "i":

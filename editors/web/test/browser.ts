@@ -18,12 +18,13 @@ const executable = (path: string): boolean => {
 export const CHROMIUM = [process.env["CHROMIUM"], "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => path && executable(path));
 export const OUT = join("test", "out");
 
-export async function launch(): Promise<Browser> {
+/** Starts the browser, with more arguments. */
+export async function launch(more: readonly string[] = []): Promise<Browser> {
   mkdirSync(OUT, { recursive: true });
   if (!CHROMIUM || !existsSync(CHROMIUM)) throw new Error("there is no Chromium");
   return chromium.launch({
     executablePath: CHROMIUM,
-    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", ...more],
   });
 }
 

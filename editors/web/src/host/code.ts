@@ -12,6 +12,8 @@ export interface CodeApi {
 type Waiting = { readonly resolve: (bytes: ArrayBuffer) => void; readonly reject: (error: Error) => void };
 
 export class CodeHost implements Host {
+  /** Webviews are not given cameras. */
+  readonly openCamera = null;
   /** Pending requests by address. */
   private readonly waiting = new Map<string, Waiting[]>();
 

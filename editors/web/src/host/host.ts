@@ -17,6 +17,8 @@ export interface Host {
   picture(address: string): Promise<string>;
   /** Saves a file for the user. */
   save(name: string, content: Blob): Promise<void>;
+  /** Opens a connection on which pictures of a camera are tracked; null where pages have no camera. */
+  readonly openCamera: (() => WebSocket) | null;
 }
 
 declare const acquireVsCodeApi: (() => CodeApi) | undefined;

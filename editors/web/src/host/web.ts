@@ -62,6 +62,8 @@ export class WebHost implements Host {
     setTimeout(() => URL.revokeObjectURL(address), 60_000);
   }
 
+  readonly openCamera = (): WebSocket => new WebSocket(socketAddress("camera"));
+
   private hurry(): void {
     if (this.timer === undefined) return;
     this.pause = FIRST_PAUSE;
@@ -71,10 +73,7 @@ export class WebHost implements Host {
   private connect(): void {
     clearTimeout(this.timer);
     this.timer = undefined;
-    const address = new URL("live", location.href);
-    address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
-    address.hash = "";
-    const socket = new WebSocket(address);
+    const socket = new WebSocket(socketAddress("live"));
     this.socket = socket;
     const patience = setTimeout(() => socket.close(), PATIENCE);
     socket.addEventListener("open", () => {
@@ -102,4 +101,11 @@ export class WebHost implements Host {
       this.pause = Math.min(this.pause * 2, LAST_PAUSE);
     });
   }
+}
+
+function socketAddress(path: string): URL {
+  const address = new URL(path, location.href);
+  address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
+  address.hash = "";
+  return address;
 }

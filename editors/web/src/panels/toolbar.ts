@@ -1,6 +1,6 @@
 // The buttons above the viewport.
 
-import { Camera, Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, Layers, PersonStanding } from "lucide";
+import { Camera, Circle, CircleQuestionMark, Download, Focus, Fullscreen, Globe, Grid3x3, Hexagon, Layers, PersonStanding, Video } from "lucide";
 import { button, fill, h } from "../dom";
 import type { Commands } from "../commands";
 import type { Shading } from "../viewport/model";
@@ -38,7 +38,7 @@ export class Toolbar {
       ),
       group("Shading", ...shadings.map(([, element]) => element)),
       group("View", button({ icon: Focus, label: "Frame the model", key: "F", press: () => viewer.view.frame() }), layers, parallel),
-      group("Pose", pose),
+      group("Pose", pose, commands.recordPuppet && button({ icon: Video, label: "Record a puppet", key: "R", press: () => commands.recordPuppet?.() })),
       h("span", { class: "spring" }),
       group(
         "Export",
@@ -62,6 +62,6 @@ export class Toolbar {
   }
 }
 
-function group(label: string, ...children: (Node | false)[]): HTMLElement {
+function group(label: string, ...children: (Node | false | null)[]): HTMLElement {
   return h("div", { class: "group", attributes: { role: "group", "aria-label": label } }, ...children);
 }

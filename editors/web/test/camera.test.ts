@@ -1,0 +1,171 @@
+// "Record a puppet" with the real program and the browser's fake camera, which films a clip whose marks are known.
+
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { copyFileSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { createInterface } from "node:readline";
+import { after, test } from "node:test";
+import type { Browser, Page } from "playwright-core";
+import { CHROMIUM, launch, open, picture } from "./browser";
+import { DISCS, HEIGHT, PERIOD, WIDTH, writeClip } from "./clip";
+import { FIGURE } from "./setup";
+import { readTrack, type Track } from "../src/camera/messages";
+
+const okoshi = process.env["OKOSHI"] ?? "";
+const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
+/** The errors of the recorded track that are allowed, in pixels. */
+const MEDIAN = 1.5;
+const P95 = 4;
+
+const scratch = mkdtempSync(join(tmpdir(), "okoshi-camera-"));
+let filming: Promise<Browser> | undefined;
+after(async () => {
+  await (await filming)?.close();
+  rmSync(scratch, { recursive: true });
+});
+
+function film(): Promise<Browser> {
+  return (filming ??= (async () => {
+    const clip = join(scratch, "clip.y4m");
+    writeClip(clip);
+    return launch(["--use-fake-ui-for-media-stream", "--use-fake-device-for-media-stream", `--use-file-for-fake-video-capture=${clip}`, "--autoplay-policy=no-user-gesture-required"]);
+  })());
+}
+
+/** A test of the page of `okoshi preview`, whose camera films the clip. */
+function camera(name: string, run: (page: Page, program: { stop(): void }) => Promise<void>, options: Parameters<typeof open>[2] = {}): void {
+  test(name, { skip, timeout: 120_000 }, async () => {
+    const folder = mkdtempSync(join(scratch, "drawing-"));
+    copyFileSync(FIGURE, join(folder, "figure.svg"));
+    const program = spawn(okoshi, ["preview", "figure.svg", "--port", "0", "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+    try {
+      const address = await new Promise<string>((found) => createInterface(program.stdout).once("line", found));
+      const { page, wrong } = await open(await film(), address, options);
+      await page.waitForSelector("canvas[data-revision]", { state: "attached" });
+      await run(page, { stop: () => program.kill() });
+      assert.deepEqual(wrong, []);
+      await page.context().close();
+    } finally {
+      program.kill();
+    }
+  });
+}
+
+const panel = (page: Page) => page.locator(".camera-dialog");
+const status = (page: Page, text: string | RegExp) => panel(page).locator(".camera-status").filter({ hasText: text }).waitFor();
+const press = (page: Page, name: string) => panel(page).getByRole("button", { name, exact: true }).click();
+
+/** Opens the panel and starts the camera. */
+async function start(page: Page): Promise<void> {
+  await page.keyboard.press("r");
+  await press(page, "Use the camera");
+  await status(page, "Click on each mark");
+  await page.waitForFunction(() => document.querySelector<HTMLCanvasElement>(".camera-picture")!.width === 320);
+}
+
+/** The middle of a disc in the picture that is held, in its pixels. */
+const find = (page: Page, name: string) =>
+  page.evaluate((name) => {
+    const canvas = document.querySelector<HTMLCanvasElement>(".camera-picture")!;
+    const { data, width } = canvas.getContext("2d")!.getImageData(0, 0, canvas.width, canvas.height);
+    const own = name === "red" ? 0 : 2;
+    let [x, y, count] = [0, 0, 0];
+    for (let pixel = 0; pixel < data.length / 4; pixel++) {
+      const [value, other, green] = [data[4 * pixel + own]!, data[4 * pixel + 2 - own]!, data[4 * pixel + 1]!];
+      if (value < 150 || value - other < 90 || value - green < 80) continue;
+      [x, y, count] = [x + (pixel % width), y + Math.floor(pixel / width), count + 1];
+    }
+    return { x: x / count, y: y / count, count };
+  }, name);
+
+/** Clicks at a place of the picture; the page shows it mirrored. */
+async function click(page: Page, { x, y }: { x: number; y: number }): Promise<void> {
+  const box = (await panel(page).locator(".camera-picture").boundingBox())!;
+  const isMirrored = (await panel(page).getByRole("button", { name: "Mirror the picture" }).getAttribute("aria-pressed")) === "true";
+  const across = (x + 0.5) / WIDTH;
+  await page.mouse.click(box.x + (isMirrored ? 1 - across : across) * box.width, box.y + ((y + 0.5) / HEIGHT) * box.height);
+}
+
+/** Chooses both marks in a picture that is held. */
+async function choose(page: Page): Promise<void> {
+  await press(page, "Hold the picture still");
+  for (const { name } of DISCS) {
+    const at = await find(page, name);
+    assert.ok(at.count > 200, `${at.count} pixels are ${name}`);
+    await click(page, at);
+    await page.waitForSelector(`.camera-name[value="${name}"]`);
+  }
+  await press(page, "Hold the picture still");
+}
+
+/** The errors of a track in pixels, ascending, at the offset of the clip's time where they are least. */
+function errors({ times, marks }: Track, lost: "counted" | "left out"): number[] {
+  let best: number[] = [];
+  for (let offset = 0; offset < PERIOD; offset += 0.004) {
+    const all = marks.flatMap(({ name, points, isLost }) => {
+      const disc = DISCS.find((disc) => disc.name === name)!;
+      return points.flatMap(([x, y], frame) => {
+        if (lost === "left out" && isLost[frame]) return [];
+        const [trueX, trueY] = disc.path(times[frame]! + offset);
+        return [Math.hypot(x - trueX, y - trueY)];
+      });
+    });
+    all.sort((a, b) => a - b);
+    const middle = (errors: number[]): number => errors[errors.length >> 1] ?? Infinity;
+    if (middle(all) < middle(best)) best = all;
+  }
+  return best;
+}
+
+camera("a recording has the marks where they are", async (page) => {
+  // Counts the clicks that are heard.
+  await page.evaluate(() => {
+    const counts = window as unknown as { heard: number };
+    counts.heard = 0;
+    const start = OscillatorNode.prototype.start;
+    OscillatorNode.prototype.start = function (when?: number) {
+      counts.heard++;
+      start.call(this, when);
+    };
+  });
+  await start(page);
+  await choose(page);
+  await page.waitForFunction(() => [...document.querySelectorAll(".camera-state")].every((one) => one.textContent === "seen"));
+  await picture(page, "camera-live");
+  await press(page, "Record");
+  await panel(page).locator(".camera-count").filter({ hasText: "2" }).waitFor();
+  await status(page, "Recording.");
+  assert.equal(await page.evaluate(() => (window as unknown as { heard: number }).heard), 4);
+  await page.waitForTimeout(1000 * PERIOD);
+  await picture(page, "camera-recording");
+  await press(page, "Stop");
+  await status(page, /Recorded \d+ frames/);
+  await panel(page).getByRole("slider", { name: "Frame" }).press("End");
+  await panel(page).locator(".camera-readout").filter({ hasText: /Frame (\d+) of \1 / }).waitFor();
+  await page.waitForTimeout(200);
+  await picture(page, "camera-replay");
+  assert.match(await panel(page).locator(".camera-help").innerText(), /Perform "hands.json".*\n*.*Mark red, Mark blue/s);
+  const [download] = await Promise.all([page.waitForEvent("download"), press(page, "Save")]);
+  assert.equal(download.suggestedFilename(), "hands.json");
+  const track = readTrack(readFileSync(await download.path(), "utf8"));
+  assert.deepEqual(track.size, [WIDTH, HEIGHT]);
+  assert.deepEqual(track.marks.map(({ name }) => name), ["red", "blue"]);
+  const seconds = track.times.at(-1)!;
+  assert.ok(seconds > PERIOD - 1, `${seconds} seconds were recorded`);
+  const found = errors(track, "counted");
+  const [median, p95] = [found[found.length >> 1]!, found[Math.floor(0.95 * found.length)]!];
+  const lost = track.marks.map(({ isLost }) => isLost.filter(Boolean).length);
+  const told = `${track.times.length} frames, ${(track.times.length / seconds).toFixed(1)} a second; median ${median.toFixed(2)} px, 95th percentile ${p95.toFixed(2)} px, lost ${lost.join(", ")}`;
+  console.log(told);
+  assert.ok(median < MEDIAN && p95 < P95, told);
+  assert.ok(lost.every((frames) => frames < 0.05 * track.times.length), told);
+  // The recorded pictures are shown: the disc is where the track says.
+  const end = track.marks[0]!.points.at(-1)!;
+  const shown = await find(page, "red");
+  assert.ok(Math.hypot(shown.x - end[0], shown.y - end[1]) < P95, `${shown.x} ${shown.y} is not ${end}`);
+  await press(page, "Again");
+  await panel(page).getByRole("button", { name: "Record", exact: true }).waitFor();
+  await page.waitForFunction(() => [...document.querySelectorAll(".camera-state")].every((one) => one.textContent === "seen"));
+});
