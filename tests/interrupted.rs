@@ -255,6 +255,10 @@ const WRITERS: [(&[&str], &str); 10] = [
     (&["motion", "../a.bvh", "-o", "b.bvh"], "b.bvh"),
     (&["motion", "../a.bvh", "--plot", "b.svg"], "b.svg"),
     (&["puppet", "../a.svg", "-o", "b.svg"], "b.svg"),
+    (
+        &["track", "../a.webp", "--mark=red", "-o", "b.json"],
+        "b.json",
+    ),
     (&["check", "--fix", "b.svg"], "b.svg"),
 ];
 
@@ -266,6 +270,8 @@ fn room() -> Room {
     let room = Room::with("a.svg", drawing(0));
     let motion = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/motion/walk.bvh");
     room.write("a.bvh", fs::read(motion).expect("an example"));
+    let film = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/motion/hook-puppet.webp");
+    room.write("a.webp", fs::read(film).expect("an example"));
     fs::create_dir(room.path("full")).expect("made");
     room
 }

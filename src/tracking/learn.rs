@@ -24,6 +24,8 @@ const PALEST: [f64; 2] = [0.35, 0.6];
 const LEAST_PIXELS: f64 = 8.0;
 /// The fewest pixels of a sample that a mark usually has.
 const LEAST_AREA: f64 = 5.0;
+/// A mark is in at least one of so many samples.
+const RAREST: usize = 8;
 /// A hue is in the clip if it has this part of the pixels.
 const LEAST_PART: f64 = 5e-4;
 
@@ -241,6 +243,10 @@ impl Learner {
         let areas = self.samples.frames.iter().map(largest);
         // Where the mark is out of the picture there may still be specks of its colour.
         let mut areas: Vec<f64> = areas.filter(|area| *area >= LEAST_AREA).collect();
+        // Specks that are as large as a mark are rare.
+        if areas.len() * RAREST < self.samples.frames.len() {
+            return 0.0;
+        }
         areas.sort_by(f64::total_cmp);
         areas.get(areas.len() / 2).copied().unwrap_or(0.0)
     }

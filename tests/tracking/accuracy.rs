@@ -178,6 +178,21 @@ fn marks_that_leave_are_lost_until_they_return() {
 }
 
 #[test]
+fn a_mark_that_is_gone_for_most_of_the_clip_is_found() {
+    let mut discs = discs();
+    discs.truncate(2);
+    discs[0].path = |time| ellipse(time, [160.0, 120.0], [420.0, 40.0], 14.0, 0.25);
+    let scene = Scene {
+        noise: 10.0,
+        ..scene(discs)
+    };
+    let accuracy = accuracy("mostly gone", &scene);
+    assert!(accuracy.gone > FRAMES / 2, "{accuracy:?}");
+    assert!(accuracy.median < 1.5 && accuracy.p95 < 4.0, "{accuracy:?}");
+    assert_eq!(accuracy.silently_wrong, 0, "{accuracy:?}");
+}
+
+#[test]
 fn marks_are_found_in_changing_light() {
     let light = |time: f64| 1.0 + 0.4 * (time / 11.0).sin();
     check(
