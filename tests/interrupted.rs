@@ -222,7 +222,7 @@ fn a_killed_fix_leaves_a_whole_drawing() {
 // ---- full disks
 
 /// The commands that write files, with what they write.
-const WRITERS: [(&[&str], &str); 10] = [
+const WRITERS: [(&[&str], &str); 11] = [
     (&["build", "../a.svg", "-o", "a.glb"], "a.glb"),
     (&["build", "../a.svg", "-o", "a.gltf"], "a.gltf"),
     (&["build", "../a.svg", "-o", "a.obj"], "a.obj"),

@@ -317,3 +317,177 @@ fn a_taken_port_is_an_error() {
     let live = Live::start(folder.path(), &["preview", "a.svg", "--port", &port]);
     live.line(&format!("error: port {port} is not available"));
 }
+
+/// The web socket of a page that records, with an origin.
+fn recorder(port: u16, origin: Option<&str>) -> tungstenite::Result<Socket> {
+    let mut request = format!("ws://127.0.0.1:{port}/camera").into_client_request()?;
+    if let Some(origin) = origin {
+        let origin = origin.parse().expect("an origin");
+        request.headers_mut().insert("origin", origin);
+    }
+    connect(request).map(|(socket, _)| socket)
+}
+
+/// A frame of 64 × 48 pixels, grey with a red square whose middle is at (x, 20.5).
+fn frame(sequence: u32, time: f64, x: usize) -> Vec<u8> {
+    let mut message = sequence.to_le_bytes().to_vec();
+    message.extend([64_u16, 48].map(u16::to_le_bytes).concat());
+    message.extend(time.to_le_bytes());
+    for pixel in 0..64 * 48 {
+        let (column, row) = (pixel % 64, pixel / 64);
+        let is_red = (x - 5..x + 5).contains(&column) && (16..26).contains(&row);
+        message.extend(if is_red {
+            [200, 30, 40]
+        } else {
+            [140, 140, 140]
+        });
+    }
+    message
+}
+
+#[test]
+fn a_page_records_a_track() {
+    let folder = folder();
+    let (live, port) = served(folder.path(), "a.svg");
+    let own = format!("http://127.0.0.1:{port}");
+    let mut page = recorder(port, Some(&own)).expect("let in");
+    page.send(Message::binary(frame(1, 0.0, 20))).expect("sent");
+    heard(&mut page, "seen");
+    let pick = Message::text(r#"{"type":"pick","x":20,"y":20}"#);
+    page.send(pick).expect("sent");
+    let marks = heard(&mut page, "marks");
+    assert_eq!(marks["marks"][0]["name"], "red");
+    assert_eq!(marks["marks"][0]["colour"], "#c81e28");
+    let record = Message::text(r#"{"type":"record"}"#);
+    page.send(record).expect("sent");
+    for number in 3..20_u32 {
+        let time = f64::from(number) * 40.0 - 40.0;
+        let message = frame(number, time, 18 + number as usize);
+        page.send(Message::binary(message)).expect("sent");
+        let seen = heard(&mut page, "seen");
+        assert_eq!(
+            (&seen["sequence"], &seen["recorded"]),
+            (&number.into(), &(number - 2).into())
+        );
+        let x = seen["marks"][0][0].as_f64().expect("a place");
+        assert!((x - f64::from(number) - 17.5).abs() < 0.6, "{seen}");
+    }
+    page.send(Message::text(r#"{"type":"stop"}"#))
+        .expect("sent");
+    let track = heard(&mut page, "track");
+    let file: Value = serde_json::from_str(track["file"].as_str().expect("a file")).expect("JSON");
+    assert_eq!(file["format"], "okoshi track");
+    assert_eq!(file["size"], serde_json::json!([64, 48]));
+    assert_eq!(file["times"].as_array().map(Vec::len), Some(17));
+    assert_eq!(file["times"][1], 0.04);
+    let entries = fs::read_dir(folder.path()).expect("a folder").count();
+    assert_eq!(entries, 1, "nothing is written");
+    drop(live);
+}
+
+#[test]
+fn messages_of_a_camera_that_are_wrong_are_answered() {
+    let folder = folder();
+    let (_live, port) = served(folder.path(), "a.svg");
+    for origin in ["http://evil.example", "null"] {
+        match recorder(port, Some(origin)) {
+            Err(tungstenite::Error::Http(answer)) => assert_eq!(answer.status(), 403, "{origin}"),
+            other => panic!("{origin}: {other:?}"),
+        }
+    }
+    let mut page = recorder(port, None).expect("let in");
+    let cut = frame(1, 0.0, 20);
+    let mut long = frame(1, 0.0, 20);
+    long.push(0);
+    let mut wide = frame(1, 0.0, 20);
+    wide[4..8].fill(255);
+    for wrong in [Vec::new(), vec![7; 15], cut[..999].to_vec(), long, wide] {
+        page.send(Message::binary(wrong)).expect("sent");
+        assert_eq!(heard(&mut page, "error")["isFrame"], true);
+    }
+    page.send(Message::binary(frame(1, 0.0, 20))).expect("sent");
+    heard(&mut page, "seen");
+    page.send(Message::binary(frame(1, 40.0, 20)))
+        .expect("sent");
+    assert_eq!(heard(&mut page, "error")["isFrame"], true);
+    for wrong in [
+        "",
+        "{",
+        r#"{"type":"fly"}"#,
+        r#"{"type":"pick","x":"a","y":1}"#,
+        r#"{"type":"pick","x":1,"y":1}"#,
+        r#"{"type":"name","mark":9,"name":"a"}"#,
+        r#"{"type":"remove","mark":-1}"#,
+        r#"{"type":"record"}"#,
+        r#"{"type":"stop"}"#,
+    ] {
+        page.send(Message::text(wrong)).expect("sent");
+        let answer = heard(&mut page, "error");
+        assert_eq!(answer["isFrame"], false, "{wrong}");
+        assert!(
+            answer["message"]
+                .as_str()
+                .is_some_and(|said| said.len() > 10),
+            "{wrong}"
+        );
+    }
+    page.send(Message::binary(frame(2, 40.0, 20)))
+        .expect("sent");
+    heard(&mut page, "seen");
+    // More than any frame has ends the connection; the page of the model goes on.
+    let _ = page.send(Message::binary(vec![0; 1 << 20]));
+    let ended = std::iter::repeat_with(|| page.read())
+        .take(20)
+        .any(|read| read.is_err());
+    assert!(ended, "a message of a megabyte is read");
+    heard(&mut socket(port, None).expect("let in"), "build");
+}
+
+#[test]
+fn two_pages_record_apart_and_a_third_waits() {
+    let folder = folder();
+    let (_live, port) = served(folder.path(), "a.svg");
+    let mut first = recorder(port, None).expect("let in");
+    let mut second = recorder(port, None).expect("let in");
+    for page in [&mut first, &mut second] {
+        page.send(Message::binary(frame(1, 0.0, 20))).expect("sent");
+        heard(page, "seen");
+    }
+    let pick = Message::text(r#"{"type":"pick","x":20,"y":20}"#);
+    first.send(pick).expect("sent");
+    heard(&mut first, "marks");
+    first
+        .send(Message::binary(frame(2, 40.0, 20)))
+        .expect("sent");
+    assert!(heard(&mut first, "seen")["marks"][0].is_array());
+    second
+        .send(Message::binary(frame(2, 40.0, 20)))
+        .expect("sent");
+    let marks = &heard(&mut second, "seen")["marks"];
+    assert_eq!(
+        marks.as_array().map(Vec::len),
+        Some(0),
+        "no mark was picked here"
+    );
+    let mut third = recorder(port, None).expect("a connection");
+    let answer = heard(&mut third, "error");
+    assert!(
+        answer["message"]
+            .as_str()
+            .is_some_and(|said| said.contains("other pages"))
+    );
+    // What a page has recorded ends with its connection.
+    drop(first);
+    let end = Instant::now() + Duration::from_secs(20);
+    loop {
+        let mut page = recorder(port, None).expect("a connection");
+        page.send(Message::binary(frame(1, 0.0, 20))).expect("sent");
+        if let Ok(Message::Text(text)) = page.read()
+            && text.contains("seen")
+        {
+            break;
+        }
+        assert!(Instant::now() < end, "no other page is let in");
+        std::thread::sleep(Duration::from_millis(100));
+    }
+}

@@ -39,7 +39,7 @@ function camera(name: string, run: (page: Page, program: { stop(): void }) => Pr
   test(name, { skip, timeout: 120_000 }, async () => {
     const folder = mkdtempSync(join(scratch, "drawing-"));
     copyFileSync(FIGURE, join(folder, "figure.svg"));
-    const program = spawn(okoshi, ["preview", "figure.svg", "--port", "0", "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+    const program = spawn(okoshi, ["preview", "figure.svg", "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
     try {
       const address = await new Promise<string>((found) => createInterface(program.stdout).once("line", found));
       const { page, wrong } = await open(await film(), address, options);
@@ -169,3 +169,103 @@ camera("a recording has the marks where they are", async (page) => {
   await panel(page).getByRole("button", { name: "Record", exact: true }).waitFor();
   await page.waitForFunction(() => [...document.querySelectorAll(".camera-state")].every((one) => one.textContent === "seen"));
 });
+
+camera("everything is done with the keyboard, and Escape releases the camera", async (page) => {
+  await page.evaluate(() => {
+    const kept = window as unknown as { streams: MediaStream[] };
+    kept.streams = [];
+    const ask = navigator.mediaDevices.getUserMedia.bind(navigator.mediaDevices);
+    navigator.mediaDevices.getUserMedia = async (wanted) => {
+      const stream = await ask(wanted);
+      kept.streams.push(stream);
+      return stream;
+    };
+  });
+  const cameras = () => page.evaluate(() => (window as unknown as { streams: MediaStream[] }).streams.flatMap((stream) => stream.getTracks().map(({ readyState }) => readyState)));
+  await page.keyboard.press("r");
+  await page.keyboard.press("Enter");
+  await status(page, "Click on each mark");
+  await page.waitForFunction(() => document.querySelector<HTMLCanvasElement>(".camera-picture")!.width === 320);
+  await page.keyboard.press(" ");
+  await page.waitForSelector('.camera-dialog button[aria-label="Hold the picture still"][aria-pressed="true"]');
+  const red = await find(page, "red");
+  // The cross begins in the middle; the picture is mirrored, so that the arrow to the left leads to larger x.
+  const walk = async (key: string, pixels: number): Promise<void> => {
+    for (let step = 0; step < Math.floor(pixels / 16); step++) await page.keyboard.press(`Shift+${key}`);
+    for (let step = 0; step < Math.floor((pixels % 16) / 2); step++) await page.keyboard.press(key);
+  };
+  await walk(red.x > WIDTH / 2 ? "ArrowLeft" : "ArrowRight", Math.abs(red.x - WIDTH / 2));
+  await walk(red.y > HEIGHT / 2 ? "ArrowDown" : "ArrowUp", Math.abs(red.y - HEIGHT / 2));
+  await page.keyboard.press("Enter");
+  const name = panel(page).locator(".camera-name");
+  await name.waitFor();
+  assert.equal(await name.inputValue(), "red");
+  for (const refused of ["", "two words"]) {
+    await name.fill(refused);
+    await name.press("Enter");
+    await status(page, "A name has letters");
+    assert.equal(await name.inputValue(), "red");
+  }
+  await name.fill("hand");
+  await name.press("Enter");
+  await status(page, "1 mark: hand.");
+  // A grey place is refused.
+  await panel(page).getByRole("button", { name: "Mirror the picture" }).press("Enter");
+  await click(page, { x: 3, y: 3 });
+  await status(page, "There is no colour");
+  await press(page, "Clicks before the recording");
+  await panel(page).getByRole("button", { name: "Record", exact: true }).press("Enter");
+  await status(page, "Recording.");
+  await page.waitForTimeout(1500);
+  await page.keyboard.press("Enter");
+  await status(page, /Recorded \d+ frames/);
+  await name.fill("left-hand");
+  await name.press("Enter");
+  await panel(page).locator(".camera-help").filter({ hasText: /Mark #[0-9a-f]{6}/ }).waitFor();
+  const [download] = await Promise.all([page.waitForEvent("download"), panel(page).getByRole("button", { name: "Save" }).press("Enter")]);
+  const track = readTrack(readFileSync(await download.path(), "utf8"));
+  assert.deepEqual(track.marks.map(({ name }) => name), ["left-hand"]);
+  assert.ok(track.times.length > 2);
+  assert.deepEqual(await cameras(), ["live"]);
+  await page.keyboard.press("Escape");
+  await panel(page).waitFor({ state: "hidden" });
+  assert.deepEqual(await cameras(), ["ended"]);
+});
+
+camera("failures are told", async (page, program) => {
+  const failing = (name: string) =>
+    page.evaluate((name) => {
+      navigator.mediaDevices.getUserMedia = () => Promise.reject(new DOMException("", name));
+    }, name);
+  await failing("NotAllowedError");
+  await page.keyboard.press("r");
+  await press(page, "Use the camera");
+  await status(page, "was not allowed");
+  await failing("NotFoundError");
+  await press(page, "Try again");
+  await status(page, "There is no camera");
+  await page.evaluate(() => Object.defineProperty(navigator, "mediaDevices", { value: undefined, configurable: true }));
+  await press(page, "Try again");
+  await status(page, "secure pages");
+  await page.evaluate(() => delete (navigator as { mediaDevices?: unknown }).mediaDevices);
+  await page.evaluate(() => delete (navigator.mediaDevices as { getUserMedia?: unknown }).getUserMedia);
+  await press(page, "Try again");
+  await status(page, "Click on each mark");
+  assert.ok(await panel(page).getByRole("button", { name: "Record", exact: true }).isDisabled(), "nothing can be recorded without marks");
+  program.stop();
+  await status(page, "connection to okoshi was lost");
+});
+
+camera(
+  "the panel fits a phone, and is dark in dark mode",
+  async (page) => {
+    await start(page);
+    await choose(page);
+    await picture(page, "camera-phone");
+    const wide = await panel(page).evaluate((dialog) => [...dialog.querySelectorAll("*")].filter((one) => one.getClientRects().length > 0 && !one.closest("svg")).filter((one) => one.getBoundingClientRect().right > innerWidth + 0.5 || one.getBoundingClientRect().left < -0.5).map((one) => one.className));
+    assert.deepEqual(wide, []);
+    const [paper, ink] = await panel(page).evaluate((dialog) => [getComputedStyle(dialog).backgroundColor, getComputedStyle(dialog).color].map((color) => Number(/\d+/.exec(color))));
+    assert.ok(paper! < 80 && ink! > 180, `${ink} on ${paper}`);
+  },
+  { viewport: { width: 380, height: 740 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2, colorScheme: "dark" },
+);

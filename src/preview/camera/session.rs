@@ -16,10 +16,6 @@ const MAX_FRAMES: usize = 1000;
 const MIN_INTERVAL: f64 = 1.0;
 /// Whoever points at a colour whose hue is so near to that of a mark, in degrees, means this mark.
 const SAME_HUE: f64 = 15.0;
-/// After so many frames, marks are learned: at once, and again with some noise. In so short a time a mark hardly moves, so what stands
-/// still cannot be told from it: that is learned from the recording as a whole.
-const LEARNED_AFTER: [usize; 2] = [1, 4];
-
 /// Why a message is refused.
 #[derive(Debug, Error)]
 pub(super) enum Refusal {
@@ -35,6 +31,8 @@ pub(super) enum Refusal {
     NoPicture,
     #[error("there is no colour: choose a coloured mark, not a grey, black or white one")]
     Grey,
+    #[error("the mark is too small: bring it nearer to the camera")]
+    Small,
     #[error("there are {MAX_MARKS} marks already")]
     TooMany,
     #[error("there is no such mark")]
@@ -57,6 +55,8 @@ pub(super) struct Session {
     marks: Vec<Mark>,
     /// Where each mark was last, pixels.
     places: Vec<Option<DVec2>>,
+    /// The picture in which each mark was chosen.
+    chosen: Vec<Picture>,
     last: Option<Picture>,
     live: Option<Live>,
     recording: Option<Recording>,
@@ -67,11 +67,8 @@ pub(super) struct Session {
 /// Marks that are tracked while frames arrive.
 #[derive(Debug)]
 struct Live {
-    learner: Learner,
-    /// How many frames the learner has seen.
-    frames: usize,
-    learned: Option<Learned>,
-    tracker: Option<Tracker>,
+    learned: Learned,
+    tracker: Tracker,
 }
 
 /// Frames that are kept until the recording ends.
@@ -95,7 +92,7 @@ impl Session {
                 if self.recording.take().is_some() {
                     return Err(Refusal::Size);
                 }
-                // A phone was turned, or the camera was changed.
+                // A phone was turned, or the camera was changed: the marks must be chosen again.
                 self.places.fill(None);
                 self.live = None;
             }
@@ -127,35 +124,30 @@ impl Session {
 
     /// Finds the marks in the last frame.
     fn track_live(&mut self) -> Vec<Option<Sighting>> {
-        let nothing = vec![None; self.marks.len()];
-        let Some(picture) = &self.last else {
-            return nothing;
-        };
-        let Some(frame) = picture.frame() else {
-            return nothing;
-        };
-        if self.marks.is_empty() {
-            return nothing;
+        let frame = self.last.as_ref().and_then(Picture::frame);
+        match (&mut self.live, frame) {
+            (Some(live), Some(frame)) => live.tracker.push(frame),
+            _ => vec![None; self.marks.len()],
         }
-        let live = self.live.get_or_insert_with(|| Live {
-            learner: Learner::new(picture.size, self.marks.clone()),
-            frames: 0,
-            learned: None,
-            tracker: None,
-        });
-        // Learning takes longer than a frame, and a recording is learned as a whole when it ends.
-        if self.recording.is_none() && live.frames < LEARNED_AFTER[LEARNED_AFTER.len() - 1] {
-            live.learner.push(frame);
-            live.frames += 1;
-            if LEARNED_AFTER.contains(&live.frames)
-                && let Ok(learned) = live.learner.learned()
-            {
-                live.tracker = Some(started(&learned, &self.places));
-                live.learned = Some(learned);
-            }
+    }
+
+    /// Learns the marks from the pictures in which they were chosen. What stands still and looks like a mark is not known yet: that is
+    /// learned from the recording.
+    fn learn(&mut self) {
+        self.track = None;
+        self.live = None;
+        let Some(last) = &self.last else { return };
+        let mut learner = Learner::new(last.size, self.marks.clone());
+        let mut pictures: Vec<&Picture> = self.chosen.iter().collect();
+        pictures.sort_by_key(|picture| picture.sequence);
+        pictures.dedup_by_key(|picture| picture.sequence);
+        for frame in pictures.into_iter().filter_map(Picture::frame) {
+            learner.push(frame);
         }
-        let tracker = live.tracker.as_mut();
-        tracker.map_or(nothing, |tracker| tracker.push(frame))
+        if let Ok(learned) = learner.learned() {
+            let tracker = started(&learned, &self.places);
+            self.live = Some(Live { learned, tracker });
+        }
     }
 
     /// Does what a message asks for.
@@ -168,10 +160,7 @@ impl Session {
                 if mark >= self.marks.len() {
                     return Err(Refusal::NoMark);
                 }
-                self.marks.remove(mark);
-                self.places.remove(mark);
-                self.live = None;
-                self.track = None;
+                self.forget(mark);
                 Ok(vec![self.facts()])
             }
             FromCamera::Record {} => {
@@ -204,14 +193,17 @@ impl Session {
     /// Takes the colour at a place for a mark: a new one, or the one that has this hue already.
     fn pick(&mut self, at: DVec2) -> Result<Vec<ToCamera>, Refusal> {
         self.may_choose()?;
-        let frame = self.last.as_ref().and_then(Picture::frame);
-        let frame = frame.ok_or(Refusal::NoPicture)?;
+        let picture = self.last.clone().ok_or(Refusal::NoPicture)?;
+        let frame = picture.frame().ok_or(Refusal::NoPicture)?;
+        let size = DVec2::from_array(picture.size.map(f64::from));
+        let at = at.clamp(DVec2::ZERO, size - 1.0);
         let mark = Mark::picked("", frame, at).map_err(|_| Refusal::Grey)?;
         let is_same = |other: &Mark| {
             let difference = (mark.hue() - other.hue() + 180.0).rem_euclid(360.0) - 180.0;
             difference.abs() < SAME_HUE
         };
         let index = self.marks.iter().position(is_same);
+        let is_new = index.is_none();
         let index = index.unwrap_or(self.marks.len());
         if index >= MAX_MARKS {
             return Err(Refusal::TooMany);
@@ -222,16 +214,30 @@ impl Session {
         };
         let mark = Mark::new(name, mark.colour()).map_err(|_| Refusal::Grey)?;
         match self.marks.get_mut(index) {
-            Some(same) => *same = mark,
+            Some(same) => {
+                *same = mark;
+                self.places[index] = Some(at);
+                self.chosen[index] = picture;
+            }
             None => {
                 self.marks.push(mark);
-                self.places.push(None);
+                self.places.push(Some(at));
+                self.chosen.push(picture);
             }
         }
-        self.places[index] = Some(at);
-        self.live = None;
-        self.track = None;
+        self.learn();
+        if self.live.is_none() && is_new {
+            self.forget(index);
+            return Err(Refusal::Small);
+        }
         Ok(vec![self.facts()])
+    }
+
+    fn forget(&mut self, mark: usize) {
+        self.marks.remove(mark);
+        self.places.remove(mark);
+        self.chosen.remove(mark);
+        self.learn();
     }
 
     fn rename(&mut self, mark: usize, name: String) -> Result<Vec<ToCamera>, Refusal> {
@@ -263,7 +269,7 @@ impl Session {
         for frame in recording.frames.iter().filter_map(Picture::frame) {
             learner.push(frame);
         }
-        let live = self.live.as_ref().and_then(|live| live.learned.clone());
+        let live = self.live.as_ref().map(|live| live.learned.clone());
         let learned = learner.learned().or_else(|error| {
             let mark = self.marks.get(error.mark);
             let name = mark.map_or("", Mark::name).to_owned();
