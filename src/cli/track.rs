@@ -13,7 +13,7 @@ use self::clip::Clip;
 use super::args::{Common, Track};
 use super::progress::counting;
 use super::render::movie::{Movie, MovieForm};
-use super::{Outcome, fail};
+use super::{Outcome, counted, fail};
 use crate::disk::{Inputs, Naming, Target};
 use crate::motion::mark_tracks::{MAX_MARKS, MarkTrack, MarkTracks, repeated_name};
 use crate::render::{Image, Palette, write_png};
@@ -212,7 +212,8 @@ fn report(found: &MarkTracks, learned: &Learned) -> String {
     let [width, height] = found.size;
     let frames = found.times.len();
     let seconds = found.times.last().copied().unwrap_or(0.0);
-    let mut text = format!("{frames} frames, {width} × {height} pixels, {seconds:.1} s\n");
+    let length = counted(frames, "frame");
+    let mut text = format!("{length}, {width} × {height} pixels, {seconds:.1} s\n");
     for (index, mark) in found.marks.iter().enumerate() {
         let _ = writeln!(text, "  {}", seen(mark));
         let name = &mark.name;
