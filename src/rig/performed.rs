@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
+use super::Context;
+use super::builder::MatchedFigure;
 use super::diagnostics::{self, MarkProblem};
 use super::figures::FigureGroup;
-use super::{Context, MatchedFigure};
 use crate::bind::{Camerawork, PartMark, PerformanceRequest};
 use crate::diagnostic::{Diagnostic, nearest_word};
 use crate::memo::{Memo, Same};
