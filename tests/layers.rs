@@ -214,6 +214,7 @@ const USES: &[(&str, &[&str])] = &[
             "compile",
             "figure",
             "geometry",
+            "motion",
             "rig",
             "scene",
             "source",

@@ -380,6 +380,56 @@ fn details_stay_on_their_piece() {
 }
 
 #[test]
+fn joints_without_paper_are_passed_over() {
+    // An axle between body and arm, and a hub that carries two things and hangs on nothing.
+    let text = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">
+  <rect x="20" y="20" width="60" height="80" fill="#c00"><desc>Body$</desc></rect>
+  <circle cx="78" cy="37" r="3" fill="#000"><desc>Axle@Body$Shape none</desc></circle>
+  <rect x="76" y="30" width="60" height="14" fill="#00c"><desc>Arm@Axle$</desc></rect>
+  <circle cx="150" cy="150" r="3" fill="#000"><desc>Hub$Shape none</desc></circle>
+  <rect x="150" y="140" width="40" height="9" fill="#0c0"><desc>One@Hub$</desc></rect>
+  <rect x="100" y="151" width="50" height="9" fill="#0cc"><desc>Two@Hub$</desc></rect>
+</svg>"##;
+    let resolver = MemoryResolver::default();
+    let compiled = common::compiled(text, &resolver);
+    let made = pieces(&compiled.drawing, &compiled.bindings);
+    let names = made.iter().map(|piece| {
+        let carrier = piece.joint.map(|joint| made[joint.parent].part);
+        let name = |part: usize| compiled.bindings.parts[part].name.as_str();
+        (name(piece.part), carrier.map(name))
+    });
+    let names: Vec<_> = names.collect();
+    assert_eq!(
+        names,
+        [
+            ("Body", None),
+            ("Arm", Some("Body")),
+            ("One", None),
+            ("Two", None)
+        ]
+    );
+    let sheet = sheet(&compiled, text, "a", &resolver, &options()).expect("a sheet");
+    check_laws(&compiled, &sheet, A4).expect("a good sheet");
+}
+
+#[test]
+fn long_names_are_shortened() {
+    let name = "very".repeat(100);
+    let text = GOOD.replace("Hand", &name);
+    let resolver = MemoryResolver::default();
+    let compiled = common::compiled(&text, &resolver);
+    let page = DVec2::splat(120.0);
+    let options = Options { page, scale: None };
+    let sheet = sheet(&compiled, &text, &name, &resolver, &options).expect("a sheet");
+    check_laws(&compiled, &sheet, page).expect("a good sheet");
+    let texts = sheet
+        .svg
+        .split("</text>")
+        .filter(|text| text.ends_with('…'));
+    assert!(texts.count() >= 3, "the title, the caption and the mark");
+}
+
+#[test]
 fn without_marks_the_sheet_suggests_some() {
     let text = GOOD.replace("$Mark #ff8000", "");
     let resolver = MemoryResolver::default();

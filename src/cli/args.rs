@@ -9,10 +9,12 @@ use crate::export::{EXPORTERS, extensions};
 mod motion;
 mod puppet;
 mod render;
+mod track;
 
 pub(super) use motion::{Filming, Motion, Performing};
 pub(super) use puppet::Puppet;
 pub(super) use render::{Background, Bend, Projection, Render, Shading};
+pub(super) use track::Track;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -26,6 +28,7 @@ Examples:
   okoshi preview human.svg --open        shows it in the browser, live
   okoshi motion kick.bvh -o snappy.bvh   reduces a motion to limited animation, as if drawn by hand
   okoshi puppet human.svg                a sheet to cut out a puppet from, human-puppet.svg
+  okoshi track puppet.gif --mark red     follows a coloured mark through a clip
   okoshi inspect human.svg               shows which string belongs to which part, and why
   okoshi explain Shape                   the manual page of a keyword
   okoshi explain E204                    the manual page of a diagnostic
@@ -94,6 +97,8 @@ pub(super) enum Command {
     Motion(Motion),
     /// Write a sheet of paper pieces to cut out: a puppet of the figure, to move by hand and film
     Puppet(Puppet),
+    /// Follow coloured marks through a clip, to perform a motion with them
+    Track(Track),
     /// Run the language server on stdin and stdout, for editors
     ///
     /// Editors start it by themselves; docs/editors describes how to set each up. Positions are in UTF-8 or

@@ -27,6 +27,7 @@ pub mod report;
 #[cfg(test)]
 mod samples;
 pub mod sarif;
+mod track;
 mod watch;
 
 use std::ffi::OsString;
@@ -101,6 +102,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
         Command::Explain { topic } => explain::run(topic.as_deref(), cli.common),
         Command::Motion(arguments) => motion::run(arguments, cli.common),
         Command::Puppet(arguments) => puppet::run(arguments, cli.common),
+        Command::Track(arguments) => track::run(arguments, cli.common),
         Command::Watch(arguments) => watch::run(arguments, cli.common),
         Command::Preview(arguments) => preview::run(arguments, cli.common),
         Command::Lsp => lsp(),

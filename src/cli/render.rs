@@ -19,7 +19,7 @@ use crate::resolver::Recorder;
 
 mod cameras;
 mod clips;
-mod movie;
+pub(super) mod movie;
 mod video;
 
 /// The side in pixels of the thumbnails that the colours of a GIF are chosen from.
@@ -383,7 +383,7 @@ fn draw(
             let target = output.single().map_err(Failure::written)?;
             let movie = Movie {
                 form,
-                options: &options,
+                size: options.size,
                 pictures: frames,
                 rate: [frames, TURNTABLE_SECONDS],
             };
@@ -438,7 +438,7 @@ fn draw_page(
 }
 
 /// Why pictures could not be drawn or written, as a message.
-struct Failure(String);
+pub(super) struct Failure(pub(super) String);
 
 impl Failure {
     /// A problem of the model.

@@ -98,7 +98,7 @@ impl Compiled {
             .any(|diagnostic| diagnostic.code == Code::Crash)
     }
 
-    /// The nodes of the model with the full clips from which limited animation was made; `None` if no clip is limited.
+    /// The nodes of the model with its clips before they were performed and limited; `None` if no clip is either.
     pub fn originals(&self) -> Option<Scene> {
         rig::originals(&self.scene, &self.clips)
     }

@@ -19,7 +19,7 @@ pub use read::{
     DRAWING_LIMIT, ReadError, UNPACKED_LIMIT, is_packed, open_stream, read_drawing, read_file,
 };
 pub use scratch::Scratch;
-pub use search::{Below, Stamp, below, is_drawing, stamp};
+pub use search::{Below, Stamp, below, files, is_drawing, stamp};
 pub use sniff::NotADrawing;
 pub use target::{Inputs, Naming, Target, rewrite};
 pub use text::{Decode, decode};

@@ -70,7 +70,7 @@ pub(super) fn drawings(folder: &Path) -> Vec<PathBuf> {
 }
 
 /// The plain and other files in a folder that are wanted, sorted by name.
-pub(super) fn files(folder: &Path, wanted: impl Fn(&Path) -> bool) -> Vec<PathBuf> {
+pub fn files(folder: &Path, wanted: impl Fn(&Path) -> bool) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     let files = entries.take(MAX_FILES).map(|entry| entry.path());
     let mut files: Vec<PathBuf> = files.filter(|file| wanted(file)).collect();

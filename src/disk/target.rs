@@ -10,11 +10,12 @@ use super::{is_drawing, is_standard_stream};
 use crate::export::Output;
 
 /// What the formats that okoshi writes have near their beginning, and files from other programs do not.
-const MARKS: [&[u8]; 4] = [
+const MARKS: [&[u8]; 5] = [
     br#""generator":"okoshi "#,
     b"Software\0okoshi ",
     b"<!-- Chart of a motion, written by okoshi ",
     b"<!-- Puppet to cut out, written by okoshi ",
+    br#""format": "okoshi track""#,
 ];
 
 /// How much of a file is searched for a mark, in bytes.
@@ -45,6 +46,13 @@ impl Inputs {
     /// The file that the command was called with.
     pub fn of(file: &Path) -> Self {
         Self(vec![(file.to_owned(), Role::Read)])
+    }
+
+    /// Adds another file that it reads.
+    #[must_use]
+    pub fn reading(mut self, file: &Path) -> Self {
+        self.0.push((file.to_owned(), Role::Read));
+        self
     }
 
     /// Adds files that it links to, whether they exist or not.

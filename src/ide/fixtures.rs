@@ -15,6 +15,35 @@ pub(super) fn moving(source: &str) -> (Analysis, usize) {
     analysis_among(source, &files)
 }
 
+/// The same, and to a track as `hands.json`: the mark `red` strikes late, `green` moves a quarter as much.
+pub(super) fn performed(source: &str) -> (Analysis, usize) {
+    let files = MemoryResolver::default()
+        .with("kick.bvh", motion().into_bytes())
+        .with("hands.json", track().into_bytes());
+    analysis_among(source, &files)
+}
+
+fn track() -> String {
+    let points = |far: i32| -> Vec<String> {
+        let place = |frame: i32| if frame < 7 { 0 } else { far };
+        let places = (0..25).map(place);
+        places.map(|x| format!("[{},50]", x + 10)).collect()
+    };
+    let times: Vec<String> = (0..25)
+        .map(|frame| format!("{}", f64::from(frame) / 24.0))
+        .collect();
+    let mark = |name: &str, colour: &str, far: i32| {
+        let points = points(far).join(",");
+        format!("{{\"name\":\"{name}\",\"colour\":\"{colour}\",\"points\":[{points}]}}")
+    };
+    format!(
+        "{{\"format\":\"okoshi track\",\"version\":1,\"size\":[100,100],\"times\":[{}],\"marks\":[{},{}]}}",
+        times.join(","),
+        mark("red", "#ff0000", 80),
+        mark("green", "#008000", 20)
+    )
+}
+
 fn analysis_among(source: &str, files: &MemoryResolver) -> (Analysis, usize) {
     let at = source.find('¦').unwrap_or(0);
     let source = source.replacen('¦', "", 1);

@@ -102,8 +102,11 @@ impl Analysis {
                     return Some(card);
                 }
                 let card = self.argument_card(string, (index, argument), slot, offset)?;
-                let is_cut = matches!(attribute(index).keyword, Keyword::Motion | Keyword::Limited);
-                let motion = is_cut.then(|| self.motion_card(string, index)).flatten();
+                let has_clips = matches!(
+                    attribute(index).keyword,
+                    Keyword::Motion | Keyword::Limited | Keyword::Perform | Keyword::Mark
+                );
+                let motion = has_clips.then(|| self.motion_card(string, index)).flatten();
                 Some(match motion {
                     Some(motion) => format!("{motion}\n{card}"),
                     None => card,

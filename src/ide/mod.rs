@@ -18,6 +18,7 @@ mod inlay;
 mod letters;
 mod motion;
 mod pairing;
+mod performances;
 mod regions;
 mod rename;
 mod selection;

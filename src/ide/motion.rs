@@ -73,7 +73,7 @@ impl Analysis {
         (!out.is_empty()).then(|| format!("{out}\n"))
     }
 
-    /// The clips that attribute `index` of a string asks for or limits, or the joint that drives its part.
+    /// The clips that attribute `index` of a string asks for, limits or performs, or the joint or mark of its part.
     pub(super) fn motion_card(&self, string: usize, index: usize) -> Option<String> {
         let string_of = &self.bindings().strings[string];
         let attribute = &attributes(&string_of.annotation)[index];
@@ -81,6 +81,8 @@ impl Analysis {
         match attribute.keyword {
             Keyword::Motion => Some(self.asked_card(span)),
             Keyword::Limited => self.limited_card(span),
+            Keyword::Perform => self.performance_card(span),
+            Keyword::Mark => self.mark_card(string),
             Keyword::Bone => self.driven_card(self.part_of_string(string)?),
             _ => None,
         }
@@ -171,7 +173,7 @@ impl Analysis {
         (!cards.is_empty()).then(|| cards.join("\n\n"))
     }
 
-    fn figure_of(&self, clip: &FigureClip) -> String {
+    pub(super) fn figure_of(&self, clip: &FigureClip) -> String {
         code(&self.bindings().parts[clip.root].name)
     }
 
@@ -232,7 +234,7 @@ fn joint_of(clip: &FigureClip, joint: usize) -> String {
 }
 
 /// A list in Markdown, shortened if it is long.
-fn list(lines: Vec<String>) -> Option<String> {
+pub(super) fn list(lines: Vec<String>) -> Option<String> {
     let mut out = String::new();
     for line in lines.iter().take(MAX_CLIPS) {
         let _ = writeln!(out, "- {line}");
@@ -244,7 +246,7 @@ fn list(lines: Vec<String>) -> Option<String> {
 }
 
 /// A name as code in Markdown.
-fn code(name: &str) -> String {
+pub(super) fn code(name: &str) -> String {
     format!("`{}`", name.replace('`', "'"))
 }
 

@@ -81,7 +81,7 @@ struct Entry {
 pub(super) struct StoredModel {
     pub(super) number: u64,
     pub(super) bytes: Bytes,
-    /// Its clips before they were limited, as binary glTF without meshes.
+    /// Its clips before they were performed and limited, as binary glTF without meshes.
     pub(super) originals: Option<Bytes>,
     /// The description of its clips.
     clips: Box<RawValue>,
@@ -322,7 +322,7 @@ impl Hub {
     }
 }
 
-/// The clips of a drawing before they were limited, as binary glTF; `None` if none was limited.
+/// The clips of a drawing before they were performed and limited, as binary glTF; `None` if none was either.
 fn originals(compiled: &Compiled) -> Option<Bytes> {
     let model = export::to_memory(&GLB, &compiled.originals()?, None).ok()?;
     Some(model.bytes.into())

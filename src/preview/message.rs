@@ -51,7 +51,7 @@ pub(super) struct Build<'a> {
     pub(super) findings: Vec<Finding<'a>>,
     pub(super) parts: Vec<Part<'a>>,
     pub(super) clips: &'a RawValue,
-    /// The address of the clips before they were limited.
+    /// The address of the clips before they were performed and limited.
     pub(super) originals: Option<String>,
     pub(super) steps: Timestamps,
 }

@@ -10,7 +10,7 @@ use super::pieces::Piece;
 /// What a page leaves free at its edges: many printers cannot print there.
 pub(super) const EDGE: f64 = 10.0;
 /// The least distance between pieces.
-const GAP: f64 = 3.0;
+pub(super) const GAP: f64 = 3.0;
 /// The height of the line with a piece's name.
 pub(super) const NAME_LINE: f64 = 5.0;
 /// A puppet on one page that is smaller than this gets more pages.

@@ -1,10 +1,11 @@
 //! Printable puppets: the figures of a drawing as a sheet of pieces to cut out, pin together and film (motion.md,
 //! Performance).
 //!
-//! [`pieces`] says which parts are a piece of paper, in drawing units; `paper` cuts it out at a scale, and `layout` finds the
-//! scale and the places, both in millimetres, x to the right, y down; `sheet` writes it. A joint's hole lies on paper in both
-//! pieces that it joins.
+//! `pieces` says which parts are a piece of paper, in drawing units; `paper` cuts it out at a scale, and `layout` finds the
+//! scale and the places, both in millimetres, x to the right, y down; `instructions` says what to do with the sheet, and `sheet`
+//! writes it. A joint's hole lies on paper in both pieces that it joins.
 
+mod instructions;
 mod layout;
 mod marks;
 mod paper;
@@ -22,17 +23,16 @@ use crate::resolver::Resolver;
 use crate::svg::{Excerpts, excerpts};
 use crate::threads;
 
-use layout::{Layout, Task};
+use instructions::Texts;
+use layout::{EDGE, GAP, Layout, Task};
 pub use marks::{MarkOrigin, PieceMark, marks};
 pub use pieces::{Joint, Piece, pieces};
-use sheet::{Printed, Texts};
+use sheet::Printed;
 
 /// The most pieces of a sheet; nobody pins more.
 const MAX_PIECES: usize = 300;
-/// With more joints than there are letters that cannot be taken for digits, joints have numbers.
+/// The letters of joints, without those that look like digits. If there are more joints, they have numbers.
 const LETTERS: &str = "ABCDEFGHJKLMNPQRSTUVWXYZ";
-/// How many marks stand on a line of the command that tracks them.
-const MARKS_ON_LINE: usize = 3;
 /// Holes that are nearer than this are one, in millimetres.
 const SAME_HOLE: f64 = 1.0;
 
@@ -147,7 +147,7 @@ impl<'a> Puppet<'a> {
         resolver: &dyn Resolver,
         options: &Options,
     ) -> Result<Sheet, PuppetError> {
-        let texts = self.texts(title);
+        let texts = self.texts(title, options.page);
         let task = Task {
             pieces: &self.pieces,
             marks: &self.marks,
@@ -155,7 +155,7 @@ impl<'a> Puppet<'a> {
                 .map(|piece| self.holes(piece))
                 .collect(),
             names: (0..self.pieces.len())
-                .map(|piece| sheet::text_width(&self.caption(piece)))
+                .map(|piece| instructions::text_width(&self.caption(piece, options.page)))
                 .collect(),
             page: options.page,
             text: texts.height(),
@@ -175,7 +175,7 @@ impl<'a> Puppet<'a> {
         };
         let excerpts = self.drawn(text, resolver).ok_or(PuppetError::Drawing)?;
         let printed: Vec<Printed<'_>> = (0..self.pieces.len())
-            .map(|index| self.printed(index, &layout))
+            .map(|index| self.printed(index, &layout, options.page))
             .collect();
         Ok(Sheet {
             svg: sheet::write(options.page, &layout, &printed, &excerpts, &texts),
@@ -254,18 +254,19 @@ impl<'a> Puppet<'a> {
         &self.bindings.parts[self.pieces[piece].part].name
     }
 
-    /// What stands below a piece: its name, and where it lies.
-    fn caption(&self, piece: usize) -> String {
+    /// What stands below a piece: its name, and where it lies, as far as the page has room for it.
+    fn caption(&self, piece: usize, page: DVec2) -> String {
         let name = plain(self.name(piece));
-        match self.pieces[piece].joint {
+        let caption = match self.pieces[piece].joint {
             Some(joint) if self.pieces[piece].is_behind(&self.pieces[joint.parent]) => {
                 format!("{name}, behind {}", plain(self.name(joint.parent)))
             }
             _ => name,
-        }
+        };
+        instructions::shortened(&caption, page.x - 2.0 * EDGE - GAP)
     }
 
-    fn printed<'b>(&'b self, index: usize, layout: &'b Layout) -> Printed<'b> {
+    fn printed<'b>(&'b self, index: usize, layout: &'b Layout, page: DVec2) -> Printed<'b> {
         let placed = &layout.placed[index];
         let holes = &placed.paper.holes;
         let mut letters: Vec<Vec<String>> = vec![Vec::new(); holes.len()];
@@ -278,63 +279,20 @@ impl<'a> Puppet<'a> {
             placed,
             mark: self.marks[index].as_ref(),
             name: self.name(index).to_owned(),
-            caption: self.caption(index),
+            caption: self.caption(index, page),
             letters,
         }
     }
 
-    fn texts(&self, title: &str) -> Texts {
-        let mut lines = vec![
-            ("Glue the sheet onto thin card and cut along the grey lines. Make a hole at each cross.".to_owned(), None),
-            ("Pin holes with the same letter together with paper fasteners.".to_owned(), None),
-        ];
-        let marks: Vec<&PieceMark> = self.marks.iter().flatten().collect();
-        if !marks.is_empty() {
-            lines.push((
-                "Film it from the front, with a camera that stands still. Then:".to_owned(),
-                None,
-            ));
-            lines.extend(track_command(&marks).into_iter().map(|line| (line, None)));
-        }
-        for mark in marks {
-            let name = plain(&self.bindings.parts[mark.part].name);
-            let line = match mark.origin {
-                MarkOrigin::Given => format!("{}: {name}", mark.word),
-                MarkOrigin::Suggested => format!(
-                    "{}: {name}. In the drawing, add Mark {} to the string of {name}.",
-                    mark.word, mark.word
-                ),
-            };
-            lines.push((line, Some(mark.colour)));
-        }
-        Texts {
-            title: plain(title),
-            lines,
-        }
+    fn texts(&self, title: &str, page: DVec2) -> Texts {
+        let marks = self.marks.iter().flatten();
+        let marks = marks.map(|mark| (mark, plain(&self.bindings.parts[mark.part].name)));
+        Texts::new(
+            &plain(title),
+            &marks.collect::<Vec<_>>(),
+            page.x - 2.0 * EDGE,
+        )
     }
-}
-
-/// The command that finds the marks in a film, for a shell, with few enough marks on each line for the narrowest page.
-fn track_command(marks: &[&PieceMark]) -> Vec<String> {
-    let mut words: Vec<&str> = Vec::new();
-    for mark in marks {
-        if !words.contains(&mark.word.as_str()) {
-            words.push(&mark.word);
-        }
-    }
-    let option = |word: &&str| match word.starts_with('#') {
-        true => format!(" --mark '{word}={word}'"),
-        false => format!(" --mark {word}={word}"),
-    };
-    let mut lines = vec!["okoshi track film.mp4 -o film.json".to_owned()];
-    for words in words.chunks(MARKS_ON_LINE) {
-        if let Some(before) = lines.last_mut() {
-            before.push_str(" \\");
-        }
-        let options: Vec<String> = words.iter().map(option).collect();
-        lines.push(options.concat());
-    }
-    lines
 }
 
 /// A name as a text that is not taken for a string, if the sheet is opened as a drawing.
@@ -362,25 +320,5 @@ mod tests {
             assert_eq!(plain(name), text);
             assert!(!looks_like_string(&plain(name)));
         }
-    }
-
-    #[test]
-    fn long_commands_are_broken_into_lines() {
-        let words = ["red", "#00f", "red", "lime", "cyan"];
-        let marks = words.map(|word| PieceMark {
-            word: word.to_owned(),
-            colour: [0; 3],
-            part: 0,
-            origin: MarkOrigin::Given,
-        });
-        let lines = track_command(&marks.iter().collect::<Vec<_>>());
-        assert_eq!(
-            lines,
-            [
-                "okoshi track film.mp4 -o film.json \\",
-                " --mark red=red --mark '#00f=#00f' --mark lime=lime \\",
-                " --mark cyan=cyan"
-            ]
-        );
     }
 }

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use glam::{DAffine2, DVec2};
 
+use super::instructions::{BELOW_TITLE, FONT, LINE, Line, SAMPLE, TITLE, Texts};
 use super::layout::{EDGE, Layout, NAME_LINE, Placed};
 use super::marks::PieceMark;
 use super::paper::{HOLE, MARK};
@@ -13,33 +14,10 @@ use crate::svg::Excerpts;
 
 /// What lies between two pages.
 const PAGE_GAP: f64 = 10.0;
-/// The size of letters.
-const FONT: f64 = 3.2;
-/// The width of most letters, as a share of their size.
-const LETTER: f64 = 0.62;
-/// The height of a line of the instructions.
-const LINE: f64 = 4.8;
-/// The size of the title.
-const TITLE: f64 = 5.0;
 /// The length of the line by which the print is checked.
 const RULER: f64 = 50.0;
 /// The radius of a sample of a mark's colour.
-const SAMPLE: f64 = 1.7;
-
-/// What the sheet says besides the pieces.
-pub(super) struct Texts {
-    /// The title.
-    pub(super) title: String,
-    /// The instructions, each with the colour of the mark that it is about.
-    pub(super) lines: Vec<(String, Option<[u8; 3]>)>,
-}
-
-impl Texts {
-    /// What they take of the first page.
-    pub(super) fn height(&self) -> f64 {
-        TITLE + 3.0 + (self.lines.len() + 1) as f64 * LINE
-    }
-}
+const DOT: f64 = 1.7;
 
 /// A piece with all that is printed on and beside it.
 pub(super) struct Printed<'a> {
@@ -51,14 +29,6 @@ pub(super) struct Printed<'a> {
     pub(super) caption: String,
     /// Per hole of the paper the letters of its joints; none where another hole is in the same place.
     pub(super) letters: Vec<Vec<String>>,
-}
-
-/// The width of a line of text, roughly.
-pub(super) fn text_width(text: &str) -> f64 {
-    let letters = text
-        .chars()
-        .map(|c| if c.is_ascii() { LETTER } else { 1.0 });
-    FONT * letters.sum::<f64>()
 }
 
 /// Writes the sheet.
@@ -139,14 +109,14 @@ fn instructions(out: &mut String, page: DVec2, texts: &Texts) {
         number(y),
         escape_xml(&texts.title)
     );
-    y += 3.0;
-    for (line, colour) in &texts.lines {
+    y += BELOW_TITLE;
+    for Line { text: line, colour } in &texts.lines {
         y += LINE;
         let mut x = EDGE;
         if let Some(colour) = colour {
-            let at = DVec2::new(EDGE + SAMPLE, y - FONT * 0.35);
-            circle(out, at, SAMPLE, &format!("fill=\"{}\"", hex(*colour)));
-            x += 3.0 * SAMPLE;
+            let at = DVec2::new(EDGE + DOT, y - FONT * 0.35);
+            circle(out, at, DOT, &format!("fill=\"{}\"", hex(*colour)));
+            x += SAMPLE;
         }
         text(out, DVec2::new(x, y), line, "");
     }

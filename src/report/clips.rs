@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use super::own_name;
+use super::performances::{Performance, performance};
 use crate::compile::Compiled;
 use crate::rig::FigureClip;
 
@@ -41,6 +42,9 @@ pub struct Clip<'a> {
     pub held: Held,
     /// The joint that drives each part, if one does.
     pub joints: BTreeMap<&'a str, Joint<'a>>,
+    /// What the performance does that it follows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub performance: Option<Performance<'a>>,
     /// What only the page shows.
     #[serde(flatten, skip_serializing_if = "Option::is_none")]
     pub page: Option<PageDetails<'a>>,
@@ -138,6 +142,7 @@ fn report<'a>(compiled: &'a Compiled, clip: &'a FigureClip, reader: Reader) -> C
         omitted,
         held,
         joints: joints.collect(),
+        performance: performance(compiled, clip, reader),
         page,
     }
 }

@@ -6,6 +6,7 @@ mod depths;
 mod joints;
 mod matches;
 mod parts;
+mod performances;
 mod terrain;
 
 pub use billboards::{
@@ -16,4 +17,7 @@ pub use depths::depth_reason;
 pub use joints::{Driver, drivers, ranges, undriven};
 pub use matches::picture_of_matches;
 pub use parts::{AttributeReport, Part, StringReport, landscapes, own_name, part_count, parts};
+pub use performances::{
+    Frames, Performance, PerformanceCurves, PerformedMark, performance, performed_mark,
+};
 pub use terrain::{Group, House, Terrain, terrain};

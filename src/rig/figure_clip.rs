@@ -38,7 +38,8 @@ pub struct FigureClip {
     pub limited_at: Option<Span>,
     /// The performance that the clip follows.
     pub performed: Option<Performed>,
-    pub(super) filmed: Filmed,
+    /// How the performance is filmed.
+    pub filmed: Filmed,
     /// The parts in the order of `retargeted`.
     pub(super) order: Vec<usize>,
     pub(super) retargeted: Arc<RetargetedClip>,
@@ -132,7 +133,15 @@ impl FigureClip {
 
     /// The animation with a key for every frame of the motion, whether the clip is limited or not.
     pub fn full_animation(&self) -> Animation {
-        self.animation(&KeyTimes::full(self.source_frames(), self.frame_time()))
+        self.animation(&self.retargeted)
+    }
+
+    /// The animation of the motion as it was before it was performed and limited; `None` for a clip that is neither.
+    fn original(&self) -> Option<Animation> {
+        match &self.performed {
+            Some(performed) => Some(self.animation(&performed.before)),
+            None => self.cut.as_ref().map(|_| self.full_animation()),
+        }
     }
 
     /// The animation of what is shown, with its camera if it has one.
@@ -165,23 +174,30 @@ impl FigureClip {
         tracks::add(&mut scene.animations, animation);
     }
 
+    /// The first shown frame in which a frame of the motion or its performance stands; `None` if it is omitted.
+    pub fn shown_in(&self, frame: usize) -> Option<usize> {
+        self.shown_frames().iter().position(|shown| *shown == frame)
+    }
+
     /// Per shown frame the frame of the clip.
     fn shown_frames(&self) -> Vec<usize> {
         shown_frames(self.cut.as_deref(), self.source_frames())
     }
 
-    fn animation(&self, keys: &KeyTimes) -> Animation {
+    /// The animation of a motion of the figure with a key for each of its frames.
+    fn animation(&self, motion: &RetargetedClip) -> Animation {
+        let keys = KeyTimes::full(motion.grounded.len(), self.frame_time());
         self.animated
-            .animation(&self.name, &self.order, &self.retargeted, keys, None)
+            .animation(&self.name, &self.order, motion, &keys, None)
     }
 }
 
-/// The nodes of a scene without their meshes, and the full animations of limited clips under the names that they have in the scene.
-/// `None` if no clip is limited.
+/// The nodes of a scene without their meshes, and the animations of clips before they were performed and limited, under the names that
+/// they have in the scene. `None` if no clip is either.
 pub fn originals(scene: &Scene, clips: &[FigureClip]) -> Option<Scene> {
     let mut animations = Vec::new();
-    for clip in clips.iter().filter(|clip| clip.cut.is_some()) {
-        tracks::add(&mut animations, clip.full_animation());
+    for original in clips.iter().filter_map(FigureClip::original) {
+        tracks::add(&mut animations, original);
     }
     if animations.is_empty() {
         return None;

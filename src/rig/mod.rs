@@ -318,8 +318,8 @@ impl<'a> ClipBuilder<'a> {
             &matched.matching,
             self.rest,
         );
-        let (retargeted, measured) =
-            self.retargeted(request, matched, motion, &rig, performance.as_ref());
+        let retargeted = self.retargeted(request, matched, motion, &rig, performance.as_ref());
+        let measured = self.measured(&rig, &retargeted);
         let frames = retargeted.grounded.len();
         let limits = request.limits.or_else(|| self.limits(group));
         let key_frame = performance
@@ -362,6 +362,8 @@ impl<'a> ClipBuilder<'a> {
             limited_at: limits.map(|limits| limits.span),
             performed: performance.map(|found| Performed {
                 file: found.request.file.to_owned(),
+                requested_at: found.request.span,
+                before: self.retargeted(request, matched, motion, &rig, None),
                 channels: found.channels.parts(group),
                 tracks: found.tracks,
                 plan: found.plan,
@@ -376,6 +378,7 @@ impl<'a> ClipBuilder<'a> {
         self.clips.push(clip);
     }
 
+    /// A motion on a figure, as it is performed, or as it is.
     fn retargeted(
         &self,
         request: &ClipRequest<'_>,
@@ -383,7 +386,7 @@ impl<'a> ClipBuilder<'a> {
         motion: &Arc<PreparedClip>,
         rig: &Rig,
         performance: Option<&FoundPerformance<'_>>,
-    ) -> (Arc<RetargetedClip>, Arc<Measured>) {
+    ) -> Arc<RetargetedClip> {
         let ratios = performance.map(|found| found.channels.ratios(&found.plan, matched, rig));
         let ratios = ratios.unwrap_or_default();
         let plan = performance.map(|found| &found.plan);
@@ -403,11 +406,13 @@ impl<'a> ClipBuilder<'a> {
                 Arc::new(in_place(&retargeted, root.unwrap_or(0), motion))
             });
         }
-        let key = MeasuredKey(Same(Arc::clone(&retargeted)));
-        let measured = self
-            .memo
-            .get(key, |_| Arc::new(Measured::of_figure(rig, &retargeted)));
-        (retargeted, measured)
+        retargeted
+    }
+
+    fn measured(&self, rig: &Rig, retargeted: &Arc<RetargetedClip>) -> Arc<Measured> {
+        let key = MeasuredKey(Same(Arc::clone(retargeted)));
+        let measure = |_: &MeasuredKey| Arc::new(Measured::of_figure(rig, retargeted));
+        self.memo.get(key, measure)
     }
 
     fn cut(

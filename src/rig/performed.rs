@@ -17,8 +17,9 @@ use crate::motion::performance::{
     Effects, Filming, Finding, Limbs, Plan, Request, joint_steps, mark_movements, plan, ratios,
 };
 use crate::motion::prepare::PreparedClip;
-use crate::motion::retarget::{Rig, to_drawing};
+use crate::motion::retarget::{RetargetedClip, Rig, to_drawing};
 use crate::motion::skeleton::Clip;
+use crate::source::Span;
 
 /// A mark whose hue differs by more than this from that of a part's `Mark` is another one, degrees.
 const SAME_HUE: f64 = 30.0;
@@ -30,6 +31,10 @@ const LEAST_CHROMA: u8 = 40;
 pub struct Performed {
     /// The file of the track, as the string names it.
     pub file: String,
+    /// Where the string asks for it.
+    pub requested_at: Span,
+    /// The motion without the performance, on the figure.
+    pub(super) before: Arc<RetargetedClip>,
     /// The tracks.
     pub tracks: Arc<MarkTracks>,
     /// What it does to the clip. Its channels are those of `channels`.
@@ -374,7 +379,6 @@ pub(super) fn report(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::source::Span;
 
     #[test]
     fn marks_are_found_by_name_colour_and_hue() {

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use super::appearance::Appearance;
-use super::components::{Component, Run, components};
+use super::components::{Component, components, push_pixel};
 use super::lookup::Lookup;
 use super::samples::Samples;
 
@@ -56,8 +56,8 @@ impl Clutter {
         for mark in 0..appearances.len() {
             let counts = counts(samples, &widened, mark);
             // The marks themselves may rest for most of a clip.
-            for rest in resting(samples, &lookup, mark, &counts) {
-                clutter.add(mark, &rest);
+            for group in still_groups(samples, &lookup, mark, &counts) {
+                clutter.add(mark, &group);
             }
         }
         clutter
@@ -98,38 +98,20 @@ impl Clutter {
     }
 }
 
-/// The components of a sample's pixels that look like a mark.
+/// The components of a sample's pixels, by what weighs the ones that look like a mark.
 pub(super) fn likenesses(
     sample: &[[u8; 3]],
     size: [usize; 2],
-    is_like: impl Fn(usize, [u8; 3]) -> bool,
+    weight: impl Fn(usize, [u8; 3]) -> Option<f64>,
 ) -> Vec<Component> {
-    let mut runs: Vec<Run> = Vec::new();
+    let mut runs = Vec::new();
     for (index, pixel) in sample.iter().enumerate() {
-        if is_like(index, *pixel) {
-            add(&mut runs, index, size[0]);
+        if let Some(weight) = weight(index, *pixel) {
+            let (x, y) = (index % size[0], index / size[0]);
+            push_pixel(&mut runs, x as u32, y as u32, weight);
         }
     }
     components(&runs)
-}
-
-/// Adds a pixel of weight 1 to the runs of a picture.
-fn add(runs: &mut Vec<Run>, index: usize, width: usize) {
-    let (x, y) = ((index % width) as u32, (index / width) as u32);
-    match runs.last_mut() {
-        Some(run) if run.y == y && run.to == x => {
-            run.to += 1;
-            run.weight += 1.0;
-            run.moment += f64::from(x);
-        }
-        _ => runs.push(Run {
-            y,
-            from: x,
-            to: x + 1,
-            weight: 1.0,
-            moment: x.into(),
-        }),
-    }
 }
 
 /// In how many samples each pixel looks like a mark.
@@ -144,7 +126,12 @@ fn counts(samples: &Samples, lookup: &Lookup, mark: usize) -> Vec<f64> {
 }
 
 /// The groups of pixels that stand still also where the mark is seen elsewhere: a mark that only rests for long leaves its place then.
-fn resting(samples: &Samples, lookup: &Lookup, mark: usize, counts: &[f64]) -> Vec<Vec<usize>> {
+fn still_groups(
+    samples: &Samples,
+    lookup: &Lookup,
+    mark: usize,
+    counts: &[f64],
+) -> Vec<Vec<usize>> {
     let all = samples.frames.len() as f64;
     let is_still = |index: usize| counts[index] > STILL * all;
     let is_like = |pixel: [u8; 3]| lookup.marks(pixel) >> mark & 1 == 1;
@@ -157,11 +144,15 @@ fn resting(samples: &Samples, lookup: &Lookup, mark: usize, counts: &[f64]) -> V
     for group in &groups {
         around.add(mark, group);
     }
+    // A mark that moves a little covers its middle in most samples: what is connected with that is not elsewhere.
+    let is_moving = |index: usize| around.marks[index] == 0 && counts[index] <= MOVING * all;
+    let weight = |index: usize, pixel: [u8; 3]| {
+        is_like(pixel).then_some(if is_moving(index) { 1.0 } else { 0.5 })
+    };
     let elsewhere = |sample: &Vec<[u8; 3]>| {
-        let found = likenesses(sample, samples.size, |index, pixel| {
-            around.marks[index] == 0 && counts[index] <= MOVING * all && is_like(pixel)
-        });
-        found.iter().map(|found| found.area).fold(0.0, f64::max)
+        let found = likenesses(sample, samples.size, weight).into_iter();
+        let apart = found.filter(|found| found.weight == found.area);
+        apart.map(|found| found.area).fold(0.0, f64::max)
     };
     let areas: Vec<f64> = samples.frames.iter().map(elsewhere).collect();
     let mut sorted: Vec<f64> = areas

@@ -32,6 +32,25 @@ pub(super) struct Component {
     pub(super) most: [u32; 2],
 }
 
+/// Adds a pixel after those before it, in the order of rows and columns.
+pub(super) fn push_pixel(runs: &mut Vec<Run>, x: u32, y: u32, weight: f64) {
+    let moment = weight * f64::from(x);
+    match runs.last_mut() {
+        Some(run) if run.y == y && run.to == x => {
+            run.to += 1;
+            run.weight += weight;
+            run.moment += moment;
+        }
+        _ => runs.push(Run {
+            y,
+            from: x,
+            to: x + 1,
+            weight,
+            moment,
+        }),
+    }
+}
+
 /// The components of runs that are sorted by row and column, do not overlap and have weights, in the order of their first runs.
 pub(super) fn components(runs: &[Run]) -> Vec<Component> {
     let mut parents: Vec<usize> = (0..runs.len()).collect();
@@ -95,26 +114,12 @@ mod tests {
 
     use super::*;
 
-    /// The runs of a picture of characters; `#` are pixels of weight 1.
+    /// The runs of a picture; pixels that are set have weight 1.
     fn runs(rows: &[Vec<bool>]) -> Vec<Run> {
-        let mut runs: Vec<Run> = Vec::new();
+        let mut runs = Vec::new();
         for (y, row) in rows.iter().enumerate() {
             for (x, _) in row.iter().enumerate().filter(|(_, set)| **set) {
-                let (x, y) = (x as u32, y as u32);
-                match runs.last_mut() {
-                    Some(run) if run.y == y && run.to == x => {
-                        run.to += 1;
-                        run.weight += 1.0;
-                        run.moment += f64::from(x);
-                    }
-                    _ => runs.push(Run {
-                        y,
-                        from: x,
-                        to: x + 1,
-                        weight: 1.0,
-                        moment: x.into(),
-                    }),
-                }
+                push_pixel(&mut runs, x as u32, y as u32, 1.0);
             }
         }
         runs
@@ -133,8 +138,9 @@ mod tests {
                     }
                     area += 1.0;
                     sum += DVec2::new(x as f64, y as f64);
-                    for y in y.saturating_sub(1)..(y + 2).min(rows.len()) {
-                        for x in x.saturating_sub(1)..(x + 2).min(rows[y].len()) {
+                    let (last_x, last_y) = (rows[y].len() - 1, rows.len() - 1);
+                    for y in y.saturating_sub(1)..=(y + 1).min(last_y) {
+                        for x in x.saturating_sub(1)..=(x + 1).min(last_x) {
                             todo.push((x, y));
                         }
                     }

@@ -228,17 +228,19 @@ impl Learner {
         }
     }
 
-    /// How many pixels of a sample a mark usually has.
+    /// How many pixels of a sample a mark usually has; 0 if it never has enough to be one.
     fn area(&self, mark: usize, lookup: &Lookup, clutter: &Clutter) -> f64 {
         let largest = |sample: &Vec<[u8; 3]>| {
             let is_mark = |marks: u64| marks >> mark & 1 == 1;
             let found = likenesses(sample, self.samples.size, |index, pixel| {
-                !is_mark(clutter.marks[index]) && is_mark(lookup.marks(pixel))
+                let is_it = !is_mark(clutter.marks[index]) && is_mark(lookup.marks(pixel));
+                is_it.then_some(1.0)
             });
             found.iter().map(|found| found.area).fold(0.0, f64::max)
         };
         let areas = self.samples.frames.iter().map(largest);
-        let mut areas: Vec<f64> = areas.filter(|area| *area > 0.0).collect();
+        // Where the mark is out of the picture there may still be specks of its colour.
+        let mut areas: Vec<f64> = areas.filter(|area| *area >= LEAST_AREA).collect();
         areas.sort_by(f64::total_cmp);
         areas.get(areas.len() / 2).copied().unwrap_or(0.0)
     }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use crate::motion::mark_tracks::{MarkTrack, MarkTracks, bridge};
 
 use super::colour::Hsv;
-use super::components::{Component, Run, components};
+use super::components::{Component, Run, components, push_pixel};
 use super::frame::Frame;
 use super::learn::Learned;
 
@@ -132,7 +132,7 @@ impl Tracker {
                     let mark = marks.trailing_zeros() as usize;
                     marks &= marks - 1;
                     let weight = self.learned.marks[mark].appearance.likeness(colour);
-                    add(&mut self.runs[mark], x as u32, y as u32, weight);
+                    push_pixel(&mut self.runs[mark], x as u32, y as u32, weight);
                 }
             }
         }
@@ -282,24 +282,6 @@ impl Followed {
             self.area += NEW_AREA * (area - self.area);
             self.last_area = area;
         }
-    }
-}
-
-/// Adds a pixel to the runs of a mark.
-fn add(runs: &mut Vec<Run>, x: u32, y: u32, weight: f64) {
-    match runs.last_mut() {
-        Some(run) if run.y == y && run.to == x => {
-            run.to += 1;
-            run.weight += weight;
-            run.moment += weight * f64::from(x);
-        }
-        _ => runs.push(Run {
-            y,
-            from: x,
-            to: x + 1,
-            weight,
-            moment: weight * f64::from(x),
-        }),
     }
 }
 

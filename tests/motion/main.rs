@@ -11,4 +11,5 @@ mod figures;
 mod limited;
 mod model;
 mod performance;
+mod performed;
 mod retarget;

@@ -66,6 +66,18 @@ clip examples/motion/beetle.svg walk 8,12 160x120 8
 clip examples/motion/ant.svg dance 0,8 130x170 10
 clip examples/motion/bird.svg walk 8,8 160x130 8
 clip examples/motion/spider.svg walk 20,14 160x120 8
+# perform OUT CLIP [OPTIONS…]: a clip of the performed hook, as a strip.
+perform() {
+  want ant-hook || return 0
+  "$okoshi" render --quiet "$room/ant-hook.svg" -o "docs/motion/$1.png" --clip "$2" --size 120x160 --strip 8 --background '#ffffff' "${@:3}"
+  python3 -c "
+import sys
+from PIL import Image
+Image.open(sys.argv[1]).convert('RGB').quantize(64).save(sys.argv[1], optimize=True)" "docs/motion/$1.png"
+}
+perform ant-hook-before before --view 0,5
+perform ant-hook-after after --view 0,5
+perform ant-hook-camera after --camera
 if want kick; then
   "$okoshi" render --quiet "$room/kick.svg" -o docs/motion/kick.gif --clip kick --view=-60,8 --size 260x240 --background '#ffffff'
   "$okoshi" motion --quiet "$room/kick.bvh" -o docs/motion/kick.svg

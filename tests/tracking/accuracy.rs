@@ -48,18 +48,21 @@ fn accuracy(name: &str, scene: &Scene) -> Accuracy {
             ("blue", [0, 0, 255]),
             ("yellow", [255, 255, 0]),
         ];
-        let named = named.iter().find(|(name, _)| *name == disc.mark.0).unwrap();
-        Mark::new(disc.mark.0, named.1).unwrap()
+        let named = named
+            .iter()
+            .find(|(name, _)| *name == disc.mark.0)
+            .expect("a colour for it");
+        Mark::new(disc.mark.0, named.1).expect("it is coloured")
     });
     let mut learner = Learner::new(scene.size, marks.collect());
     for frame in &frames {
-        learner.push(Frame::new(scene.size, frame).unwrap());
+        learner.push(Frame::new(scene.size, frame).expect("it has pixels"));
     }
-    let mut tracker = Tracker::new(learner.learned().unwrap());
+    let mut tracker = Tracker::new(learner.learned().expect("they are in the clip"));
     let mut errors = Vec::new();
     let (mut seen, mut lost, mut silently_wrong, mut gone, mut gone_and_lost) = (0, 0, 0, 0, 0);
     for (number, frame) in frames.iter().enumerate() {
-        let found = tracker.push(Frame::new(scene.size, frame).unwrap());
+        let found = tracker.push(Frame::new(scene.size, frame).expect("it has pixels"));
         for (truth, found) in scene.truth(number).iter().zip(found) {
             seen += usize::from(truth.visible >= SEEN);
             gone += usize::from(truth.visible < GONE);
@@ -217,6 +220,17 @@ fn a_mark_that_rests_for_most_of_the_clip_is_no_clutter() {
 }
 
 #[test]
+fn a_mark_that_moves_a_little_is_no_clutter() {
+    let mut discs = discs();
+    discs[1].path = |time| DVec2::new(80.0 + 2.0 * (time / 5.0).sin(), 60.0);
+    let scene = Scene {
+        colourful: 0,
+        ..scene(discs)
+    };
+    check("moving a little", &scene);
+}
+
+#[test]
 fn a_mark_that_never_moves_is_found() {
     let mut discs = discs();
     discs.truncate(1);
@@ -251,12 +265,15 @@ fn a_hue_that_the_clip_has_not_is_refused_with_those_that_it_has() {
         ..scene(discs())
     };
     let background = scene.background();
-    let mut learner = Learner::new(scene.size, vec![Mark::new("left", [0, 200, 200]).unwrap()]);
+    let mut learner = Learner::new(
+        scene.size,
+        vec![Mark::new("left", [0, 200, 200]).expect("it is coloured")],
+    );
     for frame in 0..10 {
         let frame = scene.frame(&background, frame);
-        learner.push(Frame::new(scene.size, &frame).unwrap());
+        learner.push(Frame::new(scene.size, &frame).expect("it has pixels"));
     }
-    let error = learner.learned().unwrap_err();
+    let error = learner.learned().expect_err("it is not in the clip");
     assert_eq!(error.mark, 0);
     assert!(
         error.hues.contains(&"red") && error.hues.contains(&"blue"),
@@ -272,13 +289,13 @@ fn a_mark_that_is_picked_is_followed_from_there() {
     let frames: Vec<Vec<u8>> = (0..60)
         .map(|frame| scene.frame(&background, frame))
         .collect();
-    let frame = |number: usize| Frame::new(scene.size, &frames[number]).unwrap();
+    let frame = |number: usize| Frame::new(scene.size, &frames[number]).expect("it has pixels");
     let at = scene.truth(0)[2].at + DVec2::new(2.0, -1.0);
-    let mark = Mark::picked("hand", frame(0), at).unwrap();
+    let mark = Mark::picked("hand", frame(0), at).expect("it is coloured");
     // A camera has no end: what the first frames show has to do.
     let mut learner = Learner::new(scene.size, vec![mark]);
     (0..20).for_each(|number| learner.push(frame(number)));
-    let mut tracker = Tracker::new(learner.learned().unwrap());
+    let mut tracker = Tracker::new(learner.learned().expect("they are in the clip"));
     tracker.start(0, at);
     for number in 0..60 {
         let found = tracker.push(frame(number))[0].expect("it is seen");

@@ -12,23 +12,23 @@ use okoshi::tracking::{Frame, Learner, Mark, Tracker, tracks};
 #[test]
 fn a_filmed_clip_agrees_with_another_program() {
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/tracking/data");
-    let file = BufReader::new(File::open(data.join("sticks.webp")).unwrap());
-    let frames = WebPDecoder::new(file).unwrap().into_frames();
+    let file = BufReader::new(File::open(data.join("sticks.webp")).expect("the clip"));
+    let frames = WebPDecoder::new(file).expect("a clip").into_frames();
     let frames: Vec<Vec<u8>> = frames
         .map(|frame| {
-            image::DynamicImage::from(frame.unwrap().into_buffer())
+            image::DynamicImage::from(frame.expect("a frame").into_buffer())
                 .into_rgb8()
                 .into_raw()
         })
         .collect();
-    let reference = std::fs::read(data.join("sticks.csv")).unwrap();
-    let reference = MarkTracks::from_bytes(&reference).unwrap();
-    let frame = |number: usize| Frame::new(reference.size, &frames[number]).unwrap();
+    let reference = std::fs::read(data.join("sticks.csv")).expect("the reference");
+    let reference = MarkTracks::from_bytes(&reference).expect("a track");
+    let frame = |number: usize| Frame::new(reference.size, &frames[number]).expect("it has pixels");
     let marks = [("red", [255, 0, 0]), ("green", [0, 128, 0])];
-    let marks = marks.map(|(name, colour)| Mark::new(name, colour).unwrap());
+    let marks = marks.map(|(name, colour)| Mark::new(name, colour).expect("it is coloured"));
     let mut learner = Learner::new(reference.size, marks.to_vec());
     (0..frames.len()).for_each(|number| learner.push(frame(number)));
-    let learned = learner.learned().unwrap();
+    let learned = learner.learned().expect("they are in the clip");
     let mut tracker = Tracker::new(learned.clone());
     let seen: Vec<_> = (0..frames.len())
         .map(|number| tracker.push(frame(number)))

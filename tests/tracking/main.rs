@@ -3,6 +3,10 @@
 //! `cargo test --test tracking -- --nocapture` prints how well the marks are found.
 #![allow(clippy::print_stderr, reason = "what was measured is told")]
 
+#[path = "../common/mod.rs"]
+mod common;
+
 mod accuracy;
+mod cli;
 mod filmed;
 mod synthetic;

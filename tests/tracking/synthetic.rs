@@ -6,39 +6,39 @@ use fastrand::Rng;
 use glam::DVec2;
 
 /// A disc that moves.
-pub struct Disc {
+pub(crate) struct Disc {
     /// Its name and its colour.
-    pub mark: (&'static str, [u8; 3]),
+    pub(crate) mark: (&'static str, [u8; 3]),
     /// Pixels.
-    pub radius: f64,
+    pub(crate) radius: f64,
     /// Where its middle is at a time, counted in frames.
-    pub path: fn(f64) -> DVec2,
+    pub(crate) path: fn(f64) -> DVec2,
 }
 
 /// A clip.
-pub struct Scene {
+pub(crate) struct Scene {
     /// Width and height, pixels.
-    pub size: [u32; 2],
+    pub(crate) size: [u32; 2],
     /// Discs, from back to front.
-    pub discs: Vec<Disc>,
+    pub(crate) discs: Vec<Disc>,
     /// How many still patches of any colours are behind the discs.
-    pub colourful: usize,
+    pub(crate) colourful: usize,
     /// The colours of more of them.
-    pub patches: Vec<[u8; 3]>,
+    pub(crate) patches: Vec<[u8; 3]>,
     /// The standard deviation of the noise, of 255.
-    pub noise: f64,
+    pub(crate) noise: f64,
     /// How long the shutter is open, of 1 frame.
-    pub shutter: f64,
+    pub(crate) shutter: f64,
     /// How bright a frame is, of 1.
-    pub light: fn(f64) -> f64,
+    pub(crate) light: fn(f64) -> f64,
 }
 
 /// The truth about a disc in a frame.
 #[derive(Clone, Copy)]
-pub struct Truth {
-    pub at: DVec2,
+pub(crate) struct Truth {
+    pub(crate) at: DVec2,
     /// How much of it is seen, from 0 to 1.
-    pub visible: f64,
+    pub(crate) visible: f64,
 }
 
 /// Instants of which a frame is the mean.
@@ -46,7 +46,7 @@ const INSTANTS: usize = 9;
 
 impl Scene {
     /// The background: a gradient with patches of many colours.
-    pub fn background(&self) -> Vec<[f64; 3]> {
+    pub(crate) fn background(&self) -> Vec<[f64; 3]> {
         let [width, height] = self.size.map(|side| side as usize);
         let mut random = Rng::with_seed(7);
         let scale = width as f64 / 320.0;
@@ -75,7 +75,7 @@ impl Scene {
     }
 
     /// A frame, made from the background.
-    pub fn frame(&self, background: &[[f64; 3]], frame: usize) -> Vec<u8> {
+    pub(crate) fn frame(&self, background: &[[f64; 3]], frame: usize) -> Vec<u8> {
         let [width, height] = self.size.map(|side| side as usize);
         let mut pixels = background.to_vec();
         let instants: Vec<f64> = (0..INSTANTS)
@@ -133,7 +133,7 @@ impl Scene {
     }
 
     /// Where the discs are in a frame.
-    pub fn truth(&self, frame: usize) -> Vec<Truth> {
+    pub(crate) fn truth(&self, frame: usize) -> Vec<Truth> {
         let places: Vec<DVec2> = self
             .discs
             .iter()
@@ -171,7 +171,13 @@ impl Scene {
 }
 
 /// A point that goes around in an ellipse, at most `speed` pixels a frame.
-pub fn ellipse(time: f64, middle: [f64; 2], radii: [f64; 2], speed: f64, phase: f64) -> DVec2 {
+pub(crate) fn ellipse(
+    time: f64,
+    middle: [f64; 2],
+    radii: [f64; 2],
+    speed: f64,
+    phase: f64,
+) -> DVec2 {
     let turn = DVec2::from_angle(time * speed / radii[0].max(radii[1]) + phase * TAU);
     DVec2::from_array(middle) + DVec2::from_array(radii) * turn
 }

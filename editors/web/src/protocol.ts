@@ -83,6 +83,43 @@ export interface ClipFacts {
   readonly joints: ReadonlyMap<string, { readonly joint: string; readonly why: string }>;
   /** Parts that no joint drives. */
   readonly unmatched: readonly string[];
+  readonly performance: PerformanceFacts | null;
+}
+
+/** What a performance does to a clip. Frames count from 0. */
+export interface PerformanceFacts {
+  /** The link to the file of the track. */
+  readonly track: string;
+  readonly marks: readonly {
+    readonly name: string;
+    /** As `#rrggbb`; empty if unknown. */
+    readonly colour: string;
+    readonly parts: readonly string[];
+    /** Its largest movement over that of the emphasised mark, 0 to 1. */
+    readonly ratio: number;
+    readonly emphasised: boolean;
+    readonly damped: boolean;
+  }[];
+  /** The frames of the largest movements. */
+  readonly keys: { readonly performance: number; readonly motion: number } | null;
+  /** The shown frame in which the key pose stands, which limited animation may move. */
+  readonly shown: number | null;
+  /** Whether the motion has the timing of the performance. */
+  readonly timed: boolean;
+  /** How many frames both have. */
+  readonly frames: { readonly performance: number; readonly motion: number };
+  readonly filming: "camera" | "root" | "none";
+  /** The shown frame in which the camera, or the figure, is nearest. */
+  readonly nearest: number | null;
+  /** Frames of the performance with the frames of the motion that they show, ascending; between them the timing is linear. */
+  readonly timing: readonly (readonly [performance: number, motion: number])[];
+  /** For each mark and frame how much it moves, as a ratio of the largest movement. */
+  readonly input: readonly (readonly number[])[];
+  /** The number of frames for which an entry is the maximum. */
+  readonly inputStep: number;
+  /** The same of the joints of the motion that the marks perform. */
+  readonly motion: readonly (readonly number[])[];
+  readonly motionStep: number;
 }
 
 export interface Build {
@@ -97,7 +134,7 @@ export interface Build {
   readonly findings: readonly Finding[];
   readonly parts: readonly Part[];
   readonly clips: readonly ClipFacts[];
-  /** The address of the clips before limiting; null if none is limited. */
+  /** The address of the clips before they were performed and limited; null if none was. */
   readonly originals: string | null;
 }
 
@@ -189,6 +226,38 @@ function readClip(value: unknown): ClipFacts {
       }),
     ),
     unmatched: list(raw["unmatched"]).map(text),
+    performance: raw["performance"] === undefined || raw["performance"] === null ? null : readPerformance(object(raw["performance"])),
+  };
+}
+
+function readPerformance(raw: Raw): PerformanceFacts {
+  const frames = (value: unknown) => ({ performance: whole(object(value)["performance"]), motion: whole(object(value)["motion"]) });
+  const curves = (value: unknown) => list(value).map((curve) => list(curve).map(number));
+  return {
+    track: text(raw["track"]),
+    marks: list(raw["marks"]).map((value) => {
+      const mark = object(value);
+      const colour = text(mark["colour"]);
+      return {
+        name: text(mark["name"]),
+        colour: /^#[0-9a-f]{6}$/i.test(colour) ? colour : "",
+        parts: list(mark["parts"]).map(text),
+        ratio: number(mark["ratio"]),
+        emphasised: mark["emphasised"] === true,
+        damped: mark["damped"] === true,
+      };
+    }),
+    keys: raw["keys"] === undefined || raw["keys"] === null ? null : frames(raw["keys"]),
+    shown: typeof raw["shown"] === "number" ? whole(raw["shown"]) : null,
+    timed: raw["timed"] === true,
+    frames: frames(raw["frames"]),
+    filming: oneOf(raw["filming"], ["camera", "root", "none"], "none"),
+    nearest: typeof raw["nearest"] === "number" ? whole(raw["nearest"]) : null,
+    timing: list(raw["timing"]).map((point) => [whole(list(point)[0]), whole(list(point)[1])]),
+    input: curves(raw["input"]),
+    inputStep: Math.max(whole(raw["input_step"]), 1),
+    motion: curves(raw["motion"]),
+    motionStep: Math.max(whole(raw["motion_step"]), 1),
   };
 }
 

@@ -4,7 +4,7 @@ import type { Commands } from "./commands";
 import type { Viewer } from "./viewport/viewer";
 
 export interface Places {
-  readonly clips: { toggle(): void; step(keys: 1 | -1): void; compare(): void; followTravel(): void; film(): void; readonly chart: { toggle(): void } };
+  readonly clips: { toggle(): void; step(keys: 1 | -1): void; compare(): void; followTravel(): void; film(): void; readonly chart: { toggle(): void }; readonly performance: { toggle(): void } };
   readonly findings: { flip(): void };
   readonly tree: { focus(): void };
   /** Shows all drawings, if there are several. */
@@ -107,6 +107,8 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
         return commands.recordPuppet ?? undefined;
       case "c":
         return () => places.clips.chart.toggle();
+      case "i":
+        return () => places.clips.performance.toggle();
       case "o":
         return () => places.clips.compare();
       case "v":

@@ -102,7 +102,7 @@ export async function picture(page: Page, name?: string): Promise<{ at(place: { 
 /** The elements that overlap or extend beyond the window. */
 export const overlaps = (page: Page) =>
   page.evaluate(() => {
-    const seen = [...document.querySelectorAll<HTMLElement>(".bar > *, .toolbar button, .findings, .side, .bendbar > *, .clips > :not(.transport, .clip-looks, .clip-names), .clip-names > *, .transport > *, .clip-looks > *, .chart, .posebar")].filter((one) => one.offsetParent !== null && one.getBoundingClientRect().width > 0);
+    const seen = [...document.querySelectorAll<HTMLElement>(".bar > *, .toolbar button, .findings, .side, .bendbar > *, .clips > :not(.transport, .clip-looks, .clip-names), .clip-names > *, .transport > *, .clip-looks > *, .chart, .performance, .posebar")].filter((one) => one.offsetParent !== null && one.getBoundingClientRect().width > 0);
     const wrong: string[] = [];
     const say = (one: Element) => one.getAttribute("aria-label") ?? one.textContent?.trim().slice(0, 20) ?? one.className;
     seen.forEach((a, at) => {

@@ -146,6 +146,7 @@ camera("a recording has the marks where they are", async (page) => {
   await panel(page).locator(".camera-readout").filter({ hasText: /Frame (\d+) of \1 / }).waitFor();
   await page.waitForTimeout(200);
   await picture(page, "camera-replay");
+  if (process.env["OKOSHI_REWRITE"]?.split(",").includes("pictures")) await panel(page).screenshot({ path: join("..", "..", "docs", "preview-camera.png") });
   assert.match(await panel(page).locator(".camera-help").innerText(), /Perform "hands.json".*\n*.*Mark red, Mark blue/s);
   const [download] = await Promise.all([page.waitForEvent("download"), press(page, "Save")]);
   assert.equal(download.suggestedFilename(), "hands.json");

@@ -15,13 +15,13 @@ const kicking = (made = kick()) => (host: MockHost): void => {
   host.built("kick.svg", made);
 };
 const readout = (page: Page) => page.locator(".clips .readout").innerText();
-const marks = (page: Page, name: string) => page.locator(`.chart-${name}`).getAttribute("data-marks").then(Number);
+const marks = (page: Page, name: string) => page.locator(`.chart .chart-${name}`).getAttribute("data-marks").then(Number);
 /** The x coordinate of a source frame in the chart, counted from 0. */
 const inChart = async (page: Page, source: number): Promise<{ x: number; y: number }> => {
-  const box = (await page.locator(".chart-picture").boundingBox())!;
+  const box = (await page.locator(".chart .chart-picture").boundingBox())!;
   return { x: box.x + 50 + ((box.width - 62) * (source + 0.5)) / FRAMES, y: box.y + 60 };
 };
-const playhead = (page: Page) => page.locator(".chart-head").getAttribute("transform").then((words) => Number(/translate\(([\d.]+)/.exec(words ?? "")?.[1]));
+const playhead = (page: Page) => page.locator(".chart .chart-head").getAttribute("transform").then((words) => Number(/translate\(([\d.]+)/.exec(words ?? "")?.[1]));
 const front = async (page: Page) => {
   await page.keyboard.press("1");
   await page.keyboard.press("5");
@@ -96,11 +96,11 @@ browse("the chart shows frames, omitted frames and drawings; its playhead moves,
   assert.equal(await marks(page, "gone"), OMITTED.length);
   const held = EXPOSURE.filter(([, frames]) => frames > 1).length;
   assert.deepEqual([await marks(page, "held"), await marks(page, "single")], [held, DRAWINGS - held]);
-  assert.equal(await page.locator(".chart-summary").innerText(), `60 frames, ${DRAWINGS} drawings, 4 in-betweens omitted, ${FACTS.held} held`);
-  const said = (await page.locator(".chart-picture").getAttribute("aria-label"))!;
+  assert.equal(await page.locator(".chart .chart-summary").innerText(), `60 frames, ${DRAWINGS} drawings, 4 in-betweens omitted, ${FACTS.held} held`);
+  const said = (await page.locator(".chart .chart-picture").getAttribute("aria-label"))!;
   const most = SSD.indexOf(Math.max(...SSD));
   assert.match(said, new RegExp(`^How much the joints of kick move .* 4 in-betweens omitted.* The fastest is frame ${most + 1}, with an SSD of [\\d.]+\\.$`));
-  assert.equal(await page.locator(".chart-picture").getAttribute("role"), "img");
+  assert.equal(await page.locator(".chart .chart-picture").getAttribute("role"), "img");
 
   const start = await playhead(page);
   await page.keyboard.press("k");
@@ -110,25 +110,25 @@ browse("the chart shows frames, omitted frames and drawings; its playhead moves,
   const drawing = EXPOSURE.findIndex(([source]) => source === after);
   const place = await inChart(page, after);
   await page.mouse.move(place.x, place.y);
-  assert.match(await page.locator(".chart-tip").innerText(), new RegExp(`^frame ${after + 1} · SSD [\\d.]+ · drawing ${drawing + 1}`));
+  assert.match(await page.locator(".chart .chart-tip").innerText(), new RegExp(`^frame ${after + 1} · SSD [\\d.]+ · drawing ${drawing + 1}`));
   await page.mouse.click(place.x, place.y);
   await still(page);
   assert.match(await readout(page), new RegExp(`^drawing ${drawing + 1} of .* frame ${begins(drawing) + 1} of`));
-  assert.equal(await page.locator(".chart-picture").getAttribute("data-source"), String(after + 1));
+  assert.equal(await page.locator(".chart .chart-picture").getAttribute("data-source"), String(after + 1));
   assertLike(await leg(page, after), LEG, "the leg in the drawing that was clicked");
   // A drag seeks continuously; over omitted frames the drawing before them is shown.
   const gone = await inChart(page, OMITTED[2]!);
   await page.mouse.move(place.x, place.y);
   await page.mouse.down();
   await page.mouse.move(gone.x, gone.y, { steps: 3 });
-  assert.match(await page.locator(".chart-tip").innerText(), /^frame 30 · SSD [\d.]+ · omitted$/);
+  assert.match(await page.locator(".chart .chart-tip").innerText(), /^frame 30 · SSD [\d.]+ · omitted$/);
   assert.match(await readout(page), new RegExp(`^drawing ${drawing} of `));
   await page.mouse.up();
   await page.mouse.move(5, 5);
-  await page.locator(".chart-tip").waitFor({ state: "hidden" });
+  await page.locator(".chart .chart-tip").waitFor({ state: "hidden" });
 
   await page.locator(".clip-choice").selectOption({ index: 1 });
-  assert.equal(await page.locator(".chart-summary").innerText(), "60 frames, as in the motion file");
+  assert.equal(await page.locator(".chart .chart-summary").innerText(), "60 frames, as in the motion file");
   assert.deepEqual([await marks(page, "curve"), await marks(page, "gone"), await marks(page, "held"), await marks(page, "single")], [FRAMES, 0, 0, 0]);
   assert.equal(await readout(page), "frame 1 of 60 · 0.00 s");
   await page.reload();
@@ -212,22 +212,22 @@ browse("full and limited clips play side by side", kicking(), async (page, host)
   await page.getByRole("button", { name: "side by side" }).waitFor({ state: "hidden" });
 });
 
-browse("unreadable full clips are reported, and the model stays", (host) => {
+browse("unreadable original clips are reported, and the model stays", (host) => {
   kicking()(host);
   host.broken.add("/builds/1.originals.glb");
 }, async (page, host) => {
   await shown(page);
   await page.keyboard.press("o");
-  await page.getByText("The full clips could not be shown:").waitFor();
+  await page.getByText("The original clips could not be shown:").waitFor();
   assert.equal(await page.getAttribute("canvas", "data-beside"), "");
   host.broken.clear();
   await page.keyboard.press("o");
-  await page.getByText("The full clips could not be shown").waitFor({ state: "hidden" });
+  await page.getByText("The original clips could not be shown").waitFor({ state: "hidden" });
   await page.keyboard.press("o");
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["beside"]);
 });
 
-browse("in VS Code full clips are requested like models", () => {}, async (page) => {
+browse("in VS Code original clips are requested like models", () => {}, async (page) => {
   const { model, originals, build: facts } = kick();
   await page.addInitScript(() => {
     const sent: unknown[] = [];
@@ -311,12 +311,12 @@ browse("the chart of an hour keeps its peaks", (host) => {
 }, async (page) => {
   await shown(page);
   await page.keyboard.press("c");
-  const points = (await page.locator(".chart-curve").getAttribute("d"))!.slice(1).split("L").map((point) => point.split(" ").map(Number));
-  const box = (await page.locator(".chart-picture").boundingBox())!;
+  const points = (await page.locator(".chart .chart-curve").getAttribute("d"))!.slice(1).split("L").map((point) => point.split(" ").map(Number));
+  const box = (await page.locator(".chart .chart-picture").boundingBox())!;
   assert.ok(points.length > 200 && points.length <= box.width, `${points.length} points`);
   const top = points.reduce((a, b) => (b[1]! < a[1]! ? b : a));
   assert.ok(Math.abs(top[0]! - (50 + ((box.width - 62) * 7001) / 10_800)) < 2, "the peak is in its place");
-  assert.match((await page.locator(".chart-picture").getAttribute("aria-label"))!, /The fastest is frame 56,?009, with an SSD of 3\./);
+  assert.match((await page.locator(".chart .chart-picture").getAttribute("aria-label"))!, /The fastest is frame 56,?009, with an SSD of 3\./);
 });
 
 browse("the chart and two figures at any width, in dark mode", kicking(), async (page) => {
@@ -334,7 +334,7 @@ browse("the chart and two figures at any width, in dark mode", kicking(), async 
   await page.setViewportSize({ width: 1200, height: 800 });
   await still(page);
   await picture(page, "clips-dark");
-  const [ink, paper] = await page.evaluate(() => [getComputedStyle(document.querySelector(".chart-number")!).fill, getComputedStyle(document.querySelector(".motion")!).backgroundColor]);
+  const [ink, paper] = await page.evaluate(() => [getComputedStyle(document.querySelector(".chart .chart-number")!).fill, getComputedStyle(document.querySelector(".motion")!).backgroundColor]);
   const light = (color: string) => color.match(/[\d.]+/g)!.slice(0, 3).reduce((sum, one) => sum + Number(one), 0) / 3;
   assert.ok(light(ink!) - light(paper!) > 90, `${ink} on ${paper}`);
 }, { colorScheme: "dark" });

@@ -1,16 +1,18 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { AnimationClip, InterpolateDiscrete, NumberKeyframeTrack, Object3D, Vector3 } from "three";
+import { AnimationClip, Group, InterpolateDiscrete, NumberKeyframeTrack, Object3D, Vector3 } from "three";
 import { toBase64, toBuffer } from "../src/host/code";
 import { figures, niceAbove } from "../src/panels/chart";
 import { cssColor, drivenBy } from "../src/panels/inspector";
 import { excerpt, sorted } from "../src/panels/findings";
 import { Parts } from "../src/parts";
-import { read, type ClipFacts, type Finding, type Part } from "../src/protocol";
-import { drawingAt, keysOf } from "../src/viewport/clips";
+import { read, type ClipFacts, type Finding, type Part, type PerformanceFacts } from "../src/protocol";
+import { drawingAt, keysOf, Player } from "../src/viewport/clips";
+import { Model } from "../src/viewport/model";
 import { onNodes } from "../src/viewport/side-by-side";
 import { ExposureSheet, describeExposure, peaks } from "../src/viewport/exposure-sheet";
 import { Latest } from "../src/viewport/latest";
+import { describeFilming, describeTiming, PerformanceTimes, type Rows } from "../src/viewport/performance";
 import { directionOf } from "../src/viewport/view";
 import { State } from "../src/state";
 
@@ -97,6 +99,22 @@ test("clips with only held keys are counted in drawings", () => {
   assert.equal(drawingAt({ times: [0, Math.fround(0.1)], held: true }, 0.1), 2);
 });
 
+test("a clip waits at its end for a longer one beside it", () => {
+  const root = new Group();
+  const clip = new AnimationClip("move", 1, [new NumberKeyframeTrack(`${root.uuid}.position[x]`, [0, 1], [0, 1])]);
+  const player = new Player();
+  player.take(new Model(root, [clip]), true);
+  player.waitFor(2.5);
+  assert.equal(player.end, 2.5);
+  player.advance(1.5);
+  assert.deepEqual([player.time, root.position.x, player.playing], [1.5, 1, true]);
+  player.advance(1.25);
+  assert.deepEqual([player.time, root.position.x], [0.25, 0.25]);
+  player.seek(2);
+  player.waitFor(0);
+  assert.deepEqual([player.end, player.time, root.position.x], [1, 1, 1]);
+});
+
 test("of the models requested while one is loading, only the latest is loaded next", async () => {
   const finish = new Map<number, (good: boolean) => void>();
   const read: number[] = [];
@@ -170,7 +188,7 @@ test("a build belongs to its connection, even if that is reported open later", (
 
 const facts = (more: Partial<ClipFacts>): ClipFacts => ({
   name: "kick", figure: "Body", file: "kick.bvh", seconds: 0.5, fps: 24, frames: 12, drawings: 0, limited: true, exposure: [], omitted: [], held: 0,
-  ssd: Array.from({ length: 12 }, (_, at) => at), ssdStep: 1, joints: new Map(), unmatched: [], ...more,
+  ssd: Array.from({ length: 12 }, (_, at) => at), ssdStep: 1, joints: new Map(), unmatched: [], performance: null, ...more,
 });
 
 test("facts of clips are read, and missing ones become empty", () => {
@@ -218,6 +236,69 @@ test("a shortened clip, one that is not limited, and one without facts", () => {
   assert.deepEqual([none.frames, none.sources, none.sourceAt(3), none.timeOf(7) < 0.1, none.ssd(0)], [1, 1, 0, true, null]);
   const thinned = new ExposureSheet(facts({ frames: 22, limited: false, ssd: [1, 2, 3], ssdStep: 8 }));
   assert.deepEqual([thinned.sources, thinned.ssd(7), thinned.ssd(8), thinned.ssd(21)], [22, 1, 2, 3]);
+});
+
+const performance = (more: Partial<PerformanceFacts> = {}): PerformanceFacts => ({
+  track: "hands.json", marks: [], keys: { performance: 8, motion: 2 }, shown: 8, timed: true, frames: { performance: 11, motion: 5 }, filming: "none", nearest: null,
+  timing: [[0, 0], [8, 2], [10, 4]], input: [[0, 0, 0, 0, 0, 0, 0, 0, 1, 0.5, 0]], inputStep: 1, motion: [[0, 0.5, 1, 0.25, 0]], motionStep: 1, ...more,
+});
+const ROWS: Rows = { left: 10, right: 110, performance: [0, 50], motion: [80, 130] };
+
+test("the timing of a performance goes through its keys, both ways", () => {
+  const times = new PerformanceTimes(performance());
+  assert.deepEqual([0, 4, 8, 9, 10, 12].map((frame) => times.motionAt(frame)), [0, 1, 2, 3, 4, 4]);
+  assert.deepEqual([0, 1, 2, 3, 4].map((frame) => times.performanceAt(frame)), [0, 4, 8, 9, 10]);
+  assert.equal(describeTiming(times.facts), "frame 3 of the motion stands in frame 9 of 11");
+  assert.equal(describeTiming(performance({ shown: 9 })), "frame 3 of the motion stands in frame 9 of 11, shown in frame 10");
+  // A key in the last frame is held: the rest of the motion is not shown.
+  const held = new PerformanceTimes(performance({ keys: { performance: 10, motion: 2 }, timing: [[0, 0], [10, 2]] }));
+  assert.deepEqual([held.motionAt(10), held.performanceAt(4)], [2, 10]);
+  // The motion stands still while two frames of the performance show one of it.
+  const still = new PerformanceTimes(performance({ timing: [[0, 0], [5, 0], [10, 4]] }));
+  assert.deepEqual([still.motionAt(5), still.performanceAt(0), still.performanceAt(4)], [0, 0, 10]);
+  const own = new PerformanceTimes(performance({ timed: false, timing: [] }));
+  assert.deepEqual([own.motionAt(3), own.performanceAt(3)], [3, 3]);
+  assert.equal(describeTiming(own.facts), "the motion keeps its timing");
+});
+
+test("how a performance is filmed is said in words", () => {
+  assert.equal(describeFilming(performance()), "not filmed");
+  assert.equal(describeFilming(performance({ filming: "camera", nearest: 7 })), "filmed by a camera that is nearest in frame 8");
+  assert.equal(describeFilming(performance({ filming: "root", nearest: 0 })), "filmed by moving the figure, which is nearest to the viewer in frame 1");
+});
+
+test("the rows of a performance share one scale of time", () => {
+  const times = new PerformanceTimes(performance());
+  assert.deepEqual(times.curve("motion", 0, ROWS), [[10, 130], [20, 105], [30, 80], [40, 117.5], [50, 130]]);
+  assert.deepEqual(times.curve("performance", 0, ROWS)[8], [90, 0]);
+  assert.deepEqual(times.curve("motion", 7, ROWS), []);
+  assert.deepEqual(times.links(ROWS).map(({ from, to, isKey }) => [...from, ...to, isKey]), [[10, 50, 10, 80, false], [90, 50, 30, 80, true], [110, 50, 50, 80, false]]);
+  assert.deepEqual([-5, 31, 500].map((x) => times.frameAt("motion", x, ROWS)), [0, 2, 4]);
+  assert.deepEqual([times.ratio("performance", 0, 9), times.ratio("motion", 0, 9)], [0.5, null]);
+});
+
+test("long curves of a performance keep their peaks", () => {
+  // Two thousand frames in values of 4 frames each, on 100 pixels.
+  const values = Array.from({ length: 500 }, (_, at) => (at === 333 ? 1 : 0.25));
+  const times = new PerformanceTimes(performance({ frames: { performance: 2000, motion: 5 }, input: [values], inputStep: 4 }));
+  const curve = times.curve("performance", 0, ROWS);
+  assert.equal(curve.length, 100);
+  const [x] = curve.find(([, y]) => y === 0)!;
+  assert.ok(Math.abs(x - times.at(333 * 4, ROWS)) <= 1, `the peak is at ${x}`);
+  assert.equal(times.ratio("performance", 0, 333 * 4 + 3), 1);
+  assert.ok(curve.every(([x]) => x >= ROWS.left && x <= ROWS.right));
+});
+
+test("what a performance does is read, and missing facts become empty", () => {
+  const clip = (value: unknown) => {
+    const message = read({ type: "build", drawing: "a", build: { clips: [{ performance: value }] } });
+    assert.ok(message?.type === "build");
+    return message.build.clips[0]!.performance;
+  };
+  assert.equal(clip(undefined), null);
+  const facts = clip({ track: "a.json", marks: [{ name: "red", colour: "#d03020", parts: ["Arm", 7], ratio: 1, emphasised: true }, { colour: "url(x)" }], keys: { performance: 8 }, timing: [[0, 0], [8, "x"]], input: [[0, "x", 1]], input_step: 2, filming: "strange" })!;
+  assert.deepEqual(facts.marks, [{ name: "red", colour: "#d03020", parts: ["Arm", "7"], ratio: 1, emphasised: true, damped: false }, { name: "", colour: "", parts: [], ratio: 0, emphasised: false, damped: false }]);
+  assert.deepEqual([facts.keys, facts.timing, facts.input, facts.inputStep, facts.motion, facts.filming, facts.nearest], [{ performance: 8, motion: 0 }, [[0, 0], [8, 0]], [[0, 0, 1]], 2, [], "none", null]);
 });
 
 test("a curve is reduced to its peaks", () => {

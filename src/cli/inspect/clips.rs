@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::columns;
 use crate::cli::counted;
 use crate::compile::Compiled;
-use crate::report::{cut_frames, ranges, undriven};
+use crate::report::{Performance, Reader, cut_frames, performance, ranges, undriven};
 
 /// How many runs of frames are listed individually.
 const MAX_RANGES: usize = 12;
@@ -36,6 +36,9 @@ pub(super) fn clips(compiled: &Compiled) -> String {
                 );
             }
         }
+        if let Some(performance) = performance(compiled, clip, Reader::Inspect) {
+            out.push_str(&performed(&performance));
+        }
         let rows = clip.parts.iter().map(|drive| {
             let name = format!("   {}", parts[drive.part].name);
             match drive.joint {
@@ -45,5 +48,24 @@ pub(super) fn clips(compiled: &Compiled) -> String {
         });
         out.push_str(&columns(&rows.collect::<Vec<_>>()));
     }
+    out
+}
+
+/// What a performance does to a clip: its timing, what each mark does, and how it is filmed.
+fn performed(performance: &Performance<'_>) -> String {
+    let mut out = format!(
+        "   performed by {}: {}\n",
+        performance.track,
+        performance.timing()
+    );
+    let rows = performance.marks.iter().map(|mark| {
+        [
+            format!("   mark {}", mark.name),
+            mark.parts.join(", "),
+            mark.effect(),
+        ]
+    });
+    out.push_str(&columns(&rows.collect::<Vec<_>>()));
+    let _ = writeln!(out, "   {}", performance.filmed());
     out
 }

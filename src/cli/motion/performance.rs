@@ -176,10 +176,9 @@ fn describe<'a>(
             joint(emphasised)
         );
         if plan.is_damping {
-            for (channel, ratio) in plan.largest_inputs().iter().enumerate() {
+            for channel in 0..plan.input.curves.len() {
                 if channel != emphasised {
-                    let most = plan.input.largest_of(emphasised);
-                    let percent = 100.0 * (ratio / most).min(1.0);
+                    let percent = 100.0 * plan.ratio(channel);
                     let _ = writeln!(
                         out,
                         "  {} keeps {percent:.0} % of its turns (`{}`)",

@@ -170,7 +170,7 @@ pub(super) fn movie(
     let target = output.single().map_err(Failure::written)?;
     let movie = Movie {
         form,
-        options: &options,
+        size: options.size,
         pictures: count,
         rate: [arguments.fps.unwrap_or(FPS), 1],
     };

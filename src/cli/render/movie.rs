@@ -6,11 +6,11 @@ use super::Failure;
 use super::video::{self, Container, VideoFormat};
 use crate::disk::Target;
 use crate::export::Output;
-use crate::render::{AnimationWriter, Image, Options, Palette};
+use crate::render::{AnimationWriter, Image, Palette};
 
 /// The format of a file with all pictures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum MovieForm {
+pub(in crate::cli) enum MovieForm {
     Gif,
     Apng,
     Video(Container),
@@ -18,7 +18,7 @@ pub(super) enum MovieForm {
 
 impl MovieForm {
     /// The format for the extension of a file, in lower case.
-    pub(super) fn of(extension: &str) -> Option<Self> {
+    pub(in crate::cli) fn of(extension: &str) -> Option<Self> {
         match extension {
             "gif" => Some(Self::Gif),
             "apng" => Some(Self::Apng),
@@ -30,27 +30,28 @@ impl MovieForm {
 }
 
 /// A file with all pictures.
-pub(super) struct Movie<'a> {
-    pub(super) form: MovieForm,
-    pub(super) options: &'a Options,
+pub(in crate::cli) struct Movie {
+    pub(in crate::cli) form: MovieForm,
+    /// Width and height, pixels.
+    pub(in crate::cli) size: [u32; 2],
     /// The number of pictures.
-    pub(super) pictures: u32,
+    pub(in crate::cli) pictures: u32,
     /// Frames per second, as a fraction.
-    pub(super) rate: [u32; 2],
+    pub(in crate::cli) rate: [u32; 2],
 }
 
 /// Appends a picture that is shown for some seconds, which are some frames.
-pub(super) type Push<'a> = &'a mut dyn FnMut(&Image, f64, u32) -> io::Result<()>;
+pub(in crate::cli) type Push<'a> = &'a mut dyn FnMut(&Image, f64, u32) -> io::Result<()>;
 
-impl Movie<'_> {
+impl Movie {
     /// Writes the pictures that `draw` makes. `palette` finds the colours of a GIF.
-    pub(super) fn write(
+    pub(in crate::cli) fn write(
         &self,
         target: &Target,
         palette: impl FnOnce() -> io::Result<Palette>,
         draw: impl FnOnce(Push<'_>) -> io::Result<()>,
     ) -> Result<(), Failure> {
-        let size = self.options.size;
+        let size = self.size;
         let written = match self.form {
             MovieForm::Gif => {
                 target.write(|out| animate(AnimationWriter::gif(out, size, palette()?)?, draw))

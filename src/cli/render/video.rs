@@ -17,7 +17,7 @@ const MAX_ERROR_BYTES: u64 = 64 << 10;
 
 /// The format of a video.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Container {
+pub(in crate::cli) enum Container {
     /// H.264, which all browsers, QuickTime and editors play.
     Mp4,
     /// VP9, which browsers play.

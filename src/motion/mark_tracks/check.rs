@@ -43,7 +43,7 @@ pub(super) fn size_problem(size: [u32; 2]) -> Option<String> {
 }
 
 /// The first name that an earlier mark has already, by its index.
-pub(super) fn repeated_name<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<usize> {
+pub fn repeated_name<'a>(names: impl IntoIterator<Item = &'a str>) -> Option<usize> {
     let mut seen = HashSet::new();
     names.into_iter().position(|name| !seen.insert(name))
 }

@@ -19,10 +19,9 @@ use check::ticks;
 use write::TICKS;
 
 pub use bridge::bridge;
-pub use check::{MAX_FRAMES, MAX_MARKS, MAX_NAME, MAX_SIDE, is_name};
+pub use check::{MAX_FRAMES, MAX_MARKS, MAX_NAME, MAX_SIDE, is_name, repeated_name};
 pub use colour::{hex, named_colour, parse_hex};
 pub use error::{Error, Place};
-pub use write::ranges;
 
 /// The largest file that is read, in bytes.
 pub const MAX_BYTES: usize = 256 << 20;

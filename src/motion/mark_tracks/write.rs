@@ -66,7 +66,7 @@ impl MarkTracks {
 }
 
 /// The ranges of frames that are lost, by their first and last frame.
-pub fn ranges(is_lost: &[bool]) -> Vec<(usize, usize)> {
+fn ranges(is_lost: &[bool]) -> Vec<(usize, usize)> {
     let mut ranges: Vec<(usize, usize)> = Vec::new();
     for (frame, _) in is_lost.iter().enumerate().filter(|(_, lost)| **lost) {
         match ranges.last_mut() {

@@ -66,7 +66,7 @@ pub fn ratios(
         if channel == emphasised || most <= 0.0 {
             continue;
         }
-        let ratio = (largest[channel] / most).clamp(0.0, 1.0);
+        let ratio = ratio(largest[channel], most);
         let limb = nodes.iter().map(|node| limbs.limb(*node));
         let mut damped = limb.fold(vec![false; count], |mut all, limb| {
             all.iter_mut().zip(limb).for_each(|(all, own)| *all |= own);
@@ -80,6 +80,11 @@ pub fn ratios(
         }
     }
     ratios
+}
+
+/// How much of its turns a channel keeps (equation 1): its largest input over that of the emphasised one, which is positive.
+pub(super) fn ratio(largest: f64, emphasised: f64) -> f64 {
+    (largest / emphasised).clamp(0.0, 1.0)
 }
 
 #[cfg(test)]

@@ -20,8 +20,13 @@ pub enum Filmed {
     No,
     /// By a camera at these positions, one for each shown frame.
     Camera(CameraPath),
-    /// By moving the figure: per shown frame by how much.
-    Character(Vec<DVec3>),
+    /// By moving the figure.
+    Character {
+        /// By how much, per shown frame.
+        shifts: Vec<DVec3>,
+        /// The shown frame in which it is nearest to the viewer.
+        nearest: usize,
+    },
 }
 
 impl Filmed {
@@ -55,16 +60,28 @@ impl Filmed {
                 let ways = joint.iter().zip(&path.distances);
                 let shift =
                     |(at, distance): (&DVec3, &f64)| joint[0] - *at + DVec3::Z * (far - distance);
-                Self::Character(ways.map(shift).collect())
+                Self::Character {
+                    shifts: ways.map(shift).collect(),
+                    nearest: path.nearest,
+                }
             }
             _ => Self::Camera(path),
+        }
+    }
+
+    /// The shown frame in which the camera, or the figure, is nearest.
+    pub fn nearest(&self) -> Option<usize> {
+        match self {
+            Self::No => None,
+            Self::Camera(path) => Some(path.nearest),
+            Self::Character { nearest, .. } => Some(*nearest),
         }
     }
 
     /// By how much the figure is moved in each shown frame.
     pub fn shifts(&self) -> Option<&[DVec3]> {
         match self {
-            Self::Character(shifts) => Some(shifts),
+            Self::Character { shifts, .. } => Some(shifts),
             _ => None,
         }
     }

@@ -77,6 +77,11 @@ impl Information {
         }
     }
 
+    /// How many frames there are.
+    pub fn frames(&self) -> usize {
+        self.curves.iter().map(Vec::len).max().unwrap_or(0)
+    }
+
     /// The frame in which a channel moves most, the earliest of equal ones; `None` if it does not move.
     pub fn peak(&self, channel: usize) -> Option<usize> {
         let curve = self.curves.get(channel)?;

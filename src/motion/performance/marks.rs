@@ -8,6 +8,8 @@ use crate::motion::mark_tracks::{MarkTrack, MarkTracks};
 const NOISE: f64 = 0.0025 * 24.0;
 /// Positions are replaced by the median of so many.
 const MEDIAN: usize = 5;
+/// Times in files are rounded: a frame that is nearer than this to one of the track, in frames, is that one.
+const SAME_TIME: f64 = 0.01;
 /// The most frames of a performance: more than an hour at any usual rate.
 const MAX_FRAMES: f64 = (1 << 18) as f64;
 
@@ -42,7 +44,7 @@ fn samples(times: &[f64], fps: f64) -> Vec<Sample> {
     let (Some(first), Some(last)) = (times.first(), times.last()) else {
         return Vec::new();
     };
-    let count = ((last - first) * fps + 1e-6).floor().min(MAX_FRAMES) as usize + 1;
+    let count = ((last - first) * fps + SAME_TIME).floor().min(MAX_FRAMES) as usize + 1;
     let mut from = 0;
     let sample = |frame: usize| {
         let time = first + frame as f64 / fps;
@@ -50,15 +52,16 @@ fn samples(times: &[f64], fps: f64) -> Vec<Sample> {
             from += 1;
         }
         let next = times.get(from + 1).copied().unwrap_or(times[from]);
-        let t = (time - times[from]) / (next - times[from]);
+        let whole = |from| Sample { from, t: 0.0 };
+        if (time - times[from]) * fps < SAME_TIME || from + 1 == times.len() {
+            return whole(from);
+        }
+        if (next - time) * fps < SAME_TIME {
+            return whole(from + 1);
+        }
         Sample {
             from,
-            // Rounding may lead a little beyond a frame, and the last frame has no next one.
-            t: if t > 1e-6 && t.is_finite() {
-                t.min(1.0)
-            } else {
-                0.0
-            },
+            t: (time - times[from]) / (next - times[from]),
         }
     };
     (0..count).map(sample).collect()

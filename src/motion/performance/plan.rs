@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::emphasis::ratio;
 use super::information::{Information, share_towards};
 use crate::motion::resample::TimeMap;
 
@@ -105,6 +106,23 @@ impl Plan {
             .collect()
     }
 
+    /// The ratio R of equation 1 of a channel: its largest input over that of the emphasised one, 0 to 1. All are 0 if nothing moves.
+    pub fn ratio(&self, channel: usize) -> f64 {
+        let most = self
+            .emphasised
+            .map(|channel| self.input.largest_of(channel));
+        let most = most.filter(|most| *most > 0.0);
+        most.map_or(0.0, |most| ratio(self.input.largest_of(channel), most))
+    }
+
+    /// The points through which the timing goes: frames of the result with the frames of the motion that they show; none if the motion
+    /// keeps its timing.
+    pub fn timing_points(&self) -> Vec<[usize; 2]> {
+        let keys = self.keys.filter(|_| self.timing.is_some());
+        let lengths = [self.input.frames(), self.motion.frames()];
+        keys.map_or_else(Vec::new, |keys| points(keys, lengths))
+    }
+
     /// The frame of the result in which the motion's key pose stands, which limited animation must not lose.
     pub fn key_frame(&self) -> Option<usize> {
         let [input, motion] = self.keys?;
@@ -121,14 +139,9 @@ impl Plan {
 /// `viewer` is the direction from the motion to the viewer, a unit vector.
 pub fn plan(input: Vec<Vec<f64>>, steps: &[Vec<DVec3>], viewer: DVec3, request: &Request) -> Plan {
     let length = |steps: &Vec<DVec3>| steps.iter().map(|step| step.length()).collect();
-    let lengths = [
-        input.iter().map(Vec::len).max().unwrap_or(0),
-        steps.iter().map(Vec::len).max().unwrap_or(0),
-    ];
-    let (input, motion) = (
-        Information::new(input),
-        Information::new(steps.iter().map(length).collect()),
-    );
+    let motion = steps.iter().map(length).collect();
+    let (input, motion) = (Information::new(input), Information::new(motion));
+    let lengths = [input.frames(), motion.frames()];
     let mut findings = Vec::new();
     let emphasised = request.emphasised.or(input.key.map(|key| key.channel));
     match input.key {
@@ -177,7 +190,7 @@ pub fn plan(input: Vec<Vec<f64>>, steps: &[Vec<DVec3>], viewer: DVec3, request: 
         .map(|(input, motion)| [input, motion]);
     let timing = keys.filter(|_| request.effects.timing && input.key.is_some());
     Plan {
-        timing: timing.map(|keys| map(keys, lengths)),
+        timing: timing.map(|keys| TimeMap::through(&points(keys, lengths))),
         is_damping: request.effects.emphasis && input.key.is_some() && input.curves.len() > 1,
         filming: request.effects.filming,
         input,
@@ -188,8 +201,8 @@ pub fn plan(input: Vec<Vec<f64>>, steps: &[Vec<DVec3>], viewer: DVec3, request: 
     }
 }
 
-/// The map through the first frames, the keys and the last frames. A key in one of the two last frames is held to the end.
-fn map([input, motion]: [usize; 2], [inputs, motions]: [usize; 2]) -> TimeMap {
+/// The first frames, the keys and the last frames. A key in the last frame of either is held to the end.
+fn points([input, motion]: [usize; 2], [inputs, motions]: [usize; 2]) -> Vec<[usize; 2]> {
     let mut points = vec![[input, motion]];
     if input > 0 {
         points.insert(0, [0, 0]);
@@ -197,5 +210,5 @@ fn map([input, motion]: [usize; 2], [inputs, motions]: [usize; 2]) -> TimeMap {
     if input + 1 < inputs {
         points.push([inputs - 1, motions - 1]);
     }
-    TimeMap::through(&points)
+    points
 }

@@ -3,6 +3,8 @@
 import { fill, h, svg } from "../dom";
 import { describeExposure, peaks, type ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
+import { APART, half, niceStep, round, word } from "./plot";
+import { rememberOpen, wasOpen } from "./remembered";
 
 /** The key under which the browser stores whether the chart is open. */
 const REMEMBERED = "okoshi.chart";
@@ -16,8 +18,6 @@ const BOX = 10;
 const GAP = 5;
 /** Narrower boxes have no gaps, in pixels. */
 const NARROW = 4;
-/** The smallest distance between frame numbers, in pixels. */
-const APART = 56;
 
 export class Chart {
   readonly element = h("section", { class: "chart", hidden: true, attributes: { "aria-label": "Chart" } });
@@ -33,7 +33,7 @@ export class Chart {
   private size = { width: 0, height: 0 };
   private scale = 1;
   private drags = false;
-  private wanted = remembered();
+  private wanted = wasOpen(REMEMBERED);
 
   /** `changed` is called when the chart is opened or closed. */
   constructor(private readonly viewer: Viewer, private readonly changed: () => void) {
@@ -80,7 +80,7 @@ export class Chart {
   toggle(): void {
     if (!this.isPossible) return;
     this.wanted = !this.wanted;
-    remember(this.wanted);
+    rememberOpen(REMEMBERED, this.wanted);
     this.follow();
     this.changed();
   }
@@ -217,16 +217,6 @@ export class Chart {
   }
 }
 
-const word = (x: number, y: number, anchor: string, text: string): SVGTextElement => {
-  const element = svg("text", { class: "chart-number", x: round(x), y: round(y), "text-anchor": anchor });
-  element.textContent = text;
-  return element;
-};
-
-const round = (value: number): number => Math.round(value * 100) / 100;
-/** The centre of a pixel, where lines one pixel wide are sharp. */
-const half = (value: number): number => Math.floor(value) + 0.5;
-
 const NUMBERS = new Intl.NumberFormat("en", { maximumSignificantDigits: 3 });
 /** A number with three digits; very small ones in scientific notation. */
 export function figures(value: number): string {
@@ -238,28 +228,4 @@ export function niceAbove(value: number): number {
   const ten = 10 ** Math.floor(Math.log10(value));
   for (const times of [1, 2, 4, 5, 6, 8]) if (value <= times * ten * (1 + 1e-9)) return times * ten;
   return 10 * ten;
-}
-
-/** The smallest whole number not below another that is 1, 2 or 5 times a power of ten. */
-function niceStep(value: number): number {
-  const ten = 10 ** Math.max(Math.floor(Math.log10(Math.max(value, 1))), 0);
-  for (const times of [1, 2, 5]) if (value <= times * ten) return times * ten;
-  return 10 * ten;
-}
-
-// Storage may be forbidden.
-function remembered(): boolean {
-  try {
-    return localStorage.getItem(REMEMBERED) === "open";
-  } catch {
-    return false;
-  }
-}
-
-function remember(open: boolean): void {
-  try {
-    localStorage.setItem(REMEMBERED, open ? "open" : "closed");
-  } catch {
-    // Then the chart is closed the next time.
-  }
 }

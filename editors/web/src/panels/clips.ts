@@ -1,12 +1,13 @@
 // The clip bar: which clip plays, at what time and speed, and above it the chart.
 
-import { ChartSpline, Columns2, Footprints, Pause, Play, Repeat, SkipBack, SkipForward, Video } from "lucide";
+import { ChartSpline, Columns2, Footprints, Hand, Pause, Play, Repeat, SkipBack, SkipForward, Video } from "lucide";
 import type { AnimationClip } from "three";
 import { button, fill, h, icon, svg } from "../dom";
 import { drawingAt } from "../viewport/clips";
 import type { ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
 import { Chart } from "./chart";
+import { PerformanceChart } from "./performance";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2];
 /** More ticks could not be distinguished. */
@@ -20,9 +21,10 @@ interface Box {
 
 export class Clips {
   readonly element = h("section", { class: "clips", attributes: { "aria-label": "Clips" } });
-  /** The bar and the chart above it. */
+  /** The bar and the charts above it. */
   readonly panel = h("div", { class: "motion", hidden: true });
   readonly chart: Chart;
+  readonly performance: PerformanceChart;
   private readonly choice = h("select", { class: "select clip-choice", attributes: { "aria-label": "Clip" } });
   private readonly figure = h("select", { class: "select figure-choice", title: "Figure whose drawings are counted", attributes: { "aria-label": "Figure" } });
   private readonly play = button({ icon: Play, label: "Play", key: "Space", press: () => this.toggle() });
@@ -34,14 +36,18 @@ export class Clips {
   private readonly along = button({ icon: Footprints, label: "Follow the figure", key: "V", press: () => this.followTravel() });
   private readonly films = button({ icon: Video, label: "Camera", key: "M", press: () => this.film() });
   private readonly charts = button({ icon: ChartSpline, label: "Chart", key: "C", press: () => this.chart.toggle() });
+  private readonly performances = button({ icon: Hand, label: "Performance", key: "I", press: () => this.performance.toggle() });
   private readonly compares = button({ icon: Columns2, label: "Full and limited side by side", key: "O", press: () => this.compare() });
   private readonly speed = h("select", { class: "select", attributes: { "aria-label": "Speed" } }, ...SPEEDS.map((speed) => h("option", { attributes: { value: speed } }, `${speed}×`)));
   private shown: AnimationClip | null = null;
   private exposure: ExposureSheet | null = null;
+  /** The length of the timeline in seconds. */
+  private end = 0;
   private boxes: readonly Box[] = [];
 
   constructor(private readonly viewer: Viewer) {
     this.chart = new Chart(viewer, () => this.follow());
+    this.performance = new PerformanceChart(viewer, () => this.follow());
     fill(
       this.element,
       h("div", { class: "clip-names" }, this.choice, this.figure),
@@ -54,10 +60,10 @@ export class Clips {
       ),
       h("div", { class: "timeline" }, this.ticks, this.slider),
       this.readout,
-      h("div", { class: "clip-looks" }, this.charts, this.compares, this.films, this.along, this.loop),
+      h("div", { class: "clip-looks" }, this.charts, this.performances, this.compares, this.films, this.along, this.loop),
       this.speed,
     );
-    fill(this.panel, this.chart.element, this.element);
+    fill(this.panel, this.performance.element, this.chart.element, this.element);
     this.speed.value = "1";
     this.choice.addEventListener("change", () => {
       const clip = this.player.clips[this.choice.selectedIndex];
@@ -134,14 +140,15 @@ export class Clips {
   }
 
   private follow(): void {
-    const { clip, keys, time, playing, loops } = this.player;
+    const { clip, keys, time, end, playing, loops } = this.player;
     if (!clip) return;
     const { exposure, comparison } = this.viewer;
-    if (this.shown !== clip || this.exposure !== exposure) {
+    if (this.shown !== clip || this.exposure !== exposure || this.end !== end) {
       this.shown = clip;
       this.exposure = exposure;
+      this.end = end;
       this.choice.selectedIndex = this.player.clips.indexOf(clip);
-      this.slider.max = String(clip.duration);
+      this.slider.max = String(end);
       const figures = this.viewer.exposuresOf(clip).map(({ facts }) => facts.figure);
       this.figure.hidden = figures.length < 2;
       fill(this.figure, ...figures.map((name) => h("option", { attributes: { value: name } }, name)));
@@ -151,10 +158,10 @@ export class Clips {
     this.slider.value = String(time);
     const words = this.words(time);
     this.readout.textContent = words;
-    this.readout.title = `${time.toFixed(2)} s of ${clip.duration.toFixed(2)} s`;
+    this.readout.title = `${time.toFixed(2)} s of ${end.toFixed(2)} s`;
     this.slider.setAttribute("aria-valuetext", words);
     const box = this.boxes[this.boxes.findLastIndex(({ from }) => from <= time + 1e-4)];
-    this.now.setAttribute("d", box ? outline(box, clip.duration) : "");
+    this.now.setAttribute("d", box ? outline(box, end) : "");
     this.element.dataset["playing"] = String(playing);
     this.loop.setAttribute("aria-pressed", String(loops));
     this.along.setAttribute("aria-pressed", String(this.viewer.travel.wanted));
@@ -162,9 +169,16 @@ export class Clips {
     this.films.setAttribute("aria-pressed", String(this.viewer.isFilming));
     this.charts.hidden = !this.chart.isPossible;
     this.charts.setAttribute("aria-pressed", String(this.chart.isOpen));
+    this.performances.hidden = !this.performance.isPossible;
+    this.performances.setAttribute("aria-pressed", String(this.performance.isOpen));
     this.compares.hidden = !comparison.isPossible;
     this.compares.setAttribute("aria-pressed", String(comparison.wanted));
     this.compares.setAttribute("aria-busy", String(comparison.isComing));
+    const compares = this.viewer.performed ? "Performed and original side by side" : "Full and limited side by side";
+    if (this.compares.getAttribute("aria-label") !== compares) {
+      this.compares.setAttribute("aria-label", compares);
+      this.compares.title = `${compares} (O)`;
+    }
     if (this.play.dataset["playing"] !== String(playing)) {
       this.play.dataset["playing"] = String(playing);
       this.play.setAttribute("aria-label", playing ? "Pause" : "Play");
@@ -195,8 +209,8 @@ export class Clips {
     const every = Math.ceil((this.boxes.length || times.length) / MAX_TICKS);
     const drawn =
       this.boxes.length > 0
-        ? this.boxes.filter((_, at) => at % every === 0).map((box) => outline(box, duration))
-        : times.filter((_, at) => at % every === 0).map((time) => `M${across(time, duration)} 2V8`);
+        ? this.boxes.filter((_, at) => at % every === 0).map((box) => outline(box, this.end))
+        : times.filter((_, at) => at % every === 0).map((time) => `M${across(time, this.end)} 2V8`);
     this.ticks.dataset["keys"] = String(this.boxes.length || times.length);
     fill(this.ticks, svg("path", { class: this.boxes.length > 0 ? "held" : "keys", d: drawn.join("") }), this.now);
   }

@@ -7,7 +7,7 @@ const KEYS: readonly (readonly [string, readonly (readonly [string, string])[]])
   ["Look", [["drag", "turn the view"], ["right drag", "move it (or with two fingers)"], ["wheel, + −", "nearer, farther (or pinch)"], ["← → ↑ ↓", "turn the view by 10°"], ["0 1 3 7", "three-quarter, front, side, top (Shift: from the other side)"], ["5", "perspective or parallel"], ["L", "the layers from the side, and back"], ["4, B", "terrain: the drawn view; drawn look or true 3D"], ["F", "frame the model"], ["Z", "next shading"]]],
   ["Parts", [["click", "select a part, and jump to its string in the editor"], ["T", "go to the list of parts"], ["E", "open or close the diagnostics"], ["Esc", "select nothing"]]],
   ["Pose", [["P", "turn posing on or off"], ["drag", "turn a limb about its joint"], ["Shift + drag", "turn it about its own axis"], [", .", "turn the selected part by 5°"], ["Esc", "reset all limbs"]]],
-  ["Clips", [["Space", "play, pause"], ["J K", "previous or next drawing or key"], ["C", "movement chart"], ["O", "full and limited side by side"], ["V", "follow a figure that travels"], ["M", "look through the camera of the clip"]]],
+  ["Clips", [["Space", "play, pause"], ["J K", "previous or next drawing or key"], ["C", "movement chart"], ["I", "performance: marks, joints and timing"], ["O", "a performed or limited clip and its original side by side"], ["V", "follow a figure that travels"], ["M", "look through the camera of the clip"]]],
   ["Puppets", [["R", "record a puppet with the camera"]]],
   ["Export", [["S", "screenshot (Shift: transparent)"], ["D", "download the model"], ["Shift + F", "full screen"], ["G", "all drawings"]]],
 ];

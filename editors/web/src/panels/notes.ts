@@ -27,7 +27,7 @@ export class Notes {
     if (!drawing) return "";
     if (this.viewer.failure !== "") return `The model could not be shown: ${this.viewer.failure}`;
     if (drawing.gone) return this.viewer.model ? "The drawing's file is missing at the moment. This is its last model." : "The drawing's file is missing at the moment.";
-    if (this.viewer.comparison.failure !== "") return `The full clips could not be shown: ${this.viewer.comparison.failure}`;
+    if (this.viewer.comparison.failure !== "") return `The original clips could not be shown: ${this.viewer.comparison.failure}`;
     if (this.viewer.model) return "";
     if (!drawing.build) return "Building…";
     return drawing.build.model === null ? (drawing.build.stale || drawing.build.findings.some(({ severity }) => severity === "error") ? "There is no model yet: the drawing has errors." : "There is no model: the drawing has no parts.") : "";

@@ -38,6 +38,8 @@ export class Player {
   private action: AnimationAction | null = null;
   /** The tracks of a clip whose keys count. */
   private tracksOf = (clip: AnimationClip): readonly KeyframeTrack[] => clip.tracks;
+  /** How long the clip beside this one takes, in seconds. */
+  private beside = 0;
   clips: readonly AnimationClip[] = [];
   clip: AnimationClip | null = null;
   keys: Keys = { times: [], held: false };
@@ -45,6 +47,17 @@ export class Player {
   speed = 1;
   loops = true;
   playing = false;
+
+  /** Until when the clip is shown, in seconds: it waits at its end for a longer one beside it. */
+  get end(): number {
+    return Math.max(this.clip?.duration ?? 0, this.beside);
+  }
+
+  /** A clip of this duration runs beside this one by the same clock; 0 for none. */
+  waitFor(seconds: number): void {
+    this.beside = seconds;
+    if (this.time > this.end) this.seek(this.end);
+  }
 
   /** Continues in another model: with the clip of the same name at the same time, otherwise with its first. `plays` applies to the latter. */
   take(model: Model, plays: boolean): void {
@@ -81,12 +94,12 @@ export class Player {
 
   play(on: boolean): void {
     if (!this.clip) return;
-    if (on && this.time >= this.clip.duration) this.time = 0;
+    if (on && this.time >= this.end) this.time = 0;
     this.playing = on;
   }
 
   seek(time: number): void {
-    this.time = Math.min(Math.max(time, 0), this.clip?.duration ?? 0);
+    this.time = Math.min(Math.max(time, 0), this.end);
     this.set();
   }
 
@@ -101,12 +114,12 @@ export class Player {
   /** Advances the time. True while the clip plays. */
   advance(seconds: number): boolean {
     if (!this.playing || !this.clip) return false;
-    const { duration } = this.clip;
+    const { end } = this;
     this.time += seconds * this.speed;
-    if (this.time >= duration) {
-      if (this.loops && duration > 0) this.time %= duration;
+    if (this.time >= end) {
+      if (this.loops && end > 0) this.time %= end;
       else {
-        this.time = duration;
+        this.time = end;
         this.playing = false;
       }
     }
@@ -117,6 +130,7 @@ export class Player {
   private use(clip: AnimationClip | null): void {
     this.mixer?.stopAllAction();
     this.clip = clip;
+    this.beside = 0;
     this.keys = clip ? this.keysIn(clip) : { times: [], held: false };
     this.action = clip && this.mixer ? this.mixer.clipAction(clip).setLoop(LoopOnce, 1) : null;
     if (this.action) {
@@ -128,10 +142,10 @@ export class Player {
   }
 
   private set(): void {
-    if (!this.action || !this.mixer) return;
+    if (!this.action || !this.mixer || !this.clip) return;
     this.action.paused = false;
     this.action.enabled = true;
-    this.action.time = this.time;
+    this.action.time = Math.min(this.time, this.clip.duration);
     this.mixer.update(0);
   }
 }

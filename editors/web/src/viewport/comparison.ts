@@ -1,5 +1,5 @@
-// Controls the comparison of full and limited clips side by side: whether it is on, where the full clips come from, and when the copy
-// is rebuilt.
+// Controls the comparison of clips with their originals, as they were before they were performed or limited: whether it is on, where
+// the originals come from, and when the copy is rebuilt.
 
 import type { SideBySide } from "./side-by-side";
 import type { Player } from "./clips";
@@ -8,7 +8,7 @@ import { readFile, type Model } from "./model";
 import type { Pose } from "./pose";
 import type { View } from "./view";
 
-/** Where the full clips of a build are. */
+/** Where the original clips of a build are. */
 interface Source {
   readonly connection: number;
   readonly originals: string | null;
@@ -20,6 +20,8 @@ interface Shown {
   readonly player: Player;
   readonly pose: Pose;
   readonly view: View;
+  /** The performed clip that is shown. */
+  readonly performed: unknown;
 }
 
 interface Around {
@@ -33,7 +35,7 @@ interface Around {
 export class Comparison {
   private readonly fetching: Latest<Source, void>;
   private source: Source | null = null;
-  /** The build whose full clips are loaded or being loaded. */
+  /** The build whose original clips are loaded or being loaded. */
   private fetched: Source | null = null;
   /** Moves the camera back to where it was before the comparison. */
   private back: (() => void) | null = null;
@@ -64,7 +66,7 @@ export class Comparison {
     );
   }
 
-  /** Whether there are full clips to compare with. */
+  /** Whether there are original clips to compare with. */
   get isPossible(): boolean {
     return this.source !== null && this.source.originals !== null && this.shown.player.clips.length > 0;
   }
@@ -82,7 +84,7 @@ export class Comparison {
     else this.remove();
   }
 
-  /** The model of another build is shown; until its full clips are loaded, those of the last build are used. */
+  /** The model of another build is shown; until its original clips are loaded, those of the last build are used. */
   take(source: Source): void {
     this.source = source;
     this.failure = "";
@@ -138,13 +140,15 @@ export class Comparison {
     if (!model) return;
     const { time } = player;
     this.arranged = player.clip;
-    this.sideBySide.choose(player.clip, (at) => player.seek(at), model);
+    this.sideBySide.choose(player.clip, this.shown.performed ? "same" : "together", (at) => player.seek(at), model);
+    player.waitFor(this.sideBySide.waits);
     player.seek(time);
     if (player.clip) this.sideBySide.seek(time, player.clip.duration);
   }
 
   private remove(): void {
     this.sideBySide.remove();
+    this.shown.player.waitFor(0);
     this.around.changed();
     this.back?.();
     this.back = null;

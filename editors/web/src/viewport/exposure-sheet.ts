@@ -105,7 +105,7 @@ export function peaks(values: readonly number[], most: number): { readonly step:
 /** A short description of a clip. */
 export function describeExposure({ runs, frames, facts }: ExposureSheet): string {
   const words = [`${frames} ${frames === 1 ? "frame" : "frames"}`];
-  if (!facts.limited) return `${words[0]}, as in the motion file`;
+  if (!facts.limited) return `${words[0]}, as ${facts.performance?.timed ? "performed" : "in the motion file"}`;
   const drawings = facts.drawings || runs.length;
   words.push(`${drawings} ${drawings === 1 ? "drawing" : "drawings"}`);
   if (facts.omitted.length > 0) words.push(`${facts.omitted.length} in-${facts.omitted.length === 1 ? "between" : "betweens"} omitted`);

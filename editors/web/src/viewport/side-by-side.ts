@@ -1,4 +1,4 @@
-// A copy of the model beside it, which plays a limited clip as it was before limiting.
+// A copy of the model beside it, which plays a clip as it was before it was performed or limited.
 
 import { AnimationClip, AnimationMixer, Box3, Group, LoopOnce, SkinnedMesh, Vector3, type AnimationAction, type KeyframeTrack, type Object3D } from "three";
 import { clone } from "three/addons/utils/SkeletonUtils.js";
@@ -8,6 +8,9 @@ import { isOverlay, Model, nodeName } from "./model";
 const GAP = 0.12;
 /** At how many times of a clip its bounding box is sampled. */
 const SAMPLES = 24;
+
+/** How the two clips run: both begin and end together, or both at the speed of the same clock, and the shorter one waits at its end. */
+export type Clock = "together" | "same";
 
 /** The nodes and clips of a file without meshes. */
 export interface Originals {
@@ -24,6 +27,7 @@ export class SideBySide {
   private mixer: AnimationMixer | null = null;
   private action: AnimationAction | null = null;
   private clip: AnimationClip | null = null;
+  private clock: Clock = "together";
 
   constructor(scene: Object3D) {
     scene.add(this.place);
@@ -32,6 +36,11 @@ export class SideBySide {
   /** The distance of the copy to the right, in metres. */
   get offset(): number {
     return this.place.position.x;
+  }
+
+  /** Until when the player must wait for the copy, in seconds: 0 if both end together. */
+  get waits(): number {
+    return this.clip && this.clock === "same" ? this.clip.duration : 0;
   }
 
   /** Puts a copy of the model there, without overlays. Limbs turned by hand must be released before. */
@@ -59,10 +68,11 @@ export class SideBySide {
   }
 
   /** Plays the original of a clip, and moves the copy so far away that the two never overlap. */
-  choose(clip: AnimationClip | null, sample: (time: number) => void, model: Model): void {
+  choose(clip: AnimationClip | null, clock: Clock, sample: (time: number) => void, model: Model): void {
     const { copy, mixer, originals } = this;
     if (!copy || !mixer || !originals) return;
     mixer.stopAllAction();
+    this.clock = clock;
     const full = clip && (originals.animations.find(({ name }) => name === clip.name) ?? clip);
     const nodes = nodesByName(full === clip ? model.root : originals.scene);
     this.clip = full && onNodes(full, nodes, nodesByName(copy.root));
@@ -73,7 +83,7 @@ export class SideBySide {
     }
     const [own, other] = [model.box.clone(), model.box.clone()];
     for (let at = 0; clip && at <= SAMPLES; at++) {
-      const time = (clip.duration * at) / SAMPLES;
+      const time = (Math.max(clip.duration, this.waits) * at) / SAMPLES;
       sample(time);
       this.seek(time, clip.duration);
       own.union(new Box3().setFromObject(model.root));
@@ -84,12 +94,13 @@ export class SideBySide {
     this.boxes = [own, other.translate(new Vector3(this.offset, 0, 0))];
   }
 
-  /** Seeks to a time of a clip of this duration: both begin and end together. */
+  /** Seeks to a time of a clip of this duration. */
   seek(time: number, duration: number): void {
     if (!this.action || !this.mixer || !this.clip) return;
     this.action.paused = false;
     this.action.enabled = true;
-    this.action.time = duration > 0 ? Math.min(time / duration, 1) * this.clip.duration : 0;
+    const own = this.clip.duration;
+    this.action.time = this.clock === "same" ? Math.min(time, own) : duration > 0 ? Math.min(time / duration, 1) * own : 0;
     this.mixer.update(0);
   }
 }

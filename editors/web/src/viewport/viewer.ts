@@ -144,12 +144,18 @@ export class Viewer {
     return all.find(({ facts }) => facts.figure === this.figure) ?? all.find(({ facts }) => facts.limited) ?? all[0] ?? null;
   }
 
+  /** The exposure sheet of the performed clip to display: that of the chosen figure, otherwise of one that is performed; null if none is. */
+  get performed(): ExposureSheet | null {
+    const all = this.exposuresOf(this.player.clip).filter(({ facts }) => facts.performance !== null);
+    return all.find(({ facts }) => facts.figure === this.figure) ?? all[0] ?? null;
+  }
+
   chooseFigure(figure: string): void {
     this.figure = figure;
     this.notify("time");
   }
 
-  /** Switches the comparison with the full clip on or off. */
+  /** Switches the comparison with the original clip on or off. */
   compare(on: boolean): void {
     this.comparison.want(on);
     this.notify("sideBySide");

@@ -1,0 +1,203 @@
+// The chart of a performance: how much the marks move, below it how much their joints move in the motion, and which frame of one stands
+// in which of the other.
+
+import { fill, h, svg } from "../dom";
+import { describeEffect, describeFilming, describeTiming, PerformanceTimes, type Row, type Rows } from "../viewport/performance";
+import type { ExposureSheet } from "../viewport/exposure-sheet";
+import type { Viewer } from "../viewport/viewer";
+import { APART, half, niceStep, round, word } from "./plot";
+import { rememberOpen, wasOpen } from "./remembered";
+
+/** The key under which the browser stores whether the chart is open. */
+const REMEMBERED = "okoshi.performance";
+/** Space around the rows in pixels: for titles, numbers, and the lines between the two. */
+const LEFT = 14;
+const RIGHT = 14;
+const TOP = 22;
+const BELOW = 20;
+const BETWEEN = 48;
+/** Marks can be told apart without their colours, too. */
+const DASHES = ["", "7 3", "2 3", "9 3 2 3"];
+const ROWS: readonly Row[] = ["performance", "motion"];
+const TITLES: Readonly<Record<Row, string>> = { performance: "marks of the performance", motion: "joints of the motion" };
+
+export class PerformanceChart {
+  readonly element = h("section", { class: "performance", hidden: true, attributes: { "aria-label": "Performance" } });
+  private readonly summary = h("p", { class: "chart-summary" });
+  private readonly file = h("span", { class: "chart-file muted" });
+  private readonly picture = svg("svg", { class: "chart-picture performance-picture", role: "img" });
+  private readonly tip = h("p", { class: "chart-tip", hidden: true });
+  private readonly marks = h("tbody");
+  private readonly filming = h("p", { class: "muted" });
+  private readonly head = svg("path", { class: "performance-head" });
+  private readonly line = svg("path", { class: "chart-hover" });
+  private drawn: ExposureSheet | null = null;
+  private times: PerformanceTimes | null = null;
+  private rows: Rows = { left: 0, right: 1, performance: [0, 0], motion: [0, 0] };
+  private drags = false;
+  private wanted = wasOpen(REMEMBERED);
+
+  /** `changed` is called when the chart is opened or closed. */
+  constructor(private readonly viewer: Viewer, private readonly changed: () => void) {
+    const head = h("thead", {}, h("tr", {}, ...["Mark", "Parts", "R", "Effect"].map((title) => h("th", { title: title === "R" ? "Its largest movement over that of the emphasised mark" : "", attributes: { scope: "col" } }, title))));
+    fill(
+      this.element,
+      h("header", { class: "chart-title" }, h("h2", {}, "Performance ", h("span", { class: "muted", title: "Movement per frame, as a ratio of the largest one" }, "movement, 0 to 1")), this.summary, this.file),
+      h("div", { class: "performance-body" }, h("div", { class: "chart-place" }, this.picture, this.tip), h("div", { class: "performance-marks" }, h("table", {}, head, this.marks), this.filming)),
+    );
+    new ResizeObserver(() => this.draw()).observe(this.picture);
+    this.picture.addEventListener("pointermove", (event) => this.over(event));
+    this.picture.addEventListener("pointerleave", () => this.leave());
+    this.picture.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      this.drags = true;
+      this.picture.setPointerCapture(event.pointerId);
+      this.over(event);
+      event.preventDefault();
+    });
+    for (const end of ["pointerup", "pointercancel"] as const) {
+      this.picture.addEventListener(end, (event) => {
+        this.drags = false;
+        if (event.pointerType !== "mouse") this.leave();
+      });
+    }
+    viewer.on(["model", "time"], () => this.follow());
+  }
+
+  /** Whether the clip is performed. */
+  get isPossible(): boolean {
+    return this.viewer.performed !== null;
+  }
+
+  get isOpen(): boolean {
+    return this.wanted && this.isPossible;
+  }
+
+  toggle(): void {
+    if (!this.isPossible) return;
+    this.wanted = !this.wanted;
+    rememberOpen(REMEMBERED, this.wanted);
+    this.follow();
+    this.changed();
+  }
+
+  private follow(): void {
+    this.element.hidden = !this.isOpen;
+    if (!this.isOpen) return;
+    if (this.viewer.performed !== this.drawn) this.draw();
+    this.move();
+  }
+
+  private draw(): void {
+    const { performed } = this.viewer;
+    const { width, height } = this.picture.getBoundingClientRect();
+    if (!performed?.facts.performance || width <= LEFT + RIGHT || height <= TOP + BETWEEN + BELOW) return;
+    this.drawn = performed;
+    const facts = performed.facts.performance;
+    const times = (this.times = new PerformanceTimes(facts));
+    const high = (height - TOP - BETWEEN - BELOW) / 2;
+    const rows: Rows = (this.rows = { left: LEFT, right: width - RIGHT, performance: [TOP, TOP + high], motion: [height - BELOW - high, height - BELOW] });
+    this.picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
+
+    const parts: SVGElement[] = [];
+    const numbers: SVGElement[] = [];
+    for (const row of ROWS) {
+      const [top, bottom] = rows[row];
+      const last = times.at(Math.max(facts.frames[row] - 1, 0), rows);
+      parts.push(svg("path", { class: "chart-grid", d: [top, bottom].map((y) => `M${LEFT} ${half(y)}H${round(last)}`).join("") }));
+      parts.push(word(LEFT, top - 6, "start", TITLES[row]));
+      const step = niceStep((times.frames * APART) / (rows.right - LEFT));
+      for (let frame = 0; frame < facts.frames[row]; frame = frame === 0 ? step - 1 || 1 : frame + step) numbers.push(word(times.at(frame, rows), bottom + 14, frame === 0 ? "start" : "middle", String(frame + 1)));
+      const key = facts.keys?.[row];
+      if (key !== undefined) parts.push(svg("path", { class: "performance-key", "data-frame": key + 1, d: `M${round(times.at(key, rows))} ${top}V${bottom}` }));
+    }
+    for (const { from, to, isKey } of times.links(rows)) parts.push(svg("path", { class: isKey ? "performance-link of-key" : "performance-link", d: `M${round(from[0])} ${round(from[1])}L${round(to[0])} ${round(to[1])}` }));
+    for (const row of ROWS) {
+      facts.marks.forEach((mark, at) => {
+        const points = times.curve(row, at, rows).map(([x, y]) => `${round(x)} ${round(y)}`);
+        if (points.length === 0) return;
+        parts.push(colored(svg("path", { class: mark.emphasised ? "performance-curve emphasised" : "performance-curve", "data-row": row, "data-mark": mark.name, "stroke-dasharray": dashes(at), d: `M${points.join("L")}` }), mark.colour));
+      });
+    }
+    fill(this.picture, ...parts, ...numbers, this.line, this.head);
+
+    fill(this.marks, ...facts.marks.map((mark, at) => {
+      const sample = svg("svg", { class: "performance-sample", viewBox: "0 0 26 10", "aria-hidden": "true" });
+      sample.append(colored(svg("path", { class: mark.emphasised ? "performance-curve emphasised" : "performance-curve", "stroke-dasharray": dashes(at), d: "M1 5H25" }), mark.colour));
+      const name = h("th", { attributes: { scope: "row" } }, sample, mark.name);
+      return h("tr", {}, name, h("td", {}, mark.parts.join(", ")), h("td", { class: "number" }, mark.ratio.toFixed(2)), h("td", {}, describeEffect(mark)));
+    }));
+    const timing = describeTiming(facts);
+    this.summary.textContent = timing;
+    this.file.textContent = facts.track;
+    this.filming.textContent = describeFilming(facts);
+    const keys = facts.keys ? `The marks move most in frame ${facts.keys.performance + 1} of ${facts.frames.performance}, the joints in frame ${facts.keys.motion + 1} of ${facts.frames.motion}` : "Not both of them move";
+    this.picture.setAttribute("aria-label", `How much the marks of ${facts.track} move, and the joints of ${performed.facts.file}. ${keys}: ${timing}.`);
+    this.move();
+  }
+
+  /** The frame of the performance that is shown. */
+  private get frame(): number {
+    return this.drawn?.sourceAt(this.viewer.player.time) ?? 0;
+  }
+
+  /** Moves the playhead to the time of the clip. */
+  private move(): void {
+    const { times, frame } = this;
+    if (!times) return;
+    this.head.setAttribute("d", this.through(frame));
+    const motion = times.motionAt(frame);
+    this.picture.dataset["frame"] = String(frame + 1);
+    this.picture.dataset["motion"] = String(round(motion + 1));
+  }
+
+  /** A line through both rows at a frame of the performance, and from one to the other between them. */
+  private through(frame: number): string {
+    const { rows, times } = this;
+    if (!times) return "";
+    const [above, below] = [times.at(frame, rows), times.at(times.motionAt(frame), rows)].map(round);
+    return `M${above} ${rows.performance[0]}V${rows.performance[1]}L${below} ${rows.motion[0]}V${rows.motion[1]}`;
+  }
+
+  private over(event: PointerEvent): void {
+    const { drawn, times, rows } = this;
+    if (!drawn || !times) return;
+    const { facts } = times;
+    const box = this.picture.getBoundingClientRect();
+    const row: Row = event.clientY - box.top > (rows.performance[1] + rows.motion[0]) / 2 ? "motion" : "performance";
+    const own = times.frameAt(row, event.clientX - box.left, rows);
+    const frame = row === "motion" ? Math.round(times.performanceAt(own)) : own;
+    if (this.drags) {
+      this.viewer.moved(() => {
+        this.viewer.player.play(false);
+        this.viewer.player.seek(drawn.timeOf(frame));
+      });
+    }
+    const x = times.at(own, rows);
+    this.line.setAttribute("d", this.through(frame));
+    const words = [row === "motion" ? `frame ${own + 1} of the motion` : `frame ${own + 1}`];
+    facts.marks.forEach(({ name }, mark) => {
+      const ratio = times.ratio(row, mark, own);
+      if (ratio !== null) words.push(`${name} ${ratio.toFixed(2)}`);
+    });
+    this.tip.textContent = words.join(" · ");
+    this.tip.hidden = false;
+    // Beside the line, on the side with enough space.
+    const wide = this.tip.offsetWidth;
+    this.tip.style.transform = `translateX(${x + 10 + wide < box.width ? x + 10 : Math.max(x - 10 - wide, 0)}px)`;
+  }
+
+  private leave(): void {
+    if (this.drags) return;
+    this.tip.hidden = true;
+    this.line.setAttribute("d", "");
+  }
+}
+
+const dashes = (mark: number): string => DASHES[mark % DASHES.length]!;
+
+/** A curve in the colour of its mark, as far as that stands out from the panel. */
+function colored<E extends SVGElement>(element: E, colour: string): E {
+  if (colour !== "") element.style.setProperty("--mark", colour);
+  return element;
+}

@@ -1,0 +1,394 @@
+//! `okoshi track`
+
+mod annotate;
+mod clip;
+mod video;
+
+use std::fmt::Write as _;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use self::annotate::annotated;
+use self::clip::Clip;
+use super::args::{Common, Track};
+use super::progress::counting;
+use super::render::movie::{Movie, MovieForm};
+use super::{Outcome, fail};
+use crate::disk::{Inputs, Naming, Target};
+use crate::motion::mark_tracks::{MAX_MARKS, MarkTrack, MarkTracks, repeated_name};
+use crate::render::{Image, Palette, write_png};
+use crate::report::ranges;
+use crate::tracking::{Frame, LearnError, Learned, Learner, Tracker, hue_name, tracks};
+
+/// The most ranges of lost frames that are listed.
+const MAX_RANGES: usize = 8;
+/// A mark that is lost in more than this part of the frames is warned of.
+const MUCH_LOST: f64 = 0.2;
+/// So is one whose hue still things have in more than this part of the picture.
+const MUCH_CLUTTER: f64 = 0.003;
+/// From so many frames the colours of a GIF are chosen.
+const PALETTE_FRAMES: usize = 8;
+
+/// The format of a track.
+#[derive(Clone, Copy)]
+enum Form {
+    Json,
+    Csv,
+}
+
+/// The format of an annotated clip.
+#[derive(Clone, Copy)]
+enum Annotated {
+    Numbered,
+    Movie(MovieForm),
+}
+
+/// Follows marks through a clip.
+pub(super) fn run(arguments: &Track, common: Common) -> Outcome {
+    match track(arguments, common) {
+        Ok(()) => Outcome::Done,
+        Err(message) => fail(&message),
+    }
+}
+
+fn track(arguments: &Track, common: Common) -> Result<(), String> {
+    let names = arguments.marks.iter().map(|mark| mark.name());
+    if let Some(index) = repeated_name(names) {
+        let name = arguments.marks[index].name();
+        return Err(format!(
+            "there are two marks `{name}`: name them, as in `--mark left={name} --mark right={name}`, \
+             and give them colours that differ"
+        ));
+    }
+    if arguments.marks.len() > MAX_MARKS {
+        return Err(format!("at most {MAX_MARKS} marks can be followed"));
+    }
+    let output = output(arguments);
+    let form = form(&output)?;
+    let annotated = arguments.annotated.as_deref();
+    let annotated = annotated
+        .map(|path| Ok::<_, String>((path, annotated_form(path)?)))
+        .transpose()?;
+    let clip = Clip::open(&arguments.clips, arguments.fps)?;
+    let mut inputs = Inputs::default();
+    for file in clip.files() {
+        inputs = inputs.reading(&file);
+    }
+    let naming = match arguments.output {
+        Some(_) => Naming::Given,
+        None => Naming::Derived,
+    };
+    let target = inputs
+        .target(&output, naming)
+        .map_err(|error| error.to_string())?;
+    inputs = inputs.writing(&output);
+    // Refused before anything is read; numbered pictures are checked when their number is known.
+    if let Some((path, Annotated::Movie(_))) = annotated {
+        inputs
+            .target(path, Naming::Given)
+            .map_err(|error| error.to_string())?;
+    }
+    let (learned, count) = learn(&clip, arguments)?;
+    let found = follow(&clip, &learned, count)?;
+    let text = match form {
+        Form::Json => found.to_json(),
+        Form::Csv => found.to_csv(),
+    };
+    let written = target.write(|out| out.write_all(text.as_bytes()));
+    written.map_err(|error| error.to_string())?;
+    let name = arguments.clips[0].display();
+    if !common.quiet {
+        eprint!("{name}: {}", report(&found, &learned));
+        if output.as_os_str() != "-" {
+            eprintln!("wrote {}", output.display());
+        }
+    }
+    if let Some((path, form)) = annotated {
+        let wrote = annotate(&clip, &found, path, form, &inputs)?;
+        if !common.quiet {
+            eprintln!("wrote {wrote}");
+        }
+    }
+    Ok(())
+}
+
+/// Where the track is written.
+fn output(arguments: &Track) -> PathBuf {
+    match &arguments.output {
+        Some(output) => output.clone(),
+        None => arguments.clips[0].with_extension("json"),
+    }
+}
+
+/// The ending of a file's name, in small letters.
+fn ending(path: &Path) -> String {
+    let ending = path.extension().unwrap_or_default();
+    ending.to_string_lossy().to_lowercase()
+}
+
+fn form(output: &Path) -> Result<Form, String> {
+    match ending(output).as_str() {
+        _ if output.as_os_str() == "-" => Ok(Form::Json),
+        "json" => Ok(Form::Json),
+        "csv" => Ok(Form::Csv),
+        _ => Err(format!(
+            "the track `{}` must end in .json or .csv",
+            output.display()
+        )),
+    }
+}
+
+fn annotated_form(path: &Path) -> Result<Annotated, String> {
+    match ending(path).as_str() {
+        "png" => Ok(Annotated::Numbered),
+        ending => MovieForm::of(ending).map(Annotated::Movie).ok_or_else(|| {
+            format!(
+                "the annotated clip `{}` must end in .gif, .apng, .mp4, .webm or .png",
+                path.display()
+            )
+        }),
+    }
+}
+
+/// Learns what the marks look like; the number of frames is returned too.
+fn learn(clip: &Clip, arguments: &Track) -> Result<(Learned, u32), String> {
+    let mut learner = None;
+    let mut count = 0;
+    counting("learning", clip.count().unwrap_or(0), |done| {
+        clip.read(&mut |frame| {
+            let size = [frame.image.width(), frame.image.height()];
+            let learner =
+                learner.get_or_insert_with(|| Learner::new(size, arguments.marks.clone()));
+            if let Some(frame) = Frame::new(size, &frame.image) {
+                learner.push(frame);
+            }
+            count += 1;
+            done(count);
+            Ok(())
+        })
+    })?;
+    let name = arguments.clips[0].display();
+    let learner = learner.ok_or_else(|| format!("`{name}` has no frames"))?;
+    let learned = learner
+        .learned()
+        .map_err(|error| not_found(arguments, &error))?;
+    Ok((learned, count))
+}
+
+/// That a clip has no pixels of a mark.
+fn not_found(arguments: &Track, error: &LearnError) -> String {
+    let hues = match error.hues.as_slice() {
+        [] => "nothing in it is coloured".to_owned(),
+        hues => format!("what is coloured in it is {}", hues.join(", ")),
+    };
+    format!(
+        "the mark `{}` is not in `{}`: it would be {}, and {hues}; choose one of these, the largest area comes first",
+        arguments.marks[error.mark].name(),
+        arguments.clips[0].display(),
+        hue_name(error.hue),
+    )
+}
+
+/// Finds the marks in all frames.
+fn follow(clip: &Clip, learned: &Learned, count: u32) -> Result<MarkTracks, String> {
+    let mut tracker = Tracker::new(learned.clone());
+    let (mut times, mut seen) = (Vec::new(), Vec::new());
+    counting("tracking", count, |done| {
+        clip.read(&mut |frame| {
+            let size = [frame.image.width(), frame.image.height()];
+            if let Some(pixels) = Frame::new(size, &frame.image) {
+                seen.push(tracker.push(pixels));
+                times.push(frame.time);
+            }
+            done(seen.len() as u32);
+            Ok(())
+        })
+    })?;
+    Ok(tracks(learned, times, &seen))
+}
+
+/// What was found, a line for each mark, and what may be wrong.
+fn report(found: &MarkTracks, learned: &Learned) -> String {
+    let [width, height] = found.size;
+    let frames = found.times.len();
+    let seconds = found.times.last().copied().unwrap_or(0.0);
+    let mut text = format!("{frames} frames, {width} × {height} pixels, {seconds:.1} s\n");
+    for (index, mark) in found.marks.iter().enumerate() {
+        let _ = writeln!(text, "  {}", seen(mark));
+        let name = &mark.name;
+        let lost = mark.is_lost.iter().filter(|lost| **lost).count();
+        let part = lost as f64 / frames as f64;
+        if lost == frames {
+            let _ = writeln!(
+                text,
+                "  warning: `{name}` was never seen clearly; choose its colour from a frame, as in `{name}=#d03020`"
+            );
+        } else if part > MUCH_LOST {
+            let _ = writeln!(
+                text,
+                "  warning: `{name}` is lost in {:.0} % of the frames; look at them with --annotated check.gif",
+                100.0 * part
+            );
+        }
+        let clutter = learned.clutter(index);
+        if clutter > MUCH_CLUTTER {
+            let _ = writeln!(
+                text,
+                "  warning: still things have the hue of `{name}` too, in {:.1} % of the picture; before them it may be lost",
+                100.0 * clutter
+            );
+        }
+    }
+    text
+}
+
+/// In which frames a mark was seen and lost. Frames count from 1.
+fn seen(mark: &MarkTrack) -> String {
+    let lost = mark.is_lost.iter().enumerate().filter(|(_, lost)| **lost);
+    let lost: Vec<u32> = lost.map(|(frame, _)| frame as u32 + 1).collect();
+    let frames = mark.is_lost.len();
+    match lost.as_slice() {
+        [] => format!("{}: seen in all frames", mark.name),
+        lost => format!(
+            "{}: seen in {} of {frames} frames, lost in {}",
+            mark.name,
+            frames - lost.len(),
+            ranges(lost, MAX_RANGES)
+        ),
+    }
+}
+
+/// Writes the clip with what was found.
+fn annotate(
+    clip: &Clip,
+    found: &MarkTracks,
+    path: &Path,
+    form: Annotated,
+    inputs: &Inputs,
+) -> Result<String, String> {
+    let count = found.times.len() as u32;
+    match form {
+        Annotated::Numbered => {
+            let name = |number: u32| numbered(path, number, count);
+            let target = |number: u32| -> Result<Target, String> {
+                let target = inputs.target(&name(number), Naming::Given);
+                target.map_err(|error| error.to_string())
+            };
+            for number in 1..=count {
+                target(number)?;
+            }
+            counting("writing", count, |done| {
+                draw(clip, found, &mut |image, number| {
+                    let target = target(number as u32 + 1)?;
+                    let written = target.write(|out| write_png(&image, out));
+                    written.map_err(|error| error.to_string())?;
+                    done(number as u32 + 1);
+                    Ok(())
+                })
+            })?;
+            Ok(format!(
+                "{} to {}",
+                name(1).display(),
+                name(count).display()
+            ))
+        }
+        Annotated::Movie(form) => {
+            let target = inputs
+                .target(path, Naming::Given)
+                .map_err(|error| error.to_string())?;
+            counting("writing", count, |done| {
+                movie(clip, found, form, &target, done)
+            })?;
+            Ok(path.display().to_string())
+        }
+    }
+}
+
+/// Writes all frames into one file.
+fn movie(
+    clip: &Clip,
+    found: &MarkTracks,
+    form: MovieForm,
+    target: &Target,
+    done: &dyn Fn(u32),
+) -> Result<(), String> {
+    let count = found.times.len();
+    // Videos store colours for two by two pixels.
+    let size = match form {
+        MovieForm::Video(_) => found.size.map(|side| (side & !1).max(2)),
+        _ => found.size,
+    };
+    let length = found.times.last().copied().unwrap_or(0.0);
+    let mean = if count > 1 {
+        length / (count - 1) as f64
+    } else {
+        0.1
+    };
+    let movie = Movie {
+        form,
+        size,
+        pictures: count as u32,
+        rate: [(1000.0 / mean.max(1e-3)).round() as u32, 1000],
+    };
+    let palette = || -> io::Result<Palette> {
+        let mut samples = Vec::new();
+        let step = count.div_ceil(PALETTE_FRAMES);
+        draw(clip, found, &mut |image, number| {
+            if number.is_multiple_of(step) {
+                samples.push(image);
+            }
+            Ok(())
+        })
+        .map_err(io::Error::other)?;
+        Ok(Palette::new(&samples, None))
+    };
+    let written = movie.write(target, palette, |push| {
+        let frames = draw(clip, found, &mut |image, number| {
+            let seconds = match found.times.get(number + 1) {
+                Some(next) => next - found.times[number],
+                None => mean,
+            };
+            let image = cut(image, size);
+            push(&image, seconds, 1).map_err(|error| error.to_string())?;
+            done(number as u32 + 1);
+            Ok(())
+        });
+        frames.map_err(io::Error::other)
+    });
+    written.map_err(|failure| failure.0)
+}
+
+/// Draws what was found on each frame.
+fn draw(
+    clip: &Clip,
+    found: &MarkTracks,
+    look: &mut dyn FnMut(Image, usize) -> Result<(), String>,
+) -> Result<(), String> {
+    let mut number = 0;
+    clip.read(&mut |frame| {
+        // A file that another program writes meanwhile may have more frames now.
+        if number < found.times.len() {
+            look(annotated(frame.image, found, number), number)?;
+        }
+        number += 1;
+        Ok(())
+    })
+}
+
+/// The upper left of a picture.
+fn cut(image: Image, [width, height]: [u32; 2]) -> Image {
+    match image.dimensions() == (width, height) {
+        true => image,
+        false => Image::from_fn(width, height, |x, y| {
+            *image.get_pixel(x.min(image.width() - 1), y.min(image.height() - 1))
+        }),
+    }
+}
+
+/// `check.png` becomes `check-07.png`, with as many digits as the last number has.
+fn numbered(path: &Path, number: u32, last: u32) -> PathBuf {
+    let digits = last.to_string().len();
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{number:0digits$}.png"));
+    path.with_file_name(name)
+}
