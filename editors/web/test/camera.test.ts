@@ -223,6 +223,7 @@ camera("everything is done with the keyboard, and Escape releases the camera", a
   await status(page, /Recorded \d+ frames/);
   await name.fill("left-hand");
   await name.press("Enter");
+  await page.waitForSelector('.camera-ring[data-mark="left-hand"]', { state: "attached" });
   await panel(page).locator(".camera-help").filter({ hasText: /Mark #[0-9a-f]{6}/ }).waitFor();
   const [download] = await Promise.all([page.waitForEvent("download"), panel(page).getByRole("button", { name: "Save" }).press("Enter")]);
   const track = readTrack(readFileSync(await download.path(), "utf8"));
