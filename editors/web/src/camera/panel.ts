@@ -18,6 +18,8 @@ import { markNames } from "./strings";
 const LONGEST = 30_000;
 /** After how long a mark that is not seen is reported as lost, in milliseconds. */
 const LOST_AFTER = 800;
+/** The radius of the ring around a place that was chosen, in pixels of the picture. */
+const CHOSEN_RADIUS = 8;
 /** How far an arrow key moves the cross, in pixels of the picture; with Shift. */
 const STEP = 2;
 const LARGE_STEP = 16;
@@ -54,6 +56,10 @@ export class CameraPanel {
   /** When each mark was seen last. */
   private lastSeen: number[] = [];
   private trails: Place[][] = [];
+  /** Where a mark was just chosen: shown until the program has found it. */
+  private chosen: { x: number; y: number } | null = null;
+  /** Why the program refused something, if nothing was tracked since. */
+  private refusal = "";
   /** Where the cross is, in pixels of the picture. */
   private cross: { x: number; y: number } | null = null;
   /** When the recording began: the time of its first picture, in milliseconds. */
@@ -134,13 +140,12 @@ export class CameraPanel {
       case "seen":
         return this.seen(message.marks, message.recorded);
       case "marks":
+        if (this.stage !== "replay") this.showChosen(message.marks);
         this.marks = message.marks;
         this.lastSeen = this.marks.map(() => performance.now());
         this.list.show(this.marks, markNames(this.state.parts));
         this.refresh();
         if (this.stage === "live") this.say(this.marks.length > 0 ? `${count(this.marks.length, "mark")}: ${this.marks.map(({ name }) => name).join(", ")}.` : "No marks are chosen.");
-        // The place that was chosen is looked for at once, also in a picture that is held.
-        if (this.stage !== "replay") this.overlay.showRings([]);
         return;
       case "track": {
         const isNew = this.stage === "tracking";
@@ -154,19 +159,26 @@ export class CameraPanel {
     }
   }
 
+  /** Shows the place of a new mark: while the picture is held, the program looks for it in no other. */
+  private showChosen(marks: readonly Mark[]): void {
+    const mark = marks[marks.length - 1];
+    const isNew = mark && marks.length > this.marks.length && this.chosen;
+    this.overlay.showRings(isNew ? [{ mark, at: { ...isNew, radius: CHOSEN_RADIUS } }] : []);
+    this.chosen = null;
+  }
+
   private refused(message: string, isFrame: boolean): void {
+    // A recording ends with a frame that does not fit; at other times the next frame is tracked.
+    if (isFrame) return this.finish();
     this.list.restore();
-    if (this.stage === "recording" && isFrame) this.finish();
-    // A frame is also refused if the camera's clock jumps: the next one is right.
-    if (isFrame) return;
-    if (this.stage === "tracking") {
-      this.again();
-    }
-    this.say(`${message[0]?.toUpperCase() ?? ""}${message.slice(1)}.`);
+    if (this.stage === "tracking") this.again();
+    this.refusal = `${message[0]?.toUpperCase() ?? ""}${message.slice(1)}.`;
+    this.say(this.refusal);
   }
 
   private seen(sightings: readonly (Sighting | null)[], recorded: number): void {
     if (this.stage === "replay" || this.stage === "tracking") return;
+    this.refusal = "";
     const now = performance.now();
     this.overlay.showRings(this.marks.flatMap((mark, index) => (sightings[index] ? [{ mark, at: sightings[index] }] : [])));
     sightings.forEach((sighting, mark) => {
@@ -209,6 +221,7 @@ export class CameraPanel {
     if (this.stage !== "live" || !this.link) return;
     // The program looks at the newest picture that it has: that must be the one that is seen.
     this.sendPicture();
+    this.chosen = at;
     this.link.ask({ type: "pick", ...at });
   }
 
@@ -260,6 +273,8 @@ export class CameraPanel {
   /** Forgets the last recording. */
   private forget(): void {
     this.trails = [];
+    this.chosen = null;
+    this.refusal = "";
     this.recorded = this.began = 0;
     this.isHeld = false;
     this.pictures.clear();
@@ -277,7 +292,7 @@ export class CameraPanel {
     this.link = null;
     if (this.stage === "failed" || this.stage === "closed") return;
     if (this.stage === "replay") return this.say("The connection to okoshi was lost. The track can still be saved.");
-    this.fail("The connection to okoshi was lost. Start it again, then use the camera again.");
+    this.fail(this.refusal || "The connection to okoshi was lost. Start it again, then use the camera again.");
   }
 
   private fail(why: string): void {
