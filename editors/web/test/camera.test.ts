@@ -229,10 +229,11 @@ camera("everything is done with the keyboard, and Escape releases the camera", a
   const track = readTrack(readFileSync(await download.path(), "utf8"));
   assert.deepEqual(track.marks.map(({ name }) => name), ["left-hand"]);
   assert.ok(track.times.length > 2);
-  assert.deepEqual(await cameras(), ["live"]);
+  assert.deepEqual(await cameras(), ["live"], "the camera is kept for another recording");
   await page.keyboard.press("Escape");
   await panel(page).waitFor({ state: "hidden" });
-  assert.deepEqual(await cameras(), ["ended"]);
+  // The dialog's event comes a moment after it is hidden.
+  await page.waitForFunction(() => (window as unknown as { streams: MediaStream[] }).streams.every((stream) => stream.getTracks().every(({ readyState }) => readyState === "ended")));
 });
 
 camera("failures are told", async (page, program) => {
