@@ -256,7 +256,16 @@ const WRITERS: [(&[&str], &str); 11] = [
     (&["motion", "../a.bvh", "--plot", "b.svg"], "b.svg"),
     (&["puppet", "../a.svg", "-o", "b.svg"], "b.svg"),
     (
-        &["track", "../a.webp", "--mark=red", "-o", "b.json"],
+        &[
+            "track",
+            "../a.webp",
+            "--mark=red",
+            "--mark=green",
+            "--mark=blue",
+            "--mark=magenta",
+            "-o",
+            "b.json",
+        ],
         "b.json",
     ),
     (&["check", "--fix", "b.svg"], "b.svg"),

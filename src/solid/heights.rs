@@ -89,8 +89,12 @@ impl Heights {
         highest.unwrap_or(0.0).into()
     }
 
-    /// The height at the point of the surface's border that is nearest to a point of the drawing plane.
+    /// The height at the point of the surface's border that is nearest to a point of the drawing plane; `None` for a surface of walls
+    /// only.
     pub(super) fn nearest(&self, point: DVec2) -> Option<f64> {
+        if self.facets.is_empty() {
+            return None;
+        }
         match self.border.get_or_init(|| self.find_border()) {
             Border::Level(level) => Some(*level),
             Border::Uneven(edges) => {

@@ -59,12 +59,12 @@ function start(page: HTMLElement): void {
   const clips = new Clips(viewer);
   const help = new Help();
   commands.help = () => help.toggle();
-  const camera = new CameraPanel(host, state);
+  const camera = new CameraPanel(host, state, page);
   if (camera.isPossible) commands.recordPuppet = () => camera.toggle();
 
   place.append(new Captions(viewer).element, new Layers(viewer, state).element, poseBar.element, new Notes(state, viewer).element, findings.element);
   const studio = h("main", { class: "studio", attributes: { "aria-label": "Model" } }, new Toolbar(viewer, commands).element, place, new BendBar(viewer, commands).element, clips.panel, new Side(state, tree, inspector).element);
-  page.append(new Bar(state, viewer).element, studio, new Gallery(state, host).element, help.element, camera.element);
+  page.append(new Bar(state, viewer).element, studio, new Gallery(state, host).element, help.element);
 
   const shows = (): boolean => state.current !== null;
   const showEither = (): void => {

@@ -31,7 +31,7 @@ const LARGE_STEP = 16;
 type Stage = "closed" | "asking" | "live" | "counting" | "recording" | "tracking" | "replay" | "failed";
 
 export class CameraPanel {
-  readonly element = h("dialog", { class: "camera-dialog", attributes: { "aria-labelledby": "camera-title" } });
+  private readonly element = h("dialog", { class: "camera-dialog", attributes: { "aria-labelledby": "camera-title" } });
   private readonly canvas = h("canvas", { class: "camera-picture", attributes: { tabindex: 0, role: "application", "aria-label": "Picture of the camera. The arrow keys move a cross, Enter chooses the mark under it, Space holds the picture still." } });
   private readonly overlay = new Overlay();
   private readonly frame = h("div", { class: "camera-frame" }, this.canvas, this.overlay.element);
@@ -66,7 +66,8 @@ export class CameraPanel {
   private began = 0;
   private recorded = 0;
 
-  constructor(private readonly host: Host, private readonly state: State) {
+  /** A panel that is in the page only while it is open. */
+  constructor(private readonly host: Host, private readonly state: State, private readonly page: HTMLElement) {
     this.list = new MarkList((mark, name) => this.link?.ask({ type: "name", mark, name }), (mark) => this.link?.ask({ type: "remove", mark }));
     this.replay = new Replay(this.canvas, this.overlay, this.pictures, (name, text) => this.save(name, text), () => this.again());
     this.mirror.setAttribute("aria-pressed", "true");
@@ -77,7 +78,10 @@ export class CameraPanel {
       h("header", { class: "dialog-head" }, h("h2", { attributes: { id: "camera-title" } }, "Record a puppet"), button({ icon: X, label: "Close", press: () => this.element.close() })),
       h("div", { class: "camera-body" }, h("div", { class: "camera-main" }, this.frame, this.tools), h("div", { class: "camera-side" }, this.status, this.start, this.list.element, this.replay.element)),
     );
-    this.element.addEventListener("close", () => this.release());
+    this.element.addEventListener("close", () => {
+      this.release();
+      this.element.remove();
+    });
     this.canvas.addEventListener("click", (event) => this.pick(this.placeOf(event)));
     this.canvas.addEventListener("keydown", (event) => this.key(event));
     this.canvas.addEventListener("blur", () => this.overlay.showCross(null));
@@ -92,6 +96,7 @@ export class CameraPanel {
   toggle(): void {
     if (this.element.open) return this.element.close();
     if (!this.isPossible) return;
+    this.page.append(this.element);
     this.element.showModal();
     this.show("asking", "Move a paper puppet with coloured marks before the camera, and its movement becomes a file for the drawing. The pictures go to okoshi on this machine, which finds the marks. They are not stored and go nowhere else.");
     this.start.focus();
