@@ -184,6 +184,8 @@ fn a_mark_that_is_gone_for_most_of_the_clip_is_found() {
     discs[0].path = |time| ellipse(time, [160.0, 120.0], [420.0, 40.0], 14.0, 0.25);
     let scene = Scene {
         noise: 10.0,
+        // Still patches of its hue would be taken for it while it is gone.
+        colourful: 0,
         ..scene(discs)
     };
     let accuracy = accuracy("mostly gone", &scene);
