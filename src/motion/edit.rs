@@ -158,14 +158,7 @@ impl EditedClip {
     }
 
     fn move_character(&mut self, joint: usize) -> Filmed {
-        let shown: Vec<usize> = match &self.exposure {
-            Some(sheet) => sheet
-                .sources()
-                .iter()
-                .map(|source| *source as usize)
-                .collect(),
-            None => (0..self.clip.frames()).collect(),
-        };
+        let shown = Exposure::shown(self.exposure.as_ref(), self.clip.frames());
         let upright = |at: &DVec3| self.to_model * *at;
         let points: Vec<DVec3> = self.clip.positions().iter().map(upright).collect();
         let per_frame = self.clip.skeleton.joints.len();

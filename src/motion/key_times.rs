@@ -14,6 +14,22 @@ pub struct KeyTimes {
 }
 
 impl KeyTimes {
+    /// The keys of a clip of so many frames: as an exposure sheet says, or one for every frame without it.
+    pub fn new(sheet: Option<&Exposure>, frames: usize, frame_time: f64) -> Self {
+        match sheet {
+            Some(sheet) => Self::stepped(sheet, frame_time),
+            None => Self::full(frames, frame_time),
+        }
+    }
+
+    /// A key for each frame that is shown: of what moves past held drawings, too.
+    pub fn of_shown(sheet: Option<&Exposure>, frames: usize, frame_time: f64) -> Self {
+        match sheet {
+            Some(sheet) => Self::every_shown(sheet.len(), frame_time),
+            None => Self::full(frames, frame_time),
+        }
+    }
+
     /// A key for every frame, interpolated linearly.
     pub fn full(frames: usize, frame_time: f64) -> Self {
         Self {
@@ -28,13 +44,13 @@ impl KeyTimes {
     }
 
     /// A key for every drawing of an exposure sheet, held until the next one, and one that closes the clip.
-    pub fn stepped(exposure: &Exposure, frame_time: f64) -> Self {
+    fn stepped(exposure: &Exposure, frame_time: f64) -> Self {
         Self::held(exposure.step_keys(), frame_time)
     }
 
     /// A key for every one of so many shown frames, held until the next one, and one that closes the clip. Their frames are those that
     /// are shown, counted from 0.
-    pub fn every_shown(shown: usize, frame_time: f64) -> Self {
+    fn every_shown(shown: usize, frame_time: f64) -> Self {
         let keys = (0..shown).map(|frame| [frame; 2]);
         let closing = shown.checked_sub(1).map(|last| [shown, last]);
         Self::held(keys.chain(closing).collect(), frame_time)

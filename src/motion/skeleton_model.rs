@@ -96,19 +96,8 @@ pub fn add_camera(
         scale: scale(&clip.pose(0), to_model),
     };
     let points: Vec<DVec3> = clip.positions().iter().map(|at| to_model * *at).collect();
-    let (shown, keys) = match exposure {
-        Some(sheet) => {
-            let sources = sheet.sources().iter().map(|source| *source as usize);
-            (
-                sources.collect(),
-                KeyTimes::every_shown(sheet.len(), clip.frame_time),
-            )
-        }
-        None => {
-            let all: Vec<usize> = (0..clip.frames()).collect();
-            (all, KeyTimes::full(clip.frames(), clip.frame_time))
-        }
-    };
+    let shown = Exposure::shown(exposure, clip.frames());
+    let keys = KeyTimes::of_shown(exposure, clip.frames(), clip.frame_time);
     let per_frame = clip.skeleton.joints.len();
     let filmed = Filmed::new(Filming::Camera, &points, per_frame, &shown, joint);
     filmed.add_camera(&world, &keys, &mut animation, scene);
@@ -130,10 +119,7 @@ fn animation(
     to_model: DQuat,
     scale: f64,
 ) -> Animation {
-    let keys = match exposure {
-        Some(sheet) => KeyTimes::stepped(sheet, clip.frame_time),
-        None => KeyTimes::full(clip.frames(), clip.frame_time),
-    };
+    let keys = KeyTimes::new(exposure, clip.frames(), clip.frame_time);
     let mut animation = Animation {
         name: name.to_owned(),
         tracks: Vec::new(),

@@ -17,7 +17,7 @@ use crate::memo::{Memo, Same};
 use crate::motion::clips::{BuiltIn, Legs};
 use crate::motion::figure::Figure;
 use crate::motion::labels::Class;
-use crate::motion::limited::{self, Cut, Length};
+use crate::motion::limited::{self, Cut, Exposure, Length};
 use crate::motion::mark_tracks::MarkTracks;
 use crate::motion::matching::{Matching, bent_arms, match_figure};
 use crate::motion::measured::Measured;
@@ -188,7 +188,7 @@ impl<'a> ClipBuilder<'a> {
                 .iter()
                 .filter(|part| part.drive.is_some())
                 .count();
-            let shown = figure_clip::shown_frames(cut.as_deref(), frames);
+            let shown = Exposure::shown(cut.as_ref().map(|cut| &cut.exposure), frames);
             // Of each driven part the joint and the far end are measured.
             let (points, tip) = (&measured.points, 2 * driven + 1);
             let filming = found.plan.filming;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::motion::key_times::KeyTimes;
 use crate::motion::labels::{Label, Tip};
-use crate::motion::limited::Cut;
+use crate::motion::limited::{Cut, Exposure};
 use crate::motion::matching::{Follow, Matching, joints_named};
 use crate::motion::measured::Measured;
 use crate::motion::performance::Filmed;
@@ -147,16 +147,10 @@ impl FigureClip {
     /// The animation of what is shown, with its camera if it has one.
     pub(super) fn add_to(&self, scene: &mut Scene) {
         let frame_time = self.frame_time();
-        let keys = match &self.cut {
-            Some(cut) => KeyTimes::stepped(&cut.exposure, frame_time),
-            None => KeyTimes::full(self.source_frames(), frame_time),
-        };
+        let (sheet, frames) = (self.exposure(), self.source_frames());
+        let keys = KeyTimes::new(sheet, frames, frame_time);
+        let every = KeyTimes::of_shown(sheet, frames, frame_time);
         let shown = self.shown_frames();
-        // Held drawings move past a camera, or before it, in every frame.
-        let every = match &self.cut {
-            Some(_) => KeyTimes::every_shown(shown.len(), frame_time),
-            None => KeyTimes::full(shown.len(), frame_time),
-        };
         let shifts = self.filmed.shifts().map(|ways| Shifts {
             keys: &every,
             shown: &shown,
@@ -181,7 +175,11 @@ impl FigureClip {
 
     /// Per shown frame the frame of the clip.
     fn shown_frames(&self) -> Vec<usize> {
-        shown_frames(self.cut.as_deref(), self.source_frames())
+        Exposure::shown(self.exposure(), self.source_frames())
+    }
+
+    fn exposure(&self) -> Option<&Exposure> {
+        self.cut.as_ref().map(|cut| &cut.exposure)
     }
 
     /// The animation of a motion of the figure with a key for each of its frames.
@@ -214,17 +212,6 @@ pub fn originals(scene: &Scene, clips: &[FigureClip]) -> Option<Scene> {
         animations,
         ..Scene::default()
     })
-}
-
-/// Per shown frame the frame of a clip of so many frames.
-pub(super) fn shown_frames(cut: Option<&Cut>, frames: usize) -> Vec<usize> {
-    match cut {
-        Some(cut) => {
-            let sources = cut.exposure.sources().iter();
-            sources.map(|source| *source as usize).collect()
-        }
-        None => (0..frames).collect(),
-    }
 }
 
 /// What drives these parts of the drawing, which are those of the matched figure, in the same order; and which of them swing.

@@ -12,7 +12,7 @@ use crate::bind::{Camerawork, PartMark, PerformanceRequest};
 use crate::diagnostic::{Diagnostic, nearest_word};
 use crate::memo::{Memo, Same};
 use crate::motion::labels::{Facing, Tip};
-use crate::motion::mark_tracks::{MarkTrack, MarkTracks};
+use crate::motion::mark_tracks::{Hsv, MarkTrack, MarkTracks, hue_difference, same_name};
 use crate::motion::matching::{Drive, MatchedPart, joints_named};
 use crate::motion::performance::{
     Effects, Filming, Finding, Limbs, Plan, Request, joint_steps, mark_movements, plan, ratios,
@@ -24,8 +24,8 @@ use crate::source::Span;
 
 /// A mark whose hue differs by more than this from that of a part's `Mark` is another one, degrees.
 const SAME_HUE: f64 = 30.0;
-/// A colour of less chroma has no hue to compare, 0 to 255.
-const LEAST_CHROMA: u8 = 40;
+/// A colour of less chroma has no hue to compare, 0 to 1.
+const LEAST_CHROMA: f64 = 40.0 / 255.0;
 
 /// A clip's performance.
 #[derive(Debug)]
@@ -151,8 +151,8 @@ impl Channels {
                     .filter_map(|place| bindings.mark(group.parts[*place]));
                 names()
                     .nth(*channel)
-                    .is_some_and(|name| same_word(name, wanted))
-                    || words.any(|mark| same_word(mark.word, wanted))
+                    .is_some_and(|name| same_name(name, wanted))
+                    || words.any(|mark| same_name(mark.word, wanted))
             };
             found.emphasised = (0..found.marks.len()).find(word);
             if found.emphasised.is_none() && !found.marks.is_empty() {
@@ -287,13 +287,13 @@ fn drive_steps(clip: &Clip, drives: &[Drive], hips: usize) -> Vec<DVec3> {
 /// The mark of a file that a part's `Mark` means: that of the same name, else of the same colour, else of the nearest hue.
 fn mark_of(tracks: &MarkTracks, mark: &PartMark<'_>) -> Option<usize> {
     let position = |fits: &dyn Fn(&MarkTrack) -> bool| tracks.marks.iter().position(fits);
-    let named = position(&|track| same_word(&track.name, mark.word));
+    let named = tracks.mark_named(mark.word);
     let exact = || position(&|track| track.colour == mark.colour);
     let near = || {
         let own = hue(mark.colour)?;
         let off = |track: &crate::motion::mark_tracks::MarkTrack| {
-            let way = (hue(track.colour)? - own).rem_euclid(360.0);
-            Some(way.min(360.0 - way)).filter(|off| *off <= SAME_HUE)
+            let off = hue_difference(hue(track.colour)?, own).abs();
+            (off <= SAME_HUE).then_some(off)
         };
         let offs = tracks.marks.iter().enumerate();
         let offs = offs.filter_map(|(index, track)| Some((index, off(track)?)));
@@ -303,27 +303,10 @@ fn mark_of(tracks: &MarkTracks, mark: &PartMark<'_>) -> Option<usize> {
     named.or_else(exact).or_else(near)
 }
 
-fn same_word(a: &str, b: &str) -> bool {
-    a.to_lowercase() == b.to_lowercase()
-}
-
 /// The hue of a colour, degrees; `None` for one that is nearly grey.
 fn hue(colour: [u8; 3]) -> Option<f64> {
-    let [red, green, blue] = colour.map(f64::from);
-    let most = *colour.iter().max()?;
-    let chroma = most - *colour.iter().min()?;
-    if chroma < LEAST_CHROMA {
-        return None;
-    }
-    let chroma = f64::from(chroma);
-    let sector = if colour[0] == most {
-        (green - blue) / chroma
-    } else if colour[1] == most {
-        (blue - red) / chroma + 2.0
-    } else {
-        (red - green) / chroma + 4.0
-    };
-    Some((sector * 60.0).rem_euclid(360.0))
+    let colour = Hsv::of(colour);
+    (colour.chroma >= LEAST_CHROMA).then_some(colour.hue)
 }
 
 /// The parts that a name in `Follow` means, in places of the group: the part of that name, else all that a joint of that name drives.

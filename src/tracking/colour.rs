@@ -1,4 +1,7 @@
-//! Hue, saturation and chroma.
+//! The names of hues.
+
+pub use crate::motion::mark_tracks::Hsv;
+pub(super) use crate::motion::mark_tracks::hue_difference;
 
 /// The names of hues, and where they are on the circle, in degrees.
 pub const HUES: [(&str, f64); 8] = [
@@ -11,50 +14,6 @@ pub const HUES: [(&str, f64); 8] = [
     ("purple", 280.0),
     ("pink", 325.0),
 ];
-
-/// A colour by its hue.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Hsv {
-    /// Degrees: red 0, green 120, blue 240; 0 for greys.
-    pub hue: f64,
-    /// 0 for greys, 1 for pure colours. Does not depend on the light.
-    pub saturation: f64,
-    /// Saturation times brightness.
-    pub chroma: f64,
-}
-
-impl Hsv {
-    /// The hue, saturation and chroma of an sRGB colour.
-    pub fn of(rgb: [u8; 3]) -> Self {
-        let [r, g, b] = rgb.map(f64::from);
-        let (most, least) = (r.max(g).max(b), r.min(g).min(b));
-        let range = most - least;
-        if range == 0.0 {
-            return Self {
-                hue: 0.0,
-                saturation: 0.0,
-                chroma: 0.0,
-            };
-        }
-        let sixth = if most == r {
-            (g - b) / range
-        } else if most == g {
-            (b - r) / range + 2.0
-        } else {
-            (r - g) / range + 4.0
-        };
-        Self {
-            hue: (60.0 * sixth).rem_euclid(360.0),
-            saturation: range / most,
-            chroma: range / 255.0,
-        }
-    }
-}
-
-/// How far a hue is from another, from -180 to 180 degrees.
-pub(super) fn hue_difference(hue: f64, other: f64) -> f64 {
-    (hue - other + 180.0).rem_euclid(360.0) - 180.0
-}
 
 /// The name of the nearest hue.
 pub fn hue_name(hue: f64) -> &'static str {

@@ -7,7 +7,7 @@ use crate::cli::{Outcome, fail};
 use crate::diagnostic::nearest_word;
 use crate::disk::read_file;
 use crate::motion::edit::Film;
-use crate::motion::mark_tracks::MarkTracks;
+use crate::motion::mark_tracks::{MarkTracks, same_name};
 use crate::motion::matching::joints_named;
 use crate::motion::performance::{
     Effects, Filming, Finding, JointChannel, PerformedClip, Plan, Request, perform as perform_clip,
@@ -52,7 +52,8 @@ pub(super) fn perform(
         })?;
     let emphasised = match &arguments.emphasize {
         Some(wanted) => {
-            let is_it = |channel: &JointChannel| same(&tracks.marks[channel.mark].name, wanted);
+            let is_it =
+                |channel: &JointChannel| same_name(&tracks.marks[channel.mark].name, wanted);
             let found = channels.iter().position(is_it);
             if found.is_none() {
                 let message = format!("--emphasize {wanted}: no joint has this mark");
@@ -130,8 +131,7 @@ fn channels(
     };
     let mut channels: Vec<JointChannel> = Vec::new();
     for marked in &arguments.marks {
-        let found = names.iter().position(|name| same(name, &marked.mark));
-        let mark = found.ok_or_else(|| {
+        let mark = tracks.mark_named(&marked.mark).ok_or_else(|| {
             [
                 format!("the track has no mark `{}`", marked.mark),
                 format!("its marks are {}", names.join(", ")),
@@ -155,10 +155,6 @@ fn channels(
         });
     }
     Ok(channels)
-}
-
-fn same(a: &str, b: &str) -> bool {
-    a.to_lowercase() == b.to_lowercase()
 }
 
 /// What a performance does, for people to read. Frames count from 1.

@@ -63,6 +63,18 @@ impl Exposure {
         keys
     }
 
+    /// Per shown frame the frame of a clip of so many frames; without a sheet every frame is shown.
+    pub fn shown(sheet: Option<&Self>, frames: usize) -> Vec<usize> {
+        match sheet {
+            Some(sheet) => sheet
+                .sources
+                .iter()
+                .map(|source| *source as usize)
+                .collect(),
+            None => (0..frames).collect(),
+        }
+    }
+
     /// The frames in which a new drawing begins.
     pub fn keys(&self) -> impl Iterator<Item = usize> + '_ {
         self.drawings().map(|drawing| drawing.start)

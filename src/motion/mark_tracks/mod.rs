@@ -20,7 +20,7 @@ use write::TICKS;
 
 pub use bridge::bridge;
 pub use check::{MAX_FRAMES, MAX_MARKS, MAX_NAME, MAX_SIDE, is_name, repeated_name};
-pub use colour::{hex, named_colour, parse_hex};
+pub use colour::{Hsv, hex, hue_difference, named_colour, parse_hex};
 pub use error::{Error, Place};
 
 /// The largest file that is read, in bytes.
@@ -51,6 +51,12 @@ pub struct MarkTrack {
 }
 
 impl MarkTracks {
+    /// The index of the mark of this name, in small or capital letters.
+    pub fn mark_named(&self, name: &str) -> Option<usize> {
+        let mut marks = self.marks.iter();
+        marks.position(|mark| same_name(&mark.name, name))
+    }
+
     /// The tracks in a file of either format: JSON if its first character is a brace, otherwise CSV.
     ///
     /// The result has at least one frame and one mark, names without spaces that are distinct, as many points as frames, finite numbers,
@@ -83,4 +89,9 @@ impl MarkTracks {
         }
         Ok(tracks)
     }
+}
+
+/// Whether two names of marks are the same, but for small and capital letters.
+pub fn same_name(a: &str, b: &str) -> bool {
+    a.to_lowercase() == b.to_lowercase()
 }

@@ -301,25 +301,24 @@ export class CameraPanel {
   }
 
   private fail(why: string): void {
-    this.countIn.cancel();
-    this.camera.stop();
-    this.link?.close();
-    this.link = null;
-    this.marks = [];
-    this.list.show([], []);
-    this.forget();
+    this.letGo();
     this.show("failed", why);
   }
 
   private release(): void {
     this.stage = "closed";
+    this.replay.close();
+    this.letGo();
+  }
+
+  /** Gives the camera and the connection back, and forgets what they brought. */
+  private letGo(): void {
     this.countIn.cancel();
     this.camera.stop();
     this.link?.close();
     this.link = null;
     this.marks = [];
     this.list.show([], []);
-    this.replay.close();
     this.forget();
   }
 

@@ -3,11 +3,9 @@
 import { fill, h, svg } from "../dom";
 import { describeExposure, peaks, type ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
+import { ClipChart } from "./clip-chart";
 import { APART, half, niceStep, round, word } from "./plot";
-import { rememberOpen, wasOpen } from "./remembered";
 
-/** The key under which the browser stores whether the chart is open. */
-const REMEMBERED = "okoshi.chart";
 /** Space around the curve in pixels: for the numbers, and for the drawings below it. */
 const LEFT = 50;
 const RIGHT = 12;
@@ -19,24 +17,16 @@ const GAP = 5;
 /** Narrower boxes have no gaps, in pixels. */
 const NARROW = 4;
 
-export class Chart {
-  readonly element = h("section", { class: "chart", hidden: true, attributes: { "aria-label": "Chart" } });
-  private readonly summary = h("p", { class: "chart-summary" });
-  private readonly file = h("span", { class: "chart-file muted" });
-  private readonly picture = svg("svg", { class: "chart-picture", role: "img" });
-  private readonly tip = h("p", { class: "chart-tip", hidden: true });
+export class Chart extends ClipChart {
   private readonly head = svg("g", { class: "chart-head" });
   private readonly dot = svg("circle", { class: "chart-dot", r: 4 });
   private readonly stand = svg("path", { class: "chart-now" });
-  private readonly line = svg("path", { class: "chart-hover" });
-  private drawn: ExposureSheet | null = null;
   private size = { width: 0, height: 0 };
   private scale = 1;
-  private drags = false;
-  private wanted = wasOpen(REMEMBERED);
 
   /** `changed` is called when the chart is opened or closed. */
-  constructor(private readonly viewer: Viewer, private readonly changed: () => void) {
+  constructor(viewer: Viewer, changed: () => void) {
+    super(viewer, changed, { label: "Chart", classes: ["chart", "chart-picture"], remembered: "okoshi.chart" });
     fill(
       this.element,
       h(
@@ -49,47 +39,14 @@ export class Chart {
       ),
       h("div", { class: "chart-place" }, this.picture, this.tip),
     );
-    new ResizeObserver(() => this.draw()).observe(this.picture);
-    this.picture.addEventListener("pointermove", (event) => this.over(event));
-    this.picture.addEventListener("pointerleave", () => this.leave());
-    this.picture.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      this.drags = true;
-      this.picture.setPointerCapture(event.pointerId);
-      this.over(event);
-      event.preventDefault();
-    });
-    for (const end of ["pointerup", "pointercancel"] as const) {
-      this.picture.addEventListener(end, (event) => {
-        this.drags = false;
-        if (event.pointerType !== "mouse") this.leave();
-      });
-    }
-    viewer.on(["model", "time"], () => this.follow());
   }
 
-  /** Whether there is anything to draw. */
+  protected get sheet(): ExposureSheet | null {
+    return this.viewer.exposure;
+  }
+
   get isPossible(): boolean {
-    return (this.viewer.exposure?.facts.ssd.length ?? 0) > 0;
-  }
-
-  get isOpen(): boolean {
-    return this.wanted && this.isPossible;
-  }
-
-  toggle(): void {
-    if (!this.isPossible) return;
-    this.wanted = !this.wanted;
-    rememberOpen(REMEMBERED, this.wanted);
-    this.follow();
-    this.changed();
-  }
-
-  private follow(): void {
-    this.element.hidden = !this.isOpen;
-    if (!this.isOpen) return;
-    if (this.viewer.exposure !== this.drawn) this.draw();
-    this.move();
+    return (this.sheet?.facts.ssd.length ?? 0) > 0;
   }
 
   /** The x coordinate of a source frame, in pixels. */
@@ -103,8 +60,8 @@ export class Chart {
     return bottom - ((bottom - TOP) * ssd) / this.scale;
   }
 
-  private draw(): void {
-    const { exposure } = this.viewer;
+  protected draw(): void {
+    const { sheet: exposure } = this;
     const { width, height } = this.picture.getBoundingClientRect();
     if (!exposure || width <= LEFT + RIGHT || height <= TOP + BELOW) return;
     this.drawn = exposure;
@@ -170,8 +127,7 @@ export class Chart {
     this.move();
   }
 
-  /** Moves the playhead to the time of the clip. */
-  private move(): void {
+  protected move(): void {
     const { drawn } = this;
     if (!drawn) return;
     const { time } = this.viewer.player;
@@ -184,18 +140,13 @@ export class Chart {
     this.stand.setAttribute("d", run ? `M${round(this.at(run.from))} ${bottom + GAP}H${round(this.at(run.to) - 1)}V${bottom + GAP + BOX}H${round(this.at(run.from))}Z` : "");
   }
 
-  private over(event: PointerEvent): void {
+  protected over(event: PointerEvent): void {
     const { drawn } = this;
     if (!drawn) return;
     const { left } = this.picture.getBoundingClientRect();
     const part = (event.clientX - left - LEFT) / (this.size.width - LEFT - RIGHT);
     const source = Math.min(Math.max(Math.floor(part * drawn.sources), 0), drawn.sources - 1);
-    if (this.drags) {
-      this.viewer.moved(() => {
-        this.viewer.player.play(false);
-        this.viewer.player.seek(drawn.timeOf(source));
-      });
-    }
+    this.dragTo(drawn, source);
     const x = this.at(source + 0.5);
     this.line.setAttribute("d", `M${half(x)} ${TOP}V${this.size.height - BELOW}`);
     const ssd = drawn.ssd(source);
@@ -203,17 +154,7 @@ export class Chart {
     const words = [`frame ${source + 1}`, ssd === null ? "" : `SSD ${figures(ssd)}`];
     if (drawn.omitted.has(source)) words.push("omitted");
     else if (run) words.push(`drawing ${drawn.drawingFor(source) + 1}`, run.frames > 1 ? `stands for ${run.frames} frames` : "");
-    this.tip.textContent = words.filter(Boolean).join(" · ");
-    this.tip.hidden = false;
-    // Beside the line, on the side with enough space.
-    const wide = this.tip.offsetWidth;
-    this.tip.style.transform = `translateX(${x + 10 + wide < this.size.width ? x + 10 : Math.max(x - 10 - wide, 0)}px)`;
-  }
-
-  private leave(): void {
-    if (this.drags) return;
-    this.tip.hidden = true;
-    this.line.setAttribute("d", "");
+    this.tell(words.filter(Boolean), x, this.size.width);
   }
 }
 

@@ -5,11 +5,9 @@ import { fill, h, svg } from "../dom";
 import { describeEffect, describeFilming, describeTiming, PerformanceTimes, type Row, type Rows } from "../viewport/performance";
 import type { ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
+import { ClipChart } from "./clip-chart";
 import { APART, half, niceStep, round, word } from "./plot";
-import { rememberOpen, wasOpen } from "./remembered";
 
-/** The key under which the browser stores whether the chart is open. */
-const REMEMBERED = "okoshi.performance";
 /** Space around the rows in pixels: for titles, numbers, and the lines between the two. */
 const LEFT = 14;
 const RIGHT = 14;
@@ -21,75 +19,35 @@ const DASHES = ["", "7 3", "2 3", "9 3 2 3"];
 const ROWS: readonly Row[] = ["performance", "motion"];
 const TITLES: Readonly<Record<Row, string>> = { performance: "marks of the performance", motion: "joints of the motion" };
 
-export class PerformanceChart {
-  readonly element = h("section", { class: "performance", hidden: true, attributes: { "aria-label": "Performance" } });
-  private readonly summary = h("p", { class: "chart-summary" });
-  private readonly file = h("span", { class: "chart-file muted" });
-  private readonly picture = svg("svg", { class: "chart-picture performance-picture", role: "img" });
-  private readonly tip = h("p", { class: "chart-tip", hidden: true });
+export class PerformanceChart extends ClipChart {
   private readonly marks = h("tbody");
   private readonly filming = h("p", { class: "muted" });
   private readonly head = svg("path", { class: "performance-head" });
-  private readonly line = svg("path", { class: "chart-hover" });
-  private drawn: ExposureSheet | null = null;
   private times: PerformanceTimes | null = null;
   private rows: Rows = { left: 0, right: 1, performance: [0, 0], motion: [0, 0] };
-  private drags = false;
-  private wanted = wasOpen(REMEMBERED);
 
   /** `changed` is called when the chart is opened or closed. */
-  constructor(private readonly viewer: Viewer, private readonly changed: () => void) {
+  constructor(viewer: Viewer, changed: () => void) {
+    super(viewer, changed, { label: "Performance", classes: ["performance", "chart-picture performance-picture"], remembered: "okoshi.performance" });
     const head = h("thead", {}, h("tr", {}, ...["Mark", "Parts", "R", "Effect"].map((title) => h("th", { title: title === "R" ? "Its largest movement over that of the emphasised mark" : "", attributes: { scope: "col" } }, title))));
     fill(
       this.element,
       h("header", { class: "chart-title" }, h("h2", {}, "Performance ", h("span", { class: "muted", title: "Movement per frame, as a ratio of the largest one" }, "movement, 0 to 1")), this.summary, this.file),
       h("div", { class: "performance-body" }, h("div", { class: "chart-place" }, this.picture, this.tip), h("div", { class: "performance-marks" }, h("table", {}, head, this.marks), this.filming)),
     );
-    new ResizeObserver(() => this.draw()).observe(this.picture);
-    this.picture.addEventListener("pointermove", (event) => this.over(event));
-    this.picture.addEventListener("pointerleave", () => this.leave());
-    this.picture.addEventListener("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      this.drags = true;
-      this.picture.setPointerCapture(event.pointerId);
-      this.over(event);
-      event.preventDefault();
-    });
-    for (const end of ["pointerup", "pointercancel"] as const) {
-      this.picture.addEventListener(end, (event) => {
-        this.drags = false;
-        if (event.pointerType !== "mouse") this.leave();
-      });
-    }
-    viewer.on(["model", "time"], () => this.follow());
+  }
+
+  protected get sheet(): ExposureSheet | null {
+    return this.viewer.performed;
   }
 
   /** Whether the clip is performed. */
   get isPossible(): boolean {
-    return this.viewer.performed !== null;
+    return this.sheet !== null;
   }
 
-  get isOpen(): boolean {
-    return this.wanted && this.isPossible;
-  }
-
-  toggle(): void {
-    if (!this.isPossible) return;
-    this.wanted = !this.wanted;
-    rememberOpen(REMEMBERED, this.wanted);
-    this.follow();
-    this.changed();
-  }
-
-  private follow(): void {
-    this.element.hidden = !this.isOpen;
-    if (!this.isOpen) return;
-    if (this.viewer.performed !== this.drawn) this.draw();
-    this.move();
-  }
-
-  private draw(): void {
-    const { performed } = this.viewer;
+  protected draw(): void {
+    const { sheet: performed } = this;
     const { width, height } = this.picture.getBoundingClientRect();
     if (!performed?.facts.performance || width <= LEFT + RIGHT || height <= TOP + BETWEEN + BELOW) return;
     this.drawn = performed;
@@ -141,8 +99,7 @@ export class PerformanceChart {
     return this.drawn?.sourceAt(this.viewer.player.time) ?? 0;
   }
 
-  /** Moves the playhead to the time of the clip. */
-  private move(): void {
+  protected move(): void {
     const { times, frame } = this;
     if (!times) return;
     this.head.setAttribute("d", this.through(frame));
@@ -159,7 +116,7 @@ export class PerformanceChart {
     return `M${above} ${rows.performance[0]}V${rows.performance[1]}L${below} ${rows.motion[0]}V${rows.motion[1]}`;
   }
 
-  private over(event: PointerEvent): void {
+  protected over(event: PointerEvent): void {
     const { drawn, times, rows } = this;
     if (!drawn || !times) return;
     const { facts } = times;
@@ -167,12 +124,7 @@ export class PerformanceChart {
     const row: Row = event.clientY - box.top > (rows.performance[1] + rows.motion[0]) / 2 ? "motion" : "performance";
     const own = times.frameAt(row, event.clientX - box.left, rows);
     const frame = row === "motion" ? Math.round(times.performanceAt(own)) : own;
-    if (this.drags) {
-      this.viewer.moved(() => {
-        this.viewer.player.play(false);
-        this.viewer.player.seek(drawn.timeOf(frame));
-      });
-    }
+    this.dragTo(drawn, frame);
     const x = times.at(own, rows);
     this.line.setAttribute("d", this.through(frame));
     const words = [row === "motion" ? `frame ${own + 1} of the motion` : `frame ${own + 1}`];
@@ -180,17 +132,7 @@ export class PerformanceChart {
       const ratio = times.ratio(row, mark, own);
       if (ratio !== null) words.push(`${name} ${ratio.toFixed(2)}`);
     });
-    this.tip.textContent = words.join(" · ");
-    this.tip.hidden = false;
-    // Beside the line, on the side with enough space.
-    const wide = this.tip.offsetWidth;
-    this.tip.style.transform = `translateX(${x + 10 + wide < box.width ? x + 10 : Math.max(x - 10 - wide, 0)}px)`;
-  }
-
-  private leave(): void {
-    if (this.drags) return;
-    this.tip.hidden = true;
-    this.line.setAttribute("d", "");
+    this.tell(words, x, box.width);
   }
 }
 
