@@ -29,22 +29,30 @@ const GRID_STEPS: [f64; 3] = [
 const COLLINEAR: f64 = 5e-7;
 /// Edges at this distance from each other cannot meet on the finest grid, relative to the extent.
 const MIN_CLEARANCE: f64 = 1e-6;
+/// How many crossings the picture of an area that has too many takes as long as.
+const TANGLED: usize = 50_000;
 /// Rings with a smaller average width are dropped, relative to the extent.
 const SLIVER: f64 = 1e-6;
 /// Extents outside of this range are not drawn geometry: their squares would overflow or vanish.
 const VALID_EXTENTS: std::ops::Range<f64> = 1e-60..1e60;
 
 /// The area that rings enclose by a fill rule, as valid polygons. If they cross more than 20,000 times, it is exact to
-/// within about 1/2,000 of their extent.
+/// within about 1/2,000 of their extent, or less where it has very many pieces.
 pub fn resolve_overlaps(rings: Vec<Ring>, rule: FillRule) -> Outline {
+    resolve_crossings(rings, rule).0
+}
+
+/// The same, and how often the rings cross, which the time grows with. More than 20,000 times count as 50,000.
+pub fn resolve_crossings(rings: Vec<Ring>, rule: FillRule) -> (Outline, usize) {
     resolve(rings, rule).unwrap_or_else(|tangled| {
         // What is left crosses where rings touch only, unless it is all dots.
-        resolve(pictured(&tangled, rule), FillRule::EvenOdd).unwrap_or_default()
+        let area = resolve(pictured(&tangled, rule), FillRule::EvenOdd);
+        (area.unwrap_or_default().0, TANGLED)
     })
 }
 
-/// The area, or the rings without repetitions if they cross too often.
-fn resolve(mut rings: Vec<Ring>, rule: FillRule) -> Result<Outline, Vec<Ring>> {
+/// The area and how often the rings cross, or the rings without repetitions if they cross too often.
+fn resolve(mut rings: Vec<Ring>, rule: FillRule) -> Result<(Outline, usize), Vec<Ring>> {
     for ring in &mut rings {
         if !ring.iter().all(|p| p.is_finite()) {
             ring.retain(|p| p.is_finite());
@@ -52,7 +60,7 @@ fn resolve(mut rings: Vec<Ring>, rule: FillRule) -> Result<Outline, Vec<Ring>> {
     }
     rings.retain(|ring| ring.len() > 2);
     let Some(grid) = Grid::over(rings.iter().flatten(), GRID_STEPS[0]) else {
-        return Ok(Outline::default());
+        return Ok((Outline::default(), 0));
     };
     let flat = COLLINEAR * grid.extent;
     for ring in &mut rings {
@@ -63,8 +71,10 @@ fn resolve(mut rings: Vec<Ring>, rule: FillRule) -> Result<Outline, Vec<Ring>> {
         [ring] if is_convex(ring) => true,
         rings => disjoint::are_disjoint(rings, MIN_CLEARANCE * grid.extent),
     };
+    let mut crossed = 0;
     if !simple {
-        match crossings(&rings) {
+        crossed = crossings(&rings);
+        match crossed {
             0 => simple = is_simple(&rings, &grid),
             count if count > MAX_CROSSINGS => return Err(rings),
             _ => {}
@@ -72,7 +82,7 @@ fn resolve(mut rings: Vec<Ring>, rule: FillRule) -> Result<Outline, Vec<Ring>> {
     }
     if simple && rings.len() <= disjoint::MAX_NESTED_RINGS {
         rings.retain(|ring| !is_sliver(ring, grid.extent));
-        return Ok(disjoint::nest(rings, rule));
+        return Ok((disjoint::nest(rings, rule), 0));
     }
     let rule = match rule {
         FillRule::NonZero => GridRule::NonZero,
@@ -90,7 +100,7 @@ fn resolve(mut rings: Vec<Ring>, rule: FillRule) -> Result<Outline, Vec<Ring>> {
             break;
         }
     }
-    Ok(outline)
+    Ok((outline, crossed))
 }
 
 fn overlay<'a>(rings: impl Iterator<Item = &'a Ring>, grid: &Grid, rule: GridRule) -> GridShapes {

@@ -19,7 +19,7 @@ mod scanline;
 mod tangled;
 mod touching;
 
-pub use boolean::{intersect, resolve_overlaps, subtract, union};
+pub use boolean::{intersect, resolve_crossings, resolve_overlaps, subtract, union};
 pub(crate) use boolean::{is_convex, remove_collinear};
 pub(crate) use boxes::{BoxTree, OrderedBoxes, area_around, indexed_box};
 pub(crate) use contact::{Body, connected, touching};
@@ -31,6 +31,7 @@ pub use pixels::pixel_borders;
 pub use query::{area, border_distance_squared, bounds, centroid, contains, distance_squared};
 pub(crate) use query::{crosses, shoelace};
 pub(crate) use scanline::{EdgeRanges, Intervals, LINES, Scanlines};
+pub use tangled::crossings as count_crossings;
 
 use glam::DVec2;
 

@@ -257,8 +257,8 @@ fn turn(
 mod tests {
     use super::*;
 
-    /// A square of `size` tiles whose holes, diamonds or tilted squares, touch at their corners.
-    fn lattice(size: usize, tilt: f64) -> (Vec<DVec2>, Vec<Range<usize>>) {
+    /// A square of `size` tiles with holes, diamonds or tilted squares, which touch at their corners if they reach this far: 0.5.
+    fn lattice(size: usize, tilt: f64, reach: f64) -> (Vec<DVec2>, Vec<Range<usize>>) {
         let n = size as f64;
         let square = [(0.0, 0.0), (n, 0.0), (n, n), (0.0, n)];
         let mut points: Vec<DVec2> = square.map(DVec2::from).to_vec();
@@ -271,8 +271,8 @@ mod tests {
             };
             let (x, y) = (x as f64, y as f64);
             let start = points.len();
-            let diamond = [(0.0, 0.5), (0.5, 1.0), (1.0, 0.5), (0.5, 0.0)];
-            points.extend(diamond.map(|(right, up)| corner(x + right, y + up)));
+            let diamond = [(-reach, 0.0), (0.0, reach), (reach, 0.0), (0.0, -reach)];
+            points.extend(diamond.map(|(right, up)| corner(x + 0.5 + right, y + 0.5 + up)));
             rings.push(start..points.len());
         }
         (points, rings)
@@ -281,17 +281,38 @@ mod tests {
     #[test]
     fn holes_that_touch_are_swept() {
         for (size, tilt) in [(10, 0.0), (10, 0.07), (60, 0.0), (60, 0.03)] {
-            let (points, rings) = lattice(size, tilt);
+            let (points, rings) = lattice(size, tilt, 0.5);
             let mut triangles = Vec::new();
             assert!(sweep(&points, &rings, &mut triangles), "{size} {tilt}");
-            let covered: f64 = triangles.iter().map(|t| area(&points, t) / 2.0).sum();
-            let shoelace = |ring: &Range<usize>| -> f64 {
-                let ring = &points[ring.clone()];
-                let edges = (0..ring.len()).map(|i| ring[i].perp_dot(ring[(i + 1) % ring.len()]));
-                edges.sum::<f64>() / 2.0
-            };
-            let whole: f64 = rings.iter().map(shoelace).sum();
-            assert!((covered / whole - 1.0).abs() < 1e-5, "{covered} of {whole}");
+            assert_covers(&points, &rings, &triangles);
         }
+    }
+
+    #[test]
+    fn ears_are_clipped_in_a_grid_as_without() {
+        // With few corners there is no grid.
+        for size in [5, 20] {
+            let (points, rings) = lattice(size, 0.02, 0.4);
+            let mut triangles = Vec::new();
+            ears::clip(&points, &rings, &mut triangles);
+            let count: usize = rings.iter().map(Range::len).sum();
+            assert_eq!(triangles.len(), count + 2 * rings.len() - 4);
+            assert_covers(&points, &rings, &triangles);
+            let least = triangles.iter().map(|t| area(&points, t));
+            let least = least.fold(f64::INFINITY, f64::min);
+            assert!(least > -1e-9, "a triangle of {least}");
+        }
+    }
+
+    /// Checks that the area of triangles is that of a polygon.
+    fn assert_covers(points: &[DVec2], rings: &[Range<usize>], triangles: &[[u32; 3]]) {
+        let covered: f64 = triangles.iter().map(|t| area(points, t) / 2.0).sum();
+        let shoelace = |ring: &Range<usize>| -> f64 {
+            let ring = &points[ring.clone()];
+            let edges = (0..ring.len()).map(|i| ring[i].perp_dot(ring[(i + 1) % ring.len()]));
+            edges.sum::<f64>() / 2.0
+        };
+        let whole: f64 = rings.iter().map(shoelace).sum();
+        assert!((covered / whole - 1.0).abs() < 1e-5, "{covered} of {whole}");
     }
 }

@@ -1,12 +1,17 @@
 //! Ear clipping that keeps every point of the rings and never fails.
 //!
 //! Holes are first joined to the border by bridges (Eberly, "Triangulation by Ear Clipping").
-//! The time is quadratic in the points, so this is for small polygons, and for those that the sweep
-//! cannot triangulate. However bad the rings, the triangles' outer edges are the rings' edges.
+//! This is for small polygons, and for those that the sweep cannot triangulate. However bad the rings, the
+//! triangles' outer edges are the rings' edges.
 
 use std::ops::Range;
 
 use glam::DVec2;
+
+use super::cells::Cells;
+
+/// Polygons with more corners than this have a grid, in which those near an ear are found.
+const FEW: usize = 256;
 
 /// A corner of the remaining ring, a node of a linked list.
 #[derive(Clone, Copy)]
@@ -64,7 +69,7 @@ pub(super) fn clip(points: &[DVec2], rings: &[Range<usize>], triangles: &mut Vec
     for (leftmost, ring) in holes {
         clip.join(&mut border, leftmost, ring);
     }
-    clip.cut(triangles);
+    clip.cut([low, high], triangles);
 }
 
 impl Clip<'_> {
@@ -183,9 +188,10 @@ impl Clip<'_> {
         }
     }
 
-    fn cut(&mut self, triangles: &mut Vec<[u32; 3]>) {
+    /// Cuts off the ears of the ring, which has this box.
+    fn cut(&mut self, bounds: [DVec2; 2], triangles: &mut Vec<[u32; 3]>) {
         let mut left = self.corners.len();
-        let mut reflex = Reflex::new(left);
+        let mut reflex = Reflex::new(bounds, left);
         for corner in (0..left as u32).filter(|corner| self.is_reflex(*corner)) {
             reflex.add(corner, self.corners[corner as usize].point, self.at(corner));
         }
@@ -199,10 +205,10 @@ impl Clip<'_> {
                 self.corners[before as usize].next = next;
                 self.corners[next as usize].before = before;
                 left -= 1;
-                reflex.remove(corner);
+                reflex.remove(corner, self.at(corner));
                 for neighbour in [before, next] {
                     if !self.is_reflex(neighbour) {
-                        reflex.remove(neighbour);
+                        reflex.remove(neighbour, self.at(neighbour));
                     }
                 }
                 // Skipping one makes fewer slivers than a fan does.
@@ -253,16 +259,19 @@ impl Clip<'_> {
             self.nothing
         };
         let points = ends.map(|c| self.corners[c as usize].point);
-        let mut others = reflex.list.iter();
-        !others.any(|other| within(ear, other.place, margin) && !points.contains(&other.point))
+        !reflex.any_near(ear, |other| {
+            within(ear, other.place, margin) && !points.contains(&other.point)
+        })
     }
 }
 
 /// The reflex corners: only they can be in an ear. Their positions are stored contiguously, because most of the time is
 /// spent on reading them.
 struct Reflex {
-    list: Vec<Other>,
-    /// Per corner its index in the list.
+    cells: Cells,
+    /// Per cell.
+    lists: Vec<Vec<Other>>,
+    /// Per corner its index in the list of its cell.
     numbers: Vec<u32>,
 }
 
@@ -275,31 +284,51 @@ struct Other {
 impl Reflex {
     const NONE: u32 = u32::MAX;
 
-    fn new(corners: usize) -> Self {
+    /// None yet, of a ring with this box and so many corners.
+    fn new(bounds: [DVec2; 2], corners: usize) -> Self {
+        let is_small = corners <= FEW;
+        let cells = Cells::over(bounds, if is_small { 1.0 } else { corners as f64 });
+        let mut lists: Vec<Vec<Other>> = Vec::new();
+        lists.resize_with(cells.count(), Vec::new);
         Self {
-            list: Vec::with_capacity(corners),
+            cells,
+            lists,
             numbers: vec![Self::NONE; corners],
         }
     }
 
     fn add(&mut self, corner: u32, point: u32, place: DVec2) {
-        self.numbers[corner as usize] = self.list.len() as u32;
-        self.list.push(Other {
+        let list = &mut self.lists[self.cells.nearest(place)];
+        self.numbers[corner as usize] = list.len() as u32;
+        list.push(Other {
             place,
             point,
             corner,
         });
     }
 
-    /// Removes a corner, if it is there.
-    fn remove(&mut self, corner: u32) {
+    /// Removes a corner at this place, if it is there.
+    fn remove(&mut self, corner: u32, place: DVec2) {
         let number = std::mem::replace(&mut self.numbers[corner as usize], Self::NONE);
         if number != Self::NONE {
-            self.list.swap_remove(number as usize);
-            if let Some(moved) = self.list.get(number as usize) {
+            let list = &mut self.lists[self.cells.nearest(place)];
+            list.swap_remove(number as usize);
+            if let Some(moved) = list.get(number as usize) {
                 self.numbers[moved.corner as usize] = number;
             }
         }
+    }
+
+    /// Whether this is true of any that may be in a triangle.
+    fn any_near(&self, triangle: [DVec2; 3], is: impl Fn(&Other) -> bool) -> bool {
+        if let [all] = &self.lists[..] {
+            return all.iter().any(is);
+        }
+        let mut found = false;
+        self.cells.of_triangle(triangle, |cell| {
+            found = found || self.lists[cell].iter().any(&is);
+        });
+        found
     }
 }
 

@@ -7,6 +7,7 @@ use rstar::{AABB, PointDistance, RTree, RTreeObject};
 use rustc_hash::FxHashSet;
 
 use super::Solid;
+use super::cells::Cells;
 use crate::scene::{Surface, SurfaceSource};
 
 /// Triangles that are steeper than this, as the cosine of their slope, are walls, which nothing lies on.
@@ -15,8 +16,6 @@ const WALL: f64 = 1e-6;
 const SLACK: f64 = 1e-7;
 /// Cells a triangle.
 const CELLS: f64 = 2.0;
-/// Limit of the cells along each side of the grid.
-const MAX_CELLS: f64 = 512.0;
 
 /// The side of a surface that faces the viewer.
 #[derive(Debug)]
@@ -273,12 +272,7 @@ impl PointDistance for Edge {
 /// The triangles over each cell of a grid.
 #[derive(Debug)]
 struct Grid {
-    low: DVec2,
-    high: DVec2,
-    /// Cells a unit, across and up.
-    scale: DVec2,
-    /// Cells along each side.
-    size: [usize; 2],
+    cells: Cells,
     /// Per cell where its triangles begin in the list.
     starts: Vec<u32>,
     list: Vec<u32>,
@@ -291,100 +285,37 @@ impl Grid {
             points().reduce(DVec2::min).unwrap_or_default(),
             points().reduce(DVec2::max).unwrap_or_default(),
         );
-        let extent = (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
-        // Cells are about as long as wide.
-        let side = (extent.x * extent.y / (CELLS * facets.len().max(1) as f64)).sqrt();
-        let size = (extent / side.max(f64::MIN_POSITIVE)).ceil();
-        let size = size.clamp(DVec2::ONE, DVec2::splat(MAX_CELLS));
-        let mut grid = Self {
-            low,
-            high,
-            scale: size / extent,
-            size: size.to_array().map(|count| count as usize),
-            starts: Vec::new(),
-            list: Vec::new(),
-        };
-        let mut cells: Vec<(u32, u32)> = Vec::new();
+        let cells = Cells::over([low, high], CELLS * facets.len() as f64);
+        let mut entries: Vec<(u32, u32)> = Vec::new();
         for (index, facet) in facets.iter().enumerate() {
-            grid.cells_of(facet, |cell| cells.push((cell as u32, index as u32)));
+            cells.of_triangle(facet.flat(), |cell| {
+                entries.push((cell as u32, index as u32))
+            });
         }
-        let mut ends = vec![0_u32; grid.size[0] * grid.size[1] + 1];
-        for (cell, _) in &cells {
+        let mut ends = vec![0_u32; cells.count() + 1];
+        for (cell, _) in &entries {
             ends[*cell as usize + 1] += 1;
         }
         for cell in 1..ends.len() {
             ends[cell] += ends[cell - 1];
         }
-        grid.starts.clone_from(&ends);
-        grid.list = vec![0; cells.len()];
-        for (cell, facet) in cells {
+        let starts = ends.clone();
+        let mut list = vec![0; entries.len()];
+        for (cell, facet) in entries {
             let place = &mut ends[cell as usize];
-            grid.list[*place as usize] = facet;
+            list[*place as usize] = facet;
             *place += 1;
         }
-        grid
-    }
-
-    /// The column and the row of a point, or of the nearest cell.
-    fn cell(&self, point: DVec2) -> [usize; 2] {
-        let place = (point - self.low) * self.scale;
-        let [column, row] = place.max(DVec2::ZERO).to_array().map(|x| x as usize);
-        [column.min(self.size[0] - 1), row.min(self.size[1] - 1)]
-    }
-
-    /// Calls `each` with the cells that a triangle reaches into, row by row.
-    fn cells_of(&self, facet: &Facet, mut each: impl FnMut(usize)) {
-        let edges = facet.edges();
-        let ys = edges.map(|[from, _]| from.y);
-        let [bottom, top] = [
-            ys.into_iter().fold(f64::INFINITY, f64::min),
-            ys.into_iter().fold(f64::NEG_INFINITY, f64::max),
-        ];
-        let row = |y: f64| self.cell(DVec2::new(self.low.x, y))[1];
-        for row in row(bottom)..=row(top) {
-            let y = |row: usize| self.low.y + row as f64 / self.scale.y;
-            // A little more, for rounding.
-            let more = 1e-9 / self.scale.y;
-            let (from_y, to_y) = (y(row) - more, y(row + 1) + more);
-            let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
-            for [a, b] in edges {
-                let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
-                if b.y < from_y || a.y > to_y {
-                    continue;
-                }
-                for y in [from_y, to_y] {
-                    let share = ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0);
-                    let x = if share.is_nan() {
-                        a.x
-                    } else {
-                        a.x + (b.x - a.x) * share
-                    };
-                    left = left.min(x);
-                    right = right.max(x);
-                }
-                if a.y == b.y {
-                    left = left.min(b.x);
-                    right = right.max(b.x);
-                }
-            }
-            if left <= right {
-                let more = 1e-9 / self.scale.x;
-                let column = |x: f64| self.cell(DVec2::new(x, self.low.y))[0];
-                for column in column(left - more)..=column(right + more) {
-                    each(row * self.size[0] + column);
-                }
-            }
+        Self {
+            cells,
+            starts,
+            list,
         }
     }
 
     /// The triangles over the cell of a point.
     fn at(&self, point: DVec2) -> &[u32] {
-        let slack = (self.high - self.low) * 1e-6;
-        if point.clamp(self.low - slack, self.high + slack) != point {
-            return &[];
-        }
-        let [column, row] = self.cell(point);
-        self.of_cell(row * self.size[0] + column)
+        self.cells.at(point).map_or(&[], |cell| self.of_cell(cell))
     }
 
     fn of_cell(&self, cell: usize) -> &[u32] {
@@ -393,11 +324,8 @@ impl Grid {
 
     /// The triangles over the cells that a box reaches into, some of them several times.
     fn in_box(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = u32> + '_ {
-        let is_apart = high.cmplt(self.low).any() || low.cmpgt(self.high).any();
-        let [[left, bottom], [right, top]] = [low, high].map(|corner| self.cell(corner));
-        let rows = if is_apart { 0..0 } else { bottom..top + 1 };
-        rows.flat_map(move |row| (left..=right).map(move |column| row * self.size[0] + column))
-            .flat_map(|cell| self.of_cell(cell).iter().copied())
+        let cells = self.cells.in_box(low, high);
+        cells.flat_map(|cell| self.of_cell(cell).iter().copied())
     }
 }
 

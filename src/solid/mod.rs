@@ -9,6 +9,7 @@
 pub mod check;
 
 mod cap;
+mod cells;
 mod crease;
 mod ears;
 mod heights;

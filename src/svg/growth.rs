@@ -17,6 +17,9 @@ const MOST: u64 = 1 << 22;
 /// How many elements its clones may expand to. Each becomes a part.
 const MOST_CLONED: u64 = 100_000;
 
+/// How many vertices of paths its clones may draw.
+const MOST_CLONED_CORNERS: u64 = 2_000_000;
+
 /// Definitions that are drawn again at each reference.
 pub(super) const DRAWN_AGAIN: &[&str] = &["pattern", "clipPath", "mask", "marker"];
 /// Elements that are drawn only where they are referenced.
@@ -46,11 +49,15 @@ pub(super) fn check(
         too_deep: false,
         blamed: None,
         blamed_clone: None,
+        has_detailed_clones: false,
         has_references: prepared.draws_again,
     };
     let Size { elements, .. } = growth.size(document.root_element());
     if let Some(clone) = growth.blamed_clone.and_then(|node| document.get_node(node)) {
-        let message = format!("clones expand to more than {MOST_CLONED} elements");
+        let message = match growth.has_detailed_clones {
+            true => format!("clones draw more than {MOST_CLONED_CORNERS} points"),
+            false => format!("clones expand to more than {MOST_CLONED} elements"),
+        };
         let help = "use fewer clones, or split the drawing into several files";
         return Err(Box::new(
             Diagnostic::new(Code::LimitPassed, start_tag(clone, prepared), message).help(help),
@@ -78,6 +85,8 @@ struct Size {
     elements: u64,
     /// The elements among them that clones draw.
     cloned: u64,
+    /// The vertices among those below that clones draw.
+    cloned_corners: u64,
     /// The shapes among them that are drawn in place, and the number of their vertices.
     shapes: u64,
     corners: u64,
@@ -96,6 +105,8 @@ struct Growth<'a, 'input> {
     blamed: Option<NodeId>,
     /// The innermost element whose clones grow beyond their limit.
     blamed_clone: Option<NodeId>,
+    /// Whether these are few, but have very many vertices.
+    has_detailed_clones: bool,
     /// Whether there are definitions that are drawn again at each reference, besides clones.
     has_references: bool,
 }
@@ -111,6 +122,7 @@ impl<'a, 'input> Growth<'a, 'input> {
                 let inner = self.size(child);
                 size.elements = size.elements.saturating_add(inner.elements);
                 size.cloned = size.cloned.saturating_add(inner.cloned);
+                size.cloned_corners = size.cloned_corners.saturating_add(inner.cloned_corners);
                 size.shapes = size.shapes.saturating_add(inner.shapes);
                 size.corners = size.corners.saturating_add(inner.corners);
             }
@@ -121,12 +133,12 @@ impl<'a, 'input> Growth<'a, 'input> {
             size.cloned = size.cloned.saturating_add(target.elements);
             size.shapes = target.shapes;
             size.corners = target.corners;
+            size.cloned_corners = size.cloned_corners.saturating_add(target.corners);
         }
-        if size.cloned > MOST_CLONED && self.blamed_clone.is_none() {
+        let is_detailed = size.cloned_corners > MOST_CLONED_CORNERS;
+        if (size.cloned > MOST_CLONED || is_detailed) && self.blamed_clone.is_none() {
             self.blamed_clone = Some(node.id());
-        }
-        if !self.has_references {
-            return size;
+            self.has_detailed_clones = is_detailed && size.cloned <= MOST_CLONED;
         }
         if size.shapes == 0 {
             let corners = node.attribute("d").or_else(|| node.attribute("points"));
@@ -134,6 +146,9 @@ impl<'a, 'input> Growth<'a, 'input> {
             let parts = |text: &str| text.split([' ', ',', '\n', '-']).count() as u64;
             size.shapes = 1;
             size.corners = 2 + corners.map_or(0, parts) / 2;
+        }
+        if !self.has_references {
+            return size;
         }
         let of = [(INHERITED, size.shapes), (MARKERS, size.corners), (OWN, 1)];
         for (properties, times) in of {
@@ -233,6 +248,11 @@ mod tests {
             "<defs><g id='a'><rect width='1' height='1'/><rect width='1' height='1'/></g></defs>";
         let many = format!("{flat}{}", "<use href='#a'/>".repeat(40_000));
         assert_eq!(refused(&many).as_deref(), Some(message));
+        let detailed = format!("<path id='a' d='M{}'/>", "1 2 ".repeat(10_000));
+        let many = |count| format!("{detailed}{}", "<use href='#a'/>".repeat(count));
+        assert_eq!(refused(&many(100)), None);
+        let message = "clones draw more than 2000000 points";
+        assert_eq!(refused(&many(250)).as_deref(), Some(message));
         // What refers to itself is not drawn.
         assert_eq!(refused("<g id='a'><use href='#a'/></g>"), None);
     }

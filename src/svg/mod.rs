@@ -22,6 +22,7 @@ mod round;
 mod separate;
 mod shapes;
 mod style;
+mod tangles;
 mod text;
 mod unseen;
 mod unsolid;

@@ -13,11 +13,12 @@ use super::links::{options, report_links, unusable};
 use super::paths::{StrokeSource, affine, bez_path, open_line, rings};
 use super::prepare::Prepared;
 use super::style::Styles;
+use super::tangles::Tangles;
 use super::unsolid::Who;
 use super::walk::{Leaf, Task, Walk};
 use super::{Drawing, Element, Paint, PaintKey, PictureSource, Shape, growth, unseen};
 use crate::diagnostic::{Code, Diagnostic, few_or_one, listed};
-use crate::geometry::{FillRule, Outline, resolve_overlaps};
+use crate::geometry::{FillRule, Outline, resolve_crossings, resolve_overlaps};
 use crate::resolver::Resolver;
 use crate::source::Span;
 
@@ -102,6 +103,7 @@ pub(super) fn read(
         page,
         page_box: (offset, size),
         tolerance,
+        tangles: Tangles::new(prepared),
     };
     let found = Mutex::new(Vec::new());
     let made: Vec<Option<Shape>> = tasks
@@ -115,6 +117,7 @@ pub(super) fn read(
             shape
         })
         .collect();
+    context.tangles.check(&context, &tasks)?;
     let mut shape_of_node: FxHashMap<NodeId, usize> = FxHashMap::default();
     if !unsolid.is_empty() {
         let drawn = tasks.iter().zip(&made).filter(|(_, shape)| shape.is_some());
@@ -212,6 +215,7 @@ pub(super) struct Context<'a, 'input> {
     /// The minimum corner and the size of the page.
     pub(super) page_box: (DVec2, DVec2),
     pub(super) tolerance: f64,
+    pub(super) tangles: Tangles,
 }
 
 impl Context<'_, '_> {
@@ -272,6 +276,9 @@ impl Context<'_, '_> {
         let transform = self.page * affine(path.abs_transform());
         let fill = path.fill().filter(|fill| fill.opacity().get() > 0.0);
         let stroke = path.stroke().filter(|stroke| stroke.opacity().get() > 0.0);
+        if self.tangles.are_too_many() {
+            return None;
+        }
         let bez = bez_path(path.data(), transform);
         let mut outline = Outline::default();
         let mut line = None;
@@ -280,9 +287,12 @@ impl Context<'_, '_> {
                 usvg::FillRule::NonZero => FillRule::NonZero,
                 usvg::FillRule::EvenOdd => FillRule::EvenOdd,
             };
-            outline = resolve_overlaps(rings(&bez, self.tolerance), rule);
+            let crossings;
+            (outline, crossings) = resolve_crossings(rings(&bez, self.tolerance), rule);
+            self.tangles.add(crossings, stroke.is_some());
             outline = task.clip(outline);
         } else if stroke.is_some() {
+            self.tangles.add_line(&rings(&bez, self.tolerance));
             line = open_line(&bez, node);
         }
         let stroke = stroke.map(|stroke| {

@@ -44,7 +44,7 @@ pub(super) struct Field {
     back: Vec<f64>,
     is_open: bool,
     is_round: bool,
-    /// Steps of a rounding per half turn.
+    /// Steps of a rounding per half turn, of the solid by itself.
     steps: u32,
 }
 
@@ -56,7 +56,7 @@ impl Field {
         // Skins of plates and lines have no heights of their own.
         let is_round = target.lay.form != LayForm::Ink && target.lay.bulge > 0.0;
         let mut all = match is_round {
-            true => points(outline, steps),
+            true => points(outline, target.lay.segments.unwrap_or(steps)),
             false => Points {
                 points: Vec::new(),
                 edges: Vec::new(),
@@ -118,12 +118,16 @@ impl Field {
     /// The surface in the frame of a node at this depth, with its back and its walls.
     pub(super) fn surface(&self, node_depth: f64, crease: f64) -> Surface {
         let Mesh {
-            points, triangles, ..
+            points,
+            triangles,
+            on_border,
+            ..
         } = &self.mesh;
         let count = points.len();
-        let edges: FxHashSet<[u32; 2]> = triangles.iter().flat_map(sides).collect();
-        let border = triangles.iter().flat_map(sides);
-        let border: Vec<[u32; 2]> = border.filter(|[a, b]| !edges.contains(&[*b, *a])).collect();
+        let is_on_border = |[a, b]: &[u32; 2]| on_border[*a as usize] && on_border[*b as usize];
+        let along = triangles.iter().flat_map(sides).filter(is_on_border);
+        let edges: FxHashSet<[u32; 2]> = along.clone().collect();
+        let border: Vec<[u32; 2]> = along.filter(|[a, b]| !edges.contains(&[*b, *a])).collect();
         // Where several parts of the border meet in a point, front and back meet too, or four walls would share an edge.
         let mut walls_from = vec![0_u32; count];
         for [from, _] in &border {

@@ -94,6 +94,8 @@ pub struct Lay {
     pub invisible: f64,
     /// The share of its own heights that it adds to those of the volumes below it.
     pub bulge: f64,
+    /// Layers per half turn that are enough for that share; `None` for as many as the solid has by itself.
+    pub segments: Option<u32>,
     /// Its form.
     pub form: LayForm,
     /// Whether it is the stroke of a line.
@@ -225,6 +227,7 @@ impl Pile {
             hasher.write_u64(lay.step.to_bits());
             hasher.write_u64(lay.tolerance().to_bits());
             hasher.write_u64(lay.bulge.to_bits());
+            hasher.write_u32(lay.segments.unwrap_or_default());
             hasher.write_usize(self.more_points);
             hasher.write_u8(lay.form as u8);
             hasher.write_u8(lay.clips.into());

@@ -1,0 +1,113 @@
+//! A grid over points of the plane, in which what is near a place is found.
+
+use glam::DVec2;
+
+/// Limit of the cells along each side.
+const MAX_CELLS: f64 = 512.0;
+
+/// The cells of a grid, numbered row by row.
+#[derive(Debug)]
+pub(super) struct Cells {
+    low: DVec2,
+    high: DVec2,
+    /// Cells a unit, across and up.
+    scale: DVec2,
+    /// Cells along each side.
+    size: [usize; 2],
+}
+
+impl Cells {
+    /// About so many cells over a box, about as long as wide.
+    pub(super) fn over([low, high]: [DVec2; 2], count: f64) -> Self {
+        let extent = (high - low).max(DVec2::splat(f64::MIN_POSITIVE));
+        let side = (extent.x * extent.y / count.max(1.0)).sqrt();
+        let size = (extent / side.max(f64::MIN_POSITIVE)).ceil();
+        let size = size.clamp(DVec2::ONE, DVec2::splat(MAX_CELLS));
+        Self {
+            low,
+            high,
+            scale: size / extent,
+            size: size.to_array().map(|count| count as usize),
+        }
+    }
+
+    /// How many there are.
+    pub(super) fn count(&self) -> usize {
+        self.size[0] * self.size[1]
+    }
+
+    /// The column and the row of a point, or of the nearest cell.
+    fn place(&self, point: DVec2) -> [usize; 2] {
+        let place = (point - self.low) * self.scale;
+        let [column, row] = place.max(DVec2::ZERO).to_array().map(|x| x as usize);
+        [column.min(self.size[0] - 1), row.min(self.size[1] - 1)]
+    }
+
+    /// The cell of a point, or the nearest one.
+    pub(super) fn nearest(&self, point: DVec2) -> usize {
+        let [column, row] = self.place(point);
+        row * self.size[0] + column
+    }
+
+    /// The cell of a point, if it is in the box or hardly outside.
+    pub(super) fn at(&self, point: DVec2) -> Option<usize> {
+        let slack = (self.high - self.low) * 1e-6;
+        let is_near = point.clamp(self.low - slack, self.high + slack) == point;
+        is_near.then(|| self.nearest(point))
+    }
+
+    /// The cells that a box reaches into.
+    pub(super) fn in_box(&self, low: DVec2, high: DVec2) -> impl Iterator<Item = usize> + '_ {
+        let is_apart = high.cmplt(self.low).any() || low.cmpgt(self.high).any();
+        let [[left, bottom], [right, top]] = [low, high].map(|corner| self.place(corner));
+        let rows = if is_apart { 0..0 } else { bottom..top + 1 };
+        rows.flat_map(move |row| (left..=right).map(move |column| row * self.size[0] + column))
+    }
+
+    /// Calls `each` with the cells that a triangle reaches into, row by row, and perhaps with a few beside it.
+    pub(super) fn of_triangle(&self, [a, b, c]: [DVec2; 3], mut each: impl FnMut(usize)) {
+        let [[left, bottom], [right, top]] =
+            [a.min(b).min(c), a.max(b).max(c)].map(|corner| self.place(corner));
+        // Most triangles are about as large as a cell: which cells of their box they do not reach is not worth finding out.
+        let is_small = top - bottom <= 1 && right - left <= 1;
+        for row in bottom..=top {
+            let [left, right] = match is_small {
+                true => [left, right],
+                false => self.columns_of([[a, b], [b, c], [c, a]], row),
+            };
+            (left..=right).for_each(|column| each(row * self.size[0] + column));
+        }
+    }
+
+    /// The first and the last column that a triangle with these edges reaches into in a row that it reaches into.
+    fn columns_of(&self, edges: [[DVec2; 2]; 3], row: usize) -> [usize; 2] {
+        let y = |row: usize| self.low.y + row as f64 / self.scale.y;
+        // A little more, for rounding.
+        let more = 1e-9 / self.scale.y;
+        let (from_y, to_y) = (y(row) - more, y(row + 1) + more);
+        let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
+        for [a, b] in edges {
+            let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+            if b.y < from_y || a.y > to_y {
+                continue;
+            }
+            for y in [from_y, to_y] {
+                let share = ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0);
+                let x = if share.is_nan() {
+                    a.x
+                } else {
+                    a.x + (b.x - a.x) * share
+                };
+                left = left.min(x);
+                right = right.max(x);
+            }
+            if a.y == b.y {
+                left = left.min(b.x);
+                right = right.max(b.x);
+            }
+        }
+        let more = 1e-9 / self.scale.x;
+        let column = |x: f64| self.place(DVec2::new(x, self.low.y))[0];
+        [column(left - more), column(right + more)]
+    }
+}
