@@ -209,10 +209,11 @@ editors() {
 
 inkscape_extension() {
   if ! command -v inkscape > /dev/null || ! command -v Xvfb > /dev/null || ! command -v xdotool > /dev/null \
-    || ! command -v openbox > /dev/null || ! command -v import > /dev/null; then
+    || ! command -v openbox > /dev/null || ! command -v import > /dev/null || ! command -v dbus-daemon > /dev/null \
+    || ! command -v gdbus > /dev/null || ! /usr/bin/python3 -c 'import gi' 2> /dev/null; then
     [ $quick = no ] || skip "--quick, and Inkscape or the tools that drive it are not installed"
     install "Inkscape or the tools that drive it" inkscape python3-cssselect python3-lxml python3-numpy xvfb openbox xdotool \
-      imagemagick curl
+      imagemagick curl dbus libglib2.0-bin python3-gi gir1.2-gtk-3.0
   fi
   program
   local status=0
