@@ -1,6 +1,7 @@
 // Drives the editor in the browser like a user: with keys, and by what is visible.
 
-const PATIENCE = 15_000;
+/** The limit of every wait, in milliseconds, for machines that do other work too. */
+const PATIENCE = 60_000;
 
 export class Editor {
   constructor(page) {
@@ -53,6 +54,18 @@ export class Editor {
     await this.press("Enter");
     await this.page.locator(".quick-input-widget").waitFor({ state: "hidden", timeout: PATIENCE });
     await this.page.waitForTimeout(150);
+  }
+
+  /** Opens the hover at the cursor, until it has a text. Returns its locator. */
+  async hover(text) {
+    const found = this.page.locator(".monaco-hover-content", { hasText: text }).first();
+    await this.until(`a hover with ${text}`, async () => {
+      await this.press("Escape");
+      await this.press("Control+k");
+      await this.press("Control+i");
+      return found.waitFor({ state: "visible", timeout: 3000 }).then(() => true, () => false);
+    });
+    return found;
   }
 
   /** The visible lines as text, including inlay hints without their padding. */

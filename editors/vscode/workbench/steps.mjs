@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { neighbours } from "./neighbour.mjs";
 import { previews } from "./preview.mjs";
 
 /** Line and column, from 1, of the `at`th character of the first occurrence of a text. */
@@ -60,10 +61,7 @@ export async function withServer({ editor, page, step, ready, configure, program
   });
   await step("a hover tells of a part", async () => {
     await at("Arm@Body", 1);
-    await editor.press("Control+k");
-    await editor.press("Control+i");
-    const hover = await editor.see(".monaco-hover-content");
-    await editor.until("the hover to name the part", async () => /Arm/.test(await hover.textContent()));
+    const hover = await editor.hover("Root › Body › Arm");
     const path = await hover.textContent();
     assert.match(path, /Root › Body › Arm/);
     const listed = await hover.locator("li").allTextContents();
@@ -72,11 +70,16 @@ export async function withServer({ editor, page, step, ready, configure, program
     }
   });
   await step("a hover tells of a keyword", async () => {
-    await editor.press("Escape");
     await at("Origin start", 2);
-    await editor.press("Control+k");
-    await editor.press("Control+i");
-    await editor.see(".monaco-hover-content", "Origin");
+    const hover = await editor.hover("Origin");
+    // A bold line in place of a heading.
+    assert.equal(await hover.locator("strong", { hasText: /^Origin$/ }).count(), 1);
+    assert.equal(await hover.locator("h1, h2, h3").count(), 0);
+  });
+  await step("a hover tells the way out of an error", async () => {
+    await at(WRONG, 11);
+    const hover = await editor.hover("E101: unknown keyword");
+    assert.match(await hover.textContent(), /The marked word is not a keyword\..*Correct the keyword/s);
   });
   await step("problems are listed", async () => {
     await editor.press("Escape");
@@ -161,6 +164,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     const rest = (text) => text.split("\n").filter((line) => !line.includes("Leg@")).join("\n");
     assert.equal(rest(read()), rest(figure));
   });
+  await neighbours({ editor, page, step, again, at, saved, read, open, configure });
   await step("errors come and go while typing", async () => {
     await again();
     await at("Arm@Body", 8);
