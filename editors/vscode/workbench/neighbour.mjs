@@ -26,6 +26,7 @@ export async function neighbours({ editor, page, step, again, at, saved, read, o
   });
   await step("in an annotated drawing both formatters are offered, and both explain", async () => {
     await again();
+    configure({ "neighbour.on": true });
     await at("Arm@Body", 1);
     const both = await hover();
     await editor.until("the part in the hover", async () => /Root › Body › Arm/.test(await page.locator(".monaco-hover-content").first().textContent()));

@@ -142,8 +142,11 @@ try {
   await step("the output says where it was looked for", async () => {
     // The window is up by then; a panel that is opened earlier may be closed again.
     await editor.see(".notifications-toasts", "was not found");
-    await editor.command("Okoshi: Show Output");
-    await editor.see(".output-view-container .view-line, .output-view .view-line", "Looked at:");
+    const lines = page.locator(".output-view-container .view-line, .output-view .view-line", { hasText: "Looked at:" }).first();
+    await editor.until("the output", async () => {
+      await editor.command("Okoshi: Show Output");
+      return lines.waitFor({ state: "visible", timeout: 5000 }).then(() => true, () => false);
+    });
     await editor.command("View: Toggle Panel Visibility");
   });
   await step("strings are coloured, tags keep their colours", async () => {

@@ -106,7 +106,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await open("hints.svg");
     // Inlay hints at the expected places, and nowhere else.
     const hints = [
-      ["<circle", "U-1@Arm"],
+      ["<circle", "hand@Arm"],
       [">Body", "Segments 8 Smooth 10"],
       ["Arm@Body$Shape roundv", "Offset 4 Segments 8 Smooth 10"],
     ];
