@@ -68,6 +68,17 @@ export class Editor {
     return found;
   }
 
+  /** Waits for a proposal while something is typed; asks for it where the list was not opened or is closed. Returns its row. */
+  async proposal(text) {
+    const row = this.page.locator(".suggest-widget .monaco-list-row", { hasText: text }).first();
+    await this.until(`a proposal ${text}`, async () => {
+      if (await row.waitFor({ state: "visible", timeout: 3000 }).then(() => true, () => false)) return true;
+      await this.press("Control+Space");
+      return false;
+    });
+    return row;
+  }
+
   /** The visible lines as text, including inlay hints without their padding. */
   async lines() {
     const lines = await this.page.locator(".editor-instance .view-lines .view-line").evaluateAll((all) =>

@@ -128,7 +128,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await again();
     await at("Origin start", 12);
     await editor.type(" Seg");
-    const row = await editor.see(".suggest-widget .monaco-list-row", "Segments");
+    const row = await editor.proposal("Segments");
     await page.screenshot({ path: join(shots, "completion.png") });
     await row.waitFor();
     await editor.press("Enter");
@@ -138,7 +138,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await again();
     await at("Head@Body$Shap", 14);
     await editor.type("e con");
-    await editor.see(".suggest-widget .monaco-list-row", "conev");
+    await editor.proposal("conev");
     await editor.press("Escape");
   });
   await step("a part is renamed everywhere", async () => {
@@ -178,7 +178,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await at("<text x=\"10\"", 0);
     await editor.type("okoshi-def");
     // Emmet, which accepts any word as a tag, comes first.
-    await (await editor.see(".suggest-widget .monaco-list-row", "okoshi-defaults")).click();
+    await (await editor.proposal("okoshi-defaults")).click();
     await editor.press("Escape");
     await saved("a text for all parts", (text) => text.includes(">%Shape default -20 20 Scale 1.0</text>"));
   });
