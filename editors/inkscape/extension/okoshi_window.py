@@ -17,7 +17,8 @@ from okoshi_select import select
 try:
     import gi
 
-    gi.require_version("Gtk", "3.0")
+    for library in ("Gdk", "Gtk"):
+        gi.require_version(library, "3.0")
     from gi.repository import Gdk, Gio, GLib, Gtk, Pango
 except (ImportError, ValueError):
     sys.exit(1)
