@@ -1,8 +1,8 @@
 """The servers of *Preview in 3D*: one for each drawing, each with a folder in the user's cache.
 
-The folder contains a copy of the canvas, which the server watches beside the drawing itself, `server.json` with process, port and copy, and `lock`, which
-the process that runs the server (`okoshi_follow`) holds. The lock, not a process id, shows whether a server is running: the system
-releases it however the process ends, while process ids are reused.
+The folder contains a copy of the canvas, which the server watches beside the drawing itself, `server.json` with process, port and
+copy, and `lock`, which the process that runs the server (`okoshi_follow`) holds. The lock, not a process id, shows whether a server is
+running: the system releases it however the process ends, while process ids are reused.
 """
 
 import hashlib
