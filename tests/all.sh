@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs everything that tells whether okoshi is in order: bash tests/all.sh [--quick]
 #
-# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender, Inkscape, Neovim, Emacs, ffmpeg and clip art are installed if
+# Works from a clean clone on Debian or Ubuntu with Rust and Node. Blender, Inkscape, Pillow, Neovim, Emacs, ffmpeg and clip art are installed if
 # they are missing and that is allowed (as root, or with sudo that asks for no password); what cannot run is skipped, and the summary says why.
 # --quick leaves Blender out, and installs nothing. Exit status 1 if anything failed. All of cargo's work is done in one profile.
 set -euo pipefail
@@ -154,11 +154,24 @@ blender_import() {
   done
 }
 
+# Gives Python Pillow, which puts pictures together, in an environment of its own.
+with_pillow() {
+  local own=$target/pillow
+  if ! python3 -c 'import PIL' 2> /dev/null; then
+    if ! "$own/bin/python3" -c 'import PIL' 2> /dev/null; then
+      # Debian's Python makes such environments with a package more.
+      python3 -m venv --clear "$own" || { install "Python's venv" python3-venv; python3 -m venv --clear "$own"; }
+      "$own/bin/pip" install -q Pillow || skip "Pillow, which puts the pictures together, cannot be installed"
+    fi
+    PATH=$(realpath "$own/bin"):$PATH
+  fi
+}
+
 gallery() {
   [ $quick = no ] || skip "--quick"
-  need inkscape
+  command -v inkscape > /dev/null || install Inkscape inkscape
   need python3
-  python3 -c 'import PIL' 2> /dev/null || skip "Python has no Pillow, which puts the pictures together"
+  with_pillow
   cargo build --locked --release
   OKOSHI=$(realpath "$target/release/okoshi") OUT="$target/gallery" bash $tools/gallery.sh
 }
@@ -196,10 +209,11 @@ editors() {
 
 inkscape_extension() {
   if ! command -v inkscape > /dev/null || ! command -v Xvfb > /dev/null || ! command -v xdotool > /dev/null \
-    || ! command -v openbox > /dev/null || ! command -v import > /dev/null; then
+    || ! command -v openbox > /dev/null || ! command -v import > /dev/null || ! command -v dbus-daemon > /dev/null \
+    || ! command -v gdbus > /dev/null || ! /usr/bin/python3 -c 'import gi' 2> /dev/null; then
     [ $quick = no ] || skip "--quick, and Inkscape or the tools that drive it are not installed"
     install "Inkscape or the tools that drive it" inkscape python3-cssselect python3-lxml python3-numpy xvfb openbox xdotool \
-      imagemagick curl
+      imagemagick curl dbus libglib2.0-bin python3-gi gir1.2-gtk-3.0
   fi
   program
   local status=0

@@ -236,7 +236,7 @@ fn every_request_is_answered() {
         resolved["documentation"]["value"]
             .as_str()
             .expect("text")
-            .starts_with("# Shape cone")
+            .starts_with("**Shape cone**")
     );
     let help = editor.ask("textDocument/signatureHelp", place(text, " 90 Color"));
     assert_eq!(help["signatures"][0]["label"], "Shape roundv [a0 a1]");
@@ -400,7 +400,10 @@ fn requests_are_answered_while_xml_is_broken() {
     text.insert_str(at, typed);
     assert_eq!(codes(&editor.diagnostics(URI, 2)), ["E001"]);
     // Before and after the edit.
-    for (word, told) in [("Rarm@", "Root › Ubody › **Rarm**"), ("Let thick", "# Let")] {
+    for (word, told) in [
+        ("Rarm@", "Root › Ubody › **Rarm**"),
+        ("Let thick", "**Let**"),
+    ] {
         let hover = editor.ask("textDocument/hover", place(&text, word));
         assert!(
             hover["contents"]["value"]

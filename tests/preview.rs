@@ -24,10 +24,16 @@ const DRAWING: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="200" he
 fn served(folder: &Path, target: &str) -> (Live, u16) {
     // On any free port.
     let live = Live::start(folder, &["preview", target]);
+    let port = port_of(&live);
+    (live, port)
+}
+
+/// The port of a server that was started, once it watches.
+fn port_of(live: &Live) -> u16 {
     let [address, _] = live.lines(["http://127.0.0.1:", "watching"]);
     let port = address.rsplit_once("127.0.0.1:").map(|(_, rest)| rest);
     let port = port.and_then(|port| port.trim_end_matches('/').parse().ok());
-    (live, port.expect("a port"))
+    port.expect("a port")
 }
 
 fn folder() -> tempfile::TempDir {
@@ -307,6 +313,35 @@ fn pages_that_do_not_read_block_no_other() {
         live.line("shown in");
     }
     drop(deaf);
+}
+
+#[test]
+fn an_unsaved_copy_is_shown_until_the_drawing_is_saved() {
+    let folder = folder();
+    let elsewhere = tempfile::tempdir().expect("a folder");
+    let copy = elsewhere.path().join("canvas.svg");
+    let write = |path: &Path, part: &str| {
+        fs::write(path, DRAWING.replace("Body", part)).expect("written");
+    };
+    write(&copy, "Canvas");
+    let copied = copy.to_str().expect("UTF-8");
+    let live = Live::start(folder.path(), &["preview", "a.svg", "--unsaved", copied]);
+    let port = port_of(&live);
+    let mut page = socket(port, Some(&format!("http://127.0.0.1:{port}"))).expect("let in");
+    let list = heard(&mut page, "drawings");
+    assert_eq!(list["drawings"][0]["name"], "a.svg");
+    let mut shown = || heard(&mut page, "build")["build"]["parts"][0]["name"].clone();
+    assert_eq!(shown(), "Canvas");
+    write(&folder.path().join("a.svg"), "Saved");
+    assert_eq!(shown(), "Saved");
+    write(&copy, "Another");
+    assert_eq!(shown(), "Another");
+    write(&folder.path().join("a.svg"), "Again");
+    assert_eq!(shown(), "Again");
+    drop(live);
+
+    let refused = Live::start(folder.path(), &["preview", ".", "--unsaved", copied]);
+    refused.line("error: --unsaved names the copy of one drawing, and this is a folder");
 }
 
 #[test]

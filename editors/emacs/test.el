@@ -123,7 +123,7 @@
   (test-in (test-example "human.svg")
     (test-go test-arm 18)
     (let ((hover (test-ask :textDocument/hover)))
-      (should (string-search "# Shape roundv" (plist-get (plist-get hover :contents) :value))))
+      (should (string-search "**Shape roundv**" (plist-get (plist-get hover :contents) :value))))
     (test-go test-arm 1)
     (let (told)
       (eglot-hover-eldoc-function (lambda (text &rest _) (setq told text)))

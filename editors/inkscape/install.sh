@@ -90,13 +90,17 @@ done
 printf '%s\n' "$okoshi" > "$target/okoshi.path"
 echo "installed: $target"
 
-# Debian's Inkscape lacks a module that its extensions need. Other builds contain a Python of their own.
+# Debian's Inkscape lacks modules that its extensions need. Other builds contain a Python of their own.
 if [ -n "$inkscape" ] && system=$("$inkscape" --system-data-directory 2> /dev/null | tail -n 1) && [ -d "$system/extensions/inkex" ]; then
   case $system in
     /usr/*)
       if [ -x /usr/bin/python3 ] && ! PYTHONPATH=$system/extensions /usr/bin/python3 -c 'import inkex' 2> /dev/null; then
         echo "note: Inkscape's own module inkex does not load; on Debian and Ubuntu this helps:"
         echo "  sudo apt-get install python3-lxml python3-numpy python3-cssselect"
+      fi
+      if [ -x /usr/bin/python3 ] && ! /usr/bin/python3 -c 'import gi; gi.require_version("Gtk", "3.0")' 2> /dev/null; then
+        echo "note: for findings in a window of their own, in which a click selects the object:"
+        echo "  sudo apt-get install python3-gi gir1.2-gtk-3.0"
       fi ;;
   esac
 fi

@@ -243,6 +243,9 @@ pub(super) struct Preview {
     /// Open the browser
     #[arg(long)]
     pub(super) open: bool,
+    /// A copy of the drawing as it is in an editor: shown until the drawing is saved, and again whenever the copy is written
+    #[arg(long, value_name = "FILE")]
+    pub(super) unsaved: Option<PathBuf>,
     #[command(flatten)]
     pub(super) noticing: Noticing,
     #[command(flatten)]

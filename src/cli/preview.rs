@@ -16,6 +16,9 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
     if !path.exists() {
         return fail(&ReadError::missing(path).to_string());
     }
+    if arguments.unsaved.is_some() && path.is_dir() {
+        return fail("--unsaved names the copy of one drawing, and this is a folder");
+    }
     let bound = match bind(arguments.port) {
         Ok(bound) => bound,
         Err(error) => {
@@ -45,6 +48,7 @@ pub(super) fn run(arguments: &Preview, common: Common) -> Outcome {
     }
     let options = Options {
         shows_incomplete: true,
+        unsaved: arguments.unsaved.clone(),
         ..options(&arguments.reading, &arguments.noticing)
     };
     follow(std::slice::from_ref(path), &options, |event| {

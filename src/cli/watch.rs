@@ -47,6 +47,7 @@ pub(super) fn follow(
 pub(super) fn options(reading: &Reading, noticing: &Noticing) -> Options {
     Options {
         shows_incomplete: false,
+        unsaved: None,
         base: reading.base.clone(),
         root: reading.root.clone(),
         tolerance: reading.tolerance,

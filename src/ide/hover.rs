@@ -28,10 +28,22 @@ pub struct Hover {
 }
 
 impl Analysis {
-    /// The hover at byte `offset`: a string's part, a keyword's manual page, a number's meaning, a
-    /// shape's part.
+    /// The hover at byte `offset`: the problems there, then a string's part, a keyword's manual page, a number's meaning, or a
+    /// shape's part. It has no headings, which editors show in the size of a page's.
     pub fn hover(&self, offset: usize) -> Option<Hover> {
-        let (span, markdown) = match self.at(offset)? {
+        let (span, markdown) = match (self.problems_at(offset), self.card_at(offset)) {
+            (Some((_, problems)), Some((span, card))) => {
+                (span, format!("{problems}\n---\n\n{card}"))
+            }
+            (problems, card) => problems.or(card)?,
+        };
+        let markdown = explain::without_headings(&markdown);
+        Some(Hover { span, markdown })
+    }
+
+    /// What is at an offset, and its description.
+    fn card_at(&self, offset: usize) -> Option<(Span, String)> {
+        Some(match self.at(offset)? {
             At::Tag { shape, part } => (
                 self.drawing().shapes[shape].element.span,
                 match self.tiles_card(shape).or_else(|| self.picture_card(shape)) {
@@ -53,8 +65,7 @@ impl Analysis {
                     ),
                 }
             }
-        };
-        Some(Hover { span, markdown })
+        })
     }
 
     fn token_card(&self, string: usize, item: Item, offset: usize) -> Option<String> {
@@ -430,8 +441,8 @@ mod tests {
     #[test]
     fn hovers_of_words_describe_them() {
         for (string, expected) in [
-            ("Rarm@Body$Sha¦pe roundv", "# Shape\n"),
-            ("Rarm@Body$Shape ro¦undv", "# Shape roundv\n"),
+            ("Rarm@Body$Sha¦pe roundv", "**Shape**\n"),
+            ("Rarm@Body$Shape ro¦undv", "**Shape roundv**\n"),
             (
                 "Rarm@Body$Shape roundv -9¦0 90",
                 "`a0` of `roundv`: where the rounding begins",
@@ -445,6 +456,11 @@ mod tests {
             ("Rarm@Bo¦dy", "**Body**"),
             ("Rarm@No¦body", "There is no part named `Nobody`."),
             ("*¦ Rarm", "is left out"),
+            (
+                "Rarm@No¦body",
+                "**E204: unknown parent**\n\nNo part of this",
+            ),
+            ("Rarm@Body$Sh¦ap round", "Correct the keyword: `Color`."),
         ] {
             let card = hover(["Body", string, "", "", "%Let w 12"]);
             assert!(

@@ -19,6 +19,7 @@ mod letters;
 mod motion;
 mod pairing;
 mod performances;
+mod problems;
 mod regions;
 mod rename;
 mod selection;

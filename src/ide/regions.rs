@@ -437,7 +437,7 @@ mod tests {
             ],
         );
         let keyword = card(&source.replace('¦', "").replacen("View", "Vi¦ew", 1));
-        assert_has(&keyword, &["Regions: 2", "# View\n"]);
+        assert_has(&keyword, &["Regions: 2", "**View**\n"]);
         let alone = card(&source.replace("View 45 0", "View 0 0"));
         assert_has(&alone, &["**Box**", "This view is not built"]);
     }

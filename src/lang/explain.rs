@@ -96,6 +96,48 @@ pub fn code(code: Code) -> String {
     )
 }
 
+/// What a diagnostic's code means and what to do about it: its page without the example.
+pub fn code_in_short(code: Code) -> String {
+    let mut out = format!("**{}: {}**\n\n", code.id(), code.title());
+    let page = paragraphs(code.manual());
+    let mut was_empty = true;
+    for (line, _) in lines(&page).filter(|(_, fenced)| !fenced) {
+        // What was around the example is one paragraph break.
+        if !(line.is_empty() && was_empty) {
+            let _ = writeln!(out, "{line}");
+        }
+        was_empty = line.is_empty();
+    }
+    out
+}
+
+/// A page for a small window: headings are bold lines.
+pub fn without_headings(page: &str) -> String {
+    let mut out = String::new();
+    for (line, fenced) in lines(page) {
+        let heading = line.trim_start_matches('#').strip_prefix(' ');
+        let _ = match heading.filter(|_| !fenced && line.starts_with('#')) {
+            // A heading ends the paragraph before it, a bold line does not.
+            Some(heading) if !out.is_empty() && !out.ends_with("\n\n") => {
+                writeln!(out, "\n**{heading}**")
+            }
+            Some(heading) => writeln!(out, "**{heading}**"),
+            None => writeln!(out, "{line}"),
+        };
+    }
+    out
+}
+
+/// The lines of a page, and whether each belongs to a fenced block of code.
+fn lines(page: &str) -> impl Iterator<Item = (&str, bool)> {
+    let mut inside = false;
+    page.lines().map(move |line| {
+        let fence = line.starts_with("```");
+        inside ^= fence;
+        (line, inside || fence)
+    })
+}
+
 /// An overview of the language.
 pub fn overview() -> String {
     let mut out = String::from("# The strings of a drawing\n\n");
@@ -192,6 +234,35 @@ mod tests {
         assert_eq!(page("nonsense"), None);
         assert!(page("ROUNDV").unwrap().contains("Shape roundv [a0 a1]"));
         assert!(page("e112").unwrap().starts_with("# E112: unexpected sign"));
+    }
+
+    #[test]
+    fn codes_in_short_have_a_cause_and_a_way_out() {
+        assert_eq!(
+            code_in_short(Code::from_id("E204").unwrap()),
+            "**E204: unknown parent**\n\nNo part of this drawing has the name after `@`.\n\n\
+             Write the parent's name exactly as in the parent's own string. Upper and lower case matter.\n"
+        );
+        for code in Code::ALL {
+            let short = code_in_short(*code);
+            assert!(
+                !short.contains("```") && !short.contains("\n\n\n"),
+                "{short}"
+            );
+            assert!(short.lines().count() > 2, "{short}");
+        }
+    }
+
+    #[test]
+    fn headings_become_bold_lines() {
+        assert_eq!(
+            without_headings("# Shape\n\n```\n# a note\n```\n## More\n\n#no heading\n"),
+            "**Shape**\n\n```\n# a note\n```\n\n**More**\n\n#no heading\n"
+        );
+        for word in topics() {
+            let page = without_headings(&page(word).unwrap());
+            assert!(page.starts_with("**") && page.ends_with('\n'), "{page}");
+        }
     }
 
     #[test]

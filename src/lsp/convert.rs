@@ -15,6 +15,7 @@ use super::manual::Pages;
 use super::positions::Positions;
 use crate::diagnostic::{Code, Edit, Severity};
 use crate::ide::{self, ProposalKind, TokenClass};
+use crate::lang::explain;
 use crate::source::Span;
 
 /// The source that diagnostics name.
@@ -235,7 +236,7 @@ pub(super) fn proposal(
 pub(super) fn page(item: &CompletionItem) -> Option<Documentation> {
     let page = item.data.as_ref()?.as_str()?;
     Some(Documentation::MarkupContent(markdown(
-        crate::lang::explain::page(page)?,
+        explain::without_headings(&explain::page(page)?),
     )))
 }
 

@@ -6,6 +6,7 @@ use std::time::SystemTime;
 
 use rustc_hash::FxBuildHasher;
 
+use super::source::Source;
 use super::{Build, BuildTimes, NoModel, Options};
 use crate::compile::{self, Compiled, Compiler};
 use crate::disk::{FolderResolver, ReadError, decode, read_drawing};
@@ -16,7 +17,7 @@ use crate::resolver::{Dependency, Recorder};
 /// A drawing with the caches that make its next build incremental.
 #[derive(Debug)]
 pub struct Drawing {
-    path: PathBuf,
+    source: Source,
     options: compile::Options,
     resolver: FolderResolver,
     compiler: Compiler,
@@ -51,7 +52,7 @@ impl Drawing {
     pub fn new(path: &Path, options: &Options) -> Self {
         let folder = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         Self {
-            path: path.to_owned(),
+            source: Source::new(path, options.unsaved.as_deref()),
             options: compile::Options {
                 tolerance: options.tolerance,
             },
@@ -66,7 +67,12 @@ impl Drawing {
 
     /// Its file.
     pub fn path(&self) -> &Path {
-        &self.path
+        self.source.saved()
+    }
+
+    /// Its file, and the copy with unsaved changes, if there is one.
+    pub(super) fn files(&self) -> impl Iterator<Item = &Path> {
+        self.source.files()
     }
 
     /// The files that it links to, including missing ones.
@@ -81,7 +87,7 @@ impl Drawing {
     /// If its file cannot be read.
     pub fn build(&mut self, noticed: SystemTime, is_final: bool) -> Result<Outcome, ReadError> {
         let started = SystemTime::now();
-        let bytes = read_drawing(&self.path)?;
+        let bytes = read_drawing(self.source.newest())?;
         let drawing = FxBuildHasher.hash_one(&bytes);
         if self.is_unchanged(drawing) {
             return Ok(Outcome::Unchanged);

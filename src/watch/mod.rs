@@ -4,6 +4,7 @@
 //! may come back. A drawing is built once per save, and only if it or a linked file differs from before.
 
 mod drawing;
+mod source;
 mod watcher;
 
 use std::path::{Path, PathBuf};
@@ -24,6 +25,9 @@ pub struct Options {
     pub base: Option<PathBuf>,
     /// A folder that linked files may be in, besides the drawing's.
     pub root: Option<PathBuf>,
+    /// A copy of the drawing with changes that are not saved yet, for one drawing: of the two files, the one that was written
+    /// last is built, at first the copy.
+    pub unsaved: Option<PathBuf>,
     /// See [`TOLERANCE`].
     pub tolerance: f64,
     /// How changes are noticed.
@@ -37,6 +41,7 @@ impl Default for Options {
         Self {
             base: None,
             root: None,
+            unsaved: None,
             tolerance: TOLERANCE,
             detection: ChangeDetection::default(),
             shows_incomplete: false,

@@ -123,11 +123,14 @@ impl Watcher {
     fn add(&mut self, path: &Path, due: Due) {
         let key = event_path(path);
         let options = &self.options;
-        self.drawings.entry(key).or_insert_with(|| Watched {
-            drawing: Drawing::new(path, options),
-            files: event_paths(path),
-            due: Some(due),
-            failure: None,
+        self.drawings.entry(key).or_insert_with(|| {
+            let drawing = Drawing::new(path, options);
+            Watched {
+                files: drawing.files().flat_map(event_paths).collect(),
+                drawing,
+                due: Some(due),
+                failure: None,
+            }
         });
     }
 
@@ -220,7 +223,7 @@ impl Watched {
             Ok(Outcome::Built(build)) => {
                 self.failure = None;
                 let linked = self.drawing.linked();
-                let files = linked.chain([self.drawing.path().to_owned()]);
+                let files = linked.chain(self.drawing.files().map(Path::to_owned));
                 self.files = files.flat_map(|file| event_paths(&file)).collect();
                 report(Event::Built(self.drawing.path(), &build));
                 return;

@@ -3,10 +3,11 @@
 import re
 
 from okoshi_drawing import Drawing
-from okoshi_findings import format_findings, plural
+from okoshi_findings import format_findings, plural, read_findings
 from okoshi_previews import Failed, show, stop_all
 from okoshi_program import Missing, find, run
 from okoshi_messages import show_message
+from okoshi_report import make_report, show_report
 
 import inkex
 
@@ -32,29 +33,28 @@ class Entry(inkex.EffectExtension):
 
 
 class Check(Entry):
-    """Shows all diagnostics, or the number of parts and strings if there are no errors."""
+    """Shows all diagnostics, and the number of parts and strings if there are no errors."""
 
     def do(self):
         drawing = Drawing(self.options.input_file)
         with drawing.in_folder() as (folder, reading):
             status, output, errors = run(["check"] + reading, folder)
             text = output + errors
-            found = format_findings(run(["check", "--format", "json"] + reading, folder)[1], drawing.data)
+            found = read_findings(run(["check", "--format", "json"] + reading, folder)[1], drawing.data)
             if status != 0:
                 advice = drawing.advice(text)
-                show_message((text if found is None else found + "\n") + advice, text + advice)
+                if found is None or not show_report(drawing, make_report(drawing, found, note=advice)):
+                    show_message((text if found is None else format_findings(found) + "\n") + advice, text + advice)
                 return
             status, output, errors = run(["build", "--stats", "-q", "-o", "model.glb"] + reading, folder)
         counted = output + errors
         parts, strings = (re.search(r"^\s*%s\s+(\d+)\s*$" % what, counted, re.M) for what in ("parts", "strings"))
         if status != 0 or parts is None or strings is None:
             raise Failed("okoshi did not report the number of parts and strings:\n\n" + counted)
-        verdict = "%s: %s, %s" % (
-            "no errors" if re.search(r"^warning\[", text, re.M) else "no problems",
-            plural(parts.group(1), "part"),
-            plural(strings.group(1), "string"),
-        )
-        show_message("\n\n".join([found, verdict]) if found else verdict, text + verdict)
+        counts = "%s, %s" % (plural(parts.group(1), "part"), plural(strings.group(1), "string"))
+        if found is None or not show_report(drawing, make_report(drawing, found, counts)):
+            verdict = "%s: %s" % ("no errors" if re.search(r"^warning\[", text, re.M) else "no problems", counts)
+            show_message("\n\n".join([format_findings(found), verdict]) if found else verdict, text + verdict)
 
 
 class Preview(Entry):

@@ -4,7 +4,7 @@ import os
 import sys
 
 from okoshi_drawing import Drawing
-from okoshi_findings import format_findings
+from okoshi_findings import format_findings, read_findings
 from okoshi_program import Missing, run
 from okoshi_messages import show_message
 
@@ -30,9 +30,9 @@ class Export(inkex.OutputExtension):
                 model = "model." + self.ending
                 status, _, errors = run(["build", "-o", model] + reading, folder)
                 if status != 0:
-                    found = format_findings(run(["check", "--format", "json"] + reading, folder)[1], drawing.data)
+                    found = read_findings(run(["check", "--format", "json"] + reading, folder)[1], drawing.data)
                     advice = drawing.advice(errors)
-                    show_message((errors if found is None else found + "\n\nnothing was written\n") + advice, errors + advice)
+                    show_message((errors if found is None else format_findings(found) + "\n\nnothing was written\n") + advice, errors + advice)
                     sys.exit(1)
                 with open(os.path.join(folder, model), "rb") as file:
                     content = file.read()

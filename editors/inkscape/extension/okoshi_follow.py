@@ -1,4 +1,4 @@
-"""Runs `okoshi preview` on a copy of a drawing, and updates the copy when the drawing is saved.
+"""Runs `okoshi preview` for a drawing: of its own file and of a copy of the canvas, it shows the one that was written last.
 
 Arguments: program, copy, original (may be empty), root of links, folder of the preview, port. It exits with the server, when the
 file `stop` appears in the folder, or when nothing was shown or saved for half a day; then it removes the copy.
@@ -14,43 +14,9 @@ import time
 from okoshi_previews import STATE, STOP, lock, remove, write_atomic
 from okoshi_program import CREATE_NO_WINDOW, environment
 
-# In seconds: the interval between polls, and the time until an unused server is stopped.
+# In seconds: how often is looked whether the server is still wanted, and the time until an unused server is stopped.
 PAUSE = 0.25
 IDLE = 12 * 60 * 60
-
-
-def stamp(path):
-    """Changes whenever a file does; None if it is missing."""
-    try:
-        status = os.stat(path)
-    except OSError:
-        return None
-    return status.st_mtime_ns, status.st_size
-
-
-class Follower:
-    """Copies a drawing that was saved once it is unchanged between two polls: Inkscape writes in place, in pieces."""
-
-    def __init__(self, original, copy):
-        self.original = original
-        self.copy = copy
-        self.taken = self.seen = stamp(original)
-
-    def poll(self):
-        """Copies the drawing if it changed and has settled."""
-        now = stamp(self.original)
-        settled, self.seen = now == self.seen, now
-        if now is None or now == self.taken or not settled or now[1] == 0:
-            return
-        try:
-            with open(self.original, "rb") as file:
-                data = file.read()
-        except OSError:
-            return
-        # If it was written to while it was read, the next poll copies it.
-        if stamp(self.original) == now:
-            write_atomic(self.copy, data)
-            self.taken = now
 
 
 def take_lock(folder):
@@ -63,18 +29,33 @@ def take_lock(folder):
     return None
 
 
-def run_until_stopped(server, follower, folder, copy):
+def preview_command(program, copy, original, root, port):
+    """The command of the server. The copy alone is shown if the drawing was never saved."""
+    if original:
+        shown = [original, "--unsaved", copy]
+    else:
+        shown = [copy, "--base", root]
+    return [program, "--color", "never", "preview"] + shown + ["--port", port]
+
+
+def last_written(copy, original):
+    """When the copy or the original was written last, in seconds. Raises `OSError` if there is no copy."""
+    times = [os.stat(copy).st_mtime]
+    if original and os.path.exists(original):
+        times.append(os.stat(original).st_mtime)
+    return max(times)
+
+
+def run_until_stopped(server, folder, copy, original):
     """Waits until the server exits or should be stopped."""
     while server.poll() is None:
         if os.path.exists(os.path.join(folder, STOP)):
             return
         try:
-            if time.time() - os.stat(copy).st_mtime > IDLE:
+            if time.time() - last_written(copy, original) > IDLE:
                 return
         except OSError:
             return
-        if follower is not None:
-            follower.poll()
         time.sleep(PAUSE)
 
 
@@ -85,22 +66,20 @@ def main(program, copy, original, root, folder, port):
         # Another process serves the same drawing already.
         return
     state = {"pid": os.getpid(), "port": int(port), "copy": copy}
-    follower = Follower(original, copy) if original else None
-    command = [program, "--color", "never", "preview", copy, "--base", root, "--port", port]
     server = None
     try:
         for name in ("SIGTERM", "SIGHUP"):
             if hasattr(signal, name):
                 signal.signal(getattr(signal, name), lambda *_: sys.exit(0))
         server = subprocess.Popen(
-            command,
+            preview_command(program, copy, original, root, port),
             cwd=folder,
             env=environment(),
             stdin=subprocess.DEVNULL,
             creationflags=CREATE_NO_WINDOW if sys.platform == "win32" else 0,
         )
         write_atomic(os.path.join(folder, STATE), json.dumps(state).encode())
-        run_until_stopped(server, follower, folder, copy)
+        run_until_stopped(server, folder, copy, original)
     finally:
         if server is not None and server.poll() is None:
             server.terminate()

@@ -1,8 +1,8 @@
 """The servers of *Preview in 3D*: one for each drawing, each with a folder in the user's cache.
 
-The folder contains a copy of the drawing, which the server watches, `server.json` with process, port and copy, and `lock`, which
-the process that runs the server (`okoshi_follow`) holds. The lock, not a process id, shows whether a server is running: the system
-releases it however the process ends, while process ids are reused.
+The folder contains a copy of the canvas, which the server watches beside the drawing itself, `server.json` with process, port and
+copy, and `lock`, which the process that runs the server (`okoshi_follow`) holds. The lock, not a process id, shows whether a server is
+running: the system releases it however the process ends, while process ids are reused.
 """
 
 import hashlib
@@ -45,9 +45,9 @@ def folder_of(drawing):
     return os.path.join(cache(), hashlib.sha256(place.encode("utf-8", "surrogatepass")).hexdigest()[:16])
 
 
-def lock(folder):
-    """Takes the folder's lock. Returns the open file, which holds the lock, or None if another process has it."""
-    file = open(os.path.join(folder, LOCK), "a+b")
+def lock(folder, name=LOCK):
+    """Takes a lock of the folder. Returns the open file, which holds the lock, or None if another process has it."""
+    file = open(os.path.join(folder, name), "a+b")
     try:
         if sys.platform == "win32":
             import msvcrt
@@ -66,9 +66,14 @@ def lock(folder):
 
 def is_running(folder):
     """Whether a server is running for this folder."""
+    return is_locked(folder, LOCK)
+
+
+def is_locked(folder, name):
+    """Whether a process holds a lock of the folder."""
     if not os.path.isdir(folder):
         return False
-    taken = lock(folder)
+    taken = lock(folder, name)
     if taken is not None:
         taken.close()
     return taken is None
@@ -141,7 +146,7 @@ def wait(folder):
             break
         time.sleep(0.05)
     output = log_of(folder)
-    if "unrecognized subcommand" in output:
+    if "unrecognized subcommand" in output or "unexpected argument '--unsaved'" in output:
         raise Failed("This okoshi is too old to preview: install a newer one.\n\n" + output)
     raise Failed("The preview could not be started.\n\n" + (output or "There was no output."))
 

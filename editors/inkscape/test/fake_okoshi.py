@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Stands in for an okoshi that has no `preview` yet: serves the drawing that it is given; all else is REAL_OKOSHI's.
+"""Stands in for okoshi: serves the drawing that it is given, or its unsaved copy if that was written later; all else is REAL_OKOSHI's.
 
 Every start of a preview is written to the file FAKE_LOG, with its arguments.
 """
@@ -20,10 +20,13 @@ if os.environ.get("FAKE_FAILS"):
 
 
 class Page(http.server.BaseHTTPRequestHandler):
-    """The drawing, as it lies there now."""
+    """The drawing, as it is now."""
 
     def do_GET(self):
-        with open(arguments[1], "rb") as file:
+        files = [arguments[1]]
+        if "--unsaved" in arguments:
+            files.append(arguments[arguments.index("--unsaved") + 1])
+        with open(max(files, key=lambda path: os.stat(path).st_mtime_ns), "rb") as file:
             data = file.read()
         self.send_response(200)
         self.end_headers()

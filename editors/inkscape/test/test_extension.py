@@ -24,6 +24,7 @@ import okoshi_findings
 import okoshi_follow
 import okoshi_previews
 import okoshi_program
+import okoshi_report
 
 try:
     import inkex
@@ -200,7 +201,7 @@ class Findings(unittest.TestCase):
             self.finding(data.index("Ärm".encode("utf-8")), "warning", "W101"),
         ]
         self.assertEqual(
-            okoshi_findings.format_findings(self.answer(*findings), data),
+            okoshi_findings.format_findings(okoshi_findings.read_findings(self.answer(*findings), data)),
             "error[E204]: hm\n    in the string: A@B & x\n    of the object: t\n    did you mean `C`?\n    help: write it alike\n\n"
             "warning[W101]: hm\n    in the string: Ärm\n    of the object: p\n\n"
             "hint[H402]: hm\n    of the object: p\n\n"
@@ -208,14 +209,52 @@ class Findings(unittest.TestCase):
         )
 
     def test_many_are_cut_short(self):
-        said = okoshi_findings.format_findings(self.answer(*[self.finding(0)] * 70), b"<svg/>")
+        said = okoshi_findings.format_findings(okoshi_findings.read_findings(self.answer(*[self.finding(0)] * 70), b"<svg/>"))
         self.assertEqual(said.count("E204"), okoshi_findings.MAX_FINDINGS)
         self.assertIn("… and 20 more\n\n70 errors", said)
 
     def test_what_is_no_answer_is_told(self):
         for answer in ("", "error: no", "{}", "[]", self.answer({})):
-            self.assertIsNone(okoshi_findings.format_findings(answer, b"<svg/>"), answer)
-        self.assertEqual(okoshi_findings.format_findings(self.answer(self.finding(3)), b"<svg"), "error[E204]: hm\n\n1 error")
+            self.assertIsNone(okoshi_findings.read_findings(answer, b"<svg/>"), answer)
+        found = okoshi_findings.read_findings(self.answer(self.finding(3)), b"<svg")
+        self.assertEqual(okoshi_findings.format_findings(found), "error[E204]: hm\n\n1 error")
+
+
+class Reports(Folder):
+    """What the window shows, and where there can be none."""
+
+    def setUp(self):
+        super().setUp()
+        self.drawing = okoshi_drawing.Drawing(self.write("tmp/ink_ext.svg", SVG % ""), os.path.join(self.folder, "car.svg"))
+        where = mock.patch.object(okoshi_report, "folder_of", lambda _: os.path.join(self.folder, "cache"))
+        where.start()
+        self.addCleanup(where.stop)
+
+    def report(self, *severities):
+        return okoshi_report.make_report(self.drawing, [{"severity": one} for one in severities], "3 parts", "\nhm\n")
+
+    def test_the_headline_says_how_many_there_are(self):
+        self.assertEqual(self.report("error", "hint", "error")["headline"], "2 errors, 1 hint in car.svg")
+        report = self.report()
+        self.assertEqual([report[one] for one in ("headline", "detail", "note")], ["No problems in car.svg", "3 parts", "hm"])
+
+    @unittest.skipUnless(sys.platform.startswith("linux"), "screens have no names there")
+    def test_without_a_screen_there_is_no_window(self):
+        with mock.patch.dict(os.environ, {"DISPLAY": "", "WAYLAND_DISPLAY": ""}):
+            self.assertFalse(okoshi_report.show_report(self.drawing, self.report()))
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "cache")))
+        with mock.patch.dict(os.environ, {"DISPLAY": ":9999", "WAYLAND_DISPLAY": ""}):
+            self.assertFalse(okoshi_report.show_report(self.drawing, self.report()))
+
+    def test_an_open_window_gets_the_new_report(self):
+        cache = os.path.join(self.folder, "cache")
+        os.mkdir(cache)
+        held = okoshi_previews.lock(cache, okoshi_report.WINDOW_LOCK)
+        self.addCleanup(held.close)
+        with mock.patch.dict(os.environ, {"DISPLAY": ":9999"}):
+            self.assertTrue(okoshi_report.show_report(self.drawing, self.report("hint")))
+        with open(os.path.join(cache, okoshi_report.REPORT), encoding="utf-8") as file:
+            self.assertEqual(json.load(file), self.report("hint"))
 
 
 @unittest.skipIf(sys.platform == "win32", "the stand-in is a script")
@@ -292,11 +331,12 @@ class Previews(Folder):
         self.assertNotEqual(self.lines(self.opened, 3)[2], pages[0])
         calls = [line.split("\t") for line in self.lines(self.calls, 2)]
         self.assertEqual(len(calls), 2)
-        self.assertEqual(calls[0][2:4], ["--base", self.folder])
-        self.assertEqual(os.path.basename(calls[0][1]), "Mensch.svg")
+        self.assertEqual(calls[0][1:3], [os.path.join(self.folder, "Mensch.svg"), "--unsaved"])
+        self.assertEqual(os.path.basename(calls[0][3]), "Mensch.svg")
         self.assertEqual(okoshi_previews.stop_all(), 2)
         self.assertEqual(okoshi_previews.stop_all(), 0)
-        self.assertFalse(os.path.exists(calls[0][1]))
+        self.assertFalse(os.path.exists(calls[0][3]))
+        self.assertTrue(os.path.exists(calls[0][1]))
         with self.assertRaises(OSError):
             urllib.request.urlopen(pages[0], timeout=2)
 
@@ -320,10 +360,11 @@ class Previews(Folder):
         self.assertIn("the fake fails, as it was told", str(caught.exception))
 
     def test_an_old_okoshi_is_told(self):
-        old = self.write("old", "#!/bin/sh\necho \"error: unrecognized subcommand 'preview'\" >&2; exit 2\n", executable=True)
-        with self.assertRaises(okoshi_previews.Failed) as caught:
-            okoshi_previews.show(old, self.drawing("x"))
-        self.assertIn("too old", str(caught.exception))
+        for number, said in enumerate(("unrecognized subcommand 'preview'", "unexpected argument '--unsaved' found")):
+            old = self.write("old%d" % number, '#!/bin/sh\necho "error: %s" >&2; exit 2\n' % said, executable=True)
+            with self.assertRaises(okoshi_previews.Failed) as caught:
+                okoshi_previews.show(old, self.drawing("x"))
+            self.assertIn("too old", str(caught.exception))
 
     def test_without_a_browser_the_address_is_given(self):
         with mock.patch("webbrowser.get", side_effect=okoshi_previews.webbrowser.Error):
@@ -338,27 +379,22 @@ class Previews(Folder):
 
 
 class Follow(Folder):
-    def test_a_file_is_taken_when_it_has_settled(self):
-        original = self.write("a.svg", "one")
-        copy = self.write("copy.svg", "canvas")
-        follower = okoshi_follow.Follower(original, copy)
+    def test_the_drawing_is_followed_and_its_copy_too(self):
+        command = okoshi_follow.preview_command("okoshi", "/cache/a.svg", "/here/a.svg", "/here", "80")
+        self.assertEqual(command[3:], ["preview", "/here/a.svg", "--unsaved", "/cache/a.svg", "--port", "80"])
+        command = okoshi_follow.preview_command("okoshi", "/cache/a.svg", "", "/links", "80")
+        self.assertEqual(command[3:], ["preview", "/cache/a.svg", "--base", "/links", "--port", "80"])
 
-        def poll():
-            follower.poll()
-            with open(copy, encoding="utf-8") as file:
-                return file.read()
-
-        self.assertEqual(poll(), "canvas")
-        # As Inkscape saves: cut to nothing, then in pieces.
-        self.write("a.svg", "")
-        self.assertEqual((poll(), poll(), poll()), ("canvas",) * 3)
-        self.write("a.svg", "two, and")
-        self.assertEqual(poll(), "canvas")
-        self.write("a.svg", "two, and more")
-        self.assertEqual(poll(), "canvas")
-        self.assertEqual(poll(), "two, and more")
+    def test_a_save_keeps_the_preview_alive(self):
+        copy, original = self.write("copy.svg"), self.write("a.svg")
+        os.utime(copy, (50, 50))
+        os.utime(original, (90, 90))
+        self.assertEqual(okoshi_follow.last_written(copy, original), 90)
         os.remove(original)
-        self.assertEqual((poll(), poll()), ("two, and more",) * 2)
+        self.assertEqual(okoshi_follow.last_written(copy, original), 50)
+        self.assertEqual(okoshi_follow.last_written(copy, ""), 50)
+        os.remove(copy)
+        self.assertRaises(OSError, okoshi_follow.last_written, copy, "")
 
 
 class Descriptions(unittest.TestCase):
@@ -388,7 +424,8 @@ class Scripts(Folder):
     def call(self, script, okoshi, *arguments):
         program = self.write("okoshi", "#!/bin/sh\n" + okoshi, executable=True)
         copy = self.write("tmp/ink_ext.svg", SVG % "")
-        environ = dict(os.environ, OKOSHI=program, DOCUMENT_PATH=os.path.join(self.folder, "Mensch.svg"))
+        # Without a screen, so that no window is opened.
+        environ = dict(os.environ, OKOSHI=program, DOCUMENT_PATH=os.path.join(self.folder, "Mensch.svg"), DISPLAY="", WAYLAND_DISPLAY="")
         process = subprocess.Popen(
             [sys.executable, os.path.join(EXTENSION, script), *arguments, copy],
             env=environ,

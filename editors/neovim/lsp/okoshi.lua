@@ -1,13 +1,34 @@
 -- The configuration of okoshi's language server. Neovim 0.11 and newer finds this file as `lsp/okoshi.lua` on the runtime path;
 -- `vim.lsp.config('okoshi', { … })` overrides it. plugin/okoshi.lua loads it in older versions.
 
+-- Opens the preview page in the browser, and tells its address if none opens.
+local function open_page(address)
+  local function tell()
+    vim.notify('the preview is at ' .. address)
+  end
+  local opener = vim.ui.open and vim.ui.open(address)
+  if not opener then
+    return tell()
+  end
+  -- Without a browser, programs such as xdg-open fail after a moment. Those that open one may run as long as it does.
+  local looks = 0
+  local function look()
+    looks = looks + 1
+    if not opener:is_closing() then
+      if looks < 100 then
+        vim.defer_fn(look, 50)
+      end
+    elseif opener:wait().code ~= 0 then
+      tell()
+    end
+  end
+  look()
+end
+
 -- Opens the preview page in the browser, and the strings of parts picked on it in Neovim.
 local function show_document(problem, params, context, config)
   if params.uri:match('^http://') then
-    local opened = vim.ui.open and vim.ui.open(params.uri)
-    if not opened then
-      vim.notify('the preview is at ' .. params.uri)
-    end
+    open_page(params.uri)
     return { success = true }
   end
   local default = vim.lsp.handlers['window/showDocument']

@@ -85,7 +85,11 @@ return {
       if open then
         vim.ui.open = function(address)
           table.insert(told, 'the preview is at ' .. address)
-          return { wait = function() return { code = 0 } end }
+          return {
+            is_closing = function()
+              return false
+            end,
+          }
         end
       end
       for _, follow in ipairs({ vim.lsp.codelens.run, function() vim.cmd('OkoshiPreview') end }) do
@@ -104,6 +108,42 @@ return {
       vim.notify, vim.lsp.handlers['window/showMessage'] = notify, message
       vim.ui.open = open
     end,
+  },
+  {
+    'where no browser opens, the address of the page is told',
+    function()
+      h.open(h.example('human.svg'))
+      local told = {}
+      local notify, path = vim.notify, vim.env.PATH
+      vim.notify = function(words)
+        table.insert(told, words)
+      end
+      local folder = vim.fn.tempname()
+      vim.fn.mkdir(folder, 'p')
+      vim.env.PATH = folder .. ':' .. path
+      for _, status in ipairs({ 0, 3 }) do
+        told = {}
+        local opener, opened = folder .. '/xdg-open', folder .. '/opened-' .. status
+        vim.fn.writefile({ '#!/bin/sh', 'sleep 0.2', 'echo "$1" > ' .. opened, 'exit ' .. status }, opener)
+        vim.fn.setfperm(opener, 'rwxr-xr-x')
+        vim.cmd('OkoshiPreview')
+        h.wait('the opener was called', function()
+          return vim.fn.filereadable(opened) == 1 and #vim.fn.readfile(opened) == 1
+        end)
+        local address = vim.fn.readfile(opened)[1]
+        if status == 0 then
+          vim.wait(500)
+          h.equal(told, {}, 'what is told though a browser opened')
+        else
+          h.wait('the address is told', function()
+            return #told > 0
+          end)
+          h.equal(told, { 'the preview is at ' .. address })
+        end
+      end
+      vim.notify, vim.env.PATH = notify, path
+    end,
+    needs = 'nvim-0.10',
   },
   {
     'a command that there is not is refused',

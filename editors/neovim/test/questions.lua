@@ -126,8 +126,8 @@ return {
         { 0, 'Rarm', '**Rarm**\n\nRoot › Ubody › **Rarm**' },
         { 0, 'Rarm', '- Shape `roundv -90 90`, from its own string' },
         { 6, 'Ubody', 'Attached parts: `Rarm`, `Larm`, `Head`.' },
-        { 12, 'Shape', '# Shape\n\nHow the flat outline becomes a solid.' },
-        { 18, 'roundv', '# Shape roundv' },
+        { 12, 'Shape', '**Shape**\n\nHow the flat outline becomes a solid.' },
+        { 18, 'roundv', '**Shape roundv**' },
         { 25, '-90', '`a0` of `roundv`: where the rounding begins' },
       }) do
         local hover = h.ask_at('textDocument/hover', arm, case[1])
@@ -153,7 +153,7 @@ return {
       h.equal(vim.list_slice(labels(kinds), 1, 6), { '-s', '-c', '-d', 'default', 'roundv', 'roundh' })
       h.equal(kinds[5].detail, 'rounded about the part\'s axis: an arm, a leg, a trunk')
       local resolved = h.ask('completionItem/resolve', kinds[5])
-      h.holds(resolved.documentation.value, '# Shape roundv')
+      h.holds(resolved.documentation.value, '**Shape roundv**')
       h.equal(h.ask_at('textDocument/completion', 'viewBox', 2), nil, 'completion outside of strings')
     end,
   },

@@ -2,6 +2,7 @@
 
 import * as vscode from "vscode";
 import { register } from "./commands";
+import { Formatting } from "./formatting";
 import { Previews } from "./preview/panels";
 import { isDrawingDocument, Server } from "./server";
 import { Status } from "./status";
@@ -17,6 +18,7 @@ export function activate(context: vscode.ExtensionContext): void {
     output,
     started,
     new Status(started),
+    new Formatting(started),
     previews,
     vscode.workspace.onDidChangeConfiguration((event) => started.settingsChanged(event)),
     vscode.workspace.onDidOpenTextDocument((document) => {

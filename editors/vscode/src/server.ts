@@ -200,6 +200,7 @@ export class Server implements vscode.Disposable {
     );
     client.registerFeature(pushOnly);
     client.registerFeature(ownPreview);
+    client.registerFeature(ownFormatting);
     client.onNotification(PREVIEW_NOTIFICATION, (params: unknown) => {
       const read = readNotification(params);
       if (read) this.previewMessages.fire({ uri: client.protocol2CodeConverter.asUri(read.uri), messages: read.messages });
@@ -280,6 +281,18 @@ const ownPreview: StaticFeature = {
   preInitialize: ({ executeCommandProvider }) => {
     if (!executeCommandProvider) return;
     executeCommandProvider.commands = executeCommandProvider.commands.filter((command) => command !== "okoshi.preview");
+  },
+  initialize: () => {},
+  getState: () => ({ kind: "static" }),
+  clear: () => {},
+};
+
+/** Keeps the library from registering formatting for all SVG files: `Formatting` does so for those with strings. */
+const ownFormatting: StaticFeature = {
+  fillClientCapabilities: () => {},
+  preInitialize: (capabilities) => {
+    delete capabilities.documentFormattingProvider;
+    delete capabilities.documentRangeFormattingProvider;
   },
   initialize: () => {},
   getState: () => ({ kind: "static" }),

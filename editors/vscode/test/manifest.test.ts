@@ -39,6 +39,16 @@ test("no language is contributed, and only XML and its own panel activate the ex
   assert.deepEqual(manifest.activationEvents, ["onLanguage:xml", "onLanguage:svg", "onWebviewPanel:okoshi.preview"]);
 });
 
+test("keys are told for macOS too", () => {
+  for (const { key, mac } of manifest.contributes.keybindings) assert.equal(mac, key.replaceAll("ctrl", "cmd"));
+  const texts = ["README.md", "package.json", "walkthrough/install.md", "walkthrough/string.md", "../../docs/editors/vscode.md"];
+  for (const file of texts) {
+    for (const line of readFileSync(file, "utf8").split("\n")) {
+      if (/\b(Ctrl|Alt)\+/.test(line)) assert.match(line, /[⌘⌃⌥]/, `${file}: ${line}`);
+    }
+  }
+});
+
 /** A snippet as inserted without changes. */
 const insert = (body: readonly string[]) =>
   body

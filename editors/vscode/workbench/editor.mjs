@@ -1,6 +1,7 @@
 // Drives the editor in the browser like a user: with keys, and by what is visible.
 
-const PATIENCE = 15_000;
+/** The limit of every wait, in milliseconds, for machines that do other work too. */
+const PATIENCE = 60_000;
 
 export class Editor {
   constructor(page) {
@@ -53,6 +54,29 @@ export class Editor {
     await this.press("Enter");
     await this.page.locator(".quick-input-widget").waitFor({ state: "hidden", timeout: PATIENCE });
     await this.page.waitForTimeout(150);
+  }
+
+  /** Opens the hover at the cursor, until it has a text. Returns its locator. */
+  async hover(text) {
+    const found = this.page.locator(".monaco-hover-content", { hasText: text }).first();
+    await this.until(`a hover with ${text}`, async () => {
+      await this.press("Escape");
+      await this.press("Control+k");
+      await this.press("Control+i");
+      return found.waitFor({ state: "visible", timeout: 3000 }).then(() => true, () => false);
+    });
+    return found;
+  }
+
+  /** Waits for a proposal while something is typed; asks for it where the list was not opened or is closed. Returns its row. */
+  async proposal(text) {
+    const row = this.page.locator(".suggest-widget .monaco-list-row", { hasText: text }).first();
+    await this.until(`a proposal ${text}`, async () => {
+      if (await row.waitFor({ state: "visible", timeout: 3000 }).then(() => true, () => false)) return true;
+      await this.press("Control+Space");
+      return false;
+    });
+    return row;
   }
 
   /** The visible lines as text, including inlay hints without their padding. */

@@ -13,7 +13,7 @@ import { fileURLToPath } from "node:url";
 import { pack } from "../scripts/package.mjs";
 import { Editor } from "./editor.mjs";
 import { withServer } from "./steps.mjs";
-import { codeServer, tools } from "./tools.mjs";
+import { codeServer, run, tools } from "./tools.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const extension = join(here, "..");
@@ -62,9 +62,10 @@ const settings = (path, more = {}) => {
 
 write(join(data, "User", "settings.json"), SETTINGS);
 pack(join(room, "okoshi.vsix"));
+run(join(extension, "node_modules", ".bin", "vsce"), ["package", "--no-dependencies", "--allow-missing-repository", "--skip-license", "-o", join(room, "neighbour.vsix")], { cwd: join(here, "neighbour") });
 const found = await tools(room);
 settings("okoshi-that-is-not-there");
-const server = await codeServer(found, { vsix: join(room, "okoshi.vsix"), data, extensions: join(room, "extensions"), env: { HOME: room } });
+const server = await codeServer(found, { packages: ["okoshi", "neighbour"].map((name) => join(room, `${name}.vsix`)), data, extensions: join(room, "extensions"), env: { HOME: room } });
 const browser = await found.chromium.launch({
   executablePath: found.browser,
   // WebGL in software, which works on every machine.
@@ -79,11 +80,16 @@ const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, dev
 const editor = new Editor(page);
 
 try {
-  /** Opens a drawing in a new window, and waits until it can be edited. */
-  const open = async (name) => {
+  /** The address of a window with a drawing. */
+  const address = (name) => {
     const uri = `vscode-remote://${server.address}${join(project, name)}`;
     const payload = encodeURIComponent(JSON.stringify([["openFile", uri]]));
-    await page.goto(`http://${server.address}/?folder=${encodeURIComponent(project)}&payload=${payload}`);
+    return `http://${server.address}/?folder=${encodeURIComponent(project)}&payload=${payload}`;
+  };
+
+  /** Opens a drawing in a new window, and waits until it can be edited. */
+  const open = async (name) => {
+    await page.goto(address(name));
     await editor.see(".editor-instance .view-line span", "svg");
     // With the keyboard: the window may still be moving under a click.
     await editor.until("the drawing to have the keyboard", async () => {
@@ -136,8 +142,11 @@ try {
   await step("the output says where it was looked for", async () => {
     // The window is up by then; a panel that is opened earlier may be closed again.
     await editor.see(".notifications-toasts", "was not found");
-    await editor.command("Okoshi: Show Output");
-    await editor.see(".output-view-container .view-line, .output-view .view-line", "Looked at:");
+    const lines = page.locator(".output-view-container .view-line, .output-view .view-line", { hasText: "Looked at:" }).first();
+    await editor.until("the output", async () => {
+      await editor.command("Okoshi: Show Output");
+      return lines.waitFor({ state: "visible", timeout: 5000 }).then(() => true, () => false);
+    });
     await editor.command("View: Toggle Panel Visibility");
   });
   await step("strings are coloured, tags keep their colours", async () => {
@@ -163,6 +172,26 @@ try {
   const ready = async () => configure({});
   const read = (name = "figure.svg") => readFileSync(join(project, name), "utf8");
   const reset = () => copyFileSync(join(here, "figure.svg"), join(project, "figure.svg"));
+  await step("keys are those of the system", async () => {
+    const mac = await browser.newPage({ userAgent: "Mozilla/5.0 (Macintosh; Intel Mac OS X 10_15_7) AppleWebKit/537.36 (KHTML, like Gecko) Chrome/140.0.0.0 Safari/537.36", viewport: { width: 1280, height: 800 } });
+    try {
+      await mac.goto(address("figure.svg"));
+      const apple = new Editor(mac);
+      // The extension has started by then.
+      await apple.see(".notifications-toasts", "was not found");
+      for (const [one, keys] of [[apple, ["⌘", "K", "V"]], [editor, ["Ctrl", "K", "V"]]]) {
+        await one.see(".editor-instance .view-line span", "svg");
+        await one.page.locator(".editor-instance .view-lines").first().click();
+        await one.press("F1");
+        await (await one.see(".quick-input-widget input")).fill(">Okoshi: Preview in 3D");
+        const row = await one.see(".quick-input-list .monaco-list-row", "Okoshi: Preview in 3D");
+        assert.deepEqual(await row.locator(".monaco-keybinding-key").allTextContents(), keys);
+        await one.press("Escape");
+      }
+    } finally {
+      await mac.close();
+    }
+  });
   await withServer({ editor, page, step, ready, configure, program, read, reset, open, reload, shots });
   assert.ok(number > 0, `no step is named ${process.env.ONLY}`);
 } catch (error) {

@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { neighbours } from "./neighbour.mjs";
 import { previews } from "./preview.mjs";
 
 /** Line and column, from 1, of the `at`th character of the first occurrence of a text. */
@@ -60,10 +61,7 @@ export async function withServer({ editor, page, step, ready, configure, program
   });
   await step("a hover tells of a part", async () => {
     await at("Arm@Body", 1);
-    await editor.press("Control+k");
-    await editor.press("Control+i");
-    const hover = await editor.see(".monaco-hover-content");
-    await editor.until("the hover to name the part", async () => /Arm/.test(await hover.textContent()));
+    const hover = await editor.hover("Root › Body › Arm");
     const path = await hover.textContent();
     assert.match(path, /Root › Body › Arm/);
     const listed = await hover.locator("li").allTextContents();
@@ -72,11 +70,16 @@ export async function withServer({ editor, page, step, ready, configure, program
     }
   });
   await step("a hover tells of a keyword", async () => {
-    await editor.press("Escape");
     await at("Origin start", 2);
-    await editor.press("Control+k");
-    await editor.press("Control+i");
-    await editor.see(".monaco-hover-content", "Origin");
+    const hover = await editor.hover("Origin");
+    // A bold line in place of a heading.
+    assert.equal(await hover.locator("strong", { hasText: /^Origin$/ }).count(), 1);
+    assert.equal(await hover.locator("h1, h2, h3").count(), 0);
+  });
+  await step("a hover tells the way out of an error", async () => {
+    await at(WRONG, 11);
+    const hover = await editor.hover("E101: unknown keyword");
+    assert.match(await hover.textContent(), /The marked word is not a keyword\..*Correct the keyword/s);
   });
   await step("problems are listed", async () => {
     await editor.press("Escape");
@@ -103,7 +106,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await open("hints.svg");
     // Inlay hints at the expected places, and nowhere else.
     const hints = [
-      ["<circle", "U-1@Arm"],
+      ["<circle", "hand@Arm"],
       [">Body", "Segments 8 Smooth 10"],
       ["Arm@Body$Shape roundv", "Offset 4 Segments 8 Smooth 10"],
     ];
@@ -125,7 +128,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await again();
     await at("Origin start", 12);
     await editor.type(" Seg");
-    const row = await editor.see(".suggest-widget .monaco-list-row", "Segments");
+    const row = await editor.proposal("Segments");
     await page.screenshot({ path: join(shots, "completion.png") });
     await row.waitFor();
     await editor.press("Enter");
@@ -135,7 +138,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await again();
     await at("Head@Body$Shap", 14);
     await editor.type("e con");
-    await editor.see(".suggest-widget .monaco-list-row", "conev");
+    await editor.proposal("conev");
     await editor.press("Escape");
   });
   await step("a part is renamed everywhere", async () => {
@@ -161,6 +164,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     const rest = (text) => text.split("\n").filter((line) => !line.includes("Leg@")).join("\n");
     assert.equal(rest(read()), rest(figure));
   });
+  await neighbours({ editor, page, step, again, at, saved, read, open, configure });
   await step("errors come and go while typing", async () => {
     await again();
     await at("Arm@Body", 8);
@@ -174,7 +178,7 @@ export async function withServer({ editor, page, step, ready, configure, program
     await at("<text x=\"10\"", 0);
     await editor.type("okoshi-def");
     // Emmet, which accepts any word as a tag, comes first.
-    await (await editor.see(".suggest-widget .monaco-list-row", "okoshi-defaults")).click();
+    await (await editor.proposal("okoshi-defaults")).click();
     await editor.press("Escape");
     await saved("a text for all parts", (text) => text.includes(">%Shape default -20 20 Scale 1.0</text>"));
   });

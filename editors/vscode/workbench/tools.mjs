@@ -64,10 +64,10 @@ function freePort() {
   });
 }
 
-/** Starts a code-server with the extension on a free port. `stop` ends it. */
-export async function codeServer({ node, server }, { vsix, data, extensions, env }) {
+/** Starts a code-server with extensions on a free port. `stop` ends it. */
+export async function codeServer({ node, server }, { packages, data, extensions, env }) {
   const folders = ["--user-data-dir", data, "--extensions-dir", extensions];
-  run(node, [server, ...folders, "--install-extension", vsix], { env: { ...process.env, ...env } });
+  run(node, [server, ...folders, ...packages.flatMap((vsix) => ["--install-extension", vsix])], { env: { ...process.env, ...env } });
   const port = await freePort();
   const options = ["--auth", "none", "--bind-addr", `127.0.0.1:${port}`, "--disable-telemetry", "--disable-update-check", "--disable-workspace-trust"];
   const child = spawn(node, [server, ...folders, ...options], { env: { ...process.env, ...env }, detached: true, stdio: ["ignore", "pipe", "pipe"] });

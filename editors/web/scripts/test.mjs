@@ -1,6 +1,7 @@
 // All tests: `npm test`. Checks types, bundles the page, and tests it: its modules alone, and the page in Chromium with a host of the
 // tests' own. OKOSHI is the program that builds models (default: the repository's own build), CHROMIUM the browser; without one of
-// them the browser tests are skipped with a message.
+// them the browser tests are skipped with a message. PATIENCE is the limit of every wait of the browser tests
+// in seconds, for slow machines. Takes Node 20.14 or newer.
 
 import { spawnSync } from "node:child_process";
 import { existsSync, readdirSync, rmSync } from "node:fs";
@@ -40,5 +41,7 @@ await build({
 });
 const files = readdirSync(out).sort().map((name) => join(out, name));
 const env = { ...process.env, ...(okoshi ? { OKOSHI: okoshi } : {}) };
-const { status } = spawnSync(process.execPath, ["--test", "--test-reporter=spec", ...files], { stdio: "inherit", env });
+// Files end when their tests have, whatever those left open; one that still does not end is ended after 20 minutes.
+const ending = ["--test-force-exit", `--test-timeout=${20 * 60 * 1000}`];
+const { status } = spawnSync(process.execPath, ["--test", ...ending, "--test-reporter=spec", ...files], { stdio: "inherit", env });
 process.exit(status ?? 1);

@@ -5,6 +5,7 @@ import { join } from "node:path";
 import { chromium, type Browser, type BrowserContextOptions, type Page } from "playwright-core";
 import { PNG } from "pngjs";
 import { OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
+import { PATIENCE, type Close } from "./closing";
 
 const executable = (path: string): boolean => {
   try {
@@ -24,15 +25,17 @@ export async function launch(more: readonly string[] = []): Promise<Browser> {
   if (!CHROMIUM || !existsSync(CHROMIUM)) throw new Error("there is no Chromium");
   return chromium.launch({
     executablePath: CHROMIUM,
+    timeout: PATIENCE,
     args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", ...more],
   });
 }
 
-/** Opens a page; errors, including violations of its policy, fail the test through `wrong`. */
-export async function open(browser: Browser, address: string, options: BrowserContextOptions = {}): Promise<{ page: Page; wrong: string[] }> {
+/** Opens a page, and registers its closing; errors, including violations of its policy, fail the test through `wrong`. */
+export async function open(browser: Browser, address: string, onClose: (close: Close) => void, options: BrowserContextOptions = {}): Promise<{ page: Page; wrong: string[] }> {
   const context = await browser.newContext({ viewport: { width: 1200, height: 800 }, reducedMotion: "reduce", ...options });
+  onClose(() => context.close());
+  context.setDefaultTimeout(PATIENCE);
   const page = await context.newPage();
-  page.setDefaultTimeout(20_000);
   const wrong: string[] = [];
   page.on("pageerror", (error) => wrong.push(String(error)));
   page.on("console", (message) => {

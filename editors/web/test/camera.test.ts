@@ -1,14 +1,13 @@
 // "Record a puppet" with the real program and the browser's fake camera, which films a clip whose marks are known.
 
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
 import { copyFileSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { createInterface } from "node:readline";
 import { after, test } from "node:test";
 import type { Browser, Page } from "playwright-core";
 import { CHROMIUM, launch, open, picture } from "./browser";
+import { closeAll, closing, preview, TEST_LIMIT } from "./closing";
 import { DISCS, HEIGHT, PERIOD, WIDTH, writeClip } from "./clip";
 import { FIGURE } from "./setup";
 import { readTrack, type Track } from "../src/camera/messages";
@@ -21,10 +20,7 @@ const P95 = 4;
 
 const scratch = mkdtempSync(join(tmpdir(), "okoshi-camera-"));
 let filming: Promise<Browser> | undefined;
-after(async () => {
-  await (await filming)?.close();
-  rmSync(scratch, { recursive: true });
-});
+after(() => closeAll([() => rmSync(scratch, { recursive: true }), async () => (await filming)?.close()]));
 
 function film(): Promise<Browser> {
   return (filming ??= (async () => {
@@ -35,21 +31,16 @@ function film(): Promise<Browser> {
 }
 
 /** A test of the page of `okoshi preview`, whose camera films the clip. */
-function camera(name: string, run: (page: Page, program: { stop(): void }) => Promise<void>, options: Parameters<typeof open>[2] = {}): void {
-  test(name, { skip, timeout: 120_000 }, async () => {
+function camera(name: string, run: (page: Page, program: { stop(): void }) => Promise<void>, options: Parameters<typeof open>[3] = {}): void {
+  test(name, { skip, timeout: TEST_LIMIT }, async (t) => {
+    const onClose = closing(t);
     const folder = mkdtempSync(join(scratch, "drawing-"));
     copyFileSync(FIGURE, join(folder, "figure.svg"));
-    const program = spawn(okoshi, ["preview", "figure.svg", "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
-    try {
-      const address = await new Promise<string>((found) => createInterface(program.stdout).once("line", found));
-      const { page, wrong } = await open(await film(), address, options);
-      await page.waitForSelector("canvas[data-revision]", { state: "attached" });
-      await run(page, { stop: () => program.kill() });
-      assert.deepEqual(wrong, []);
-      await page.context().close();
-    } finally {
-      program.kill();
-    }
+    const { address, stop } = await preview(okoshi, folder, "figure.svg", onClose);
+    const { page, wrong } = await open(await film(), address, onClose, options);
+    await page.waitForSelector("canvas[data-revision]", { state: "attached" });
+    await run(page, { stop });
+    assert.deepEqual(wrong, []);
   });
 }
 

@@ -4,6 +4,7 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { basename, dirname, join } from "node:path";
+import { PATIENCE } from "./closing";
 
 export interface Made {
   readonly model: Buffer | null;
@@ -32,12 +33,12 @@ export function make(okoshi: string, text: string, beside: string): Made {
   const drawing = join(dirname(beside), `.${basename(scratch)}.svg`);
   try {
     writeFileSync(drawing, text);
-    const run = (...args: string[]) => spawnSync(okoshi, args, { encoding: "utf8", maxBuffer: 1 << 28 });
+    const run = (...args: string[]) => spawnSync(okoshi, args, { encoding: "utf8", maxBuffer: 1 << 28, timeout: PATIENCE });
     const began = performance.now();
     const built = run("build", "-q", drawing, "-o", join(scratch, "a.glb")).status === 0;
     // Including the start of the program: a running host is faster.
     const milliseconds = performance.now() - began;
-    if (built) execFileSync(okoshi, ["render", "-q", join(scratch, "a.glb"), "-o", join(scratch, "a.png"), "--size", "256x256"]);
+    if (built) execFileSync(okoshi, ["render", "-q", join(scratch, "a.glb"), "-o", join(scratch, "a.png"), "--size", "256x256"], { timeout: PATIENCE });
     const { parts } = JSON.parse(run("inspect", drawing, "--json").stdout) as { parts: unknown[] };
     const { drawings } = JSON.parse(run("check", drawing, "--format", "json").stdout) as { drawings: { diagnostics: Diagnostic[] }[] };
     const lines = text.split("\n");

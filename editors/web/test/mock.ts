@@ -31,6 +31,8 @@ export class MockHost {
   readonly heard: Record<string, unknown>[] = [];
   /** The delay of models, in milliseconds. */
   delay = 0;
+  /** Whether requests are left without an answer. */
+  silent = false;
   /** Addresses that return invalid files. */
   readonly broken = new Set<string>();
   /** The requested addresses. */
@@ -47,7 +49,7 @@ export class MockHost {
     const server = createServer((request, response) => this.answer(request, response));
     this.sockets = new WebSocketServer({ server, path: "/live" });
     this.sockets.on("connection", (socket) => this.greet(socket));
-    await new Promise<void>((resolve) => server.listen(this.port, "127.0.0.1", resolve));
+    await new Promise<void>((resolve, reject) => server.once("error", reject).listen(this.port, "127.0.0.1", resolve));
     this.port = (server.address() as AddressInfo).port;
     this.server = server;
   }
@@ -117,6 +119,7 @@ export class MockHost {
   private answer({ url = "/" }: IncomingMessage, response: ServerResponse): void {
     const { pathname } = new URL(url, this.address);
     this.asked.push(pathname);
+    if (this.silent) return;
     const page = pathname === "/" ? "page.html" : /^\/page\.(js|css)$/.test(pathname) ? pathname.slice(1) : null;
     const body = page ? readFileSync(join(this.dist, page)) : this.broken.has(pathname) ? Buffer.from("no model") : this.files.get(pathname);
     const type = TYPES[(page ?? pathname).split(".").at(-1) ?? ""] ?? "application/octet-stream";

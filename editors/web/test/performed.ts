@@ -1,11 +1,10 @@
 // Performed figures, as `okoshi preview` sends them: the mark of the right hand strikes late, and that of the left one hardly moves.
 
-import { spawn } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { createInterface } from "node:readline";
 import { WebSocket } from "ws";
+import { closeAll, PATIENCE, preview, within, type Close } from "./closing";
 import type { Made } from "./drawings";
 
 const CASE = join("..", "..", "tests", "cases", "perform-plays");
@@ -18,19 +17,14 @@ export async function performed(okoshi: string, drawing: string): Promise<Made> 
   const folder = mkdtempSync(join(tmpdir(), "okoshi-performed-"));
   writeFileSync(join(folder, "drawing.svg"), drawing);
   writeFileSync(join(folder, "hands.json"), readFileSync(join(CASE, "hands.json")));
-  const program = spawn(okoshi, ["preview", "drawing.svg", "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+  const open: Close[] = [() => rmSync(folder, { recursive: true })];
   try {
-    const address = await new Promise<string>((found, failed) => {
-      createInterface(program.stdout).once("line", found);
-      program.once("exit", (code) => failed(new Error(`okoshi preview ended with ${code}`)));
-    });
-    const build = await firstBuild(address);
+    const { address } = await preview(okoshi, folder, "drawing.svg", (close) => open.push(close));
+    const build = await within(PATIENCE, "the first build", firstBuild(address));
     const file = async (path: unknown) => Buffer.from(await (await fetch(new URL(String(path), address))).arrayBuffer());
     return { model: await file(build["model"]), originals: build["originals"] === null ? null : await file(build["originals"]), picture: null, build };
   } finally {
-    program.removeAllListeners("exit");
-    program.kill();
-    rmSync(folder, { recursive: true });
+    await closeAll(open);
   }
 }
 

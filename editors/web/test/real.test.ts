@@ -1,14 +1,13 @@
 // The page with the real program: `okoshi preview`, files that are saved, and the result on the page.
 
 import assert from "node:assert/strict";
-import { spawn } from "node:child_process";
 import { copyFileSync, mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { createInterface } from "node:readline";
 import { after, test } from "node:test";
 import type { Browser, Page } from "playwright-core";
 import { camera, CHROMIUM, launch, open, picture, project, shown, still } from "./browser";
+import { closeAll, closing, preview, TEST_LIMIT } from "./closing";
 import { assertLike, example, FIGURE, isLike, source } from "./setup";
 
 const okoshi = process.env["OKOSHI"] ?? "";
@@ -18,12 +17,14 @@ const GREEN = [0, 160, 0] as const;
 const BLUE = [0, 0, 255] as const;
 
 let browser: Promise<Browser> | undefined;
-after(async () => (await browser)?.close());
+after(() => closeAll([async () => (await browser)?.close()]));
 
 /** A test with a figure in a folder, and `okoshi preview` of the folder or of the drawing. */
 function real(name: string, target: string, run: (page: Page, folder: string) => Promise<void>): void {
-  test(name, { skip, timeout: 90_000 }, async () => {
+  test(name, { skip, timeout: TEST_LIMIT }, async (t) => {
+    const onClose = closing(t);
     const folder = mkdtempSync(join(tmpdir(), "okoshi-page-"));
+    onClose(() => rmSync(folder, { recursive: true }));
     copyFileSync(FIGURE, join(folder, "figure.svg"));
     mkdirSync(join(folder, "more"));
     copyFileSync(example("human"), join(folder, "more", "human.svg"));
@@ -31,18 +32,11 @@ function real(name: string, target: string, run: (page: Page, folder: string) =>
       mkdirSync(join(folder, "moving"));
       for (const file of ["kick.svg", "kick.bvh"]) copyFileSync(join("..", "..", "examples", "motion", file), join(folder, "moving", file));
     }
-    const program = spawn(okoshi, ["preview", target === "moving" ? join(target, "kick.svg") : target, "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
-    try {
-      const address = await new Promise<string>((found) => createInterface(program.stdout).once("line", found));
-      browser ??= launch();
-      const { page, wrong } = await open(await browser, address);
-      await run(page, folder);
-      assert.deepEqual(wrong, []);
-      await page.context().close();
-    } finally {
-      program.kill();
-      rmSync(folder, { recursive: true });
-    }
+    const { address } = await preview(okoshi, folder, target === "moving" ? join(target, "kick.svg") : target, onClose);
+    browser ??= launch();
+    const { page, wrong } = await open(await browser, address, onClose);
+    await run(page, folder);
+    assert.deepEqual(wrong, []);
   });
 }
 

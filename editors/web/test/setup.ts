@@ -6,11 +6,12 @@ import { join } from "node:path";
 import { after, test } from "node:test";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { CHROMIUM, launch, open, type Colour } from "./browser";
+import { closeAll, closing, TEST_LIMIT } from "./closing";
 import { make, type Made } from "./drawings";
 import { MockHost } from "./mock";
 
 const okoshi = process.env["OKOSHI"] ?? "";
-const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
+export const skip = !CHROMIUM ? "there is no Chromium; CHROMIUM names one" : !okoshi ? "there is no okoshi program; OKOSHI names one" : false;
 
 const examples = join("..", "..", "examples");
 export const FIGURE = join("test", "figure.svg");
@@ -28,24 +29,21 @@ export function build(file: string, change: (text: string) => string = (text) =>
 }
 
 let browser: Promise<Browser> | undefined;
-after(async () => (await browser)?.close());
+after(() => closeAll([async () => (await browser)?.close()]));
 
 /** A test of the page with its own host. Any error of the page fails it, including violations of the policy. */
 export function browse(name: string, prepare: (host: MockHost) => void, run: (page: Page, host: MockHost) => Promise<void>, options: BrowserContextOptions & { hash?: string } = {}): void {
-  test(name, { skip, timeout: 90_000 }, async () => {
+  test(name, { skip, timeout: TEST_LIMIT }, async (t) => {
+    const onClose = closing(t);
     browser ??= launch();
     const host = new MockHost("dist");
     prepare(host);
     await host.start();
+    onClose(() => host.stop());
     const { hash = "", ...context } = options;
-    const { page, wrong } = await open(await browser, host.address + hash, context);
-    try {
-      await run(page, host);
-      assert.deepEqual(wrong, []);
-    } finally {
-      await page.context().close();
-      await host.stop();
-    }
+    const { page, wrong } = await open(await browser, host.address + hash, onClose, context);
+    await run(page, host);
+    assert.deepEqual(wrong, []);
   });
 }
 

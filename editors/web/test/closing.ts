@@ -1,0 +1,58 @@
+// What tests open, and how long they wait. Whatever becomes of a test, what it opened is closed, so that the process can end.
+
+import { spawn, type ChildProcess } from "node:child_process";
+import { createInterface } from "node:readline";
+import type { TestContext } from "node:test";
+
+/** The limit of every wait, in milliseconds: a page may load for half a minute on a machine with other work. PATIENCE gives it in seconds. */
+export const PATIENCE = 1000 * Number(process.env["PATIENCE"] ?? 60);
+/** The limit of a test, in milliseconds: a few waits. */
+export const TEST_LIMIT = 5 * PATIENCE;
+
+/** Closes something, at once or in time. */
+export type Close = () => unknown;
+
+/** The result of a promise, or an error that names what took longer than the limit. */
+export async function within<T>(limit: number, what: string, promise: Promise<T>): Promise<T> {
+  let timer: NodeJS.Timeout | undefined;
+  const late = new Promise<never>((_, fail) => {
+    timer = setTimeout(() => fail(new Error(`${what} took more than ${limit / 1000} s`)), limit);
+  });
+  return Promise.race([promise, late]).finally(() => clearTimeout(timer));
+}
+
+/** Closes all, what was opened last first, each within a limit in milliseconds; throws what failed afterwards. */
+export async function closeAll(open: Close[], limit = PATIENCE): Promise<void> {
+  const failures: unknown[] = [];
+  for (let close = open.pop(); close; close = open.pop()) await within(limit, "closing", Promise.resolve().then(close)).catch((error: unknown) => failures.push(error));
+  if (failures.length > 0) throw new AggregateError(failures, failures.map(String).join("; "));
+}
+
+/** Returns a function that registers what to close at the end of a test, also when the test fails or exceeds its limit. */
+export function closing(t: Pick<TestContext, "after">): (close: Close) => void {
+  const open: Close[] = [];
+  // One hook, as node skips the hooks after one that fails.
+  t.after(() => closeAll(open));
+  return (close) => void open.push(close);
+}
+
+/** Starts `okoshi preview` in a folder. Returns its address. */
+export async function preview(okoshi: string, folder: string, target: string, onClose: (close: Close) => void): Promise<{ address: string; stop(): void }> {
+  const program = spawn(okoshi, ["preview", target, "--quiet"], { cwd: folder, stdio: ["ignore", "pipe", "inherit"] });
+  const ended = new Promise<void>((resolve) => program.once("close", () => resolve()));
+  onClose(() => stopped(program, ended));
+  const address = new Promise<string>((found, failed) => {
+    createInterface(program.stdout).once("line", found);
+    program.once("error", failed);
+    program.once("exit", (code) => failed(new Error(`okoshi preview ended with ${code}`)));
+  });
+  return { address: await within(PATIENCE, "the start of okoshi preview", address), stop: () => program.kill() };
+}
+
+/** Ends a program, by force if it does not end by itself. */
+async function stopped(program: ChildProcess, ended: Promise<void>): Promise<void> {
+  program.kill();
+  const force = setTimeout(() => program.kill("SIGKILL"), 5_000);
+  await ended;
+  clearTimeout(force);
+}
