@@ -42,7 +42,9 @@ const numbers = async (page: Page, path: string): Promise<number[]> => ((await p
 /** The place of a frame in one of the chart's rows. */
 const inChart = async (page: Page, row: "performance" | "motion", frame: number): Promise<{ x: number; y: number }> => {
   const box = (await drawing(page).boundingBox())!;
-  return { x: box.x + 14 + ((box.width - 28) * frame) / (FRAMES - 1), y: box.y + (row === "performance" ? 40 : box.height - 40) };
+  const { x, width } = (await page.locator(".timeline").boundingBox())!;
+  const seconds = Number(await page.locator(".slider").getAttribute("max"));
+  return { x: x + 8 + ((width - 16) * frame) / FPS / seconds, y: box.y + (row === "performance" ? 40 : box.height - 40) };
 };
 
 /** The middle of what is red in a picture, the arm that strikes, between two x coordinates. */

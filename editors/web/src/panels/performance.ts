@@ -7,10 +7,9 @@ import type { ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
 import { ClipChart } from "./clip-chart";
 import { APART, half, niceStep, round, word } from "./plot";
+import type { TimeAxis } from "./time-axis";
 
-/** Space around the rows in pixels: for titles, numbers, and the lines between the two. */
-const LEFT = 14;
-const RIGHT = 14;
+/** Space above, below and between the rows in pixels: for titles, numbers, and the lines between the two. */
 const TOP = 22;
 const BELOW = 20;
 const BETWEEN = 48;
@@ -27,13 +26,13 @@ export class PerformanceChart extends ClipChart {
   private rows: Rows = { left: 0, right: 1, performance: [0, 0], motion: [0, 0] };
 
   /** `changed` is called when the chart is opened or closed. */
-  constructor(viewer: Viewer, changed: () => void) {
+  constructor(viewer: Viewer, private readonly time: TimeAxis, changed: () => void) {
     super(viewer, changed, { label: "Performance", classes: ["performance", "chart-picture performance-picture"], remembered: "okoshi.performance" });
     const head = h("thead", {}, h("tr", {}, ...["Mark", "Parts", "R", "Effect"].map((title) => h("th", { title: title === "R" ? "Its largest movement over that of the emphasised mark" : "", attributes: { scope: "col" } }, title))));
     fill(
       this.element,
       h("header", { class: "chart-title" }, h("h2", {}, "Performance ", h("span", { class: "muted", title: "Movement per frame, as a ratio of the largest one" }, "movement, 0 to 1")), this.summary, this.file),
-      h("div", { class: "performance-body" }, h("div", { class: "chart-place" }, this.picture, this.tip), h("div", { class: "performance-marks" }, h("table", {}, head, this.marks), this.filming)),
+      h("div", { class: "performance-body" }, h("div", { class: "chart-place" }, this.picture, this.tip), h("div", { class: "performance-marks", attributes: { role: "group", "aria-label": "Marks", tabindex: 0 } }, h("table", {}, head, this.marks), this.filming)),
     );
   }
 
@@ -46,15 +45,15 @@ export class PerformanceChart extends ClipChart {
     return this.sheet !== null;
   }
 
-  protected draw(): void {
+  draw(): void {
     const { sheet: performed } = this;
     const { width, height } = this.picture.getBoundingClientRect();
-    if (!performed?.facts.performance || width <= LEFT + RIGHT || height <= TOP + BETWEEN + BELOW) return;
+    if (!performed?.facts.performance || width === 0 || height <= TOP + BETWEEN + BELOW) return;
     this.drawn = performed;
     const facts = performed.facts.performance;
     const times = (this.times = new PerformanceTimes(facts));
     const high = (height - TOP - BETWEEN - BELOW) / 2;
-    const rows: Rows = (this.rows = { left: LEFT, right: width - RIGHT, performance: [TOP, TOP + high], motion: [height - BELOW - high, height - BELOW] });
+    const rows: Rows = (this.rows = { ...this.ends(performed, times), performance: [TOP, TOP + high], motion: [height - BELOW - high, height - BELOW] });
     this.picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
 
     const parts: SVGElement[] = [];
@@ -62,9 +61,9 @@ export class PerformanceChart extends ClipChart {
     for (const row of ROWS) {
       const [top, bottom] = rows[row];
       const last = times.at(Math.max(facts.frames[row] - 1, 0), rows);
-      parts.push(svg("path", { class: "chart-grid", d: [top, bottom].map((y) => `M${LEFT} ${half(y)}H${round(last)}`).join("") }));
-      parts.push(word(LEFT, top - 6, "start", TITLES[row]));
-      const step = niceStep((times.frames * APART) / (rows.right - LEFT));
+      parts.push(svg("path", { class: "chart-grid", d: [top, bottom].map((y) => `M${round(rows.left)} ${half(y)}H${round(last)}`).join("") }));
+      parts.push(word(rows.left, top - 6, "start", TITLES[row]));
+      const step = niceStep((times.frames * APART) / (rows.right - rows.left));
       for (let frame = 0; frame < facts.frames[row]; frame = frame === 0 ? step - 1 || 1 : frame + step) numbers.push(word(times.at(frame, rows), bottom + 14, frame === 0 ? "start" : "middle", String(frame + 1)));
       const key = facts.keys?.[row];
       if (key !== undefined) parts.push(svg("path", { class: "performance-key", "data-frame": key + 1, d: `M${round(times.at(key, rows))} ${top}V${bottom}` }));
@@ -92,6 +91,12 @@ export class PerformanceChart extends ClipChart {
     const keys = facts.keys ? `The marks move most in frame ${facts.keys.performance + 1} of ${facts.frames.performance}, the joints in frame ${facts.keys.motion + 1} of ${facts.frames.motion}` : "Not both of them move";
     this.picture.setAttribute("aria-label", `How much the marks of ${facts.track} move, and the joints of ${performed.facts.file}. ${keys}: ${timing}.`);
     this.move();
+  }
+
+  /** Where the first and the last frame of the longer row are, on the axis that all charts share. */
+  private ends({ fps }: ExposureSheet, { frames }: PerformanceTimes): { readonly left: number; readonly right: number } {
+    const { left, right } = this.time.within(this.picture);
+    return { left, right: left + ((right - left) * (frames - 1)) / Math.max(this.time.seconds * fps, frames - 1) };
   }
 
   /** The frame of the performance that is shown. */
