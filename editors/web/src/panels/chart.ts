@@ -53,9 +53,9 @@ export class Chart extends ClipChart {
     return (this.sheet?.facts.ssd.length ?? 0) > 0;
   }
 
-  /** The x coordinate where a source frame begins, in pixels. */
-  private at(source: number): number {
-    return this.axis.left + this.axis.frame * source;
+  /** The x coordinate where a frame begins, of the clip or of its source, in pixels. */
+  private at(frame: number): number {
+    return this.axis.left + this.axis.frame * frame;
   }
 
   /** The y coordinate of 0, in pixels. */
@@ -106,8 +106,8 @@ export class Chart extends ClipChart {
     const omitted = [...exposure.omitted].map((source) => ({ x: round(this.at(source)), y: round(this.up(exposure.ssd(source) ?? 0)) }));
     const boxes = (held: boolean) => {
       const wanted = runs.filter(({ frames }) => frames > 1 === held);
-      const d = wanted.map(({ from, to }) => {
-        const [begin, end] = [this.at(from), this.at(to)];
+      const d = wanted.map(({ start, frames }) => {
+        const [begin, end] = [this.at(start), this.at(start + frames)];
         const space = (right - left) / runs.length < NARROW ? 0 : 1.5;
         return `M${round(begin)} ${bottom + GAP}H${round(Math.max(end - space, begin + 0.5))}V${bottom + GAP + BOX}H${round(begin)}Z`;
       });
@@ -126,8 +126,9 @@ export class Chart extends ClipChart {
       this.line,
       this.stand,
       this.head,
+      this.dot,
     );
-    fill(this.head, svg("path", { d: `M0 ${TOP - 4}V${bottom + GAP + BOX + 2}` }), svg("path", { class: "chart-grip", d: `M-5 ${TOP - 10}H5V${TOP - 6}L0 ${TOP - 1}L-5 ${TOP - 6}Z` }), this.dot);
+    fill(this.head, svg("path", { d: `M0 ${TOP - 4}V${bottom + GAP + BOX + 2}` }), svg("path", { class: "chart-grip", d: `M-5 ${TOP - 10}H5V${TOP - 6}L0 ${TOP - 1}L-5 ${TOP - 6}Z` }));
     this.element.classList.toggle("limited", facts.limited);
     const words = describeExposure(exposure);
     this.summary.textContent = words;
@@ -142,28 +143,30 @@ export class Chart extends ClipChart {
     const { drawn } = this;
     if (!drawn) return;
     const { time } = this.viewer.player;
+    // The playhead is where the slider is; the dot is on the frame of the source that is shown then.
+    this.head.setAttribute("transform", `translate(${round(this.at(time * drawn.fps))} 0)`);
     const source = drawn.sourceAt(time);
-    this.head.setAttribute("transform", `translate(${round(this.at(source))} 0)`);
+    this.dot.setAttribute("cx", String(round(this.at(source))));
     this.dot.setAttribute("cy", String(round(this.up(drawn.ssd(source) ?? 0))));
     this.picture.dataset["source"] = String(source + 1);
     const run = drawn.runs[drawn.drawingIn(drawn.frameAt(time))];
     const { bottom } = this;
-    this.stand.setAttribute("d", run ? `M${round(this.at(run.from))} ${bottom + GAP}H${round(this.at(run.to) - 1)}V${bottom + GAP + BOX}H${round(this.at(run.from))}Z` : "");
+    this.stand.setAttribute("d", run ? `M${round(this.at(run.start))} ${bottom + GAP}H${round(this.at(run.start + run.frames) - 1)}V${bottom + GAP + BOX}H${round(this.at(run.start))}Z` : "");
   }
 
   protected over(event: PointerEvent): void {
     const { drawn } = this;
     if (!drawn) return;
     const { left } = this.picture.getBoundingClientRect();
-    const source = Math.min(Math.max(Math.floor((event.clientX - left - this.axis.left) / this.axis.frame), 0), drawn.sources - 1);
-    this.dragTo(drawn, source);
-    const x = this.at(source);
+    const frame = Math.min(Math.max(Math.floor((event.clientX - left - this.axis.left) / this.axis.frame), 0), drawn.sources - 1);
+    this.dragTo(drawn.timeOfFrame(frame));
+    const x = this.at(frame);
     this.line.setAttribute("d", `M${half(x)} ${TOP}V${this.bottom}`);
-    const ssd = drawn.ssd(source);
-    const run = drawn.runs[drawn.drawingFor(source)];
-    const words = [`frame ${source + 1}`, ssd === null ? "" : `SSD ${figures(ssd)}`];
-    if (drawn.omitted.has(source)) words.push("omitted");
-    else if (run) words.push(`drawing ${drawn.drawingFor(source) + 1}`, run.frames > 1 ? `stands for ${run.frames} frames` : "");
+    const ssd = drawn.ssd(frame);
+    const drawing = frame < drawn.frames ? drawn.drawingIn(frame) : -1;
+    const run = drawn.runs[drawing];
+    const words = [`frame ${frame + 1}`, ssd === null ? "" : `SSD ${figures(ssd)}`, drawn.omitted.has(frame) ? "omitted" : ""];
+    if (run) words.push(`drawing ${drawing + 1}`, run.frames > 1 ? `held for ${run.frames} frames` : "");
     this.tell(words.filter(Boolean), x, this.size.width);
   }
 }

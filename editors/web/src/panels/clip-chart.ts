@@ -86,12 +86,12 @@ export abstract class ClipChart {
     this.move();
   }
 
-  /** Goes to a frame while the pointer drags. */
-  protected dragTo(sheet: ExposureSheet, frame: number): void {
+  /** Goes to a time in seconds while the pointer drags. */
+  protected dragTo(time: number): void {
     if (!this.drags) return;
     this.viewer.moved(() => {
       this.viewer.player.play(false);
-      this.viewer.player.seek(sheet.timeOf(frame));
+      this.viewer.player.seek(time);
     });
   }
 

@@ -1,6 +1,6 @@
 // The drawings before and after that of a paused clip, translucent, in the same place.
 
-import { Group, Mesh, MeshBasicMaterial, SkinnedMesh, type Object3D } from "three";
+import { CustomBlending, Group, Mesh, MeshBasicMaterial, OneFactor, OneMinusSrcAlphaFactor, SkinnedMesh, SrcAlphaFactor, type Object3D } from "three";
 import { clone } from "three/addons/utils/SkeletonUtils.js";
 import type { Player } from "./clips";
 import type { ExposureSheet } from "./exposure-sheet";
@@ -10,7 +10,9 @@ import type { Pose } from "./pose";
 /** Orange is before, blue is after: they differ for the colour-blind too. */
 const BEFORE = 0xd9622b;
 const AFTER = 0x2b78d9;
-const OPACITY = 0.24;
+const OPACITY = 0.35;
+/** The order in which they are drawn: before everything else. */
+const BEHIND = -1;
 /** Copies of larger models take too long. */
 const MOST_MESHES = 2_000;
 /** Key times in a file have single precision. */
@@ -44,7 +46,7 @@ export class OnionSkin {
   /** Whether it is wanted; it is shown while a clip is paused. */
   wanted = false;
   private readonly place = new Group();
-  private readonly materials = [BEFORE, AFTER].map((color) => new MeshBasicMaterial({ color, transparent: true, opacity: OPACITY, depthWrite: false }));
+  private readonly materials = [BEFORE, AFTER].map(materialOf);
   private skins: Object3D[] = [];
   /** What it was made of. */
   private model: Model | null = null;
@@ -99,6 +101,12 @@ export class OnionSkin {
   }
 }
 
+/** As on paper, the neighbours lie under the drawing: they are blended before it is drawn, which three.js does not do with what is `transparent`. */
+function materialOf(color: number): MeshBasicMaterial {
+  const blend = { blending: CustomBlending, blendSrc: SrcAlphaFactor, blendDst: OneMinusSrcAlphaFactor, blendSrcAlpha: OneFactor, blendDstAlpha: OneMinusSrcAlphaFactor } as const;
+  return new MeshBasicMaterial({ ...blend, color, opacity: OPACITY, depthWrite: false });
+}
+
 /** A copy that stays as the original is now. It shares the geometries. */
 function copyOf(root: Object3D, material: MeshBasicMaterial): Object3D {
   const copy = clone(root);
@@ -108,6 +116,7 @@ function copyOf(root: Object3D, material: MeshBasicMaterial): Object3D {
     if (!(object instanceof Mesh)) return;
     object.material = material;
     object.castShadow = false;
+    object.renderOrder = BEHIND;
   });
   for (const object of over) object.removeFromParent();
   return copy;
