@@ -178,8 +178,8 @@ export class Tree {
       open === null ? h("span", { class: "tree-fold" }) : h("span", { class: "tree-fold", attributes: { "data-fold": true } }, icon(ChevronRight)),
       h("span", { class: "tree-name" }, titleOf(part)),
       note && h("span", { class: "tree-note" }, note),
-      // For the pointer; keys hide parts by H.
-      !aside && kind !== "sub" && h("span", { class: "tree-eye", title: "Hide or show (H)", attributes: { "data-eye": true, "aria-hidden": "true" } }, icon(Eye), icon(EyeOff)),
+      // For the pointer; keys hide parts by H. Other rows leave its space free.
+      aside || kind === "sub" ? h("span", { class: "tree-eye" }) : h("span", { class: "tree-eye", title: "Hide or show (H)", attributes: { "data-eye": true, "aria-hidden": "true" } }, icon(Eye), icon(EyeOff)),
     );
   }
 
