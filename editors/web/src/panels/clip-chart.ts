@@ -1,9 +1,9 @@
 // What the charts of a clip have in common: they open and close, follow the clip, and a frame can be pointed at and dragged to.
 
-import { h, svg } from "../dom";
+import { h, setHidden, svg } from "../dom";
 import type { ExposureSheet } from "../viewport/exposure-sheet";
 import type { Viewer } from "../viewport/viewer";
-import { rememberOpen, wasOpen } from "./remembered";
+import { isRemembered, remember } from "./remembered";
 
 /** A kind of chart. */
 export interface ChartKind {
@@ -30,7 +30,7 @@ export abstract class ClipChart {
 
   /** `changed` is called when the chart is opened or closed. */
   protected constructor(protected readonly viewer: Viewer, private readonly changed: () => void, private readonly kind: ChartKind) {
-    this.wanted = wasOpen(kind.remembered);
+    this.wanted = isRemembered(kind.remembered);
     this.element = h("section", { class: kind.classes[0], hidden: true, attributes: { "aria-label": kind.label } });
     this.picture = svg("svg", { class: kind.classes[1], role: "img" });
     new ResizeObserver(() => this.draw()).observe(this.picture);
@@ -59,7 +59,7 @@ export abstract class ClipChart {
   abstract get isPossible(): boolean;
 
   /** Draws all of it. */
-  protected abstract draw(): void;
+  abstract draw(): void;
 
   /** Moves the playhead to the time of the clip. */
   protected abstract move(): void;
@@ -74,24 +74,24 @@ export abstract class ClipChart {
   toggle(): void {
     if (!this.isPossible) return;
     this.wanted = !this.wanted;
-    rememberOpen(this.kind.remembered, this.wanted);
+    remember(this.kind.remembered, this.wanted);
     this.follow();
     this.changed();
   }
 
   private follow(): void {
-    this.element.hidden = !this.isOpen;
+    setHidden(this.element, !this.isOpen, this.viewer.canvas);
     if (!this.isOpen) return;
     if (this.sheet !== this.drawn) this.draw();
     this.move();
   }
 
-  /** Goes to a frame while the pointer drags. */
-  protected dragTo(sheet: ExposureSheet, frame: number): void {
+  /** Goes to a time in seconds while the pointer drags. */
+  protected dragTo(time: number): void {
     if (!this.drags) return;
     this.viewer.moved(() => {
       this.viewer.player.play(false);
-      this.viewer.player.seek(sheet.timeOf(frame));
+      this.viewer.player.seek(time);
     });
   }
 

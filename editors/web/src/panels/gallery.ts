@@ -33,6 +33,11 @@ export class Gallery {
     });
   }
 
+  /** Goes to the card of a drawing, or to the first. */
+  focus(id: string | null): void {
+    (this.cards.get(id ?? "") ?? [...this.cards.values()][0])?.element.focus();
+  }
+
   private draw(): void {
     this.element.hidden = this.state.current !== null || !this.state.known;
     if (this.element.hidden) return;
@@ -53,7 +58,7 @@ export class Gallery {
     const { list } = this.state;
     const failing = list.filter(({ build }) => build?.findings.some(({ severity }) => severity === "error")).length;
     this.heading.textContent = count(list.length, "drawing");
-    this.title.textContent = list.length === 0 ? "Drawings saved in the folder appear here." : failing > 0 ? `${failing} with errors` : "";
+    this.title.textContent = list.length === 0 ? "Drawings saved in the folder appear here." : failing > 0 ? `${failing} with problems` : "";
   }
 
   private card(drawing: Drawing): Card {

@@ -5,19 +5,23 @@ import { count, prefersReducedMotion } from "../dom";
 import type { State } from "../state";
 import type { Build } from "../protocol";
 import { SideBySide } from "./side-by-side";
+import { cornersOf } from "./bend";
 import { Comparison } from "./comparison";
 import { ExposureSheet } from "./exposure-sheet";
 import { Ground } from "./ground";
 import { Highlight, type Mark } from "./highlight";
 import { Latest } from "./latest";
+import { pathOf } from "./path";
 import { elementOf, nodeName, readModel, type Model, type Shading } from "./model";
 import { drawingAt, Player } from "./clips";
+import { OnionSkin } from "./onion-skin";
 import { Pose } from "./pose";
 import { RenderLoop } from "./render-loop";
 import { Stack } from "./stack";
 import { Travel } from "./travel";
 import { View } from "./view";
-import { Box3, Vector3, type Camera, type Object3D, type PerspectiveCamera } from "three";
+import { applyHidden, isHidden } from "./visibility";
+import { Box3, Vector3, type AnimationClip, type Camera, type Object3D, type PerspectiveCamera } from "three";
 
 /** A model that was requested. */
 interface Wanted {
@@ -47,8 +51,11 @@ export class Viewer {
   readonly comparison: Comparison;
   readonly stack: Stack;
   readonly travel = new Travel();
+  readonly onionSkin: OnionSkin;
   /** Whether the page looks through the cameras of clips. */
   private filming = false;
+  /** The bounds of the model over a clip. */
+  private path: { readonly model: Model; readonly clip: AnimationClip; readonly box: Box3 } | null = null;
   private readonly ground: Ground;
   private readonly highlight = new Highlight();
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
@@ -71,13 +78,16 @@ export class Viewer {
 
   constructor(private readonly state: State, host: Host, place: HTMLElement) {
     this.canvas.tabIndex = 0;
-    this.canvas.setAttribute("role", "img");
+    // Screen readers pass the arrow keys on to it.
+    this.canvas.setAttribute("role", "application");
+    this.canvas.setAttribute("aria-description", "The arrow keys turn the view, plus and minus zoom. Help lists all keys.");
     this.canvas.setAttribute("aria-label", "No model yet");
     place.prepend(this.canvas);
     this.view = new View(this.canvas);
     this.renderLoop = new RenderLoop(place, this.canvas, this.view);
     this.ground = new Ground(this.renderLoop.scene);
     this.sideBySide = new SideBySide(this.renderLoop.scene);
+    this.onionSkin = new OnionSkin(this.renderLoop.scene, this);
     this.loading = new Latest(
       async ({ address }) => {
         const bytes = await host.model(address);
@@ -96,8 +106,7 @@ export class Viewer {
       mayAsk: (connection) => this.state.link === "open" && connection === this.state.connection,
       changed: () => {
         this.surround();
-        this.markAll();
-        this.drawEdges();
+        this.hideParts();
         this.renderLoop.moved();
         this.notify("sideBySide");
       },
@@ -113,6 +122,12 @@ export class Viewer {
     state.on("selection", () => this.mark("selected"));
     state.on("hover", () => this.mark("hovered"));
     state.on("light", () => this.mark("lit"));
+    this.on(["time", "model"], () => this.followOnionSkin());
+    state.on("hidden", () => {
+      this.hideParts();
+      this.followOnionSkin();
+      this.renderLoop.moved();
+    });
   }
 
   on(topics: readonly ViewerTopic[], listener: () => void): void {
@@ -187,6 +202,14 @@ export class Viewer {
     this.notify("layers");
   }
 
+  /** Moves until the selected part and what hangs on it fill the picture; the whole model if none is selected. */
+  frameSelected(): void {
+    const box = new Box3();
+    for (const node of this.nodesOf(this.state.selected)) box.expandByObject(node);
+    if (box.isEmpty()) this.view.frame();
+    else this.view.frameBox(box);
+  }
+
   /** Moves the camera to where terrain looks as it is drawn. */
   lookAsDrawn(): void {
     this.setBent(1);
@@ -217,6 +240,17 @@ export class Viewer {
     this.pose.apply();
     this.renderLoop.moved();
     this.notify("time");
+  }
+
+  /** Shows the drawings before and after that of a paused clip, or no longer. */
+  showOnionSkin(on: boolean): void {
+    this.onionSkin.wanted = on;
+    this.notify("time");
+  }
+
+  private followOnionSkin(): void {
+    if (this.onionSkin.follow(this.state.hidden)) this.renderLoop.invalidate();
+    this.canvas.dataset["onionSkin"] = String(this.onionSkin.count);
   }
 
   /** Lets the view go along with a figure that travels, or no longer. */
@@ -283,7 +317,7 @@ export class Viewer {
     const { clips, originals } = build;
     const wanted: Wanted = { drawing: drawing.id, connection: drawing.connection, revision: build.revision, address: build.model, clips, originals };
     // The same model, but its parts may be bound to other strings now.
-    if (isSame(wanted, this.awaited ?? this.shown)) return this.markAll();
+    if (isSame(wanted, this.awaited ?? this.shown)) return this.hideParts();
     // Addresses hold within one connection: a lost host cannot be asked, and a new one not for a model of the last.
     if (this.state.link !== "open" || drawing.connection !== this.state.connection) return;
     this.awaited = wanted;
@@ -315,10 +349,9 @@ export class Viewer {
     this.renderLoop.scene.add(model.root);
     this.surround();
     this.comparison.take(wanted);
-    this.drawEdges();
+    this.hideParts();
     if (first) this.view.frame("threeQuarter", false);
     this.goAlong();
-    this.markAll();
     this.canvas.dataset["revision"] = String(wanted.revision);
     this.canvas.setAttribute("aria-label", `Model of ${this.state.drawing?.name ?? "the drawing"}: ${count(model.triangles, "triangle")}`);
     this.renderLoop.afterNext(() => {
@@ -347,7 +380,7 @@ export class Viewer {
     this.figure = null;
     this.pose.reset();
     this.model?.dispose();
-    this.model = null;
+    this.model = this.path = null;
     this.bytes = null;
     this.shown = this.awaited = null;
     this.failure = "";
@@ -370,7 +403,9 @@ export class Viewer {
     this.view.bound(
       box,
       model.bend.isEmpty
-        ? null
+        ? boxes
+          ? null
+          : () => cornersOf(this.wholePath(model))
         : (towards) => {
             const points = model.bend.points(towards, this.bent);
             return boxes ? points.flatMap((point) => [point, point.clone().setX(point.x + offset)]) : points;
@@ -379,8 +414,35 @@ export class Viewer {
     this.canvas.dataset["beside"] = boxes ? String(offset) : "";
   }
 
+  /** The bounds of the model over the clip that is shown; those at rest without one, and of a figure that the view goes along with. */
+  private wholePath(model: Model): Box3 {
+    const { clip, time } = this.player;
+    if (!clip || this.travel.wanted) return model.box;
+    if (this.path?.model !== model || this.path.clip !== clip) {
+      this.pose.release();
+      this.path = { model, clip, box: pathOf(model, clip, (at) => this.player.seek(at)) };
+      this.player.seek(time);
+      this.pose.apply();
+    }
+    return this.path.box;
+  }
+
   private drawEdges(): void {
-    this.highlight.edges(this.shading === "edges" ? [...(this.model?.meshes ?? []), ...(this.sideBySide.copy?.meshes ?? [])] : []);
+    const meshes = this.shading === "edges" ? [...(this.model?.meshes ?? []), ...(this.sideBySide.copy?.meshes ?? [])] : [];
+    this.highlight.edges(meshes.filter((mesh) => !isHidden(mesh)));
+  }
+
+  /** Hides the hidden parts in the model and in the copy beside it. */
+  private hideParts(): void {
+    const { hidden } = this.state;
+    for (const model of [this.model, this.sideBySide.copy]) {
+      if (!model) continue;
+      const nodes = [...hidden].flatMap((name) => this.nodesOf(name, model));
+      applyHidden(model, new Set(nodes.flatMap((node) => model.meshesOf(node))));
+    }
+    this.canvas.dataset["hidden"] = [...hidden].join(" ");
+    this.drawEdges();
+    this.markAll();
   }
 
   private markAll(): void {
@@ -391,10 +453,9 @@ export class Viewer {
     const name = { hovered: this.state.hovered, lit: this.state.lit, selected: this.state.selected }[mark];
     const nodes = this.nodesOf(name);
     const { copy } = this.sideBySide;
-    this.highlight.set(mark, [
-      ...nodes.flatMap((node) => this.model?.meshesOf(node) ?? []),
-      ...(copy ? this.nodesOf(name, copy).flatMap((node) => copy.meshesOf(node)) : []),
-    ]);
+    const meshes = [...nodes.flatMap((node) => this.model?.meshesOf(node) ?? []), ...(copy ? this.nodesOf(name, copy).flatMap((node) => copy.meshesOf(node)) : [])];
+    // Pointing at a hidden part in the list shows where it is.
+    this.highlight.set(mark, mark === "hovered" ? meshes : meshes.filter((mesh) => !isHidden(mesh)));
     this.canvas.dataset[mark] = nodes.map(nodeName).join(" ");
     this.renderLoop.invalidate();
   }
