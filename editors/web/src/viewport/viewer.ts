@@ -1,7 +1,7 @@
 // The model in the viewport: loading, display, marks, pose and clips.
 
 import type { Host } from "../host/host";
-import { count, prefersReducedMotion } from "../dom";
+import { count, painted, prefersReducedMotion } from "../dom";
 import type { State } from "../state";
 import type { Build } from "../protocol";
 import { SideBySide } from "./side-by-side";
@@ -81,11 +81,16 @@ export class Viewer {
     this.loading = new Latest(
       async ({ address }) => {
         const bytes = await host.model(address);
+        if (!this.model) {
+          // The list of parts is seen first: the graphics context, the first model and its shaders take long.
+          await painted();
+          this.renderLoop.start();
+        }
         const model = await readModel(bytes);
         model.shade(this.shading);
-        model.light((material) => this.renderLoop.lights.reach(material));
+        model.light((material) => this.renderLoop.reach(material));
         // The first model's shaders are compiled before it is added, so that the page does not stall; later models mostly share them.
-        if (!this.model) await this.renderLoop.renderer.compileAsync(model.root, this.view.camera, this.renderLoop.scene);
+        if (!this.model) await this.renderLoop.compile(model.root);
         return { model, bytes };
       },
       ({ model, bytes }, wanted) => this.take(model, bytes, wanted),
@@ -405,16 +410,16 @@ export class Viewer {
     if (!model) return;
     const towards = new Vector3(0, 0, 1).applyQuaternion(camera.quaternion);
     const turned = [model, this.sideBySide.copy].map((one) => one?.turns.follow(towards));
-    if (turned.includes(true)) this.renderLoop.renderer.shadowMap.needsUpdate = true;
+    if (turned.includes(true)) this.renderLoop.shadowsMoved();
     if (model.bend.isEmpty) return;
     const bends = [model, this.sideBySide.copy].map((one) => one?.bend.follow(towards, this.bent));
     if (!bends.includes(true)) return;
     this.ground.bend(model.bend.inWorld());
-    this.renderLoop.renderer.shadowMap.needsUpdate = true;
+    this.renderLoop.shadowsMoved();
   }
 
   private step(seconds: number): boolean {
-    this.highlight.measure(this.renderLoop.renderer);
+    this.highlight.measure(this.renderLoop.size);
     if (!this.player.playing) return false;
     const { keys, time } = this.player;
     this.pose.release();
