@@ -55,6 +55,21 @@ export class Commands {
     else this.state.select(null);
   }
 
+  /** Hides the selected part and what hangs on it, or shows them again. */
+  hide(): void {
+    const { selected } = this.state;
+    if (selected !== null) this.state.setHidden(selected, !this.state.isHidden(selected));
+  }
+
+  /** Shows only the selected part and what hangs on it. */
+  isolate(): void {
+    if (this.state.selected !== null) this.state.isolate(this.state.selected);
+  }
+
+  showAll(): void {
+    if (this.state.hidden.size > 0) this.state.showAll();
+  }
+
   toggleParallel(): void {
     this.viewer.setParallel(!this.viewer.view.isParallel);
   }

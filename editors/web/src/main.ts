@@ -41,7 +41,7 @@ function start(page: HTMLElement): void {
     if (state.current !== null) host.send({ type: "pick", drawing: state.current, part });
   };
   const tree = new Tree(state, picked);
-  const inspector = new Inspector(state, viewer, choose);
+  const inspector = new Inspector(state, viewer, commands, choose);
   const findings = new Findings(state, ({ line, column }) => {
     const part = state.parts.all.find(({ string }) => string?.line === line);
     if (part) state.select(part.name);

@@ -44,6 +44,14 @@ export class Parts {
     return this.below.get(name) ?? [];
   }
 
+  /** The names of a part and of all parts below it. */
+  family(name: string): ReadonlySet<string> {
+    const names = new Set([name]);
+    // A set also goes through what is added meanwhile.
+    for (const above of names) for (const { name } of this.children(above)) names.add(name);
+    return names;
+  }
+
   /** The names of a part's ancestors, the nearest first. */
   above(name: string): string[] {
     const names: string[] = [];

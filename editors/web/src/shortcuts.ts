@@ -6,7 +6,7 @@ import type { Viewer } from "./viewport/viewer";
 export interface Places {
   readonly clips: { toggle(): void; step(keys: 1 | -1): void; compare(): void; followTravel(): void; film(): void; readonly chart: { toggle(): void }; readonly performance: { toggle(): void } };
   readonly findings: { flip(): void };
-  readonly tree: { focus(): void };
+  readonly tree: { focus(): void; focusSearch(): void };
   /** Shows all drawings, if there are several. */
   readonly gallery: () => void;
 }
@@ -29,7 +29,8 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
     }
     if (!shows()) return;
     if (target?.closest("button, a") && (event.key === " " || event.key === "Enter")) return;
-    const act = byPlace(event) ?? byLetter(event);
+    // Wherever the key is: on some keyboards it is one of the digits with Shift.
+    const act = event.key === "/" ? () => places.tree.focusSearch() : byPlace(event) ?? byLetter(event);
     if (!act) return;
     event.preventDefault();
     act();
@@ -80,7 +81,9 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
       case "-":
         return () => view.zoom(1 / ZOOM);
       case "f":
-        return shiftKey ? () => void commands.toggleFullScreen() : () => view.frame();
+        return shiftKey ? () => void commands.toggleFullScreen() : () => viewer.frameSelected();
+      case "Home":
+        return () => view.frame();
       case "b":
         return commands.bends ? () => commands.toggleBend() : undefined;
       case "l":
@@ -95,6 +98,10 @@ export function listenToKeys(viewer: Viewer, commands: Commands, places: Places,
         return () => void commands.download();
       case "t":
         return () => places.tree.focus();
+      case "h":
+        return shiftKey ? () => commands.isolate() : () => commands.hide();
+      case "a":
+        return () => commands.showAll();
       case "e":
         return () => places.findings.flip();
       case "g":

@@ -15,9 +15,10 @@ export interface Drawing extends Listed {
 
 /**
  * drawings: the list changed · build: that of the named drawing changed · current: another drawing, or none, is shown ·
- * selection, hover: of another part · light: the editor's cursor moved to another part · link: the connection changed
+ * selection, hover: of another part · light: the editor's cursor moved to another part · hidden: parts were hidden or shown ·
+ * link: the connection changed
  */
-export type Topic = "drawings" | "build" | "current" | "selection" | "hover" | "light" | "link";
+export type Topic = "drawings" | "build" | "current" | "selection" | "hover" | "light" | "hidden" | "link";
 
 const NO_PARTS = new Parts([]);
 
@@ -30,6 +31,8 @@ export class State {
   selected: string | null = null;
   hovered: string | null = null;
   lit: string | null = null;
+  /** The parts that are not shown. What hangs on a part is hidden with it, but may be shown alone. */
+  hidden: ReadonlySet<string> = new Set();
   link: Link = "connecting";
   /** Details about the connection from the host; may be empty. */
   linkNote = "";
@@ -97,6 +100,7 @@ export class State {
     if (id === this.current) return;
     this.current = id;
     this.selected = this.hovered = this.lit = null;
+    this.hidden = new Set();
     this.notify("current");
   }
 
@@ -110,6 +114,36 @@ export class State {
     if (name === this.hovered) return;
     this.hovered = name;
     this.notify("hover");
+  }
+
+  /** Whether a part is hidden; a shape that belongs to a part is hidden with it. */
+  isHidden(name: string): boolean {
+    return this.hidden.size > 0 && this.hidden.has(this.parts.carrier(name)?.name ?? name);
+  }
+
+  /** Hides or shows a part and everything that hangs on it. */
+  setHidden(name: string, isHidden: boolean): void {
+    const hidden = new Set(this.hidden);
+    for (const one of this.parts.family(this.parts.carrier(name)?.name ?? name)) {
+      if (isHidden) hidden.add(one);
+      else hidden.delete(one);
+    }
+    this.hide(hidden);
+  }
+
+  /** Shows a part and what hangs on it, and nothing else. */
+  isolate(name: string): void {
+    const shown = this.parts.family(this.parts.carrier(name)?.name ?? name);
+    this.hide(new Set(this.parts.all.flatMap(({ name }) => (shown.has(name) ? [] : [name]))));
+  }
+
+  showAll(): void {
+    this.hide(new Set());
+  }
+
+  private hide(hidden: ReadonlySet<string>): void {
+    this.hidden = hidden;
+    this.notify("hidden");
   }
 
   private change(id: string, change: Partial<Drawing>): void {

@@ -278,9 +278,10 @@ browse("a drawing without parts, and one with thousands", (host) => {
   host.built("many.svg", make(process.env["OKOSHI"] ?? "", `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 300 300">${shapes}</svg>`, FIGURE));
 }, async (page, host) => {
   await shown(page);
-  assert.equal(await page.locator(".tree-item").count(), 3000);
+  assert.equal(await page.locator(".tree-item").first().getAttribute("aria-setsize"), "3000");
   const began = Date.now();
-  await page.locator(".tree-item").nth(1500).click();
+  await page.locator(".tree").evaluate((tree) => (tree.scrollTop = 26 * 1500));
+  await page.locator(".tree-item[aria-posinset='1500']").click();
   await page.waitForFunction(() => document.querySelector("canvas")!.dataset["selected"] !== "");
   assert.ok(Date.now() - began < 3000, `a click took ${Date.now() - began} ms`);
   host.built("many.svg", { model: null, picture: null, build: { milliseconds: 1, stale: false, triangles: 0, findings: [], parts: [] } });

@@ -1,6 +1,8 @@
 // The properties of the selected part.
 
-import { count, fill, h } from "../dom";
+import { Eye, EyeOff, Focus, ScanEye } from "lucide";
+import type { Commands } from "../commands";
+import { button, count, fill, h, icon } from "../dom";
 import { depthOf, depthReasonOf, isAside } from "../parts";
 import type { ClipFacts, Part, Source } from "../protocol";
 import type { State } from "../state";
@@ -30,13 +32,27 @@ function withoutString({ kind, namedBy }: Part): string {
 }
 
 export class Inspector {
-  readonly element = h("section", { class: "inspector", attributes: { "aria-label": "Selected part", "aria-live": "polite" } });
+  readonly element = h("section", { class: "inspector", attributes: { "aria-label": "Selected part" } });
+  private readonly title = h("h2", { class: "inspector-title" });
+  private readonly actions = h("div", { class: "inspector-actions", attributes: { role: "group", "aria-label": "Selected part" } });
+  private readonly hide: HTMLButtonElement;
+  private readonly body = h("div", { attributes: { "aria-live": "polite" } });
 
   /** The clip that was shown when this was drawn. */
   private clip: string | undefined;
 
   /** `go` is called with parts that are clicked here. */
-  constructor(private readonly state: State, private readonly viewer: Viewer, private readonly go: (part: string) => void) {
+  constructor(private readonly state: State, private readonly viewer: Viewer, commands: Commands, private readonly go: (part: string) => void) {
+    this.hide = button({ icon: EyeOff, label: "Hide", key: "H", press: () => commands.hide() });
+    fill(
+      this.actions,
+      button({ icon: Focus, label: "Frame this part", key: "F", press: () => viewer.frameSelected() }),
+      this.hide,
+      button({ icon: ScanEye, label: "Show only this part", key: "Shift+H", press: () => commands.isolate() }),
+    );
+    // Head and buttons stay while the rest is drawn again, so that a pressed button keeps the focus.
+    fill(this.element, h("header", { class: "inspector-head" }, this.title, this.actions), this.body);
+    state.on(["hidden", "selection"], () => this.followHidden());
     state.on(["selection", "current"], () => this.draw());
     state.on("build", (drawing) => {
       if (drawing === state.current) this.draw();
@@ -52,14 +68,29 @@ export class Inspector {
     const { selected, parts } = this.state;
     this.clip = this.viewer.player.clip?.name;
     this.element.dataset["empty"] = String(selected === null);
-    if (selected === null) {
-      return fill(this.element, h("h2", {}, "Part"), h("p", { class: "muted pad" }, "Click a part, in the model or in the list, to see its string and attributes."));
-    }
     const part = parts.get(selected);
-    if (!part) {
-      return fill(this.element, h("h2", {}, h("span", { class: "part-name" }, selected)), h("p", { class: "muted pad" }, "The drawing has no part of this name at the moment."));
+    this.actions.hidden = !part || isAside(part);
+    this.followHidden();
+    if (selected === null) {
+      fill(this.title, "Part");
+      return fill(this.body, h("p", { class: "muted pad" }, "Click a part, in the model or in the list, to see its string and attributes."));
     }
-    fill(this.element, h("h2", {}, h("span", { class: "part-name" }, part.name), h("span", { class: "muted" }, KIND[part.kind])), this.string(part), this.facts(part), this.attributes(part));
+    if (!part) {
+      fill(this.title, h("span", { class: "part-name" }, selected));
+      return fill(this.body, h("p", { class: "muted pad" }, "The drawing has no part of this name at the moment."));
+    }
+    fill(this.title, h("span", { class: "part-name" }, part.name), h("span", { class: "muted" }, KIND[part.kind]));
+    fill(this.body, this.string(part), this.facts(part), this.attributes(part));
+  }
+
+  private followHidden(): void {
+    const { selected } = this.state;
+    const hidden = selected !== null && this.state.isHidden(selected);
+    const label = hidden ? "Show" : "Hide";
+    if (this.hide.getAttribute("aria-label") === label) return;
+    this.hide.setAttribute("aria-label", label);
+    this.hide.title = `${label} (H)`;
+    fill(this.hide, icon(hidden ? Eye : EyeOff));
   }
 
   private string(part: Part): HTMLElement {

@@ -37,7 +37,7 @@ export class Toolbar {
         ),
       ),
       group("Shading", ...shadings.map(([, element]) => element)),
-      group("View", button({ icon: Focus, label: "Frame the model", key: "F", press: () => viewer.view.frame() }), layers, parallel),
+      group("View", button({ icon: Focus, label: "Frame the model", key: "Home", press: () => viewer.view.frame() }), layers, parallel),
       group("Pose", pose, commands.recordPuppet && button({ icon: Video, label: "Record a puppet", key: "R", press: () => commands.recordPuppet?.() })),
       h("span", { class: "spring" }),
       group(

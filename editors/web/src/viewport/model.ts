@@ -113,7 +113,7 @@ export class Model {
   meshesOf(node: Object3D): Mesh[] {
     const meshes: Mesh[] = [];
     const collect = (object: Object3D): void => {
-      if (object instanceof Mesh && this.meshes.includes(object)) meshes.push(object);
+      if (object instanceof Mesh && !isOverlay(object)) meshes.push(object);
       for (const child of object.children) if (elementOf(child) === null) collect(child);
     };
     collect(node);

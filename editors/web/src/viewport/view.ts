@@ -139,8 +139,17 @@ export class View {
   frame(name?: ViewName, moves = true): void {
     this.takeOver();
     const direction = name ? directionOf(VIEWS[name]) : this.direction();
-    const points = this.points(direction);
-    const centre = new Box3().setFromPoints(points).getCenter(new Vector3());
+    this.frameFrom(direction, this.points(direction), moves);
+  }
+
+  /** Moves until a box is in the picture, from the current direction. */
+  frameBox(box: Box3): void {
+    this.takeOver();
+    this.frameFrom(this.direction(), cornersOf(box), true);
+  }
+
+  private frameFrom(direction: Vector3, points: readonly Vector3[], moves: boolean): void {
+    const centre = new Box3().setFromPoints([...points]).getCenter(new Vector3());
     this.go(direction, centre, this.distanceFor(direction, centre, points), moves);
   }
 

@@ -17,6 +17,7 @@ import { RenderLoop } from "./render-loop";
 import { Stack } from "./stack";
 import { Travel } from "./travel";
 import { View } from "./view";
+import { applyHidden, isHidden } from "./visibility";
 import { Box3, Vector3, type Camera, type Object3D, type PerspectiveCamera } from "three";
 
 /** A model that was requested. */
@@ -101,8 +102,7 @@ export class Viewer {
       mayAsk: (connection) => this.state.link === "open" && connection === this.state.connection,
       changed: () => {
         this.surround();
-        this.markAll();
-        this.drawEdges();
+        this.hideParts();
         this.renderLoop.moved();
         this.notify("sideBySide");
       },
@@ -118,6 +118,10 @@ export class Viewer {
     state.on("selection", () => this.mark("selected"));
     state.on("hover", () => this.mark("hovered"));
     state.on("light", () => this.mark("lit"));
+    state.on("hidden", () => {
+      this.hideParts();
+      this.renderLoop.moved();
+    });
   }
 
   on(topics: readonly ViewerTopic[], listener: () => void): void {
@@ -190,6 +194,14 @@ export class Viewer {
   layersShown(): void {
     this.canvas.dataset["layers"] = this.stack.isExact ? "shown" : "";
     this.notify("layers");
+  }
+
+  /** Moves until the selected part and what hangs on it fill the picture; the whole model if none is selected. */
+  frameSelected(): void {
+    const box = new Box3();
+    for (const node of this.nodesOf(this.state.selected)) box.expandByObject(node);
+    if (box.isEmpty()) this.view.frame();
+    else this.view.frameBox(box);
   }
 
   /** Moves the camera to where terrain looks as it is drawn. */
@@ -288,7 +300,7 @@ export class Viewer {
     const { clips, originals } = build;
     const wanted: Wanted = { drawing: drawing.id, connection: drawing.connection, revision: build.revision, address: build.model, clips, originals };
     // The same model, but its parts may be bound to other strings now.
-    if (isSame(wanted, this.awaited ?? this.shown)) return this.markAll();
+    if (isSame(wanted, this.awaited ?? this.shown)) return this.hideParts();
     // Addresses hold within one connection: a lost host cannot be asked, and a new one not for a model of the last.
     if (this.state.link !== "open" || drawing.connection !== this.state.connection) return;
     this.awaited = wanted;
@@ -320,10 +332,9 @@ export class Viewer {
     this.renderLoop.scene.add(model.root);
     this.surround();
     this.comparison.take(wanted);
-    this.drawEdges();
+    this.hideParts();
     if (first) this.view.frame("threeQuarter", false);
     this.goAlong();
-    this.markAll();
     this.canvas.dataset["revision"] = String(wanted.revision);
     this.canvas.setAttribute("aria-label", `Model of ${this.state.drawing?.name ?? "the drawing"}: ${count(model.triangles, "triangle")}`);
     this.renderLoop.afterNext(() => {
@@ -385,7 +396,21 @@ export class Viewer {
   }
 
   private drawEdges(): void {
-    this.highlight.edges(this.shading === "edges" ? [...(this.model?.meshes ?? []), ...(this.sideBySide.copy?.meshes ?? [])] : []);
+    const meshes = this.shading === "edges" ? [...(this.model?.meshes ?? []), ...(this.sideBySide.copy?.meshes ?? [])] : [];
+    this.highlight.edges(meshes.filter((mesh) => !isHidden(mesh)));
+  }
+
+  /** Hides the hidden parts in the model and in the copy beside it. */
+  private hideParts(): void {
+    const { hidden } = this.state;
+    for (const model of [this.model, this.sideBySide.copy]) {
+      if (!model) continue;
+      const nodes = [...hidden].flatMap((name) => this.nodesOf(name, model));
+      applyHidden(model, new Set(nodes.flatMap((node) => model.meshesOf(node))));
+    }
+    this.canvas.dataset["hidden"] = [...hidden].join(" ");
+    this.drawEdges();
+    this.markAll();
   }
 
   private markAll(): void {
@@ -396,10 +421,9 @@ export class Viewer {
     const name = { hovered: this.state.hovered, lit: this.state.lit, selected: this.state.selected }[mark];
     const nodes = this.nodesOf(name);
     const { copy } = this.sideBySide;
-    this.highlight.set(mark, [
-      ...nodes.flatMap((node) => this.model?.meshesOf(node) ?? []),
-      ...(copy ? this.nodesOf(name, copy).flatMap((node) => copy.meshesOf(node)) : []),
-    ]);
+    const meshes = [...nodes.flatMap((node) => this.model?.meshesOf(node) ?? []), ...(copy ? this.nodesOf(name, copy).flatMap((node) => copy.meshesOf(node)) : [])];
+    // Pointing at a hidden part in the list shows where it is.
+    this.highlight.set(mark, mark === "hovered" ? meshes : meshes.filter((mesh) => !isHidden(mesh)));
     this.canvas.dataset[mark] = nodes.map(nodeName).join(" ");
     this.renderLoop.invalidate();
   }
