@@ -35,7 +35,7 @@ export class Highlight {
     selected: new MarkMaterials(3, MARK_STYLES.selected.light),
   };
   /** For lines along all triangle edges. */
-  private readonly lines = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.28, depthWrite: false });
+  readonly lines = new MeshBasicMaterial({ wireframe: true, transparent: true, opacity: 0.28, depthWrite: false });
   private lined: Mesh[] = [];
 
   color(color: string, ink: string): void {

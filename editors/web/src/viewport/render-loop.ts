@@ -20,14 +20,18 @@ export class RenderLoop {
   readonly scene = new Scene();
   /** Called with the camera before the scene is drawn. */
   follow: (camera: Camera) => void = () => {};
+  /** Called when everything in the scene has its place in the world, if anything moved. */
+  placed: () => void = () => {};
   /** Null until there is something to draw. */
   private graphics: Graphics | null = null;
   private readonly steps: BeforeFrame[] = [];
   private once: (() => void)[] = [];
   private asked = false;
   private stale = false;
-  /** Whether the shadows are those of the last frame. */
+  /** Whether the shadows are those of an earlier frame. */
   private shadowsAreStale = false;
+  /** Whether anything but the camera changed since the last frame: in large models placing everything takes longer than drawing it. */
+  private placesAreStale = true;
   private last = 0;
   private frames = 0;
 
@@ -35,7 +39,8 @@ export class RenderLoop {
     new ResizeObserver(() => this.resize()).observe(place);
     this.watchPixels();
     canvas.addEventListener("webglcontextrestored", () => this.moved());
-    view.onChange(() => this.invalidate());
+    view.onChange(() => this.redraw());
+    this.scene.matrixWorldAutoUpdate = false;
     this.resize();
   }
 
@@ -89,9 +94,15 @@ export class RenderLoop {
 
   /** Requests a frame. */
   readonly invalidate = (): void => {
+    this.placesAreStale = true;
+    this.redraw();
+  };
+
+  /** Requests a frame of the same scene. */
+  private redraw(): void {
     this.stale = true;
     this.ask();
-  };
+  }
 
   /** Requests a call of the steps before a frame; the frame is drawn only if one of them asks for it. */
   readonly ask = (): void => {
@@ -102,13 +113,13 @@ export class RenderLoop {
 
   /** Requests a frame because something in the scene moved. */
   readonly moved = (): void => {
-    this.shadowsMoved();
+    this.moves();
     this.invalidate();
   };
 
-  /** The next frame draws the shadows again. */
-  shadowsMoved(): void {
-    this.shadowsAreStale = true;
+  /** Something in the scene moved; the frame that shows it was requested, or is being drawn. */
+  moves(): void {
+    this.placesAreStale = this.shadowsAreStale = true;
   }
 
   beforeFrame(step: BeforeFrame): void {
@@ -117,7 +128,7 @@ export class RenderLoop {
 
   /** Draws at once, without waiting for an animation frame: a saved drawing shows a moment earlier. */
   drawNow(): void {
-    this.stale = true;
+    this.stale = this.placesAreStale = true;
     this.frame(performance.now());
   }
 
@@ -139,6 +150,11 @@ export class RenderLoop {
     const { renderer, lights } = this.graphics;
     lights.follow(camera);
     this.follow(camera);
+    if (this.placesAreStale) {
+      this.scene.updateMatrixWorld();
+      this.placed();
+      this.placesAreStale = false;
+    }
     renderer.shadowMap.needsUpdate = this.shadowsAreStale;
     this.shadowsAreStale = false;
     renderer.render(this.scene, camera);

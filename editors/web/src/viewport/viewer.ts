@@ -10,14 +10,15 @@ import { ExposureSheet } from "./exposure-sheet";
 import { Ground } from "./ground";
 import { Highlight, type Mark } from "./highlight";
 import { Latest } from "./latest";
-import { elementOf, nodeName, readModel, type Model, type Shading } from "./model";
+import { elementOf, Model, nodeName, type Shading } from "./model";
+import { readChanges, readFile, type Delta, type ModelFile } from "./model-file";
 import { drawingAt, Player } from "./clips";
 import { Pose } from "./pose";
 import { RenderLoop } from "./render-loop";
 import { Stack } from "./stack";
 import { Travel } from "./travel";
 import { View } from "./view";
-import { applyHidden, isHidden } from "./visibility";
+import { applyHidden, isAlone, isHidden } from "./visibility";
 import { Box3, Vector3, type Camera, type Object3D, type PerspectiveCamera } from "three";
 
 /** A model that was requested. */
@@ -29,6 +30,9 @@ interface Wanted {
   readonly clips: Build["clips"];
   readonly originals: string | null;
 }
+
+/** A model that was read: as a whole, or as what changed since another one. */
+type Loaded = { readonly model: Model; readonly bytes: ArrayBuffer } | { readonly changes: Delta; readonly since: Wanted };
 
 const isSame = (a: Wanted, b: Wanted | null): boolean => b !== null && a.drawing === b.drawing && a.connection === b.connection && a.address === b.address;
 
@@ -53,13 +57,13 @@ export class Viewer {
   private readonly ground: Ground;
   private readonly highlight = new Highlight();
   private readonly listeners = new Map<ViewerTopic, (() => void)[]>();
-  private readonly loading: Latest<Wanted, { model: Model; bytes: ArrayBuffer }>;
+  private readonly loading: Latest<Wanted, Loaded>;
   private shown: Wanted | null = null;
   /** The last request that is not shown yet. */
   private awaited: Wanted | null = null;
   model: Model | null = null;
-  /** The file of the model. */
-  bytes: ArrayBuffer | null = null;
+  /** The file of the model; null if only what changed in it was read. */
+  private bytes: ArrayBuffer | null = null;
   /** Why the newest model is not shown, as a message. */
   failure = "";
   shading: Shading = "smooth";
@@ -70,7 +74,7 @@ export class Viewer {
   /** The share of the bend of terrain: 1 is as drawn, 0 true 3D. */
   bent = 1;
 
-  constructor(private readonly state: State, host: Host, place: HTMLElement) {
+  constructor(private readonly state: State, private readonly host: Host, place: HTMLElement) {
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", "No model yet");
@@ -80,21 +84,8 @@ export class Viewer {
     this.ground = new Ground(this.renderLoop.scene);
     this.sideBySide = new SideBySide(this.renderLoop.scene);
     this.loading = new Latest(
-      async ({ address }) => {
-        const bytes = await host.model(address);
-        if (!this.model) {
-          // The list of parts is seen first: the graphics context, the first model and its shaders take long.
-          await painted();
-          this.renderLoop.start();
-        }
-        const model = await readModel(bytes);
-        model.shade(this.shading);
-        model.light((material) => this.renderLoop.reach(material));
-        // The first model's shaders are compiled before it is added, so that the page does not stall; later models mostly share them.
-        if (!this.model) await this.renderLoop.compile(model.root);
-        return { model, bytes };
-      },
-      ({ model, bytes }, wanted) => this.take(model, bytes, wanted),
+      (wanted) => this.load(wanted),
+      (loaded, wanted) => this.take(loaded, wanted),
       (error, wanted) => this.failed(error, wanted),
     );
     this.comparison = new Comparison(this.sideBySide, this, {
@@ -110,6 +101,10 @@ export class Viewer {
     this.stack = new Stack(this);
     this.renderLoop.beforeFrame((seconds) => this.step(seconds));
     this.renderLoop.follow = (camera) => this.follow(camera);
+    this.renderLoop.placed = () => {
+      this.model?.batches.follow();
+      this.sideBySide.copy?.batches.follow();
+    };
     this.view.leftFilm = () => {
       this.filming = false;
       this.notify("time");
@@ -307,9 +302,49 @@ export class Viewer {
     this.loading.want(wanted);
   }
 
-  private take(model: Model, bytes: ArrayBuffer, wanted: Wanted): void {
+  /** The file of the model; null if the server that has it is gone. */
+  async file(): Promise<ArrayBuffer | null> {
+    const { shown, state } = this;
+    if (this.bytes || !shown || shown.connection !== state.connection || state.link !== "open") return this.bytes;
+    return this.host.model(shown.address);
+  }
+
+  private async load(wanted: Wanted): Promise<Loaded> {
+    const { shown } = this;
+    if (shown && this.model && shown.drawing === wanted.drawing && shown.connection === wanted.connection) {
+      const bytes = await this.host.model(`${wanted.address}?since=${shown.address}`);
+      const changes = await readChanges(bytes);
+      return "moved" in changes ? { changes, since: shown } : { model: this.prepare(changes), bytes };
+    }
+    const bytes = await this.host.model(wanted.address);
+    if (this.model) return { model: this.prepare(await readFile(bytes)), bytes };
+    // The list of parts is seen first: the graphics context, the first model and its shaders take long.
+    await painted();
+    this.renderLoop.start();
+    const model = this.prepare(await readFile(bytes));
+    // Shaders are compiled before the model is added, so that the page does not stall; later models mostly share them.
+    await this.renderLoop.compile(model.drawn);
+    return { model, bytes };
+  }
+
+  private prepare({ scene, animations, nodes }: ModelFile): Model {
+    const model = new Model(scene, animations, nodes);
+    model.shade(this.shading);
+    model.light((material) => this.renderLoop.reach(material));
+    return model;
+  }
+
+  private take(loaded: Loaded, wanted: Wanted): void {
+    // The model that changed may be gone meanwhile.
+    if ("changes" in loaded && (!this.model || this.shown !== loaded.since)) {
+      if (wanted === this.awaited) this.loading.want(wanted);
+      return;
+    }
     if (wanted === this.awaited) this.awaited = null;
-    if (wanted.drawing !== this.state.current) return model.dispose();
+    if (wanted.drawing !== this.state.current) {
+      if ("model" in loaded) loaded.model.dispose();
+      return;
+    }
     const first = this.model === null;
     this.pose.release();
     for (const mark of ["hovered", "lit", "selected"] as const) this.highlight.clear(mark);
@@ -317,19 +352,14 @@ export class Viewer {
     this.sideBySide.remove();
     // Disposes of the model before the last if no frame was drawn since.
     this.renderLoop.settle();
-    const before = this.model;
-    before?.root.removeFromParent();
-    if (before) model.reuseGeometries(before);
-    this.model = model;
-    this.bytes = bytes;
+    const before = this.replace(loaded);
+    const model = this.model!;
     this.shown = wanted;
     this.failure = "";
-    // The user may have changed it while the model was loading.
-    model.shade(this.shading);
     this.exposures = wanted.clips.map((facts) => new ExposureSheet(facts));
     this.player.take(model, !prefersReducedMotion());
     this.pose.apply();
-    this.renderLoop.scene.add(model.root);
+    model.addTo(this.renderLoop.scene);
     this.surround();
     this.comparison.take(wanted);
     this.hideParts();
@@ -345,6 +375,25 @@ export class Viewer {
     });
     this.renderLoop.drawNow();
     this.notify("model", "time", "sideBySide");
+  }
+
+  /** Shows what was loaded; the model that it replaces, if it is another one, is returned. */
+  private replace(loaded: Loaded): Model | null {
+    const before = this.model;
+    if ("changes" in loaded) {
+      this.player.release();
+      before?.update(loaded.changes);
+      before?.light((material) => this.renderLoop.reach(material));
+      this.bytes = null;
+      return null;
+    }
+    before?.remove();
+    if (before) loaded.model.reuseGeometries(before);
+    this.model = loaded.model;
+    this.bytes = loaded.bytes;
+    // The user may have changed it while the model was loading.
+    this.model.shade(this.shading);
+    return before;
   }
 
   private failed(error: unknown, wanted: Wanted): void {
@@ -396,8 +445,10 @@ export class Viewer {
   }
 
   private drawEdges(): void {
-    const meshes = this.shading === "edges" ? [...(this.model?.meshes ?? []), ...(this.sideBySide.copy?.meshes ?? [])] : [];
-    this.highlight.edges(meshes.filter((mesh) => !isHidden(mesh)));
+    const models = [this.model, this.sideBySide.copy].filter((model) => model !== null);
+    const on = this.shading === "edges";
+    this.highlight.edges(on ? models.flatMap(({ meshes }) => meshes.filter(isAlone)) : []);
+    for (const { batches } of models) batches.drawEdges(on ? this.highlight.lines : null);
   }
 
   /** Hides the hidden parts in the model and in the copy beside it. */
@@ -434,12 +485,12 @@ export class Viewer {
     if (!model) return;
     const towards = new Vector3(0, 0, 1).applyQuaternion(camera.quaternion);
     const turned = [model, this.sideBySide.copy].map((one) => one?.turns.follow(towards));
-    if (turned.includes(true)) this.renderLoop.shadowsMoved();
+    if (turned.includes(true)) this.renderLoop.moves();
     if (model.bend.isEmpty) return;
     const bends = [model, this.sideBySide.copy].map((one) => one?.bend.follow(towards, this.bent));
     if (!bends.includes(true)) return;
     this.ground.bend(model.bend.inWorld());
-    this.renderLoop.shadowsMoved();
+    this.renderLoop.moves();
   }
 
   private step(seconds: number): boolean {
