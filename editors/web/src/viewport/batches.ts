@@ -180,7 +180,7 @@ function lookOf(mesh: Mesh): Look | null {
   const features: unknown[] = [material.type, material.side, material.vertexColors];
   for (const [name, value] of Object.entries(material)) if (value instanceof Texture && name !== "envMap") return null;
   if (material instanceof MeshStandardMaterial) features.push(material.roughness, material.metalness, material.emissive.getHex(), material.emissiveIntensity);
-  for (const [name, { array, itemSize, normalized }] of Object.entries(geometry.attributes)) features.push(name, array.constructor.name, itemSize, normalized);
+  for (const [name, { array, itemSize, normalized }] of Object.entries(geometry.attributes).sort(([a], [b]) => (a < b ? -1 : 1))) features.push(name, array.constructor.name, itemSize, normalized);
   features.push(geometry.index !== null);
   for (let at: Object3D | null = mesh; at; at = at.parent) if (wayOf(at, "bend") ?? wayOf(at, "turn")) return null;
   return { key: features.join(" "), material };
