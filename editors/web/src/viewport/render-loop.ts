@@ -3,6 +3,7 @@
 import { Color, NoToneMapping, Scene, SRGBColorSpace, Vector2, VSMShadowMap, WebGLRenderer, type Camera, type MeshStandardMaterial, type Object3D } from "three";
 import type { View } from "./view";
 import { Lights } from "./lights";
+import { SmoothEdges } from "./smooth-edges";
 
 /** The highest pixel ratio: more costs much and shows little. */
 const FINEST = 2;
@@ -14,6 +15,8 @@ export type BeforeFrame = (seconds: number) => boolean;
 interface Graphics {
   readonly renderer: WebGLRenderer;
   readonly lights: Lights;
+  /** Null where the graphics card smooths edges. */
+  readonly smooth: SmoothEdges | null;
 }
 
 export class RenderLoop {
@@ -47,12 +50,11 @@ export class RenderLoop {
   /** Creates the graphics context, unless there is one. Throws an error with a readable message if the browser has no WebGL 2. */
   start(): void {
     if (this.graphics) return;
-    let renderer: WebGLRenderer;
-    try {
-      renderer = new WebGLRenderer({ canvas: this.canvas, antialias: !isSoftware(), alpha: true, stencil: true, powerPreference: "low-power" });
-    } catch {
-      throw new Error("this browser has no WebGL 2, or it is disabled. Turn on hardware acceleration, or try another browser.");
-    }
+    const { canvas } = this;
+    const software = isSoftware();
+    const context = canvas.getContext("webgl2", { antialias: !software, alpha: true, depth: true, stencil: true, powerPreference: "low-power" });
+    if (!context) throw new Error("this browser has no WebGL 2, or it is disabled. Turn on hardware acceleration, or try another browser.");
+    const renderer = new WebGLRenderer({ canvas, context });
     renderer.setClearAlpha(0);
     // No tone mapping: a part has exactly the colour of the drawing.
     renderer.outputColorSpace = SRGBColorSpace;
@@ -61,7 +63,9 @@ export class RenderLoop {
     renderer.shadowMap.type = VSMShadowMap;
     // Updated when something moves, not when the camera does.
     renderer.shadowMap.autoUpdate = false;
-    this.graphics = { renderer, lights: new Lights(this.scene, renderer) };
+    const smooths = software && renderer.extensions.has("EXT_color_buffer_float");
+    const smooth = smooths ? new SmoothEdges(renderer, () => this.view.camera, () => this.draw(), () => (canvas.dataset["smooth"] = "true")) : null;
+    this.graphics = { renderer, lights: new Lights(this.scene, renderer), smooth };
     this.resize();
   }
 
@@ -101,6 +105,7 @@ export class RenderLoop {
   /** Requests a frame of the same scene. */
   private redraw(): void {
     this.stale = true;
+    this.graphics?.smooth?.stop();
     this.ask();
   }
 
@@ -170,6 +175,8 @@ export class RenderLoop {
     if (this.stale && this.graphics) {
       this.stale = false;
       this.draw();
+      this.canvas.dataset["smooth"] = "false";
+      this.graphics.smooth?.restart();
       this.canvas.dataset["frames"] = String(++this.frames);
       this.canvas.dataset["view"] = this.view.describe();
       this.settle();
